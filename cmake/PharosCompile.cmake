@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# Warnings, sanitizers and the two kinds of library that Pharos builds.
+
+add_library(pharos_warnings INTERFACE)
+target_compile_options(pharos_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wdouble-promotion -Wformat=2)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(pharos_warnings INTERFACE
+    -Wduplicated-cond -Wlogical-op
+    # GCC 12 sees null pointers and overruns inside Eigen's and libstdc++'s inlined code that are not there.
+    -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized)
+endif()
+
+if(PHAROS_SANITIZE)
+  add_compile_options(-fsanitize=${PHAROS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PHAROS_SANITIZE})
+endif()
+if(PHAROS_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+# pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; same floating-point results
+# on every machine (no fused multiply-add where the source has none).
+function(pharos_core_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/common)
+  target_link_libraries(${name} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
+  target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti -ffp-contract=off)
+endfunction()
+
+# pharos_host_library(NAME SOURCES...): a room of the host or of the tools.
+function(pharos_host_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PRIVATE pharos_warnings)
+endfunction()

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+
+namespace pharos::lighthouse {
+
+/// How one rotor's laser plane departs from the ideal one. What a station sends of itself over OOTX.
+struct RotorCalibration {
+  double phase_rad = 0.0;
+  double tilt_rad = 0.0;
+  double curve_rad = 0.0;
+  double gibbous_phase_rad = 0.0;
+  double gibbous_magnitude_rad = 0.0;
+
+  bool operator==(const RotorCalibration&) const = default;
+};
+
+/// The two signs in which published models differ (of the curve term); form 1 leaves the smaller residual on 8 of 8
+/// real station and recording sets.
+enum class ModelForm : std::uint8_t { kForm1 = 1, kForm2 = 2 };
+
+/// A station's identity and calibration. Equal id and equal rotors mean the same calibration.
+struct StationCalibration {
+  std::uint32_t id = 0;
+  std::array<RotorCalibration, kAxes> rotor;
+
+  const RotorCalibration& operator[](Axis axis) const { return rotor[static_cast<std::size_t>(index_of(axis))]; }
+  bool operator==(const StationCalibration&) const = default;
+};
+
+}  // namespace pharos::lighthouse

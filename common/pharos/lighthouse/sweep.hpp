@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+#include "pharos/base/capacity.hpp"
+#include "pharos/base/static_vector.hpp"
+
+namespace pharos::lighthouse {
+
+/// One sync flash of a station, recognised.
+struct Flash {
+  /// Time zero of the slot: rise on the strongest sensor, corrected for the lateness of a weak strongest sensor; 20 ns
+  /// ticks, unwrapped, as received (not smoothed).
+  std::int64_t start_ticks = 0;
+  /// Longest pulse of the flash over all sensors.
+  std::int32_t length_ticks = 0;
+  std::uint8_t station = 0;  // 0 first flash of the slot or a lone station, 1 second
+  Axis axis = Axis::kX;
+  bool data = false;  // one OOTX bit
+  bool skip = false;  // the station's laser is dark in this slot
+  std::uint8_t sensors = 0;  // how many sensors saw it
+};
+
+/// Words said about a sweep; a bit set.
+enum SweepFlag : std::uint8_t {
+  kSweepPeriodNominal = 1,  // no earlier flash of this rotor yet: the nominal turn stands for the measured one
+  kSweepFlashWeak = 2,      // few or weak sensors saw the flash: its time zero is uncertain
+  kSweepLockPoor = 4,       // the slot sequence has recent gaps
+};
+
+/// One laser hit of one sensor. A sensor may have several in one sweep (reflections): all are kept.
+struct Hit {
+  std::uint8_t sensor = 0;
+  std::uint16_t width_ticks = 0;
+  /// Centre of the pulse after the flash's start_ticks, in half ticks (10 ns), exact.
+  std::int32_t centre_half_ticks = 0;
+};
+
+/// All hits of one rotor's laser in one slot, with the flash that they are measured from. Integers only: the same bits
+/// on the target, on the wire and on the host.
+struct Sweep {
+  Flash flash;
+  /// Measured turn of this rotor, 1/16 tick.
+  std::uint32_t period_sixteenth_ticks = 0;
+  std::uint8_t flags = 0;  // of SweepFlag
+  StaticVector<Hit, kMaxHitsPerSweep> hits;
+};
+
+/// Nominal turn of a Lighthouse 1.0 rotor (60 Hz), 20 ns ticks.
+inline constexpr double kNominalPeriodTicks = 50e6 / 60.0;
+
+}  // namespace pharos::lighthouse

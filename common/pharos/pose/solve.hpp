@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// INTERFACE AGREED, implementation follows: bearings of one cycle in, a pose with its uncertainty out.
+#include <bitset>
+#include <cstdint>
+
+#include "pharos/base/result.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/geometry/target.hpp"
+#include "pharos/pose/observation.hpp"
+
+namespace pharos::pose {
+
+/// Where the start value comes from.
+enum class Start : std::uint8_t { kAuto, kP3p, kRpnp, kDlt, kHomography };
+/// What is minimised: the angles themselves (default), or the paper's tangent-plane residual (6) as printed.
+enum class Residual : std::uint8_t { kAngle, kTangent };
+
+struct SolveOptions {
+  double sigma_rad = kPaperSigmaRad;  // noise of one bearing that covariance, precision factors and gates assume
+  double rho = 0.0;                   // correlation between sensors of one rotor, (19)
+  Start start = Start::kAuto;
+  Residual residual = Residual::kAngle;
+  int max_iterations = 20;
+  bool look_for_second = true;
+  /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped first.
+  double max_reduced_chi2 = 1e4;
+};
+
+/// Why no pose can be had.
+enum class Refusal : std::uint8_t {
+  kNone,
+  kTooFewSensors,    // fewer than four sensors with bearings (three with a prior), or fewer than six angles
+  kUnknownSensors,   // bearings of sensors that the target has not
+  kDegenerate,       // the sensors seen leave a degree of freedom open
+  kNotConverged,
+  kPoorFit,          // nothing rigid fits the bearings
+  kBehindStation,    // the only fit lies behind the station
+  kBadInput,         // a bearing outside (0, pi) or not finite
+};
+
+/// A pose and which observations it used (index as given).
+struct Solution {
+  LighthousePoseEstimate estimate;
+  std::bitset<kMaxObservations> used;
+};
+
+/// Pose of a target from one cycle of ideal bearings of one station. See README of this room for the method.
+/// `prior`: a pose to start from (the last one); lets three sensors do. Never needed otherwise.
+Result<Solution, Refusal> solve(const Target& target, const Observations& observations, const SolveOptions& options,
+                                const LighthouseFromBody* prior = nullptr);
+
+/// The word after `refused_` in tables: too_few_sensors, …
+const char* name_of(Refusal refusal);
+
+}  // namespace pharos::pose
