@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "host/support/unique_fd.hpp"
+
+namespace pharos::host {
+
+/// The daemon's one poll loop: descriptors in, handlers called, one thread.
+///
+/// Level-triggered: a handler that leaves bytes unread is called again. A handler may watch or forget any descriptor,
+/// its own included. The loop owns no descriptor but its own; forget one before closing it.
+class EventLoop {
+ public:
+  using Handler = std::function<void()>;
+
+  /// Throws std::system_error where the kernel gives no epoll descriptor.
+  EventLoop();
+
+  /// Calls `handler` whenever `fd` is readable, hung up or in error. Throws std::system_error for a descriptor that
+  /// cannot be polled (a regular file).
+  void watch(int fd, Handler handler);
+  void forget(int fd);
+
+  /// Waits at most `timeout_ms` (-1: for ever) and handles what came. Returns how many handlers ran.
+  int turn(int timeout_ms);
+  /// Turns until stop().
+  void run();
+  void stop() { running_ = false; }
+
+ private:
+  UniqueFd epoll_;
+  std::map<int, std::shared_ptr<Handler>> handlers_;
+  bool running_ = false;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+
+#include "host/support/unique_fd.hpp"
+
+namespace pharos::host {
+
+/// Signals as a descriptor (signalfd) for the poll loop: while this lives they interrupt nothing and wait in line.
+class Signals {
+ public:
+  /// Blocks `signals` for the calling thread and those it starts later. Throws std::system_error.
+  explicit Signals(std::initializer_list<int> signals);
+  int fd() const { return fd_.get(); }
+  /// The next signal that came, if any.
+  std::optional<int> take();
+
+ private:
+  UniqueFd fd_;
+};
+
+}  // namespace pharos::host
