@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pharos/geometry/target.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+
+namespace pharos::host {
+
+/// One cooperative target: the port that its capture board hangs on and how its pose is found.
+struct TargetConfig {
+  /// Told in every message: letters, digits, `-` and `_`; no two targets share one.
+  std::string name;
+  /// A terminal device, or `replay:FILE` for a recorded serial stream.
+  std::string port;
+  int baud = 460'800;
+  std::filesystem::path target_file;
+  Target target;
+  TargetShape shape;
+  track::TrackOptions track;
+  /// Keep accepted station calibrations in the state directory and use them after a restart.
+  bool remember_calibrations = true;
+
+  bool is_replay() const { return port.rfind(kReplayPrefix, 0) == 0; }
+  std::filesystem::path replay_file() const { return port.substr(std::string(kReplayPrefix).size()); }
+  static constexpr const char* kReplayPrefix = "replay:";
+};
+
+struct LcmConfig {
+  /// Default: multicast that never leaves this computer (ttl 0).
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, STATUS.
+  std::string channel_prefix = "PHAROS_";
+};
+
+struct PublishConfig {
+  /// A pose whose measurement is older than this when it is ready is counted and not published.
+  double max_age_s = 0.2;
+  double status_period_s = 1.0;
+  bool bearings = true;
+};
+
+/// Raw serial streams, one file series a target.
+struct RecordingConfig {
+  std::filesystem::path directory;
+  /// A new file begins at whichever comes first.
+  std::uint64_t rotate_bytes = 64u << 20;
+  double rotate_s = 3600.0;
+};
+
+enum class LogSink : std::uint8_t { kStandardError, kSyslog, kFile };
+
+struct LogConfig {
+  /// spdlog's words: trace, debug, info, warning, error, critical, off.
+  std::string level = "info";
+  LogSink sink = LogSink::kStandardError;
+  std::filesystem::path file;  // of LogSink::kFile
+};
+
+/// Everything that `pharosd` was told.
+struct DaemonConfig {
+  /// Told as the source in every message: which of several daemons.
+  std::string source = "pharosd";
+  /// Where accepted calibrations live across restarts; empty: nowhere.
+  std::filesystem::path state_directory;
+  LcmConfig lcm;
+  PublishConfig publish;
+  std::optional<RecordingConfig> recording;
+  LogConfig log;
+  std::vector<TargetConfig> targets;
+};
+
+}  // namespace pharos::host
