@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace pharos::wire {
+
+/// Writes little-endian fields one after the other into bytes the caller owns.
+///
+/// Nothing is ever written past the end: the first field that does not fit makes the writer fail for good, and size()
+/// is then 0.
+class ByteWriter {
+ public:
+  explicit ByteWriter(std::span<std::uint8_t> out) : out_(out) {}
+
+  template <class T>
+  void put(T value) {
+    if constexpr (std::is_same_v<T, double>) {
+      put(std::bit_cast<std::uint64_t>(value));
+    } else if constexpr (std::is_same_v<T, float>) {
+      put(std::bit_cast<std::uint32_t>(value));
+    } else {
+      static_assert(std::is_integral_v<T> && !std::is_same_v<T, bool>);
+      const auto bits = static_cast<std::uint64_t>(value);
+      if (!reserve(sizeof(T))) return;
+      for (std::size_t i = 0; i < sizeof(T); ++i) out_[size_++] = static_cast<std::uint8_t>(bits >> (8 * i));
+    }
+  }
+  void put_bytes(std::span<const std::uint8_t> bytes) {
+    if (!reserve(bytes.size())) return;
+    std::copy(bytes.begin(), bytes.end(), out_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += bytes.size();
+  }
+  /// Signed number as zigzag varint: small magnitudes take few bytes (1 up to 63, 2 up to 8191, …, at most 10).
+  void put_varint(std::int64_t value) {
+    auto bits = (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+    for (; bits >= 0x80; bits >>= 7) put(static_cast<std::uint8_t>(bits | 0x80));
+    put(static_cast<std::uint8_t>(bits));
+  }
+  /// The message cannot be written (a field is out of its range).
+  void fail() { failed_ = true; }
+
+  bool failed() const { return failed_; }
+  std::size_t size() const { return failed_ ? 0 : size_; }
+  std::size_t room() const { return failed_ ? 0 : out_.size() - size_; }
+
+ private:
+  bool reserve(std::size_t bytes) {
+    if (failed_ || out_.size() - size_ < bytes) failed_ = true;
+    return !failed_;
+  }
+
+  std::span<std::uint8_t> out_;
+  std::size_t size_ = 0;
+  bool failed_ = false;
+};
+
+/// Reads little-endian fields one after the other; the counterpart of ByteWriter.
+///
+/// Nothing is ever read past the end: from the first field that is not there on, every field reads as 0 and
+/// ran_short() says so. refuse() is for fields that are there and mean nothing.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::uint8_t> in) : in_(in) {}
+
+  template <class T>
+  T get() {
+    if constexpr (std::is_same_v<T, double>) {
+      return std::bit_cast<double>(get<std::uint64_t>());
+    } else if constexpr (std::is_same_v<T, float>) {
+      return std::bit_cast<float>(get<std::uint32_t>());
+    } else {
+      static_assert(std::is_integral_v<T> && !std::is_same_v<T, bool>);
+      if (!have(sizeof(T))) return T{};
+      std::uint64_t bits = 0;
+      for (std::size_t i = 0; i < sizeof(T); ++i) bits |= static_cast<std::uint64_t>(in_[at_++]) << (8 * i);
+      return static_cast<T>(bits);
+    }
+  }
+  /// A number that must be finite: NaN and infinity are refused and read as 0.
+  template <class T>
+  T get_finite() {
+    const T value = get<T>();
+    if (std::isfinite(value)) return value;
+    refuse();
+    return T{};
+  }
+  void get_bytes(std::span<std::uint8_t> out) {
+    if (!have(out.size())) return;
+    std::copy_n(in_.begin() + static_cast<std::ptrdiff_t>(at_), out.size(), out.begin());
+    at_ += out.size();
+  }
+  /// Counterpart of put_varint. Only the shortest form is taken, so that equal values are equal bytes.
+  std::int64_t get_varint() {
+    std::uint64_t bits = 0;
+    for (unsigned shift = 0; shift < 64; shift += 7) {
+      const auto byte = get<std::uint8_t>();
+      const auto low = static_cast<std::uint64_t>(byte & 0x7F);
+      if ((low << shift) >> shift != low) refuse();
+      bits |= low << shift;
+      if (byte >= 0x80) continue;
+      if (byte == 0 && shift > 0) refuse();
+      return static_cast<std::int64_t>(bits >> 1) ^ -static_cast<std::int64_t>(bits & 1);
+    }
+    refuse();
+    return 0;
+  }
+  /// A field was read whose value means nothing.
+  void refuse() { refused_ = true; }
+  void refuse_if(bool bad) { refused_ = refused_ || bad; }
+
+  bool ran_short() const { return ran_short_; }
+  bool refused() const { return refused_; }
+  std::size_t remaining() const { return in_.size() - at_; }
+
+ private:
+  bool have(std::size_t bytes) {
+    if (ran_short_ || remaining() < bytes) ran_short_ = true;
+    return !ran_short_;
+  }
+
+  std::span<const std::uint8_t> in_;
+  std::size_t at_ = 0;
+  bool ran_short_ = false;
+  bool refused_ = false;
+};
+
+}  // namespace pharos::wire

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace pharos::wire {
+
+/// Byte stuffing without zeros: Cheshire and Baker, "Consistent Overhead Byte Stuffing" (SIGCOMM 1997).
+///
+/// Writes stuffed bytes into `out` as they come; never past its end.
+class CobsWriter {
+ public:
+  explicit CobsWriter(std::span<std::uint8_t> out);
+  void put(std::uint8_t byte);
+  void put(std::span<const std::uint8_t> bytes);
+  /// Closes the last block. Stuffed bytes written, or 0 when they did not fit.
+  std::size_t finish();
+
+ private:
+  void open_block();
+
+  std::span<std::uint8_t> out_;
+  std::size_t size_ = 0;
+  std::size_t code_at_ = 0;
+  std::uint8_t code_ = 1;
+  bool overflow_ = false;
+};
+
+/// Removes the stuffing in place. Plain bytes, at the front of `bytes`; empty when the stuffing is broken (a zero
+/// within, or a block that runs past the end).
+std::optional<std::size_t> cobs_decode_in_place(std::span<std::uint8_t> bytes);
+
+}  // namespace pharos::wire

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "pharos/wire/bytes.hpp"
+#include "pharos/wire/message_type.hpp"
+
+namespace pharos::wire {
+
+/// What the host asks of the running target. Answered by Ack (value as named) or Nak.
+enum class CommandCode : std::uint8_t {
+  kIdentify = 1,     // send a Hello; ack value 0
+  kSetModes = 2,     // value: HelloMode bits wanted; ack value: those now in force
+  kReset = 3,        // start anew; the ack comes before
+  kEnterLoader = 4,  // start the loader and stay in it; the ack comes before
+};
+
+struct Command {
+  static constexpr MessageType kType = MessageType::kCommand;
+  static constexpr std::size_t kMaxBytes = 5;
+
+  CommandCode code = CommandCode::kIdentify;  // codes of the future pass: the target answers Nak kUnsupported
+  std::uint32_t value = 0;
+};
+
+/// Done: `value` as the frame answered defines.
+struct Ack {
+  static constexpr MessageType kType = MessageType::kAck;
+  static constexpr std::size_t kMaxBytes = 7;
+
+  std::uint8_t for_type = 0;  // type number of the frame answered
+  std::uint16_t for_sequence = 0;
+  std::uint32_t value = 0;
+};
+
+enum class NakReason : std::uint8_t {
+  kUnsupported = 1,  // unknown command or type
+  kBadPayload = 2,   // the payload means nothing
+  kOutOfOrder = 3,   // data before begin, or an offset that is not the next; value: the offset expected
+  kTooLarge = 4,     // does not fit; value: bytes there are
+  kWrongBoard = 5,   // an image for another board
+  kBadCrc = 6,       // the image does not verify; value: the CRC found
+  kWriteFailed = 7,  // the memory did not take it; value: the offset
+  kNotVerified = 8,  // start before a good verify
+};
+
+/// Not done, and why.
+struct Nak {
+  static constexpr MessageType kType = MessageType::kNak;
+  static constexpr std::size_t kMaxBytes = 8;
+
+  std::uint8_t for_type = 0;
+  std::uint16_t for_sequence = 0;
+  NakReason reason = NakReason::kUnsupported;
+  std::uint32_t value = 0;
+};
+
+void write(const Command& message, ByteWriter& out);
+void read(ByteReader& in, Command& message);
+void write(const Ack& message, ByteWriter& out);
+void read(ByteReader& in, Ack& message);
+void write(const Nak& message, ByteWriter& out);
+void read(ByteReader& in, Nak& message);
+
+}  // namespace pharos::wire

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/wire/bytes.hpp"
+#include "pharos/wire/message_type.hpp"
+#include "pharos/wire/text.hpp"
+
+namespace pharos::wire {
+
+// How an image gets into the target: query -> info, begin, data…, verify, start; every request but the query is
+// answered by Ack or Nak before the next is sent. The loader tells the start of an image's area, so that one host
+// serves all boards.
+
+/// Host to loader: who is there? Answered by LoaderInfo.
+struct LoaderQuery {
+  static constexpr MessageType kType = MessageType::kLoaderQuery;
+  static constexpr std::size_t kMaxBytes = 0;
+};
+
+/// Loader to host.
+struct LoaderInfo {
+  static constexpr MessageType kType = MessageType::kLoaderInfo;
+  static constexpr std::size_t kMaxBytes = 36;
+
+  std::uint16_t loader_version = 0;
+  std::uint16_t block_bytes = 0;     // longest data of one LoaderData that it takes
+  std::uint32_t load_address = 0;    // where images begin
+  std::uint32_t capacity_bytes = 0;  // longest image
+  Text<24> board;
+};
+
+/// Host to loader: an image follows. Ack value: 0.
+struct LoaderBegin {
+  static constexpr MessageType kType = MessageType::kLoaderBegin;
+  static constexpr std::size_t kMaxBytes = 32;
+
+  std::uint32_t image_bytes = 0;
+  std::uint32_t image_crc32 = 0;
+  Text<24> board;  // the board the image is for
+};
+
+/// Host to loader: bytes of the image at `offset`. Ack value: the offset expected next. A block that was already taken
+/// (the ack got lost) is acknowledged again.
+struct LoaderData {
+  static constexpr MessageType kType = MessageType::kLoaderData;
+  static constexpr std::size_t kMaxData = 256;
+  static constexpr std::size_t kMaxBytes = 6 + kMaxData;
+
+  std::uint32_t offset = 0;
+  StaticVector<std::uint8_t, kMaxData> data;
+};
+
+/// Host to loader: compare the CRC-32 of what was written with the one announced. Ack value: the CRC found.
+struct LoaderVerify {
+  static constexpr MessageType kType = MessageType::kLoaderVerify;
+  static constexpr std::size_t kMaxBytes = 0;
+};
+
+/// Host to loader: run the verified image. The Ack (value: the address) comes before the jump.
+struct LoaderStart {
+  static constexpr MessageType kType = MessageType::kLoaderStart;
+  static constexpr std::size_t kMaxBytes = 0;
+};
+
+inline void write(const LoaderQuery&, ByteWriter&) {}
+inline void read(ByteReader&, LoaderQuery&) {}
+void write(const LoaderInfo& message, ByteWriter& out);
+void read(ByteReader& in, LoaderInfo& message);
+void write(const LoaderBegin& message, ByteWriter& out);
+void read(ByteReader& in, LoaderBegin& message);
+void write(const LoaderData& message, ByteWriter& out);
+void read(ByteReader& in, LoaderData& message);
+inline void write(const LoaderVerify&, ByteWriter&) {}
+inline void read(ByteReader&, LoaderVerify&) {}
+inline void write(const LoaderStart&, ByteWriter&) {}
+inline void read(ByteReader&, LoaderStart&) {}
+
+}  // namespace pharos::wire

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/wire/bytes.hpp"
+#include "pharos/wire/message_type.hpp"
+
+namespace pharos::wire {
+
+/// One edge as the capture block stamped it.
+struct RawEdge {
+  std::int64_t stamp_ticks = 0;  // 64 bits unwrapped
+  std::uint8_t sensor = 0;       // 0..31
+  bool rising = false;
+  bool operator==(const RawEdge&) const = default;
+};
+
+/// Diagnostic mode: every edge, in the order of capture, so that any real target can make a recording of edges.
+///
+/// Sensor and level take one byte, the time since the edge before it 1 byte up to 63 ticks, 2 up to 8,191, 3 up to
+/// 1,048,575 (20.9 ms), at most 10. Real light comes to about 3.2 bytes an edge: see proto/README.md for rates.
+struct RawEdges {
+  static constexpr MessageType kType = MessageType::kRawEdges;
+  static constexpr std::size_t kMaxEdges = 128;
+  static constexpr std::size_t kHeadBytes = 13;
+  static constexpr std::size_t kMaxEdgeBytes = 11;
+  static constexpr std::size_t kMaxBytes = 512;
+
+  std::uint32_t edges_lost = 0;  // by the capture block or for want of line speed, since start
+  StaticVector<RawEdge, kMaxEdges> edges;
+};
+
+/// As many of the edges as kMaxBytes surely hold: 45 with any stamps. Encoding fails when they do not fit;
+/// RawEdgesPacker below fills a message to the brim.
+void write(const RawEdges& message, ByteWriter& out);
+void read(ByteReader& in, RawEdges& message);
+
+/// Collects edges until the next one might not fit.
+class RawEdgesPacker {
+ public:
+  /// False when the message is full: send it, clear(), and push the edge again.
+  bool push(const RawEdge& edge);
+  const RawEdges& message() const { return message_; }
+  bool empty() const { return message_.edges.empty(); }
+  void clear();
+  void set_edges_lost(std::uint32_t edges_lost) { message_.edges_lost = edges_lost; }
+
+ private:
+  RawEdges message_;
+  std::size_t bytes_ = RawEdges::kHeadBytes;
+};
+
+}  // namespace pharos::wire

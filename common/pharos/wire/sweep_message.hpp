@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+#include "pharos/base/capacity.hpp"
+#include "pharos/base/static_vector.hpp"
+#include "pharos/wire/bytes.hpp"
+#include "pharos/wire/message_type.hpp"
+
+namespace pharos::wire {
+
+/// One laser hit; fields as in lighthouse::Hit. 7 bytes.
+struct SweepHit {
+  std::uint8_t sensor = 0;  // 0..31
+  std::uint16_t width_ticks = 0;
+  std::int32_t centre_half_ticks = 0;
+  bool operator==(const SweepHit&) const = default;
+};
+
+/// One rotor's sweep with its flash and every candidate hit; all that lighthouse::Sweep says, bit by bit.
+///
+/// 20 bytes and 7 a hit: 12 sensors hit once at 120 sweeps/s are 13.8 kB/s on the line, 30 % of 460,800 baud.
+struct Sweep {
+  static constexpr MessageType kType = MessageType::kSweep;
+  static constexpr std::size_t kHeadBytes = 20;
+  static constexpr std::size_t kHitBytes = 7;
+  static constexpr std::size_t kMaxBytes = kHeadBytes + kHitBytes * kMaxHitsPerSweep;
+
+  std::int64_t flash_start_ticks = 0;  // 64 bits unwrapped
+  std::int32_t flash_length_ticks = 0;
+  std::uint32_t period_sixteenth_ticks = 0;
+  std::uint8_t flash_sensors = 0;
+  std::uint8_t flags = 0;    // of lighthouse::SweepFlag
+  std::uint8_t station = 0;  // 0 or 1
+  Axis axis = Axis::kX;
+  bool data = false;
+  bool skip = false;
+  StaticVector<SweepHit, kMaxHitsPerSweep> hits;
+};
+
+void write(const Sweep& message, ByteWriter& out);
+void read(ByteReader& in, Sweep& message);
+
+}  // namespace pharos::wire
