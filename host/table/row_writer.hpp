@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pharos::host {
+
+enum class RowFormat { kCsv, kJson };
+
+/// Writes rows of named fields: CSV with a header row, or one JSON object a line with the same names.
+///
+/// Numbers are the shortest text that reads back exactly. A field without a value is empty (JSON: null); so is a number
+/// that is not finite: nan never leaves. Fields are given in the order of the columns, each row ended with end_row();
+/// giving another number of fields is a bug of the caller's (asserted).
+class RowWriter {
+ public:
+  /// `stream` stays the caller's. The CSV header is written at once.
+  RowWriter(std::FILE* stream, RowFormat format, std::vector<std::string> columns);
+  RowWriter(const RowWriter&) = delete;
+  RowWriter& operator=(const RowWriter&) = delete;
+  ~RowWriter();
+
+  RowWriter& number(double value);
+  RowWriter& number(std::optional<double> value) { return value ? number(*value) : none(); }
+  RowWriter& integer(std::int64_t value);
+  RowWriter& text(std::string_view value);
+  RowWriter& none();
+  /// `count` fields without a value.
+  RowWriter& none(std::size_t count);
+  void end_row();
+
+  /// Gives everything to the stream now (a live reader waits for it). Throws InputError when the stream takes no more
+  /// (disk full).
+  void flush();
+  std::size_t rows() const { return rows_; }
+
+ private:
+  void begin_field();
+
+  std::FILE* stream_;
+  RowFormat format_;
+  std::vector<std::string> columns_;
+  std::string buffer_;
+  std::size_t field_ = 0;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace pharos::host
