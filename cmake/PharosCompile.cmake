@@ -12,6 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 
+# The build type of the sanitizer presets: assertions on, quick enough for Eigen, line numbers in reports.
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 if(PHAROS_SANITIZE)
   add_compile_options(-fsanitize=${PHAROS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PHAROS_SANITIZE})
@@ -27,6 +29,7 @@ function(pharos_core_library name)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/common)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
   target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti -ffp-contract=off)
+  set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 
 # pharos_host_library(NAME SOURCES...): a room of the host or of the tools.

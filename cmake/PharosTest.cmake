@@ -2,6 +2,9 @@
 include(GoogleTest)
 find_package(GTest 1.12 REQUIRED)
 
+set(PHAROS_TEST_PREFIX "" CACHE STRING "Put before every test's name, so that the tests of two build trees can run as one")
+set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in `tools/test --full`")
+
 # pharos_test(NAME [LABEL label] SOURCES files... LIBS libraries...): one GoogleTest program, each case known to ctest.
 # LABEL is unit (default), property, integration, fault, data or long; `long` runs only in `tools/test --full`.
 function(pharos_test name)
@@ -16,23 +19,38 @@ function(pharos_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} TEST_PREFIX "${PHAROS_TEST_PREFIX}" DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
-# pharos_fuzz(NAME SOURCE file LIBS libraries...): a libFuzzer target NAME when PHAROS_FUZZ is on; always an ordinary
-# test that replays tests/fuzz/corpus/NAME through the same LLVMFuzzerTestOneInput.
+# pharos_fuzz(NAME SOURCE file LIBS libraries...): always an ordinary test that replays tests/fuzz/corpus/NAME through
+# LLVMFuzzerTestOneInput. When PHAROS_FUZZ is on, NAME is a libFuzzer program (all of them: target `fuzzers`), and a
+# test with the label long lets it search for PHAROS_FUZZ_SECONDS from that corpus.
 function(pharos_fuzz name)
   cmake_parse_arguments(ARG "" "SOURCE" "LIBS" ${ARGN})
+  set(corpus ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
   add_executable(${name} ${ARG_SOURCE})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  set(replay ${PHAROS_TEST_PREFIX}replay.${name})
   if(PHAROS_FUZZ)
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
-    add_test(NAME fuzz.${name} COMMAND ${name} -runs=0 ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
+    if(NOT TARGET fuzzers)
+      add_custom_target(fuzzers)
+    endif()
+    add_dependencies(fuzzers ${name})
+    add_test(NAME ${replay} COMMAND ${name} -runs=0 ${corpus})
+    # New inputs go to the build tree; a crash leaves its input there too.
+    set(found ${CMAKE_BINARY_DIR}/fuzz/${name})
+    file(MAKE_DIRECTORY ${found})
+    math(EXPR search_timeout "${PHAROS_FUZZ_SECONDS} + 120")
+    add_test(NAME ${PHAROS_TEST_PREFIX}search.${name}
+      COMMAND ${name} -max_total_time=${PHAROS_FUZZ_SECONDS} -artifact_prefix=${found}/ -print_final_stats=1 ${found} ${corpus})
+    set_tests_properties(${PHAROS_TEST_PREFIX}search.${name} PROPERTIES LABELS long TIMEOUT ${search_timeout})
   else()
     target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay_main.cpp)
-    add_test(NAME fuzz.${name} COMMAND ${name} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
+    add_test(NAME ${replay} COMMAND ${name} ${corpus})
   endif()
-  set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 120)
+  set_tests_properties(${replay} PROPERTIES LABELS fuzz TIMEOUT 120)
 endfunction()
