@@ -1,0 +1,33 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# usage: rv32_link.sh ROOT BUILD_DIR: compiles and links the whole portable core for the soft core's instruction set,
+# where neither heap nor C++ library exists, and shows that each planted violation breaks that link. 77 = skipped.
+set -u
+root=$1
+build=$2
+if ! command -v riscv64-unknown-elf-gcc >/dev/null; then
+  echo "skipped: riscv64-unknown-elf-gcc is not installed (tools/install-dependencies test)"
+  exit 77
+fi
+
+configure() {
+  cmake -S "$root" -B "$build" --preset rv32im -DPHAROS_PLANT="$1" >"$build.configure.log" 2>&1 ||
+    { cat "$build.configure.log"; exit 1; }
+}
+
+configure ""
+cmake --build "$build" || exit 1
+riscv64-unknown-elf-size "$build/bin/pharos_core_link" || exit 1
+
+declare -A expected=([heap]=__wrap_malloc [new]='operator new' [clock]=__wrap_time [static]='__wrap_atexit\|__cxa_atexit')
+for plant in "${!expected[@]}"; do
+  configure "$plant"
+  if cmake --build "$build" >"$build.plant.log" 2>&1; then
+    echo "FAILED: the link check did not notice the planted $plant"
+    exit 1
+  fi
+  grep -q "undefined reference to.*\(${expected[$plant]}\)" "$build.plant.log" ||
+    { cat "$build.plant.log"; echo "FAILED: the planted $plant broke the build for another reason"; exit 1; }
+  echo "planted $plant: link refused, as it must be"
+done
+configure ""

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nothing runs here: the program exists to be linked with every object of the portable core. Each PHAROS_PLANT_ block
+// is one thing that the core must not do; the check's own test builds with it and expects the link to break.
+#include <cstdlib>
+#include <ctime>
+
+struct Guarded {
+  Guarded();
+  ~Guarded();
+  int value;
+};
+
+int main() {
+#if defined(PHAROS_PLANT_HEAP)
+  return std::malloc(1) == nullptr;
+#elif defined(PHAROS_PLANT_NEW)
+  return *new int(1);
+#elif defined(PHAROS_PLANT_CLOCK)
+  return static_cast<int>(std::time(nullptr));
+#elif defined(PHAROS_PLANT_STATIC)
+  static Guarded guarded;
+  return guarded.value;
+#else
+  return 0;
+#endif
+}
