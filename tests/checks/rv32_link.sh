@@ -17,7 +17,8 @@ configure() {
 
 configure ""
 cmake --build "$build" || exit 1
-riscv64-unknown-elf-size "$build/bin/pharos_core_link" || exit 1
+echo "largest stack frames, bytes:"
+find "$build" -name '*.su' -exec cat {} + | awk -F '\t' '{print $2 "\t" $1}' | sort -rn | head -5
 
 declare -A expected=([heap]=__wrap_malloc [new]='operator new' [clock]=__wrap_time [static]='__wrap_atexit\|__cxa_atexit')
 for plant in "${!expected[@]}"; do

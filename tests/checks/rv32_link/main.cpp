@@ -14,7 +14,8 @@ int main() {
 #if defined(PHAROS_PLANT_HEAP)
   return std::malloc(1) == nullptr;
 #elif defined(PHAROS_PLANT_NEW)
-  return *new int(1);
+  int* volatile leaked = new int(1);
+  return *leaked;
 #elif defined(PHAROS_PLANT_CLOCK)
   return static_cast<int>(std::time(nullptr));
 #elif defined(PHAROS_PLANT_STATIC)
