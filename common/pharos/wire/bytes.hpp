@@ -12,6 +12,11 @@
 
 namespace pharos::wire {
 
+/// Times on the wire lie within +-45 years of the counter's zero, so that no sum, difference or conversion to
+/// nanoseconds of them can overflow.
+inline constexpr std::int64_t kMaxTicks = std::int64_t{1} << 56;
+constexpr bool is_credible_time(std::int64_t ticks) { return ticks >= -kMaxTicks && ticks <= kMaxTicks; }
+
 /// Writes little-endian fields one after the other into bytes the caller owns.
 ///
 /// Nothing is ever written past the end: the first field that does not fit makes the writer fail for good, and size()
@@ -43,6 +48,10 @@ class ByteWriter {
     auto bits = (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
     for (; bits >= 0x80; bits >>= 7) put(static_cast<std::uint8_t>(bits | 0x80));
     put(static_cast<std::uint8_t>(bits));
+  }
+  void put_ticks(std::int64_t ticks) {
+    if (!is_credible_time(ticks)) fail();
+    put(ticks);
   }
   /// The message cannot be written (a field is out of its range).
   void fail() { failed_ = true; }
@@ -91,6 +100,12 @@ class ByteReader {
     if (std::isfinite(value)) return value;
     refuse();
     return T{};
+  }
+  std::int64_t get_ticks() {
+    const auto ticks = get<std::int64_t>();
+    if (is_credible_time(ticks)) return ticks;
+    refuse();
+    return 0;
   }
   void get_bytes(std::span<std::uint8_t> out) {
     if (!have(out.size())) return;

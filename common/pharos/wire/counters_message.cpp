@@ -4,14 +4,14 @@
 namespace pharos::wire {
 
 void write(const Counters& message, ByteWriter& out) {
-  out.put(message.time_ticks);
+  out.put_ticks(message.time_ticks);
   out.put(static_cast<std::uint8_t>(message.group));
   out.put(static_cast<std::uint8_t>(message.values.size()));
   for (const std::uint32_t value : message.values) out.put(value);
 }
 
 void read(ByteReader& in, Counters& message) {
-  message.time_ticks = in.get<std::int64_t>();
+  message.time_ticks = in.get_ticks();
   message.group = static_cast<CounterGroup>(in.get<std::uint8_t>());
   const auto count = in.get<std::uint8_t>();
   in.refuse_if(count > Counters::kMaxValues);

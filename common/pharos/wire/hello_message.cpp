@@ -3,6 +3,10 @@
 
 namespace pharos::wire {
 
+void write(const Time& message, ByteWriter& out) { out.put_ticks(message.time_ticks); }
+
+void read(ByteReader& in, Time& message) { message.time_ticks = in.get_ticks(); }
+
 void write(const Hello& message, ByteWriter& out) {
   out.put(static_cast<std::uint8_t>(message.role));
   out.put(static_cast<std::uint8_t>(message.reset_cause));
@@ -13,7 +17,7 @@ void write(const Hello& message, ByteWriter& out) {
   out.put(message.start_count);
   out.put(message.tick_rate_hz);
   out.put(message.sensors);
-  out.put(message.time_ticks);
+  out.put_ticks(message.time_ticks);
   out.put(message.unique_id);
   write(message.board, out);
   write(message.target, out);
@@ -32,7 +36,7 @@ void read(ByteReader& in, Hello& message) {
   message.start_count = in.get<std::uint16_t>();
   message.tick_rate_hz = in.get<std::uint32_t>();
   message.sensors = in.get<std::uint32_t>();
-  message.time_ticks = in.get<std::int64_t>();
+  message.time_ticks = in.get_ticks();
   message.unique_id = in.get<std::uint32_t>();
   read(in, message.board);
   read(in, message.target);

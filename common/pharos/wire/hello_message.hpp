@@ -44,6 +44,17 @@ struct Hello {
   Text<24> target;  // name given to this target; empty where none was given
 };
 
+/// The target's clock, read when the frame was made: what the host fits its clock to. Ten a second (20 bytes each on
+/// the line), because sweeps say when light fell and not when they were sent.
+struct Time {
+  static constexpr MessageType kType = MessageType::kTime;
+  static constexpr std::size_t kMaxBytes = 8;
+
+  std::int64_t time_ticks = 0;
+};
+
+void write(const Time& message, ByteWriter& out);
+void read(ByteReader& in, Time& message);
 void write(const Hello& message, ByteWriter& out);
 void read(ByteReader& in, Hello& message);
 

@@ -15,6 +15,7 @@ inline constexpr std::uint8_t kProtocolVersion = 1;
 #define PHAROS_MESSAGE_TYPES(X) \
   X(Hello, 0x01)                \
   X(Counters, 0x02)             \
+  X(Time, 0x03)                 \
   X(Sweep, 0x10)                \
   X(Ootx, 0x11)                 \
   X(Pose, 0x12)                 \

@@ -56,7 +56,7 @@ void read_answer(ByteReader& in, bool has_second, PoseAnswer& answer) {
 void write(const Pose& message, ByteWriter& out) {
   if (message.station >= kMaxStations || message.answer.has_value() != (message.refusal == 0)) out.fail();
   const bool has_second = message.answer && message.answer->second;
-  out.put(message.time_ticks);
+  out.put_ticks(message.time_ticks);
   out.put(message.station);
   out.put(message.flags);
   out.put(message.refusal);
@@ -66,7 +66,7 @@ void write(const Pose& message, ByteWriter& out) {
 }
 
 void read(ByteReader& in, Pose& message) {
-  message.time_ticks = in.get<std::int64_t>();
+  message.time_ticks = in.get_ticks();
   message.station = in.get<std::uint8_t>();
   message.flags = in.get<std::uint8_t>();
   message.refusal = in.get<std::uint8_t>();

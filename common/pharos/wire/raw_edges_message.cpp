@@ -10,18 +10,10 @@ namespace {
 
 constexpr std::uint8_t kRisingBit = 0x80;
 
-// Differences wrap like the unsigned numbers they are made of, so that any two stamps have one.
-std::int64_t difference(std::int64_t later, std::int64_t earlier) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
-}
-std::int64_t sum(std::int64_t stamp, std::int64_t difference) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp) + static_cast<std::uint64_t>(difference));
-}
-
 void write_edge(const RawEdge& edge, std::int64_t previous_ticks, ByteWriter& out) {
-  if (edge.sensor >= kMaxSensors) out.fail();
+  if (edge.sensor >= kMaxSensors || !is_credible_time(edge.stamp_ticks)) out.fail();
   out.put(static_cast<std::uint8_t>(edge.sensor | (edge.rising ? kRisingBit : 0)));
-  out.put_varint(difference(edge.stamp_ticks, previous_ticks));
+  out.put_varint(edge.stamp_ticks - previous_ticks);
 }
 
 }  // namespace
@@ -29,7 +21,7 @@ void write_edge(const RawEdge& edge, std::int64_t previous_ticks, ByteWriter& ou
 void write(const RawEdges& message, ByteWriter& out) {
   std::int64_t previous = message.edges.empty() ? 0 : message.edges[0].stamp_ticks;
   out.put(message.edges_lost);
-  out.put(previous);
+  out.put_ticks(previous);
   out.put(static_cast<std::uint8_t>(message.edges.size()));
   for (const RawEdge& edge : message.edges) {
     write_edge(edge, previous, out);
@@ -39,7 +31,7 @@ void write(const RawEdges& message, ByteWriter& out) {
 
 void read(ByteReader& in, RawEdges& message) {
   message.edges_lost = in.get<std::uint32_t>();
-  const auto first = in.get<std::int64_t>();
+  const std::int64_t first = in.get_ticks();
   const auto count = in.get<std::uint8_t>();
   in.refuse_if(count > RawEdges::kMaxEdges || (count == 0 && first != 0));
   std::int64_t previous = first;
@@ -49,14 +41,17 @@ void read(ByteReader& in, RawEdges& message) {
     RawEdge edge;
     edge.rising = (head & kRisingBit) != 0;
     edge.sensor = static_cast<std::uint8_t>(head & ~kRisingBit);
-    edge.stamp_ticks = sum(previous, in.get_varint());
-    in.refuse_if(edge.sensor >= kMaxSensors || (i == 0 && edge.stamp_ticks != first));
+    const std::int64_t step = in.get_varint();
+    const bool credible = step >= -2 * kMaxTicks && step <= 2 * kMaxTicks && is_credible_time(previous + step);
+    in.refuse_if(!credible || edge.sensor >= kMaxSensors || (i == 0 && step != 0));
+    edge.stamp_ticks = credible ? previous + step : previous;
     previous = edge.stamp_ticks;
     message.edges.push_back(edge);
   }
 }
 
 bool RawEdgesPacker::push(const RawEdge& edge) {
+  if (edge.sensor >= kMaxSensors || !is_credible_time(edge.stamp_ticks)) return true;
   std::array<std::uint8_t, RawEdges::kMaxEdgeBytes> scratch{};
   ByteWriter writer(scratch);
   write_edge(edge, empty() ? edge.stamp_ticks : message_.edges.back().stamp_ticks, writer);

@@ -33,15 +33,15 @@ struct RawEdges {
   StaticVector<RawEdge, kMaxEdges> edges;
 };
 
-/// As many of the edges as kMaxBytes surely hold: 45 with any stamps. Encoding fails when they do not fit;
-/// RawEdgesPacker below fills a message to the brim.
+// 45 edges fit with any stamps; RawEdgesPacker fills a message to the brim.
 void write(const RawEdges& message, ByteWriter& out);
 void read(ByteReader& in, RawEdges& message);
 
 /// Collects edges until the next one might not fit.
 class RawEdgesPacker {
  public:
-  /// False when the message is full: send it, clear(), and push the edge again.
+  /// False when the message is full: send it, clear(), and push the edge again. An edge that cannot be sent (sensor
+  /// above 31, incredible time) is left out.
   bool push(const RawEdge& edge);
   const RawEdges& message() const { return message_; }
   bool empty() const { return message_.edges.empty(); }

@@ -16,7 +16,7 @@ constexpr bool bit(std::uint8_t bits, unsigned number) { return ((bits >> number
 
 void write(const Sweep& message, ByteWriter& out) {
   if (message.station >= kMaxStations) out.fail();
-  out.put(message.flash_start_ticks);
+  out.put_ticks(message.flash_start_ticks);
   out.put(message.flash_length_ticks);
   out.put(message.period_sixteenth_ticks);
   out.put(message.flash_sensors);
@@ -33,7 +33,7 @@ void write(const Sweep& message, ByteWriter& out) {
 }
 
 void read(ByteReader& in, Sweep& message) {
-  message.flash_start_ticks = in.get<std::int64_t>();
+  message.flash_start_ticks = in.get_ticks();
   message.flash_length_ticks = in.get<std::int32_t>();
   message.period_sixteenth_ticks = in.get<std::uint32_t>();
   message.flash_sensors = in.get<std::uint8_t>();

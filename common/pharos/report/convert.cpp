@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/report/convert.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::report {
+namespace {
+
+static_assert(wire::Ootx::kMaxData == lighthouse::kMaxOotxPayload);
+static_assert(kNanosecondsPerTick == 20);
+
+/// Unit length is lost by nothing but a broken sender: doubles keep it to 1e-15.
+constexpr double kUnitTolerance = 1e-6;
+
+// Sums of counters grow by one list entry each: the message's capacity bounds both lists.
+template <class Counters>
+wire::Counters counters_to_wire(wire::CounterGroup group, std::int64_t time_ticks, const Counters& counters) {
+  wire::Counters message;
+  message.time_ticks = time_ticks;
+  message.group = group;
+  for_each_counter(counters, [&](const char*, std::uint32_t value, const char*) { message.values.push_back(value); });
+  return message;
+}
+
+wire::PoseFields fields_of(const LighthouseFromBody& pose) {
+  const Quaternion q = pose.quaternion();
+  return {{q.w(), q.x(), q.y(), q.z()}, {pose.t.x(), pose.t.y(), pose.t.z()}};
+}
+
+std::optional<LighthouseFromBody> pose_of(const wire::PoseFields& fields) {
+  const auto& [w, x, y, z] = fields.orientation_wxyz;
+  const Quaternion q(w, x, y, z);
+  if (!(std::abs(q.norm() - 1.0) < kUnitTolerance)) return std::nullopt;
+  const auto& [px, py, pz] = fields.position_m;
+  return LighthouseFromBody{q.normalized().toRotationMatrix(), Vector3(px, py, pz)};
+}
+
+wire::PoseAnswer answer_of(const LighthousePoseEstimate& estimate) {
+  wire::PoseAnswer answer;
+  answer.pose = fields_of(estimate.pose);
+  std::size_t next = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      answer.covariance[next++] = static_cast<float>(estimate.covariance(row, column));
+    }
+  }
+  answer.residual_rms_rad = static_cast<float>(estimate.residual_rms);
+  answer.adop_deg_per_rad = static_cast<float>(estimate.adop_deg_per_rad);
+  answer.pdop_m_per_rad = static_cast<float>(estimate.pdop_m_per_rad);
+  answer.iterations = static_cast<std::uint8_t>(std::clamp(estimate.iterations, 0, 255));
+  if (estimate.second) {
+    answer.second = {fields_of(estimate.second->pose), static_cast<float>(estimate.second->delta_chi2)};
+  }
+  return answer;
+}
+
+std::optional<LighthousePoseEstimate> estimate_of(const wire::PoseAnswer& answer) {
+  LighthousePoseEstimate estimate;
+  const auto pose = pose_of(answer.pose);
+  if (!pose) return std::nullopt;
+  estimate.pose = *pose;
+  std::size_t next = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      const double value = static_cast<double>(answer.covariance[next++]);
+      estimate.covariance(row, column) = value;
+      estimate.covariance(column, row) = value;
+    }
+  }
+  estimate.residual_rms = static_cast<double>(answer.residual_rms_rad);
+  estimate.adop_deg_per_rad = static_cast<double>(answer.adop_deg_per_rad);
+  estimate.pdop_m_per_rad = static_cast<double>(answer.pdop_m_per_rad);
+  estimate.iterations = answer.iterations;
+  if (answer.second) {
+    const auto second = pose_of(answer.second->pose);
+    if (!second) return std::nullopt;
+    estimate.second = {*second, static_cast<double>(answer.second->delta_chi2)};
+  }
+  return estimate;
+}
+
+}  // namespace
+
+wire::Sweep to_wire(const lighthouse::Sweep& sweep) {
+  wire::Sweep message;
+  message.flash_start_ticks = sweep.flash.start_ticks;
+  message.flash_length_ticks = sweep.flash.length_ticks;
+  message.period_sixteenth_ticks = sweep.period_sixteenth_ticks;
+  message.flash_sensors = sweep.flash.sensors;
+  message.flags = sweep.flags;
+  message.station = sweep.flash.station;
+  message.axis = sweep.flash.axis;
+  message.data = sweep.flash.data;
+  message.skip = sweep.flash.skip;
+  for (const lighthouse::Hit& hit : sweep.hits) {
+    message.hits.push_back({hit.sensor, hit.width_ticks, hit.centre_half_ticks});
+  }
+  return message;
+}
+
+lighthouse::Sweep from_wire(const wire::Sweep& message) {
+  lighthouse::Sweep sweep;
+  sweep.flash.start_ticks = message.flash_start_ticks;
+  sweep.flash.length_ticks = message.flash_length_ticks;
+  sweep.flash.station = message.station;
+  sweep.flash.axis = message.axis;
+  sweep.flash.data = message.data;
+  sweep.flash.skip = message.skip;
+  sweep.flash.sensors = message.flash_sensors;
+  sweep.period_sixteenth_ticks = message.period_sixteenth_ticks;
+  sweep.flags = message.flags;
+  for (const wire::SweepHit& hit : message.hits) {
+    sweep.hits.push_back({hit.sensor, hit.width_ticks, hit.centre_half_ticks});
+  }
+  return sweep;
+}
+
+wire::Ootx to_wire(const lighthouse::OotxPayload& payload) {
+  return {payload.time_ticks, payload.station, payload.bytes};
+}
+
+lighthouse::OotxPayload from_wire(const wire::Ootx& message) {
+  return {message.time_ticks, message.station, message.data};
+}
+
+wire::Counters to_wire(const DecoderReport& report) {
+  return counters_to_wire(wire::CounterGroup::kDecoder, report.time_ticks, report.counters);
+}
+
+wire::Counters to_wire(const DeviceReport& report) {
+  return counters_to_wire(wire::CounterGroup::kDevice, report.time_ticks, report.counters);
+}
+
+DecoderReport decoder_report(const wire::Counters& message) {
+  DecoderReport report;
+  report.time_ticks = message.time_ticks;
+  std::size_t next = 0;
+#define PHAROS_X(name, text) \
+  if (next < message.values.size()) report.counters.name = message.values[next++];
+  PHAROS_DECODER_COUNTERS(PHAROS_X)
+#undef PHAROS_X
+  return report;
+}
+
+DeviceReport device_report(const wire::Counters& message) {
+  DeviceReport report;
+  report.time_ticks = message.time_ticks;
+  std::size_t next = 0;
+#define PHAROS_X(name, text) \
+  if (next < message.values.size()) report.counters.name = message.values[next++];
+  PHAROS_DEVICE_COUNTERS(PHAROS_X)
+#undef PHAROS_X
+  return report;
+}
+
+wire::RawEdge to_wire(const lighthouse::Edge& edge) { return {edge.stamp_ticks, edge.sensor, edge.rising}; }
+
+EdgesReport from_wire(const wire::RawEdges& message) {
+  EdgesReport report;
+  report.edges_lost = message.edges_lost;
+  for (const wire::RawEdge& edge : message.edges) report.edges.push_back({edge.stamp_ticks, edge.sensor, edge.rising});
+  return report;
+}
+
+wire::Pose to_wire(const PoseReport& report) {
+  wire::Pose message;
+  message.time_ticks = report.time_ticks;
+  message.station = report.station;
+  message.flags = report.flags;
+  message.observations =
+      static_cast<std::uint16_t>(std::clamp(report.observations, 0, int{std::numeric_limits<std::uint16_t>::max()}));
+  if (report.pose) {
+    message.answer = answer_of(*report.pose);
+  } else {
+    message.refusal = static_cast<std::uint8_t>(report.pose.error());
+  }
+  return message;
+}
+
+std::optional<PoseReport> from_wire(const wire::Pose& message) {
+  if (message.refusal > static_cast<std::uint8_t>(pose::Refusal::kBadInput)) return std::nullopt;
+  PoseReport report;
+  report.station = message.station;
+  report.flags = message.flags;
+  report.time_ticks = message.time_ticks;
+  report.observations = message.observations;
+  if (!message.answer) {
+    report.pose = static_cast<pose::Refusal>(message.refusal);
+    return report;
+  }
+  auto estimate = estimate_of(*message.answer);
+  if (!estimate) return std::nullopt;
+  estimate->time_ns = ticks_to_nanoseconds(message.time_ticks);
+  estimate->observations = message.observations;
+  report.pose = *estimate;
+  return report;
+}
+
+}  // namespace pharos::report

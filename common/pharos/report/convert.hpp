@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/report/reports.hpp"
+#include "pharos/wire/counters_message.hpp"
+#include "pharos/wire/ootx_message.hpp"
+#include "pharos/wire/pose_message.hpp"
+#include "pharos/wire/raw_edges_message.hpp"
+#include "pharos/wire/sweep_message.hpp"
+
+namespace pharos::report {
+
+// The core's values to wire messages and back. Sweeps, payloads, edges and counters survive exactly; of a pose, the
+// covariance, residual and precision factors are rounded to float (1e-7), rotation to the double's quaternion (1e-16).
+
+wire::Sweep to_wire(const lighthouse::Sweep& sweep);
+lighthouse::Sweep from_wire(const wire::Sweep& message);
+
+wire::Ootx to_wire(const lighthouse::OotxPayload& payload);
+lighthouse::OotxPayload from_wire(const wire::Ootx& message);
+
+wire::Counters to_wire(const DecoderReport& report);
+wire::Counters to_wire(const DeviceReport& report);
+/// Counters that the message does not have stay 0; those it has beyond our list are ignored. The group must fit.
+DecoderReport decoder_report(const wire::Counters& message);
+DeviceReport device_report(const wire::Counters& message);
+
+wire::RawEdge to_wire(const lighthouse::Edge& edge);
+EdgesReport from_wire(const wire::RawEdges& message);
+
+wire::Pose to_wire(const PoseReport& report);
+/// Empty when the message holds no possible pose: a quaternion off unit length by more than 1e-6, or a refusal that is
+/// not in pose::Refusal.
+std::optional<PoseReport> from_wire(const wire::Pose& message);
+
+}  // namespace pharos::report

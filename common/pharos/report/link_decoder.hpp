@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/report/reports.hpp"
+#include "pharos/wire/command_message.hpp"
+#include "pharos/wire/frame_decoder.hpp"
+#include "pharos/wire/hello_message.hpp"
+#include "pharos/wire/loader_messages.hpp"
+
+namespace pharos::report {
+
+/// Everything that one good frame can say.
+using LinkEvent =
+    std::variant<lighthouse::Sweep, lighthouse::OotxPayload, PoseReport, DecoderReport, DeviceReport, EdgesReport,
+                 wire::Time, wire::Hello, wire::Command, wire::Ack, wire::Nak, wire::LoaderQuery, wire::LoaderInfo,
+                 wire::LoaderBegin, wire::LoaderData, wire::LoaderVerify, wire::LoaderStart>;
+
+/// What `event` says in values, for frames already found; empty for payloads that mean nothing and for counter groups
+/// of the future.
+std::optional<LinkEvent> decode_event(const wire::Frame& frame);
+
+/// Newest instant of the target's clock that the event speaks of, ticks; it was sent after that. Empty for events
+/// without a time.
+std::optional<std::int64_t> newest_ticks(const LinkEvent& event);
+
+/// The host's side of the line: bytes in, events out. Whatever is dropped is counted by cause.
+class LinkDecoder {
+ public:
+  std::optional<LinkEvent> push(std::uint8_t byte);
+  /// The line was unplugged: what is cut in the middle is dropped.
+  void restart() { frames_.restart(); }
+
+  const wire::LinkCounters& counters() const { return frames_.counters(); }
+  /// Protocol version of the last frame in another version than ours, if any ever came.
+  std::optional<std::uint8_t> foreign_version() const { return frames_.foreign_version(); }
+
+ private:
+  wire::FrameDecoder frames_;
+};
+
+}  // namespace pharos::report

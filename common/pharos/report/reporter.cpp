@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/report/reporter.hpp"
+
+#include "pharos/report/convert.hpp"
+
+namespace pharos::report {
+
+Reporter::Bytes Reporter::refuse() {
+  ++refused_;
+  return {};
+}
+
+Reporter::Bytes Reporter::frame(wire::MessageType type, std::size_t payload) {
+  const std::size_t size = encoder_.encode(type, std::span(payload_).first(payload), line_);
+  if (size == 0) return refuse();
+  ++frames_;
+  return std::span(line_).first(size);
+}
+
+Reporter::Bytes Reporter::report(const lighthouse::Sweep& sweep) { return send(to_wire(sweep)); }
+Reporter::Bytes Reporter::report(const lighthouse::OotxPayload& payload) { return send(to_wire(payload)); }
+Reporter::Bytes Reporter::report(const PoseReport& pose) { return send(to_wire(pose)); }
+Reporter::Bytes Reporter::report(const DecoderReport& counters) { return send(to_wire(counters)); }
+Reporter::Bytes Reporter::report(const DeviceReport& counters) { return send(to_wire(counters)); }
+
+Reporter::Bytes Reporter::report(const lighthouse::Edge& edge, std::uint32_t edges_lost) {
+  const wire::RawEdge raw = to_wire(edge);
+  if (raw.sensor >= kMaxSensors || !wire::is_credible_time(raw.stamp_ticks)) return refuse();
+  Bytes full;
+  if (!edges_.push(raw)) {
+    full = flush_edges();
+    edges_.push(raw);
+  }
+  edges_.set_edges_lost(edges_lost);
+  return full;
+}
+
+Reporter::Bytes Reporter::flush_edges() {
+  if (edges_.empty()) return {};
+  const Bytes bytes = send(edges_.message());
+  edges_.clear();
+  return bytes;
+}
+
+}  // namespace pharos::report

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/report/reports.hpp"
+#include "pharos/wire/codec.hpp"
+#include "pharos/wire/frame_encoder.hpp"
+#include "pharos/wire/hello_message.hpp"
+
+namespace pharos::report {
+
+/// The target's side of the line: values in, bytes to send out.
+///
+/// Every call gives the bytes of one whole frame, valid until the next call; empty when there is nothing to send or the
+/// value cannot be sent (counted by refused()). State: about 1.1 kB and a raw-edges message of 2 kB.
+class Reporter {
+ public:
+  using Bytes = std::span<const std::uint8_t>;
+
+  Bytes report(const lighthouse::Sweep& sweep);
+  Bytes report(const lighthouse::OotxPayload& payload);
+  Bytes report(const PoseReport& pose);
+  Bytes report(const DecoderReport& counters);
+  Bytes report(const DeviceReport& counters);
+  /// The clock now; ten a second keep the host's clock mapping tight.
+  Bytes report_time(std::int64_t now_ticks) { return send(wire::Time{now_ticks}); }
+  /// Diagnostic mode: takes the edge; gives a frame when one was full.
+  Bytes report(const lighthouse::Edge& edge, std::uint32_t edges_lost);
+  /// Diagnostic mode: what is held back of edges, for when they come slowly.
+  Bytes flush_edges();
+
+  /// Any message of wire/: Hello, Ack, Nak, LoaderInfo, …
+  template <class M>
+  Bytes send(const M& message) {
+    const std::size_t payload = wire::encode_payload(message, payload_);
+    if (payload == 0 && M::kMaxBytes > 0) return refuse();
+    return frame(M::kType, payload);
+  }
+  /// The frame given last could not be sent (line full): nothing to do for its number, the host counts the gap.
+  std::uint32_t refused() const { return refused_; }
+  std::uint32_t frames() const { return frames_; }
+
+ private:
+  Bytes refuse();
+  Bytes frame(wire::MessageType type, std::size_t payload);
+
+  wire::FrameEncoder encoder_;
+  wire::RawEdgesPacker edges_;
+  std::array<std::uint8_t, wire::kMaxPayload> payload_{};
+  std::array<std::uint8_t, wire::kMaxLineFrame> line_{};
+  std::uint32_t frames_ = 0;
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace pharos::report
