@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/table/byte_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/unit/host/table/temporary_file.hpp"
+
+namespace pharos::host {
+namespace {
+
+using testing::gzipped;
+using testing::message_of;
+using testing::TemporaryFile;
+
+std::string all_of(ByteSource& source) {
+  std::string text;
+  std::array<char, 7> piece;
+  while (const std::size_t got = source.read(piece)) text.append(piece.data(), got);
+  return text;
+}
+
+std::string long_text() {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += std::to_string(i * 7919) + ",";
+  return text;
+}
+
+TEST(ByteSource, GivesAPlainFileAsItIs) {
+  const TemporaryFile file(long_text());
+  ByteSource source(file.path());
+  EXPECT_EQ(all_of(source), long_text());
+  EXPECT_FALSE(source.cut_off());
+}
+
+TEST(ByteSource, UnpacksGzipWhateverTheFilesName) {
+  const TemporaryFile file(gzipped(long_text()));
+  ByteSource source(file.path());
+  EXPECT_EQ(all_of(source), long_text());
+  EXPECT_FALSE(source.cut_off());
+}
+
+TEST(ByteSource, JoinsGzipMembersInOneFile) {
+  const TemporaryFile file(gzipped("first,") + gzipped("second"));
+  ByteSource source(file.path());
+  EXPECT_EQ(all_of(source), "first,second");
+}
+
+TEST(ByteSource, GivesWhatACutOffGzipFileHoldsAndSaysSo) {
+  const std::string whole = gzipped(long_text());
+  const TemporaryFile file(std::string_view(whole).substr(0, whole.size() / 2));
+  ByteSource source(file.path());
+  const std::string text = all_of(source);
+  EXPECT_GT(text.size(), long_text().size() / 4);
+  EXPECT_TRUE(long_text().starts_with(text));
+  EXPECT_TRUE(source.cut_off());
+}
+
+TEST(ByteSource, RefusesBrokenGzipData) {
+  std::string broken = gzipped(long_text());
+  for (std::size_t i = broken.size() / 2; i < broken.size() / 2 + 64; ++i) broken[i] = '\x55';
+  const TemporaryFile file(broken);
+  ByteSource source(file.path());
+  EXPECT_THAT(message_of([&] { all_of(source); }), ::testing::HasSubstr("broken gzip data"));
+}
+
+TEST(ByteSource, PeeksWithoutConsuming) {
+  const TemporaryFile file(gzipped("sensor,rise_ticks"));
+  ByteSource source(file.path());
+  EXPECT_TRUE(source.peek(6).starts_with("sensor"));
+  EXPECT_TRUE(source.peek(1000).ends_with("rise_ticks"));
+  EXPECT_EQ(all_of(source), "sensor,rise_ticks");
+}
+
+TEST(ByteSource, SaysWhichFileCannotBeOpened) {
+  const std::string message = message_of([] { ByteSource source("/nowhere/at/all.csv"); });
+  EXPECT_THAT(message, ::testing::HasSubstr("/nowhere/at/all.csv"));
+  EXPECT_THAT(message, ::testing::HasSubstr("No such file"));
+}
+
+TEST(ByteSource, RefusesADirectory) {
+  EXPECT_THAT(message_of([] { ByteSource source("/"); }), ::testing::HasSubstr("directory"));
+}
+
+}  // namespace
+}  // namespace pharos::host

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/table/row_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "host/support/input_error.hpp"
+#include "host/table/table_reader.hpp"
+#include "tests/unit/host/table/temporary_file.hpp"
+
+namespace pharos::host {
+namespace {
+
+using testing::TemporaryFile;
+
+template <class Fill>
+std::string written(RowFormat format, std::vector<std::string> columns, Fill&& fill) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = open_memstream(&text, &size);
+  {
+    RowWriter writer(stream, format, std::move(columns));
+    fill(writer);
+  }
+  std::fclose(stream);
+  std::string out(text, size);
+  std::free(text);
+  return out;
+}
+
+void fill_two_rows(RowWriter& writer) {
+  writer.number(0.1).integer(-7).text("ok").none().end_row();
+  writer.number(std::numeric_limits<double>::quiet_NaN()).integer(3).text("a,b\"\n").number(-INFINITY).end_row();
+}
+
+TEST(RowWriter, WritesCsvAndNeverNan) {
+  EXPECT_EQ(written(RowFormat::kCsv, {"x", "n", "status", "y"}, fill_two_rows),
+            "x,n,status,y\n0.1,-7,ok,\n,3,a b\" ,\n");
+}
+
+TEST(RowWriter, WritesTheSameNamesAsJsonLines) {
+  EXPECT_EQ(written(RowFormat::kJson, {"x", "n", "status", "y"}, fill_two_rows),
+            "{\"x\":0.1,\"n\":-7,\"status\":\"ok\",\"y\":null}\n"
+            "{\"x\":null,\"n\":3,\"status\":\"a,b\\\"\\u000a\",\"y\":null}\n");
+}
+
+TEST(RowWriter, WritesTheHeaderEvenWithoutRows) {
+  EXPECT_EQ(written(RowFormat::kCsv, {"a", "b"}, [](RowWriter&) {}), "a,b\n");
+  EXPECT_EQ(written(RowFormat::kJson, {"a", "b"}, [](RowWriter&) {}), "");
+}
+
+TEST(RowWriter, WritesNumbersThatReadBackExactly) {
+  std::mt19937_64 random(20021);
+  std::vector<double> values = {0.0, -0.0, 0.1, 1.0 / 3.0, 5e-324, std::numeric_limits<double>::max(), 16.123456789};
+  while (values.size() < 2000) {
+    const double value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  const std::string text = written(RowFormat::kCsv, {"v"}, [&](RowWriter& writer) {
+    for (const double value : values) writer.number(value).end_row();
+  });
+  const TemporaryFile file(text);
+  TableReader table(ByteSource(file.path()), {"v"});
+  for (const double value : values) {
+    ASSERT_TRUE(table.next());
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(table.number(0)), std::bit_cast<std::uint64_t>(value));
+  }
+}
+
+TEST(RowWriter, ReportsAFullDisk) {
+  std::FILE* full = std::fopen("/dev/full", "w");
+  ASSERT_NE(full, nullptr);
+  {
+    RowWriter writer(full, RowFormat::kCsv, {"a"});
+    EXPECT_THROW(writer.flush(), InputError);
+  }
+  std::fclose(full);
+}
+
+}  // namespace
+}  // namespace pharos::host
