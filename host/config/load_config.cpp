@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/load_config.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "host/config/strict_toml.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxName = 32;    // so that a name fits log lines and file names
+constexpr std::size_t kMaxPrefix = 40;  // leaves 23 of LCM's 63 characters for the channel's own name
+constexpr double kMebibyte = 1 << 20;
+constexpr double kSecondsPerMinute = 60.0;
+
+bool all_of_set(const std::string& text, const char* punctuation) {
+  return std::all_of(text.begin(), text.end(), [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           (c != '\0' && std::string_view(punctuation).find(c) != std::string_view::npos);
+  });
+}
+
+std::string read_name(const TomlTable& table, std::string_view key, const std::string& name) {
+  if (name.empty() || name.size() > kMaxName || !all_of_set(name, "-_")) {
+    table.fail(key, "must be 1 to " + std::to_string(kMaxName) + " letters, digits, - or _");
+  }
+  return name;
+}
+
+fs::path read_path(const TomlTable& table, std::string_view key, const fs::path& folder) {
+  const std::string text = table.text(key);
+  if (text.empty()) table.fail(key, "is empty; give a path");
+  if (text.find('\0') != std::string::npos) table.fail(key, "holds a zero character; give a path");
+  return fs::path(text).is_absolute() ? fs::path(text) : folder / text;
+}
+
+LcmConfig read_lcm(const TomlTable& table) {
+  LcmConfig lcm;
+  lcm.url = table.text_or("url", lcm.url);
+  constexpr std::string_view kProviders[] = {"udpm://", "tcpq://", "file://", "memq://"};
+  if (std::none_of(std::begin(kProviders), std::end(kProviders),
+                   [&](auto word) { return lcm.url.rfind(word, 0) == 0; }) ||
+      lcm.url.find('\0') != std::string::npos) {
+    table.fail("url", "must begin with udpm://, tcpq://, file:// or memq://");
+  }
+  lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
+  if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
+    table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
+  }
+  return lcm;
+}
+
+PublishConfig read_publish(const TomlTable& table) {
+  PublishConfig publish;
+  publish.max_age_s = table.number_or("max_age_s", publish.max_age_s, {0.005, 10.0});
+  publish.status_period_s = 1.0 / table.number_or("status_rate_hz", 1.0 / publish.status_period_s, {0.1, 10.0});
+  publish.bearings = table.boolean_or("bearings", publish.bearings);
+  return publish;
+}
+
+RecordingConfig read_recording(const TomlTable& table, const fs::path& folder) {
+  RecordingConfig recording;
+  recording.directory = read_path(table, "directory", folder);
+  const double default_mib = static_cast<double>(recording.rotate_bytes) / kMebibyte;
+  recording.rotate_bytes =
+      static_cast<std::uint64_t>(table.number_or("rotate_mib", default_mib, {0.01, 65'536.0}) * kMebibyte);
+  recording.rotate_s =
+      table.number_or("rotate_minutes", recording.rotate_s / kSecondsPerMinute, {0.01, 10'080.0}) * kSecondsPerMinute;
+  return recording;
+}
+
+LogConfig read_log(const TomlTable& table, const fs::path& folder) {
+  LogConfig log;
+  log.level = table.choice_or("level", log.level, {"trace", "debug", "info", "warning", "error", "critical", "off"});
+  const std::string sink = table.choice_or("sink", "stderr", {"stderr", "syslog", "file"});
+  if (sink == "syslog") log.sink = LogSink::kSyslog;
+  if (sink == "file") log.sink = LogSink::kFile;
+  if (log.sink == LogSink::kFile) {
+    log.file = read_path(table, "file", folder);
+  } else if (table.has("file")) {
+    table.fail("file", "is used only with sink = \"file\"; set that or remove this key");
+  }
+  return log;
+}
+
+track::TrackOptions read_solve(const TomlTable& table) {
+  track::TrackOptions options;
+  options.solve.sigma_rad =
+      table.number_or("sigma_arcsec", options.solve.sigma_rad * kArcsecPerRad, {0.1, 3600.0}) * kRadPerArcsec;
+  options.solve.rho = table.number_or("rho", options.solve.rho, {0.0, 0.999});
+  options.form =
+      table.integer_or("model_form", 1, 1, 2) == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
+  options.smooth_flashes = table.boolean_or("smooth_flashes", options.smooth_flashes);
+  options.prior_max_age_s = table.number_or("prior_max_age_s", options.prior_max_age_s, {0.0, 60.0});
+  return options;
+}
+
+TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const TargetReader& read_target) {
+  TargetConfig target;
+  target.name = read_name(table, "name", table.text("name"));
+  target.port = table.text("port");
+  if (target.port.empty() || target.port.find('\0') != std::string::npos) {
+    table.fail("port", "must be a terminal device (/dev/…) or replay:FILE");
+  }
+  if (target.is_replay()) {
+    if (target.replay_file().is_relative())
+      target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
+    if (!std::ifstream(target.replay_file()))
+      table.fail("port", target.replay_file().string() + " cannot be opened; check the path");
+  }
+  target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000));
+  target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations);
+  target.track = read_solve(table.table_or_empty("solve"));
+  target.target_file = read_path(table, "target_file", folder);
+  try {
+    const TargetFile file = read_target(target.target_file.string());
+    target.target = file.target;
+    target.shape = file.shape;
+  } catch (const InputError& error) {
+    table.fail("target_file", error.what());
+  }
+  return target;
+}
+
+std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const TargetReader& read_target) {
+  std::vector<TargetConfig> targets;
+  std::set<std::string> names;
+  std::set<std::string> ports;
+  for (const TomlTable& table : root.tables("target")) {
+    targets.push_back(read_target_table(table, folder, read_target));
+    const TargetConfig& target = targets.back();
+    if (!names.insert(target.name).second) table.fail("name", "\"" + target.name + "\" is taken by another target");
+    if (!ports.insert(target.port).second) table.fail("port", "\"" + target.port + "\" is taken by another target");
+  }
+  if (targets.empty()) root.fail("target", "is missing; add a [[target]] with name, port and target_file");
+  return targets;
+}
+
+DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const TargetReader& read_target) {
+  DaemonConfig config;
+  config.source = read_name(root, "source", root.text_or("source", config.source));
+  if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
+  config.lcm = read_lcm(root.table_or_empty("lcm"));
+  config.publish = read_publish(root.table_or_empty("publish"));
+  if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
+  config.log = read_log(root.table_or_empty("log"), folder);
+  config.targets = read_targets(root, folder, read_target);
+  root.reject_unknown();
+  return config;
+}
+
+}  // namespace
+
+DaemonConfig load_daemon_config(const fs::path& file) {
+  return read_root(TomlTable::parse_file(file), file.parent_path(), read_target);
+}
+
+DaemonConfig parse_daemon_config(std::string_view text, const std::string& name, const fs::path& folder,
+                                 const TargetReader& read_target) {
+  return read_root(TomlTable::parse_text(text, name), folder, read_target);
+}
+
+}  // namespace pharos::host

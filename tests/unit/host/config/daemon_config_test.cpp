@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "host/config/load_config.hpp"
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* kOneTarget = "[[target]]\nname = 'dock'\nport = '/dev/ttyUSB0'\ntarget_file = 'dock.csv'\n";
+
+TargetFile any_target(const std::string&) {
+  TargetFile file;
+  file.shape.sensors = 12;
+  return file;
+}
+
+DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", any_target); }
+
+std::string error_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(DaemonConfig, DefaultsSufficeForOneTarget) {
+  const DaemonConfig config = parse(kOneTarget);
+  ASSERT_EQ(config.targets.size(), 1u);
+  EXPECT_EQ(config.targets[0].name, "dock");
+  EXPECT_EQ(config.targets[0].baud, 460'800);
+  EXPECT_EQ(config.targets[0].target_file, "/etc/pharos/dock.csv");
+  EXPECT_EQ(config.targets[0].shape.sensors, 12u);
+  EXPECT_THAT(config.lcm.url, EndsWith("ttl=0"));  // stays on this computer unless told otherwise
+  EXPECT_FALSE(config.recording.has_value());
+  EXPECT_DOUBLE_EQ(config.publish.max_age_s, 0.2);
+  EXPECT_DOUBLE_EQ(config.targets[0].track.solve.sigma_rad, kPaperSigmaRad);
+}
+
+TEST(DaemonConfig, UnderstandsEveryKeyOfTheShippedExample) {
+  // The example shows each key with its default behind a comment sign: with the signs gone it must still be read.
+  std::ifstream in(PHAROS_EXAMPLE_CONFIG);
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    const bool key = line.size() > 1 && line[0] == '#' && (std::islower(line[1]) != 0 || line[1] == '[');
+    text += (key ? line.substr(1) : line) + "\n";
+  }
+  const std::size_t sink = text.find("sink = \"stderr\"");
+  ASSERT_NE(sink, std::string::npos);
+  text.replace(sink, 15, "sink = \"file\"  ");
+  const DaemonConfig config = parse(text);
+  const DaemonConfig defaults = parse(kOneTarget);
+  ASSERT_TRUE(config.recording.has_value());
+  EXPECT_EQ(config.recording->rotate_bytes, RecordingConfig{}.rotate_bytes);
+  EXPECT_EQ(config.recording->rotate_s, RecordingConfig{}.rotate_s);
+  EXPECT_EQ(config.lcm.url, defaults.lcm.url);
+  EXPECT_EQ(config.lcm.channel_prefix, defaults.lcm.channel_prefix);
+  EXPECT_EQ(config.publish.max_age_s, defaults.publish.max_age_s);
+  EXPECT_EQ(config.publish.status_period_s, defaults.publish.status_period_s);
+  EXPECT_EQ(config.publish.bearings, defaults.publish.bearings);
+  EXPECT_EQ(config.source, defaults.source);
+  EXPECT_EQ(config.log.level, defaults.log.level);
+  const TargetConfig& target = config.targets.at(0);
+  EXPECT_EQ(target.baud, defaults.targets[0].baud);
+  EXPECT_EQ(target.remember_calibrations, defaults.targets[0].remember_calibrations);
+  EXPECT_NEAR(target.track.solve.sigma_rad, defaults.targets[0].track.solve.sigma_rad, 1e-15);
+  EXPECT_EQ(target.track.solve.rho, defaults.targets[0].track.solve.rho);
+  EXPECT_EQ(target.track.form, defaults.targets[0].track.form);
+  EXPECT_EQ(target.track.smooth_flashes, defaults.targets[0].track.smooth_flashes);
+  EXPECT_EQ(target.track.prior_max_age_s, defaults.targets[0].track.prior_max_age_s);
+}
+
+TEST(DaemonConfig, ReadsTheShippedExampleAsItStands) {
+  std::ifstream in(PHAROS_EXAMPLE_CONFIG);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(parse(text).targets.size(), 1u);
+}
+
+TEST(DaemonConfig, NamesFileLineAndKeyOfAnUnknownKeyAndTheOneMeant) {
+  EXPECT_THAT(error_of(std::string(kOneTarget) + "bauds = 9600\n"),
+              AllOf(StartsWith("p.toml:5: target[0].bauds:"), HasSubstr("baud\"?")));
+  EXPECT_THAT(error_of(std::string("[lcm]\ncolour = 1\n") + kOneTarget),
+              StartsWith("p.toml:2: lcm.colour: unknown key"));
+  EXPECT_THAT(error_of(std::string("[camera]\n") + kOneTarget), StartsWith("p.toml:1: camera: unknown key"));
+}
+
+struct BadLine {
+  const char* name;
+  const char* text;      // before the target
+  const char* extra;     // inside the target
+  const char* expected;  // start of the message
+};
+
+class DaemonConfigRefuses : public ::testing::TestWithParam<BadLine> {};
+
+TEST_P(DaemonConfigRefuses, WithFileLineAndKey) {
+  const BadLine& bad = GetParam();
+  const std::string message = error_of(std::string(bad.text) + kOneTarget + bad.extra);
+  EXPECT_THAT(message, StartsWith(bad.expected));
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, DaemonConfigRefuses,
+    ::testing::Values(
+        BadLine{"WrongType", "", "baud = 'fast'\n", "p.toml:5: target[0].baud: must be an integer"},
+        BadLine{"FractionForInteger", "", "baud = 9600.5\n", "p.toml:5: target[0].baud: must be an integer"},
+        BadLine{"BaudOutOfRange", "", "baud = 0\n", "p.toml:5: target[0].baud: must lie in"},
+        BadLine{"SigmaOutOfRange", "", "[target.solve]\nsigma_arcsec = -1\n", "p.toml:6: target[0].solve.sigma_arcsec"},
+        BadLine{"RhoOne", "", "[target.solve]\nrho = 1.0\n", "p.toml:6: target[0].solve.rho"},
+        BadLine{"ModelForm3", "", "[target.solve]\nmodel_form = 3\n", "p.toml:6: target[0].solve.model_form"},
+        BadLine{"NotANumber", "[publish]\nmax_age_s = nan\n", "", "p.toml:2: publish.max_age_s: must be a finite"},
+        BadLine{"AgeZero", "[publish]\nmax_age_s = 0\n", "", "p.toml:2: publish.max_age_s"},
+        BadLine{"NoProvider", "[lcm]\nurl = '239.255.76.67'\n", "", "p.toml:2: lcm.url: must begin with"},
+        BadLine{"PrefixWithBlank", "[lcm]\nchannel_prefix = 'A B'\n", "", "p.toml:2: lcm.channel_prefix"},
+        BadLine{"LogLevel", "[log]\nlevel = 'loud'\n", "", "p.toml:2: log.level: must be one of"},
+        BadLine{"FileWithoutSink", "[log]\nfile = 'x'\n", "", "p.toml:2: log.file: is used only"},
+        BadLine{"SinkWithoutFile", "[log]\nsink = 'file'\n", "", "p.toml:1: log.file: is missing"},
+        BadLine{"RecordingNowhere", "[recording]\nrotate_mib = 1\n", "", "p.toml:1: recording.directory: is missing"},
+        BadLine{"NotToml", "[lcm\n", "", "p.toml:1: not valid TOML"},
+        BadLine{"KeyTwice", "source = 'a'\nsource = 'b'\n", "", "p.toml:2: not valid TOML"},
+        BadLine{"SameName", "", "[[target]]\nname = 'dock'\nport = '/dev/b'\ntarget_file = 'b.csv'\n",
+                "p.toml:6: target[1].name: \"dock\" is taken"},
+        BadLine{"SamePort", "", "[[target]]\nname = 'b'\nport = '/dev/ttyUSB0'\ntarget_file = 'b.csv'\n",
+                "p.toml:7: target[1].port: \"/dev/ttyUSB0\" is taken"},
+        BadLine{"NoReplayFile", "", "[[target]]\nname = 'b'\nport = 'replay:gone'\ntarget_file = 'b.csv'\n",
+                "p.toml:7: target[1].port: /etc/pharos/gone cannot be opened"}),
+    [](const auto& entry) { return entry.param.name; });
+
+TEST(DaemonConfig, RefusesAFileWithoutATarget) {
+  EXPECT_THAT(error_of("source = 'x'\n"), HasSubstr("add a [[target]]"));
+  EXPECT_THAT(error_of(""), HasSubstr("target: is missing"));
+}
+
+class TargetFileIn : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "p.toml") << kOneTarget;
+  }
+  std::string load_with(const std::string& target_rows) const {
+    std::ofstream(folder_ / "dock.csv") << "sensor,x_m,y_m,z_m\n" << target_rows;
+    try {
+      return describe(load_daemon_config(folder_ / "p.toml"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(TargetFileIn, ASensorTwiceIsToldWithBothFilesAndLines) {
+  EXPECT_THAT(load_with("0,0,0,0\n1,0.1,0,0\n2,0,0.1,0\n1,0,0,0.1\n"),
+              AllOf(HasSubstr("p.toml:4: target[0].target_file:"), HasSubstr("dock.csv: line 5")));
+}
+
+TEST_F(TargetFileIn, AMissingFileIsTold) {
+  const std::string message = [&] {
+    try {
+      return describe(load_daemon_config(folder_ / "p.toml"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  }();
+  EXPECT_THAT(message, AllOf(HasSubstr("p.toml:4: target[0].target_file:"), HasSubstr("dock.csv")));
+}
+
+TEST_F(TargetFileIn, SensorsInOnePlaneAreTakenAndRemarked) {
+  EXPECT_THAT(load_with("0,0,0,0\n1,0.1,0,0\n2,0,0.1,0\n3,0.1,0.1,0\n"), HasSubstr("all in one plane"));
+}
+
+TEST_F(TargetFileIn, TooFewSensorsAreRefused) {
+  EXPECT_THAT(load_with("0,0,0,0\n1,0.1,0,0\n"), HasSubstr("target[0].target_file:"));
+}
+
+TEST(DaemonConfig, AMissingConfigurationIsTold) { EXPECT_THROW(load_daemon_config("/nowhere/p.toml"), InputError); }
+
+}  // namespace
+}  // namespace pharos::host
