@@ -25,20 +25,21 @@ struct SolveOptions {
   Residual residual = Residual::kAngle;
   int max_iterations = 20;
   bool look_for_second = true;
-  /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped first.
+  /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped
+  /// first.
   double max_reduced_chi2 = 1e4;
 };
 
 /// Why no pose can be had.
 enum class Refusal : std::uint8_t {
   kNone,
-  kTooFewSensors,    // fewer than four sensors with bearings (three with a prior), or fewer than six angles
-  kUnknownSensors,   // bearings of sensors that the target has not
-  kDegenerate,       // the sensors seen leave a degree of freedom open
+  kTooFewSensors,   // fewer than four sensors with bearings (three with a prior), or fewer than six angles
+  kUnknownSensors,  // bearings of sensors that the target has not
+  kDegenerate,      // the sensors seen leave a degree of freedom open
   kNotConverged,
-  kPoorFit,          // nothing rigid fits the bearings
-  kBehindStation,    // the only fit lies behind the station
-  kBadInput,         // a bearing outside (0, pi) or not finite
+  kPoorFit,        // nothing rigid fits the bearings
+  kBehindStation,  // the only fit lies behind the station
+  kBadInput,       // a bearing outside (0, pi) or not finite
 };
 
 /// A pose and which observations it used (index as given).
