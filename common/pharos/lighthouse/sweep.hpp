@@ -18,8 +18,8 @@ struct Flash {
   std::int32_t length_ticks = 0;
   std::uint8_t station = 0;  // 0 first flash of the slot or a lone station, 1 second
   Axis axis = Axis::kX;
-  bool data = false;  // one OOTX bit
-  bool skip = false;  // the station's laser is dark in this slot
+  bool data = false;         // one OOTX bit
+  bool skip = false;         // the station's laser is dark in this slot
   std::uint8_t sensors = 0;  // how many sensors saw it
 };
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "pharos/base/capacity.hpp"
+#include "pharos/base/static_vector.hpp"
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/station_calibration.hpp"
+
+namespace pharos::lighthouse {
+
+/// Which calibration each station uses, and every one that was ever accepted.
+///
+/// A CRC of 32 bits lets a false payload through now and then, and a changed calibration moves every pose: so one is
+/// taken for use only when its id and calibration fields came twice, one after the other (acceleration and counters may
+/// differ), or when it equals one accepted before (also in an earlier run: remember()). When the memory is full the one
+/// that was accepted longest ago and is not in use makes room.
+class CalibrationStore {
+ public:
+  static constexpr std::size_t kMemory = 8;
+
+  enum class Verdict : std::uint8_t {
+    kUnreadable,  // no fields (see OotxError): nothing changed
+    kFirstTime,   // waits for its confirmation
+    kUnchanged,   // the one in use
+    kTakenIntoUse,
+  };
+
+  Verdict push(const OotxPayload& payload);
+  /// Preloads a calibration that was accepted before. It is used only once its station says the same.
+  void remember(const StationCalibration& calibration);
+  /// Forgets which station is which (a new recording), not what was accepted.
+  void forget_stations();
+
+  /// Calibration in use for a station number; null until there is one.
+  const StationCalibration* in_use(std::uint8_t station) const;
+  /// Id that a station last took into use; 0 where unknown.
+  std::uint32_t id_of(std::uint8_t station) const;
+  /// Every calibration accepted, oldest first.
+  std::span<const StationCalibration> accepted() const { return {accepted_.data(), accepted_.size()}; }
+
+ private:
+  struct Station {
+    std::optional<StationCalibration> in_use;
+    std::optional<StationCalibration> candidate;
+  };
+  bool is_remembered(const StationCalibration& calibration) const;
+  bool is_in_use(std::uint32_t id) const;
+
+  std::array<Station, kMaxStations> station_;
+  StaticVector<StationCalibration, kMemory> accepted_;
+};
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/lighthouse/decoder.hpp"
+
+#include "pharos/lighthouse/optical_timing.hpp"
+
+namespace pharos::lighthouse {
+namespace {
+
+/// A pulse that falls this long before the newest stamp has no elder still to come.
+constexpr std::int64_t kHoldTicks = TimeBase::kMaxBehindTicks;
+
+}  // namespace
+
+void Decoder::push(const Edge& edge) {
+  ++counters_.edges_in;
+  if (edge.sensor >= kMaxSensors) {
+    ++counters_.edges_bad_sensor;
+    return;
+  }
+  admit({edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall});
+}
+
+void Decoder::push(const RawPulse& pulse) {
+  ++counters_.pulses_in;
+  if (pulse.sensor >= kMaxSensors) {
+    ++counters_.pulses_bad_sensor;
+    return;
+  }
+  // As unsigned: no overflow for whatever was read from a file.
+  const auto width = static_cast<std::int64_t>(static_cast<std::uint64_t>(pulse.fall_ticks) -
+                                               static_cast<std::uint64_t>(pulse.rise_ticks));
+  if (width > kLongestPulseTicks) {
+    ++counters_.pulses_too_long;
+  } else if (width < kShortestPulseTicks) {
+    ++counters_.pulses_glitch;
+  } else {
+    admit({pulse.fall_ticks, static_cast<std::int32_t>(width), pulse.sensor, LightEvent::Kind::kPulse});
+  }
+}
+
+void Decoder::admit(LightEvent event) {
+  if (time_base_.fits_at_once(event)) {
+    sort_in(event);
+    give_out_until(time_base_.newest_ticks() - kHoldTicks);
+  } else {
+    judge(event);
+  }
+}
+
+void Decoder::judge(LightEvent event) {
+  TimeBase::GivenUp given_up;
+  const std::int64_t newest_before = time_base_.newest_ticks();
+  switch (time_base_.judge(event, decoded_ticks(), given_up)) {
+    case TimeBase::Verdict::kFits:
+      sort_in(event);
+      give_out_until(time_base_.newest_ticks() - kHoldTicks);
+      break;
+    case TimeBase::Verdict::kHeld:
+      break;
+    case TimeBase::Verdict::kMoved:
+      time_moved(newest_before);
+      break;
+    case TimeBase::Verdict::kAbsurd:
+      ++(event.kind == LightEvent::Kind::kPulse ? given_up.off_time_pulses : given_up.off_time_edges);
+      break;
+  }
+  count_given_up(given_up);
+}
+
+void Decoder::count_given_up(const TimeBase::GivenUp& given_up) {
+  counters_.pulses_late += given_up.late_pulses;
+  counters_.pulses_off_time += given_up.off_time_pulses;
+  counters_.edges_late += given_up.late_edges;
+  counters_.edges_off_time += given_up.off_time_edges;
+}
+
+void Decoder::time_moved(std::int64_t newest_before) {
+  ++counters_.time_base_changes;
+  const std::int64_t newest = time_base_.newest_ticks();
+  if (newest < newest_before) {
+    // What the old base let in from the future is not of this time.
+    LightEvent dropped;
+    while (order_.drop_after(newest + TimeBase::kMaxAheadTicks, dropped)) {
+      ++(dropped.kind == LightEvent::Kind::kPulse ? counters_.pulses_off_time : counters_.edges_off_time);
+    }
+  } else {
+    give_out_until(newest_before);
+  }
+  std::int64_t oldest = newest;
+  for (const LightEvent& event : time_base_.held()) oldest = event.stamp_ticks < oldest ? event.stamp_ticks : oldest;
+  if (newest_before - newest > TimeBase::kMaxAheadTicks) order_.restart_at(oldest);
+  for (const LightEvent& event : time_base_.held()) sort_in(event);
+  time_base_.forget_held();
+  give_out_until(newest - kHoldTicks);
+}
+
+void Decoder::sort_in(const LightEvent& event) {
+  if (order_.full()) handle(order_.pop());
+  const bool pulse = event.kind == LightEvent::Kind::kPulse;
+  switch (order_.insert(event)) {
+    case EventOrder::Verdict::kTaken:
+      break;
+    case EventOrder::Verdict::kDoubled:
+      ++(pulse ? counters_.pulses_doubled : counters_.edges_doubled);
+      break;
+    case EventOrder::Verdict::kLate:
+      ++(pulse ? counters_.pulses_late : counters_.edges_late);
+      break;
+  }
+}
+
+void Decoder::give_out_until(std::int64_t stamp_ticks) {
+  while (order_.has_before(stamp_ticks)) handle(order_.pop());
+  pass_time(stamp_ticks);
+}
+
+void Decoder::handle(const LightEvent& event) {
+  if (event.kind == LightEvent::Kind::kPulse) {
+    handle(Pulse{event.stamp_ticks - event.width_ticks, event.width_ticks, event.sensor});
+    return;
+  }
+  if (const auto pulse = pairing_.push(event, counters_)) {
+    if (pulse->width_ticks < kShortestPulseTicks) {
+      ++counters_.pulses_glitch;
+    } else {
+      handle(*pulse);
+    }
+  }
+}
+
+void Decoder::handle(const Pulse& pulse) {
+  pass_time(pulse.fall_ticks());
+  std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
+  const std::uint32_t bit = std::uint32_t{1} << pulse.sensor;
+  const std::int64_t overlap = last_fall - pulse.rise_ticks;
+  // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
+  if ((fell_ & bit) != 0 && overlap > 0 && overlap <= kLongestPulseTicks) {
+    ++counters_.pulses_doubled;
+    return;
+  }
+  fell_ |= bit;
+  last_fall = pulse.fall_ticks();
+  if (pulse.width_ticks < kShortestFlashPulseTicks) {
+    collector_.push(pulse, counters_);
+    return;
+  }
+  while (!grouping_.push(pulse)) close(grouping_.first_to_close());
+}
+
+void Decoder::pass_time(std::int64_t now_ticks) {
+  while (now_ticks > grouping_.deadline_ticks()) close(grouping_.first_to_close());
+  if (now_ticks > collector_.deadline_ticks()) collector_.pass_time(now_ticks, counters_);
+}
+
+void Decoder::close(FlashGroup& group) {
+  const FlashCandidate candidate = candidate_of(group);
+  if (candidate.length_ticks < kShortestFlashTicks) {
+    for (const Pulse& pulse : group.pulses) collector_.push(pulse, counters_);
+  } else {
+    const auto flash = tracker_.push(candidate, counters_);
+    (flash ? counters_.pulses_in_flashes : counters_.pulses_flash_length) += candidate.sensors;
+    if (flash) handle(*flash);
+  }
+  grouping_.close(group);
+}
+
+void Decoder::handle(const TrackedFlash& flash) {
+  collector_.push(flash, counters_);
+  const std::uint8_t station = flash.flash.station;
+  const auto bytes = ootx_[station].push(flash.flash.data, flash.follows_last, counters_);
+  if (bytes && !payloads_.push({flash.flash.start_ticks, station, *bytes})) ++counters_.outputs_overflow;
+}
+
+std::int64_t Decoder::decoded_ticks() const { return tracker_.last_flash_ticks(); }
+
+void Decoder::advance(std::int64_t now_ticks) {
+  time_base_.advance(now_ticks);
+  give_out_until(time_base_.newest_ticks());
+}
+
+void Decoder::flush() {
+  TimeBase::GivenUp given_up;
+  const std::int64_t newest_before = time_base_.newest_ticks();
+  if (time_base_.end(given_up) == TimeBase::Verdict::kMoved) time_moved(newest_before);
+  count_given_up(given_up);
+  while (!order_.empty()) handle(order_.pop());
+  pass_time(INT64_MAX - 1);
+  collector_.finish_all(counters_);
+}
+
+std::optional<Sweep> Decoder::take_sweep() {
+  if (!collector_.has_finished()) return std::nullopt;
+  return collector_.take();
+}
+
+std::optional<OotxPayload> Decoder::take_ootx() {
+  if (payloads_.empty()) return std::nullopt;
+  return payloads_.pop();
+}
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pharos::lighthouse {
+
+/// What the front door sorts and puts on the time base: a whole pulse (stamped at its fall) or one edge.
+struct LightEvent {
+  enum class Kind : std::uint8_t { kPulse, kRise, kFall };
+
+  std::int64_t stamp_ticks = 0;
+  std::int32_t width_ticks = 0;  // of a pulse
+  std::uint8_t sensor = 0;
+  Kind kind = Kind::kPulse;
+
+  bool same_as(const LightEvent& other) const {
+    return stamp_ticks == other.stamp_ticks && sensor == other.sensor && kind == other.kind;
+  }
+};
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::lighthouse {
+
+// The timing of Lighthouse 1.0 light, 20 ns ticks. Public sources count at 48 MHz; their numbers times 50/48 are these.
+// "Measured" means: on 18 real streams of several makers' devices.
+
+/// One turn of a rotor (60 Hz) and one slot: the rotors of a station sweep alternately.
+inline constexpr std::int32_t kTurnTicks = 833'333;
+inline constexpr std::int32_t kSlotTicks = 416'667;
+
+/// Nominal length of a flash: 62.5 us + 10.417 us * (axis + 2 data + 4 skip). Indexed by that code.
+inline constexpr std::array<std::int32_t, 8> kFlashLengthTicks = {3125, 3646, 4167, 4688, 5208, 5729, 6250, 6771};
+/// What the data bit adds to the length.
+inline constexpr std::int32_t kDataLengthTicks = 1042;
+
+constexpr std::uint32_t flash_code(Axis axis, bool data, bool skip) {
+  return static_cast<std::uint32_t>(index_of(axis)) + (data ? 2U : 0U) + (skip ? 4U : 0U);
+}
+
+/// Second station's flash after the first's: median 20,390-20,415, extremes 19,716-20,888 (measured).
+inline constexpr std::int32_t kSecondFlashTicks = 20'400;
+
+/// No pulse of a station is longer: 6771 nominal, 6841 measured, and a tenth for what stretches.
+inline constexpr std::int32_t kLongestPulseTicks = 7500;
+/// Shorter ones are glitches: the shortest laser hit measured is 28 ticks, and below 50 they are noise.
+inline constexpr std::int32_t kShortestPulseTicks = 16;
+/// Pulses from here on may be a weak sensor's view of a flash; the longest laser hit measured is 1381.
+inline constexpr std::int32_t kShortestFlashPulseTicks = 1500;
+/// The longest pulse of a flash is at least this: nominal 3125, measured 2925 where the strongest sensor is weak.
+inline constexpr std::int32_t kShortestFlashTicks = 2600;
+/// Pulses of one flash rise within this of one another: a weak sensor is up to 670 late (measured).
+inline constexpr std::int32_t kFlashRiseSpreadTicks = 1300;
+
+/// A hit lies this far behind its flash: measured 1.49-6.25 ms; 1.2-6.6 ms leaves room for a wider field of view.
+inline constexpr std::int32_t kSweepWindowBeginTicks = 60'000;
+inline constexpr std::int32_t kSweepWindowEndTicks = 330'000;
+
+/// Input may come this much out of order (200 us), counted at rise or at fall.
+inline constexpr std::int32_t kReorderTicks = 10'000;
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/lighthouse/rotor_clock.hpp"
+
+#include <algorithm>
+
+namespace pharos::lighthouse {
+namespace {
+
+// Measured: 99 % of same-rotor flashes within 40 ticks of the prediction after one turn. Three times that, and 40 more
+// for every turn not seen.
+constexpr std::int32_t kToleranceTicks = 120;
+constexpr std::int32_t kToleranceGrowthTicks = 40;
+/// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %).
+constexpr std::int64_t kPeriodSlackTicks = 833;
+/// Longest gap over which extrapolate() answers (2^31 units of 1/2 tick would be 21 s; counts of turns have no limit).
+constexpr std::int64_t kLongestExtrapolationTicks = 300 * kTicksPerSecond;
+
+}  // namespace
+
+RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
+  const std::int64_t elapsed = start_ticks - last_ticks_;
+  if (!known() || elapsed < 0 || elapsed > kLongestExtrapolationTicks) return {};
+  const std::int64_t period = period_;
+  const std::int64_t turns = (elapsed * kUnits + period / 2) / period;
+  const std::int64_t residual = elapsed - (turns * period + kUnits / 2) / kUnits;
+  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), turns > 0};
+}
+
+RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
+  if (start_ticks - last_ticks_ > std::int64_t{kLongestGapTurns + 1} * kTurnTicks) return {};
+  Fit fit = extrapolate(start_ticks);
+  const std::int32_t tolerance = kToleranceTicks + kToleranceGrowthTicks * fit.turns;
+  fit.within = fit.within && fit.turns <= kLongestGapTurns && fit.residual_ticks <= tolerance &&
+               fit.residual_ticks >= -tolerance;
+  return fit;
+}
+
+void RotorClock::update(std::int64_t start_ticks, std::uint32_t slot) {
+  const Fit since = extrapolate(start_ticks);
+  if (known() && since.turns > 0 && since.turns <= kLongestGapTurns) {
+    const std::int64_t turn = (start_ticks - last_ticks_) * kUnits / since.turns;
+    const std::int64_t off_nominal = turn - kNominalPeriod;
+    if (off_nominal < kPeriodSlackTicks * kUnits && off_nominal > -kPeriodSlackTicks * kUnits) {
+      const std::int64_t weight = std::min(count_, kAveragedTurns);
+      period_ = static_cast<std::uint32_t>(period_ + (turn - period_) / weight);
+      ++count_;
+    }
+  } else {
+    count_ = 1;
+    period_ = kNominalPeriod;
+  }
+  last_ticks_ = start_ticks;
+  last_slot_ = slot;
+}
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/lighthouse/optical_timing.hpp"
+
+namespace pharos::lighthouse {
+
+/// What is known of one rotor's turning: when it flashed last and how long a turn takes. Integers only.
+///
+/// The two rotors of a station are not locked to each other (99 % of flashes lie within 420-450 ticks of half a turn
+/// after the other's), but each follows itself (99 % within 40 ticks of one turn after its last): so each has its own
+/// clock.
+class RotorClock {
+ public:
+  /// Turns after which the last flash says nothing any more (0.5 s).
+  static constexpr std::int32_t kLongestGapTurns = 30;
+
+  struct Fit {
+    std::int32_t turns = 0;           // since the last flash, at least 1
+    std::int32_t residual_ticks = 0;  // flash minus prediction
+    bool within = false;              // of what a rotor may drift in so many turns
+  };
+
+  bool known() const { return count_ > 0; }
+  /// Two flashes at least: the turn is measured.
+  bool measured() const { return count_ > 1; }
+  void forget() { *this = {}; }
+  std::int64_t last_ticks() const { return last_ticks_; }
+  std::uint32_t last_slot() const { return last_slot_; }
+  std::uint32_t period_sixteenth_ticks() const { return (period_ + 8) / 16; }
+
+  /// How a flash at `start_ticks` fits this rotor; never within when it is unknown or silent for too long.
+  Fit fit(std::int64_t start_ticks) const;
+  /// Turns and remainder since the last flash, over any time: to know a station again after the dark.
+  Fit extrapolate(std::int64_t start_ticks) const;
+  void update(std::int64_t start_ticks, std::uint32_t slot);
+
+ private:
+  // Turns are noisy by 10 ticks and far steadier than that: 16 of them are averaged.
+  static constexpr std::uint32_t kAveragedTurns = 16;
+  static constexpr std::uint32_t kUnits = 256;  // of a tick, in period_
+  static constexpr std::uint32_t kNominalPeriod = 213'333'333;
+
+  std::int64_t last_ticks_ = 0;
+  std::uint32_t period_ = kNominalPeriod;
+  std::uint32_t last_slot_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace pharos::lighthouse

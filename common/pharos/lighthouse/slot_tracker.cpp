@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/lighthouse/slot_tracker.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace pharos::lighthouse {
+namespace {
+
+/// Once place and so axis and skip are known only the data bit is open: the margin is half of its step.
+constexpr std::int32_t kLengthMarginTicks = kDataLengthTicks / 2;
+/// Half a turn after the station's other rotor: 470 ticks cover 99 %; drift over some turns comes on top.
+constexpr std::int64_t kOtherRotorToleranceTicks = 1000;
+/// The other station's lag varies by 700 around its median.
+constexpr std::int64_t kOtherStationToleranceTicks = 1700;
+/// A pattern must explain this many more groups than the present lock did before it replaces it.
+constexpr std::uint32_t kSupersedesBy = 3;
+constexpr std::uint32_t kSuspiciousRejections = 5;
+/// Two stations' flashes are 20,400 ticks apart: nearer than half of that is the same station.
+constexpr std::int32_t kSamePhaseTicks = kSecondFlashTicks / 2 - 200;
+/// Slots of which at least 12 must have been seen for an untroubled lock.
+constexpr std::uint32_t kQualitySlots = 16;
+constexpr int kGoodQuality = 12;
+/// Slot numbers start here so that looking back from the first lock does not pass zero; a multiple of the cycle.
+constexpr std::uint32_t kFirstSlot = 1024;
+
+std::uint32_t recent(std::uint32_t seen) { return seen & ((1U << kQualitySlots) - 1U); }
+
+}  // namespace
+
+bool SlotTracker::skips(const SlotPlace& place) const {
+  return kind_ != SlotPattern::Kind::kNeverSkips && skip_of_slot(place.slot, place.position);
+}
+
+SlotTracker::Place SlotTracker::expected_place(std::int64_t start_ticks) const {
+  Place best;
+  std::int32_t best_residual = INT32_MAX;
+  for (std::uint8_t position = 0; position < kMaxStations; ++position) {
+    for (const RotorClock& rotor : station_[position].rotor) {
+      const RotorClock::Fit fit = rotor.fit(start_ticks);
+      const std::int32_t residual = fit.residual_ticks < 0 ? -fit.residual_ticks : fit.residual_ticks;
+      if (!fit.within || residual >= best_residual) continue;
+      best_residual = residual;
+      best = {{position, rotor.last_slot() + 2U * static_cast<std::uint32_t>(fit.turns)}, true};
+    }
+  }
+  return best.found ? best : place_by_sibling(start_ticks);
+}
+
+SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const {
+  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurnTicks;
+  for (std::uint8_t position = 0; position < kMaxStations; ++position) {
+    for (std::uint8_t other = 0; other < kMaxStations; ++other) {
+      if (other != position && kind_ != SlotPattern::Kind::kBoth) continue;
+      const std::int64_t lag = std::int64_t{position - other} * kSecondFlashTicks;
+      const std::int64_t tolerance = other == position ? kOtherRotorToleranceTicks : kOtherStationToleranceTicks;
+      for (const RotorClock& sibling : station_[other].rotor) {
+        const std::int64_t elapsed = start_ticks - sibling.last_ticks() - lag;
+        if (!sibling.known() || elapsed < -kSlotTicks / 2 || elapsed > kLongestGap) continue;
+        const std::int64_t slots = (elapsed + kSlotTicks / 2) / kSlotTicks;
+        const std::int64_t residual = elapsed - slots * kSlotTicks;
+        if (residual > tolerance || residual < -tolerance) continue;
+        const std::uint32_t slot = sibling.last_slot() + static_cast<std::uint32_t>(slots);
+        const Station& station = station_[position];
+        const RotorClock& own = station.rotor[slot & 1U];
+        const bool own_speaks = own.known() && start_ticks - own.last_ticks() <= kLongestGap;
+        if (!own_speaks && (!station.known || slot != station.last_slot)) return {{position, slot}, true};
+      }
+    }
+  }
+  return {};
+}
+
+bool SlotTracker::length_is_credible(std::int32_t length, const SlotPlace& place) const {
+  const std::int32_t shortest = kFlashLengthTicks[flash_code(axis_of_slot(place.slot), false, skips(place))];
+  return length > shortest - kLengthMarginTicks && length < shortest + kDataLengthTicks + kLengthMarginTicks;
+}
+
+TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const SlotPlace& place, DecoderCounters& counters) {
+  Station& station = station_[place.position];
+  TrackedFlash tracked;
+  Flash& flash = tracked.flash;
+  flash.start_ticks = candidate.start_ticks;
+  flash.length_ticks = candidate.length_ticks;
+  flash.station = number_[place.position];
+  flash.axis = axis_of_slot(place.slot);
+  flash.skip = skips(place);
+  flash.sensors = candidate.sensors;
+  const std::int32_t without_data = kFlashLengthTicks[flash_code(flash.axis, false, flash.skip)];
+  flash.data = candidate.length_ticks > without_data + kDataLengthTicks / 2;
+
+  const std::uint32_t slots = place.slot - station.last_slot;
+  tracked.follows_last = station.known && slots == 1;
+  if (station.known && slots > 1) counters.flashes_missed += slots - 1;
+  station.seen = (slots < 32 ? station.seen << slots : 0U) | 1U;
+  station.last_slot = place.slot;
+  station.known = true;
+  last_flash_ticks_ = std::max(last_flash_ticks_, candidate.start_ticks);
+
+  RotorClock& rotor = station.rotor[static_cast<std::size_t>(index_of(flash.axis))];
+  rotor.update(candidate.start_ticks, place.slot);
+  tracked.period_sixteenth_ticks = rotor.period_sixteenth_ticks();
+  if (!rotor.measured()) tracked.flags |= kSweepPeriodNominal;
+  const std::int32_t nominal = without_data + (flash.data ? kDataLengthTicks : 0);
+  constexpr std::int32_t kWeakTicks = 100;  // strong flashes are at most 47 shorter than nominal (measured)
+  if (candidate.length_ticks < nominal - kWeakTicks) tracked.flags |= kSweepFlashWeak;
+  if (std::popcount(recent(station.seen)) < kGoodQuality) tracked.flags |= kSweepLockPoor;
+  return tracked;
+}
+
+void SlotTracker::assign_numbers(SlotPattern& pattern) {
+  // A station known from before the gap is the one whose rotor's phase continues.
+  std::array<int, kMaxStations> number{-1, -1};
+  for (std::size_t age = 0; numbers_given_ && age < search_.size(); ++age) {
+    const auto place = search_.place(age, pattern);
+    if (!place) continue;
+    for (std::size_t before = 0; before < kMaxStations; ++before) {
+      const RotorClock& rotor = station_[before].rotor[place->slot & 1U];
+      const RotorClock::Fit fit = rotor.extrapolate(search_.candidate(age).start_ticks);
+      if (!fit.within || fit.residual_ticks > kSamePhaseTicks || fit.residual_ticks < -kSamePhaseTicks) continue;
+      const std::uint32_t slot_then = rotor.last_slot() + 2U * static_cast<std::uint32_t>(fit.turns);
+      const bool one_of_two = pattern.kind == SlotPattern::Kind::kOneOfTwo && kind_ != SlotPattern::Kind::kNeverSkips;
+      const bool same_skip =
+          skip_of_slot(slot_then, static_cast<std::uint8_t>(before)) == skip_of_slot(place->slot, place->position);
+      if (one_of_two && !same_skip) continue;
+      if (number[place->position] < 0) number[place->position] = number_[before];
+      if (one_of_two && before == 1) {
+        // The second station alone: number its slots as the second's.
+        pattern.newest = {1, pattern.newest.slot + 2U};
+        number = {-1, number_[before]};
+        age = search_.size();
+      }
+      break;
+    }
+  }
+  if (number[0] < 0 && number[1] < 0) {
+    number = {0, 1};
+  } else if (number[0] < 0) {
+    number[0] = 1 - number[1];
+  } else {
+    number[1] = 1 - number[0];
+  }
+  for (std::size_t position = 0; position < kMaxStations; ++position) {
+    number_[position] = static_cast<std::uint8_t>(number[position]);
+  }
+  numbers_given_ = true;
+}
+
+std::optional<TrackedFlash> SlotTracker::adopt(SlotPattern pattern, DecoderCounters& counters) {
+  if (locked_) lose(counters);
+  assign_numbers(pattern);
+  pattern.newest.slot += kFirstSlot;
+  kind_ = pattern.kind;
+  for (Station& station : station_) station = {};
+  std::optional<TrackedFlash> newest;
+  DecoderCounters unused;  // the groups of the search were counted when they came
+  for (std::size_t age = search_.size(); age-- > 0;) {
+    const auto place = search_.place(age, pattern);
+    if (!place || !length_is_credible(search_.candidate(age).length_ticks, *place)) continue;
+    const TrackedFlash flash = accept(search_.candidate(age), *place, unused);
+    if (age == 0) newest = flash;
+  }
+  locked_ = true;
+  ++counters.locks;
+  return newest;
+}
+
+void SlotTracker::lose(DecoderCounters& counters) {
+  locked_ = false;
+  ++counters.locks_lost;
+}
+
+bool SlotTracker::supersedes(const SlotPattern& pattern) const {
+  if (!locked_) return true;
+  const std::uint32_t explained_now = static_cast<std::uint32_t>(search_.size()) - search_.rejected();
+  return pattern.explained >= explained_now + kSupersedesBy;
+}
+
+std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, DecoderCounters& counters) {
+  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurnTicks;
+  if (locked_ && candidate.start_ticks - last_flash_ticks_ > kLongestGap) {
+    lose(counters);
+    search_.clear();
+  }
+  Place expected;
+  if (locked_) expected = expected_place(candidate.start_ticks);
+  const bool accepted = expected.found && length_is_credible(candidate.length_ticks, expected.place);
+  search_.push(candidate, accepted);
+  if (accepted) {
+    ++counters.flashes;
+    return accept(candidate, expected.place, counters);
+  }
+  if (!locked_ || search_.recently_rejected() >= kSuspiciousRejections) {
+    const auto pattern = search_.find();
+    if (pattern && supersedes(*pattern)) {
+      const auto flash = adopt(*pattern, counters);
+      if (flash) {
+        ++counters.flashes;
+        return flash;
+      }
+    }
+  }
+  ++(locked_ ? counters.flashes_rejected : counters.flashes_before_lock);
+  return std::nullopt;
+}
+
+LockState SlotTracker::lock(std::int64_t now_ticks) const {
+  LockState state;
+  state.locked = locked_;
+  for (std::size_t position = 0; position < kMaxStations; ++position) {
+    const Station& station = station_[position];
+    if (!locked_ || !station.known) continue;
+    const RotorClock& rotor = station.rotor[station.last_slot & 1U];
+    const std::int64_t gone = std::max<std::int64_t>(0, now_ticks - rotor.last_ticks()) / kSlotTicks;
+    const std::uint32_t seen = gone < 32 ? station.seen << static_cast<std::uint32_t>(gone) : 0U;
+    LockState::Station& out = state.station[number_[position]];
+    out.quality = static_cast<std::uint8_t>(std::popcount(recent(seen)));
+    out.seen = out.quality > 0;
+  }
+  return state;
+}
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "pharos/base/capacity.hpp"
+#include "pharos/lighthouse/decoder_counters.hpp"
+#include "pharos/lighthouse/flash_grouping.hpp"
+#include "pharos/lighthouse/rotor_clock.hpp"
+#include "pharos/lighthouse/slot_search.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+
+namespace pharos::lighthouse {
+
+/// A flash-like group that was recognised as a station's flash.
+struct TrackedFlash {
+  Flash flash;
+  std::uint32_t period_sixteenth_ticks = 0;
+  std::uint8_t flags = 0;     // of SweepFlag
+  bool follows_last = false;  // the same station's flash one slot earlier was seen too: no OOTX bit is missing between
+};
+
+/// How well the slot cycle is known.
+struct LockState {
+  bool locked = false;
+  struct Station {
+    bool seen = false;         // at least one flash in the last 16 slots
+    std::uint8_t quality = 0;  // flashes recognised in the last 16 slots, 0..16
+  };
+  std::array<Station, kMaxStations> station;  // by station number
+};
+
+/// Finds the slot cycle of one or two stations and names every flash: station, axis, skip, data.
+///
+/// Locked, a flash is expected from the same rotor one turn (or some) earlier, and only its data bit is read from its
+/// length. Lock is lost when no flash fitted for half a second, or when the last groups show another cycle more clearly
+/// than the present one (a station restarted). A station that is seen again after the dark keeps its number when its
+/// rotors' phase says that it is the same one.
+class SlotTracker {
+ public:
+  std::optional<TrackedFlash> push(const FlashCandidate& candidate, DecoderCounters& counters);
+  bool locked() const { return locked_; }
+  LockState lock(std::int64_t now_ticks) const;
+  /// Time of the last flash ever recognised, or INT64_MIN.
+  std::int64_t last_flash_ticks() const { return last_flash_ticks_; }
+
+ private:
+  struct Station {
+    std::array<RotorClock, kAxes> rotor;
+    std::uint32_t last_slot = 0;
+    std::uint32_t seen = 0;  // bit 0: slot last_slot, bit n: n slots earlier
+    bool known = false;      // has flashed under the present lock
+  };
+
+  struct Place {
+    SlotPlace place;
+    bool found = false;
+  };
+
+  Place expected_place(std::int64_t start_ticks) const;
+  Place place_by_sibling(std::int64_t start_ticks) const;
+  bool skips(const SlotPlace& place) const;
+  bool length_is_credible(std::int32_t length, const SlotPlace& place) const;
+  TrackedFlash accept(const FlashCandidate& candidate, const SlotPlace& place, DecoderCounters& counters);
+  bool supersedes(const SlotPattern& pattern) const;
+  std::optional<TrackedFlash> adopt(SlotPattern pattern, DecoderCounters& counters);
+  void assign_numbers(SlotPattern& pattern);
+  void lose(DecoderCounters& counters);
+
+  bool locked_ = false;
+  SlotPattern::Kind kind_ = SlotPattern::Kind::kNeverSkips;
+  std::array<Station, kMaxStations> station_;            // by position in the slot
+  std::array<std::uint8_t, kMaxStations> number_{0, 1};  // station number of a position
+  bool numbers_given_ = false;
+  std::int64_t last_flash_ticks_ = INT64_MIN;
+  SlotSearch search_;
+};
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/lighthouse/sweep_collector.hpp"
+
+#include <algorithm>
+
+namespace pharos::lighthouse {
+namespace {
+
+/// Wide hits are held back with what may be a flash, at most this long.
+constexpr std::int64_t kSweepDoneTicks =
+    std::int64_t{kSweepWindowEndTicks} + kFlashRiseSpreadTicks + 2 * kLongestPulseTicks;
+
+}  // namespace
+
+void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) {
+  Open& open = open_[flash.flash.station];
+  if (open.open) finish(open, counters);
+  if (flash.flash.skip) return;
+  open.sweep.flash = flash.flash;
+  open.sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
+  open.sweep.flags = flash.flags;
+  open.sweep.hits.clear();
+  open.open = true;
+  deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
+}
+
+void SweepCollector::push(const Pulse& hit, DecoderCounters& counters) {
+  bool any_open = false;
+  for (Open& open : open_) {
+    if (!open.open) continue;
+    any_open = true;
+    const std::int64_t centre_half_ticks = 2 * (hit.rise_ticks - open.sweep.flash.start_ticks) + hit.width_ticks;
+    if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
+    const bool kept = open.sweep.hits.push_back(
+        {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), static_cast<std::int32_t>(centre_half_ticks)});
+    ++(kept ? counters.hits : counters.hits_overflow);
+    return;
+  }
+  ++(any_open ? counters.hits_out_of_window : counters.hits_no_flash);
+}
+
+void SweepCollector::pass_time(std::int64_t now_ticks, DecoderCounters& counters) {
+  if (now_ticks < deadline_) return;
+  for (Open& open : open_) {
+    if (open.open && now_ticks >= open.sweep.flash.start_ticks + kSweepDoneTicks) finish(open, counters);
+  }
+  deadline_ = INT64_MAX;
+  for (const Open& open : open_) {
+    if (open.open) deadline_ = std::min(deadline_, open.sweep.flash.start_ticks + kSweepDoneTicks);
+  }
+}
+
+void SweepCollector::finish_all(DecoderCounters& counters) {
+  for (Open& open : open_) {
+    if (open.open) finish(open, counters);
+  }
+  deadline_ = INT64_MAX;
+}
+
+void SweepCollector::finish(Open& open, DecoderCounters& counters) {
+  open.open = false;
+  if (!finished_.push(open.sweep)) {
+    ++counters.outputs_overflow;
+    return;
+  }
+  ++counters.sweeps;
+  if (open.sweep.hits.empty()) ++counters.sweeps_empty;
+}
+
+}  // namespace pharos::lighthouse

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/lighthouse/light_event.hpp"
+#include "pharos/lighthouse/optical_timing.hpp"
+
+namespace pharos::lighthouse {
+
+/// Decides what "now" is in a stream whose stamps cannot be trusted one by one.
+///
+/// Stamps up to 25 ms ahead of the newest one, or up to the reorder span behind it, are on the time base. Others are
+/// held; when several in a row agree with one another the base moves to them and none of them is lost:
+///  - before anything was decoded, or when they lie less than 50 ms behind: four;
+///  - in the middle of a recording: four that span 20 ms, or 24 (stale bursts of up to 15 pulses in 4 ms were seen).
+/// As soon as a stamp fits the old base again, the held ones are given up (late or off time).
+///
+/// Time given out never runs backwards in a recording. Where the confirmed new time lies before what was already
+/// decoded (a 32-bit counter wrapped in the dark, or the target restarted), the smallest multiple of 2^32 ticks is
+/// added that puts it behind; a counter that wrapped once while no light was seen so gets its true time.
+class TimeBase {
+ public:
+  enum class Verdict : std::uint8_t {
+    kFits,    // on the base: pass it on
+    kHeld,    // kept back until others agree
+    kMoved,   // the base has moved to the held ones, which include this one: pass on held(), then forget_held()
+    kAbsurd,  // outside any clock: drop
+  };
+  /// Held events that were given up.
+  struct GivenUp {
+    std::uint8_t late_pulses = 0, late_edges = 0, off_time_pulses = 0, off_time_edges = 0;
+  };
+  static constexpr std::size_t kMaxHeld = 24;
+
+  /// Most stamps end here: on the base and nothing held. Puts `event` on unwrapped time.
+  bool fits_at_once(LightEvent& event) {
+    const std::int64_t ahead = difference(event.stamp_ticks, raw_newest_);
+    if (!held_.empty() || !started_ || ahead > kMaxAheadTicks || ahead < -kMaxBehindTicks) return false;
+    if (ahead > 0) raw_newest_ = event.stamp_ticks;
+    event.stamp_ticks += offset_;
+    return true;
+  }
+  /// Everything else. `decoded_ticks`: time of the last thing decoded, or kNothingDecoded.
+  Verdict judge(LightEvent& event, std::int64_t decoded_ticks, GivenUp& given_up);
+  /// End of the input: takes what is held if there was no base before, gives it up otherwise.
+  Verdict end(GivenUp& given_up);
+
+  const StaticVector<LightEvent, kMaxHeld>& held() const { return held_; }
+  void forget_held() { held_.clear(); }
+  /// The caller's clock says that time has come this far.
+  void advance(std::int64_t now_ticks);
+
+  bool started() const { return started_; }
+  std::int64_t newest_ticks() const { return raw_newest_ + offset_; }
+  /// What is added to the caller's stamps: a multiple of 2^32.
+  std::int64_t offset_ticks() const { return offset_; }
+
+  static constexpr std::int64_t kNothingDecoded = INT64_MIN;
+  static constexpr std::int64_t kMaxAheadTicks = 1'250'000;  // 25 ms: three slots
+  /// Pulses are stamped at their fall: a stream sorted by rise is out of order by as much as a pulse is long.
+  static constexpr std::int64_t kMaxBehindTicks = kReorderTicks + kLongestPulseTicks;
+
+ private:
+  /// As unsigned: no overflow, whatever the stamps.
+  static std::int64_t difference(std::int64_t later, std::int64_t earlier) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
+  }
+  bool fits(std::int64_t stamp) const;
+  bool agrees_with_held(std::int64_t stamp) const;
+  bool confirmed(std::int64_t decoded_ticks) const;
+  void move_to_held(std::int64_t decoded_ticks);
+  void give_up(GivenUp& given_up);
+
+  std::int64_t raw_newest_ = 0;
+  std::int64_t offset_ = 0;
+  std::int64_t held_newest_ = 0;
+  std::int64_t held_oldest_ = 0;
+  bool started_ = false;
+  StaticVector<LightEvent, kMaxHeld> held_;
+};
+
+}  // namespace pharos::lighthouse
