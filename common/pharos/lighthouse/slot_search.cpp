@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/lighthouse/slot_search.hpp"
 
+#include <bit>
+
 namespace pharos::lighthouse {
 namespace {
 
