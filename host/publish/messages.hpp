@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/publish/cycle_report.hpp"
+#include "host/publish/health.hpp"
+#include "pharos/bearings_t.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/status_t.hpp"
+
+namespace pharos::host {
+
+// The daemon's values as LCM types: SI, times in microseconds, what does not apply is 0.
+
+pose_t pose_message(const CycleReport& report);
+bearings_t bearings_message(const CycleReport& report);
+status_t status_message(const DaemonHealth& health, std::int64_t sequence);
+
+}  // namespace pharos::host

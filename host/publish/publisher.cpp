@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/publish/publisher.hpp"
+
+#include "host/publish/messages.hpp"
+
+namespace pharos::host {
+
+Publisher::Publisher(MessageSink& sink, const std::string& prefix)
+    : sink_(sink),
+      pose_channel_(prefix + "LIGHTHOUSE_POSE"),
+      board_pose_channel_(prefix + "LIGHTHOUSE_BOARD_POSE"),
+      bearings_channel_(prefix + "LIGHTHOUSE_BEARINGS"),
+      status_channel_(prefix + "STATUS") {}
+
+template <class Message>
+bool Publisher::send(const std::string& channel, const Message& message) {
+  const int size = message.getEncodedSize();
+  buffer_.resize(static_cast<std::size_t>(size));
+  const bool sent = message.encode(buffer_.data(), 0, size) == size && sink_.send(channel, buffer_);
+  if (sent) {
+    counters_.bytes += size;
+  } else {
+    ++counters_.failed;
+  }
+  return sent;
+}
+
+bool Publisher::publish_pose(const CycleReport& report) {
+  const bool sent = send(pose_channel_, pose_message(report));
+  counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_board_pose(const CycleReport& report) {
+  const bool sent = send(board_pose_channel_, pose_message(report));
+  counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_bearings(const CycleReport& report) {
+  const bool sent = send(bearings_channel_, bearings_message(report));
+  counters_.bearings += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_health(const DaemonHealth& health) {
+  const bool sent = send(status_channel_, status_message(health, status_sequence_++));
+  counters_.status += sent ? 1 : 0;
+  return sent;
+}
+
+}  // namespace pharos::host

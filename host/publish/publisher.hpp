@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/publish/cycle_report.hpp"
+#include "host/publish/health.hpp"
+#include "host/publish/message_sink.hpp"
+
+namespace pharos::host {
+
+/// What went out, by kind.
+struct PublishCounters {
+  std::int64_t poses = 0;
+  std::int64_t bearings = 0;
+  std::int64_t status = 0;
+  std::int64_t bytes = 0;
+  std::int64_t failed = 0;  // messages that the sink did not take
+};
+
+/// Turns the daemon's values into LCM messages and sends them at once.
+class Publisher {
+ public:
+  /// `sink` must outlive this. Channels are `prefix` + LIGHTHOUSE_POSE, …
+  Publisher(MessageSink& sink, const std::string& prefix);
+
+  /// pose_t. A refused cycle is told too: `valid` is false and the pose all zero, so that nobody mistakes it for one.
+  bool publish_pose(const CycleReport& report);
+  /// pose_t of a pose that the capture board itself solved, on a channel of its own.
+  bool publish_board_pose(const CycleReport& report);
+  /// bearings_t of the same cycle.
+  bool publish_bearings(const CycleReport& report);
+  /// status_t.
+  bool publish_health(const DaemonHealth& health);
+
+  const PublishCounters& counters() const { return counters_; }
+
+ private:
+  template <class Message>
+  bool send(const std::string& channel, const Message& message);
+
+  MessageSink& sink_;
+  std::string pose_channel_;
+  std::string board_pose_channel_;
+  std::string bearings_channel_;
+  std::string status_channel_;
+  std::vector<std::uint8_t> buffer_;
+  std::int64_t status_sequence_ = 0;
+  PublishCounters counters_;
+};
+
+}  // namespace pharos::host
