@@ -5,8 +5,8 @@
 
 namespace pharos {
 
-/// Most photodiodes on one target: the width of the capture block's input word (32 bits), and what the largest published
-/// Lighthouse 1.0 devices carry (32 on the headset).
+/// Most photodiodes on one target: the width of the capture block's input word (32 bits), and what the largest
+/// published Lighthouse 1.0 devices carry (32 on the headset).
 inline constexpr std::size_t kMaxSensors = 32;
 
 /// Most stations one target tells apart: Lighthouse 1.0 interleaves two.

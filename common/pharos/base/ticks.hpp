@@ -5,8 +5,8 @@
 
 namespace pharos {
 
-// Time on the target is counted by a 50 MHz counter: one tick is 20 ns. The hardware counter has 32 bits and wraps every
-// 85.9 s; everything behind the unwrapper uses 64 bits.
+// Time on the target is counted by a 50 MHz counter: one tick is 20 ns. The hardware counter has 32 bits and wraps
+// every 85.9 s; everything behind the unwrapper uses 64 bits.
 inline constexpr std::int64_t kTicksPerSecond = 50'000'000;
 inline constexpr std::int64_t kNanosecondsPerTick = 20;
 inline constexpr double kSecondsPerTick = 1.0 / 50e6;

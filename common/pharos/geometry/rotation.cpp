@@ -11,7 +11,7 @@ namespace {
 constexpr double kSmallAngleSquared = 1e-6;
 
 struct Coefficients {
-  double sin_over_angle;            // sin(a) / a
+  double sin_over_angle;             // sin(a) / a
   double one_minus_cos_over_square;  // (1 - cos(a)) / a^2
 };
 
@@ -36,8 +36,8 @@ Vector3 rotation_log(const Matrix3& R) {
   const Vector3 v = q.vec();
   const double sine_half = v.norm();
   // q = (cos(a/2), e sin(a/2)); for small angles a / sin(a/2) -> 2 (1 + s^2/6).
-  const double scale = sine_half < 1e-4 ? 2.0 * (1.0 + sine_half * sine_half / 6.0)
-                                        : 2.0 * std::atan2(sine_half, q.w()) / sine_half;
+  const double scale =
+      sine_half < 1e-4 ? 2.0 * (1.0 + sine_half * sine_half / 6.0) : 2.0 * std::atan2(sine_half, q.w()) / sine_half;
   return scale * v;
 }
 

@@ -60,13 +60,20 @@ Result<TargetShape, TargetError> check_target(const Target& target) {
 
 const char* describe(TargetError error) {
   switch (error) {
-    case TargetError::kNone: return "no error";
-    case TargetError::kTooFewSensors: return "fewer than three sensors";
-    case TargetError::kDuplicateNumber: return "the same sensor number twice";
-    case TargetError::kDuplicatePosition: return "two sensors within 0.1 mm of one another";
-    case TargetError::kSensorNumberTooLarge: return "a sensor number above 31";
-    case TargetError::kNotFinite: return "a coordinate that is not a finite number";
-    case TargetError::kCollinear: return "all sensors on one line";
+    case TargetError::kNone:
+      return "no error";
+    case TargetError::kTooFewSensors:
+      return "fewer than three sensors";
+    case TargetError::kDuplicateNumber:
+      return "the same sensor number twice";
+    case TargetError::kDuplicatePosition:
+      return "two sensors within 0.1 mm of one another";
+    case TargetError::kSensorNumberTooLarge:
+      return "a sensor number above 31";
+    case TargetError::kNotFinite:
+      return "a coordinate that is not a finite number";
+    case TargetError::kCollinear:
+      return "all sensors on one line";
   }
   return "unknown error";
 }

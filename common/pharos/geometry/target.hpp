@@ -13,7 +13,7 @@ namespace pharos {
 
 /// One photodiode of a cooperative target.
 struct SensorPlacement {
-  std::uint8_t sensor = 0;            // its number on the capture board, 0..31; numbers may have gaps
+  std::uint8_t sensor = 0;               // its number on the capture board, 0..31; numbers may have gaps
   Vector3 position_m = Vector3::Zero();  // centre of the photosensitive face, body frame
   Vector3 normal = Vector3::Zero();      // outward unit normal, body frame; zero where unknown
   bool has_normal() const { return normal.squaredNorm() > 0.5; }
@@ -28,12 +28,12 @@ const SensorPlacement* find_sensor(const Target& target, std::uint8_t sensor);
 /// Why a target cannot carry a pose.
 enum class TargetError : std::uint8_t {
   kNone,
-  kTooFewSensors,       // fewer than three: no pose from any station
-  kDuplicateNumber,     // one number twice
-  kDuplicatePosition,   // two sensors closer than 0.1 mm: one of them is a mistake
+  kTooFewSensors,      // fewer than three: no pose from any station
+  kDuplicateNumber,    // one number twice
+  kDuplicatePosition,  // two sensors closer than 0.1 mm: one of them is a mistake
   kSensorNumberTooLarge,
   kNotFinite,
-  kCollinear,           // all on one line: rotation about it cannot be seen
+  kCollinear,  // all on one line: rotation about it cannot be seen
 };
 
 /// What a valid target's shape means for the pose.

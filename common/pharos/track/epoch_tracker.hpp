@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// INTERFACE AGREED, implementation follows: sweeps of one target in, one pose a station and cycle out (the paper's way).
 #include <array>
 #include <cstdint>
 #include <optional>
 
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/lighthouse/flash_smoother.hpp"
 #include "pharos/lighthouse/station_calibration.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/pose/solve.hpp"
+#include "pharos/track/cycle.hpp"
+#include "pharos/track/ideal_observations.hpp"
 
 namespace pharos::track {
 
@@ -18,8 +20,11 @@ struct TrackOptions {
   pose::SolveOptions solve;
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
   bool smooth_flashes = true;
-  /// Start from the last pose of the same station when it is younger than this; 0 = every cycle from nothing.
-  double prior_max_age_s = 0.5;
+  /// With three sensors only, the last pose of the same station serves as prior when it is younger than this: at 2 m/s
+  /// and 180 deg/s a target moves 0.2 m and 18 deg in it. 0 = never.
+  double prior_max_age_s = 0.1;
+  /// Start every cycle from a last pose that young, not only those of three sensors: fewer operations, for slow cores.
+  bool warm_start = false;
 };
 
 /// Words said about one cycle's answer; a bit set.
@@ -28,7 +33,7 @@ enum EpochFlag : std::uint8_t {
   kEpochFlashWeak = 2,      // as in Sweep
   kEpochPeriodNominal = 4,  // as in Sweep
   kEpochOutliers = 8,       // hits were left out (reflections, or they fit no rigid body)
-  kEpochPrior = 16,         // started from the last pose
+  kEpochPrior = 16,         // could only be solved with the last pose as prior
   kEpochLockPoor = 32,      // as in Sweep
 };
 
@@ -41,15 +46,51 @@ struct EpochResult {
   Result<LighthousePoseEstimate, pose::Refusal> pose = pose::Refusal::kTooFewSensors;
 };
 
+/// What was left of one bearing of the last cycle: observed minus predicted, rad.
+struct BearingResidual {
+  std::uint8_t sensor = 0;
+  Axis axis = Axis::kX;
+  bool used = false;
+  double residual_rad = 0.0;
+};
+using BearingResiduals = StaticVector<BearingResidual, pose::kMaxObservations>;
+
+/// Sweeps of one target in, one answer a station and cycle out: each cycle is solved alone, as in paper 002
+/// (section 2.3), as if all its hits had happened at once. Up to two stations side by side, each in its own frame.
+///
+/// Holds about 12 KiB. One push costs one solve at the most (two where a sensor was hit on one axis only or twice).
 class EpochTracker {
  public:
   EpochTracker(const Target& target, const TrackOptions& options);
   /// Calibration of the station in this slot position, from now on.
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
-  /// A cycle is complete with the second of its two sweeps, or when the other one did not come.
+  /// The answer of the cycle that this sweep completed, if any: the y sweep completes its cycle at once; a cycle whose
+  /// y sweep did not come is answered when the station's next sweep does. A skipped sweep only feeds the smoother.
   std::optional<EpochResult> push(const lighthouse::Sweep& sweep);
   /// End of the input: the cycle still held back, if any (call until empty).
   std::optional<EpochResult> flush();
+  /// Residuals of the cycle last answered with a pose, hit by hit; empty when it was refused.
+  const BearingResiduals& residuals() const { return residuals_; }
+
+ private:
+  struct Station {
+    std::optional<lighthouse::StationCalibration> calibration;
+    std::array<lighthouse::FlashSmoother, kAxes> smoother;
+    CycleAssembler assembler;
+    std::optional<LighthouseFromBody> last_pose;
+    std::int64_t last_pose_ticks = 0;
+  };
+
+  EpochResult answer(Station& station, const Cycle& cycle);
+  Result<pose::Solution, pose::Refusal> solve(Station& station, const Cycle& cycle, IdealObservations& ideal,
+                                              EpochResult& result) const;
+  const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle) const;
+  void keep_residuals(const pose::Solution& solution, const IdealObservations& ideal);
+
+  Target target_;
+  TrackOptions options_;
+  std::array<Station, kMaxStations> stations_;
+  BearingResiduals residuals_;
 };
 
 }  // namespace pharos::track

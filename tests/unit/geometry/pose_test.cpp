@@ -12,7 +12,9 @@ using LighthouseFromVehicle = Pose<frame::Lighthouse, frame::Vehicle>;
 using VehicleFromBody = Pose<frame::Vehicle, frame::Body>;
 
 template <class A, class B>
-concept Composes = requires(A a, B b) { a * b; };
+concept Composes = requires(A a, B b) {
+  a* b;
+};
 
 TEST(Pose, ComposesOnlyWhereInnerFramesMatch) {
   static_assert(std::is_same_v<decltype(LighthouseFromVehicle{} * VehicleFromBody{}), LighthouseFromBody>);

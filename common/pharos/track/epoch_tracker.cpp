@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/track/epoch_tracker.hpp"
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+
+namespace pharos::track {
+namespace {
+
+std::uint8_t flags_of(const Cycle& cycle, bool calibrated) {
+  std::uint8_t flags = 0;
+  if (!calibrated) flags |= kEpochUncalibrated;
+  if (cycle.sweep_flags & lighthouse::kSweepFlashWeak) flags |= kEpochFlashWeak;
+  if (cycle.sweep_flags & lighthouse::kSweepPeriodNominal) flags |= kEpochPeriodNominal;
+  if (cycle.sweep_flags & lighthouse::kSweepLockPoor) flags |= kEpochLockPoor;
+  return flags;
+}
+
+// Mean instant of the hits for which `use(i)` holds; the cycle's last flash when there are none.
+template <class Use>
+std::int64_t mean_ticks(const IdealObservations& ideal, std::int64_t fallback_ticks, Use use) {
+  std::int64_t sum = 0;
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < ideal.observations.size(); ++i) {
+    if (!use(i)) continue;
+    sum += ideal.centre_ticks[i] - fallback_ticks;
+    ++count;
+  }
+  return count == 0 ? fallback_ticks : fallback_ticks + sum / count;
+}
+
+}  // namespace
+
+EpochTracker::EpochTracker(const Target& target, const TrackOptions& options) : target_(target), options_(options) {}
+
+void EpochTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
+  if (station < kMaxStations) stations_[station].calibration = calibration;
+}
+
+std::optional<EpochResult> EpochTracker::push(const lighthouse::Sweep& sweep) {
+  if (sweep.flash.station >= kMaxStations) return std::nullopt;
+  Station& station = stations_[sweep.flash.station];
+  const auto axis = static_cast<std::size_t>(index_of(sweep.flash.axis));
+  const lighthouse::SmoothedFlash smoothed = station.smoother[axis].push(sweep);
+  if (sweep.flash.skip) return std::nullopt;
+  const lighthouse::SweepBearings bearings =
+      options_.smooth_flashes ? lighthouse::bearings_of(sweep, smoothed) : lighthouse::bearings_of(sweep);
+  const auto cycle =
+      station.assembler.push(sweep.flash.station, sweep.flash.axis, sweep.flash.start_ticks, sweep.flags, bearings);
+  if (!cycle) return std::nullopt;
+  return answer(station, *cycle);
+}
+
+std::optional<EpochResult> EpochTracker::flush() {
+  for (Station& station : stations_) {
+    if (const auto cycle = station.assembler.flush()) return answer(station, *cycle);
+  }
+  return std::nullopt;
+}
+
+const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const Cycle& cycle) const {
+  if (!station.last_pose) return nullptr;
+  const double age_s = ticks_to_seconds(cycle.last_flash_ticks - station.last_pose_ticks);
+  return age_s >= 0.0 && age_s < options_.prior_max_age_s ? &*station.last_pose : nullptr;
+}
+
+Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, const Cycle& cycle,
+                                                          IdealObservations& ideal, EpochResult& result) const {
+  const lighthouse::StationCalibration* calibration = station.calibration ? &*station.calibration : nullptr;
+  const LighthouseFromBody* last = fresh_pose(station, cycle);
+  ideal = ideal_observations(cycle, target_, calibration, options_.form, nullptr);
+  auto solution = pose::solve(target_, ideal.observations, options_.solve, options_.warm_start ? last : nullptr);
+  if (!solution && solution.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
+    solution = pose::solve(target_, ideal.observations, options_.solve, last);
+    if (solution) result.flags |= kEpochPrior;
+  }
+  if (!solution || !ideal.guessed) return solution;
+  // The first pose tells the angle across, which single hits were corrected without.
+  const LighthouseFromBody first = solution->estimate.pose;
+  ideal = ideal_observations(cycle, target_, calibration, options_.form, &first);
+  return pose::solve(target_, ideal.observations, options_.solve, &first);
+}
+
+void EpochTracker::keep_residuals(const pose::Solution& solution, const IdealObservations& ideal) {
+  residuals_.clear();
+  for (std::size_t i = 0; i < ideal.observations.size(); ++i) {
+    const pose::Observation& observation = ideal.observations[i];
+    const SensorPlacement* sensor = find_sensor(target_, observation.sensor);
+    if (sensor == nullptr) continue;
+    const double predicted = lighthouse::ideal_thetas(solution.estimate.pose * sensor->position_m)[observation.axis];
+    residuals_.push_back({observation.sensor, observation.axis, solution.used[i], observation.theta_rad - predicted});
+  }
+}
+
+EpochResult EpochTracker::answer(Station& station, const Cycle& cycle) {
+  EpochResult result;
+  result.station = cycle.station;
+  result.flags = flags_of(cycle, station.calibration.has_value());
+  IdealObservations ideal;
+  const auto solution = solve(station, cycle, ideal, result);
+  if (ideal.left_out > 0) result.flags |= kEpochOutliers;
+  if (!solution) {
+    residuals_.clear();
+    result.observations = static_cast<int>(ideal.observations.size());
+    result.time_ticks = mean_ticks(ideal, cycle.last_flash_ticks, [](std::size_t) { return true; });
+    result.pose = solution.error();
+    return result;
+  }
+  keep_residuals(*solution, ideal);
+  if (solution->used.count() < ideal.observations.size()) result.flags |= kEpochOutliers;
+  result.observations = solution->estimate.observations;
+  result.time_ticks = mean_ticks(ideal, cycle.last_flash_ticks, [&](std::size_t i) { return solution->used[i]; });
+  LighthousePoseEstimate estimate = solution->estimate;
+  estimate.time_ns = ticks_to_nanoseconds(result.time_ticks);
+  station.last_pose = estimate.pose;
+  station.last_pose_ticks = result.time_ticks;
+  result.pose = estimate;
+  return result;
+}
+
+}  // namespace pharos::track

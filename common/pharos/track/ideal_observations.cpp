@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/track/ideal_observations.hpp"
+
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+
+namespace pharos::track {
+namespace {
+
+using lighthouse::Bearing;
+using lighthouse::ThetaPair;
+
+Axis other_axis(Axis axis) { return axis == Axis::kX ? Axis::kY : Axis::kX; }
+
+double middle_theta(const lighthouse::SweepBearings& bearings) {
+  if (bearings.empty()) return kPi / 2;
+  double sum = 0.0;
+  for (const Bearing& bearing : bearings) sum += bearing.theta_rad;
+  return sum / static_cast<double>(bearings.size());
+}
+
+// Corrects one cycle's bearings; knows what may stand for the angle across.
+class Corrector {
+ public:
+  Corrector(const Cycle& cycle, const Target& target, const lighthouse::StationCalibration& calibration,
+            lighthouse::ModelForm form, const LighthouseFromBody* pose)
+      : cycle_(cycle), target_(target), calibration_(calibration), form_(form), pose_(pose) {
+    middle_[0] = middle_theta(cycle[Axis::kX]);
+    middle_[1] = middle_theta(cycle[Axis::kY]);
+  }
+
+  std::optional<double> ideal(Axis axis, const Bearing& bearing) {
+    const Axis across = other_axis(axis);
+    if (const SensorPlacement* sensor = pose_ ? find_sensor(target_, bearing.sensor) : nullptr) {
+      const ThetaPair predicted = lighthouse::ideal_thetas(*pose_ * sensor->position_m);
+      return lighthouse::ideal_from_raw(calibration_, form_, axis, bearing.theta_rad, predicted[across]);
+    }
+    const Bearing* partner = only_bearing(cycle_[across], bearing.sensor);
+    if (partner == nullptr || only_bearing(cycle_[axis], bearing.sensor) == nullptr) guessed_ = true;
+    const double partner_raw =
+        partner != nullptr ? partner->theta_rad : middle_[static_cast<std::size_t>(index_of(across))];
+    const ThetaPair raw =
+        axis == Axis::kX ? ThetaPair{bearing.theta_rad, partner_raw} : ThetaPair{partner_raw, bearing.theta_rad};
+    const auto pair = lighthouse::ideal_from_raw(calibration_, form_, raw);
+    if (!pair) return std::nullopt;
+    return (*pair)[axis];
+  }
+
+  bool guessed() const { return guessed_; }
+
+ private:
+  // The sensor's bearing in this sweep when it has exactly one, else null.
+  static const Bearing* only_bearing(const lighthouse::SweepBearings& bearings, std::uint8_t sensor) {
+    const Bearing* found = nullptr;
+    for (const Bearing& bearing : bearings) {
+      if (bearing.sensor != sensor) continue;
+      if (found != nullptr) return nullptr;
+      found = &bearing;
+    }
+    return found;
+  }
+
+  const Cycle& cycle_;
+  const Target& target_;
+  const lighthouse::StationCalibration& calibration_;
+  lighthouse::ModelForm form_;
+  const LighthouseFromBody* pose_;
+  std::array<double, kAxes> middle_{};
+  bool guessed_ = false;
+};
+
+}  // namespace
+
+IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
+                                     const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
+                                     const LighthouseFromBody* pose) {
+  const lighthouse::StationCalibration none;
+  Corrector corrector(cycle, target, calibration != nullptr ? *calibration : none, form, pose);
+  IdealObservations result;
+  for (const Axis axis : {Axis::kX, Axis::kY}) {
+    for (const Bearing& bearing : cycle[axis]) {
+      const std::optional<double> theta =
+          calibration != nullptr ? corrector.ideal(axis, bearing) : std::optional<double>(bearing.theta_rad);
+      if (!theta) {
+        ++result.left_out;
+        continue;
+      }
+      result.centre_ticks[result.observations.size()] = bearing.time_ticks;
+      result.observations.push_back({bearing.sensor, axis, *theta});
+    }
+  }
+  result.guessed = corrector.guessed();
+  return result;
+}
+
+}  // namespace pharos::track

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/target.hpp"
+#include "pharos/lighthouse/station_calibration.hpp"
+#include "pharos/pose/observation.hpp"
+#include "pharos/track/cycle.hpp"
+
+namespace pharos::track {
+
+/// A cycle's bearings as the solver takes them, and for each where it came from.
+struct IdealObservations {
+  pose::Observations observations;
+  std::array<std::int64_t, pose::kMaxObservations> centre_ticks{};  // instant of the hit, by observation
+  /// Some bearing was corrected with a guess of its sensor's other angle (only one axis hit, or several candidates):
+  /// worth correcting again once a pose is known.
+  bool guessed = false;
+  /// Bearings that no direction ahead of the station can show.
+  int left_out = 0;
+};
+
+/// Takes the station's errors out of a cycle's raw bearings.
+///
+/// The correction of one axis needs the direction across it: from `pose` where one is given, else from the same
+/// sensor's other sweep, else from the middle of the other sweep. Bearings that no direction ahead can show are left
+/// out. `calibration` null: raw bearings pass as ideal ones.
+IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
+                                     const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
+                                     const LighthouseFromBody* pose);
+
+}  // namespace pharos::track

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/track/epoch_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+
+namespace pharos::track {
+namespace {
+
+using lighthouse::StationCalibration;
+using lighthouse::Sweep;
+
+constexpr std::int64_t kHalfTurn = 416'667;
+constexpr double kTurn = 833'334.0;
+// Hits are stamped to half a tick: 3.8 urad. What that does to a pose of this target at 2 m.
+constexpr double kPoseTolerance_m = 1e-3;
+constexpr double kPoseTolerance_rad = 2e-3;
+
+Target cube_target() {
+  Target target;
+  const double h = 0.06;
+  std::uint8_t number = 3;  // numbers need not start at 0
+  for (const double x : {-h, h}) {
+    for (const double y : {-h, h}) {
+      for (const double z : {-h, 0.7 * h}) target.push_back({number++, {x, y, z}, Vector3::Zero()});
+    }
+  }
+  return target;
+}
+
+LighthouseFromBody some_pose() { return {rotation_exp({0.4, -0.8, 0.3}), {0.3, -0.2, 2.0}}; }
+
+StationCalibration some_calibration() {
+  StationCalibration c;
+  c.id = 0xBEC08E38;
+  c.rotor[0] = {0.0156, 0.0003, -0.0018, -0.327, 0.00425};
+  c.rotor[1] = {0.0382, 0.0022, -0.0017, -1.508, -0.00576};
+  return c;
+}
+
+// The sweep that an ideal receiver would report: no noise but the half tick.
+Sweep make_sweep(const Target& target, const LighthouseFromBody& pose, const StationCalibration& c, Axis axis,
+                 std::int64_t flash_ticks, std::uint8_t station = 0) {
+  Sweep sweep;
+  sweep.flash.start_ticks = flash_ticks;
+  sweep.flash.length_ticks = 3125;
+  sweep.flash.station = station;
+  sweep.flash.axis = axis;
+  sweep.flash.sensors = 8;
+  sweep.period_sixteenth_ticks = static_cast<std::uint32_t>(kTurn * 16);
+  for (const SensorPlacement& s : target) {
+    const double theta = raw_theta(c, lighthouse::ModelForm::kForm1, axis, pose * s.position_m);
+    sweep.hits.push_back({s.sensor, 200, static_cast<std::int32_t>(std::lround(2.0 * theta / kTwoPi * kTurn))});
+  }
+  return sweep;
+}
+
+void expect_pose(const EpochResult& result, const LighthouseFromBody& truth) {
+  ASSERT_TRUE(result.pose.ok());
+  const Vector6 error = pose_difference(result.pose->pose, truth);
+  EXPECT_LT(error.head<3>().norm(), kPoseTolerance_rad);
+  EXPECT_LT(error.tail<3>().norm(), kPoseTolerance_m);
+}
+
+TEST(EpochTracker, AnswersACycleWithItsPoseAtTheMeanHitTime) {
+  const Target target = cube_target();
+  EpochTracker tracker(target, {});
+  tracker.set_calibration(0, some_calibration());
+  EXPECT_FALSE(tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 1'000'000)));
+  const auto result =
+      tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, 1'000'000 + kHalfTurn));
+  ASSERT_TRUE(result);
+  expect_pose(*result, some_pose());
+  EXPECT_EQ(result->observations, 16);
+  EXPECT_EQ(result->flags & kEpochUncalibrated, 0);
+  EXPECT_EQ(result->flags & kEpochOutliers, 0);
+  // Hits lie about a quarter turn after their flashes; the mean of both sweeps half a turn apart.
+  EXPECT_NEAR(static_cast<double>(result->time_ticks), 1'000'000 + kTurn / 4 + kTurn / 4, kTurn * 0.05);
+  EXPECT_EQ(result->pose->time_ns, result->time_ticks * kNanosecondsPerTick);
+  EXPECT_EQ(tracker.residuals().size(), 16u);
+}
+
+TEST(EpochTracker, SaysWhenNoCalibrationIsKnownAndThenMeasuresWrong) {
+  const Target target = cube_target();
+  EpochTracker tracker(target, {});
+  tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
+  const auto result = tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
+  ASSERT_TRUE(result);
+  EXPECT_NE(result->flags & kEpochUncalibrated, 0);
+  ASSERT_TRUE(result->pose.ok());
+  // Phases of 16 and 38 mrad at 2 m: 30 to 80 mm.
+  EXPECT_GT((result->pose->pose.t - some_pose().t).norm(), 0.02);
+}
+
+TEST(EpochTracker, LeavesAReflectionOutAndSaysSo) {
+  const Target target = cube_target();
+  EpochTracker tracker(target, {});
+  tracker.set_calibration(0, some_calibration());
+  Sweep x = make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0);
+  lighthouse::Hit reflection = x.hits[2];
+  reflection.centre_half_ticks += 2 * 866;
+  x.hits.push_back(reflection);
+  tracker.push(x);
+  const auto result = tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
+  ASSERT_TRUE(result);
+  expect_pose(*result, some_pose());
+  EXPECT_EQ(result->observations, 16);
+  EXPECT_NE(result->flags & kEpochOutliers, 0);
+}
+
+TEST(EpochTracker, UsesSensorsThatWereHitOnOneAxisOnly) {
+  const Target target = cube_target();
+  EpochTracker tracker(target, {});
+  tracker.set_calibration(0, some_calibration());
+  Sweep x = make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0);
+  x.hits.erase_unordered(0);
+  x.hits.erase_unordered(3);
+  tracker.push(x);
+  const auto result = tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
+  ASSERT_TRUE(result);
+  expect_pose(*result, some_pose());
+  EXPECT_EQ(result->observations, 14);
+}
+
+TEST(EpochTracker, ThreeSensorsNeedAFreshPoseBeforeThem) {
+  const Target target = cube_target();
+  Target three;
+  for (std::size_t i : {0u, 3u, 5u}) three.push_back(target[i]);
+  TrackOptions options;
+  EpochTracker tracker(target, options);
+  tracker.set_calibration(0, some_calibration());
+  const auto cycle_of = [&](const Target& lit, std::int64_t start) {
+    tracker.push(make_sweep(lit, some_pose(), some_calibration(), Axis::kX, start));
+    return tracker.push(make_sweep(lit, some_pose(), some_calibration(), Axis::kY, start + kHalfTurn));
+  };
+  const auto without = cycle_of(three, 0);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(without->pose.error(), pose::Refusal::kTooFewSensors);
+  cycle_of(target, 2 * kHalfTurn);
+  const auto with = cycle_of(three, 4 * kHalfTurn);
+  ASSERT_TRUE(with);
+  expect_pose(*with, some_pose());
+  EXPECT_NE(with->flags & kEpochPrior, 0);
+  const auto stale = cycle_of(three, 4 * kHalfTurn + 10'000'000);
+  ASSERT_TRUE(stale);
+  EXPECT_FALSE(stale->pose.ok());
+}
+
+TEST(EpochTracker, KeepsTwoStationsApart) {
+  const Target target = cube_target();
+  EpochTracker tracker(target, {});
+  const LighthouseFromBody other{rotation_exp({-0.2, 0.5, 1.3}), {-0.4, 0.1, 3.0}};
+  tracker.set_calibration(0, some_calibration());
+  tracker.set_calibration(1, {});
+  tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
+  EXPECT_FALSE(tracker.push(make_sweep(target, other, {}, Axis::kX, 2 * kHalfTurn, 1)));
+  const auto second = tracker.push(make_sweep(target, other, {}, Axis::kY, 3 * kHalfTurn, 1));
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->station, 1);
+  expect_pose(*second, other);
+  const auto rest = tracker.flush();
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->station, 0);
+  EXPECT_FALSE(rest->pose.ok());
+  EXPECT_FALSE(tracker.flush());
+}
+
+TEST(EpochTracker, WarmStartChangesNoAnswer) {
+  const Target target = cube_target();
+  TrackOptions warm_options;
+  warm_options.warm_start = true;
+  EpochTracker cold(target, {});
+  EpochTracker warm(target, warm_options);
+  for (EpochTracker* tracker : {&cold, &warm}) tracker->set_calibration(0, some_calibration());
+  for (int i = 0; i < 50; ++i) {
+    Vector6 moved;
+    moved << 0.01 * i, 0, 0.02 * i, 0.002 * i, 0, -0.003 * i;
+    const LighthouseFromBody truth = some_pose().moved_by(moved);
+    const std::int64_t start = 2 * i * kHalfTurn;
+    for (EpochTracker* tracker : {&cold, &warm}) {
+      tracker->push(make_sweep(target, truth, some_calibration(), Axis::kX, start));
+      const auto result = tracker->push(make_sweep(target, truth, some_calibration(), Axis::kY, start + kHalfTurn));
+      ASSERT_TRUE(result);
+      expect_pose(*result, truth);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pharos::track
