@@ -53,7 +53,7 @@ wire::PoseAnswer answer_of(const LighthousePoseEstimate& estimate) {
   answer.pdop_m_per_rad = static_cast<float>(estimate.pdop_m_per_rad);
   answer.iterations = static_cast<std::uint8_t>(std::clamp(estimate.iterations, 0, 255));
   if (estimate.second) {
-    answer.second = {fields_of(estimate.second->pose), static_cast<float>(estimate.second->delta_chi2)};
+    answer.second = wire::SecondPose{fields_of(estimate.second->pose), static_cast<float>(estimate.second->delta_chi2)};
   }
   return answer;
 }

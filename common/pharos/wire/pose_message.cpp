@@ -46,7 +46,7 @@ void read_answer(ByteReader& in, bool has_second, PoseAnswer& answer) {
   answer.pdop_m_per_rad = in.get_finite<float>();
   answer.iterations = in.get<std::uint8_t>();
   if (!has_second) return;
-  answer.second = PoseAnswer::Second{};
+  answer.second.emplace();
   read_fields(in, answer.second->pose);
   answer.second->delta_chi2 = in.get_finite<float>();
 }

@@ -18,6 +18,13 @@ struct PoseFields {
   bool operator==(const PoseFields&) const = default;
 };
 
+/// A second pose that fits nearly as well, and how much worse its chi-squared is.
+struct SecondPose {
+  PoseFields pose;
+  float delta_chi2 = 0.0F;
+  bool operator==(const SecondPose&) const = default;
+};
+
 /// The answer of one cycle's solve on board.
 struct PoseAnswer {
   PoseFields pose;
@@ -27,12 +34,7 @@ struct PoseAnswer {
   float adop_deg_per_rad = 0.0F;
   float pdop_m_per_rad = 0.0F;
   std::uint8_t iterations = 0;
-  struct Second {
-    PoseFields pose;
-    float delta_chi2 = 0.0F;
-    bool operator==(const Second&) const = default;
-  };
-  std::optional<Second> second;
+  std::optional<SecondPose> second;
   bool operator==(const PoseAnswer&) const = default;
 };
 

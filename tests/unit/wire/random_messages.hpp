@@ -33,7 +33,10 @@ class RandomMessages {
   }
   std::size_t below(std::size_t bound) { return random_() % bound; }
   std::int64_t ticks() { return integer<std::int64_t>() % (kMaxTicks + 1); }
-  double real() { return std::ldexp(static_cast<double>(integer<std::int32_t>()), static_cast<int>(below(60)) - 45); }
+  double real() {
+    const auto mantissa = static_cast<double>(integer<std::int32_t>());
+    return std::ldexp(mantissa, static_cast<int>(below(60)) - 45);
+  }
 
   void fill(Time& m) { m.time_ticks = ticks(); }
   void fill(Hello& m) {
