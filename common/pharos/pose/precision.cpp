@@ -21,7 +21,7 @@ SensorSet visible_sensors(const Target& target, const LighthouseFromBody& pose, 
     const Vector3 p = pose * s.position_m;
     const double distance = std::sqrt(p.squaredNorm());
     const bool facing = !s.has_normal() || (pose.R * s.normal).dot(-p) > least_cosine * distance * s.normal.norm();
-    visible.set(s.sensor, facing && p.z() > 0.0);
+    visible[s.sensor] = facing && p.z() > 0.0;
   }
   return visible;
 }
@@ -31,7 +31,7 @@ Result<Precision, Refusal> precision_of(const Target& target, const LighthouseFr
   if (!pose.is_finite()) return Refusal::kBadInput;
   Sightings sightings;
   for (const SensorPlacement& s : target) {
-    if (s.sensor >= kMaxSensors || !sensors.test(s.sensor)) continue;
+    if (s.sensor >= kMaxSensors || !sensors[s.sensor]) continue;
     const Vector3 p = pose * s.position_m;
     if (!(p.z() > 0.0)) return Refusal::kBehindStation;
     const int i = sightings.add(s.position_m);

@@ -5,10 +5,10 @@
 
 #include "pharos/pose/covariance.hpp"
 #include "pharos/pose/hits.hpp"
-#include "pharos/pose/p3p.hpp"
 #include "pharos/pose/refine.hpp"
 #include "pharos/pose/reject.hpp"
 #include "pharos/pose/second_minimum.hpp"
+#include "pharos/pose/start.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -38,20 +38,6 @@ Fit refined(Problem& problem, const LighthouseFromBody& start, double hopeless_c
   return fit;
 }
 
-bool best_start(const Problem& problem, LighthouseFromBody& best) {
-  const RaySet set = rays_of(problem.hits.sightings);
-  if (set.count < 3) return false;
-  double best_cost = 1e300;
-  for (const LighthouseFromBody& pose : p3p(set, wide_triplet(set))) {
-    const double cost = cost_of(problem.hits.sightings, pose, problem.options.residual);
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = pose;
-    }
-  }
-  return best_cost < 1e300;
-}
-
 bool ahead_of_station(const Sightings& sightings, const LighthouseFromBody& pose) {
   return (pose * sightings.body_centroid()).z() > 0.0;
 }
@@ -65,6 +51,20 @@ bool same_minimum(const Fit& a, const Fit& b, double variance) {
     }
   }
   return square < kSameMinimum * variance;
+}
+
+// The start that fits best as it is.
+const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& starts) {
+  std::size_t best = 0;
+  double best_cost = 1e300;
+  for (std::size_t k = 0; starts.size() > 1 && k < starts.size(); ++k) {
+    const double cost = cost_of(problem.hits.sightings, starts[k], problem.options.residual);
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = k;
+    }
+  }
+  return starts[best];
 }
 
 struct Minima {
@@ -116,7 +116,7 @@ Refusal verdict(const Problem& problem, const Fit& fit) {
 void mark_used(const Hits& hits, std::bitset<kMaxObservations>& used) {
   for (int i = 0; i < hits.sensors(); ++i) {
     for (const Axis axis : {Axis::kX, Axis::kY}) {
-      if (hits.at(i, axis).chosen != Hits::kNone) used.set(static_cast<std::size_t>(hits.at(i, axis).chosen));
+      if (hits.at(i, axis).chosen != Hits::kNone) used[static_cast<std::size_t>(hits.at(i, axis).chosen)] = true;
     }
   }
 }
@@ -154,18 +154,19 @@ Result<Solution, Refusal> solve(const Target& target, const Observations& observ
   if (!collect_hits(target, observations, problem.hits)) return Refusal::kBadInput;
   if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return refusal;
 
-  LighthouseFromBody start;
-  const bool started = prior != nullptr ? (start = *prior, true) : best_start(problem, start);
-  Minima minima;
-  StaticVector<LighthouseFromBody, 4> starts;
-  if (started && !problem.hits.several) {
-    minima = descend(problem, start);
-    if (minima.best.pose.is_finite()) starts.push_back(minima.best.pose);
+  StartPoses starts;
+  if (prior != nullptr) {
+    starts.push_back(*prior);
+  } else {
+    starts = start_poses(problem.hits.sightings, options.start);
   }
+  Minima minima;
+  if (!starts.empty() && !problem.hits.several) minima = descend(problem, nearest(problem, starts));
   if (problem.hits.several || !credible(problem, minima.best)) {
-    if (prior != nullptr) starts.push_back(*prior);
+    if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
+    LighthouseFromBody start;
     if (!fit_rigid_body(problem.hits, starts, options, start)) return Refusal::kNotConverged;
-    if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return Refusal::kPoorFit;
+    if (too_few(problem, prior != nullptr) != Refusal::kNone) return Refusal::kPoorFit;
     minima = descend(problem, start);
   }
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;
