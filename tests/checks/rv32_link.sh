@@ -5,6 +5,7 @@
 set -u
 root=$1
 build=$2
+mkdir -p "$build"
 if ! command -v riscv64-unknown-elf-gcc >/dev/null; then
   echo "skipped: riscv64-unknown-elf-gcc is not installed (tools/install-dependencies test)"
   exit 77
