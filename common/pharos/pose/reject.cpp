@@ -201,8 +201,7 @@ double credible_chi2(int degrees_of_freedom) {
   return n + 4.0 * std::sqrt(2.0 * n) + 8.0;
 }
 
-bool fit_rigid_body(Hits& hits, const StaticVector<LighthouseFromBody, 4>& starts, const SolveOptions& options,
-                    LighthouseFromBody& pose) {
+bool fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose) {
   Core best;
   for (const LighthouseFromBody& start : starts) consider(hits, start, best);
   consider_triplets(hits, best);

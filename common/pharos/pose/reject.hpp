@@ -3,6 +3,7 @@
 
 #include "pharos/pose/hits.hpp"
 #include "pharos/pose/refine.hpp"
+#include "pharos/pose/start_poses.hpp"
 
 namespace pharos::pose {
 
@@ -20,7 +21,6 @@ double credible_chi2(int degrees_of_freedom);
 /// of twenty sigma that are no reason to throw a hit away.
 ///
 /// Leaves the choice in `hits` and the pose in `pose`; false where no start was found.
-bool fit_rigid_body(Hits& hits, const StaticVector<LighthouseFromBody, 4>& starts, const SolveOptions& options,
-                    LighthouseFromBody& pose);
+bool fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose);
 
 }  // namespace pharos::pose

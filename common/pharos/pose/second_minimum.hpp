@@ -14,7 +14,4 @@ namespace pharos::pose {
 /// the far limit and close wherever the relief is small enough for a second minimum to fit.
 LighthouseFromBody mirrored_in_depth(const Sightings& sightings, const LighthouseFromBody& pose);
 
-/// Unit normal (body frame) of the plane of best fit through the sensors that take part.
-Vector3 plane_normal(const Sightings& sightings);
-
 }  // namespace pharos::pose
