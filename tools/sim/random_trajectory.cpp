@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+#include "tools/sim/trajectory.hpp"
+
+namespace pharos::sim {
+namespace {
+
+constexpr int kSines = 3;
+constexpr double kSampleStep_s = 0.01;
+
+// A wandering coordinate within [-1, 1].
+struct Wander {
+  std::array<Sine, kSines> sines;
+
+  explicit Wander(RandomStream& random) {
+    double sum = 0.0;
+    for (Sine& sine : sines) {
+      sine = {random.uniform(0.4, 1.0), random.uniform(0.05, 0.25), random.uniform(0.0, kTwoPi)};
+      sum += sine.amplitude;
+    }
+    for (Sine& sine : sines) sine.amplitude /= sum;
+  }
+  double at(double time_s) const {
+    double value = 0.0;
+    for (const Sine& sine : sines) value += sine.at(time_s);
+    return value;
+  }
+};
+
+// Body z towards the room's origin, body x as level as it goes.
+Matrix3 facing_origin(const Vector3& position) {
+  const Vector3 z = -position.normalized();
+  const Vector3 x = z.cross(Vector3::UnitY()).normalized();
+  Matrix3 R;
+  R << x, z.cross(x), z;
+  return R;
+}
+
+class ManoeuvreTrajectory final : public Trajectory {
+ public:
+  ManoeuvreTrajectory(const ManoeuvreLimits& limits, RandomStream& random)
+      : limits_(limits),
+        position_{Wander(random), Wander(random), Wander(random)},
+        tilt_{Wander(random), Wander(random)},
+        roll_(random) {}
+
+  RoomFromBody at(double time_s) const override {
+    const Vector3 position = position_at(time_s * position_pace_);
+    const double time = time_s * turning_pace_;
+    const double tilt = limits_.tilt_deg * kRadPerDeg;
+    const Matrix3 turn = rotation_exp(Vector3(tilt * tilt_[0].at(time), tilt * tilt_[1].at(time), 0.0)) *
+                         rotation_exp(Vector3(0.0, 0.0, kTwoPi * roll_.at(time)));
+    return {facing_origin(position) * turn, position};
+  }
+
+  void scale_to_limits(double duration_s) {
+    // The greatest speed grows with the pace, but a faster flight also sees more of its path: a few rounds settle it.
+    for (int round = 0; round < 20; ++round) {
+      const double top =
+          greatest(duration_s, [](const RoomFromBody& a, const RoomFromBody& b) { return (b.t - a.t).norm(); });
+      position_pace_ *= limits_.speed_m_s / std::max(top, 1e-9);
+    }
+    double low = 0.0;
+    double high = 100.0;
+    for (int halving = 0; halving < 20; ++halving) {
+      turning_pace_ = 0.5 * (low + high);
+      const double top = greatest(
+          duration_s, [](const RoomFromBody& a, const RoomFromBody& b) { return rotation_angle_between(a.R, b.R); });
+      (top > limits_.rate_deg_s * kRadPerDeg ? high : low) = turning_pace_;
+    }
+    turning_pace_ = low;
+  }
+
+ private:
+  template <class Distance>
+  double greatest(double duration_s, Distance distance) const {
+    double top = 0.0;
+    RoomFromBody before = at(0.0);
+    for (double time = kSampleStep_s; time <= duration_s; time += kSampleStep_s) {
+      const RoomFromBody now = at(time);
+      top = std::max(top, distance(before, now) / kSampleStep_s);
+      before = now;
+    }
+    return top;
+  }
+
+  // Sideways the volume is cut by the field of view, smoothly so that no corner shows in the acceleration.
+  Vector3 position_at(double time) const {
+    Vector3 p;
+    p.z() = coordinate(2, position_[2].at(time), 1e9);
+    const double reach = std::tan(limits_.half_field_deg * kRadPerDeg) * p.z();
+    p.x() = coordinate(0, position_[0].at(time), reach);
+    p.y() = coordinate(1, position_[1].at(time), reach);
+    return p;
+  }
+  double coordinate(Eigen::Index axis, double wander, double reach) const {
+    const double middle = 0.5 * (limits_.low_m[axis] + limits_.high_m[axis]);
+    const double half = 0.5 * (limits_.high_m[axis] - limits_.low_m[axis]);
+    const double room = std::max(reach - std::abs(middle), 1e-3);
+    const double softened = std::pow(std::pow(std::max(half, 1e-6), -4.0) + std::pow(room, -4.0), -0.25);
+    return middle + (reach > 1e8 ? half : softened) * wander;
+  }
+
+  ManoeuvreLimits limits_;
+  std::array<Wander, 3> position_;
+  std::array<Wander, 2> tilt_;
+  Wander roll_;
+  double position_pace_ = 1.0;
+  double turning_pace_ = 1.0;
+};
+
+bool shows_enough(const RoomFromBody& pose, const Target& target, double min_cosine, int wanted) {
+  int lit = 0;
+  for (const SensorPlacement& sensor : target) {
+    const Vector3 to_origin = -(pose * sensor.position_m).normalized();
+    if (!sensor.has_normal() || (pose.R * sensor.normal).dot(to_origin) > min_cosine) ++lit;
+  }
+  return lit >= wanted;
+}
+
+}  // namespace
+
+Matrix3 random_rotation(RandomStream& random) {
+  Eigen::Vector4d v;
+  for (int i = 0; i < 4; ++i) v[i] = random.normal();
+  return Quaternion(v).normalized().toRotationMatrix();
+}
+
+std::unique_ptr<Trajectory> make_random_manoeuvre(const ManoeuvreLimits& limits, double duration_s,
+                                                  RandomStream random) {
+  auto trajectory = std::make_unique<ManoeuvreTrajectory>(limits, random);
+  trajectory->scale_to_limits(duration_s);
+  return trajectory;
+}
+
+std::vector<RoomFromBody> random_rest_poses(const RandomRest& limits, const Target& target, double max_incidence_deg,
+                                            RandomStream random) {
+  const double min_cosine = std::cos(max_incidence_deg * kRadPerDeg);
+  std::vector<RoomFromBody> poses;
+  for (int i = 0; i < limits.count; ++i) {
+    const double angle = limits.max_angle_deg * kRadPerDeg;
+    const Vector3 direction =
+        Vector3(std::tan(random.uniform(-angle, angle)), std::tan(random.uniform(-angle, angle)), 1.0).normalized();
+    const Vector3 position = direction * random.uniform(limits.min_range_m, limits.max_range_m);
+    RoomFromBody pose{random_rotation(random), position};
+    int tries = 0;
+    while (!shows_enough(pose, target, min_cosine, limits.min_lit)) {
+      if (++tries == 10'000) {
+        throw host::InputError("no attitude of the target shows " + std::to_string(limits.min_lit) +
+                               " sensors; lower trajectory.min_lit or raise light.max_incidence_deg");
+      }
+      pose.R = random_rotation(random);
+    }
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+}  // namespace pharos::sim

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/recording_writer.hpp"
+
+#include <zlib.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "host/support/input_error.hpp"
+#include "host/table/row_writer.hpp"
+#include "tools/sim/lighthouse_simulator.hpp"
+
+namespace pharos::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using host::InputError;
+
+[[noreturn]] void refuse(const fs::path& path) {
+  throw InputError(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+File create(const fs::path& path) {
+  File file(std::fopen(path.c_str(), "w"));
+  if (!file) refuse(path);
+  return file;
+}
+
+std::string shortest(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  std::string result(text, end);
+  // TOML tells integers from numbers.
+  return result.find_first_of(".e") == std::string::npos ? result + ".0" : result;
+}
+
+// Pulses as a gzip table, gathered into large writes.
+class PulseTable {
+ public:
+  PulseTable(const fs::path& path, bool wrap32) : path_(path), wrap32_(wrap32), file_(gzopen(path.c_str(), "wb6")) {
+    if (file_ == nullptr) refuse(path);
+    buffer_ = "sensor,rise_ticks,fall_ticks\n";
+  }
+  PulseTable(const PulseTable&) = delete;
+  PulseTable& operator=(const PulseTable&) = delete;
+  ~PulseTable() {
+    if (file_ != nullptr) gzclose(file_);
+  }
+
+  void add(const SimulatedPulse& pulse) {
+    append(pulse.sensor, ',');
+    append(stamp(pulse.rise_ticks), ',');
+    append(stamp(pulse.fall_ticks), '\n');
+    if (buffer_.size() > kGather) flush();
+  }
+  void close() {
+    flush();
+    gzFile file = file_;
+    file_ = nullptr;
+    if (gzclose(file) != Z_OK) refuse(path_);
+  }
+
+ private:
+  static constexpr std::size_t kGather = 1 << 16;
+
+  std::int64_t stamp(std::int64_t ticks) const { return wrap32_ ? ticks & 0xFFFFFFFF : ticks; }
+  void append(std::int64_t value, char end) {
+    char text[24];
+    buffer_.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+    buffer_.push_back(end);
+  }
+  void flush() {
+    const auto size = static_cast<unsigned>(buffer_.size());
+    if (size != 0 && gzwrite(file_, buffer_.data(), size) != static_cast<int>(size)) refuse(path_);
+    buffer_.clear();
+  }
+
+  fs::path path_;
+  bool wrap32_;
+  gzFile file_;
+  std::string buffer_;
+};
+
+void write_target(const fs::path& path, const Target& target) {
+  const File file = create(path);
+  host::RowWriter rows(file.get(), host::RowFormat::kCsv, {"sensor", "x_m", "y_m", "z_m", "nx", "ny", "nz"});
+  for (const SensorPlacement& sensor : target) {
+    rows.integer(sensor.sensor);
+    for (int i = 0; i < 3; ++i) rows.number(sensor.position_m[i]);
+    if (sensor.has_normal()) {
+      for (int i = 0; i < 3; ++i) rows.number(sensor.normal[i]);
+    } else {
+      rows.none(3);
+    }
+    rows.end_row();
+  }
+  rows.flush();
+}
+
+void write_truth(const fs::path& path, const LighthouseSimulator& simulator) {
+  const File file = create(path);
+  host::RowWriter rows(file.get(), host::RowFormat::kCsv,
+                       {"time_s", "station", "qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"});
+  const auto first = static_cast<std::int64_t>(std::ceil(simulator.start_s() * 1000.0));
+  const auto last = static_cast<std::int64_t>(std::floor(simulator.end_s() * 1000.0));
+  for (std::int64_t millisecond = first; millisecond <= last; ++millisecond) {
+    const double time_s = static_cast<double>(millisecond) / 1000.0;
+    for (std::size_t station = 0; station < simulator.stations().size(); ++station) {
+      const LighthouseFromBody T = simulator.truth(station, time_s);
+      const Quaternion q = T.quaternion();
+      rows.number(time_s).integer(static_cast<std::int64_t>(station));
+      rows.number(q.w()).number(q.x()).number(q.y()).number(q.z());
+      rows.number(T.t.x()).number(T.t.y()).number(T.t.z());
+      rows.end_row();
+    }
+  }
+  rows.flush();
+}
+
+std::string errors_table(const SheetErrors& errors) {
+  return "phase_rad = " + shortest(errors.phase_rad) + "\ntilt_rad = " + shortest(errors.tilt_rad) +
+         "\ncurve_rad = " + shortest(errors.curve_rad) + "\ngibbous_phase_rad = " + shortest(errors.gibbous_phase_rad) +
+         "\ngibbous_magnitude_rad = " + shortest(errors.gibbous_magnitude_rad) + "\n";
+}
+
+void write_stations(const fs::path& path, const LighthouseSimulator& simulator) {
+  std::ofstream out(path);
+  out << "# The simulated stations: pose in the room, what they say of themselves, what is true.\n"
+      << "model_form = " << static_cast<int>(simulator.scenario().form) << "\n";
+  for (const SimulatedStation& station : simulator.stations()) {
+    char id[16];
+    std::snprintf(id, sizeof id, "%08X", station.announced.id);
+    std::string payload;
+    for (const std::uint8_t byte : announcement_bytes(station.announced)) {
+      char hex[4];
+      std::snprintf(hex, sizeof hex, "%02x", byte);
+      payload += hex;
+    }
+    const Quaternion q = station.pose.quaternion();
+    const Vector3& t = station.pose.t;
+    out << "\n[[station]]\nid = \"" << id << "\"\nmode = \""
+        << "ABC"[station.announced.mode] << "\"\n"
+        << "orientation_wxyz = [" << shortest(q.w()) << ", " << shortest(q.x()) << ", " << shortest(q.y()) << ", "
+        << shortest(q.z()) << "]\nposition_m = [" << shortest(t.x()) << ", " << shortest(t.y()) << ", "
+        << shortest(t.z()) << "]\npayload_hex = \"" << payload << "\"\n";
+    const char* const names[] = {"x", "y"};
+    for (std::size_t rotor = 0; rotor < 2; ++rotor) {
+      out << "[station.announced_" << names[rotor] << "]\n" << errors_table(station.announced.rotor[rotor]);
+      out << "[station.true_" << names[rotor] << "]\n" << errors_table(station.true_errors[rotor]);
+    }
+  }
+  out.flush();
+  if (!out) refuse(path);
+}
+
+void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults) {
+  const File file = create(path);
+  host::RowWriter rows(file.get(), host::RowFormat::kCsv, {"time_s", "kind", "station", "sensor", "amount"});
+  for (const InjectedFault& fault : faults) {
+    rows.number(fault.time_s).text(fault.kind);
+    fault.station < 0 ? rows.none() : rows.integer(fault.station);
+    fault.sensor < 0 ? rows.none() : rows.integer(fault.sensor);
+    rows.number(fault.amount);
+    rows.end_row();
+  }
+  rows.flush();
+}
+
+}  // namespace
+
+RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64_t seed, const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw InputError(directory.string() + ": cannot be made: " + error.message());
+  LighthouseSimulator simulator(scenario, seed);
+  RecordingSummary summary;
+  PulseTable pulses(directory / "edges.csv.gz", scenario.clock.wrap32);
+  while (const std::optional<SimulatedPulse> pulse = simulator.next()) {
+    pulses.add(*pulse);
+    ++summary.pulses;
+  }
+  pulses.close();
+  write_truth(directory / "truth.csv", simulator);
+  write_target(directory / "target.csv", simulator.nominal_target());
+  write_target(directory / "target_true.csv", simulator.true_target());
+  write_stations(directory / "stations.toml", simulator);
+  write_faults(directory / "faults.csv", simulator.faults());
+  summary.duration_s = simulator.end_s() - simulator.start_s();
+  summary.faults = simulator.faults().size();
+  return summary;
+}
+
+}  // namespace pharos::sim
