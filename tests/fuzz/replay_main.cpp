@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds every file of the folders (or files) named on the command line to a fuzz target: without libFuzzer, the corpus
-// is an ordinary test.
+// Stands in for libFuzzer's main: feeds every file of the folders (or single files) named on the command line, in the
+// order of their names, to the target. A folder without inputs is an error, so that a lost corpus is noticed.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -13,30 +14,38 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-bool replay(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
-  const std::vector<char> text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  // A copy of exactly this size, so that the address sanitizer sees a read one byte too far.
-  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+std::vector<std::filesystem::path> inputs_under(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool replay(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    std::fprintf(stderr, "%s: cannot be read\n", file.c_str());
+    return false;
+  }
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
+  LLVMFuzzerTestOneInput(input.data(), input.size());
   return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::size_t inputs = 0;
-  for (int i = 1; i < argc; ++i) {
-    const std::filesystem::path path(argv[i]);
-    if (std::filesystem::is_directory(path)) {
-      for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
-        if (entry.is_regular_file() && replay(entry.path())) ++inputs;
-      }
-    } else if (replay(path)) {
-      ++inputs;
+  std::size_t replayed = 0;
+  for (int argument = 1; argument < argc; ++argument) {
+    for (const auto& file : inputs_under(argv[argument])) {
+      if (!replay(file)) return 1;
+      ++replayed;
     }
   }
-  std::printf("%zu inputs replayed\n", inputs);
-  return inputs > 0 ? 0 : 1;  // an empty corpus is a mistake, not a success
+  std::printf("%zu inputs replayed\n", replayed);
+  return replayed > 0 ? 0 : 1;
 }

@@ -41,7 +41,9 @@ class Reporter {
     if (payload == 0 && M::kMaxBytes > 0) return refuse();
     return frame(M::kType, payload);
   }
-  /// The frame given last could not be sent (line full): nothing to do for its number, the host counts the gap.
+  // A frame that the line has no room for is simply not sent: its number is used up, and the host counts the gap.
+
+  /// Values that cannot be sent (a field out of its range).
   std::uint32_t refused() const { return refused_; }
   std::uint32_t frames() const { return frames_; }
 
