@@ -5,12 +5,25 @@
 
 namespace pharos::tools {
 
-// Every subcommand adds itself to `app` with its options, help and example; its callback writes the program's exit code:
-// 0 at least one answer, 1 none could be had. Wrong usage and unreadable input are thrown as host::InputError (exit 2).
+// Exit codes of every subcommand.
+inline constexpr int kExitAnswered = 0;  // at least one answer was given
+inline constexpr int kExitNoAnswer = 1;  // none could be had
+inline constexpr int kExitUsage = 2;     // wrong usage or unreadable input
+
+// Every subcommand adds itself to `app` with its options, help and example; its callback writes the program's exit
+// code: kExitAnswered or kExitNoAnswer. Wrong usage and unreadable input are thrown as host::InputError (kExitUsage).
+void add_decode(CLI::App& app, int& exit_code);
+void add_track(CLI::App& app, int& exit_code);
+void add_solve(CLI::App& app, int& exit_code);
+void add_precision(CLI::App& app, int& exit_code);
+void add_sim(CLI::App& app, int& exit_code);  // tools/sim
 
 inline void add_commands(CLI::App& app, int& exit_code) {
-  (void)app;
-  (void)exit_code;
+  add_decode(app, exit_code);
+  add_track(app, exit_code);
+  add_solve(app, exit_code);
+  add_precision(app, exit_code);
+  add_sim(app, exit_code);
 }
 
 }  // namespace pharos::tools

@@ -5,25 +5,20 @@
 
 #include "tools/cli/commands.hpp"
 
-namespace {
-
-constexpr int kExitUsage = 2;
-
-}  // namespace
-
 int main(int argc, char** argv) {
   CLI::App app("Relative pose of spacecraft at close range", "pharos");
   app.require_subcommand(1);
   app.set_version_flag("--version", PHAROS_VERSION);
-  int exit_code = 0;
-  pharos::tools::add_commands(app, exit_code);
+  app.footer("Every subcommand has --help with an example. Exit code: 0 at least one answer, 1 none, 2 wrong usage.");
+  int exit_code = pharos::tools::kExitAnswered;
   try {
+    pharos::tools::add_commands(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kExitUsage;
+    return app.exit(error) == 0 ? pharos::tools::kExitAnswered : pharos::tools::kExitUsage;
   } catch (const std::exception& error) {
     std::cerr << "pharos: " << error.what() << '\n';
-    return kExitUsage;
+    return pharos::tools::kExitUsage;
   }
   return exit_code;
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/table/row_writer.hpp"
+
+namespace pharos::tools {
+
+// What every subcommand of the table kind shares: where rows go and in which form.
+struct OutputOptions {
+  bool json = false;
+  std::string path = "-";
+};
+
+void add_output_options(CLI::App& command, OutputOptions& options);
+
+/// Rows on standard output or in a file, as CSV or JSON lines.
+class Output {
+ public:
+  /// Throws InputError when the file cannot be written.
+  Output(const OutputOptions& options, std::vector<std::string> columns);
+
+  host::RowWriter& rows() { return *rows_; }
+  /// Everything out. Throws InputError when the disk is full.
+  void finish() { rows_->flush(); }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const {
+      if (file != stdout) std::fclose(file);
+    }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<host::RowWriter> rows_;
+};
+
+/// One line for people on standard error, after the program's name.
+void note(const std::string& message);
+
+}  // namespace pharos::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pharos/lighthouse/decoder_counters.hpp"
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+
+namespace pharos::tools {
+
+/// What a recording says once decoded.
+using RecordingEvent = std::variant<lighthouse::Sweep, lighthouse::OotxPayload>;
+
+/// A recording from start to end: a table of light pulses, which is decoded here, or a recorded serial stream, whose
+/// sweeps the target decoded (or its raw edges, where it was in the diagnostic mode). Told apart by content.
+class Recording {
+ public:
+  /// Throws InputError for a file that is neither.
+  explicit Recording(const std::string& path);
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  /// The next event in order of time; empty at the end. Throws InputError where a table is broken.
+  std::optional<RecordingEvent> next();
+
+  const lighthouse::DecoderCounters& counters() const;
+  /// Things to say to a person at the end: an unfinished last line, lost frames.
+  std::vector<std::string> remarks() const;
+
+  /// Pulses, edges or frames read by now.
+  std::size_t items_read() const;
+
+  class Source;
+
+ private:
+  std::unique_ptr<Source> source_;
+};
+
+/// Whether `path` can be read twice: an ordinary file, not standard input or a pipe.
+bool is_rereadable(const std::string& path);
+
+/// Prints every counter and remark of a recording on standard error, one a line: `name value  what it counts`.
+void print_statistics(const Recording& recording);
+/// The remarks alone, which are never kept back.
+void print_remarks(const Recording& recording);
+
+}  // namespace pharos::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pharos/base/capacity.hpp"
+#include "pharos/lighthouse/calibration_store.hpp"
+
+namespace pharos::tools {
+
+/// What OOTX says of the stations of one recording: who stands in which slot, and which calibration holds.
+class Stations {
+ public:
+  /// Takes a payload in; true when it changed the calibration in use of its station.
+  bool push(const lighthouse::OotxPayload& payload);
+  /// Calibration in use (came twice); null until there is one.
+  const lighthouse::StationCalibration* calibration(std::uint8_t station) const;
+  /// The station's id: of the calibration in use, else of the first readable payload.
+  std::optional<std::uint32_t> id(std::uint8_t station) const;
+  /// Every station was identified and calibrated.
+  bool complete() const;
+
+ private:
+  lighthouse::CalibrationStore store_;
+  std::array<std::optional<std::uint32_t>, kMaxStations> first_id_;
+};
+
+/// Reads a file's OOTX ahead, so that what it says holds from the first row: up to where every station is calibrated,
+/// or to the end. Empty knowledge for what cannot be read twice.
+Stations read_ahead(const std::string& path);
+
+}  // namespace pharos::tools

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos track: a recording and a target to poses of the target in each station's frame.
+#include <array>
+
+#include "host/table/target_file.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+#include "tools/cli/calibration_choice.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/pose_columns.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/cli/recording.hpp"
+#include "tools/cli/residual_table.hpp"
+#include "tools/cli/solver_options.hpp"
+#include "tools/cli/target_notes.hpp"
+#include "tools/cli/words.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
+    "Each row is T_lighthouse_body of one cycle of one station; time_s is the mean time of the hits used.\n"
+    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor.";
+
+struct Options {
+  std::string edges;
+  std::string target;
+  std::string method = "epoch";
+  std::string calibration = "ootx";
+  std::string sensors;
+  int form = 1;
+  bool raw_flashes = false;
+  bool stats = false;
+  SolverOptions solver;
+  OutputOptions output;
+
+  track::TrackOptions track() const {
+    track::TrackOptions options;
+    options.solve = solver.solve();
+    options.form = form == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
+    options.smooth_flashes = !raw_flashes;
+    return options;
+  }
+};
+
+std::vector<std::string> columns() {
+  std::vector<std::string> last = {"sigma_rot_deg", "sigma_pos_mm", "adop_deg_per_rad", "pdop_m_per_rad",
+                                   "rms_arcsec",    "observations", "status",           "flags"};
+  for (const std::string& column : second_solution_columns()) last.push_back(column);
+  last.emplace_back("iterations");
+  last.emplace_back("station_id");
+  return with_pose_columns({"time_s", "station"}, last);
+}
+
+void write_result(const track::EpochResult& result, const std::string& station_id, host::RowWriter& rows) {
+  rows.number(ticks_to_seconds(result.time_ticks)).integer(result.station);
+  const LighthousePoseEstimate* estimate = result.pose ? &result.pose.value() : nullptr;
+  if (estimate != nullptr) {
+    write_pose(rows, estimate->pose);
+    rows.number(estimate->sigma_rotation_rad() * kDegPerRad).number(estimate->sigma_position_m() * kMmPerM);
+    rows.number(estimate->adop_deg_per_rad).number(estimate->pdop_m_per_rad);
+    rows.number(estimate->residual_rms * kArcsecPerRad);
+  } else {
+    write_no_pose(rows);
+    rows.none(5);
+  }
+  rows.integer(result.observations).text(status_of(result.pose)).text(epoch_flag_words(result.flags));
+  write_second_solution(rows, estimate);
+  if (estimate != nullptr) {
+    rows.integer(estimate->iterations);
+  } else {
+    rows.none();
+  }
+  rows.text(station_id).end_row();
+}
+
+// One run over a recording.
+class Tracking {
+ public:
+  Tracking(const Options& options, const Target& target)
+      : calibration_(options.calibration, options.edges),
+        tracker_(target, options.track()),
+        output_(options.output, columns()) {
+    refresh_calibrations();
+  }
+
+  void push(const RecordingEvent& event) {
+    if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&event)) {
+      calibration_.push(*payload);
+      refresh_calibrations();
+    } else if (const auto* sweep = std::get_if<lighthouse::Sweep>(&event)) {
+      if (const auto result = tracker_.push(*sweep)) take(*result);
+    }
+  }
+  void finish() {
+    while (const auto result = tracker_.flush()) take(*result);
+    output_.finish();
+  }
+  void show() { output_.rows().flush(); }
+
+  const ResidualTable& residuals() const { return residuals_; }
+  std::size_t rows() { return output_.rows().rows(); }
+  std::size_t poses() const { return poses_; }
+  bool uncalibrated() const { return uncalibrated_ > 0; }
+
+ private:
+  void refresh_calibrations() {
+    for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+      const lighthouse::StationCalibration* now = calibration_.calibration(station);
+      if (now == nullptr || known_[station] == *now) continue;
+      known_[station] = *now;
+      tracker_.set_calibration(station, *now);
+    }
+  }
+  void take(const track::EpochResult& result) {
+    write_result(result, station_id_text(calibration_.station_id(result.station)), output_.rows());
+    if ((result.flags & track::kEpochUncalibrated) != 0) ++uncalibrated_;
+    if (!result.pose) return;
+    ++poses_;
+    residuals_.push(result.station, tracker_.residuals());
+  }
+
+  CalibrationChoice calibration_;
+  track::EpochTracker tracker_;
+  Output output_;
+  ResidualTable residuals_;
+  std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> known_;
+  std::size_t poses_ = 0;
+  std::size_t uncalibrated_ = 0;
+};
+
+void say_what_came_out(const Options& options, Tracking& tracking) {
+  if (options.calibration == "ootx" && tracking.uncalibrated()) {
+    note(options.edges + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
+  }
+  if (tracking.poses() > 0) return;
+  note(tracking.rows() > 0 ? options.edges + ": every cycle was refused; see the column status"
+                           : options.edges + ": no complete cycle; --stats says what became of its pulses");
+}
+
+int run(const Options& options) {
+  const host::TargetFile target = host::read_target(options.target);
+  note_target_shape(options.target, target.shape);
+  const auto tracking = std::make_unique<Tracking>(options, target.target);
+  Recording recording(options.edges);
+  Progress progress("track", "sweeps and payloads");
+  const bool live = !is_rereadable(options.edges);
+  while (const std::optional<RecordingEvent> event = recording.next()) {
+    tracking->push(*event);
+    if (live) tracking->show();
+    progress.step();
+  }
+  tracking->finish();
+  if (!options.sensors.empty()) tracking->residuals().write({options.output.json, options.sensors});
+  print_remarks(recording);
+  if (options.stats) print_statistics(recording);
+  say_what_came_out(options, *tracking);
+  return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
+}
+
+}  // namespace
+
+void add_track(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("track", "A recording and a target to poses, one a station and cycle");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option(
+          "edges", options->edges,
+          "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
+      ->required();
+  command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
+  command->add_option("--method", options->method, "epoch: each cycle alone, the paper's way")
+      ->check(CLI::IsMember({"epoch"}))
+      ->capture_default_str();
+  command
+      ->add_option("--calibration", options->calibration,
+                   "ootx (what the stations send; a file is read twice), none, or a TOML file of [[station]] tables")
+      ->capture_default_str();
+  command->add_option("--form", options->form, "Sign form of the station model")
+      ->check(CLI::IsMember({1, 2}))
+      ->capture_default_str();
+  command->add_flag("--raw-flashes", options->raw_flashes, "Flash times as measured, not smoothed");
+  command->add_option("--sensors", options->sensors, "File for what is left of each sensor: mean, sd, rms per station");
+  command->add_flag("--stats", options->stats, "Every counter at the end, on standard error");
+  add_solver_options(*command, options->solver);
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
