@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <lcm/lcm-cpp.hpp>
+
+#include "host/daemon/event_loop.hpp"
+#include "host/daemon/now.hpp"
+#include "host/daemon/signals.hpp"
+#include "host/daemon/timer.hpp"
+#include "host/support/input_error.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/listen/listener.hpp"
+
+namespace pharos::tools {
+namespace {
+
+struct ListenOptions {
+  std::string channel = "PHAROS_LIGHTHOUSE_POSE";
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string truth;
+  double duration_s = 0.0;
+  std::int64_t count = 0;
+  bool csv = false;
+  bool json = false;
+  bool summary = false;
+};
+
+ListenFormat format_of(const ListenOptions& options) {
+  if (options.summary) return ListenFormat::kNone;
+  if (options.json) return ListenFormat::kJson;
+  return options.csv ? ListenFormat::kCsv : ListenFormat::kLines;
+}
+
+// Connects LCM's callback to the listener.
+struct Ear {
+  Listener listener;
+  void hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    listener.take(channel, buffer->data, static_cast<int>(buffer->data_size), host::utc_now_ns(),
+                  host::monotonic_now_ns());
+  }
+};
+
+void listen_until_done(lcm::LCM& lcm, Ear& ear, host::Signals& signals, const ListenOptions& options) {
+  host::EventLoop loop;
+  host::Timer timer;
+  if (options.duration_s > 0.0) {
+    timer.start(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(options.duration_s)));
+  }
+  loop.watch(signals.fd(), [&] { loop.stop(); });
+  loop.watch(timer.fd(), [&] { loop.stop(); });
+  loop.watch(lcm.getFileno(), [&] {
+    lcm.handle();
+    if (options.count > 0 && ear.listener.summary().poses() >= options.count) loop.stop();
+  });
+  loop.run();
+}
+
+int listen(const ListenOptions& options) {
+  // Blocked before LCM starts its own thread, which would take them otherwise.
+  host::Signals signals{SIGINT, SIGTERM};
+  std::optional<TruthFile> truth;
+  if (!options.truth.empty()) truth.emplace(options.truth);
+  Ear ear{Listener(format_of(options), std::move(truth))};
+  lcm::LCM lcm(options.url);
+  if (!lcm.good() || lcm.subscribe(options.channel, &Ear::hear, &ear) == nullptr) {
+    throw host::InputError("LCM cannot be set up with the URL \"" + options.url + "\" and the channel \"" +
+                           options.channel +
+                           "\": check both (--url, CHANNEL), and that there is a route for "
+                           "multicast (without a network: ip route add 224.0.0.0/4 dev lo)");
+  }
+  listen_until_done(lcm, ear, signals, options);
+  ear.listener.finish();
+  const std::string text = summary_text(ear.listener.summary().sources());
+  std::fputs(text.c_str(), options.summary ? stdout : stderr);
+  if (ear.listener.foreign() > 0) {
+    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(ear.listener.foreign()));
+  }
+  return ear.listener.summary().poses() > 0 ? kExitAnswered : kExitNoAnswer;
+}
+
+}  // namespace
+
+void add_listen(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ListenOptions>();
+  CLI::App* command = app.add_subcommand("listen", "Poses (or status messages) on LCM as they arrive, one line each");
+  command->add_option("channel", options->channel, "Channel, or a regular expression for several")
+      ->capture_default_str();
+  command->add_option("--url", options->url, "LCM URL")->capture_default_str();
+  command->add_option("--truth", options->truth,
+                      "File with the true poses (utime,qw,...,tz_m), as `pharos sim serial --truth` writes it");
+  command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::NonNegativeNumber);
+  command->add_flag("--csv", options->csv, "A CSV table");
+  command->add_flag("--json", options->json, "One JSON object a line")->excludes("--csv");
+  command->add_flag("--summary", options->summary, "Only the summary at the end, on standard output");
+  command->footer(
+      "Example: pharos listen --duration 10 --summary --truth truth.csv\n"
+      "         pharos listen PHAROS_STATUS --json\n"
+      "Ends with 0 when at least one pose was received, with 1 when none was.");
+  command->callback([options, &exit_code] { exit_code = listen(*options); });
+}
+
+}  // namespace pharos::tools

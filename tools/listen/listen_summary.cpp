@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/listen/listen_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+#include "pharos/geometry/rotation.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr double kMsPerNs = 1e-6;
+
+double root_mean(double sum, std::int64_t count) {
+  return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace
+
+PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth) {
+  const Vector6 delta = pose_difference(measured, truth);
+  return {delta.head<3>().norm(), delta.tail<3>().norm()};
+}
+
+double SourceSummary::rms_rotation_rad() const { return root_mean(squared_rotation_rad2, compared); }
+double SourceSummary::rms_position_m() const { return root_mean(squared_position_m2, compared); }
+
+double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
+  Stream& stream = streams_[{pose.channel, pose.target, pose.station}];
+  SourceSummary& summary = stream.summary;
+  summary.channel = pose.channel;
+  summary.target = pose.target;
+  summary.station = pose.station;
+  const auto [last, first] = last_sequence_.try_emplace({pose.channel, pose.source + '/' + pose.target}, pose.sequence);
+  if (!first && pose.sequence > last->second) summary.lost += pose.sequence - last->second - 1;
+  last->second = pose.sequence;
+  if (!pose.pose) {
+    ++summary.refused;
+    return 0.0;
+  }
+  if (summary.poses == 0) stream.first_utime_us = pose.utime_us;
+  ++poses_;
+  ++summary.poses;
+  summary.seconds = static_cast<double>(pose.utime_us - stream.first_utime_us) * 1e-6;
+  summary.age.add(static_cast<std::int64_t>(pose.age_s * 1e9));
+  stream.arrivals_ns.push_back(monotonic_ns);
+  while (stream.arrivals_ns.front() <= monotonic_ns - kSecondNs) stream.arrivals_ns.pop_front();
+  return static_cast<double>(stream.arrivals_ns.size());
+}
+
+void ListenSummary::add_error(const ReceivedPose& pose, const PoseError& error) {
+  SourceSummary& summary = streams_[{pose.channel, pose.target, pose.station}].summary;
+  ++summary.compared;
+  summary.squared_rotation_rad2 += error.rotation_rad * error.rotation_rad;
+  summary.squared_position_m2 += error.position_m * error.position_m;
+  summary.max_rotation_rad = std::max(summary.max_rotation_rad, error.rotation_rad);
+  summary.max_position_m = std::max(summary.max_position_m, error.position_m);
+}
+
+std::vector<SourceSummary> ListenSummary::sources() const {
+  std::vector<SourceSummary> result;
+  for (const auto& [key, stream] : streams_) result.push_back(stream.summary);
+  return result;
+}
+
+std::string summary_text(const std::vector<SourceSummary>& sources) {
+  std::string out;
+  for (const SourceSummary& source : sources) {
+    out += fmt::format("{}, target {}, station {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost\n",
+                       source.channel, source.target, source.station, source.poses, source.seconds, source.rate_hz(),
+                       source.refused, source.lost);
+    if (source.poses > 0) {
+      const auto age_ms = [&](double q) { return static_cast<double>(source.age.quantile_ns(q)) * kMsPerNs; };
+      out += fmt::format("  age on arrival: {:.1f} ms median, {:.1f} ms 99 %, {:.1f} ms largest\n", age_ms(0.5),
+                         age_ms(0.99), age_ms(1.0));
+    }
+    if (source.compared > 0) {
+      out += fmt::format(
+          "  error against truth ({} poses): {:.3f} deg RMS, {:.3f} deg largest; {:.2f} mm RMS, {:.2f} mm largest\n",
+          source.compared, source.rms_rotation_rad() * kDegPerRad, source.max_rotation_rad * kDegPerRad,
+          source.rms_position_m() * kMmPerM, source.max_position_m * kMmPerM);
+    }
+  }
+  return out.empty() ? "nothing was received\n" : out;
+}
+
+}  // namespace pharos::tools

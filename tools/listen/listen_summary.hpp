@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "host/daemon/latency_histogram.hpp"
+#include "tools/listen/received_pose.hpp"
+
+namespace pharos::tools {
+
+/// What came from one station on one target.
+struct SourceSummary {
+  std::string channel;
+  std::string target;
+  int station = 0;
+  std::int64_t poses = 0;
+  std::int64_t refused = 0;
+  std::int64_t lost = 0;  // gaps in the sequence numbers, of all stations of the target
+  double seconds = 0.0;   // from the first to the last pose
+  host::LatencyHistogram age;
+  std::int64_t compared = 0;  // with the truth
+  double squared_rotation_rad2 = 0.0;
+  double squared_position_m2 = 0.0;
+  double max_rotation_rad = 0.0;
+  double max_position_m = 0.0;
+
+  double rate_hz() const { return poses > 1 && seconds > 0.0 ? static_cast<double>(poses - 1) / seconds : 0.0; }
+  double rms_rotation_rad() const;
+  double rms_position_m() const;
+};
+
+/// Keeps count of everything heard.
+class ListenSummary {
+ public:
+  /// Takes one arrival into account (all but its error). Returns the rate of its kind over the last second, 1/s.
+  double add(const ReceivedPose& pose, std::int64_t monotonic_ns);
+  void add_error(const ReceivedPose& pose, const PoseError& error);
+
+  std::int64_t poses() const { return poses_; }
+  std::vector<SourceSummary> sources() const;
+
+ private:
+  using Key = std::tuple<std::string, std::string, int>;  // channel, target, station
+  struct Stream {
+    SourceSummary summary;
+    std::int64_t first_utime_us = 0;
+    std::deque<std::int64_t> arrivals_ns;
+  };
+
+  std::map<Key, Stream> streams_;
+  std::map<std::pair<std::string, std::string>, std::int64_t> last_sequence_;  // by channel and source/target
+  std::int64_t poses_ = 0;
+};
+
+/// For people: a block a source, millimetres and degrees.
+std::string summary_text(const std::vector<SourceSummary>& sources);
+
+}  // namespace pharos::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/table/row_writer.hpp"
+#include "tools/listen/listen_summary.hpp"
+#include "tools/listen/truth_file.hpp"
+
+namespace lcm {
+struct ReceiveBuffer;
+}
+namespace pharos {
+class pose_t;
+class status_t;
+}  // namespace pharos
+
+namespace pharos::tools {
+
+enum class ListenFormat : std::uint8_t { kLines, kCsv, kJson, kNone };
+
+/// Prints the messages that it is given, and keeps their summary.
+class Listener {
+ public:
+  Listener(ListenFormat format, std::optional<TruthFile> truth);
+
+  /// Any message of a channel listened to: pose_t and status_t are printed, others counted as foreign.
+  void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
+  /// Compares poses whose truth had not been written yet when they came.
+  void finish();
+
+  const ListenSummary& summary() const { return summary_; }
+  std::int64_t foreign() const { return foreign_; }
+
+ private:
+  void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
+  void take_status(const status_t& message);
+  void compare(ReceivedPose& pose);
+  void print(const ReceivedPose& pose);
+
+  ListenFormat format_;
+  std::optional<TruthFile> truth_;
+  std::vector<ReceivedPose> not_compared_;
+  std::unique_ptr<host::RowWriter> rows_;
+  ListenSummary summary_;
+  std::int64_t foreign_ = 0;
+};
+
+}  // namespace pharos::tools

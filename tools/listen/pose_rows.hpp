@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/table/row_writer.hpp"
+#include "tools/listen/received_pose.hpp"
+
+namespace pharos::tools {
+
+/// One line for people: UTC, target, station, position in mm, rotation vector in degrees, sigmas, rate, age, error.
+std::string pose_line(const ReceivedPose& pose);
+
+/// Columns of the tables (CSV, JSON), and one row of them.
+std::vector<std::string> pose_columns();
+void write_pose_row(host::RowWriter& rows, const ReceivedPose& pose);
+
+}  // namespace pharos::tools

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pharos/geometry/pose.hpp"
+
+namespace pharos::tools {
+
+/// Error of a pose against the truth: angle of the relative rotation (paper 002, 23) and distance (25).
+struct PoseError {
+  double rotation_rad = 0.0;
+  double position_m = 0.0;
+};
+
+PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth);
+
+/// A pose_t as it arrived.
+struct ReceivedPose {
+  std::int64_t utime_us = 0;
+  std::int64_t sequence = 0;
+  std::string channel;
+  std::string source;
+  std::string target;
+  std::string station_id;
+  int station = 0;
+  std::string status;
+  std::string flags;
+  std::optional<LighthouseFromBody> pose;  // empty when the cycle was refused
+  double sigma_rot_rad = 0.0;
+  double sigma_pos_m = 0.0;
+  double age_s = 0.0;    // on arrival, after the measurement
+  double rate_hz = 0.0;  // of its kind over the last second
+  std::optional<PoseError> error;
+};
+
+}  // namespace pharos::tools
