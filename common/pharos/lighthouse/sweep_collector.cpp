@@ -15,12 +15,15 @@ constexpr std::int64_t kSweepDoneTicks =
 void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) {
   Open& open = open_[flash.flash.station];
   if (open.open) finish(open, counters);
-  if (flash.flash.skip) return;
   open.sweep.flash = flash.flash;
   open.sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
   open.sweep.flags = flash.flags;
   open.sweep.hits.clear();
   open.open = true;
+  if (flash.flash.skip) {
+    finish(open, counters);
+    return;
+  }
   deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
 }
 

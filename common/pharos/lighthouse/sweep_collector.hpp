@@ -14,8 +14,9 @@ namespace pharos::lighthouse {
 
 /// Gathers the hits behind each flash to a sweep, and holds finished sweeps until they are taken.
 ///
-/// A sweep is finished when time has passed its window or its station flashed again. Every flash whose laser is on
-/// gives a sweep, also one without hits: whoever smooths flashes needs them all.
+/// A sweep is finished when time has passed its window or its station flashed again. Every flash gives a sweep, also
+/// one without hits; that of a slot whose laser is dark (skip) is finished at once. Whoever smooths flashes needs them
+/// all: without the dark ones the rotor is seen every other turn only.
 class SweepCollector {
  public:
   /// Finished sweeps held for a caller that takes them after each push; more are dropped and counted.
