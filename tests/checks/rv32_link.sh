@@ -12,8 +12,8 @@ if ! command -v riscv64-unknown-elf-gcc >/dev/null; then
 fi
 
 configure() {
-  cmake -S "$root" -B "$build" --preset rv32im -DPHAROS_PLANT="$1" >"$build.configure.log" 2>&1 ||
-    { cat "$build.configure.log"; exit 1; }
+  cmake -S "$root" -B "$build" --preset rv32im -DPHAROS_PLANT="$1" >"$build/configure.log" 2>&1 ||
+    { cat "$build/configure.log"; exit 1; }
 }
 
 configure ""
@@ -24,12 +24,12 @@ find "$build" -name '*.su' -exec cat {} + | awk -F '\t' '{print $2 "\t" $1}' | s
 declare -A expected=([heap]=__wrap_malloc [new]='operator new' [clock]=__wrap_time [static]='__wrap_atexit\|__cxa_atexit')
 for plant in "${!expected[@]}"; do
   configure "$plant"
-  if cmake --build "$build" >"$build.plant.log" 2>&1; then
+  if cmake --build "$build" >"$build/plant.log" 2>&1; then
     echo "FAILED: the link check did not notice the planted $plant"
     exit 1
   fi
-  grep -q "undefined reference to.*\(${expected[$plant]}\)" "$build.plant.log" ||
-    { cat "$build.plant.log"; echo "FAILED: the planted $plant broke the build for another reason"; exit 1; }
+  grep -q "undefined reference to.*\(${expected[$plant]}\)" "$build/plant.log" ||
+    { cat "$build/plant.log"; echo "FAILED: the planted $plant broke the build for another reason"; exit 1; }
   echo "planted $plant: link refused, as it must be"
 done
 configure ""
