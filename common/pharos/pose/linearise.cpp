@@ -164,26 +164,33 @@ double angle_residual(double along, double ahead, double cosine, double sine) {
   return std::atan2(ahead * cosine - along * sine, along * cosine + ahead * sine);
 }
 
-Row row_of(const Sightings& sightings, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual) {
-  const int a = index_of(axis);
-  const auto k = static_cast<std::size_t>(sensor);
-  const Vector3 q = pose.R * sightings.body(sensor);
+Vector6 jacobian_of(const Vector3& body_m, Axis axis, const LighthouseFromBody& pose) {
+  const Vector3 q = pose.R * body_m;
   const Vector3 p = q + pose.t;
-  const double along = p[a], ahead = p.z();
-  const Sightings::AxisColumns& c = sightings.axis[static_cast<std::size_t>(a)];
-  Row row;
+  const double along = p[index_of(axis)];
+  const double square = along * along + p.z() * p.z();
   Vector3 gradient = Vector3::Zero();
+  gradient[index_of(axis)] = -p.z() / square;
+  gradient.z() = along / square;
+  Vector6 jacobian;
+  jacobian << q.cross(gradient), gradient;
+  return jacobian;
+}
+
+Row row_of(const Sightings& sightings, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual) {
+  const auto k = static_cast<std::size_t>(sensor);
+  const Sightings::AxisColumns& c = sightings.axis[static_cast<std::size_t>(index_of(axis))];
+  const Vector3 p = pose * sightings.body(sensor);
+  const double along = p[index_of(axis)], ahead = p.z();
+  Row row;
+  row.jacobian = jacobian_of(sightings.body(sensor), axis, pose);
   if (residual == Residual::kAngle) {
-    const double square = along * along + ahead * ahead;
     row.residual = angle_residual(along, ahead, c.cosine[k], c.sine[k]);
-    gradient[a] = -ahead / square;
-    gradient.z() = along / square;
   } else {
     row.residual = along / ahead - c.cosine[k] / c.sine[k];
-    gradient[a] = 1.0 / ahead;
-    gradient.z() = -along / (ahead * ahead);
+    // (13): d theta / d u = -1 / (1 + u^2).
+    row.jacobian *= -(1.0 + (along / ahead) * (along / ahead));
   }
-  row.jacobian << q.cross(gradient), gradient;
   return row;
 }
 

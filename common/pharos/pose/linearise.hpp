@@ -31,6 +31,9 @@ struct Row {
 };
 Row row_of(const Sightings& sightings, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual);
 
+/// Derivatives of one bearing theta of a body point by delta.
+Vector6 jacobian_of(const Vector3& body_m, Axis axis, const LighthouseFromBody& pose);
+
 /// Residual angle (rad, in (-pi, pi]) of a point in the lighthouse frame against a bearing given by cosine and sine.
 double angle_residual(double along, double ahead, double cosine, double sine);
 

@@ -39,6 +39,11 @@ LighthouseFromBody stepped(const LighthouseFromBody& pose, const std::array<doub
   return moved;
 }
 
+LighthouseFromBody gauss_newton_step(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
+  const NormalEquations normal = linearise(sightings, pose, residual);
+  return stepped(pose, Factorisation<6>(normal.matrix).solve(negated(normal.gradient)));
+}
+
 Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual residual, const RefineLimits& limits) {
   Fit fit;
   fit.pose = start;

@@ -29,6 +29,9 @@ inline constexpr double kConvergedShare = 1e-4;
 /// where a step fails to lower the cost, so a good start costs about three linearisations.
 Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual residual, const RefineLimits& limits);
 
+/// One undamped step from the pose.
+LighthouseFromBody gauss_newton_step(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual);
+
 /// The pose moved by delta. The rotation uses Cayley's map, which agrees with exp to the third order and needs neither
 /// sine nor cosine; only the size of a step depends on it, never the minimum.
 LighthouseFromBody stepped(const LighthouseFromBody& pose, const std::array<double, 6>& delta);

@@ -1,213 +1,137 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/pose/reject.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "pharos/pose/p3p.hpp"
+#include "pharos/pose/place_residuals.hpp"
+#include "pharos/pose/refine.hpp"
 
 namespace pharos::pose {
 namespace {
 
-constexpr int kUnknowns = 6;
-// One row more than unknowns: the least that can contradict itself.
-constexpr int kLeastCore = kUnknowns + 1;
-constexpr int kMaxTriplets = 40;
+constexpr int kMaxTriplets = 30;
 constexpr int kMaxHitsPerTriplet = 8;
 constexpr int kConcentrationSteps = 2;
-constexpr int kFinalRounds = 8;
-// Share of places in the core: up to a third may be reflections.
-constexpr int kCoreNumerator = 2, kCoreDenominator = 3;
-constexpr std::size_t kMaxPlaces = kAxes * kMaxSensors;
+// A start whose first core costs this many times the best one's final core is not worth its steps.
+constexpr double kNotWorthSteps = 1e4;
+// A pose that puts all hits within this many times the credible sum of squares is worth a fit to all of them.
+constexpr double kWorthAFit = 100.0;
 
-// A hit is let in below this many times the scale: Student's 99.9 % quantile for the degrees of freedom that the scale
-// was estimated from, the first cut from 637 to what a reflection must stand out by at sigma, the last ones raised to 5
-// so that one good hit in two million is lost.
-double gate_for(int degrees_of_freedom) {
-  constexpr std::array<double, 7> kGates{60.0, 60.0, 31.6, 12.9, 8.6, 6.9, 6.0};
-  const int last = static_cast<int>(kGates.size()) - 1;
-  return degrees_of_freedom > last ? 5.0 : kGates[static_cast<std::size_t>(std::max(0, degrees_of_freedom))];
-}
+class TrimmedSearch {
+ public:
+  TrimmedSearch(Hits& hits, const SolveOptions& options) : hits_(hits), options_(options) {}
 
-struct PlaceResidual {
-  double size;  // |residual| of the best hit, rad
-  std::int16_t observation;
-  std::uint8_t sensor;
-  Axis axis;
+  /// Concentration: pick the core, take a Gauss-Newton step, pick again.
+  void consider(const LighthouseFromBody& start);
+  /// Triplets of sensors with both bearings: all of them where few, else spread evenly over all by a stride.
+  void consider_triplets();
+
+  const LighthouseFromBody& best() const { return best_; }
+  bool found() const { return best_cost_ < 1e300; }
+  /// All places agree on the best pose: there is nothing to reject, and no reason to look further.
+  bool complete() const { return complete_; }
+
+ private:
+  void consider_triplet(const Triplet& sensors);
+  RaySet rays_of_hits(const Triplet& sensors, const std::array<std::int16_t, 6>& hit) const;
+  bool next_combination(const Triplet& sensors, std::array<std::int16_t, 6>& hit) const;
+  bool all_places_agree(const PlaceResiduals& residuals);
+
+  Hits& hits_;
+  const SolveOptions& options_;
+  LighthouseFromBody best_;
+  double best_cost_ = 1e300;
+  bool complete_ = false;
 };
 
-using PlaceResiduals = StaticVector<PlaceResidual, kMaxPlaces>;
-
-PlaceResidual best_hit(const Hits& hits, int sensor, Axis axis, double along, double ahead) {
-  PlaceResidual best{1e300, Hits::kNone, static_cast<std::uint8_t>(sensor), axis};
-  for (std::int16_t o = hits.at(sensor, axis).first; o != Hits::kNone; o = hits.next[static_cast<std::size_t>(o)]) {
-    const auto k = static_cast<std::size_t>(o);
-    const double size = std::fabs(angle_residual(along, ahead, hits.cosine[k], hits.sine[k]));
-    if (size < best.size) {
-      best.size = size;
-      best.observation = o;
-    }
-  }
-  return best;
+bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals) {
+  const int places = static_cast<int>(residuals.size());
+  const double variance = options_.sigma_rad * options_.sigma_rad;
+  const double credible = credible_chi2(places - kPoseUnknowns) * variance;
+  double cost = 0.0;
+  for (const PlaceResidual& r : residuals) cost += r.size * r.size;
+  if (cost > kWorthAFit * credible) return false;
+  choose_first(hits_, residuals, places);
+  const Fit fit =
+      refine(hits_.sightings, best_, Residual::kAngle, {options_.max_iterations, kConvergedShare * variance, 1e300});
+  if (!fit.converged || fit.normal.cost > credible) return false;
+  best_ = fit.pose;
+  return true;
 }
 
-// The hit of every place that fits the pose best, best places first.
-void sort_places(const Hits& hits, const LighthouseFromBody& pose, PlaceResiduals& residuals) {
-  residuals.clear();
-  for (int i = 0; i < hits.sensors(); ++i) {
-    const Vector3 p = pose * hits.sightings.body(i);
-    for (const Axis axis : {Axis::kX, Axis::kY}) {
-      const PlaceResidual best = best_hit(hits, i, axis, p[index_of(axis)], p.z());
-      if (best.observation != Hits::kNone) residuals.push_back(best);
-    }
-  }
-  std::sort(residuals.begin(), residuals.end(),
-            [](const PlaceResidual& a, const PlaceResidual& b) { return a.size < b.size; });
-}
-
-int core_size(int places) {
-  const int share = (kCoreNumerator * places + kCoreDenominator - 1) / kCoreDenominator;
-  return std::min(places, std::max(kLeastCore, share));
-}
-
-// Puts the first `count` places into the sightings and leaves the others out; the sum of their squares.
-double choose_first(Hits& hits, const PlaceResiduals& residuals, int count) {
-  double sum = 0.0;
-  for (int k = 0; k < static_cast<int>(residuals.size()); ++k) {
-    const PlaceResidual& r = residuals[static_cast<std::size_t>(k)];
-    hits.choose(r.sensor, r.axis, k < count ? r.observation : Hits::kNone);
-    if (k < count) sum += r.size * r.size;
-  }
-  return sum;
-}
-
-struct Core {
-  LighthouseFromBody pose;
-  double cost = 1e300;
-};
-
-// Concentration: pick the core, take a Gauss-Newton step, pick again.
-void consider(Hits& hits, const LighthouseFromBody& start, Core& best) {
+void TrimmedSearch::consider(const LighthouseFromBody& start) {
   PlaceResiduals residuals;
   LighthouseFromBody pose = start;
-  for (int step = 0;; ++step) {
-    sort_places(hits, pose, residuals);
-    const double cost = choose_first(hits, residuals, core_size(static_cast<int>(residuals.size())));
-    if (cost < best.cost) best = {pose, cost};
-    if (step == kConcentrationSteps) return;
-    const RefineLimits limits{1, 0.0, 1e300};
-    pose = refine(hits.sightings, pose, Residual::kAngle, limits).pose;
+  for (int step = 0; !complete_; ++step) {
+    sort_places(hits_, pose, residuals);
+    const double cost = choose_first(hits_, residuals, core_size(static_cast<int>(residuals.size())));
+    if (cost < best_cost_) {
+      best_ = pose;
+      best_cost_ = cost;
+      complete_ = step > 0 && all_places_agree(residuals);
+    }
+    if (complete_ || step == kConcentrationSteps || cost > kNotWorthSteps * best_cost_) return;
+    pose = gauss_newton_step(hits_.sightings, pose, Residual::kAngle);
   }
 }
 
-// Rays of three sensors with every combination of their hits, at most kMaxHitsPerTriplet.
-void consider_triplet(Hits& hits, const Triplet& sensors, Core& best) {
+RaySet TrimmedSearch::rays_of_hits(const Triplet& sensors, const std::array<std::int16_t, 6>& hit) const {
+  RaySet set;
+  set.count = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto x = static_cast<std::size_t>(hit[2 * k]), y = static_cast<std::size_t>(hit[2 * k + 1]);
+    set.body[k] = hits_.sightings.body(sensors[k]);
+    set.ray[k] = ray_of(hits_.cosine[x], hits_.sine[x], hits_.cosine[y], hits_.sine[y]);
+  }
+  return set;
+}
+
+// Counts up through the hits of the six places; false after the last.
+bool TrimmedSearch::next_combination(const Triplet& sensors, std::array<std::int16_t, 6>& hit) const {
+  for (std::size_t digit = 0; digit < 6; ++digit) {
+    hit[digit] = hits_.next[static_cast<std::size_t>(hit[digit])];
+    if (hit[digit] != Hits::kNone) return true;
+    hit[digit] = hits_.at(sensors[digit / 2], static_cast<Axis>(digit % 2)).first;
+  }
+  return false;
+}
+
+void TrimmedSearch::consider_triplet(const Triplet& sensors) {
   std::array<std::int16_t, 6> hit;
-  for (std::size_t k = 0; k < 6; ++k) hit[k] = hits.at(sensors[k / 2], static_cast<Axis>(k % 2)).first;
-  for (int combination = 0; combination < kMaxHitsPerTriplet; ++combination) {
-    RaySet set;
-    set.count = 3;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto x = static_cast<std::size_t>(hit[2 * k]), y = static_cast<std::size_t>(hit[2 * k + 1]);
-      set.body[k] = hits.sightings.body(sensors[k]);
-      set.ray[k] = Vector3(hits.cosine[x] * hits.sine[y], hits.cosine[y] * hits.sine[x], hits.sine[x] * hits.sine[y])
-                       .normalized();
-    }
-    for (const LighthouseFromBody& start : p3p(set, {0, 1, 2})) consider(hits, start, best);
-    std::size_t digit = 0;  // counts up through the hits of the six places
-    for (; digit < 6; ++digit) {
-      hit[digit] = hits.next[static_cast<std::size_t>(hit[digit])];
-      if (hit[digit] != Hits::kNone) break;
-      hit[digit] = hits.at(sensors[digit / 2], static_cast<Axis>(digit % 2)).first;
-    }
-    if (digit == 6) return;
+  for (std::size_t k = 0; k < 6; ++k) hit[k] = hits_.at(sensors[k / 2], static_cast<Axis>(k % 2)).first;
+  for (int combination = 0; combination < kMaxHitsPerTriplet && !complete_; ++combination) {
+    for (const LighthouseFromBody& start : p3p(rays_of_hits(sensors, hit), {0, 1, 2})) consider(start);
+    if (!next_combination(sensors, hit)) return;
   }
 }
 
-// Triplets of sensors with both bearings: all of them where few, else spread evenly over all by a stride.
-void consider_triplets(Hits& hits, Core& best) {
-  std::array<int, kMaxSensors> full{};
-  int count = 0;
-  for (int i = 0; i < hits.sensors(); ++i) {
-    if (hits.at(i, Axis::kX).first != Hits::kNone && hits.at(i, Axis::kY).first != Hits::kNone) {
-      full[static_cast<std::size_t>(count++)] = i;
-    }
+void TrimmedSearch::consider_triplets() {
+  StaticVector<int, kMaxSensors> full;
+  for (int i = 0; i < hits_.sensors(); ++i) {
+    const bool both = hits_.at(i, Axis::kX).first != Hits::kNone && hits_.at(i, Axis::kY).first != Hits::kNone;
+    if (both) full.push_back(i);
   }
-  const int all = count * (count - 1) * (count - 2) / 6;
-  const int stride = 1 + all / (kMaxTriplets + 1);
-  int number = 0;
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b) {
-      for (int c = b + 1; c < count; ++c) {
-        if (number++ % stride != 0) continue;
-        consider_triplet(
-            hits,
-            {full[static_cast<std::size_t>(a)], full[static_cast<std::size_t>(b)], full[static_cast<std::size_t>(c)]},
-            best);
+  const std::size_t n = full.size();
+  const std::size_t all = n < 3 ? 0 : n * (n - 1) * (n - 2) / 6;
+  const std::size_t stride = 1 + all / (kMaxTriplets + 1);
+  std::size_t number = 0;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      for (std::size_t c = b + 1; c < n && !complete_; ++c) {
+        if (number++ % stride == 0) consider_triplet({full[a], full[b], full[c]});
       }
     }
   }
 }
 
-// Residual of a place over what noise and the pose's own uncertainty make of it, in units of the scale.
-double studentised(const Hits& hits, const PlaceResidual& place, const LighthouseFromBody& pose,
-                   const Factorisation<6>& factor) {
-  Sightings one;
-  one.count = 0;
-  one.add(hits.sightings.body(place.sensor));
-  const auto k = static_cast<std::size_t>(place.observation);
-  one.see(0, place.axis, hits.cosine[k], hits.sine[k]);
-  const Vector6 j = row_of(one, 0, place.axis, pose, Residual::kAngle).jacobian;
-  const std::array<double, 6> x = factor.solve({j[0], j[1], j[2], j[3], j[4], j[5]});
-  double leverage = 0.0;
-  for (int i = 0; i < 6; ++i) leverage += j[i] * x[static_cast<std::size_t>(i)];
-  return place.size / std::sqrt(1.0 + std::fmax(0.0, leverage));
-}
-
-// Lets hits in again by the gate until the set no longer changes.
-void grow(Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
-  PlaceResiduals residuals;
-  sort_places(hits, pose, residuals);
-  int chosen = core_size(static_cast<int>(residuals.size()));
-  choose_first(hits, residuals, chosen);
-  const RefineLimits limits{options.max_iterations, kConvergedShare * options.sigma_rad * options.sigma_rad, 1e300};
-  for (int round = 0; round < kFinalRounds; ++round) {
-    const Fit fit = refine(hits.sightings, pose, Residual::kAngle, limits);
-    pose = fit.pose;
-    const int freedom = chosen - kUnknowns;
-    const double scale =
-        std::fmax(options.sigma_rad, freedom > 0 ? std::sqrt(fit.normal.cost / static_cast<double>(freedom)) : 0.0);
-    const double gate = gate_for(freedom) * scale;
-    const Factorisation<6> factor(fit.normal.matrix);
-    sort_places(hits, pose, residuals);
-    int passing = 0;
-    bool changed = false;
-    for (PlaceResidual& r : residuals) {
-      const bool was_in = hits.at(r.sensor, r.axis).chosen == r.observation;
-      const bool in = was_in ? r.size <= gate : studentised(hits, r, pose, factor) <= gate;
-      changed = changed || in != was_in;
-      passing += in ? 1 : 0;
-      hits.choose(r.sensor, r.axis, in ? r.observation : Hits::kNone);
-    }
-    if (!changed) return;
-    chosen = passing;
-  }
-}
-
 }  // namespace
 
-double credible_chi2(int degrees_of_freedom) {
-  const double n = static_cast<double>(degrees_of_freedom);
-  return n + 4.0 * std::sqrt(2.0 * n) + 8.0;
-}
-
 bool fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose) {
-  Core best;
-  for (const LighthouseFromBody& start : starts) consider(hits, start, best);
-  consider_triplets(hits, best);
-  if (!(best.cost < 1e300)) return false;
-  pose = best.pose;
-  grow(hits, options, pose);
+  TrimmedSearch search(hits, options);
+  for (const LighthouseFromBody& start : starts) search.consider(start);
+  search.consider_triplets();
+  if (!search.found()) return false;
+  pose = search.best();
+  if (!search.complete()) readmit(hits, options, pose);
   return true;
 }
 

@@ -70,6 +70,12 @@ Vector3 Sightings::body_centroid() const {
   return number > 0.0 ? Vector3(sum / number) : sum;
 }
 
+Vector3 ray_of(double cosine_x, double sine_x, double cosine_y, double sine_y) {
+  // (cot theta_x, cot theta_y, 1) without its divisions.
+  const Vector3 direction(cosine_x * sine_y, cosine_y * sine_x, sine_x * sine_y);
+  return direction / std::sqrt(direction.squaredNorm());
+}
+
 RaySet rays_of(const Sightings& sightings) {
   RaySet set;
   for (int i = 0; i < sightings.count; ++i) {
@@ -80,9 +86,7 @@ RaySet rays_of(const Sightings& sightings) {
     if (sx < kGrazing_rad || sy < kGrazing_rad) continue;
     const auto n = static_cast<std::size_t>(set.count++);
     set.body[n] = sightings.body(i);
-    // (cot theta_x, cot theta_y, 1) without its divisions.
-    const Vector3 direction(cx * sy, cy * sx, sx * sy);
-    set.ray[n] = direction / std::sqrt(direction.squaredNorm());
+    set.ray[n] = ray_of(cx, sx, cy, sy);
   }
   return set;
 }

@@ -62,6 +62,9 @@ struct RaySet {
   std::array<Vector3, kMaxSensors> ray;   // unit, lighthouse frame, from the station to the sensor
 };
 
+/// Unit ray of a sensor from the cosines and sines of its two bearings.
+Vector3 ray_of(double cosine_x, double sine_x, double cosine_y, double sine_y);
+
 RaySet rays_of(const Sightings& sightings);
 
 }  // namespace pharos::pose

@@ -5,6 +5,7 @@
 
 #include "pharos/pose/covariance.hpp"
 #include "pharos/pose/hits.hpp"
+#include "pharos/pose/place_residuals.hpp"
 #include "pharos/pose/refine.hpp"
 #include "pharos/pose/reject.hpp"
 #include "pharos/pose/second_minimum.hpp"
@@ -13,7 +14,6 @@
 namespace pharos::pose {
 namespace {
 
-constexpr int kUnknowns = 6;
 constexpr int kLeastSensors = 4;
 constexpr int kLeastSensorsWithPrior = 3;
 // Two fits nearer than this (squared, in sigmas, by the first one's information) are one and the same minimum.
@@ -88,7 +88,7 @@ Minima descend(Problem& problem, const LighthouseFromBody& start) {
   return m;
 }
 
-int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kUnknowns; }
+int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
 
 bool credible(const Problem& problem, const Fit& fit) {
   return fit.converged && fit.normal.cost <= credible_chi2(freedom_of(problem)) * problem.variance;
@@ -97,7 +97,7 @@ bool credible(const Problem& problem, const Fit& fit) {
 Refusal too_few(const Problem& problem, bool prior) {
   const int sensors = problem.hits.sightings.sensors();
   const int rows = problem.hits.sightings.rows();
-  if (sensors >= (prior ? kLeastSensorsWithPrior : kLeastSensors) && rows >= kUnknowns) return Refusal::kNone;
+  if (sensors >= (prior ? kLeastSensorsWithPrior : kLeastSensors) && rows >= kPoseUnknowns) return Refusal::kNone;
   return problem.hits.strangers ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
 }
 
