@@ -184,6 +184,7 @@ void Decoder::flush() {
   if (time_base_.end(given_up) == TimeBase::Verdict::kMoved) time_moved(newest_before);
   count_given_up(given_up);
   while (!order_.empty()) handle(order_.pop());
+  pairing_.end(counters_);
   pass_time(INT64_MAX - 1);
   collector_.finish_all(counters_);
 }

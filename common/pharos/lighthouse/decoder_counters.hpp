@@ -8,7 +8,7 @@ namespace pharos::lighthouse {
 // Every counter of the decoder by name, once: the struct, `pharos decode --stats`, the counters on the serial line (in
 // this order: append only) and PHAROS_STATUS all come from this list. X(name, what it counts)
 //
-// They balance (DecoderBalance in decoder.hpp says how): nothing that came in is lost without a name.
+// They balance (pulses_accounted, edges_accounted): nothing that came in is lost without a name.
 #define PHAROS_DECODER_COUNTERS(X)                                                                       \
   X(edges_in, "edges received")                                                                          \
   X(edges_bad_sensor, "edges dropped: sensor number above 31")                                           \
@@ -37,7 +37,8 @@ namespace pharos::lighthouse {
   X(hits_out_of_window, "hits dropped: outside the sweep's window")                                      \
   X(hits_overflow, "hits dropped: more than a sweep holds")                                              \
   X(sweeps, "sweeps reported")                                                                           \
-  X(sweeps_empty, "sweeps without a hit")                                                                \
+  X(sweeps_dark, "of them of slots whose laser was off: a flash and no hits")                            \
+  X(sweeps_empty, "of the others: without a hit")                                                        \
   X(outputs_overflow, "sweeps or payloads dropped: nobody took them in time")                            \
   X(ootx_frames, "OOTX frames with a good CRC")                                                          \
   X(ootx_bad_crc, "OOTX frames dropped: bad CRC")                                                        \
@@ -50,6 +51,18 @@ struct DecoderCounters {
   PHAROS_DECODER_COUNTERS(PHAROS_X)
 #undef PHAROS_X
 };
+
+/// Where every pulse went: equals pulses_in once nothing is held back any more (after Decoder::flush()).
+constexpr std::uint32_t pulses_accounted(const DecoderCounters& c) {
+  return c.pulses_bad_sensor + c.pulses_too_long + c.pulses_glitch + c.pulses_late + c.pulses_off_time +
+         c.pulses_doubled + c.pulses_in_flashes + c.pulses_flash_length + c.hits + c.hits_no_flash +
+         c.hits_out_of_window + c.hits_overflow;
+}
+
+/// Where every edge went, when the input is edges only: equals edges_in after Decoder::flush().
+constexpr std::uint32_t edges_accounted(const DecoderCounters& c) {
+  return c.edges_bad_sensor + c.edges_late + c.edges_off_time + c.edges_doubled + c.edges_never_ended + 2 * c.pulses_in;
+}
 
 /// Calls visit(name, value, what it counts) for every counter, in wire order.
 template <class Visitor>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/lighthouse/edge_pairing.hpp"
 
+#include <bit>
+
 #include "pharos/lighthouse/optical_timing.hpp"
 
 namespace pharos::lighthouse {
@@ -27,6 +29,11 @@ std::optional<Pulse> EdgePairing::push(const LightEvent& edge, DecoderCounters& 
   }
   ++counters.pulses_in;
   return Pulse{rise, static_cast<std::int32_t>(width), edge.sensor};
+}
+
+void EdgePairing::end(DecoderCounters& counters) {
+  counters.edges_never_ended += static_cast<std::uint32_t>(std::popcount(high_));
+  high_ = 0;
 }
 
 }  // namespace pharos::lighthouse

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -20,8 +19,8 @@ namespace pharos::lighthouse {
 class EdgePairing {
  public:
   std::optional<Pulse> push(const LightEvent& edge, DecoderCounters& counters);
-  /// Edges that wait for their partner.
-  std::uint32_t open() const { return static_cast<std::uint32_t>(std::popcount(high_)); }
+  /// End of the input: edges that still wait for their partner never ended.
+  void end(DecoderCounters& counters);
 
  private:
   std::array<std::int64_t, kMaxSensors> rise_ticks_{};

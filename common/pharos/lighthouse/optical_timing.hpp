@@ -36,8 +36,8 @@ inline constexpr std::int32_t kShortestPulseTicks = 16;
 inline constexpr std::int32_t kShortestFlashPulseTicks = 1500;
 /// The longest pulse of a flash is at least this: nominal 3125, measured 2925 where the strongest sensor is weak.
 inline constexpr std::int32_t kShortestFlashTicks = 2600;
-/// Pulses of one flash rise within this of one another: a weak sensor is up to 670 late (measured).
-inline constexpr std::int32_t kFlashRiseSpreadTicks = 1300;
+/// Pulses of one flash rise within this of one another: the weakest views of it were up to 2501 late (measured).
+inline constexpr std::int32_t kFlashRiseSpreadTicks = 3000;
 
 /// A hit lies this far behind its flash: measured 1.49-6.25 ms; 1.2-6.6 ms leaves room for a wider field of view.
 inline constexpr std::int32_t kSweepWindowBeginTicks = 60'000;

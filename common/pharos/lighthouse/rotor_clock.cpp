@@ -12,7 +12,7 @@ constexpr std::int32_t kToleranceTicks = 120;
 constexpr std::int32_t kToleranceGrowthTicks = 40;
 /// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %).
 constexpr std::int64_t kPeriodSlackTicks = 833;
-/// Longest gap over which extrapolate() answers (2^31 units of 1/2 tick would be 21 s; counts of turns have no limit).
+/// Longest gap over which extrapolate() answers .
 constexpr std::int64_t kLongestExtrapolationTicks = 300 * kTicksPerSecond;
 
 }  // namespace
@@ -23,15 +23,15 @@ RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   const std::int64_t period = period_;
   const std::int64_t turns = (elapsed * kUnits + period / 2) / period;
   const std::int64_t residual = elapsed - (turns * period + kUnits / 2) / kUnits;
-  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), turns > 0};
+  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), 0, turns > 0};
 }
 
 RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
   if (start_ticks - last_ticks_ > std::int64_t{kLongestGapTurns + 1} * kTurnTicks) return {};
   Fit fit = extrapolate(start_ticks);
-  const std::int32_t tolerance = kToleranceTicks + kToleranceGrowthTicks * fit.turns;
-  fit.within = fit.within && fit.turns <= kLongestGapTurns && fit.residual_ticks <= tolerance &&
-               fit.residual_ticks >= -tolerance;
+  if (fit.turns < 1 || fit.turns > kLongestGapTurns) return {};
+  fit.tolerance_ticks = kToleranceTicks + kToleranceGrowthTicks * fit.turns;
+  fit.within = fit.residual_ticks <= fit.tolerance_ticks && fit.residual_ticks >= -fit.tolerance_ticks;
   return fit;
 }
 

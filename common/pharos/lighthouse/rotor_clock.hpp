@@ -18,9 +18,10 @@ class RotorClock {
   static constexpr std::int32_t kLongestGapTurns = 30;
 
   struct Fit {
-    std::int32_t turns = 0;           // since the last flash, at least 1
-    std::int32_t residual_ticks = 0;  // flash minus prediction
-    bool within = false;              // of what a rotor may drift in so many turns
+    std::int32_t turns = 0;            // since the last flash, at least 1
+    std::int32_t residual_ticks = 0;   // flash minus prediction
+    std::int32_t tolerance_ticks = 0;  // what a rotor may drift in so many turns
+    bool within = false;               // |residual| <= tolerance
   };
 
   bool known() const { return count_ > 0; }

@@ -24,6 +24,16 @@ constexpr int kGoodQuality = 12;
 /// Slot numbers start here so that looking back from the first lock does not pass zero; a multiple of the cycle.
 constexpr std::uint32_t kFirstSlot = 1024;
 
+/// A weak sensor sees a flash late by 0.55-0.95 of the length that it misses, up to 670 ticks (measured).
+constexpr std::int32_t kLatestTicks = 750;
+constexpr std::int32_t kLeastLatenessPercent = 55;
+constexpr std::int32_t kMostLatenessPercent = 95;
+/// Flashes are as strong as usual within this; the strongest sensor varies by 45.
+constexpr std::int32_t kWeakTicks = 100;
+constexpr std::int32_t kExcessUnits = 64;
+constexpr std::uint32_t kExcessFlashes = 64;
+constexpr std::int32_t kLargestExcessStepTicks = 32;
+
 std::uint32_t recent(std::uint32_t seen) { return seen & ((1U << kQualitySlots) - 1U); }
 
 }  // namespace
@@ -34,17 +44,24 @@ bool SlotTracker::skips(const SlotPlace& place) const {
 
 SlotTracker::Place SlotTracker::expected_place(std::int64_t start_ticks) const {
   Place best;
+  Place late;
   std::int32_t best_residual = INT32_MAX;
   for (std::uint8_t position = 0; position < kMaxStations; ++position) {
     for (const RotorClock& rotor : station_[position].rotor) {
       const RotorClock::Fit fit = rotor.fit(start_ticks);
+      if (fit.turns == 0) continue;
+      const SlotPlace place{position, rotor.last_slot() + 2U * static_cast<std::uint32_t>(fit.turns)};
       const std::int32_t residual = fit.residual_ticks < 0 ? -fit.residual_ticks : fit.residual_ticks;
-      if (!fit.within || residual >= best_residual) continue;
-      best_residual = residual;
-      best = {{position, rotor.last_slot() + 2U * static_cast<std::uint32_t>(fit.turns)}, true};
+      if (fit.within && residual < best_residual) {
+        best_residual = residual;
+        best = {place, fit.residual_ticks, true, true};
+      } else if (fit.residual_ticks > 0 && fit.residual_ticks <= kLatestTicks) {
+        late = {place, fit.residual_ticks, true, true};
+      }
     }
   }
-  return best.found ? best : place_by_sibling(start_ticks);
+  if (best.found) return best;
+  return late.found ? late : place_by_sibling(start_ticks);
 }
 
 SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const {
@@ -64,19 +81,34 @@ SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const
         const Station& station = station_[position];
         const RotorClock& own = station.rotor[slot & 1U];
         const bool own_speaks = own.known() && start_ticks - own.last_ticks() <= kLongestGap;
-        if (!own_speaks && (!station.known || slot != station.last_slot)) return {{position, slot}, true};
+        if (!own_speaks && (!station.known || slot != station.last_slot)) return {{position, slot}, 0, false, true};
       }
     }
   }
   return {};
 }
 
-bool SlotTracker::length_is_credible(std::int32_t length, const SlotPlace& place) const {
-  const std::int32_t shortest = kFlashLengthTicks[flash_code(axis_of_slot(place.slot), false, skips(place))];
-  return length > shortest - kLengthMarginTicks && length < shortest + kDataLengthTicks + kLengthMarginTicks;
+SlotTracker::Reading SlotTracker::read_length(std::int32_t length, const Place& place) const {
+  const Station& station = station_[place.place.position];
+  const std::int32_t excess = station.excess / kExcessUnits;
+  // What a flash so late has lost in length, by the middle of the measured range.
+  const std::int32_t expected_missing = place.predicted && place.late_ticks > 0 ? place.late_ticks * 4 / 3 : 0;
+  Reading best;
+  std::int32_t best_error = kLengthMarginTicks;
+  for (const bool data : {false, true}) {
+    const std::uint32_t code = flash_code(axis_of_slot(place.place.slot), data, skips(place.place));
+    const std::int32_t missing = kFlashLengthTicks[code] + excess - length;
+    const std::int32_t error = missing < expected_missing ? expected_missing - missing : missing - expected_missing;
+    if (error >= best_error) continue;
+    best_error = error;
+    best = {true, data, missing};
+  }
+  return best;
 }
 
-TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const SlotPlace& place, DecoderCounters& counters) {
+TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& where, const Reading& reading,
+                                 DecoderCounters& counters) {
+  const SlotPlace& place = where.place;
   Station& station = station_[place.position];
   TrackedFlash tracked;
   Flash& flash = tracked.flash;
@@ -85,9 +117,14 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const SlotPlac
   flash.station = number_[place.position];
   flash.axis = axis_of_slot(place.slot);
   flash.skip = skips(place);
+  flash.data = reading.data;
   flash.sensors = candidate.sensors;
-  const std::int32_t without_data = kFlashLengthTicks[flash_code(flash.axis, false, flash.skip)];
-  flash.data = candidate.length_ticks > without_data + kDataLengthTicks / 2;
+  if (reading.missing_ticks > kWeakTicks) {
+    tracked.flags |= kSweepFlashWeak;
+    const std::int32_t least = reading.missing_ticks * kLeastLatenessPercent / 100;
+    const std::int32_t most = reading.missing_ticks * kMostLatenessPercent / 100;
+    flash.start_ticks -= where.predicted ? std::clamp(where.late_ticks, least, most) : (least + most) / 2;
+  }
 
   const std::uint32_t slots = place.slot - station.last_slot;
   tracked.follows_last = station.known && slots == 1;
@@ -95,15 +132,15 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const SlotPlac
   station.seen = (slots < 32 ? station.seen << slots : 0U) | 1U;
   station.last_slot = place.slot;
   station.known = true;
-  last_flash_ticks_ = std::max(last_flash_ticks_, candidate.start_ticks);
+  if (station.excess_count < kExcessFlashes) ++station.excess_count;
+  const std::int32_t step = std::clamp(-reading.missing_ticks, -kLargestExcessStepTicks, kLargestExcessStepTicks);
+  station.excess += step * kExcessUnits / static_cast<std::int32_t>(station.excess_count);
+  last_flash_ticks_ = std::max(last_flash_ticks_, flash.start_ticks);
 
   RotorClock& rotor = station.rotor[static_cast<std::size_t>(index_of(flash.axis))];
-  rotor.update(candidate.start_ticks, place.slot);
+  rotor.update(flash.start_ticks, place.slot);
   tracked.period_sixteenth_ticks = rotor.period_sixteenth_ticks();
   if (!rotor.measured()) tracked.flags |= kSweepPeriodNominal;
-  const std::int32_t nominal = without_data + (flash.data ? kDataLengthTicks : 0);
-  constexpr std::int32_t kWeakTicks = 100;  // strong flashes are at most 47 shorter than nominal (measured)
-  if (candidate.length_ticks < nominal - kWeakTicks) tracked.flags |= kSweepFlashWeak;
   if (std::popcount(recent(station.seen)) < kGoodQuality) tracked.flags |= kSweepLockPoor;
   return tracked;
 }
@@ -156,8 +193,11 @@ std::optional<TrackedFlash> SlotTracker::adopt(SlotPattern pattern, DecoderCount
   DecoderCounters unused;  // the groups of the search were counted when they came
   for (std::size_t age = search_.size(); age-- > 0;) {
     const auto place = search_.place(age, pattern);
-    if (!place || !length_is_credible(search_.candidate(age).length_ticks, *place)) continue;
-    const TrackedFlash flash = accept(search_.candidate(age), *place, unused);
+    if (!place) continue;
+    const Place where{*place, 0, false, true};
+    const Reading reading = read_length(search_.candidate(age).length_ticks, where);
+    if (!reading.credible) continue;
+    const TrackedFlash flash = accept(search_.candidate(age), where, reading, unused);
     if (age == 0) newest = flash;
   }
   locked_ = true;
@@ -184,11 +224,13 @@ std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, D
   }
   Place expected;
   if (locked_) expected = expected_place(candidate.start_ticks);
-  const bool accepted = expected.found && length_is_credible(candidate.length_ticks, expected.place);
+  Reading reading;
+  if (expected.found) reading = read_length(candidate.length_ticks, expected);
+  const bool accepted = expected.found && reading.credible;
   search_.push(candidate, accepted);
   if (accepted) {
     ++counters.flashes;
-    return accept(candidate, expected.place, counters);
+    return accept(candidate, expected, reading, counters);
   }
   if (!locked_ || search_.recently_rejected() >= kSuspiciousRejections) {
     const auto pattern = search_.find();

@@ -35,9 +35,10 @@ struct LockState {
 /// Finds the slot cycle of one or two stations and names every flash: station, axis, skip, data.
 ///
 /// Locked, a flash is expected from the same rotor one turn (or some) earlier, and only its data bit is read from its
-/// length. Lock is lost when no flash fitted for half a second, or when the last groups show another cycle more clearly
-/// than the present one (a station restarted). A station that is seen again after the dark keeps its number when its
-/// rotors' phase says that it is the same one.
+/// length. A flash that only weak sensors saw is late and short by what it lost in strength; its start is put back by
+/// what length and prediction say together. Lock is lost when no flash fitted for half a second, or when the last
+/// groups show another cycle more clearly than the present one (a station restarted). A station that is seen again
+/// after the dark keeps its number when its rotors' phase says that it is the same one.
 class SlotTracker {
  public:
   std::optional<TrackedFlash> push(const FlashCandidate& candidate, DecoderCounters& counters);
@@ -52,18 +53,31 @@ class SlotTracker {
     std::uint32_t last_slot = 0;
     std::uint32_t seen = 0;  // bit 0: slot last_slot, bit n: n slots earlier
     bool known = false;      // has flashed under the present lock
+    /// Usual length of this station's flashes minus nominal, in 1/64 tick: it depends on distance and receiver.
+    std::int32_t excess = 0;
+    std::uint32_t excess_count = 0;
   };
 
+  /// Where a flash belongs by its time.
   struct Place {
     SlotPlace place;
+    std::int32_t late_ticks = 0;  // after the rotor's prediction
+    bool predicted = false;       // by its own rotor
     bool found = false;
+  };
+  /// What its length says then.
+  struct Reading {
+    bool credible = false;
+    bool data = false;
+    std::int32_t missing_ticks = 0;  // of the station's usual length
   };
 
   Place expected_place(std::int64_t start_ticks) const;
   Place place_by_sibling(std::int64_t start_ticks) const;
   bool skips(const SlotPlace& place) const;
-  bool length_is_credible(std::int32_t length, const SlotPlace& place) const;
-  TrackedFlash accept(const FlashCandidate& candidate, const SlotPlace& place, DecoderCounters& counters);
+  Reading read_length(std::int32_t length, const Place& place) const;
+  TrackedFlash accept(const FlashCandidate& candidate, const Place& place, const Reading& reading,
+                      DecoderCounters& counters);
   bool supersedes(const SlotPattern& pattern) const;
   std::optional<TrackedFlash> adopt(SlotPattern pattern, DecoderCounters& counters);
   void assign_numbers(SlotPattern& pattern);

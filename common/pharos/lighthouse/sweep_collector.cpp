@@ -67,7 +67,11 @@ void SweepCollector::finish(Open& open, DecoderCounters& counters) {
     return;
   }
   ++counters.sweeps;
-  if (open.sweep.hits.empty()) ++counters.sweeps_empty;
+  if (open.sweep.flash.skip) {
+    ++counters.sweeps_dark;
+  } else if (open.sweep.hits.empty()) {
+    ++counters.sweeps_empty;
+  }
 }
 
 }  // namespace pharos::lighthouse
