@@ -10,7 +10,7 @@ constexpr unsigned kDataBit = 2;
 constexpr unsigned kSkipBit = 3;
 constexpr unsigned kBitsUsed = 4;
 
-constexpr bool bit(std::uint8_t bits, unsigned number) { return ((bits >> number) & 1u) != 0; }
+constexpr bool bit(std::uint8_t bits, unsigned number) { return ((static_cast<unsigned>(bits) >> number) & 1u) != 0; }
 
 }  // namespace
 
