@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/clock/clock_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::host {
+namespace {
+
+/// Bytes that waited in the kernel before the port was opened all arrive at once: no mapping before that is over.
+constexpr std::int64_t kLeastArrivalSpanNs = 200'000'000;
+/// A pair this far under the line is no better latency but another mapping...
+constexpr double kLargestDropNs = 50e6;
+/// ...unless the mapping is younger than this and may have been late as a whole.
+constexpr double kYoungS = 2.0;
+/// Frames come in the order of sending, and speak of instants of the last few slots; older ones are another counter's.
+constexpr std::int64_t kLargestDisorderTicks = kTicksPerSecond / 4;
+/// The host may stall; longer than this, the line's buffers would have overflown.
+constexpr double kLargestStallNs = 5e9;
+/// A rival mapping wins with this many pairs over this time, that agree to this.
+constexpr int kRivalPairs = 3;
+constexpr std::int64_t kRivalSpanNs = 300'000'000;
+constexpr double kRivalAgreementNs = 0.5e9;
+/// A change of UTC against the monotonic clock above this is a step, once three pairs in a row say so.
+constexpr std::int64_t kStepNs = 1'000'000;
+constexpr int kStepPairs = 3;
+/// Latency to be expected of what is not known yet: half of the 10 ms that serial adapters hold bytes back.
+constexpr double kExpectedExcessNs = 5e6;
+/// How many pairs the average latency remembers.
+constexpr double kExcessMemory = 1000.0;
+/// Reading two clocks and being woken up.
+constexpr double kFloorNs = 2e3;
+constexpr double kUnknownDrift = 100e-6;
+
+double seconds_between(std::int64_t later_ticks, std::int64_t earlier_ticks) {
+  return ticks_to_seconds(later_ticks - earlier_ticks);
+}
+
+}  // namespace
+
+void ClockMap::begin(std::int64_t ticks, std::int64_t monotonic_ns, std::int64_t arrival_monotonic_ns) {
+  envelope_.clear();
+  utc_.restart();
+  started_ = true;
+  synchronised_ = false;
+  first_ticks_ = newest_ticks_ = ticks;
+  first_monotonic_ns_ = monotonic_ns;
+  first_arrival_ns_ = arrival_monotonic_ns;
+  excess_sum_ns_ = excess_count_ = 0.0;
+  rival_pairs_ = 0;
+  line_ = {};
+}
+
+void ClockMap::restart() {
+  if (started_) ++counters_.resynchronised;
+  started_ = false;
+  synchronised_ = false;
+  utc_.restart();
+}
+
+bool ClockMap::fits(std::int64_t ticks, double delay_ns, double time_s) const {
+  if (ticks < newest_ticks_ - kLargestDisorderTicks) return false;
+  const double above_ns = delay_ns - line_.value(time_s);
+  const bool young = line_.span_s < kYoungS;
+  return above_ns > (young ? -kLargestStallNs : -kLargestDropNs) && above_ns < kLargestStallNs;
+}
+
+bool ClockMap::repeats(double delay_ns, std::int64_t arrival_monotonic_ns) {
+  if (rival_pairs_ == 0 || std::abs(delay_ns - rival_delay_ns_) > kRivalAgreementNs) {
+    rival_pairs_ = 0;
+    rival_since_ns_ = arrival_monotonic_ns;
+  }
+  rival_delay_ns_ = delay_ns;
+  ++rival_pairs_;
+  return rival_pairs_ >= kRivalPairs && arrival_monotonic_ns - rival_since_ns_ >= kRivalSpanNs;
+}
+
+void ClockMap::follow_utc(std::int64_t offset_ns) {
+  const std::int64_t change_ns = offset_ns - offset_ns_;
+  if (!offset_known_) {
+    offset_known_ = true;
+    offset_ns_ = offset_ns;
+  } else if (std::abs(change_ns) < kStepNs) {
+    offset_ns_ += change_ns / 4;
+    offset_doubts_ = 0;
+  } else if (++offset_doubts_ >= kStepPairs) {
+    offset_ns_ = offset_ns;
+    offset_doubts_ = 0;
+    ++counters_.host_steps;
+  }
+}
+
+void ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t arrival_monotonic_ns,
+                   std::int64_t certain_latency_ns) {
+  follow_utc(arrival_utc_ns - arrival_monotonic_ns);
+  const std::int64_t sent_ns = arrival_monotonic_ns - certain_latency_ns;
+  if (!started_) begin(ticks, sent_ns, arrival_monotonic_ns);
+  double time_s = seconds_between(ticks, first_ticks_);
+  double delay_ns = static_cast<double>(sent_ns - first_monotonic_ns_ - ticks_to_nanoseconds(ticks - first_ticks_));
+  if (!fits(ticks, delay_ns, time_s)) {
+    if (!repeats(delay_ns, arrival_monotonic_ns)) {
+      ++counters_.pairs_ignored;
+      return;
+    }
+    ++counters_.resynchronised;
+    begin(ticks, sent_ns, arrival_monotonic_ns);
+    time_s = delay_ns = 0.0;
+  }
+  rival_pairs_ = 0;
+  ++counters_.pairs;
+  envelope_.add(time_s, delay_ns);
+  line_ = *envelope_.fit();
+  if (excess_count_ >= kExcessMemory) {
+    excess_sum_ns_ /= 2.0;
+    excess_count_ /= 2.0;
+  }
+  excess_sum_ns_ += delay_ns - line_.value(time_s);
+  excess_count_ += 1.0;
+  newest_ticks_ = std::max(newest_ticks_, ticks);
+  synchronised_ = synchronised_ || arrival_monotonic_ns - first_arrival_ns_ >= kLeastArrivalSpanNs;
+  if (!synchronised_) return;
+  utc_.steer(ticks_to_nanoseconds(newest_ticks_), monotonic_of(newest_ticks_) + offset_ns_,
+             1.0 + line_.drift_ns_per_s * 1e-9);
+}
+
+std::int64_t ClockMap::monotonic_of(std::int64_t ticks) const {
+  const double delay_ns = line_.value(seconds_between(ticks, first_ticks_));
+  return first_monotonic_ns_ + ticks_to_nanoseconds(ticks - first_ticks_) + std::llround(delay_ns);
+}
+
+std::int64_t ClockMap::sigma_ns() const {
+  if (!synchronised_) return -1;
+  // The line touches its lowest points: what the floor lies above the truth goes down with the number of pairs.
+  const double excess_ns = (excess_sum_ns_ + kExpectedExcessNs) / (excess_count_ * excess_count_);
+  const double drift_ns = line_.drift_ns_per_s == 0.0 ? kUnknownDrift * line_.span_s * 1e9 : 0.0;
+  const double steering_ns = std::abs(static_cast<double>(utc_.remaining_ns()));
+  return std::llround(steering_ns + line_.scatter_ns + excess_ns + drift_ns + kFloorNs);
+}
+
+std::optional<MappedTime> ClockMap::map(std::int64_t ticks) {
+  if (!synchronised_ || rival_pairs_ > 0) return std::nullopt;
+  const auto utc_ns = utc_.read(ticks_to_nanoseconds(ticks));
+  if (!utc_ns) return std::nullopt;
+  return MappedTime{*utc_ns, monotonic_of(ticks), sigma_ns()};
+}
+
+}  // namespace pharos::host

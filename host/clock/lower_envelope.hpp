@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+namespace pharos::host {
+
+/// The straight line under a cloud of delays: delay = offset + drift x time + latency, where latency is never negative.
+///
+/// Of all lines below every point, the one with the least sum of distances: the edge of the lower convex hull that
+/// spans the mean time. Moon, Skelly, Towsley, "Estimation and removal of clock skew from network delay measurements",
+/// IEEE INFOCOM 1999. The points are the least delays of half-second bins over the last minute, so that a fit costs at
+/// most 120 points, and bursts and stalls, which only ever add latency, leave no trace.
+class LowerEnvelope {
+ public:
+  struct Line {
+    double at_s = 0.0;  // time of the newest bin
+    double delay_ns = 0.0;
+    double drift_ns_per_s = 0.0;
+    /// Median height of the bins' least delays above the line, ns: how well defined the floor is.
+    double scatter_ns = 0.0;
+    double span_s = 0.0;  // from the first bin to the last
+    double value(double time_s) const { return delay_ns + drift_ns_per_s * (time_s - at_s); }
+  };
+
+  void add(double time_s, double delay_ns);
+  std::optional<Line> fit() const;
+  void clear() { bins_.clear(); }
+
+ private:
+  struct Bin {
+    std::int64_t number = 0;
+    double time_s = 0.0;  // of the least delay
+    double delay_ns = 0.0;
+  };
+
+  double hull_drift() const;
+
+  std::deque<Bin> bins_;  // by number
+};
+
+}  // namespace pharos::host
