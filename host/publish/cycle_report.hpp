@@ -17,7 +17,7 @@ struct ReportedBearing {
   std::uint8_t sensor = 0;
   Axis axis = Axis::kX;
   std::uint16_t width_ticks = 0;
-  std::int64_t utc_ns = 0;  // middle of the pulse
+  std::int64_t offset_ns = 0;  // middle of the pulse after the cycle's time
   double raw_theta_rad = 0.0;
   double ideal_theta_rad = 0.0;
   bool used = false;

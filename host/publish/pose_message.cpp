@@ -44,14 +44,14 @@ void fill_estimate(const LighthousePoseEstimate& estimate, pose_t& message) {
   message.second_delta_chi2 = estimate.second->delta_chi2;
 }
 
-bearing_t bearing_message(const ReportedBearing& bearing, std::int64_t utc_ns) {
+bearing_t bearing_message(const ReportedBearing& bearing) {
   bearing_t message{};
   message.sensor = static_cast<std::int8_t>(bearing.sensor);
   message.axis = static_cast<std::int8_t>(index_of(bearing.axis));
   message.raw_theta_rad = bearing.raw_theta_rad;
   message.ideal_theta_rad = bearing.ideal_theta_rad;
   message.width_ticks = bearing.width_ticks;
-  message.offset_ns = static_cast<std::int32_t>(bearing.utc_ns - utc_ns);
+  message.offset_ns = static_cast<std::int32_t>(bearing.offset_ns);
   message.used = bearing.used ? 1 : 0;
   message.residual_rad = bearing.residual_rad;
   return message;
@@ -89,9 +89,7 @@ bearings_t bearings_message(const CycleReport& report) {
   message.target = report.target;
   message.flags = flag_words(report.flags);
   message.calibrated = (report.flags & track::kEpochUncalibrated) == 0 ? 1 : 0;
-  for (const ReportedBearing& bearing : report.bearings) {
-    message.bearings.push_back(bearing_message(bearing, report.utc_ns));
-  }
+  for (const ReportedBearing& bearing : report.bearings) message.bearings.push_back(bearing_message(bearing));
   message.count = static_cast<std::int32_t>(message.bearings.size());
   return message;
 }

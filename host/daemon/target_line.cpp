@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/target_line.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "host/daemon/now.hpp"
+#include "host/publish/words.hpp"
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::host {
+namespace {
+
+// A target's clock that goes back by more than any reordering on the line was started anew.
+constexpr std::int64_t kRestartTicks = kTicksPerSecond;
+
+std::string version_text(const wire::Hello& hello) {
+  return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
+         std::to_string(hello.firmware_patch);
+}
+
+}  // namespace
+
+TargetLine::TargetLine(const TargetConfig& config, const PublishConfig& publish, const std::string& source,
+                       Publisher& publisher, CalibrationMemory& memory, int line_baud)
+    : config_(config),
+      publish_(publish),
+      max_age_ns_(static_cast<std::int64_t>(publish.max_age_s * 1e9)),
+      source_(source),
+      publisher_(publisher),
+      memory_(memory),
+      tracker_(config.target, config.track),
+      bearings_(config.target, config.track),
+      line_baud_(line_baud) {
+  if (!config_.remember_calibrations) return;
+  for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
+}
+
+void TargetLine::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
+  if (bytes.empty()) return;
+  arrival_ = arrival;
+  push_began_ns_ = monotonic_now_ns();
+  last_bytes_ns_ = arrival.monotonic_ns;
+  for (const std::uint8_t byte : bytes) {
+    ++frame_bytes_;
+    const auto event = link_.push(byte);
+    if (!event) continue;
+    handle(*event);
+    frame_bytes_ = 0;
+  }
+  warn_of_foreign_version();
+}
+
+void TargetLine::handle(const report::LinkEvent& event) {
+  last_frame_ns_ = arrival_.monotonic_ns;
+  watch_clock(event);
+  std::visit([this](const auto& value) { take(value); }, event);
+}
+
+void TargetLine::watch_clock(const report::LinkEvent& event) {
+  const auto ticks = report::newest_ticks(event);
+  if (!ticks) return;
+  if (any_ticks_ && *ticks < newest_ticks_ - kRestartTicks) restart("its clock went back");
+  newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
+  any_ticks_ = true;
+  const std::size_t frame_bytes = std::min(frame_bytes_, wire::kMaxLineFrame);
+  clock_.add(*ticks, arrival_.utc_ns, arrival_.monotonic_ns, line_time_ns(frame_bytes, line_baud_));
+}
+
+// What the old time base and the old slot numbers told means nothing any more.
+void TargetLine::restart(const char* why) {
+  spdlog::info("{}: target started anew ({})", config_.name, why);
+  ++counters_.target_restarts;
+  clock_.restart();
+  tracker_ = track::EpochTracker(config_.target, config_.track);
+  bearings_ = CycleBearings(config_.target, config_.track);
+  calibrations_.forget_stations();
+  any_ticks_ = false;
+}
+
+void TargetLine::line_lost() {
+  link_.restart();
+  tracker_ = track::EpochTracker(config_.target, config_.track);
+  bearings_ = CycleBearings(config_.target, config_.track);
+  for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+    if (const auto* calibration = calibrations_.in_use(station)) tracker_.set_calibration(station, *calibration);
+  }
+}
+
+void TargetLine::end_of_input() {
+  while (const auto result = tracker_.flush()) answer(*result, std::nullopt);
+}
+
+void TargetLine::take(const lighthouse::Sweep& sweep) {
+  ++counters_.sweeps;
+  if (sweep.flash.station >= kMaxStations) {
+    ++counters_.sweeps_bad_station;
+    return;
+  }
+  last_sweep_ns_ = arrival_.monotonic_ns;
+  const auto result = tracker_.push(sweep);
+  const auto cycle = publish_.bearings ? bearings_.push(sweep) : std::nullopt;
+  if (result) answer(*result, cycle);
+}
+
+void TargetLine::take(const lighthouse::OotxPayload& payload) {
+  ++counters_.ootx_payloads;
+  switch (calibrations_.push(payload)) {
+    case lighthouse::CalibrationStore::Verdict::kUnreadable:
+      ++counters_.ootx_unreadable;
+      return;
+    case lighthouse::CalibrationStore::Verdict::kFirstTime:
+    case lighthouse::CalibrationStore::Verdict::kUnchanged:
+      return;
+    case lighthouse::CalibrationStore::Verdict::kTakenIntoUse:
+      break;
+  }
+  const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
+  if (calibration == nullptr) return;
+  ++counters_.calibrations_taken;
+  tracker_.set_calibration(payload.station, *calibration);
+  spdlog::info("{}: calibration of station {} ({}) in use", config_.name, payload.station,
+               station_id_text(calibration->id));
+  if (!config_.remember_calibrations) return;
+  if (const auto trouble = memory_.keep(*calibration)) spdlog::warn("{}", *trouble);
+}
+
+void TargetLine::take(const report::DecoderReport& report) {
+  told_.decoder = report.counters;
+  told_.any_decoder = true;
+}
+
+void TargetLine::take(const report::DeviceReport& report) {
+  told_.device = report.counters;
+  told_.any_device = true;
+}
+
+void TargetLine::take(const report::EdgesReport& edges) {
+  counters_.raw_edges += static_cast<std::int64_t>(edges.edges.size());
+}
+
+void TargetLine::take(const wire::Time&) {}  // its time was taken by watch_clock
+
+void TargetLine::take(const wire::Hello& hello) {
+  std::string identity = std::string(hello.board.view()) + ' ' + version_text(hello);
+  if (!hello.target.view().empty()) identity += " \"" + std::string(hello.target.view()) + '"';
+  if (hello.role == wire::Role::kLoader) identity += " (boot loader)";
+  if (hello.role == wire::Role::kSimulator) identity += " (simulated)";
+  if (identity == identity_) return;
+  identity_ = identity;
+  spdlog::info("{}: {} speaks", config_.name, identity_);
+}
+
+void TargetLine::count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose) {
+  if (!pose) {
+    counters_.count_refusal(pose.error());
+    last_refusal_ = pose::name_of(pose.error());
+  } else if (pose->ambiguous()) {
+    ++counters_.cycles_ambiguous;
+  } else {
+    ++counters_.cycles_ok;
+  }
+}
+
+// The report of a cycle at this time, if it may be told at all: its UTC is known and not too long ago.
+std::optional<CycleReport> TargetLine::timed_report(std::uint8_t station, std::int64_t time_ticks) {
+  const auto time = clock_.map(time_ticks);
+  if (!time) {
+    ++counters_.cycles_no_clock;
+    return std::nullopt;
+  }
+  CycleReport report;
+  report.utc_ns = time->utc_ns;
+  report.utc_sigma_ns = time->sigma_ns;
+  report.latency_ns = arrival_.monotonic_ns - time->monotonic_ns + monotonic_now_ns() - push_began_ns_;
+  if (std::abs(report.latency_ns) > max_age_ns_) {
+    ++counters_.cycles_stale;
+    return std::nullopt;
+  }
+  report.source = source_;
+  report.target = config_.name;
+  report.station = station;
+  if (const auto* calibration = calibrations_.in_use(station)) report.station_id = station_id_text(calibration->id);
+  return report;
+}
+
+void TargetLine::answer(const track::EpochResult& result, const std::optional<track::Cycle>& cycle) {
+  count_answer(result.pose);
+  if (result.pose && !(result.pose->pose.is_finite() && result.pose->covariance.allFinite())) {
+    ++counters_.cycles_not_finite;
+    return;
+  }
+  auto report = timed_report(result.station, result.time_ticks);
+  if (!report) return;
+  report->sequence = sequence_++;
+  report->flags = result.flags;
+  report->observations = result.observations;
+  report->pose = result.pose;
+  if (publisher_.publish_pose(*report) && result.pose) {
+    last_pose_ns_ = arrival_.monotonic_ns;
+    latency_.add(monotonic_now_ns() - push_began_ns_);
+  }
+  if (!cycle) return;
+  report->bearings = bearings_.report(*cycle, calibrations_.in_use(result.station), result, tracker_.residuals());
+  publisher_.publish_bearings(*report);
+}
+
+void TargetLine::take(const report::PoseReport& pose) {
+  ++counters_.board_poses;
+  auto report = timed_report(pose.station, pose.time_ticks);
+  if (!report) return;
+  report->sequence = board_sequence_++;
+  report->flags = pose.flags;
+  report->observations = pose.observations;
+  report->pose = pose.pose;
+  publisher_.publish_board_pose(*report);
+}
+
+void TargetLine::warn_of_foreign_version() {
+  const auto version = link_.foreign_version();
+  if (!version || version == told_version_) return;
+  told_version_ = version;
+  spdlog::error("{}: the target speaks version {} of the serial protocol, this daemon version {}: update the older one",
+                config_.name, *version, wire::kProtocolVersion);
+}
+
+}  // namespace pharos::host

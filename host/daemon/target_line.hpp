@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "host/clock/clock_map.hpp"
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/cycle_bearings.hpp"
+#include "host/daemon/latency_histogram.hpp"
+#include "host/daemon/line_counters.hpp"
+#include "host/publish/publisher.hpp"
+#include "pharos/lighthouse/calibration_store.hpp"
+#include "pharos/report/link_decoder.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+
+namespace pharos::host {
+
+/// When bytes arrived, on both clocks of this computer (of a replay: as they were when it was recorded).
+struct Arrival {
+  std::int64_t utc_ns = 0;
+  std::int64_t monotonic_ns = 0;
+};
+
+/// One target's bytes to poses on LCM: link -> sweeps -> cycles -> UTC -> publisher. Knows no port and no file.
+class TargetLine {
+ public:
+  /// `publisher` and `memory` must outlive this. `source` is told in every message.
+  /// `line_baud`: speed of the wire, for the time that a frame certainly spends on it; 0 where bytes arrive at once.
+  TargetLine(const TargetConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
+             CalibrationMemory& memory, int line_baud);
+
+  /// Bytes just read. Every cycle that they complete is published before this returns.
+  void push(std::span<const std::uint8_t> bytes, const Arrival& arrival);
+  /// The port was lost: what was cut in the middle is dropped, the target may come back with another clock.
+  void line_lost();
+  /// End of a recording: publishes the cycle still held back.
+  void end_of_input();
+
+  /// Everything that this line knows of its health; `port_trouble` is what its port says (empty: open). Ages are taken
+  /// from `monotonic_ns`, on the clock of the arrivals.
+  SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_trouble,
+                      std::int64_t monotonic_ns);
+
+  const LineCounters& counters() const { return counters_; }
+  /// From the last byte of a cycle read to its pose on LCM.
+  const LatencyHistogram& latency() const { return latency_; }
+
+ private:
+  struct Told {
+    lighthouse::DecoderCounters decoder;
+    wire::DeviceCounters device;
+    bool any_decoder = false;
+    bool any_device = false;
+  };
+
+  void handle(const report::LinkEvent& event);
+  void take(const lighthouse::Sweep& sweep);
+  void take(const lighthouse::OotxPayload& payload);
+  void take(const report::PoseReport& pose);
+  void take(const report::DecoderReport& report);
+  void take(const report::DeviceReport& report);
+  void take(const report::EdgesReport& edges);
+  void take(const wire::Time& time);
+  void take(const wire::Hello& hello);
+  template <class Other>
+  void take(const Other&) {
+    ++counters_.unexpected_events;
+  }
+
+  void watch_clock(const report::LinkEvent& event);
+  void restart(const char* why);
+  void answer(const track::EpochResult& result, const std::optional<track::Cycle>& cycle);
+  std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
+  void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
+  void warn_of_foreign_version();
+  void judge(SourceHealth& health, std::int64_t monotonic_ns) const;
+  NamedCounts named_counts() const;
+
+  TargetConfig config_;
+  PublishConfig publish_;
+  std::int64_t max_age_ns_ = 0;
+  std::string source_;
+  Publisher& publisher_;
+  CalibrationMemory& memory_;
+
+  report::LinkDecoder link_;
+  ClockMap clock_;
+  lighthouse::CalibrationStore calibrations_;
+  track::EpochTracker tracker_;
+  CycleBearings bearings_;
+  int line_baud_ = 0;
+  Arrival arrival_;
+  std::int64_t push_began_ns_ = 0;  // this computer's monotonic time now, also in a replay
+  std::size_t frame_bytes_ = 0;     // since the last good frame
+  std::int64_t newest_ticks_ = 0;
+  bool any_ticks_ = false;
+
+  LineCounters counters_;
+  Told told_;
+  std::string identity_;
+  LatencyHistogram latency_;
+  std::int64_t sequence_ = 0;
+  std::int64_t board_sequence_ = 0;
+  std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
+  std::int64_t last_frame_ns_ = -1;
+  std::int64_t last_sweep_ns_ = -1;
+  std::int64_t last_pose_ns_ = -1;
+  std::int64_t poses_at_last_health_ = 0;
+  std::int64_t last_health_ns_ = -1;
+  std::string last_refusal_;
+  std::optional<std::uint8_t> told_version_;
+};
+
+}  // namespace pharos::host

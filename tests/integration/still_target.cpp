@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integration/still_target.hpp"
+
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+
+namespace pharos::host {
+
+Target StillTarget::target() {
+  constexpr double kPositions[6][3] = {{-0.05, -0.05, 0.0}, {0.05, -0.05, 0.0}, {0.05, 0.05, 0.0},
+                                       {-0.05, 0.05, 0.0},  {0.02, 0.0, -0.04}, {-0.02, 0.01, -0.06}};
+  Target target;
+  for (std::uint8_t i = 0; i < 6; ++i) {
+    SensorPlacement placement;
+    placement.sensor = i;
+    placement.position_m = Vector3(kPositions[i][0], kPositions[i][1], kPositions[i][2]);
+    target.push_back(placement);
+  }
+  return target;
+}
+
+const char* StillTarget::target_table() {
+  return "sensor,x_m,y_m,z_m\n0,-0.05,-0.05,0\n1,0.05,-0.05,0\n2,0.05,0.05,0\n3,-0.05,0.05,0\n4,0.02,0,-0.04\n"
+         "5,-0.02,0.01,-0.06\n";
+}
+
+lighthouse::Sweep StillTarget::sweep(Axis axis, std::int64_t flash_ticks, std::size_t sensors) const {
+  lighthouse::Sweep sweep;
+  sweep.flash.start_ticks = flash_ticks;
+  sweep.flash.length_ticks = axis == Axis::kX ? 3125 : 3646;
+  sweep.flash.axis = axis;
+  sweep.flash.sensors = 6;
+  sweep.period_sixteenth_ticks = 16 * kTurnTicks;
+  for (const SensorPlacement& placement : target()) {
+    if (sweep.hits.size() == sensors) break;
+    const double theta = lighthouse::ideal_thetas(truth_ * placement.position_m)[axis];
+    const double half_ticks = theta / kTwoPi * 2.0 * static_cast<double>(kTurnTicks);
+    sweep.hits.push_back({placement.sensor, 200, static_cast<std::int32_t>(std::lround(half_ticks))});
+  }
+  return sweep;
+}
+
+StillTarget::Bytes StillTarget::cycle(std::int64_t end_ticks) {
+  // The last hit comes a third of a turn after its flash, at the most.
+  const std::int64_t y_flash = end_ticks - kTurnTicks / 3;
+  Bytes bytes = bytes_of(sweep(Axis::kX, y_flash - kHalfTurnTicks));
+  const Bytes y = bytes_of(sweep(Axis::kY, y_flash));
+  bytes.insert(bytes.end(), y.begin(), y.end());
+  return bytes;
+}
+
+StillTarget::Bytes StillTarget::hello(const char* board) {
+  wire::Hello hello;
+  hello.role = wire::Role::kSimulator;
+  hello.modes = wire::kModeSweeps;
+  hello.firmware_minor = 1;
+  hello.tick_rate_hz = 50'000'000;
+  hello.sensors = 0x3F;
+  hello.board = wire::Text<24>(board);
+  return copy(reporter_.send(hello));
+}
+
+StillTarget::Bytes StillTarget::counters(std::uint32_t edges_in) {
+  report::DecoderReport report;
+  report.counters.edges_in = edges_in;
+  return copy(reporter_.report(report));
+}
+
+StillTarget::Bytes StillTarget::ootx(std::int64_t now_ticks, std::uint32_t id) {
+  lighthouse::OotxPayload payload;
+  payload.time_ticks = now_ticks;
+  payload.bytes.resize(33);
+  for (std::uint8_t& byte : payload.bytes) byte = 0;
+  payload.bytes[0] = 6;  // protocol 6, firmware 0
+  for (int i = 0; i < 4; ++i) payload.bytes[static_cast<std::size_t>(2 + i)] = static_cast<std::uint8_t>(id >> (8 * i));
+  return copy(reporter_.report(payload));
+}
+
+}  // namespace pharos::host

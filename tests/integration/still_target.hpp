@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/target.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/report/reporter.hpp"
+
+namespace pharos::host {
+
+/// A capture board on a target at rest before one ideal station: the bytes of its serial line, cycle by cycle.
+///
+/// Every sensor is hit in every sweep, noise is only the 10 ns grid: what comes out of the daemon must be `truth()` to
+/// a hundredth of a degree.
+class StillTarget {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+  static constexpr std::int64_t kTurnTicks = 833'333;
+  static constexpr std::int64_t kHalfTurnTicks = 416'667;
+
+  /// Four sensors on a front plate, two raised.
+  static Target target();
+  /// The same as a target file's text.
+  static const char* target_table();
+
+  explicit StillTarget(const LighthouseFromBody& truth) : truth_(truth) {}
+
+  const LighthouseFromBody& truth() const { return truth_; }
+  /// Both sweeps of the cycle that ends at `end_ticks` of the target's clock (the line's newest instant).
+  Bytes cycle(std::int64_t end_ticks);
+  /// One sweep with only the first `sensors` of the target.
+  lighthouse::Sweep sweep(Axis axis, std::int64_t flash_ticks, std::size_t sensors = kMaxSensors) const;
+  Bytes bytes_of(const lighthouse::Sweep& sweep) { return copy(reporter_.report(sweep)); }
+  Bytes time(std::int64_t now_ticks) { return copy(reporter_.report_time(now_ticks)); }
+  Bytes hello(const char* board);
+  Bytes counters(std::uint32_t edges_in);
+  /// An OOTX payload of a made-up station that shifts no angle, as its flashes would have brought it.
+  Bytes ootx(std::int64_t now_ticks, std::uint32_t id);
+
+ private:
+  static Bytes copy(report::Reporter::Bytes bytes) { return {bytes.begin(), bytes.end()}; }
+
+  LighthouseFromBody truth_;
+  report::Reporter reporter_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/target_line.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "integration/still_target.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/bearings_t.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/wire/cobs.hpp"
+#include "pharos/wire/crc32.hpp"
+#include "unit/host/publish/message_list.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kMillisecondNs = 1'000'000;
+constexpr std::int64_t kUtcMinusMonotonicNs = 1'700'000'000'000'000'000;
+constexpr std::int64_t kCycleTicks = StillTarget::kTurnTicks;
+
+class TargetLineTest : public ::testing::Test {
+ protected:
+  static LighthouseFromBody pose_ahead() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+
+  static TargetConfig config() {
+    TargetConfig config;
+    config.name = "dock";
+    config.target = StillTarget::target();
+    return config;
+  }
+
+  Arrival arrival_at(std::int64_t ticks, std::int64_t delay_ns = kMillisecondNs) const {
+    const std::int64_t monotonic_ns = start_ns_ + ticks * 20 + delay_ns;
+    return {monotonic_ns + kUtcMinusMonotonicNs, monotonic_ns};
+  }
+  std::int64_t now_ns() const { return arrival_at(ticks_).monotonic_ns; }
+  SourceHealth health() { return line_.health("", SourceState::kOk, "", now_ns()); }
+
+  // Bytes that are read `delay_ns` after the target's clock showed `ticks`.
+  void push(const StillTarget::Bytes& bytes, std::int64_t ticks, std::int64_t delay_ns = kMillisecondNs) {
+    line_.push(bytes, arrival_at(ticks, delay_ns));
+  }
+  void push_cycles(int count) {
+    for (int i = 0; i < count; ++i) {
+      ticks_ += kCycleTicks;
+      push(target_.cycle(ticks_), ticks_);
+    }
+  }
+  std::vector<pose_t> poses() const { return list_.all<pose_t>("PHAROS_LIGHTHOUSE_POSE"); }
+  std::int64_t counter(const std::string& name) {
+    for (const NamedCount& count : health().counters) {
+      if (count.name == name) return count.value;
+    }
+    ADD_FAILURE() << "no counter " << name;
+    return -1;
+  }
+
+  MessageList list_;
+  Publisher publisher_{list_, "PHAROS_"};
+  CalibrationMemory memory_{""};
+  TargetLine line_{config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, 0};
+  StillTarget target_{pose_ahead()};
+  std::int64_t ticks_ = 10 * kTicksPerSecond;
+  std::int64_t start_ns_ = 40'000 * kMillisecondNs;  // monotonic time at which the target's clock showed 0
+};
+
+TEST_F(TargetLineTest, BytesBecomeThePoseThatMadeThem) {
+  push_cycles(20);
+  ASSERT_GE(poses().size(), 5u);  // the first 0.2 s map the clock
+  const pose_t pose = poses().back();
+  EXPECT_EQ(pose.status, "ok");
+  EXPECT_EQ(pose.target, "dock");
+  EXPECT_EQ(pose.source, "lighthouse/test");
+  EXPECT_EQ(pose.flags, "uncalibrated");
+  EXPECT_EQ(pose.observations, 12);
+  const Quaternion q(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
+                     pose.orientation_wxyz[3]);
+  const LighthouseFromBody measured{q.toRotationMatrix(),
+                                    Vector3(pose.position_m[0], pose.position_m[1], pose.position_m[2])};
+  const Vector6 error = pose_difference(measured, pose_ahead());
+  EXPECT_LT(error.head<3>().norm(), 0.02 * kRadPerDeg);
+  EXPECT_LT(error.tail<3>().norm(), 0.3e-3);
+}
+
+TEST_F(TargetLineTest, UtimeIsWhenTheLightWasMeasured) {
+  push_cycles(60);
+  // Mean of hits of a cycle that ends at ticks_: between its first flash and its end.
+  const double end_us = static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3;
+  const double before_end_us = end_us - static_cast<double>(poses().back().utime);
+  EXPECT_GT(before_end_us, -2000.0);
+  EXPECT_LT(before_end_us, 16'000.0);
+}
+
+TEST_F(TargetLineTest, APoseAndItsBearingsShareTheirNumber) {
+  push_cycles(20);
+  const auto bearings = list_.all<bearings_t>("PHAROS_LIGHTHOUSE_BEARINGS");
+  ASSERT_FALSE(bearings.empty());
+  EXPECT_EQ(bearings.back().sequence, poses().back().sequence);
+  ASSERT_EQ(bearings.back().count, 12);
+  for (const bearing_t& bearing : bearings.back().bearings) {
+    EXPECT_TRUE(bearing.used);
+    EXPECT_LT(std::abs(bearing.residual_rad), 5 * kRadPerArcsec);
+    EXPECT_EQ(bearing.raw_theta_rad, bearing.ideal_theta_rad);
+  }
+}
+
+TEST_F(TargetLineTest, AStaleCycleIsCountedAndNeverSent) {
+  push_cycles(60);
+  const std::size_t before = poses().size();
+  ticks_ += kCycleTicks;
+  push(target_.cycle(ticks_), ticks_, 500 * kMillisecondNs);
+  EXPECT_EQ(poses().size(), before);
+  EXPECT_EQ(counter("cycles_stale"), 1);
+  push_cycles(1);
+  EXPECT_EQ(poses().size(), before + 1) << "one late cycle must not spoil the next";
+}
+
+TEST_F(TargetLineTest, ARefusedCycleIsToldWithoutAPose) {
+  push_cycles(20);
+  const std::int64_t flash = ticks_ += kCycleTicks;
+  push(target_.bytes_of(target_.sweep(Axis::kX, flash, 2)), flash + kCycleTicks / 3);
+  push(target_.bytes_of(target_.sweep(Axis::kY, flash + StillTarget::kHalfTurnTicks, 2)), flash + kCycleTicks);
+  EXPECT_EQ(poses().back().status, "refused_too_few_sensors");
+  EXPECT_FALSE(poses().back().valid);
+  EXPECT_EQ(counter("cycles_refused_too_few_sensors"), 1);
+}
+
+TEST_F(TargetLineTest, GarbageBetweenCyclesCostsNoPose) {
+  push_cycles(20);
+  const std::size_t before = poses().size();
+  for (int i = 0; i < 10; ++i) {
+    StillTarget::Bytes garbage;
+    for (int k = 0; k < 300; ++k) garbage.push_back(static_cast<std::uint8_t>(k * 37 + i * 11));
+    garbage.push_back(0);
+    push(garbage, ticks_);
+    push_cycles(1);
+  }
+  EXPECT_EQ(poses().size(), before + 10);
+  EXPECT_GT(counter("link.garbage_bytes"), 2500);
+}
+
+TEST_F(TargetLineTest, CutInTheMiddleOfAFrameItTakesUpAgainAfterwards) {
+  push_cycles(20);
+  const std::size_t before = poses().size();
+  StillTarget::Bytes cut = target_.cycle(ticks_ += kCycleTicks);
+  cut.resize(cut.size() - 30);
+  push(cut, ticks_);
+  line_.line_lost();
+  push_cycles(3);
+  EXPECT_EQ(poses().size(), before + 3);
+}
+
+TEST_F(TargetLineTest, ATargetThatStartsAnewIsFollowedOnItsNewClock) {
+  push_cycles(60);
+  const std::size_t before = poses().size();
+  const std::int64_t old_ticks = ticks_;
+  ticks_ = kTicksPerSecond;
+  start_ns_ += (old_ticks - ticks_) * 20 + 3'000 * kMillisecondNs;  // three seconds of silence
+  target_ = StillTarget(pose_ahead());
+  push_cycles(60);
+  EXPECT_EQ(counter("target_restarts"), 1);
+  EXPECT_GT(poses().size(), before + 40);  // but for the 0.2 s that map the new clock
+  const double age_us =
+      static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3 - static_cast<double>(poses().back().utime);
+  EXPECT_LT(std::abs(age_us), 20'000.0) << "mapped with the new clock, not the old one";
+}
+
+TEST_F(TargetLineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) {
+  push_cycles(20);
+  push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push_cycles(1);
+  EXPECT_EQ(poses().back().flags, "uncalibrated");
+  push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push_cycles(1);
+  EXPECT_EQ(poses().back().flags, "");
+  EXPECT_EQ(poses().back().station_or_camera, "BEC08E38");
+  ASSERT_EQ(memory_.stations().size(), 1u);
+
+  // After a restart of the daemon its first arrival is enough.
+  TargetLine again(config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, 0);
+  StillTarget board(pose_ahead());
+  again.push(board.ootx(ticks_, 0xBEC08E38), arrival_at(ticks_));
+  EXPECT_EQ(again.counters().calibrations_taken, 1);
+}
+
+// A good frame of another protocol version, as its sender would make it.
+StillTarget::Bytes foreign_frame(std::uint8_t version, std::uint16_t sequence) {
+  std::vector<std::uint8_t> frame{version, 2, static_cast<std::uint8_t>(sequence), 0, 1, 2, 3};
+  const std::uint32_t crc = wire::crc32(frame);
+  for (int i = 0; i < 4; ++i) frame.push_back(static_cast<std::uint8_t>(crc >> (8 * i)));
+  StillTarget::Bytes line(64);
+  line[0] = 0;
+  wire::CobsWriter stuffing(std::span<std::uint8_t>(line).subspan(1));
+  stuffing.put(frame);
+  line.resize(1 + stuffing.finish());
+  line.push_back(0);
+  return line;
+}
+
+TEST_F(TargetLineTest, AnotherProtocolVersionIsNamedInItsHealth) {
+  for (std::uint16_t i = 0; i < 3; ++i) push(foreign_frame(9, i), ticks_);
+  const SourceHealth health = line_.health("/dev/x", SourceState::kOk, "", now_ns());
+  EXPECT_EQ(health.state, SourceState::kError);
+  EXPECT_THAT(health.message, HasSubstr("speaks version 9"));
+}
+
+TEST_F(TargetLineTest, HealthGoesFromSilenceToPoses) {
+  EXPECT_EQ(health().state, SourceState::kWaiting);
+  push({1, 2, 3, 4, 5, 6, 7, 8, 9, 0}, ticks_);
+  EXPECT_THAT(health().message, HasSubstr("baud rate"));
+  push(target_.time(ticks_), ticks_);
+  EXPECT_THAT(health().message, HasSubstr("sees no station"));
+  push_cycles(60);
+  const SourceHealth now = health();
+  EXPECT_EQ(now.state, SourceState::kOk);
+  EXPECT_GE(now.pose_age_ns, 0);
+  const SourceHealth later = line_.health("", SourceState::kOk, "", now_ns() + 5'000 * kMillisecondNs);
+  EXPECT_EQ(later.state, SourceState::kStale);
+  EXPECT_THAT(later.message, HasSubstr("silent"));
+}
+
+TEST_F(TargetLineTest, TellsWhoSpeaksAndWhatTheBoardCounts) {
+  push(target_.hello("test board"), ticks_);
+  push(target_.counters(4711), ticks_);
+  EXPECT_EQ(line_.health("", SourceState::kOk, "", 0).identity, "test board 0.1.0 (simulated)");
+  EXPECT_EQ(counter("decoder.edges_in"), 4711);
+}
+
+TEST_F(TargetLineTest, WhatThePortSaysGoesBeforeWhatTheLineSays) {
+  push_cycles(60);
+  const SourceHealth health = line_.health("/dev/x", SourceState::kGone, "/dev/x: no such device", now_ns());
+  EXPECT_EQ(health.state, SourceState::kGone);
+  EXPECT_EQ(health.message, "/dev/x: no such device");
+}
+
+}  // namespace
+}  // namespace pharos::host
