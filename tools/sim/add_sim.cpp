@@ -16,6 +16,8 @@ struct LighthouseOptions {
   std::string output;
 };
 
+}  // namespace
+
 void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
   auto options = std::make_shared<LighthouseOptions>();
   CLI::App* command = sim.add_subcommand("lighthouse", "Simulate laser base stations and a target before them");
@@ -36,12 +38,11 @@ void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
   });
 }
 
-}  // namespace
-
 void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Simulate sensors: recordings with truth, and a target on a serial line");
   sim->require_subcommand(1);
   add_sim_lighthouse(*sim, exit_code);
+  add_sim_serial(*sim, exit_code);
 }
 
 }  // namespace pharos::tools

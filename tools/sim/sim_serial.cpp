@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "host/support/input_error.hpp"
+#include "host/table/edges_reader.hpp"
+#include "tools/sim/add_sim.hpp"
+#include "tools/sim/lighthouse_simulator.hpp"
+#include "tools/sim/serial_player.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using host::InputError;
+
+struct Options {
+  std::string input;
+  std::string link;
+  std::string truth;
+  std::string name;
+  std::vector<std::string> unplugs;
+  bool raw_edges = false;
+  bool free_running = false;
+  sim::SerialOptions serial;
+};
+
+sim::Unplug parse_unplug(const std::string& text) {
+  sim::Unplug unplug;
+  const std::size_t comma = text.find(',');
+  const char* const end = text.data() + text.size();
+  const auto at = std::from_chars(text.data(), end, unplug.at_s);
+  const bool at_good = at.ec == std::errc() && comma != std::string::npos && at.ptr == text.data() + comma;
+  const auto duration = at_good ? std::from_chars(at.ptr + 1, end, unplug.for_s) : at;
+  if (!at_good || duration.ec != std::errc() || duration.ptr != end || unplug.at_s < 0.0 || unplug.for_s < 0.0) {
+    throw InputError("--unplug " + text + ": give AT,FOR in seconds, as 5,1.5");
+  }
+  return unplug;
+}
+
+// What is played: where its pulses come from and what its clock says.
+struct Material {
+  std::unique_ptr<sim::LighthouseSimulator> simulator;
+  std::unique_ptr<host::EdgesReader> edges;
+  std::unique_ptr<sim::PulseFeed> feed;
+  sim::PlayClock clock;
+  std::uint32_t sensors = 0xFFFFFFFFu;
+};
+
+Material open_scenario(const Options& options) {
+  Material material;
+  material.simulator = std::make_unique<sim::LighthouseSimulator>(
+      sim::read_scenario(options.input, options.serial.seed), options.serial.seed);
+  sim::LighthouseSimulator* simulator = material.simulator.get();
+  material.feed = std::make_unique<sim::PulseFeed>([simulator]() -> std::optional<lighthouse::RawPulse> {
+    const auto pulse = simulator->next();
+    if (!pulse) return std::nullopt;
+    return lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor};
+  });
+  material.clock.seconds_at = [simulator](std::int64_t ticks) {
+    return simulator->clock().true_time(static_cast<double>(ticks) * 20e-9);
+  };
+  material.clock.ticks_at = [simulator](double time_s) { return simulator->clock().stamp(time_s); };
+  material.sensors = 0;
+  for (const SensorPlacement& sensor : simulator->nominal_target()) material.sensors |= 1u << sensor.sensor;
+  return material;
+}
+
+Material open_recording(const Options& options) {
+  Material material;
+  material.edges = std::make_unique<host::EdgesReader>(host::ByteSource(options.input));
+  host::EdgesReader* edges = material.edges.get();
+  material.feed = std::make_unique<sim::PulseFeed>([edges] { return edges->next(); });
+  const std::optional<std::int64_t> first = material.feed->first_ticks();
+  if (!first) throw InputError(options.input + ": holds no pulses");
+  const std::int64_t start = *first;
+  material.clock.seconds_at = [start](std::int64_t ticks) { return static_cast<double>(ticks - start) * 20e-9; };
+  material.clock.ticks_at = [start](double time_s) { return start + std::llround(time_s * 50e6); };
+  return material;
+}
+
+bool is_scenario(const std::string& path) { return path.size() > 5 && path.substr(path.size() - 5) == ".toml"; }
+
+int play(const Options& options) {
+  Material material = is_scenario(options.input) ? open_scenario(options) : open_recording(options);
+  std::optional<sim::PlayTruth> truth;
+  if (!options.truth.empty()) {
+    sim::LighthouseSimulator* simulator = material.simulator.get();
+    if (simulator == nullptr) throw InputError("--truth: a recording has none; play a scenario");
+    truth = sim::PlayTruth{[simulator](std::size_t station, double time_s) {
+                             return simulator->truth(station, simulator->clock().counter_time(time_s));
+                           },
+                           simulator->stations().size(), simulator->scenario().duration_s, options.truth};
+  }
+  sim::TargetIdentity identity;
+  identity.name = options.name;
+  identity.sensors = material.sensors;
+  identity.unique_id = static_cast<std::uint32_t>(options.serial.seed);
+  identity.modes = options.raw_edges ? wire::kModeRawEdges : wire::kModeSweeps;
+  sim::SimulatedTarget target(identity);
+  sim::SerialOptions serial = options.serial;
+  for (const std::string& text : options.unplugs) serial.unplugs.push_back(parse_unplug(text));
+  serial.wait_for_reader = !options.free_running;
+  std::optional<sim::PseudoTerminal> line;
+  // The truth file is there before the port is, so that whoever waits for the port finds both.
+  std::ofstream(options.truth.empty() ? "/dev/null" : options.truth);
+  line.emplace(options.link);
+  std::cout << line->path() << std::endl;
+  sim::SerialPlayer player(*material.feed, material.clock, target, *line, serial, std::move(truth));
+  const sim::SerialSummary summary = player.play();
+  std::cerr << "played " << summary.played_s << " s: " << summary.pulses << " pulses, " << summary.sweeps << " sweeps, "
+            << summary.payloads << " OOTX payloads, " << summary.bytes << " bytes (" << summary.bytes_unheard
+            << " unheard, " << summary.bytes_corrupted << " corrupted, " << summary.bytes_dropped << " dropped), "
+            << summary.frames_skipped << " frames given up" << (summary.stopped ? ", stopped" : "") << "\n";
+  return summary.sweeps > 0 || summary.stopped ? 0 : 1;
+}
+
+}  // namespace
+
+void add_sim_serial(CLI::App& sim, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = sim.add_subcommand("serial", "Play a scenario or a recording as a target on a serial line");
+  command->add_option("INPUT", options->input, "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks)")->required();
+  command->add_option("--link", options->link, "symbolic link to the port, for a daemon's configuration");
+  command->add_option("--speed", options->serial.speed, "times real speed; 0: as fast as the reader reads")
+      ->check(CLI::Range(0.0, 1e4))
+      ->capture_default_str();
+  command->add_option("--baud", options->serial.baud, "speed of the line")
+      ->check(CLI::Range(1200.0, 1e8))
+      ->capture_default_str();
+  command->add_option("--seed", options->serial.seed, "of the scenario and of the line's faults")
+      ->capture_default_str();
+  command->add_option("--name", options->name, "name that the target gives itself");
+  command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)");
+  command->add_flag("--raw-edges", options->raw_edges, "diagnostic mode: every edge instead of sweeps");
+  command->add_flag("--free-running", options->free_running, "do not wait until a program has opened the port");
+  command->add_option("--corrupt", options->serial.corrupt_rate, "share of bytes with one bit flipped")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--drop", options->serial.drop_rate, "share of bytes lost")->check(CLI::Range(0.0, 1.0));
+  command->add_option("--unplug", options->unplugs, "AT,FOR: unplug the port at AT s for FOR s (may be repeated)");
+  command->footer(
+      "Prints the port's path and plays once a program opens it. Ends with the input, or on SIGINT or SIGTERM.\n\n"
+      "Example: pharos sim serial tools/sim/scenarios/demo.toml --link /tmp/target --truth /tmp/truth.csv");
+  command->callback([options, &exit_code] { exit_code = play(*options); });
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/report/link_decoder.hpp"
+#include "pharos/report/reporter.hpp"
+
+namespace pharos::sim {
+
+/// What a simulated target says of itself.
+struct TargetIdentity {
+  std::string name;           // Hello::target
+  std::uint32_t sensors = 0;  // bit per sensor
+  std::uint32_t unique_id = 0;
+  std::uint8_t modes = wire::kModeSweeps;
+};
+
+/// A target's program without its board: pulses and the clock go in, bytes for the line come out, exactly as the
+/// portable core makes them. Hello at the start, on request and once a second, the clock ten times a second, counters
+/// once a second, sweeps and OOTX payloads as they come (or raw edges), answers to commands.
+class SimulatedTarget {
+ public:
+  explicit SimulatedTarget(const TargetIdentity& identity);
+
+  void push(const lighthouse::RawPulse& pulse);
+  /// The counter stands at `now_ticks`: what is due by now is said. Call it often; it may not run backwards.
+  void advance(std::int64_t now_ticks);
+  /// Power comes back: the next advance says Hello first.
+  void restart_line();
+  /// Bytes from the host.
+  void receive(std::span<const std::uint8_t> bytes);
+  /// End of the recording: says what is still held back.
+  void finish();
+
+  /// Whole frames that wait to be sent, oldest first.
+  std::deque<std::vector<std::uint8_t>>& frames() { return frames_; }
+  /// A frame was given up because the line is too slow.
+  void count_skipped() { ++device_.frames_skipped; }
+
+  std::uint32_t sweeps() const { return sweeps_; }
+  std::uint32_t payloads() const { return payloads_; }
+  const lighthouse::DecoderCounters& decoder_counters() const { return decoder_.counters(); }
+
+ private:
+  // Edges wait until every pulse that began before them has ended and been pushed.
+  struct LaterEdge {
+    bool operator()(const lighthouse::Edge& a, const lighthouse::Edge& b) const {
+      return a.stamp_ticks > b.stamp_ticks;
+    }
+  };
+  void queue(report::Reporter::Bytes bytes);
+  void say_hello();
+  void say_periodic();
+  void take_decoded();
+  void give_out_edges(std::int64_t until_ticks);
+  void answer(const wire::Command& command, std::uint16_t sequence);
+
+  TargetIdentity identity_;
+  lighthouse::Decoder decoder_;
+  report::Reporter reporter_;
+  wire::FrameDecoder from_host_;
+  wire::DeviceCounters device_;
+  std::deque<std::vector<std::uint8_t>> frames_;
+  std::priority_queue<lighthouse::Edge, std::vector<lighthouse::Edge>, LaterEdge> edges_;
+  std::int64_t now_ticks_ = 0;
+  std::int64_t next_time_ticks_ = 0;
+  std::int64_t next_second_ticks_ = 0;
+  bool started_ = false;
+  std::uint16_t starts_ = 0;
+  std::uint32_t sweeps_ = 0;
+  std::uint32_t payloads_ = 0;
+};
+
+}  // namespace pharos::sim
