@@ -33,7 +33,7 @@ namespace pharos::lighthouse {
   X(locks, "times lock was found")                                                                       \
   X(locks_lost, "times lock was lost")                                                                   \
   X(hits, "laser hits kept")                                                                             \
-  X(hits_no_flash, "hits dropped: no flash of their own station")                                        \
+  X(hits_no_flash, "hits dropped: no flash of a sweeping station in this slot")                          \
   X(hits_out_of_window, "hits dropped: outside the sweep's window")                                      \
   X(hits_overflow, "hits dropped: more than a sweep holds")                                              \
   X(sweeps, "sweeps reported")                                                                           \

@@ -19,11 +19,12 @@ constexpr std::int64_t kLongestExtrapolationTicks = 300 * kTicksPerSecond;
 
 RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   const std::int64_t elapsed = start_ticks - last_ticks_;
-  if (!known() || elapsed < 0 || elapsed > kLongestExtrapolationTicks) return {};
+  if (!known() || elapsed < -kLongestExtrapolationTicks || elapsed > kLongestExtrapolationTicks) return {};
   const std::int64_t period = period_;
-  const std::int64_t turns = (elapsed * kUnits + period / 2) / period;
+  const std::int64_t half = elapsed < 0 ? -period / 2 : period / 2;
+  const std::int64_t turns = (elapsed * kUnits + half) / period;
   const std::int64_t residual = elapsed - (turns * period + kUnits / 2) / kUnits;
-  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), 0, turns > 0};
+  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), 0, true};
 }
 
 RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {

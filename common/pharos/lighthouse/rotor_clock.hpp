@@ -18,7 +18,7 @@ class RotorClock {
   static constexpr std::int32_t kLongestGapTurns = 30;
 
   struct Fit {
-    std::int32_t turns = 0;            // since the last flash, at least 1
+    std::int32_t turns = 0;            // since the last flash
     std::int32_t residual_ticks = 0;   // flash minus prediction
     std::int32_t tolerance_ticks = 0;  // what a rotor may drift in so many turns
     bool within = false;               // |residual| <= tolerance
@@ -34,7 +34,8 @@ class RotorClock {
 
   /// How a flash at `start_ticks` fits this rotor; never within when it is unknown or silent for too long.
   Fit fit(std::int64_t start_ticks) const;
-  /// Turns and remainder since the last flash, over any time: to know a station again after the dark.
+  /// Turns and remainder since (or before) the last flash, over any time: to know a station again after the dark.
+  /// Always within, unless the rotor is unknown or the time further off than 300 s.
   Fit extrapolate(std::int64_t start_ticks) const;
   void update(std::int64_t start_ticks, std::uint32_t slot);
 

@@ -20,33 +20,29 @@ void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) 
   open.sweep.flags = flash.flags;
   open.sweep.hits.clear();
   open.open = true;
-  if (flash.flash.skip) {
-    finish(open, counters);
-    return;
-  }
   deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
 }
 
 void SweepCollector::push(const Pulse& hit, DecoderCounters& counters) {
-  bool any_open = false;
+  bool flash_seen = false;
   for (Open& open : open_) {
+    if (open.sweep.flash.skip) continue;
+    const std::int64_t after_flash = hit.rise_ticks - open.sweep.flash.start_ticks;
+    flash_seen = flash_seen || (after_flash >= 0 && after_flash < kSlotTicks);
     if (!open.open) continue;
-    any_open = true;
-    const std::int64_t centre_half_ticks = 2 * (hit.rise_ticks - open.sweep.flash.start_ticks) + hit.width_ticks;
+    const std::int64_t centre_half_ticks = 2 * after_flash + hit.width_ticks;
     if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
     const bool kept = open.sweep.hits.push_back(
         {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), static_cast<std::int32_t>(centre_half_ticks)});
     ++(kept ? counters.hits : counters.hits_overflow);
     return;
   }
-  ++(any_open ? counters.hits_out_of_window : counters.hits_no_flash);
+  ++(flash_seen ? counters.hits_out_of_window : counters.hits_no_flash);
 }
 
 void SweepCollector::pass_time(std::int64_t now_ticks, DecoderCounters& counters) {
   if (now_ticks < deadline_) return;
-  for (Open& open : open_) {
-    if (open.open && now_ticks >= open.sweep.flash.start_ticks + kSweepDoneTicks) finish(open, counters);
-  }
+  finish_until(now_ticks - kSweepDoneTicks, counters);
   deadline_ = INT64_MAX;
   for (const Open& open : open_) {
     if (open.open) deadline_ = std::min(deadline_, open.sweep.flash.start_ticks + kSweepDoneTicks);
@@ -54,10 +50,16 @@ void SweepCollector::pass_time(std::int64_t now_ticks, DecoderCounters& counters
 }
 
 void SweepCollector::finish_all(DecoderCounters& counters) {
-  for (Open& open : open_) {
-    if (open.open) finish(open, counters);
-  }
+  finish_until(INT64_MAX, counters);
   deadline_ = INT64_MAX;
+}
+
+void SweepCollector::finish_until(std::int64_t start_ticks, DecoderCounters& counters) {
+  Open& first = open_[open_[1].sweep.flash.start_ticks < open_[0].sweep.flash.start_ticks ? 1 : 0];
+  Open& second = &first == &open_[0] ? open_[1] : open_[0];
+  for (Open* open : {&first, &second}) {
+    if (open->open && open->sweep.flash.start_ticks <= start_ticks) finish(*open, counters);
+  }
 }
 
 void SweepCollector::finish(Open& open, DecoderCounters& counters) {

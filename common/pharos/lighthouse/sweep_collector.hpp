@@ -14,9 +14,9 @@ namespace pharos::lighthouse {
 
 /// Gathers the hits behind each flash to a sweep, and holds finished sweeps until they are taken.
 ///
-/// A sweep is finished when time has passed its window or its station flashed again. Every flash gives a sweep, also
-/// one without hits; that of a slot whose laser is dark (skip) is finished at once. Whoever smooths flashes needs them
-/// all: without the dark ones the rotor is seen every other turn only.
+/// A sweep is finished when time has passed its window or its station flashed again; sweeps come out in the order of
+/// their flashes. Every flash gives a sweep, also one without hits and that of a slot whose laser is dark (skip):
+/// whoever smooths flashes needs them all, without the dark ones the rotor is seen every other turn only.
 class SweepCollector {
  public:
   /// Finished sweeps held for a caller that takes them after each push; more are dropped and counted.
@@ -35,9 +35,11 @@ class SweepCollector {
 
  private:
   struct Open {
-    Sweep sweep;
+    Sweep sweep;  // after it is finished: of the station's last flash
     bool open = false;
   };
+  /// Finishes what began at `start_ticks` or earlier, first flash first.
+  void finish_until(std::int64_t start_ticks, DecoderCounters& counters);
   void finish(Open& open, DecoderCounters& counters);
 
   std::array<Open, kMaxStations> open_;  // by station number
