@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos reproduce: the papers' tables and figures, published and ours side by side.
+#include <cstdlib>
+#include <filesystem>
+
+#include "tools/cli/commands.hpp"
+#include "tools/cli/reproduce/dynamic_runs.hpp"
+#include "tools/cli/reproduce/recordings.hpp"
+#include "tools/cli/reproduce/static_sets.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos reproduce lighthouse --markdown\n"
+    "  pharos reproduce lighthouse --quick --sets sets.csv\n"
+    "  pharos reproduce lighthouse --recordings ../shared/data/lighthouse\n"
+    "Light pulses are simulated and go through the decoder, OOTX, calibration and solver as real ones do.";
+
+constexpr int kQuickSets = 10;
+constexpr double kQuickSet_s = 12.0;  // OOTX takes 9 s to come twice
+constexpr int kQuickRuns = 3;
+constexpr double kQuickRun_s = 15.0;
+
+struct Options {
+  bool quick = false;
+  bool markdown = false;
+  bool real = false;
+  std::string recordings;
+  std::uint64_t seed = 1;
+  std::string sets_file;
+  OutputOptions output;
+};
+
+// --recordings DIR; else PHAROS_DATA, which names the folder that holds `lighthouse`.
+std::string recordings_directory(const std::string& given) {
+  if (!given.empty()) return given;
+  const char* data = std::getenv("PHAROS_DATA");
+  return (std::filesystem::path(data != nullptr ? data : "../shared/data") / "lighthouse").string();
+}
+
+std::vector<ComparisonRow> simulated_rows(const Options& options) {
+  StaticSetsOptions sets;
+  DynamicRunsOptions runs;
+  sets.seed = runs.seed = options.seed;
+  sets.sets_file = options.sets_file;
+  if (options.quick) {
+    sets.sets = kQuickSets;
+    sets.set_s = kQuickSet_s;
+    runs.runs = kQuickRuns;
+    runs.run_s = kQuickRun_s;
+  }
+  std::vector<ComparisonRow> rows = reproduce_static_sets(sets);
+  for (const ComparisonRow& row : reproduce_dynamic_runs(runs)) rows.push_back(row);
+  return rows;
+}
+
+int run(const Options& options) {
+  const std::vector<ComparisonRow> rows =
+      options.real ? measure_recordings(recordings_directory(options.recordings)) : simulated_rows(options);
+  if (options.markdown) {
+    write_markdown(rows, options.output.path);
+  } else {
+    write_rows(rows, options.output);
+  }
+  return rows.empty() ? kExitNoAnswer : kExitAnswered;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, int& exit_code) {
+  CLI::App* reproduce = app.add_subcommand("reproduce", "The papers' tables: published, ours, ratio");
+  reproduce->require_subcommand(1);
+  CLI::App* command =
+      reproduce->add_subcommand("lighthouse", "Paper 002: figure 5, section 4.2, table 2; or recordings");
+  const auto options = std::make_shared<Options>();
+  command->add_flag("--quick", options->quick, "Fewer and shorter sets and runs");
+  CLI::Option* recordings = command->add_option("--recordings", options->recordings,
+                                                "The real recordings in DIR instead (default: PHAROS_DATA/lighthouse)");
+  recordings->type_name("[DIR]")->expected(0, 1);
+  command->add_option("--seed", options->seed, "Of poses, noise and errors")->capture_default_str();
+  command->add_option("--sets", options->sets_file, "File for one row a set of figure 5");
+  command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, recordings, &exit_code] {
+    options->real = recordings->count() > 0;
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace pharos::tools

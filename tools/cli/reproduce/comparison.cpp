@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/reproduce/comparison.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "host/support/input_error.hpp"
+
+namespace pharos::tools {
+namespace {
+
+std::string rounded(double value) {
+  std::array<char, 32> text;
+  const int size = std::snprintf(text.data(), text.size(), "%.3g", value);
+  // %g falls into exponents early; whole numbers of people's size read better plain.
+  if (std::abs(value) >= 1000.0 && std::abs(value) < 1e7) {
+    return std::to_string(std::llround(value));
+  }
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+}  // namespace
+
+std::optional<double> ratio_of(const ComparisonRow& row) {
+  double published = 0.0;
+  const char* end = row.expected.data() + row.expected.size();
+  const auto result = std::from_chars(row.expected.data(), end, published);
+  if (result.ec != std::errc{} || result.ptr != end || published == 0.0) return std::nullopt;
+  return row.ours / published;
+}
+
+void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options) {
+  Output output(options, {"item", "what", "unit", "published", "ours", "ratio", "remark"});
+  for (const ComparisonRow& row : rows) {
+    output.rows().text(row.item).text(row.what).text(row.unit).text(row.expected);
+    output.rows().number(row.ours).number(ratio_of(row)).text(row.remark).end_row();
+  }
+  output.finish();
+}
+
+void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path) {
+  std::string text = "| item | what | published or asked | ours | ratio | remark |\n|---|---|---|---|---|---|\n";
+  for (const ComparisonRow& row : rows) {
+    const std::optional<double> ratio = ratio_of(row);
+    const std::string unit = row.unit.empty() ? "" : " " + row.unit;
+    text += "| " + row.item + " | " + row.what + " | " + (row.expected.empty() ? "" : row.expected + unit) + " | " +
+            rounded(row.ours) + unit + " | " + (ratio ? rounded(*ratio) : "") + " | " + row.remark + " |\n";
+  }
+  const auto close = [](std::FILE* file) { return file == stdout ? 0 : std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(path == "-" ? stdout : std::fopen(path.c_str(), "w"), close);
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0) {
+    throw host::InputError(path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/reproduce/simulated_run.hpp"
+
+#include <utility>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/decoder.hpp"
+#include "tools/cli/reproduce/paper_target.hpp"
+
+namespace pharos::tools {
+
+SimulatedRun::SimulatedRun(sim::LighthouseScenario scenario, std::uint64_t seed)
+    : simulator_(std::move(scenario), seed) {
+  const auto decoder = std::make_unique<lighthouse::Decoder>();
+  lighthouse::CalibrationStore store;
+  const auto take = [&] {
+    while (const auto sweep = decoder->take_sweep()) sweeps_.push_back(*sweep);
+    while (const auto payload = decoder->take_ootx()) store.push(*payload);
+  };
+  while (const std::optional<sim::SimulatedPulse> pulse = simulator_.next()) {
+    lighthouse::RawPulse raw;
+    raw.rise_ticks = pulse->rise_ticks;
+    raw.fall_ticks = pulse->fall_ticks;
+    raw.sensor = pulse->sensor;
+    decoder->push(raw);
+    take();
+  }
+  decoder->flush();
+  take();
+  if (const lighthouse::StationCalibration* in_use = store.in_use(0)) calibration_ = *in_use;
+}
+
+void SimulatedRun::track(
+    const track::TrackOptions& options,
+    const std::function<void(const track::EpochResult&, const LighthouseFromBody& truth)>& take) const {
+  const auto tracker = std::make_unique<track::EpochTracker>(simulator_.nominal_target(), options);
+  if (calibration_) tracker->set_calibration(0, *calibration_);
+  const auto give = [&](const track::EpochResult& result) {
+    take(result, simulator_.truth(0, ticks_to_seconds(result.time_ticks)));
+  };
+  for (const lighthouse::Sweep& sweep : sweeps_) {
+    if (const auto result = tracker->push(sweep)) give(*result);
+  }
+  while (const auto result = tracker->flush()) give(*result);
+}
+
+sim::LighthouseScenario paper_scenario(double duration_s) {
+  sim::LighthouseScenario scenario;
+  scenario.duration_s = duration_s;
+  scenario.target = paper_target();
+  scenario.noise.sigma_arcsec = kPaperSigmaRad * kArcsecPerRad;
+  scenario.noise.rho = kPaperRho;
+  scenario.noise.narrow_sigma_arcsec = 0.0;  // the paper's noise is one number, whatever the pulse's width
+  scenario.stations.emplace_back();
+  return scenario;
+}
+
+}  // namespace pharos::tools
