@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/record/stream_reader.hpp"
+
+#include <algorithm>
+
+#include "host/support/input_error.hpp"
+#include "pharos/wire/bytes.hpp"
+#include "pharos/wire/crc32.hpp"
+
+namespace pharos::host {
+namespace {
+
+using namespace stream_format;
+
+constexpr std::size_t kReadBytes = 128 * 1024;
+
+bool has_good_crc(std::span<const std::uint8_t> bytes) {
+  const auto crc = wire::ByteReader(bytes.last(kCrcBytes)).get<std::uint32_t>();
+  return crc == wire::crc32(bytes.first(bytes.size() - kCrcBytes));
+}
+
+}  // namespace
+
+StreamReader::StreamReader(ByteSource source) : source_(std::move(source)) { read_header(); }
+
+bool StreamReader::looks_like(std::string_view first_bytes) {
+  return first_bytes.size() >= kMagic.size() &&
+         std::equal(kMagic.begin(), kMagic.end(), first_bytes.begin(),
+                    [](std::uint8_t wanted, char is) { return wanted == static_cast<std::uint8_t>(is); });
+}
+
+bool StreamReader::fill(std::size_t count) {
+  while (buffer_.size() - at_ < count && !ended_) {
+    if (at_ >= kReadBytes) {
+      buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
+      at_ = 0;
+    }
+    const std::size_t have = buffer_.size();
+    buffer_.resize(have + kReadBytes);
+    const std::size_t got = source_.read({reinterpret_cast<char*>(buffer_.data()) + have, kReadBytes});
+    buffer_.resize(have + got);
+    ended_ = got == 0;
+  }
+  return buffer_.size() - at_ >= count;
+}
+
+std::span<const std::uint8_t> StreamReader::ahead(std::size_t count) const {
+  return std::span(buffer_).subspan(at_, count);
+}
+
+void StreamReader::read_header() {
+  const std::string& file = source_.name();
+  if (!fill(kHeadBytes) || !std::equal(kMagic.begin(), kMagic.end(), ahead(kMagic.size()).begin())) {
+    throw InputError(file + ": is not a recorded serial stream; those are made by pharosd's [recording]");
+  }
+  wire::ByteReader reader(ahead(kHeadBytes).subspan(kMagic.size()));
+  const auto version = reader.get<std::uint8_t>();
+  if (version != kVersion) {
+    throw InputError(file + ": recorded in format version " + std::to_string(version) +
+                     ", this program reads version " + std::to_string(kVersion) +
+                     "; use the Pharos release that recorded it");
+  }
+  const std::size_t name = reader.get<std::uint8_t>();
+  const std::size_t whole = kHeadBytes + name + kCrcBytes;
+  if (!fill(whole) || !has_good_crc(ahead(whole))) {
+    throw InputError(file + ": the head of this recording is damaged; nothing can be said of what follows");
+  }
+  header_.baud = reader.get<std::uint32_t>();
+  header_.utc_ns = reader.get<std::int64_t>();
+  header_.monotonic_ns = reader.get<std::int64_t>();
+  const auto letters = ahead(whole).subspan(kHeadBytes, name);
+  header_.target.assign(letters.begin(), letters.end());
+  at_ += whole;
+}
+
+/// Size of the whole, good chunk that begins here; 0 when none does.
+std::size_t StreamReader::whole_chunk_size() {
+  if (!fill(kChunkHeadBytes)) return 0;
+  wire::ByteReader reader(ahead(kChunkHeadBytes));
+  const auto mark = reader.get<std::uint8_t>();
+  const std::size_t count = reader.get<std::uint16_t>();
+  if (mark != kDataMark && !(mark == kLossMark && count == sizeof(std::uint64_t))) return 0;
+  if (count > kMaxChunkBytes) return 0;
+  const std::size_t whole = kChunkHeadBytes + count + kCrcBytes;
+  return fill(whole) && has_good_crc(ahead(whole)) ? whole : 0;
+}
+
+std::optional<StreamChunk> StreamReader::next() {
+  std::uint64_t lost_before = 0;
+  std::uint64_t skipped = 0;
+  while (fill(1)) {
+    const std::size_t whole = whole_chunk_size();
+    if (whole == 0) {
+      ++at_;
+      ++skipped;
+      continue;
+    }
+    dropped_bytes_ += skipped;
+    skipped = 0;
+    const auto bytes = ahead(whole);
+    at_ += whole;
+    wire::ByteReader reader(bytes);
+    const bool is_loss = reader.get<std::uint8_t>() == kLossMark;
+    reader.get<std::uint16_t>();
+    StreamChunk chunk;
+    chunk.utc_ns = reader.get<std::int64_t>();
+    chunk.monotonic_ns = reader.get<std::int64_t>();
+    if (is_loss) {
+      const auto lost = reader.get<std::uint64_t>();
+      lost_before += lost;
+      lost_bytes_ += lost;
+      continue;
+    }
+    chunk.lost_before = lost_before;
+    chunk.bytes = bytes.subspan(kChunkHeadBytes, whole - kChunkHeadBytes - kCrcBytes);
+    return chunk;
+  }
+  dropped_bytes_ += skipped;
+  cut_off_ = cut_off_ || skipped > 0 || source_.cut_off();
+  return std::nullopt;
+}
+
+}  // namespace pharos::host

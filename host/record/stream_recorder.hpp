@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/record/stream_format.hpp"
+#include "host/support/unique_fd.hpp"
+
+namespace pharos::host {
+
+struct RecorderOptions {
+  std::filesystem::path directory;  // made where it does not exist
+  std::string target;
+  int baud = 0;
+  // A new file begins at whichever comes first.
+  std::uint64_t rotate_bytes = 64u << 20;
+  double rotate_s = 3600.0;
+};
+
+struct RecorderCounters {
+  std::uint64_t bytes_recorded = 0;  // of the stream
+  std::uint64_t bytes_lost = 0;      // of the stream: they could not be written
+  std::uint64_t files = 0;
+  std::uint64_t failures = 0;  // to open or to write
+};
+
+/// Records a raw serial stream into a series of files `TARGET_YYYYMMDDTHHMMSSZ[_N].phraw`.
+///
+/// Never throws and never stands in the way of the poses: what cannot be written (disk full, folder gone) is counted,
+/// told by trouble(), tried again once a second, and marked in the recording when that goes on. Files end with a whole
+/// chunk, whatever happened. One write() a chunk, no buffer: what was appended survives the program's death.
+/// The program must ignore SIGXFSZ, or a limit on file sizes kills it.
+class StreamRecorder {
+ public:
+  explicit StreamRecorder(RecorderOptions options) : options_(std::move(options)) {}
+
+  /// Bytes that arrived, and when; time must not run backwards by the monotonic clock.
+  void append(std::span<const std::uint8_t> bytes, std::int64_t utc_ns, std::int64_t monotonic_ns);
+
+  const RecorderCounters& counters() const { return counters_; }
+  /// Why nothing is recorded at the moment, one line for a person; empty when all is well.
+  const std::string& trouble() const { return trouble_; }
+  /// The file that is being written; empty when none is.
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void append_chunk(std::span<const std::uint8_t> bytes, std::int64_t utc_ns, std::int64_t monotonic_ns);
+  bool ready(std::int64_t utc_ns, std::int64_t monotonic_ns);
+  bool open_file(std::int64_t utc_ns, std::int64_t monotonic_ns);
+  bool write_all(std::span<const std::uint8_t> bytes);
+  void fail(const std::string& doing, int error, std::int64_t monotonic_ns);
+  void close_file();
+
+  RecorderOptions options_;
+  RecorderCounters counters_;
+  std::string trouble_;
+  UniqueFd fd_;
+  std::filesystem::path file_;
+  std::uint64_t file_bytes_ = 0;  // whole chunks only
+  std::int64_t file_begun_ns_ = 0;
+  std::int64_t retry_at_ns_ = 0;
+  std::uint64_t lost_before_ = 0;  // since the last chunk written
+  std::vector<std::uint8_t> scratch_;
+};
+
+}  // namespace pharos::host

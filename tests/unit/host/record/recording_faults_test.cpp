@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <random>
+
+#include "host/record/stream_reader.hpp"
+#include "host/record/stream_recorder.hpp"
+#include "host/support/input_error.hpp"
+#include "unit/host/record/temporary_folder.hpp"
+
+namespace pharos::host {
+namespace {
+
+using test::Bytes;
+using test::TemporaryFolder;
+
+constexpr std::int64_t kUtc = 1'763'721'000'000'000'000;
+constexpr std::int64_t kS = 1'000'000'000;
+
+struct Read {
+  Bytes bytes;
+  std::size_t chunks = 0;
+  bool cut_off = false;
+  std::uint64_t dropped = 0;
+  std::uint64_t lost = 0;
+};
+
+Read read_all(const std::filesystem::path& file) {
+  StreamReader reader{ByteSource(file)};
+  Read read;
+  while (const auto chunk = reader.next()) {
+    read.bytes.insert(read.bytes.end(), chunk->bytes.begin(), chunk->bytes.end());
+    ++read.chunks;
+  }
+  read.cut_off = reader.cut_off();
+  read.dropped = reader.dropped_bytes();
+  read.lost = reader.lost_bytes();
+  return read;
+}
+
+/// Lets this process write no file beyond `bytes`: the kernel refuses as it does on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limited{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(RecordingFaults, AFileCutAnywhereGivesAllWholeChunksBefore) {
+  TemporaryFolder folder;
+  StreamRecorder recorder({folder.path(), "chaser", 460'800});
+  std::vector<std::uintmax_t> ends;
+  for (std::uint8_t i = 0; i < 8; ++i) {
+    recorder.append(Bytes(5, i), kUtc, i);
+    ends.push_back(std::filesystem::file_size(recorder.file()));
+  }
+  const Bytes whole = test::content(recorder.file());
+  const std::size_t head = ends[0] - (ends[1] - ends[0]);
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    const auto cut = folder.path() / "cut";
+    test::write_file(cut, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    if (size < head) {
+      EXPECT_THROW(read_all(cut), InputError) << size;
+      continue;
+    }
+    const Read read = read_all(cut);
+    const auto chunks =
+        static_cast<std::size_t>(std::count_if(ends.begin(), ends.end(), [&](auto end) { return end <= size; }));
+    EXPECT_EQ(read.chunks, chunks) << size;
+    EXPECT_EQ(read.cut_off, size != head && std::find(ends.begin(), ends.end(), size) == ends.end()) << size;
+  }
+}
+
+TEST(RecordingFaults, DamageCostsTheChunkItHitsAndNoOther) {
+  TemporaryFolder folder;
+  StreamRecorder recorder({folder.path(), "chaser", 460'800});
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 50; ++i) {
+    Bytes bytes(20 + random() % 50);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xC5 : random());
+    recorder.append(bytes, kUtc, i);
+  }
+  const Bytes whole = test::content(recorder.file());
+  const std::size_t head = 30 + 6 + 4;
+  for (std::size_t at = head; at < whole.size(); at += 7) {
+    Bytes damaged = whole;
+    damaged[at] ^= 0x40;
+    test::write_file(folder.path() / "damaged", damaged);
+    const Read read = read_all(folder.path() / "damaged");
+    EXPECT_EQ(read.chunks, 49u) << "byte " << at;
+    EXPECT_GT(read.dropped, 0u);
+  }
+}
+
+TEST(RecordingFaults, AFullDiskLosesBytesAndSaysSoAndGoesOnWhenThereIsRoom) {
+  TemporaryFolder folder;
+  StreamRecorder recorder({folder.path(), "chaser", 460'800});
+  const Bytes chunk(100, 7);
+  std::int64_t now = 0;
+  const auto append = [&](int times) {
+    for (int i = 0; i < times; ++i, now += kS / 100) recorder.append(chunk, kUtc + now, now);
+  };
+  append(10);
+  {
+    FileSizeLimit no_room(20);  // not even for a new file's head
+    append(500);
+    EXPECT_FALSE(recorder.trouble().empty());
+    EXPECT_NE(recorder.trouble().find("not being recorded"), std::string::npos) << recorder.trouble();
+    EXPECT_EQ(recorder.counters().bytes_lost, 500u * 100u);
+    EXPECT_LE(recorder.counters().failures, 8u) << "tried once a second, not at every byte";
+    EXPECT_EQ(folder.files().size(), 1u) << "no empty files are left";
+  }
+  append(200);
+  EXPECT_TRUE(recorder.trouble().empty()) << recorder.trouble();
+  const RecorderCounters& counters = recorder.counters();
+  EXPECT_EQ(counters.bytes_recorded + counters.bytes_lost, 710u * 100u);
+  EXPECT_GE(counters.bytes_recorded, (10u + 100u) * 100u);
+
+  const auto files = folder.files();
+  ASSERT_EQ(files.size(), 2u);
+  const Read before = read_all(files[0]);
+  EXPECT_EQ(before.bytes.size(), 1000u);
+  EXPECT_FALSE(before.cut_off) << "the file was cut back to its last whole chunk";
+  const Read after = read_all(files[1]);
+  EXPECT_EQ(after.lost, counters.bytes_lost) << "the recording itself tells the hole";
+  EXPECT_EQ(before.bytes.size() + after.bytes.size(), counters.bytes_recorded);
+}
+
+TEST(RecordingFaults, AChunkThatFitsOnlyHalfIsCutBack) {
+  TemporaryFolder folder;
+  StreamRecorder recorder({folder.path(), "chaser", 460'800});
+  recorder.append(Bytes(100, 1), kUtc, 0);
+  const auto file = recorder.file();
+  const auto size = std::filesystem::file_size(file);
+  {
+    FileSizeLimit limit(size + 50);
+    recorder.append(Bytes(100, 2), kUtc, 1);
+  }
+  EXPECT_EQ(std::filesystem::file_size(file), size);
+  EXPECT_EQ(recorder.counters().bytes_lost, 100u);
+}
+
+TEST(RecordingFaults, AFolderThatCannotBeMadeIsReportedAndTriedAgain) {
+  TemporaryFolder folder;
+  const auto blocked = folder.path() / "recordings";
+  test::write_file(blocked, {'x'});  // a file where the folder should be
+  StreamRecorder recorder({blocked, "chaser", 460'800});
+  recorder.append(Bytes(10, 1), kUtc, 0);
+  EXPECT_NE(recorder.trouble().find(blocked.string()), std::string::npos) << recorder.trouble();
+  EXPECT_TRUE(recorder.file().empty());
+  std::filesystem::remove(blocked);
+  recorder.append(Bytes(10, 2), kUtc, kS / 2);
+  EXPECT_FALSE(recorder.trouble().empty());
+  recorder.append(Bytes(10, 3), kUtc, kS);
+  EXPECT_TRUE(recorder.trouble().empty());
+  EXPECT_EQ(recorder.counters().bytes_lost, 20u);
+  EXPECT_EQ(read_all(recorder.file()).lost, 20u);
+}
+
+}  // namespace
+}  // namespace pharos::host
