@@ -43,8 +43,8 @@ namespace pharos::lighthouse {
   X(ootx_frames, "OOTX frames with a good CRC")                                                          \
   X(ootx_bad_crc, "OOTX frames dropped: bad CRC")                                                        \
   X(ootx_bad_length, "OOTX frames dropped: impossible length")                                           \
-  X(ootx_bad_sync, "OOTX frames dropped: a sync bit was 0")                                              \
-  X(ootx_restarts, "OOTX frames cut by a missing bit or a new preamble")
+  X(ootx_bad_sync, "OOTX frames dropped: a sync bit was 0 (cut by a new preamble, or a wrong bit)")      \
+  X(ootx_restarts, "OOTX frames cut: a flash and its bit were missed")
 
 struct DecoderCounters {
 #define PHAROS_X(name, text) std::uint32_t name = 0;

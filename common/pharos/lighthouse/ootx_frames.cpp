@@ -27,7 +27,6 @@ std::optional<OotxFrames::Payload> OotxFrames::push(bool bit, bool follows_last,
   const bool preamble_ends = bit && zeros_ >= kPreambleZeros;
   zeros_ = bit ? std::uint8_t{0} : static_cast<std::uint8_t>(zeros_ < kPreambleZeros ? zeros_ + 1 : zeros_);
   if (preamble_ends) {
-    if (in_frame_) ++counters.ootx_restarts;
     in_frame_ = true;
     size_ = 0;
     bits_in_word_ = 0;

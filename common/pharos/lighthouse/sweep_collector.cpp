@@ -9,6 +9,8 @@ namespace {
 /// Wide hits are held back with what may be a flash, at most this long.
 constexpr std::int64_t kSweepDoneTicks =
     std::int64_t{kSweepWindowEndTicks} + kFlashRiseSpreadTicks + 2 * kLongestPulseTicks;
+/// Before the next slot's hits can begin, a stray pulse is not for want of a flash.
+constexpr std::int64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
 
 }  // namespace
 
@@ -20,15 +22,16 @@ void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) 
   open.sweep.flags = flash.flags;
   open.sweep.hits.clear();
   open.open = true;
+  open.ever = true;
   deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
 }
 
 void SweepCollector::push(const Pulse& hit, DecoderCounters& counters) {
   bool flash_seen = false;
   for (Open& open : open_) {
-    if (open.sweep.flash.skip) continue;
+    if (!open.ever || open.sweep.flash.skip) continue;
     const std::int64_t after_flash = hit.rise_ticks - open.sweep.flash.start_ticks;
-    flash_seen = flash_seen || (after_flash >= 0 && after_flash < kSlotTicks);
+    flash_seen = flash_seen || (after_flash >= 0 && after_flash < kNextWindowTicks);
     if (!open.open) continue;
     const std::int64_t centre_half_ticks = 2 * after_flash + hit.width_ticks;
     if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;

@@ -37,6 +37,7 @@ class SweepCollector {
   struct Open {
     Sweep sweep;  // after it is finished: of the station's last flash
     bool open = false;
+    bool ever = false;
   };
   /// Finishes what began at `start_ticks` or earlier, first flash first.
   void finish_until(std::int64_t start_ticks, DecoderCounters& counters);
