@@ -10,8 +10,8 @@ Reporter::Bytes Reporter::refuse() {
   return {};
 }
 
-Reporter::Bytes Reporter::frame(wire::MessageType type, std::size_t payload) {
-  const std::size_t size = encoder_.encode(type, std::span(payload_).first(payload), line_);
+Reporter::Bytes Reporter::frame(wire::MessageType type, Bytes payload) {
+  const std::size_t size = encoder_.encode(type, payload, line_);
   if (size == 0) return refuse();
   ++frames_;
   return std::span(line_).first(size);
@@ -31,13 +31,13 @@ Reporter::Bytes Reporter::report(const lighthouse::Edge& edge, std::uint32_t edg
     full = flush_edges();
     edges_.push(raw);
   }
-  edges_.set_edges_lost(edges_lost);
+  edges_lost_ = edges_lost;
   return full;
 }
 
 Reporter::Bytes Reporter::flush_edges() {
   if (edges_.empty()) return {};
-  const Bytes bytes = send(edges_.message());
+  const Bytes bytes = frame(wire::MessageType::kRawEdges, edges_.payload(edges_lost_));
   edges_.clear();
   return bytes;
 }

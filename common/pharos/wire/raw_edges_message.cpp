@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/wire/raw_edges_message.hpp"
 
-#include <array>
-
 #include "pharos/base/capacity.hpp"
 
 namespace pharos::wire {
@@ -16,13 +14,17 @@ void write_edge(const RawEdge& edge, std::int64_t previous_ticks, ByteWriter& ou
   out.put_varint(edge.stamp_ticks - previous_ticks);
 }
 
+void write_head(std::uint32_t edges_lost, std::int64_t first_ticks, std::size_t count, ByteWriter& out) {
+  out.put(edges_lost);
+  out.put_ticks(first_ticks);
+  out.put(static_cast<std::uint8_t>(count));
+}
+
 }  // namespace
 
 void write(const RawEdges& message, ByteWriter& out) {
   std::int64_t previous = message.edges.empty() ? 0 : message.edges[0].stamp_ticks;
-  out.put(message.edges_lost);
-  out.put_ticks(previous);
-  out.put(static_cast<std::uint8_t>(message.edges.size()));
+  write_head(message.edges_lost, previous, message.edges.size(), out);
   for (const RawEdge& edge : message.edges) {
     write_edge(edge, previous, out);
     previous = edge.stamp_ticks;
@@ -52,17 +54,24 @@ void read(ByteReader& in, RawEdges& message) {
 
 bool RawEdgesPacker::push(const RawEdge& edge) {
   if (edge.sensor >= kMaxSensors || !is_credible_time(edge.stamp_ticks)) return true;
-  std::array<std::uint8_t, RawEdges::kMaxEdgeBytes> scratch{};
-  ByteWriter writer(scratch);
-  write_edge(edge, empty() ? edge.stamp_ticks : message_.edges.back().stamp_ticks, writer);
-  if (bytes_ + writer.size() > RawEdges::kMaxBytes || !message_.edges.push_back(edge)) return false;
-  bytes_ += writer.size();
+  if (count_ == RawEdges::kMaxEdges) return false;
+  if (empty()) {
+    size_ = RawEdges::kHeadBytes;
+    first_ticks_ = last_ticks_ = edge.stamp_ticks;
+  }
+  ByteWriter writer{std::span(bytes_).subspan(size_)};
+  write_edge(edge, last_ticks_, writer);
+  if (writer.failed()) return false;
+  size_ += writer.size();
+  last_ticks_ = edge.stamp_ticks;
+  ++count_;
   return true;
 }
 
-void RawEdgesPacker::clear() {
-  message_.edges.clear();
-  bytes_ = RawEdges::kHeadBytes;
+std::span<const std::uint8_t> RawEdgesPacker::payload(std::uint32_t edges_lost) {
+  ByteWriter writer(bytes_);
+  write_head(edges_lost, empty() ? 0 : first_ticks_, count_, writer);
+  return std::span(bytes_).first(empty() ? RawEdges::kHeadBytes : size_);
 }
 
 }  // namespace pharos::wire

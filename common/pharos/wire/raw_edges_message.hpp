@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "pharos/base/static_vector.hpp"
 #include "pharos/wire/bytes.hpp"
@@ -37,20 +39,23 @@ struct RawEdges {
 void write(const RawEdges& message, ByteWriter& out);
 void read(ByteReader& in, RawEdges& message);
 
-/// Collects edges until the next one might not fit.
+/// Writes edges into the payload of one message, as they come, until the next one does not fit. State: 0.5 kB.
 class RawEdgesPacker {
  public:
   /// False when the message is full: send it, clear(), and push the edge again. An edge that cannot be sent (sensor
   /// above 31, incredible time) is left out.
   bool push(const RawEdge& edge);
-  const RawEdges& message() const { return message_; }
-  bool empty() const { return message_.edges.empty(); }
-  void clear();
-  void set_edges_lost(std::uint32_t edges_lost) { message_.edges_lost = edges_lost; }
+  /// The payload of a RawEdges message with what was pushed since clear().
+  std::span<const std::uint8_t> payload(std::uint32_t edges_lost);
+  bool empty() const { return count_ == 0; }
+  void clear() { count_ = 0; }
 
  private:
-  RawEdges message_;
-  std::size_t bytes_ = RawEdges::kHeadBytes;
+  std::array<std::uint8_t, RawEdges::kMaxBytes> bytes_{};
+  std::size_t size_ = 0;
+  std::uint8_t count_ = 0;
+  std::int64_t first_ticks_ = 0;
+  std::int64_t last_ticks_ = 0;
 };
 
 }  // namespace pharos::wire

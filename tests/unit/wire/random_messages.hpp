@@ -116,7 +116,7 @@ class RandomMessages {
       edge.rising = below(2) == 1;
       if (!packer.push(edge)) break;
     }
-    m.edges = packer.message().edges;
+    m.edges = decode_payload<RawEdges>(packer.payload(0)).value().edges;
   }
   void fill(Command& m) { m = {static_cast<CommandCode>(integer<std::uint8_t>()), integer<std::uint32_t>()}; }
   void fill(Ack& m) { m = {integer<std::uint8_t>(), integer<std::uint16_t>(), integer<std::uint32_t>()}; }

@@ -59,9 +59,7 @@ TEST(LineRate, RawEdgesOfTwelveSensorsAndTwoStationsFit) {
   double bytes = 0.0;
   double edges = 0.0;
   const auto deliver = [&] {
-    test::Bytes payload(kMaxPayload);
-    payload.resize(encode_payload(packer.message(), payload));
-    bytes += static_cast<double>(test::frame_bytes(encoder, MessageType::kRawEdges, payload).size());
+    bytes += static_cast<double>(test::frame_bytes(encoder, MessageType::kRawEdges, packer.payload(0)).size());
     packer.clear();
   };
   const auto push = [&](const RawEdge& edge) {

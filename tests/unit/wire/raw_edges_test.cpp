@@ -13,11 +13,13 @@ TEST(RawEdgesPacker, LosesNoEdgeOfALongStream) {
   std::vector<RawEdge> received;
   RawEdgesPacker packer;
   const auto deliver = [&] {
-    std::array<std::uint8_t, RawEdges::kMaxBytes> payload{};
-    const std::size_t size = encode_payload(packer.message(), payload);
-    ASSERT_GT(size, 0u) << "a packed message must always fit";
-    const auto message = decode_payload<RawEdges>(std::span(payload).first(size));
+    const auto payload = packer.payload(17);
+    const auto message = decode_payload<RawEdges>(payload);
     ASSERT_TRUE(message.ok());
+    EXPECT_EQ(message->edges_lost, 17u);
+    test::Bytes again(kMaxPayload);
+    again.resize(encode_payload(*message, again));
+    EXPECT_TRUE(std::equal(payload.begin(), payload.end(), again.begin(), again.end()));
     received.insert(received.end(), message->edges.begin(), message->edges.end());
     packer.clear();
   };
@@ -31,6 +33,22 @@ TEST(RawEdgesPacker, LosesNoEdgeOfALongStream) {
   }
   deliver();
   EXPECT_EQ(received, sent);
+}
+
+TEST(RawEdgesPacker, GivesAnEmptyMessageWhenNothingWasPushed) {
+  RawEdgesPacker packer;
+  packer.push({5, 1, true});
+  packer.clear();
+  const auto message = decode_payload<RawEdges>(packer.payload(3));
+  ASSERT_TRUE(message.ok());
+  EXPECT_TRUE(message->edges.empty());
+}
+
+TEST(RawEdgesPacker, LeavesOutWhatCannotBeSent) {
+  RawEdgesPacker packer;
+  EXPECT_TRUE(packer.push({5, 32, true}));
+  EXPECT_TRUE(packer.push({kMaxTicks + 1, 3, true}));
+  EXPECT_TRUE(packer.empty());
 }
 
 TEST(RawEdgesPacker, HoldsAtLeastFortyFiveEdgesWithAnyStamps) {
