@@ -121,8 +121,8 @@ int run(const Options& options) {
     if (live) output.rows().flush();
   }
   output.finish();
-  print_remarks(recording);
-  if (options.stats) print_statistics(recording);
+  recording.print_remarks();
+  if (options.stats) recording.print_statistics();
   if (output.rows().rows() > 0) return kExitAnswered;
   note(options.ootx ? "no OOTX frame in " + options.edges + "; it takes 3 s of unbroken light"
                     : "no bearing in " + options.edges + "; --stats says what became of its pulses");

@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
-#include "pharos/lighthouse/decoder_counters.hpp"
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 
 namespace pharos::tools {
+
+class RecordingSource;
 
 /// What a recording says once decoded.
 using RecordingEvent = std::variant<lighthouse::Sweep, lighthouse::OotxPayload>;
@@ -29,25 +29,16 @@ class Recording {
   /// The next event in order of time; empty at the end. Throws InputError where a table is broken.
   std::optional<RecordingEvent> next();
 
-  const lighthouse::DecoderCounters& counters() const;
-  /// Things to say to a person at the end: an unfinished last line, lost frames.
-  std::vector<std::string> remarks() const;
-
-  /// Pulses, edges or frames read by now.
-  std::size_t items_read() const;
-
-  class Source;
+  /// Every counter on standard error, one a line: name, value, what it counts.
+  void print_statistics() const;
+  /// What a person should know at the end, on standard error: an unfinished last line, lost bytes.
+  void print_remarks() const;
 
  private:
-  std::unique_ptr<Source> source_;
+  std::unique_ptr<RecordingSource> source_;
 };
 
 /// Whether `path` can be read twice: an ordinary file, not standard input or a pipe.
 bool is_rereadable(const std::string& path);
-
-/// Prints every counter and remark of a recording on standard error, one a line: `name value  what it counts`.
-void print_statistics(const Recording& recording);
-/// The remarks alone, which are never kept back.
-void print_remarks(const Recording& recording);
 
 }  // namespace pharos::tools

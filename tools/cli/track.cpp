@@ -155,8 +155,8 @@ int run(const Options& options) {
   }
   tracking->finish();
   if (!options.sensors.empty()) tracking->residuals().write({options.output.json, options.sensors});
-  print_remarks(recording);
-  if (options.stats) print_statistics(recording);
+  recording.print_remarks();
+  if (options.stats) recording.print_statistics();
   say_what_came_out(options, *tracking);
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }

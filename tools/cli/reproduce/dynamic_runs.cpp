@@ -61,10 +61,20 @@ class ErrorStatistics {
   PoseError max_;
 };
 
+// Further off than this in rotation is no noise: another minimum fitted better.
+constexpr double kOtherMinimum_deg = 10.0;
+
 struct DynamicRun {
-  ErrorStatistics sure;  // status ok
-  ErrorStatistics all;   // ok and ambiguous
+  ErrorStatistics sure;   // status ok
+  ErrorStatistics right;  // of those, within kOtherMinimum_deg
+  ErrorStatistics all;    // ok and ambiguous
   int refused = 0;
+
+  double wrong_percent() const {
+    return sure.count() == 0
+               ? 0.0
+               : 100.0 * static_cast<double>(sure.count() - right.count()) / static_cast<double>(sure.count());
+  }
 };
 
 // The method of the paper: each cycle alone, flashes as measured, the residual (6) as printed.
@@ -85,7 +95,9 @@ DynamicRun evaluate(const SimulatedRun& run, const track::TrackOptions& options)
     }
     const PoseError error = error_of(result.pose->pose, truth);
     out.all.push(error);
-    if (!result.pose->ambiguous()) out.sure.push(error);
+    if (result.pose->ambiguous()) return;
+    out.sure.push(error);
+    if (error.rotation_deg < kOtherMinimum_deg) out.right.push(error);
   });
   return out;
 }
@@ -101,9 +113,10 @@ SimulatedRun fly(double run_s, std::uint64_t seed) {
 void add_run_rows(std::size_t run, const DynamicRun& result, std::vector<ComparisonRow>& rows) {
   const PublishedRun published = run < kPublishedRuns ? kTable2[run] : PublishedRun{"", "", "", ""};
   const std::string name = "run " + std::to_string(run + 1) + ", ";
-  const std::string counts = std::to_string(result.sure.count()) + " cycles ok; " +
-                             std::to_string(result.all.count() - result.sure.count()) + " ambiguous and " +
-                             std::to_string(result.refused) + " refused left out";
+  const std::string counts =
+      std::to_string(result.sure.count()) + " cycles ok; " + std::to_string(result.all.count() - result.sure.count()) +
+      " ambiguous and " + std::to_string(result.refused) + " refused left out; " +
+      std::to_string(result.sure.count() - result.right.count()) + " of the ok in another minimum";
   rows.push_back(
       {"table 2", name + "rotation RMS", "deg", published.rotation_rms_deg, result.sure.rms().rotation_deg, counts});
   rows.push_back(
@@ -114,15 +127,48 @@ void add_run_rows(std::size_t run, const DynamicRun& result, std::vector<Compari
       {"table 2", name + "position maximum", "mm", published.position_max_mm, result.sure.max().position_mm, ""});
 }
 
-void add_median_rows(const std::string& what, const std::vector<PoseError>& rms, std::vector<ComparisonRow>& rows) {
-  std::vector<double> rotation, position;
-  for (const PoseError& error : rms) {
-    rotation.push_back(error.rotation_deg);
-    position.push_back(error.position_mm);
+// Medians of the ten published values.
+constexpr const char* kPublishedRotation_deg = "0.885";
+constexpr const char* kPublishedPosition_mm = "11.45";
+
+// One way of solving, over all runs.
+struct Method {
+  std::string name;
+  track::TrackOptions options;
+  std::vector<DynamicRun> runs;
+
+  template <class Value>
+  double median(Value&& value) const {
+    std::vector<double> values;
+    for (const DynamicRun& run : runs) values.push_back(value(run));
+    return median_of(values);
   }
-  // Medians of the ten published values.
-  rows.push_back({"table 2", what + ", rotation RMS, median of runs", "deg", "0.885", median_of(rotation), ""});
-  rows.push_back({"table 2", what + ", position RMS, median of runs", "mm", "11.45", median_of(position), ""});
+};
+
+std::vector<Method> methods() {
+  std::vector<Method> out = {{"the paper's method", paper_method(), {}}, {"angles, smoothed flashes", {}, {}}};
+  // What the workshop's errors leave as residual; told so, the second minimum is recognised for what it is.
+  constexpr double kWorkshopSigma_arcsec = 30.0;
+  out.push_back({"angles, smoothed flashes, told 30 arcsec of noise", {}, {}});
+  out.back().options.solve.sigma_rad = kWorkshopSigma_arcsec * kRadPerArcsec;
+  return out;
+}
+
+void add_method_rows(const Method& method, std::vector<ComparisonRow>& rows) {
+  const auto add = [&](const char* what, const char* unit, const char* published, double ours) {
+    rows.push_back({"table 2", method.name + ": " + what + ", median of runs", unit, published, ours, ""});
+  };
+  const auto rotation = [](const ErrorStatistics& s) { return s.rms().rotation_deg; };
+  const auto position = [](const ErrorStatistics& s) { return s.rms().position_mm; };
+  add("rotation RMS", "deg", kPublishedRotation_deg,
+      method.median([&](const auto& run) { return rotation(run.sure); }));
+  add("position RMS", "mm", kPublishedPosition_mm, method.median([&](const auto& run) { return position(run.sure); }));
+  add("cycles more than 10 deg off (another minimum)", "%", "",
+      method.median([](const auto& run) { return run.wrong_percent(); }));
+  add("rotation RMS without those", "deg", kPublishedRotation_deg,
+      method.median([&](const auto& run) { return rotation(run.right); }));
+  add("position RMS without those", "mm", kPublishedPosition_mm,
+      method.median([&](const auto& run) { return position(run.right); }));
 }
 
 }  // namespace
@@ -130,20 +176,15 @@ void add_median_rows(const std::string& what, const std::vector<PoseError>& rms,
 std::vector<ComparisonRow> reproduce_dynamic_runs(const DynamicRunsOptions& options) {
   Progress progress("table 2", "runs", static_cast<std::size_t>(options.runs));
   std::vector<ComparisonRow> rows;
-  std::vector<PoseError> sure, with_ambiguous, by_angles;
+  std::vector<Method> ways = methods();
   for (std::size_t i = 0; i < static_cast<std::size_t>(options.runs); ++i) {
     const SimulatedRun run = fly(options.run_s, options.seed + i);
-    const DynamicRun paper = evaluate(run, paper_method());
-    add_run_rows(i, paper, rows);
-    sure.push_back(paper.sure.rms());
-    with_ambiguous.push_back(paper.all.rms());
-    by_angles.push_back(evaluate(run, {}).sure.rms());
+    for (Method& way : ways) way.runs.push_back(evaluate(run, way.options));
+    add_run_rows(i, ways.front().runs.back(), rows);
     progress.step();
   }
   if (rows.empty()) return rows;
-  add_median_rows("the paper's method", sure, rows);
-  add_median_rows("the same with ambiguous cycles counted", with_ambiguous, rows);
-  add_median_rows("angle residual and smoothed flashes", by_angles, rows);
+  for (const Method& way : ways) add_method_rows(way, rows);
   return rows;
 }
 
