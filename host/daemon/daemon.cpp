@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/daemon.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+
+#include "host/daemon/now.hpp"
+#include "host/daemon/port_feed.hpp"
+#include "host/daemon/process_usage.hpp"
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+namespace {
+
+// Ports are tried again at their own pace, twice a second.
+constexpr std::chrono::milliseconds kAttendPeriod{100};
+constexpr std::int64_t kLogPeriodNs = 10'000'000'000;
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+}  // namespace
+
+/// One target: where its bytes come from, where they are kept, what they become.
+struct Daemon::Channel {
+  std::string name;
+  std::optional<StreamRecorder> recorder;
+  std::unique_ptr<TargetLine> line;
+  std::unique_ptr<LineFeed> feed;
+};
+
+Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed)
+    : config_(config),
+      signals_(signals),
+      publisher_(sink, config.lcm.channel_prefix),
+      memory_(config.state_directory),
+      log_limit_(kLogPeriodNs),
+      started_ns_(monotonic_now_ns()) {
+  load_memory();
+  for (const TargetConfig& target : config_.targets) add_channel(target, replay_speed);
+  loop_.watch(signals_.fd(), [this] { on_signal(); });
+  loop_.watch(attend_timer_.fd(), [this] { attend(); });
+  loop_.watch(status_timer_.fd(), [this] { publish_health(); });
+}
+
+Daemon::~Daemon() = default;
+
+// What cannot be read is worth a word, not a stop: stations tell it all again within seconds.
+void Daemon::load_memory() {
+  try {
+    memory_.load();
+  } catch (const InputError& error) {
+    spdlog::warn("remembered calibrations are not used: {}", error.what());
+  }
+}
+
+void Daemon::add_channel(const TargetConfig& target, ReplaySpeed replay_speed) {
+  channels_.push_back(std::make_unique<Channel>());
+  Channel& channel = *channels_.back();
+  channel.name = target.name;
+  if (config_.recording && !target.is_replay()) {
+    channel.recorder.emplace(RecorderOptions{config_.recording->directory, target.name, target.baud,
+                                             config_.recording->rotate_bytes, config_.recording->rotate_s});
+  }
+  channel.feed = make_feed(target, replay_speed, channel);
+  int baud = target.baud;
+  if (target.is_replay()) baud = static_cast<int>(static_cast<const ReplayFeed&>(*channel.feed).header().baud);
+  const std::string source = "lighthouse/" + config_.source + (target.is_replay() ? "/replay" : "");
+  channel.line = std::make_unique<TargetLine>(target, config_.publish, source, publisher_, memory_, baud);
+}
+
+std::unique_ptr<LineFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
+  LineFeedEvents events;
+  // Poses first: they are what somebody waits for.
+  events.bytes = [&channel](std::span<const std::uint8_t> bytes, const Arrival& arrival) {
+    channel.line->push(bytes, arrival);
+    if (channel.recorder) channel.recorder->append(bytes, arrival.utc_ns, arrival.monotonic_ns);
+  };
+  events.lost = [&channel] { channel.line->line_lost(); };
+  events.finished = [this, &channel] {
+    channel.line->end_of_input();
+    if (std::all_of(channels_.begin(), channels_.end(), [](const auto& any) { return any->feed->finished(); })) {
+      loop_.stop();
+    }
+  };
+  if (target.is_replay()) {
+    return std::make_unique<ReplayFeed>(loop_, target.name, target.replay_file().string(), replay_speed,
+                                        std::move(events));
+  }
+  return std::make_unique<PortFeed>(loop_, target.name, target.port, target.baud, std::move(events));
+}
+
+void Daemon::run() {
+  attend_timer_.start({}, kAttendPeriod);
+  status_timer_.start_every(std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(config_.publish.status_period_s)));
+  spdlog::info("pharosd {} started, {} target{}", PHAROS_VERSION, channels_.size(), channels_.size() == 1 ? "" : "s");
+  loop_.run();
+  message_ = "stopped";
+  publish_health();
+  spdlog::info("stopped");
+}
+
+void Daemon::attend() {
+  attend_timer_.take_expiries();
+  const std::int64_t now_ns = monotonic_now_ns();
+  for (const auto& channel : channels_) channel->feed->attend(now_ns);
+  const std::string trouble = recording_trouble();
+  if (!trouble.empty() && log_limit_.pass("recording", now_ns)) spdlog::warn("{}", trouble);
+  const std::int64_t failed = publisher_.counters().failed;
+  if (failed > failed_told_ && log_limit_.pass("lcm", now_ns)) {
+    spdlog::warn("{} messages could not be sent over LCM: is there still a route for multicast?",
+                 failed - failed_told_);
+    failed_told_ = failed;
+  }
+}
+
+void Daemon::on_signal() {
+  while (const auto signal = signals_.take()) spdlog::info("{} received", ::strsignal(*signal));
+  loop_.stop();
+}
+
+std::string Daemon::recording_trouble() const {
+  for (const auto& channel : channels_) {
+    if (channel->recorder && !channel->recorder->trouble().empty()) return channel->recorder->trouble();
+  }
+  return "";
+}
+
+void Daemon::publish_health() {
+  status_timer_.take_expiries();
+  DaemonHealth health;
+  health.utc_ns = utc_now_ns();
+  health.uptime_ns = monotonic_now_ns() - started_ns_;
+  health.host = host_name();
+  health.version = PHAROS_VERSION;
+  health.message = message_.empty() ? recording_trouble() : message_;
+  health.counters = named_counts();
+  for (const auto& channel : channels_) {
+    const LineFeed& feed = *channel->feed;
+    health.sources.push_back(channel->line->health(feed.device(), feed.state(), feed.trouble(), feed.monotonic_now()));
+    NamedCounts& counts = health.sources.back().counters;
+    const NamedCounts of_feed = feed.counters();
+    counts.insert(counts.end(), of_feed.begin(), of_feed.end());
+    if (!channel->recorder) continue;
+    const RecorderCounters& recorded = channel->recorder->counters();
+    counts.push_back({"recording.bytes", static_cast<std::int64_t>(recorded.bytes_recorded)});
+    counts.push_back({"recording.bytes_lost", static_cast<std::int64_t>(recorded.bytes_lost)});
+    counts.push_back({"recording.files", static_cast<std::int64_t>(recorded.files)});
+    counts.push_back({"recording.failures", static_cast<std::int64_t>(recorded.failures)});
+  }
+  publisher_.publish_health(health);
+}
+
+NamedCounts Daemon::named_counts() const {
+  const PublishCounters& sent = publisher_.counters();
+  const ProcessUsage usage = process_usage();
+  return {{"published_poses", sent.poses},
+          {"published_bearings", sent.bearings},
+          {"published_status", sent.status},
+          {"published_bytes", sent.bytes},
+          {"publish_failures", sent.failed},
+          {"process_cpu_us", usage.cpu_us},
+          {"process_resident_kib", usage.resident_kib}};
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/event_loop.hpp"
+#include "host/daemon/line_feed.hpp"
+#include "host/daemon/log_limit.hpp"
+#include "host/daemon/replay_feed.hpp"
+#include "host/daemon/signals.hpp"
+#include "host/daemon/target_line.hpp"
+#include "host/daemon/timer.hpp"
+#include "host/publish/publisher.hpp"
+#include "host/record/stream_recorder.hpp"
+
+namespace pharos::host {
+
+/// All targets of a configuration in one poll loop: feed -> recorder and line -> publisher, status beside it.
+class Daemon {
+ public:
+  /// Throws InputError for a replay that is no recording. `sink` must outlive this. `signals` end run().
+  Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed);
+  ~Daemon();
+
+  /// Until a signal comes, or every feed was a replay and has come to its end.
+  void run();
+
+ private:
+  struct Channel;
+
+  void add_channel(const TargetConfig& target, ReplaySpeed replay_speed);
+  std::unique_ptr<LineFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
+  void load_memory();
+  void attend();
+  void on_signal();
+  void publish_health();
+  NamedCounts named_counts() const;
+  std::string recording_trouble() const;
+
+  DaemonConfig config_;
+  EventLoop loop_;
+  Signals& signals_;
+  Timer attend_timer_;
+  Timer status_timer_;
+  Publisher publisher_;
+  CalibrationMemory memory_;
+  LogLimit log_limit_;
+  std::vector<std::unique_ptr<Channel>> channels_;
+  std::int64_t started_ns_ = 0;
+  std::int64_t failed_told_ = 0;
+  std::string message_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "host/config/load_config.hpp"
+#include "host/daemon/daemon.hpp"
+#include "host/daemon/log_setup.hpp"
+#include "host/publish/lcm_sink.hpp"
+#include "host/support/input_error.hpp"
+
+namespace {
+
+namespace host = pharos::host;
+
+constexpr int kExitFailure = 1;
+constexpr int kExitUsage = 2;
+
+struct Options {
+  std::string config;
+  std::string replay;
+  bool check = false;
+  bool fast = false;
+};
+
+// The recording stands in for the port of the target that it names, or of the only target.
+void replay_instead(host::DaemonConfig& config, const std::string& file) {
+  const std::string recorded = host::StreamReader(host::ByteSource(file)).header().target;
+  host::TargetConfig* chosen = config.targets.size() == 1 ? &config.targets.front() : nullptr;
+  for (host::TargetConfig& target : config.targets) {
+    if (target.name == recorded) chosen = &target;
+  }
+  if (chosen == nullptr) {
+    throw host::InputError(file + ": is a recording of target \"" + recorded + "\", which the configuration has not");
+  }
+  host::TargetConfig target = *chosen;
+  target.port = host::TargetConfig::kReplayPrefix + file;
+  config.targets = {target};
+}
+
+int run(const Options& options) {
+  host::DaemonConfig config = host::load_daemon_config(options.config);
+  if (options.check) {
+    std::fputs(host::describe(config).c_str(), stdout);
+    return 0;
+  }
+  if (!options.replay.empty()) replay_instead(config, options.replay);
+  host::set_up_log(config.log);
+  // A limit on file sizes then fails the write, as a full disk does, instead of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  host::Signals signals{SIGTERM, SIGINT, SIGHUP};
+  host::LcmSink sink(config.lcm.url);
+  host::Daemon daemon(config, sink, signals, options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal);
+  daemon.run();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures relative poses and broadcasts them over LCM", "pharosd");
+  Options options;
+  app.set_version_flag("--version", PHAROS_VERSION);
+  app.add_option("config", options.config, "Configuration (TOML)")->required();
+  app.add_flag("--check", options.check, "Only read the configuration and print what was understood");
+  app.add_option("--replay", options.replay, "Play a recorded serial stream instead of listening to its target's port");
+  app.add_flag("--fast", options.fast, "Play recordings as fast as they can be worked on, not at real speed");
+  app.footer(
+      "Example: pharosd --check /etc/pharos/pharosd.toml\nEnds with 0 when stopped by a signal, with 1 when LCM "
+      "cannot be set up, with 2 for a configuration that cannot be worked with.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitUsage;
+  }
+  try {
+    return run(options);
+  } catch (const host::InputError& error) {
+    std::fprintf(stderr, "pharosd: %s\n", error.what());
+    return kExitUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pharosd: %s\n", error.what());
+    return kExitFailure;
+  }
+}

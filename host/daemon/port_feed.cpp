@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/port_feed.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "host/daemon/now.hpp"
+
+namespace pharos::host {
+namespace {
+
+// A third of a second at 460,800 baud; the kernel holds 4 KiB.
+constexpr std::size_t kReadBytes = 16 * 1024;
+
+}  // namespace
+
+PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, LineFeedEvents events)
+    : loop_(loop), name_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
+
+PortFeed::~PortFeed() {
+  if (port_.is_open()) loop_.forget(port_.fd());
+}
+
+void PortFeed::attend(std::int64_t monotonic_ns) {
+  switch (port_.try_open(monotonic_ns)) {
+    case ReopeningPort::Attempt::kNone:
+    case ReopeningPort::Attempt::kStillGone:
+      return;
+    case ReopeningPort::Attempt::kOpened:
+      spdlog::info("{}: {} is open", name_, port_.path());
+      loop_.watch(port_.fd(), [this] { on_readable(); });
+      return;
+    case ReopeningPort::Attempt::kFailed:
+      spdlog::warn("{}: {}; trying again", name_, port_.failure().message);
+      return;
+  }
+}
+
+void PortFeed::on_readable() {
+  const int fd = port_.fd();
+  const Transfer transfer = port_.read(buffer_, monotonic_now_ns());
+  const Arrival arrival{utc_now_ns(), monotonic_now_ns()};
+  if (transfer.bytes > 0) events_.bytes({buffer_.data(), transfer.bytes}, arrival);
+  if (!transfer.gone) return;
+  loop_.forget(fd);
+  was_lost_ = true;
+  spdlog::warn("{}: {} was unplugged; waiting for it", name_, port_.path());
+  events_.lost();
+}
+
+SourceState PortFeed::state() const {
+  if (port_.is_open()) return SourceState::kOk;
+  const OpenError error = port_.failure().error;
+  return error == OpenError::kNone || error == OpenError::kMissing ? SourceState::kGone : SourceState::kError;
+}
+
+std::string PortFeed::trouble() const {
+  if (port_.is_open()) return "";
+  if (!port_.failure().message.empty()) return port_.failure().message;
+  return port_.path() + (was_lost_ ? ": unplugged; waiting for it" : ": not opened yet");
+}
+
+std::int64_t PortFeed::monotonic_now() const { return monotonic_now_ns(); }
+
+NamedCounts PortFeed::counters() const {
+  return {{"port.opened", static_cast<std::int64_t>(port_.times_opened())},
+          {"port.lost", static_cast<std::int64_t>(port_.times_lost())}};
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pharos::host {
+
+/// What this process takes of the computer.
+struct ProcessUsage {
+  std::int64_t cpu_us = 0;        // user and system time since start
+  std::int64_t resident_kib = 0;  // memory in use now
+};
+
+ProcessUsage process_usage();
+
+}  // namespace pharos::host

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/replay_feed.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "host/daemon/now.hpp"
+#include "host/table/byte_source.hpp"
+
+namespace pharos::host {
+namespace {
+
+// At full speed: so many chunks, then the loop looks at signals and status again.
+constexpr int kChunksPerTurn = 64;
+
+}  // namespace
+
+ReplayFeed::ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed,
+                       LineFeedEvents events)
+    : loop_(loop), name_(std::move(name)), reader_(ByteSource(file)), speed_(speed), events_(std::move(events)) {
+  loop_.watch(timer_.fd(), [this] { on_timer(); });
+}
+
+ReplayFeed::~ReplayFeed() { loop_.forget(timer_.fd()); }
+
+void ReplayFeed::attend(std::int64_t monotonic_ns) {
+  if (started_) return;
+  started_ = true;
+  read_next();
+  spdlog::info("{}: replaying {} ({}, {} baud)", name_, reader_.name(), reader_.header().target, reader_.header().baud);
+  shift_ns_ = monotonic_ns - (next_ ? next_->monotonic_ns : 0);
+  timer_.start({});
+}
+
+void ReplayFeed::read_next() {
+  next_ = reader_.next();
+  if (next_ && next_->lost_before > 0) events_.lost();
+}
+
+void ReplayFeed::on_timer() {
+  timer_.take_expiries();
+  for (int i = 0; next_ && i < kChunksPerTurn; ++i) {
+    const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - monotonic_now_ns();
+    if (speed_ == ReplaySpeed::kReal && wait_ns > 0) {
+      timer_.start(std::chrono::nanoseconds(wait_ns));
+      return;
+    }
+    play(*next_);
+    read_next();
+  }
+  if (next_) {
+    timer_.start({});
+  } else {
+    finish();
+  }
+}
+
+void ReplayFeed::play(const StreamChunk& chunk) {
+  played_ns_ = chunk.monotonic_ns;
+  events_.bytes(chunk.bytes, {chunk.utc_ns, chunk.monotonic_ns});
+}
+
+void ReplayFeed::finish() {
+  finished_ = true;
+  spdlog::info("{}: the recording has come to its end{}", name_, reader_.cut_off() ? " (cut off in a chunk)" : "");
+  events_.finished();
+}
+
+NamedCounts ReplayFeed::counters() const {
+  return {{"replay.dropped_bytes", static_cast<std::int64_t>(reader_.dropped_bytes())},
+          {"replay.lost_bytes", static_cast<std::int64_t>(reader_.lost_bytes())}};
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/daemon/event_loop.hpp"
+#include "host/daemon/line_feed.hpp"
+#include "host/daemon/timer.hpp"
+#include "host/record/stream_reader.hpp"
+
+namespace pharos::host {
+
+/// How fast a recording is played.
+enum class ReplaySpeed : std::uint8_t { kReal, kFastest };
+
+/// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then.
+class ReplayFeed : public LineFeed {
+ public:
+  /// Throws InputError when the file is no recording. `loop` must outlive this.
+  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, LineFeedEvents events);
+  ~ReplayFeed() override;
+
+  const StreamHeader& header() const { return reader_.header(); }
+  void attend(std::int64_t monotonic_ns) override;
+  SourceState state() const override { return finished_ ? SourceState::kStale : SourceState::kOk; }
+  std::string trouble() const override { return finished_ ? "the recording has come to its end" : ""; }
+  std::string device() const override { return TargetConfig::kReplayPrefix + reader_.name(); }
+  bool finished() const override { return finished_; }
+  std::int64_t monotonic_now() const override { return played_ns_; }
+  NamedCounts counters() const override;
+
+ private:
+  void on_timer();
+  void read_next();
+  void play(const StreamChunk& chunk);
+  void finish();
+
+  EventLoop& loop_;
+  std::string name_;
+  StreamReader reader_;
+  ReplaySpeed speed_;
+  LineFeedEvents events_;
+  Timer timer_;
+  std::optional<StreamChunk> next_;
+  bool started_ = false;
+  bool finished_ = false;
+  std::int64_t shift_ns_ = 0;   // recorded monotonic time to this computer's
+  std::int64_t played_ns_ = 0;  // recorded monotonic time of the last chunk played
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program of your own that follows a target: copy this file and begin here. Build it against installed Pharos with
+//   g++ -std=c++17 subscriber.cpp -I/usr/include/pharos_lcm -llcm -o subscriber
+// (types: lcm-gen -x --cpp-std c++11 --cpp-hpath DIR /usr/share/pharos/lcm/*.lcm makes them anew).
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <lcm/lcm-cpp.hpp>
+
+#include "pharos/pose_t.hpp"
+#include "pharos/status_t.hpp"
+
+namespace {
+
+constexpr double kMmPerM = 1000.0;
+constexpr double kDegPerRad = 57.29577951308232;
+// Older than this is no basis for steering; pick your own.
+constexpr double kTooOldSeconds = 0.5;
+
+double seconds_since(std::int64_t utime) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<double>(std::chrono::duration_cast<std::chrono::microseconds>(now).count() - utime) * 1e-6;
+}
+
+class Subscriber {
+ public:
+  void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pharos::pose_t* pose) {
+    if (pose->valid == 0) {  // a refused cycle: status says why, the pose is all zero
+      std::printf("%s: %s\n", pose->target.c_str(), pose->status.c_str());
+      return;
+    }
+    if (seconds_since(pose->utime) > kTooOldSeconds) return;  // the network held it back
+    const double* t = pose->position_m;
+    std::printf("%s: %.1f mm away (sigma %.1f mm, %.2f deg)%s\n", pose->target.c_str(),
+                kMmPerM * std::hypot(t[0], t[1], t[2]), kMmPerM * pose->sigma_pos_m, kDegPerRad * pose->sigma_rot_rad,
+                pose->has_second != 0 ? ", AMBIGUOUS: a second pose fits nearly as well" : "");
+  }
+
+  void on_status(const lcm::ReceiveBuffer*, const std::string&, const pharos::status_t* status) {
+    if (status->state != "ok") std::printf("pharosd: %s: %s\n", status->state.c_str(), status->message.c_str());
+  }
+};
+
+}  // namespace
+
+int main() {
+  lcm::LCM lcm("udpm://239.255.76.67:7667?ttl=0");  // as `url` in pharosd.toml
+  if (!lcm.good()) return 1;
+  Subscriber subscriber;
+  lcm.subscribe("PHAROS_LIGHTHOUSE_POSE", &Subscriber::on_pose, &subscriber);
+  lcm.subscribe("PHAROS_STATUS", &Subscriber::on_status, &subscriber);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  while (lcm.handle() == 0) {
+  }
+  return 1;
+}
