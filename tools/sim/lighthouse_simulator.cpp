@@ -187,13 +187,26 @@ bool LighthouseSimulator::next_bit(std::size_t station, double time_s) {
   return bit;
 }
 
+// Runs of missed flashes of geometrically distributed length; they begin so often that the given share is missed.
+bool LighthouseSimulator::misses_flash(std::size_t station) {
+  const FaultScenario& faults = scenario_.faults;
+  if (faults.missed_flash_rate <= 0.0) return false;
+  bool& missing = senders_[station].missing;
+  const double end = 1.0 / faults.missed_flash_burst;
+  const double begin = faults.missed_flash_rate >= 1.0
+                           ? 1.0
+                           : std::min(faults.missed_flash_rate * end / (1.0 - faults.missed_flash_rate), 1.0);
+  missing = missing ? !fault_random_.chance(end) || fault_random_.chance(begin) : fault_random_.chance(begin);
+  return missing;
+}
+
 std::vector<LighthouseSimulator::FlashPulse> LighthouseSimulator::flash(std::size_t station, const Slot& slot) {
   const StationSlot& timing = slot.station[station];
   std::vector<FlashPulse> pulses(true_target_.size());
   const bool bit = next_bit(station, timing.flash_s);
   if (dark(timing.flash_s)) return pulses;
   const FaultScenario& faults = scenario_.faults;
-  if (fault_random_.chance(faults.missed_flash_rate)) {
+  if (misses_flash(station)) {
     note(timing.flash_s, "missed_flash", static_cast<int>(station), -1);
     return pulses;
   }

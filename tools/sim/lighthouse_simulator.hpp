@@ -86,6 +86,7 @@ class LighthouseSimulator {
     std::vector<bool> frame;
     std::size_t bit = 0;
     std::size_t flipped = 0;  // position of the wrong bit, beyond the frame if none
+    bool missing = false;     // its flashes are not seen at present
   };
   struct Hand {
     Interval interval;
@@ -98,6 +99,7 @@ class LighthouseSimulator {
   void queue_stale_pulses();
   void simulate_slot();
   bool next_bit(std::size_t station, double time_s);
+  bool misses_flash(std::size_t station);
   std::vector<FlashPulse> flash(std::size_t station, const Slot& slot);
   void queue_flashes(const Slot& slot);
   void queue_hits(std::size_t station, const Slot& slot);

@@ -86,6 +86,7 @@ struct RestartScenario {
 
 struct FaultScenario {
   double missed_flash_rate = 0.0;        // of a station's flashes, unseen by every sensor
+  double missed_flash_burst = 1.0;       // flashes of a station missed in a row, mean
   double missed_flash_pulse_rate = 0.0;  // of single sensors' flash pulses
   double missed_hit_rate = 0.0;          // of hits
   double stretched_flash_rate = 0.0;     // of a station's flashes, longer by 100 to 1500 ticks on every sensor

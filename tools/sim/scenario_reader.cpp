@@ -155,6 +155,7 @@ ReflectionScenario read_reflection(const TomlTable& table, const LighthouseScena
 FaultScenario read_faults(const TomlTable& table, const LighthouseScenario& scenario) {
   FaultScenario f;
   f.missed_flash_rate = table.number_or("missed_flash_rate", 0.0, kFraction);
+  f.missed_flash_burst = table.number_or("missed_flash_burst", f.missed_flash_burst, {1.0, 1e5});
   f.missed_flash_pulse_rate = table.number_or("missed_flash_pulse_rate", 0.0, kFraction);
   f.missed_hit_rate = table.number_or("missed_hit_rate", 0.0, kFraction);
   f.stretched_flash_rate = table.number_or("stretched_flash_rate", 0.0, kFraction);

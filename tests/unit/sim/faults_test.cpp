@@ -51,6 +51,21 @@ TEST(Faults, MissedFlashesAreAsManyAsNotedAndHitsRemain) {
   EXPECT_NEAR(static_cast<double>(faulty.count("missed_flash")), 48.0, 28.0);
 }
 
+TEST(Faults, MissedFlashesMayComeInBurstsOfTheSameShare) {
+  LighthouseScenario scenario = quiet_scenario();
+  scenario.duration_s = 200.0;
+  scenario.faults.missed_flash_rate = 0.1;
+  scenario.faults.missed_flash_burst = 20.0;
+  const Faulty faulty = run(scenario);
+  const auto missed = static_cast<double>(faulty.count("missed_flash"));
+  EXPECT_NEAR(missed, 2400.0, 800.0);
+  int bursts = 1;
+  for (std::size_t i = 1; i < faulty.faults.size(); ++i) {
+    if (faulty.faults[i].time_s - faulty.faults[i - 1].time_s > 0.01) ++bursts;
+  }
+  EXPECT_NEAR(missed / bursts, 20.0, 6.0);
+}
+
 TEST(Faults, MissedPulsesAndHitsAreGoneOneByOne) {
   LighthouseScenario scenario = ten_seconds();
   const std::size_t all = run(scenario).pulses.size();
