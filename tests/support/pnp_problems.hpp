@@ -54,6 +54,8 @@ struct PnpSet {
   int least_sensors = 4, most_sensors = 8;
   double least_range_m = 1.0, most_range_m = 5.0;
   double half_field_rad = 60.0 * kRadPerDeg;  // of each angle from straight ahead
+  /// Views whose sensors seen are all coplanar: a class of their own, in which the wrong pose may fit better.
+  bool coplanar_views = true;
 };
 
 struct PnpProblem {
@@ -76,8 +78,7 @@ class PnpGenerator {
     do {
       problem.truth = random_pose();
       problem.seen = pose::visible_sensors(target_, problem.truth, pose::kVisibleIncidence_rad);
-    } while (static_cast<int>(problem.seen.count()) < set_.least_sensors ||
-             static_cast<int>(problem.seen.count()) > set_.most_sensors);
+    } while (!wanted(problem.seen));
     observe(problem);
     return problem;
   }
@@ -95,6 +96,18 @@ class PnpGenerator {
             {s.sensor, axis, bearing_of(problem.truth * s.position_m, axis) + set_.sigma_rad * noise});
       }
     }
+  }
+
+  bool wanted(const std::bitset<kMaxSensors>& seen) const {
+    const int count = static_cast<int>(seen.count());
+    if (count < set_.least_sensors || count > set_.most_sensors) return false;
+    if (set_.coplanar_views) return true;
+    Target view;
+    for (const SensorPlacement& s : target_) {
+      if (seen.test(s.sensor)) view.push_back(s);
+    }
+    const auto shape = check_target(view);
+    return shape.ok() && !shape->coplanar;
   }
 
   double normal() { return std::normal_distribution<double>()(engine_); }
@@ -127,8 +140,10 @@ struct PnpScore {
   static constexpr double kFailure_rad = 10.0 * kRadPerDeg;
 
   int problems = 0, refused = 0, failures = 0, ambiguous = 0, wrong_unflagged = 0;
-  double rotation_square = 0.0, position_square = 0.0;              // of answers that are no failures
-  double rotation_bound_square = 0.0, position_bound_square = 0.0;  // of the same answers
+  // Of the answers that are no failures: squares of errors, of their bounds, and of the ratio of the two.
+  double rotation_square = 0.0, position_square = 0.0;
+  double rotation_bound_square = 0.0, position_bound_square = 0.0;
+  double rotation_ratio_square = 0.0, position_ratio_square = 0.0;
 
   void add_refusal() {
     ++problems;
@@ -143,14 +158,24 @@ struct PnpScore {
       wrong_unflagged += flagged ? 0 : 1;
       return;
     }
+    const double distance_square = (answer.t - problem.truth.t).squaredNorm();
+    const double rotation_bound = bound.topLeftCorner<3, 3>().trace();
+    const double position_bound = bound.bottomRightCorner<3, 3>().trace();
     rotation_square += angle * angle;
-    position_square += (answer.t - problem.truth.t).squaredNorm();
-    rotation_bound_square += bound.topLeftCorner<3, 3>().trace();
-    position_bound_square += bound.bottomRightCorner<3, 3>().trace();
+    position_square += distance_square;
+    rotation_bound_square += rotation_bound;
+    position_bound_square += position_bound;
+    rotation_ratio_square += angle * angle / rotation_bound;
+    position_ratio_square += distance_square / position_bound;
   }
-  /// RMS of the errors over the RMS that the bound allows: 1 is perfect.
-  double rotation_over_bound() const { return std::sqrt(rotation_square / rotation_bound_square); }
-  double position_over_bound() const { return std::sqrt(position_square / position_bound_square); }
+
+  int answers() const { return problems - refused - failures; }
+  /// x CRB: root mean square of each error over its own bound; 1 is perfect. Every view counts the same.
+  double rotation_over_bound() const { return std::sqrt(rotation_ratio_square / answers()); }
+  double position_over_bound() const { return std::sqrt(position_ratio_square / answers()); }
+  /// The same with the squares summed first: a few nearly singular views (bounds of 50 deg) carry most of it.
+  double rotation_rms_over_bound() const { return std::sqrt(rotation_square / rotation_bound_square); }
+  double position_rms_over_bound() const { return std::sqrt(position_square / position_bound_square); }
 };
 
 /// Cramer-Rao bound of a problem's pose.

@@ -114,8 +114,13 @@ double form(const Conic& c, const Vector3& a, const Vector3& b) {
          a.z() * (c.a02 * b.x() + c.a12 * b.y() + c.a22 * b.z());
 }
 
-// Ratios l1 : l2 : l3 where the line meets the conic; the real part of a complex pair.
-int meets(const Vector3& line, const Conic& conic, std::array<Vector3, 2>& ratios) {
+// Ratios l1 : l2 : l3 where a line meets a conic: two, or the real part of a complex pair.
+struct Meeting {
+  std::array<Vector3, 2> ratios;
+  bool real = false;
+};
+
+Meeting meet(const Vector3& line, const Conic& conic) {
   // Two points that span the line, by its largest coefficient; then the quadratic in P + s Q.
   int largest = 0;
   line.cwiseAbs().maxCoeff(&largest);
@@ -127,14 +132,9 @@ int meets(const Vector3& line, const Conic& conic, std::array<Vector3, 2>& ratio
   q[largest] = -line[last] / line[largest];
   const double qq = form(conic, q, q), pq = form(conic, p, q), pp = form(conic, p, p);
   const double discriminant = pq * pq - qq * pp;
-  if (discriminant <= 0.0) {
-    ratios[0] = qq * p - pq * q;
-    return 1;
-  }
+  if (!(discriminant > 0.0)) return {{qq * p - pq * q, Vector3::Zero()}, false};
   const double root = pq + (pq >= 0.0 ? std::sqrt(discriminant) : -std::sqrt(discriminant));
-  ratios[0] = qq * p - root * q;
-  ratios[1] = root * p - pp * q;
-  return 2;
+  return {{qq * p - root * q, root * p - pp * q}, true};
 }
 
 // Right-handed orthonormal axes of a triangle: along its first side, and in its plane.
@@ -148,39 +148,59 @@ Matrix3 triad(const Vector3& a, const Vector3& b, const Vector3& c) {
   return axes;
 }
 
+struct Triangle {
+  std::array<Vector3, 3> body, ray;
+  double a12, a13, a23;  // squared sides, m^2
+  Matrix3 body_axes;
+  Vector3 body_mean;
+};
+
+Triangle triangle_of(const RaySet& set, const Triplet& triplet) {
+  Triangle t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    t.body[k] = set.body[static_cast<std::size_t>(triplet[k])];
+    t.ray[k] = set.ray[static_cast<std::size_t>(triplet[k])];
+  }
+  t.a12 = (t.body[0] - t.body[1]).squaredNorm();
+  t.a13 = (t.body[0] - t.body[2]).squaredNorm();
+  t.a23 = (t.body[1] - t.body[2]).squaredNorm();
+  t.body_axes = triad(t.body[0], t.body[1], t.body[2]);
+  t.body_mean = (t.body[0] + t.body[1] + t.body[2]) / 3.0;
+  return t;
+}
+
+void add_pose(const Triangle& t, Vector3 distances, StartPoses& poses) {
+  if (distances.sum() < 0.0) distances = -distances;
+  if (!(distances.x() > 0.0 && distances.y() > 0.0 && distances.z() > 0.0)) return;
+  // The scale from all three sides at once, each as the chord between two points on the rays.
+  const Vector3 p0 = distances.x() * t.ray[0], p1 = distances.y() * t.ray[1], p2 = distances.z() * t.ray[2];
+  const double chords = (p0 - p1).squaredNorm() + (p0 - p2).squaredNorm() + (p1 - p2).squaredNorm();
+  const double scale = std::sqrt((t.a12 + t.a13 + t.a23) / chords);
+  LighthouseFromBody pose;
+  pose.R = triad(p0, p1, p2) * t.body_axes.transpose();
+  pose.t = scale * (p0 + p1 + p2) / 3.0 - pose.R * t.body_mean;
+  if (pose.is_finite()) poses.push_back(pose);
+}
+
 }  // namespace
 
 StartPoses p3p(const RaySet& set, const Triplet& triplet) {
-  std::array<Vector3, 3> b, y;
-  for (std::size_t k = 0; k < 3; ++k) {
-    b[k] = set.body[static_cast<std::size_t>(triplet[k])];
-    y[k] = set.ray[static_cast<std::size_t>(triplet[k])];
-  }
-  const double a12 = (b[0] - b[1]).squaredNorm(), a13 = (b[0] - b[2]).squaredNorm(), a23 = (b[1] - b[2]).squaredNorm();
-  const double c12 = y[0].dot(y[1]), c13 = y[0].dot(y[2]), c23 = y[1].dot(y[2]);
-  const Conic d1{a23, a23 - a12, -a12, -a23 * c12, 0.0, a12 * c23};
-  const Conic d2{a23, -a13, a23 - a13, 0.0, -a23 * c13, a13 * c23};
-  const Matrix3 body_axes = triad(b[0], b[1], b[2]);
-  const Vector3 body_mean = (b[0] + b[1] + b[2]) / 3.0;
-  StartPoses poses;
+  const Triangle t = triangle_of(set, triplet);
+  const double c12 = t.ray[0].dot(t.ray[1]), c13 = t.ray[0].dot(t.ray[2]), c23 = t.ray[1].dot(t.ray[2]);
+  const Conic d1{t.a23, t.a23 - t.a12, -t.a12, -t.a23 * c12, 0.0, t.a12 * c23};
+  const Conic d2{t.a23, -t.a13, t.a23 - t.a13, 0.0, -t.a23 * c13, t.a13 * c23};
   const Member member = degenerate_member(d1, d2);
-  for (const Vector3& line : lines_of(member.conic)) {
-    std::array<Vector3, 2> ratios;
-    const int count = meets(line, member.across, ratios);
-    for (int k = 0; k < count; ++k) {
-      Vector3 l = ratios[static_cast<std::size_t>(k)];
-      if (l.x() + l.y() + l.z() < 0.0) l = -l;
-      if (!(l.x() > 0.0 && l.y() > 0.0 && l.z() > 0.0)) continue;
-      // The scale from all three sides at once, each as the chord between two points on the rays.
-      const Vector3 p0 = l.x() * y[0], p1 = l.y() * y[1], p2 = l.z() * y[2];
-      const double chords = (p0 - p1).squaredNorm() + (p0 - p2).squaredNorm() + (p1 - p2).squaredNorm();
-      const double scale = std::sqrt((a12 + a13 + a23) / chords);
-      LighthouseFromBody pose;
-      pose.R = triad(p0, p1, p2) * body_axes.transpose();
-      pose.t = scale * (p0 + p1 + p2) / 3.0 - pose.R * body_mean;
-      if (pose.is_finite()) poses.push_back(pose);
+  std::array<Meeting, 2> meetings;
+  StartPoses poses;
+  const std::array<Vector3, 2> lines = lines_of(member.conic);
+  for (std::size_t k = 0; k < 2; ++k) {
+    meetings[k] = meet(lines[k], member.across);
+    for (const Vector3& distances : meetings[k].ratios) {
+      if (meetings[k].real) add_pose(t, distances, poses);
     }
   }
+  if (!poses.empty()) return poses;
+  for (const Meeting& meeting : meetings) add_pose(t, meeting.ratios[0], poses);
   return poses;
 }
 

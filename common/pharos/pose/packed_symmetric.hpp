@@ -22,11 +22,10 @@ struct PackedSymmetric {
 template <std::size_t N>
 class Factorisation {
  public:
-  /// `damping` is Marquardt's: the diagonal is multiplied by 1 + damping before factoring.
-  explicit Factorisation(const PackedSymmetric<N>& a, double damping = 0.0) {
+  explicit Factorisation(const PackedSymmetric<N>& a) {
     for (std::size_t j = 0; j < N; ++j) {
       std::array<double, N> scaled;
-      const double diagonal = a(j, j) * (1.0 + damping);
+      const double diagonal = a(j, j);
       double pivot = diagonal;
       for (std::size_t k = 0; k < j; ++k) {
         scaled[k] = l_(j, k) * pivot_[k];

@@ -11,13 +11,22 @@ namespace {
 
 constexpr int kMaxRounds = 8;
 
-// A hit is let in below this many times the scale, by the degrees of freedom that the scale was estimated from:
-// Student's 99.9 % quantile, the first one cut from 637 to what a reflection (2.5 mrad at 8.8 arcsec) must stand out
-// by, the last ones raised to 5 so that one good hit in two million is lost.
-double gate_for(int degrees_of_freedom) {
-  constexpr std::array<double, 7> kGates{60.0, 60.0, 31.6, 12.9, 8.6, 6.9, 6.0};
-  const int last = static_cast<int>(kGates.size()) - 1;
-  return degrees_of_freedom > last ? 5.0 : kGates[static_cast<std::size_t>(std::max(0, degrees_of_freedom))];
+// A hit is let in below this many times the scale, by the degrees of freedom that the scale was estimated from: about
+// Student's quantile, the first ones cut to what a reflection (2.5 mrad at 8.8 arcsec) must stand out by, the last ones
+// raised so that one good hit in two million is lost.
+using Gates = std::array<double, 9>;
+// 99.98 %: for noise of unknown size.
+constexpr Gates kWideGates{60.0, 60.0, 45.0, 22.0, 12.9, 9.6, 8.0, 7.2, 6.6};
+// 99.9 %: where hits are reflections beyond doubt.
+constexpr Gates kNarrowGates{60.0, 60.0, 31.6, 12.9, 8.6, 6.9, 6.0, 5.4, 5.0};
+
+// Scale that systematic errors may give a fit (an uncalibrated station: 1 mrad). Above it there are reflections among
+// the hits let in, and the gate was too wide.
+constexpr double kLargestSystematic_rad = 1.5e-3;
+
+double gate_for(const Gates& gates, int degrees_of_freedom) {
+  const int last = static_cast<int>(gates.size()) - 1;
+  return gates[static_cast<std::size_t>(std::clamp(degrees_of_freedom, 0, last))];
 }
 
 // Residual of a place that is not in the fit over what the pose's own uncertainty adds to the hit's.
@@ -51,20 +60,31 @@ int regate(Hits& hits, const Fit& fit, double gate) {
   return changed ? in : -1;
 }
 
-}  // namespace
-
-void readmit(Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
+// From the core of a pose to the hits that pass the gates; the scale of the fit to them.
+double readmit_by(const Gates& gates, Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
   PlaceResiduals residuals;
   sort_places(hits, pose, residuals);
   int in = core_size(static_cast<int>(residuals.size()));
   choose_first(hits, residuals, in);
   const RefineLimits limits{options.max_iterations, kConvergedShare * options.sigma_rad * options.sigma_rad, 1e300};
+  double scale = options.sigma_rad;
   for (int round = 0; round < kMaxRounds && in > 0; ++round) {
     const Fit fit = refine(hits.sightings, pose, Residual::kAngle, limits);
     pose = fit.pose;
     const int freedom = in - kPoseUnknowns;
-    in = regate(hits, fit, gate_for(freedom) * scale_of(fit, freedom, options.sigma_rad));
+    scale = scale_of(fit, freedom, options.sigma_rad);
+    in = regate(hits, fit, gate_for(gates, freedom) * scale);
   }
+  return scale;
+}
+
+}  // namespace
+
+void readmit(Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
+  const LighthouseFromBody core = pose;
+  if (readmit_by(kWideGates, hits, options, pose) <= std::fmax(kLargestSystematic_rad, options.sigma_rad)) return;
+  pose = core;
+  readmit_by(kNarrowGates, hits, options, pose);
 }
 
 }  // namespace pharos::pose

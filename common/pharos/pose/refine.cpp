@@ -6,9 +6,9 @@
 namespace pharos::pose {
 namespace {
 
+// Nielsen's rule (IMM-REP-1999-05) for the damping, and where it starts and ends.
 constexpr double kFirstDamping = 1e-3;
-constexpr double kDampingGrowth = 10.0;
-constexpr double kDampingDecay = 0.1;
+constexpr double kNoDamping = 1e-5;
 constexpr double kLargestDamping = 1e8;
 // A fit is given up only when even thrice the decrease that the linear model predicts would leave it hopeless, and only
 // after this many steps: far from a minimum the model's prediction is worth little.
@@ -23,6 +23,41 @@ double predicted_decrease(const std::array<double, 6>& gradient, const std::arra
 }
 
 std::array<double, 6> negated(const std::array<double, 6>& v) { return {-v[0], -v[1], -v[2], -v[3], -v[4], -v[5]}; }
+
+// Damping of the rotation is the same about all axes, by the best determined one: straight on to a plane the cost is so
+// flat in tilt that tilt's own diagonal element would not hold a step back. Translation is damped by its own diagonal.
+PackedSymmetric<6> damped(const PackedSymmetric<6>& matrix, double damping) {
+  PackedSymmetric<6> sum = matrix;
+  const double rotation = std::fmax(matrix(0, 0), std::fmax(matrix(1, 1), matrix(2, 2)));
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum(i, i) += damping * rotation;
+    sum(i + 3, i + 3) += damping * matrix(i + 3, i + 3);
+  }
+  return sum;
+}
+
+class Damping {
+ public:
+  double value() const { return value_; }
+  bool none() const { return value_ == 0.0; }
+  /// After a step that lowered the cost by `gain` times what the linear model predicted.
+  void succeeded(double gain) {
+    const double shrink = 1.0 - std::pow(2.0 * gain - 1.0, 3);
+    value_ *= std::fmax(1.0 / 3.0, shrink);
+    if (value_ < kNoDamping) value_ = 0.0;
+    growth_ = 2.0;
+  }
+  /// After one that did not; false where there is no more damping to try.
+  bool failed() {
+    value_ = value_ > 0.0 ? value_ * growth_ : kFirstDamping;
+    growth_ *= 2.0;
+    return value_ < kLargestDamping;
+  }
+
+ private:
+  double value_ = 0.0;
+  double growth_ = 2.0;
+};
 
 }  // namespace
 
@@ -49,34 +84,36 @@ Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual
   fit.pose = start;
   fit.normal = linearise(sightings, start, residual);
   if (!(fit.normal.cost < 1e300)) return fit;
-  double damping = 0.0;
+  Damping damping;
   while (fit.iterations < limits.max_iterations) {
     ++fit.iterations;
-    const Factorisation<6> factor(fit.normal.matrix, damping);
+    const Factorisation<6> factor(damping.none() ? fit.normal.matrix : damped(fit.normal.matrix, damping.value()));
     fit.smallest_pivot_ratio = factor.smallest_ratio();
     const std::array<double, 6> delta = factor.solve(negated(fit.normal.gradient));
     const double decrease = predicted_decrease(fit.normal.gradient, delta);
-    if (damping == 0.0 && decrease < limits.tolerance) {
+    if (damping.none() && decrease < limits.tolerance) {
       // The step is worth taking, its linearisation is not worth repeating.
       fit.pose = stepped(fit.pose, delta);
       fit.normal.cost = std::fmax(0.0, fit.normal.cost - decrease);
       fit.converged = true;
       return fit;
     }
-    if (fit.iterations > kStepsBeforeGivingUp && fit.normal.cost - kOptimism * decrease > limits.hopeless_cost)
+    if (!damping.none() && decrease < limits.tolerance) {
+      damping = {};  // whether this is the minimum, only an undamped step can tell
+      continue;
+    }
+    if (fit.iterations > kStepsBeforeGivingUp && fit.normal.cost - kOptimism * decrease > limits.hopeless_cost) {
       return fit;
+    }
     const LighthouseFromBody trial = stepped(fit.pose, delta);
     const NormalEquations at_trial = linearise(sightings, trial, residual);
     if (at_trial.cost <= fit.normal.cost) {
+      damping.succeeded((fit.normal.cost - at_trial.cost) / decrease);
       fit.pose = trial;
       fit.normal = at_trial;
-      damping = damping > kFirstDamping ? damping * kDampingDecay : 0.0;
-    } else {
-      damping = damping > 0.0 ? damping * kDampingGrowth : kFirstDamping;
-      if (damping > kLargestDamping) {
-        fit.converged = decrease < limits.tolerance;
-        return fit;
-      }
+    } else if (!damping.failed()) {
+      fit.converged = decrease < limits.tolerance;
+      return fit;
     }
   }
   return fit;

@@ -8,8 +8,8 @@ namespace pharos::pose {
 /// Where a descent stands.
 struct Fit {
   LighthouseFromBody pose;
-  NormalEquations normal;  // at the pose, or at one that differs by less than the tolerance
-  double smallest_pivot_ratio = 0.0;
+  NormalEquations normal;             // at the pose, or at one that differs by less than the tolerance
+  double smallest_pivot_ratio = 1.0;  // of the last step's normal matrix
   int iterations = 0;
   bool converged = false;
 };

@@ -75,6 +75,8 @@ struct Minima {
 
 // Both minima of the rows that take part, from one start. The second is complete only where it matters: within
 // kAmbiguousDeltaChi2 of the first.
+int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
+
 Minima descend(Problem& problem, const LighthouseFromBody& start) {
   Minima m;
   m.best = refined(problem, start);
@@ -82,13 +84,14 @@ Minima descend(Problem& problem, const LighthouseFromBody& start) {
   m.second = refined(problem, mirrored, m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance);
   m.has_second = m.second.converged && ahead_of_station(problem.hits.sightings, m.second.pose) &&
                  !same_minimum(m.best, m.second, problem.variance);
-  const bool first_behind = !ahead_of_station(problem.hits.sightings, m.best.pose);
-  if (m.has_second && (m.second.normal.cost < m.best.normal.cost || first_behind)) std::swap(m.best, m.second);
-  if (first_behind) m.has_second = false;
+  if (!m.has_second) return m;
+  // Where there is nothing to contradict a pose (three sensors), the one that the start led to comes first.
+  const bool second_is_better = freedom_of(problem) > 0 && m.second.normal.cost < m.best.normal.cost;
+  const bool first_is_behind = !ahead_of_station(problem.hits.sightings, m.best.pose);
+  if (second_is_better || first_is_behind) std::swap(m.best, m.second);
+  m.has_second = !first_is_behind && problem.options.look_for_second;
   return m;
 }
-
-int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
 
 bool credible(const Problem& problem, const Fit& fit) {
   return fit.converged && fit.normal.cost <= credible_chi2(freedom_of(problem)) * problem.variance;

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "pharos/pose/solve.hpp"
+#include "tests/support/pnp_problems.hpp"
+
+namespace pharos::pose {
+namespace {
+
+// Where the recordings' reflections lie: some milliradians to some tens of them beside the true hit.
+constexpr double kNearest_rad = 3e-3, kFarthest_rad = 40e-3;
+
+enum class Reflected { kBesideTrueHit, kInsteadOfTrueHit };
+
+struct Spoilt {
+  Observations observations;
+  std::bitset<kMaxObservations> reflections;
+};
+
+// Reflections on both axes of a third of the sensors.
+Spoilt spoil(const test::PnpProblem& problem, Reflected kind, test::PnpGenerator& generator) {
+  std::vector<std::uint8_t> sensors;
+  for (std::uint8_t s = 0; s < kMaxSensors; ++s) {
+    if (problem.seen.test(s)) sensors.push_back(s);
+  }
+  std::shuffle(sensors.begin(), sensors.end(), generator.engine());
+  sensors.resize(sensors.size() / 3);
+  Spoilt spoilt{problem.observations, {}};
+  for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+    Observation reflection = problem.observations[k];
+    if (std::find(sensors.begin(), sensors.end(), reflection.sensor) == sensors.end()) continue;
+    const double offset = generator.uniform(kNearest_rad, kFarthest_rad);
+    reflection.theta_rad += generator.uniform(0.0, 1.0) < 0.5 ? offset : -offset;
+    if (kind == Reflected::kBesideTrueHit) {
+      spoilt.reflections.set(spoilt.observations.size());
+      spoilt.observations.push_back(reflection);
+    } else {
+      spoilt.reflections.set(k);
+      spoilt.observations[k] = reflection;
+    }
+  }
+  return spoilt;
+}
+
+struct Count {
+  int wrong_poses = 0, refused = 0, reflections_used = 0, good_hits_lost = 0, good_hits = 0;
+};
+
+Count campaign(Reflected kind, int least_sensors, int problems, std::uint64_t seed) {
+  const Target target = test::frustum_target();
+  test::PnpSet set;
+  set.least_sensors = least_sensors;
+  test::PnpGenerator generator(target, set, seed);
+  Count count;
+  for (int k = 0; k < problems; ++k) {
+    const test::PnpProblem problem = generator.next();
+    Spoilt spoilt = spoil(problem, kind, generator);
+    const auto solution = solve(target, spoilt.observations, {});
+    if (!solution.ok()) {
+      ++count.refused;
+      continue;
+    }
+    const LighthousePoseEstimate& e = solution->estimate;
+    count.wrong_poses += test::nees_of(problem.truth, e) > 60.0 && !e.ambiguous() ? 1 : 0;
+    count.reflections_used += static_cast<int>((solution->used & spoilt.reflections).count());
+    for (std::size_t i = 0; i < spoilt.observations.size(); ++i) {
+      if (spoilt.reflections.test(i)) continue;
+      ++count.good_hits;
+      count.good_hits_lost += solution->used.test(i) ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllTold) {
+  const Count count = campaign(Reflected::kBesideTrueHit, 6, 300, 1);
+  EXPECT_EQ(count.refused, 0);
+  EXPECT_EQ(count.wrong_poses, 0);
+  EXPECT_EQ(count.reflections_used, 0);
+  EXPECT_EQ(count.good_hits_lost, 0);
+}
+
+TEST(Reflections, InsteadOfTheTrueHitsOfAThirdOfTheSensorsAreLeftOut) {
+  // Two sensors of eight: six others decide.
+  const Count eight = campaign(Reflected::kInsteadOfTrueHit, 8, 300, 2);
+  EXPECT_EQ(eight.refused, 0);
+  EXPECT_EQ(eight.wrong_poses, 0);
+  EXPECT_LE(eight.good_hits_lost, eight.good_hits / 500);
+  // Two of six leave four sensors to outvote them: nearly always.
+  const Count six = campaign(Reflected::kInsteadOfTrueHit, 6, 300, 3);
+  EXPECT_LE(six.refused, 9);
+  EXPECT_LE(six.wrong_poses, 9);
+}
+
+TEST(Reflections, OneHitAtMostIsUsedOfEachSensorAndAxis) {
+  const Target target = test::frustum_target();
+  test::PnpSet set;
+  set.least_sensors = 6;
+  test::PnpGenerator generator(target, set, 4);
+  for (int k = 0; k < 100; ++k) {
+    const Spoilt spoilt = spoil(generator.next(), Reflected::kBesideTrueHit, generator);
+    const auto solution = solve(target, spoilt.observations, {});
+    ASSERT_TRUE(solution.ok());
+    std::set<std::pair<int, int>> places;
+    int used = 0;
+    for (std::size_t i = 0; i < spoilt.observations.size(); ++i) {
+      if (!solution->used.test(i)) continue;
+      ++used;
+      const Observation& o = spoilt.observations[i];
+      EXPECT_TRUE(places.insert({o.sensor, index_of(o.axis)}).second);
+    }
+    EXPECT_EQ(used, solution->estimate.observations);
+  }
+}
+
+TEST(Reflections, HallOfMirrorsIsSolvedWithoutAnExplosion) {
+  // Every place has four hits: 4^16 combinations.
+  const Target target = test::frustum_target();
+  test::PnpSet set;
+  set.least_sensors = 8;
+  test::PnpGenerator generator(target, set, 5);
+  int right = 0;
+  constexpr int kProblems = 50;
+  for (int k = 0; k < kProblems; ++k) {
+    const test::PnpProblem problem = generator.next();
+    Observations observations = problem.observations;
+    const LighthouseFromBody prior = problem.truth.moved_by(Vector6::Constant(0.01));
+    for (const Observation& o : problem.observations) {
+      for (const double offset : {-0.03, 0.02, 0.045}) observations.push_back({o.sensor, o.axis, o.theta_rad + offset});
+    }
+    const auto solution = solve(target, observations, {}, &prior);
+    right += solution.ok() && test::nees_of(problem.truth, solution->estimate) < 60.0 ? 1 : 0;
+  }
+  EXPECT_GE(right, kProblems * 9 / 10);
+}
+
+TEST(Reflections, SystematicErrorsOfAMilliradianAreNoReasonToThrowHitsAway) {
+  const Target target = test::frustum_target();
+  test::PnpSet set;
+  set.least_sensors = 6;
+  set.sigma_rad = 1e-3;  // twenty-three times what the solver is told
+  test::PnpGenerator generator(target, set, 6);
+  int lost = 0, hits = 0, refused = 0;
+  for (int k = 0; k < 300; ++k) {
+    const test::PnpProblem problem = generator.next();
+    const auto solution = solve(target, problem.observations, {});
+    hits += static_cast<int>(problem.observations.size());
+    if (solution.ok()) {
+      lost += static_cast<int>(problem.observations.size() - solution->used.count());
+    } else {
+      ++refused;
+    }
+  }
+  EXPECT_EQ(refused, 0);
+  EXPECT_LE(lost, hits / 100);
+}
+
+}  // namespace
+}  // namespace pharos::pose
