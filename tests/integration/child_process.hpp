@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/support/unique_fd.hpp"
+
+namespace pharos::host {
+
+/// A program that a test starts, listens to and ends.
+class ChildProcess {
+ public:
+  /// Starts `arguments[0]`, standard output and standard error joined into what text() holds.
+  /// `file_size_limit`: largest file it may write (RLIMIT_FSIZE, SIGXFSZ ignored), 0 = no limit: stands in for a full
+  /// disk.
+  explicit ChildProcess(const std::vector<std::string>& arguments, unsigned long file_size_limit = 0);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  int pid() const { return pid_; }
+  /// Everything it has printed so far.
+  const std::string& text();
+  /// Waits until text() holds `words`; false after `seconds` or when the program ended without.
+  bool wait_for(const std::string& words, double seconds = 10.0);
+  void signal(int number) const;
+  /// Waits for its end: the exit code, 128 + signal, or -1 after `seconds`.
+  int wait_exit(double seconds = 10.0);
+
+ private:
+  void read_available(int timeout_ms);
+
+  int pid_ = -1;
+  int exit_code_ = -1;
+  UniqueFd output_;
+  std::string text_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integration/child_process.hpp"
+#include "integration/pseudo_terminal.hpp"
+#include "integration/still_target.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/status_t.hpp"
+
+namespace lcm {
+class LCM;
+struct ReceiveBuffer;
+}  // namespace lcm
+
+namespace pharos::host {
+
+/// A pharosd of a test's own: its folder, its multicast port, an ear on all it sends.
+class DaemonUnderTest {
+ public:
+  DaemonUnderTest();
+  ~DaemonUnderTest();
+
+  const std::filesystem::path& folder() const { return folder_; }
+  const std::string& url() const { return url_; }
+  /// A port's name that can be led to one pseudo-terminal after another, as udev's names are.
+  std::string port(const std::string& name = "port") const { return (folder_ / name).string(); }
+  void plug_in(const PseudoTerminal& line, const std::string& name = "port") const;
+  void pull_out(const std::string& name = "port") const;
+
+  /// Writes pharosd.toml: [lcm], status ten times a second, one target `dock` at port(), then `more`.
+  std::filesystem::path write_config(const std::string& more = "", const std::string& head = "") const;
+  /// Starts pharosd with that configuration and waits until it says that it has started.
+  ChildProcess& start(const std::vector<std::string>& arguments = {}, unsigned long file_size_limit = 0);
+  ChildProcess& process() { return *process_; }
+  static std::string program();
+
+  /// Plays cycles of `target` into `line` at real speed until `done` or `seconds` are over; true when done. The
+  /// target's clock goes on from call to call.
+  bool play(StillTarget& target, const PseudoTerminal& line, const std::function<bool()>& done, double seconds = 8.0);
+  /// Listens without playing.
+  bool wait(const std::function<bool()>& done, double seconds = 8.0);
+
+  const std::vector<pose_t>& poses() const { return poses_; }
+  std::size_t valid_poses(const std::string& target = "dock") const;
+  const std::optional<status_t>& status() const { return status_; }
+  /// Of the last status: a source's state, message and counter.
+  const source_status_t* source(const std::string& target = "dock") const;
+  std::int64_t counter(const std::string& name, const std::string& target = "dock") const;
+
+ private:
+  void listen(int timeout_ms);
+  void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) { poses_.push_back(*pose); }
+  void on_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) { status_ = *status; }
+
+  std::filesystem::path folder_;
+  std::string url_;
+  std::unique_ptr<lcm::LCM> lcm_;
+  std::unique_ptr<ChildProcess> process_;
+  std::vector<pose_t> poses_;
+  std::optional<status_t> status_;
+  std::int64_t target_clock_zero_ns_ = 0;
+};
+
+}  // namespace pharos::host

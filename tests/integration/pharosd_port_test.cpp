@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "host/serial/serial_port.hpp"
+#include "integration/daemon_under_test.hpp"
+#include "pharos/wire/cobs.hpp"
+#include "pharos/wire/crc32.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::HasSubstr;
+
+LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+
+TEST(PharosdPort, AMissingPortIsWaitedFor) {
+  DaemonUnderTest daemon;
+  daemon.write_config();
+  daemon.start();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr; }));
+  EXPECT_EQ(daemon.source()->state, "gone");
+  EXPECT_THAT(daemon.source()->message, HasSubstr("no such device"));
+  EXPECT_EQ(daemon.status()->state, "error");
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  StillTarget target(somewhere());
+  EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+}
+
+TEST(PharosdPort, UnpluggedInTheMiddleOfAFrameItComesBackWhenPluggedIn) {
+  DaemonUnderTest daemon;
+  daemon.write_config();
+  StillTarget target(somewhere());
+  {
+    PseudoTerminal line;
+    daemon.plug_in(line);
+    daemon.start();
+    ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+    std::vector<std::uint8_t> half = target.hello("cut in the middle");
+    half.resize(half.size() / 2);
+    line.write(half);
+    daemon.pull_out();
+  }
+  ASSERT_TRUE(daemon.process().wait_for("was unplugged")) << daemon.process().text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "gone"; }));
+  PseudoTerminal other;  // another device number, as after a real replug
+  daemon.plug_in(other);
+  const std::size_t before = daemon.valid_poses();
+  ASSERT_TRUE(daemon.play(target, other, [&] { return daemon.valid_poses() >= before + 5; }))
+      << daemon.process().text();
+  EXPECT_EQ(daemon.counter("port.lost"), 1);
+}
+
+TEST(PharosdPort, ABusyPortIsNamedAndTakenOnceFree) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  {
+    const auto held = SerialPort::open(line.path(), 460'800);
+    ASSERT_TRUE(held.ok());
+    daemon.start();
+    EXPECT_TRUE(daemon.process().wait_for("in use by another program")) << daemon.process().text();
+    ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "error"; }));
+    EXPECT_THAT(daemon.source()->message, HasSubstr("in use by another program"));
+  }
+  StillTarget target(somewhere());
+  EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+}
+
+TEST(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
+  DaemonUnderTest daemon;
+  daemon.write_config();
+  std::ofstream(daemon.port()) << "a file";
+  daemon.start();
+  EXPECT_TRUE(daemon.process().wait_for("not a terminal")) << daemon.process().text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr; }));
+  EXPECT_EQ(daemon.source()->state, "error");
+}
+
+TEST(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  ASSERT_TRUE(daemon.process().wait_for("is open"));
+  for (std::uint8_t i = 0; i < 5; ++i) {
+    std::vector<std::uint8_t> frame{7, 2, i, 0, 1, 2, 3};
+    const std::uint32_t crc = wire::crc32(frame);
+    for (int k = 0; k < 4; ++k) frame.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
+    std::vector<std::uint8_t> stuffed(64);
+    wire::CobsWriter stuffing{std::span<std::uint8_t>(stuffed).subspan(1)};
+    stuffing.put(frame);
+    stuffed.resize(1 + stuffing.finish());
+    stuffed.push_back(0);
+    line.write(stuffed);
+  }
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "error"; }))
+      << daemon.process().text();
+  EXPECT_THAT(daemon.source()->message, HasSubstr("speaks version 7"));
+  const std::string& log = daemon.process().text();
+  const std::size_t first = log.find("speaks version 7");
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("speaks version 7", first + 1), std::string::npos) << "told more than once";
+}
+
+}  // namespace
+}  // namespace pharos::host

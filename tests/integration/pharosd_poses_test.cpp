@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "host/daemon/now.hpp"
+#include "integration/daemon_under_test.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::host {
+namespace {
+
+LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+LighthouseFromBody elsewhere() { return {rotation_exp(Vector3(-0.1, 0.2, 0.0)), Vector3(-0.5, 0.1, 3.0)}; }
+
+Vector6 error_of(const pose_t& pose, const LighthouseFromBody& truth) {
+  const Quaternion q(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
+                     pose.orientation_wxyz[3]);
+  return pose_difference(
+      LighthouseFromBody{q.toRotationMatrix(), Vector3(pose.position_m[0], pose.position_m[1], pose.position_m[2])},
+      truth);
+}
+
+TEST(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  StillTarget target(somewhere());
+  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 30; })) << daemon.process().text();
+  std::int64_t last_utime = 0;
+  std::int64_t sequence = daemon.poses().front().sequence;
+  for (const pose_t& pose : daemon.poses()) {
+    EXPECT_EQ(pose.status, "ok");
+    EXPECT_EQ(pose.target, "dock");
+    EXPECT_EQ(pose.source, "lighthouse/pharosd");
+    const Vector6 error = error_of(pose, somewhere());
+    EXPECT_LT(error.head<3>().norm(), 0.05 * kRadPerDeg);
+    EXPECT_LT(error.tail<3>().norm(), 1e-3);
+    EXPECT_GT(pose.utime, last_utime);
+    EXPECT_EQ(pose.sequence, sequence++);
+    last_utime = pose.utime;
+  }
+  EXPECT_LT(std::abs(utc_now_ns() / 1000 - last_utime), 200'000) << "utime is UTC of this computer";
+}
+
+TEST(Pharosd, TwoTargetsAreToldApart) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  PseudoTerminal second_line;
+  daemon.plug_in(line);
+  daemon.plug_in(second_line, "second");
+  daemon.write_config("[[target]]\nname = 'free'\nport = '" + daemon.port("second") + "'\ntarget_file = 'dock.csv'\n");
+  daemon.start();
+  StillTarget here(somewhere());
+  StillTarget there(elsewhere());
+  for (int i = 0; i < 400 && (daemon.valid_poses("dock") < 10 || daemon.valid_poses("free") < 10); ++i) {
+    int cycles = 0;
+    daemon.play(here, line, [&] { return cycles++ == 1; });
+    cycles = 0;
+    daemon.play(there, second_line, [&] { return cycles++ == 1; });
+  }
+  ASSERT_GE(daemon.valid_poses("dock"), 10u) << daemon.process().text();
+  ASSERT_GE(daemon.valid_poses("free"), 10u);
+  for (const pose_t& pose : daemon.poses()) {
+    EXPECT_LT(error_of(pose, pose.target == "dock" ? somewhere() : elsewhere()).tail<3>().norm(), 2e-3);
+  }
+}
+
+TEST(Pharosd, WhatItHadToLeaveLyingIsNeverPublishedAsFresh) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  StillTarget target(somewhere());
+  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 60; })) << daemon.process().text();
+  // The daemon sleeps while ten cycles arrive, and wakes up a second later.
+  daemon.process().signal(SIGSTOP);
+  int cycles = 0;
+  daemon.play(target, line, [&] { return cycles++ == 10; });
+  const std::size_t before = daemon.poses().size();
+  daemon.wait([] { return false; }, 1.0);
+  const std::int64_t woken_us = utc_now_ns() / 1000;
+  daemon.process().signal(SIGCONT);
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("cycles_stale") >= 10; })) << daemon.process().text();
+  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.poses().size() >= before + 5; }));
+  for (std::size_t i = before; i < daemon.poses().size(); ++i) {
+    EXPECT_GT(daemon.poses()[i].utime, woken_us - 200'000) << "published after waking, but measured long before";
+  }
+}
+
+TEST(Pharosd, GarbageOnTheLineCostsNoMoreThanItHits) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  StillTarget target(somewhere());
+  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 10; })) << daemon.process().text();
+  std::vector<std::uint8_t> garbage(5000);
+  std::uint32_t state = 1;
+  for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  line.write(garbage);
+  const std::size_t before = daemon.valid_poses();
+  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= before + 10; }))
+      << daemon.process().text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("link.garbage_bytes") > 4000; }));
+}
+
+TEST(Pharosd, CalibrationsAreKeptAcrossARestart) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config("", "state_directory = 'state'");
+  daemon.start();
+  StillTarget target(somewhere());
+  line.write(target.ootx(0, 0xBEC08E38));
+  line.write(target.ootx(0, 0xBEC08E38));
+  EXPECT_TRUE(daemon.process().wait_for("calibration of station 0 (BEC08E38) in use")) << daemon.process().text();
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_exit(), 0);
+  ASSERT_TRUE(std::filesystem::exists(daemon.folder() / "state" / "stations.toml"));
+  daemon.start();
+  StillTarget again(somewhere());
+  line.write(again.ootx(0, 0xBEC08E38));  // once is enough now
+  EXPECT_TRUE(daemon.process().wait_for("calibration of station 0 (BEC08E38) in use")) << daemon.process().text();
+}
+
+}  // namespace
+}  // namespace pharos::host
