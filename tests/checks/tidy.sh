@@ -10,5 +10,5 @@ cmake -S "$root" -B "$build" --preset tidy -DCMAKE_CXX_CLANG_TIDY= \
   >"$build/configure.log" 2>&1 || { cat "$build/configure.log"; exit 1; }
 cmake --build "$build" --target pharos_lcm_generate >/dev/null 2>&1 || true
 run-clang-tidy-14 -quiet -p "$build" -j "$3" "${4:-^$root/(common|firmware|host|tools|tests)/}" 2>&1 |
-  sed 's/\x1b\[[0-9;]*m//g' | grep -v '^clang-tidy-14 \|warnings\? generated\|warnings\? and .* generated\|^$'
+  sed -u 's/\x1b\[[0-9;]*m//g' | grep --line-buffered -v '^clang-tidy-14 \|warnings\? generated\|warnings\? and .* generated\|^$'
 exit "${PIPESTATUS[0]}"
