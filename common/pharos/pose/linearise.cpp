@@ -30,18 +30,22 @@ struct AxisTerms {
   Lane residual, by_along, by_ahead;
 };
 
-AxisTerms angle_terms(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) {
-  const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
-  const Lane scale = weight / (along * along + ahead * ahead);
-  return {weight * arctangent(ahead * cosine - along * sine, along * cosine + ahead * sine), -ahead * scale,
-          along * scale};
-}
+struct AngleTerms {
+  AxisTerms operator()(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+    const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
+    const Lane scale = weight / (along * along + ahead * ahead);
+    return {weight * arctangent(ahead * cosine - along * sine, along * cosine + ahead * sine), -ahead * scale,
+            along * scale};
+  }
+};
 
-AxisTerms tangent_terms(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) {
-  const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
-  const Lane inverse = weight / ahead;
-  return {along * inverse - weight * cosine / sine, inverse, -along * inverse / ahead};
-}
+struct TangentTerms {
+  AxisTerms operator()(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+    const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
+    const Lane inverse = weight / ahead;
+    return {along * inverse - weight * cosine / sine, inverse, -along * inverse / ahead};
+  }
+};
 
 struct Points {
   Lane qx, qy, qz;  // R b: from the body's origin, lighthouse axes
@@ -151,13 +155,13 @@ double cost_with(const Sightings& s, const LighthouseFromBody& T, Terms terms_of
 }  // namespace
 
 NormalEquations linearise(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
-  return residual == Residual::kAngle ? linearise_with(sightings, pose, angle_terms)
-                                      : linearise_with(sightings, pose, tangent_terms);
+  return residual == Residual::kAngle ? linearise_with(sightings, pose, AngleTerms{})
+                                      : linearise_with(sightings, pose, TangentTerms{});
 }
 
 double cost_of(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
-  return residual == Residual::kAngle ? cost_with(sightings, pose, angle_terms)
-                                      : cost_with(sightings, pose, tangent_terms);
+  return residual == Residual::kAngle ? cost_with(sightings, pose, AngleTerms{})
+                                      : cost_with(sightings, pose, TangentTerms{});
 }
 
 double angle_residual(double along, double ahead, double cosine, double sine) {

@@ -13,7 +13,7 @@ constexpr double kLargestDamping = 1e8;
 // A fit is given up only when even thrice the decrease that the linear model predicts would leave it hopeless, and only
 // after this many steps: far from a minimum the model's prediction is worth little.
 constexpr double kOptimism = 3.0;
-constexpr int kStepsBeforeGivingUp = 2;
+constexpr int kStepsBeforeGivingUp = 1;
 
 // Decrease of r^T r that the linear model predicts of an undamped step: -g . delta.
 double predicted_decrease(const std::array<double, 6>& gradient, const std::array<double, 6>& delta) {
@@ -42,8 +42,8 @@ class Damping {
   bool none() const { return value_ == 0.0; }
   /// After a step that lowered the cost by `gain` times what the linear model predicted.
   void succeeded(double gain) {
-    const double shrink = 1.0 - std::pow(2.0 * gain - 1.0, 3);
-    value_ *= std::fmax(1.0 / 3.0, shrink);
+    const double excess = 2.0 * gain - 1.0;
+    value_ *= std::fmax(1.0 / 3.0, 1.0 - excess * excess * excess);
     if (value_ < kNoDamping) value_ = 0.0;
     growth_ = 2.0;
   }

@@ -20,6 +20,8 @@ constexpr int kLeastSensorsWithPrior = 3;
 constexpr double kSameMinimum = 1.0;
 
 struct Problem {
+  explicit Problem(const SolveOptions& o) : options(o), variance(o.sigma_rad * o.sigma_rad) {}
+
   const SolveOptions& options;
   Hits hits;
   double variance;
@@ -153,7 +155,7 @@ Solution solution_of(const Problem& problem, const Minima& minima) {
 
 Result<Solution, Refusal> solve(const Target& target, const Observations& observations, const SolveOptions& options,
                                 const LighthouseFromBody* prior) {
-  Problem problem{options, {}, options.sigma_rad * options.sigma_rad};
+  Problem problem(options);
   if (!collect_hits(target, observations, problem.hits)) return Refusal::kBadInput;
   if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return refusal;
 
