@@ -8,22 +8,34 @@
 
 namespace pharos::host {
 
-Target StillTarget::target() {
-  constexpr double kPositions[6][3] = {{-0.05, -0.05, 0.0}, {0.05, -0.05, 0.0}, {0.05, 0.05, 0.0},
-                                       {-0.05, 0.05, 0.0},  {0.02, 0.0, -0.04}, {-0.02, 0.01, -0.06}};
+namespace {
+
+constexpr double kPositions_m[12][3] = {{-0.05, -0.05, 0.0}, {0.05, -0.05, 0.0},   {0.05, 0.05, 0.0},
+                                        {-0.05, 0.05, 0.0},  {0.02, 0.0, -0.04},   {-0.02, 0.01, -0.06},
+                                        {0.06, 0.0, -0.03},  {-0.06, 0.0, -0.03},  {0.0, 0.06, -0.03},
+                                        {0.0, -0.06, -0.03}, {0.03, -0.03, -0.05}, {-0.03, 0.03, -0.05}};
+
+}  // namespace
+
+Target StillTarget::target(std::uint8_t sensors) {
   Target target;
-  for (std::uint8_t i = 0; i < 6; ++i) {
+  for (std::uint8_t i = 0; i < sensors; ++i) {
     SensorPlacement placement;
     placement.sensor = i;
-    placement.position_m = Vector3(kPositions[i][0], kPositions[i][1], kPositions[i][2]);
+    placement.position_m = Vector3(kPositions_m[i][0], kPositions_m[i][1], kPositions_m[i][2]);
     target.push_back(placement);
   }
   return target;
 }
 
-const char* StillTarget::target_table() {
-  return "sensor,x_m,y_m,z_m\n0,-0.05,-0.05,0\n1,0.05,-0.05,0\n2,0.05,0.05,0\n3,-0.05,0.05,0\n4,0.02,0,-0.04\n"
-         "5,-0.02,0.01,-0.06\n";
+std::string StillTarget::target_table(std::uint8_t sensors) {
+  std::string table = "sensor,x_m,y_m,z_m\n";
+  for (const SensorPlacement& placement : target(sensors)) {
+    table += std::to_string(placement.sensor);
+    for (int i = 0; i < 3; ++i) table += ',' + std::to_string(placement.position_m[i]);
+    table += '\n';
+  }
+  return table;
 }
 
 lighthouse::Sweep StillTarget::sweep(Axis axis, std::int64_t flash_ticks, std::size_t sensors) const {
@@ -33,7 +45,7 @@ lighthouse::Sweep StillTarget::sweep(Axis axis, std::int64_t flash_ticks, std::s
   sweep.flash.axis = axis;
   sweep.flash.sensors = 6;
   sweep.period_sixteenth_ticks = 16 * kTurnTicks;
-  for (const SensorPlacement& placement : target()) {
+  for (const SensorPlacement& placement : target_) {
     if (sweep.hits.size() == sensors) break;
     const double theta = lighthouse::ideal_thetas(truth_ * placement.position_m)[axis];
     const double half_ticks = theta / kTwoPi * 2.0 * static_cast<double>(kTurnTicks);

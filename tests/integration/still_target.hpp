@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "pharos/geometry/pose.hpp"
@@ -21,12 +22,14 @@ class StillTarget {
   static constexpr std::int64_t kTurnTicks = 833'333;
   static constexpr std::int64_t kHalfTurnTicks = 416'667;
 
-  /// Four sensors on a front plate, two raised.
-  static Target target();
+  static constexpr std::uint8_t kSensors = 6;
+  /// Sensors on two plates of different height, the first six alone already a body.
+  static Target target(std::uint8_t sensors = kSensors);
   /// The same as a target file's text.
-  static const char* target_table();
+  static std::string target_table(std::uint8_t sensors = kSensors);
 
-  explicit StillTarget(const LighthouseFromBody& truth) : truth_(truth) {}
+  explicit StillTarget(const LighthouseFromBody& truth, std::uint8_t sensors = kSensors)
+      : truth_(truth), target_(target(sensors)) {}
 
   const LighthouseFromBody& truth() const { return truth_; }
   /// Both sweeps of the cycle that ends at `end_ticks` of the target's clock (the line's newest instant).
@@ -44,6 +47,7 @@ class StillTarget {
   static Bytes copy(report::Reporter::Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
   LighthouseFromBody truth_;
+  Target target_;
   report::Reporter reporter_;
 };
 

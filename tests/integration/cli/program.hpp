@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pharos::cli_test {
+
+/// What a run of the program left.
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs `pharos ARGUMENTS` (as a shell would split them) with `input` on standard input.
+Outcome pharos(const std::string& arguments, std::string_view input = "");
+
+/// A folder of its own, gone with the object.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+  /// Writes a file in it; its path.
+  std::string write(const std::string& name, std::string_view content) const;
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::string content_of(const std::string& path);
+
+/// Rows of a CSV text by column name. Every row must have as many fields as the header.
+using Row = std::map<std::string, std::string>;
+std::vector<Row> rows_of(const std::string& csv);
+std::string first_line(const std::string& text);
+std::size_t count_lines(const std::string& text);
+
+}  // namespace pharos::cli_test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/integration/cli/program.hpp"
+
+namespace pharos::cli_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+double ours(const std::vector<Row>& rows, const std::string& words) {
+  for (const Row& row : rows) {
+    if (row.at("what").find(words) != std::string::npos) return std::stod(row.at("ours"));
+  }
+  ADD_FAILURE() << "no row with '" << words << "'";
+  return 0.0;
+}
+
+TEST(CliReproduce, PredictsTheSpreadOfStillSetsAsFigure5) {
+  const Outcome run = pharos("reproduce lighthouse --quick");
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_EQ(first_line(run.out), "item,what,unit,published,ours,ratio,remark");
+  const auto rows = rows_of(run.out);
+  EXPECT_NEAR(ours(rows, "rotation sigma, median of sets"), 1.0, 0.1);
+  EXPECT_NEAR(ours(rows, "position sigma, median of sets"), 1.0, 0.1);
+  // The orders of magnitude that section 4.2 publishes.
+  EXPECT_NEAR(std::log10(ours(rows, "rotation precision (23)") / 0.1), 0.0, 0.5);
+  EXPECT_NEAR(std::log10(ours(rows, "position precision (23)") / 1.0), 0.0, 0.5);
+  EXPECT_EQ(rows_of(run.out).size(), rows_of(pharos("reproduce lighthouse --quick --seed 2").out).size());
+}
+
+TEST(CliReproduce, GivesTheSameFiguresForTheSameSeed) {
+  EXPECT_EQ(pharos("reproduce lighthouse --quick").out, pharos("reproduce lighthouse --quick").out);
+}
+
+TEST(CliReproduce, PrintsAMarkdownTable) {
+  const Outcome run = pharos("reproduce lighthouse --quick --markdown");
+  EXPECT_THAT(run.out, StartsWith("| item | what | published or asked | ours | ratio | remark |\n|---|"));
+  EXPECT_THAT(run.out, HasSubstr("| table 2 | run 1, rotation RMS | 0.96 deg |"));
+}
+
+TEST(CliReproduce, SaysWhereRecordingsAreMissing) {
+  const Outcome run = pharos("reproduce lighthouse --recordings /nowhere");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("/nowhere/hmd_static.edges.csv.gz"));
+}
+
+TEST(CliReproduce, RealRecordingsReachWhatIsAskedOfThem) {
+  const char* data = std::getenv("PHAROS_DATA");
+  const auto folder = std::filesystem::path(data != nullptr ? data : "../shared/data") / "lighthouse";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "real recordings absent: set PHAROS_DATA";
+  const Outcome run = pharos("reproduce lighthouse --recordings " + folder.string());
+  ASSERT_EQ(run.exit_code, 0);
+  std::size_t asked = 0;
+  for (const Row& row : rows_of(run.out)) {
+    const std::string& bound = row.at("published");
+    if (bound.size() < 4) continue;
+    ++asked;
+    const double limit = std::stod(bound.substr(3));
+    if (bound.starts_with("<=")) {
+      EXPECT_LE(std::stod(row.at("ours")), limit) << row.at("item") << ": " << row.at("what");
+    } else {
+      EXPECT_GE(std::stod(row.at("ours")), limit) << row.at("item") << ": " << row.at("what");
+    }
+  }
+  EXPECT_EQ(asked, 22u);
+}
+
+}  // namespace
+}  // namespace pharos::cli_test

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// usage: pharosd_latency [SECONDS]
+// How long from the last byte of a cycle written to the line until its pose arrives over LCM, with pharosd in between,
+// and what pharosd takes of the computer meanwhile. 60 cycles/s of 12 sensors on a pseudo-terminal. Prints figures,
+// judges none.
+#include <sched.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+
+#include "host/daemon/latency_histogram.hpp"
+#include "host/daemon/now.hpp"
+#include "integration/child_process.hpp"
+#include "integration/pseudo_terminal.hpp"
+#include "integration/still_target.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/status_t.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ear {
+  LatencyHistogram latency;
+  std::int64_t written_ns = 0;
+  std::int64_t poses = 0;
+  std::map<std::string, std::int64_t> counters;
+  void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) {
+    if (pose->valid == 0) return;
+    ++poses;
+    latency.add(monotonic_now_ns() - written_ns);
+  }
+  void on_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) {
+    for (const counter_t& counter : status->counters) counters[counter.name] = counter.value;
+    for (const source_status_t& source : status->sources) {
+      for (const counter_t& counter : source.counters) counters[counter.name] = counter.value;
+    }
+  }
+};
+
+void hear_until(lcm::LCM& lcm, std::int64_t until_ns) {
+  for (std::int64_t left_ns = 0; (left_ns = until_ns - monotonic_now_ns()) > 0;) {
+    lcm.handleTimeout(static_cast<int>(left_ns / 1'000'000));
+  }
+}
+
+int measure(double seconds) {
+  const fs::path folder = fs::temp_directory_path() / ("pharosd_latency_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const std::string url = "udpm://239.255.76.68:" + std::to_string(20'000 + ::getpid() % 20'000) + "?ttl=0";
+  PseudoTerminal line;
+  std::ofstream(folder / "target.csv") << StillTarget::target_table(12);
+  std::ofstream(folder / "p.toml") << "[lcm]\nurl = '" << url << "'\n[[target]]\nname = 'dock'\nport = '" << line.path()
+                                   << "'\ntarget_file = 'target.csv'\n";
+  lcm::LCM lcm(url);
+  Ear ear;
+  lcm.subscribe("PHAROS_LIGHTHOUSE_POSE", &Ear::on_pose, &ear);
+  lcm.subscribe("PHAROS_STATUS", &Ear::on_status, &ear);
+  ChildProcess daemon({PHAROSD, (folder / "p.toml").string()});
+  if (!daemon.wait_for("is open")) {
+    std::fprintf(stderr, "pharosd did not start:\n%s", daemon.text().c_str());
+    return 1;
+  }
+  StillTarget target({rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}, 12);
+  const std::int64_t start_ns = monotonic_now_ns();
+  const auto ticks_now = [&] { return (monotonic_now_ns() - start_ns) / kNanosecondsPerTick + kTicksPerSecond; };
+  std::int64_t ticks = ticks_now();
+  while (static_cast<double>(monotonic_now_ns() - start_ns) < seconds * 1e9) {
+    ticks += StillTarget::kTurnTicks;
+    hear_until(lcm, start_ns + (ticks - kTicksPerSecond) * kNanosecondsPerTick);
+    const StillTarget::Bytes cycle = target.cycle(ticks);
+    ear.written_ns = monotonic_now_ns();
+    if (!line.write(cycle)) return 1;
+    line.write(target.time(ticks_now()));
+  }
+  hear_until(lcm, monotonic_now_ns() + 1'100'000'000);
+  const auto us = [&](double q) { return static_cast<double>(ear.latency.quantile_ns(q)) * 1e-3; };
+  std::printf("poses                      %lld in %.1f s\n", static_cast<long long>(ear.poses), seconds);
+  std::printf("last byte in -> pose heard p50 %.0f us, p99 %.0f us, largest %.0f us\n", us(0.5), us(0.99), us(1.0));
+  std::printf("of that inside pharosd     p50 %lld us, p99 %lld us\n",
+              static_cast<long long>(ear.counters["latency_p50_us"]),
+              static_cast<long long>(ear.counters["latency_p99_us"]));
+  std::printf("pharosd                    %.2f %% of one core, %.1f MiB resident\n",
+              static_cast<double>(ear.counters["process_cpu_us"]) * 1e-6 / (seconds + 1.1) * 100.0,
+              static_cast<double>(ear.counters["process_resident_kib"]) / 1024.0);
+  fs::remove_all(folder);
+  return ear.poses > 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace pharos::host
+
+int main(int argc, char** argv) {
+  constexpr double kDefaultSeconds = 20.0;
+  return pharos::host::measure(argc > 1 ? std::atof(argv[1]) : kDefaultSeconds);
+}
