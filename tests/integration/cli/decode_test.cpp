@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <sstream>
+
 #include "pharos/lighthouse/decoder_counters.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 #include "tests/integration/cli/example_recording.hpp"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -21,27 +22,31 @@ double ours(const std::vector<Row>& rows, const std::string& words) {
   return 0.0;
 }
 
+const Outcome& quick_run() {
+  static const Outcome run = pharos("reproduce lighthouse --quick");
+  return run;
+}
+
 TEST(CliReproduce, PredictsTheSpreadOfStillSetsAsFigure5) {
-  const Outcome run = pharos("reproduce lighthouse --quick");
+  const Outcome& run = quick_run();
   ASSERT_EQ(run.exit_code, 0);
   EXPECT_EQ(first_line(run.out), "item,what,unit,published,ours,ratio,remark");
   const auto rows = rows_of(run.out);
-  EXPECT_NEAR(ours(rows, "rotation sigma, median of sets"), 1.0, 0.1);
-  EXPECT_NEAR(ours(rows, "position sigma, median of sets"), 1.0, 0.1);
+  EXPECT_NEAR(ours(rows, "rotation sigma"), 1.0, 0.1);
+  EXPECT_NEAR(ours(rows, "position sigma"), 1.0, 0.1);
   // The orders of magnitude that section 4.2 publishes.
   EXPECT_NEAR(std::log10(ours(rows, "rotation precision (23)") / 0.1), 0.0, 0.5);
   EXPECT_NEAR(std::log10(ours(rows, "position precision (23)") / 1.0), 0.0, 0.5);
-  EXPECT_EQ(rows_of(run.out).size(), rows_of(pharos("reproduce lighthouse --quick --seed 2").out).size());
 }
 
 TEST(CliReproduce, GivesTheSameFiguresForTheSameSeed) {
-  EXPECT_EQ(pharos("reproduce lighthouse --quick").out, pharos("reproduce lighthouse --quick").out);
+  EXPECT_EQ(pharos("reproduce lighthouse --quick").out, quick_run().out);
 }
 
 TEST(CliReproduce, PrintsAMarkdownTable) {
   const Outcome run = pharos("reproduce lighthouse --quick --markdown");
   EXPECT_THAT(run.out, StartsWith("| item | what | published or asked | ours | ratio | remark |\n|---|"));
-  EXPECT_THAT(run.out, HasSubstr("| table 2 | run 1, rotation RMS | 0.96 deg |"));
+  EXPECT_THAT(run.out, HasSubstr("| table 2 | run 1: rotation RMS | 0.96 deg |"));
 }
 
 TEST(CliReproduce, SaysWhereRecordingsAreMissing) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pharos/base/units.hpp"
 #include "tests/integration/cli/example_recording.hpp"
 
 namespace pharos::cli_test {
@@ -132,7 +133,9 @@ TEST(CliTrack, GivesAmbiguousPosesBothSolutions) {
     ambiguous += is ? 1 : 0;
     EXPECT_EQ(row.at("delta_chi2").empty(), !is);
     EXPECT_EQ(row.at("alt_tz_m").empty(), !is);
-    if (is) EXPECT_LT(std::stod(row.at("delta_chi2")), 9.21);
+    if (is) {
+      EXPECT_LT(std::stod(row.at("delta_chi2")), 9.21);
+    }
   }
   EXPECT_GT(ambiguous, 100u);
 }
