@@ -13,6 +13,8 @@ constexpr std::int64_t kCompanionToleranceTicks = 1700;
 /// Real lengths are off nominal by -47..+78 on a strong sensor, less on a weak one; half a step of axis is 260.
 constexpr std::int32_t kLengthToleranceTicks = 259;
 constexpr std::uint32_t kRecent = 12;
+/// Groups older than this say nothing: rotors drift out of the tolerances above.
+constexpr std::int64_t kOldestSlots = 24;
 
 bool length_fits(std::int32_t length, Axis axis, bool skip) {
   for (const bool data : {false, true}) {
@@ -57,7 +59,7 @@ std::optional<SlotPlace> SlotSearch::place(std::size_t age, const SlotPattern& p
     const std::int64_t whole = before + lag;
     const std::int64_t slots = (whole + kSlotTicks / 2) / kSlotTicks;
     const std::int64_t tolerance = companion ? kCompanionToleranceTicks : kTrainToleranceTicks;
-    if (slots >= 0 && distance(whole, slots * kSlotTicks) <= tolerance) {
+    if (slots >= 0 && slots <= kOldestSlots && distance(whole, slots * kSlotTicks) <= tolerance) {
       return SlotPlace{position, pattern.newest.slot - static_cast<std::uint32_t>(slots)};
     }
   }

@@ -7,8 +7,12 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// Once place and so axis and skip are known only the data bit is open: the margin is half of its step.
-constexpr std::int32_t kLengthMarginTicks = kDataLengthTicks / 2;
+/// Once place and so axis and skip are known only the data bit is open. Lengths vary by 80 around a station's usual
+/// one; half of the data bit's step is 521, and at 521 lies the other axis: what is so far off belongs to another
+/// cycle.
+constexpr std::int32_t kLengthMarginTicks = 350;
+/// A station's usual length is off nominal by -47..+78 (measured).
+constexpr std::int32_t kLargestExcessTicks = 150;
 /// Half a turn after the station's other rotor: 470 ticks cover 99 %; drift over some turns comes on top.
 constexpr std::int64_t kOtherRotorToleranceTicks = 1000;
 /// The other station's lag varies by 700 around its median.
@@ -81,7 +85,8 @@ SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const
         const Station& station = station_[position];
         const RotorClock& own = station.rotor[slot & 1U];
         const bool own_speaks = own.known() && start_ticks - own.last_ticks() <= kLongestGap;
-        if (!own_speaks && (!station.known || slot != station.last_slot)) return {{position, slot}, 0, false, true};
+        if (!own_speaks && (!station.known || static_cast<std::int32_t>(slot - station.last_slot) > 0))
+          return {{position, slot}, 0, false, true};
       }
     }
   }
@@ -134,7 +139,8 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& w
   station.known = true;
   if (station.excess_count < kExcessFlashes) ++station.excess_count;
   const std::int32_t step = std::clamp(-reading.missing_ticks, -kLargestExcessStepTicks, kLargestExcessStepTicks);
-  station.excess += step * kExcessUnits / static_cast<std::int32_t>(station.excess_count);
+  station.excess = std::clamp(station.excess + step * kExcessUnits / static_cast<std::int32_t>(station.excess_count),
+                              -kLargestExcessTicks * kExcessUnits, kLargestExcessTicks * kExcessUnits);
   last_flash_ticks_ = std::max(last_flash_ticks_, flash.start_ticks);
 
   RotorClock& rotor = station.rotor[static_cast<std::size_t>(index_of(flash.axis))];
@@ -220,10 +226,11 @@ std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, D
   constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurnTicks;
   if (locked_ && candidate.start_ticks - last_flash_ticks_ > kLongestGap) {
     lose(counters);
-    search_.clear();
   }
+  // Time of flashes never runs backwards, whatever the time base was led to believe for a moment.
+  const bool in_order = candidate.start_ticks > last_flash_ticks_;
   Place expected;
-  if (locked_) expected = expected_place(candidate.start_ticks);
+  if (locked_ && in_order) expected = expected_place(candidate.start_ticks);
   Reading reading;
   if (expected.found) reading = read_length(candidate.length_ticks, expected);
   const bool accepted = expected.found && reading.credible;
@@ -232,7 +239,7 @@ std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, D
     ++counters.flashes;
     return accept(candidate, expected, reading, counters);
   }
-  if (!locked_ || search_.recently_rejected() >= kSuspiciousRejections) {
+  if (in_order && (!locked_ || search_.recently_rejected() >= kSuspiciousRejections)) {
     const auto pattern = search_.find();
     if (pattern && supersedes(*pattern)) {
       const auto flash = adopt(*pattern, counters);

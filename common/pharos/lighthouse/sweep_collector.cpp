@@ -16,7 +16,7 @@ constexpr std::int64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
 
 void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) {
   Open& open = open_[flash.flash.station];
-  if (open.open) finish(open, counters);
+  if (open.open) finish_until(open.sweep.flash.start_ticks, counters);
   open.sweep.flash = flash.flash;
   open.sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
   open.sweep.flags = flash.flags;

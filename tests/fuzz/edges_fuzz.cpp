@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoder against any light: pulses and edges of any time and length, mixed with good light. Whatever came before,
+// every pulse is accounted for, nothing absurd comes out, and good light is decoded again within twelve flashes.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "pharos/lighthouse/bearing.hpp"
+#include "pharos/lighthouse/decoder.hpp"
+#include "support/synthetic_light.hpp"
+
+namespace {
+
+using namespace pharos::lighthouse;
+using pharos::test::SyntheticLight;
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  bool empty() const { return at_ == size_; }
+  std::uint8_t byte() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
+  std::int64_t number(int bytes) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i) value = value << 8U | byte();
+    return static_cast<std::int64_t>(value);
+  }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t size_;
+  std::size_t at_ = 0;
+};
+
+/// Takes what the decoder gives and checks it by itself.
+class Watched {
+ public:
+  Decoder decoder;
+
+  void take() {
+    while (const auto sweep = decoder.take_sweep()) check(*sweep);
+    while (const auto payload = decoder.take_ootx()) require(payload->station < 2 && !payload->bytes.empty());
+  }
+  std::size_t lit_since(std::int64_t start_ticks) const {
+    std::size_t count = 0;
+    for (const std::int64_t start : lit_) count += start >= start_ticks ? 1U : 0U;
+    return count;
+  }
+
+ private:
+  void check(const Sweep& sweep) {
+    const Flash& flash = sweep.flash;
+    require(flash.station < 2);
+    require(flash.start_ticks > last_start_);  // time never runs backwards
+    last_start_ = flash.start_ticks;
+    require(sweep.period_sixteenth_ticks > 13'000'000 && sweep.period_sixteenth_ticks < 13'700'000);
+    require(!flash.skip || sweep.hits.empty());
+    if (!flash.skip) lit_.push_back(flash.start_ticks);
+    const auto rotor = static_cast<std::size_t>(2 * flash.station + index_of(flash.axis));
+    const SmoothedFlash smoothed = smoother_[rotor].push(sweep);
+    require(std::isfinite(smoothed.offset_ticks) && std::abs(smoothed.offset_ticks) < 1000.0);
+    require(std::abs(smoothed.period_ticks / kNominalPeriodTicks - 1.0) < 0.03);
+    for (const Bearing& bearing : bearings_of(sweep, smoothed)) {
+      require(std::isfinite(bearing.theta_rad) && bearing.theta_rad > 0.0 && bearing.theta_rad < 3.2);
+      require(bearing.sensor < 32);
+    }
+  }
+
+  FlashSmoother smoother_[4];
+  std::vector<std::int64_t> lit_;
+  std::int64_t last_start_ = INT64_MIN;
+};
+
+SyntheticLight light_at(std::int64_t ticks, bool lone) {
+  SyntheticLight::Settings settings;
+  settings.begin_s = static_cast<double>(ticks) / 50e6;
+  if (lone) settings.layout = SyntheticLight::Layout::kLoneA;
+  return SyntheticLight(settings);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes in(data, size);
+  Watched watched;
+  Decoder& decoder = watched.decoder;
+  const bool edges_only = (in.byte() & 1U) != 0;
+  std::int64_t now = 50'000'000;
+  std::size_t lights = 0;
+  while (!in.empty()) {
+    const std::uint8_t what = in.byte();
+    const std::uint8_t sensor = in.byte() % 40;
+    switch (what % 8) {
+      case 0:
+      case 1: {  // a pulse or edge near now, of any credible length and more
+        now += in.number(2);
+        const std::int64_t width = in.number(2) / 6 - 16;
+        if (edges_only) {
+          decoder.push(Edge{now, sensor, (width & 1) != 0});
+        } else {
+          decoder.push(RawPulse{now, now + width, sensor});
+        }
+        break;
+      }
+      case 2: {  // the same flash on several sensors
+        now += in.number(2);
+        const std::int64_t width = 2'600 + in.number(2) % 4'600;
+        for (std::uint8_t i = 0; i < 4; ++i) {
+          decoder.push(Edge{now, i, true});
+          decoder.push(Edge{now + width, i, false});
+        }
+        break;
+      }
+      case 3:  // somewhere else in time: stale, future
+        if (edges_only) {
+          decoder.push(Edge{now + (in.number(5) - (std::int64_t{1} << 39)), sensor, (what & 8U) != 0});
+        } else {
+          const std::int64_t rise = now + (in.number(5) - (std::int64_t{1} << 39));
+          decoder.push(RawPulse{rise, rise + 3'200, sensor});
+        }
+        break;
+      case 4:  // numbers without any sense
+        if (edges_only) {
+          decoder.push(Edge{in.number(8), sensor, (what & 8U) != 0});
+        } else {
+          const std::int64_t rise = in.number(8);
+          decoder.push(RawPulse{rise, in.number(8), sensor});
+        }
+        break;
+      case 5:  // good light for a while
+        if (++lights > 8) break;
+        for (const RawPulse& pulse : light_at(now, (what & 8U) != 0).slots(0, 8 + sensor % 16)) {
+          if (edges_only) {
+            decoder.push(Edge{pulse.rise_ticks, pulse.sensor, true});
+            decoder.push(Edge{pulse.fall_ticks, pulse.sensor, false});
+          } else {
+            decoder.push(pulse);
+          }
+          watched.take();
+          now = pulse.fall_ticks;
+        }
+        break;
+      case 6:  // the clock
+        decoder.advance(now + in.number(3));
+        break;
+      default:  // a pause
+        now += in.number(4) / 8;
+        break;
+    }
+    watched.take();
+  }
+  // Good light at the end, a pause later.
+  now += 15'000'000;
+  const SyntheticLight light = light_at(now, false);
+  for (const RawPulse& pulse : light.slots(0, 40)) {
+    if (edges_only) {
+      decoder.push(Edge{pulse.rise_ticks, pulse.sensor, true});
+      decoder.push(Edge{pulse.fall_ticks, pulse.sensor, false});
+    } else {
+      decoder.push(pulse);
+    }
+    watched.take();
+  }
+  decoder.flush();
+  watched.take();
+  const DecoderCounters& counters = decoder.counters();
+  require(counters.pulses_in == pulses_accounted(counters));
+  if (edges_only) require(counters.edges_in == edges_accounted(counters));
+  // Twelve flashes are six slots.
+  require(watched.lit_since(light.flash(0, 6).start_ticks + decoder.time_offset_ticks()) >= 34);
+  return 0;
+}
