@@ -17,6 +17,8 @@
 namespace pharos::tools {
 namespace {
 
+constexpr std::size_t kBytesToTell = host::StreamReader::kHeaderBytes;
+
 // A table begins with names; control characters and bytes beyond ASCII (but for a byte order mark) are something else.
 bool looks_like_text(std::string_view first_bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -29,7 +31,7 @@ bool looks_like_text(std::string_view first_bytes) {
 
 std::unique_ptr<RecordingSource> open_source(const std::string& path) {
   host::ByteSource bytes(path);
-  const std::string_view first_bytes = bytes.peek(host::StreamReader::kHeaderBytes);
+  const std::string_view first_bytes = bytes.peek(kBytesToTell).substr(0, kBytesToTell);
   if (host::StreamReader::looks_like(first_bytes)) return open_serial_stream(std::move(bytes));
   if (looks_like_text(first_bytes)) return open_pulse_table(std::move(bytes));
   throw host::InputError(bytes.name() + ": neither a table sensor,rise_ticks,fall_ticks nor a recorded serial stream " +

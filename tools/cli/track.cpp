@@ -144,8 +144,8 @@ void say_what_came_out(const Options& options, Tracking& tracking) {
 int run(const Options& options) {
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
-  const auto tracking = std::make_unique<Tracking>(options, target.target);
   Recording recording(options.edges);
+  const auto tracking = std::make_unique<Tracking>(options, target.target);
   Progress progress("track", "sweeps and payloads");
   const bool live = !is_rereadable(options.edges);
   while (const std::optional<RecordingEvent> event = recording.next()) {

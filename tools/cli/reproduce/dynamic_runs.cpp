@@ -112,7 +112,7 @@ SimulatedRun fly(double run_s, std::uint64_t seed) {
 
 void add_run_rows(std::size_t run, const DynamicRun& result, std::vector<ComparisonRow>& rows) {
   const PublishedRun published = run < kPublishedRuns ? kTable2[run] : PublishedRun{"", "", "", ""};
-  const std::string name = "run " + std::to_string(run + 1) + ", ";
+  const std::string name = "run " + std::to_string(run + 1) + ": ";
   const std::string counts =
       std::to_string(result.sure.count()) + " cycles ok; " + std::to_string(result.all.count() - result.sure.count()) +
       " ambiguous and " + std::to_string(result.refused) + " refused left out; " +
@@ -146,17 +146,17 @@ struct Method {
 };
 
 std::vector<Method> methods() {
-  std::vector<Method> out = {{"the paper's method", paper_method(), {}}, {"angles, smoothed flashes", {}, {}}};
+  std::vector<Method> out = {{"the paper's method", paper_method(), {}}, {"angles and smoothed flashes", {}, {}}};
   // What the workshop's errors leave as residual; told so, the second minimum is recognised for what it is.
   constexpr double kWorkshopSigma_arcsec = 30.0;
-  out.push_back({"angles, smoothed flashes, told 30 arcsec of noise", {}, {}});
+  out.push_back({"angles and smoothed flashes told 30 arcsec of noise", {}, {}});
   out.back().options.solve.sigma_rad = kWorkshopSigma_arcsec * kRadPerArcsec;
   return out;
 }
 
 void add_method_rows(const Method& method, std::vector<ComparisonRow>& rows) {
   const auto add = [&](const char* what, const char* unit, const char* published, double ours) {
-    rows.push_back({"table 2", method.name + ": " + what + ", median of runs", unit, published, ours, ""});
+    rows.push_back({"table 2", method.name + ": " + what + " (median of runs)", unit, published, ours, ""});
   };
   const auto rotation = [](const ErrorStatistics& s) { return s.rms().rotation_deg; };
   const auto position = [](const ErrorStatistics& s) { return s.rms().position_mm; };

@@ -98,20 +98,16 @@ Decoded decode(const std::string& path) {
   return out;
 }
 
-// First flash that anyone would call good: three sensors together, of a length that the code knows.
-std::optional<double> first_good_flash_s(const std::string& path) {
-  constexpr std::int64_t kShortest = 2900, kLongest = 7100;  // ticks; nominal 3125 to 6771, real ones 3 % off
-  constexpr std::int64_t kTogether = 1000;                   // ticks
+// From when on there could be an angle: the first pulse of a laser's width after the first one of a flash's length.
+std::optional<double> first_light_s(const std::string& path) {
+  constexpr std::int64_t kShortestFlash = 2900, kLongestFlash = 7100;  // ticks; nominal 3125 to 6771, real ones 3 % off
+  constexpr std::int64_t kShortestHit = 28, kLongestHit = 1400;        // ticks; 27 to 1326 were measured at 48 MHz
   host::EdgesReader reader{host::ByteSource(path)};
-  std::array<std::int64_t, 3> last{};
-  std::size_t count = 0;
+  bool flashed = false;
   while (const auto pulse = reader.next()) {
     const std::int64_t length = pulse->fall_ticks - pulse->rise_ticks;
-    if (length < kShortest || length > kLongest) continue;
-    last[count++ % last.size()] = pulse->rise_ticks;
-    if (count < last.size()) continue;
-    const auto [least, most] = std::minmax_element(last.begin(), last.end());
-    if (*most - *least < kTogether) return ticks_to_seconds(*least);
+    if (length >= kShortestFlash && length <= kLongestFlash) flashed = true;
+    if (flashed && length >= kShortestHit && length <= kLongestHit) return ticks_to_seconds(pulse->rise_ticks);
   }
   return std::nullopt;
 }
@@ -144,10 +140,10 @@ void add_ootx_rows(const RecordingCase& c, const Decoded& decoded, const std::st
 
 void add_lock_row(const RecordingCase& c, const Decoded& decoded, const std::string& path, const std::string& file,
                   std::vector<ComparisonRow>& rows) {
-  const std::optional<double> flash_s = first_good_flash_s(path);
-  if (!flash_s || !decoded.first_angle_s) return;
-  rows.push_back({c.name, "first angle after the first good flash", "s", "<= 0.15", *decoded.first_angle_s - *flash_s,
-                  "pharos decode " + file});
+  const std::optional<double> light_s = first_light_s(path);
+  if (!light_s || !decoded.first_angle_s) return;
+  rows.push_back({c.name, "first angle after the first flash and laser hit", "s", "<= 0.15",
+                  *decoded.first_angle_s - *light_s, "pharos decode " + file});
 }
 
 double median_deviation_arcsec(const std::map<Series, RunningMoments>& series) {
@@ -164,8 +160,8 @@ void add_noise_rows(const RecordingCase& c, const Decoded& decoded, const std::s
   if (!c.still) return;
   const double raw = median_deviation_arcsec(decoded.raw);
   const double smoothed = median_deviation_arcsec(decoded.smoothed);
-  rows.push_back(
-      {c.name, "still sensor, one sweep, median over sensors", "arcsec", c.still_sd, raw, "pharos decode " + file});
+  rows.push_back({c.name, "still sensor: sigma of one sweep (median over sensors)", "arcsec", c.still_sd, raw,
+                  "pharos decode " + file});
   const bool asked = c.still_sd[0] != '\0';
   rows.push_back(
       {c.name, "the same smoothed by earlier flashes", "arcsec", "", smoothed, "pharos decode " + file + " --smooth"});
@@ -218,12 +214,12 @@ void add_rigidity_rows(const RecordingCase& c, const Decoded& decoded, const std
     if (here.rms_arcsec.empty()) continue;
     const double rms = median_of(here.rms_arcsec);
     const std::string name = "station " + station_id_text(stations.id(s));
-    rows.push_back({c.name, "rigid-body residual RMS, median of cycles, " + name, "arcsec",
+    rows.push_back({c.name, "rigid-body residual RMS (median of cycles) " + name, "arcsec",
                     c.rigid && rms == best ? "<= 10" : "", rms,
                     "pharos track " + file + " --target " + target_file + " --sensors FILE"});
-    rows.push_back({c.name, "residual chi2 per degree of freedom at 8.8 arcsec, median, " + name, "", "",
+    rows.push_back({c.name, "residual chi2 per degree of freedom at 8.8 arcsec (median) " + name, "", "",
                     median_of(here.reduced_chi2), ""});
-    rows.push_back({c.name, "cycles refused, " + name, "", "", static_cast<double>(here.refused),
+    rows.push_back({c.name, "cycles refused " + name, "", "", static_cast<double>(here.refused),
                     "of " + std::to_string(here.refused + here.rms_arcsec.size())});
   }
 }

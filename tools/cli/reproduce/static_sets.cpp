@@ -100,15 +100,15 @@ std::vector<ComparisonRow> summary(const std::vector<StaticSet>& sets) {
     position.push_back(set.measured.position_mm);
   }
   if (rotation.empty()) return {{"figure 5", "sets with a pose", "", std::to_string(sets.size()), 0.0, ""}};
-  const std::string remark = std::to_string(sets.size()) + " sets, " + std::to_string(frames) + " frames";
+  const std::string remark = std::to_string(sets.size()) + " sets of " + std::to_string(frames) + " frames in all";
   return {
-      {"figure 5", "predicted (24) / measured (23) rotation sigma, median of sets", "", "1", median_of(rotation_ratio),
+      {"figure 5", "predicted (24) / measured (23) rotation sigma (median of sets)", "", "1", median_of(rotation_ratio),
        remark + "; " + range_text(rotation_ratio)},
-      {"figure 5", "predicted (24) / measured (23) position sigma, median of sets", "", "1", median_of(position_ratio),
+      {"figure 5", "predicted (24) / measured (23) position sigma (median of sets)", "", "1", median_of(position_ratio),
        remark + "; " + range_text(position_ratio)},
-      {"section 4.2", "rotation precision (23), median of sets", "deg", "0.1", median_of(rotation),
+      {"section 4.2", "rotation precision (23) (median of sets)", "deg", "0.1", median_of(rotation),
        "published: order of 0.1 deg; " + range_text(rotation)},
-      {"section 4.2", "position precision (23), median of sets", "mm", "1", median_of(position),
+      {"section 4.2", "position precision (23) (median of sets)", "mm", "1", median_of(position),
        "published: order of mm; " + range_text(position)},
       {"section 4.2", "frames refused", "", "", static_cast<double>(refused), "of " + std::to_string(frames)},
       {"section 4.2", "frames flagged ambiguous", "", "", static_cast<double>(ambiguous),
