@@ -2,6 +2,7 @@
 #include "host/table/target_file.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -48,7 +49,7 @@ void check_against_earlier(const TableReader& table, const std::map<int, std::si
 }
 
 std::string closest_pair(const Target& target) {
-  double least = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
   std::string pair;
   for (std::size_t i = 0; i < target.size(); ++i) {
     for (std::size_t j = i + 1; j < target.size(); ++j) {
