@@ -51,6 +51,12 @@ TEST(Decoder, FindsBothStationsOfTwoAndEveryHitToTheTick) {
   EXPECT_EQ(decoded.counters().locks, 1U);
   EXPECT_EQ(decoded.counters().locks_lost, 0U);
   EXPECT_EQ(decoded.counters().flashes_missed, 0U);
+  EXPECT_EQ(decoded.counters().flashes_rejected, 0U);
+  EXPECT_EQ(decoded.counters().flashes + decoded.counters().flashes_before_lock, 240U);
+  EXPECT_LT(decoded.counters().flashes_before_lock, 12U);
+  EXPECT_EQ(decoded.counters().pulses_in_flashes, 4 * decoded.counters().flashes);
+  EXPECT_EQ(decoded.counters().pulses_flash_length, 4 * decoded.counters().flashes_before_lock);
+  EXPECT_EQ(decoded.counters().time_base_changes, 1U);
   test::expect_balance(decoded.counters());
 }
 
