@@ -26,7 +26,7 @@ struct Flash {
 /// Words said about a sweep; a bit set.
 enum SweepFlag : std::uint8_t {
   kSweepPeriodNominal = 1,  // no earlier flash of this rotor yet: the nominal turn stands for the measured one
-  kSweepFlashWeak = 2,      // few or weak sensors saw the flash: its time zero is uncertain
+  kSweepFlashWeak = 2,      // only weak sensors saw the flash: its time zero was put back by an estimate
   kSweepLockPoor = 4,       // the slot sequence has recent gaps
 };
 
@@ -39,7 +39,8 @@ struct Hit {
 };
 
 /// All hits of one rotor's laser in one slot, with the flash that they are measured from. Integers only: the same bits
-/// on the target, on the wire and on the host.
+/// on the target, on the wire and on the host. A slot whose laser is dark (flash.skip) gives a sweep without hits: its
+/// flash is what FlashSmoother needs to see every turn.
 struct Sweep {
   Flash flash;
   /// Measured turn of this rotor, 1/16 tick.
