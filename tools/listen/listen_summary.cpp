@@ -19,6 +19,13 @@ double root_mean(double sum, std::int64_t count) {
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
 }
 
+std::string error_text(const char* what, const ErrorSums& error) {
+  if (error.count == 0) return "";
+  return fmt::format("  {} ({} poses): {:.3f} deg RMS, {:.3f} deg largest; {:.2f} mm RMS, {:.2f} mm largest\n", what,
+                     error.count, error.rms_rotation_rad() * kDegPerRad, error.max_rotation_rad * kDegPerRad,
+                     error.rms_position_m() * kMmPerM, error.max_position_m * kMmPerM);
+}
+
 }  // namespace
 
 PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth) {
@@ -26,8 +33,16 @@ PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBod
   return {delta.head<3>().norm(), delta.tail<3>().norm()};
 }
 
-double SourceSummary::rms_rotation_rad() const { return root_mean(squared_rotation_rad2, compared); }
-double SourceSummary::rms_position_m() const { return root_mean(squared_position_m2, compared); }
+void ErrorSums::add(const PoseError& error) {
+  ++count;
+  squared_rotation_rad2 += error.rotation_rad * error.rotation_rad;
+  squared_position_m2 += error.position_m * error.position_m;
+  max_rotation_rad = std::max(max_rotation_rad, error.rotation_rad);
+  max_position_m = std::max(max_position_m, error.position_m);
+}
+
+double ErrorSums::rms_rotation_rad() const { return root_mean(squared_rotation_rad2, count); }
+double ErrorSums::rms_position_m() const { return root_mean(squared_position_m2, count); }
 
 double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
   Stream& stream = streams_[{pose.channel, pose.target, pose.station}];
@@ -54,11 +69,8 @@ double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
 
 void ListenSummary::add_error(const ReceivedPose& pose, const PoseError& error) {
   SourceSummary& summary = streams_[{pose.channel, pose.target, pose.station}].summary;
-  ++summary.compared;
-  summary.squared_rotation_rad2 += error.rotation_rad * error.rotation_rad;
-  summary.squared_position_m2 += error.position_m * error.position_m;
-  summary.max_rotation_rad = std::max(summary.max_rotation_rad, error.rotation_rad);
-  summary.max_position_m = std::max(summary.max_position_m, error.position_m);
+  const bool uncalibrated = pose.flags.find("uncalibrated") != std::string::npos;
+  (uncalibrated ? summary.uncalibrated_error : summary.error).add(error);
 }
 
 std::vector<SourceSummary> ListenSummary::sources() const {
@@ -78,12 +90,8 @@ std::string summary_text(const std::vector<SourceSummary>& sources) {
       out += fmt::format("  age on arrival: {:.1f} ms median, {:.1f} ms 99 %, {:.1f} ms largest\n", age_ms(0.5),
                          age_ms(0.99), age_ms(1.0));
     }
-    if (source.compared > 0) {
-      out += fmt::format(
-          "  error against truth ({} poses): {:.3f} deg RMS, {:.3f} deg largest; {:.2f} mm RMS, {:.2f} mm largest\n",
-          source.compared, source.rms_rotation_rad() * kDegPerRad, source.max_rotation_rad * kDegPerRad,
-          source.rms_position_m() * kMmPerM, source.max_position_m * kMmPerM);
-    }
+    out += error_text("error against truth", source.error);
+    out += error_text("the same before calibration", source.uncalibrated_error);
   }
   return out.empty() ? "nothing was received\n" : out;
 }

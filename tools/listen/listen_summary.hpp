@@ -13,6 +13,19 @@
 
 namespace pharos::tools {
 
+/// Errors against the truth, as root mean square and largest.
+struct ErrorSums {
+  std::int64_t count = 0;
+  double squared_rotation_rad2 = 0.0;
+  double squared_position_m2 = 0.0;
+  double max_rotation_rad = 0.0;
+  double max_position_m = 0.0;
+
+  void add(const PoseError& error);
+  double rms_rotation_rad() const;
+  double rms_position_m() const;
+};
+
 /// What came from one station on one target.
 struct SourceSummary {
   std::string channel;
@@ -23,15 +36,11 @@ struct SourceSummary {
   std::int64_t lost = 0;  // gaps in the sequence numbers, of all stations of the target
   double seconds = 0.0;   // from the first to the last pose
   host::LatencyHistogram age;
-  std::int64_t compared = 0;  // with the truth
-  double squared_rotation_rad2 = 0.0;
-  double squared_position_m2 = 0.0;
-  double max_rotation_rad = 0.0;
-  double max_position_m = 0.0;
+  ErrorSums error;
+  /// Of poses before the station had told its calibration (the first seconds): a degree and more is normal there.
+  ErrorSums uncalibrated_error;
 
   double rate_hz() const { return poses > 1 && seconds > 0.0 ? static_cast<double>(poses - 1) / seconds : 0.0; }
-  double rms_rotation_rad() const;
-  double rms_position_m() const;
 };
 
 /// Keeps count of everything heard.

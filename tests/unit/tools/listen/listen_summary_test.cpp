@@ -54,12 +54,25 @@ TEST(ListenSummary, ErrorsComeAsRootMeanSquareAndMaximum) {
   summary.add(pose(0), 0);
   summary.add_error(pose(0), {0.3, 0.001});
   summary.add_error(pose(1), {0.4, 0.007});
-  const SourceSummary source = summary.sources()[0];
-  EXPECT_DOUBLE_EQ(source.rms_rotation_rad(), std::sqrt(0.125));
-  EXPECT_DOUBLE_EQ(source.rms_position_m(), 0.005);
-  EXPECT_DOUBLE_EQ(source.max_rotation_rad, 0.4);
-  EXPECT_DOUBLE_EQ(source.max_position_m, 0.007);
+  const ErrorSums error = summary.sources()[0].error;
+  EXPECT_DOUBLE_EQ(error.rms_rotation_rad(), std::sqrt(0.125));
+  EXPECT_DOUBLE_EQ(error.rms_position_m(), 0.005);
+  EXPECT_DOUBLE_EQ(error.max_rotation_rad, 0.4);
+  EXPECT_DOUBLE_EQ(error.max_position_m, 0.007);
   EXPECT_THAT(summary_text(summary.sources()), HasSubstr("5.00 mm RMS, 7.00 mm largest"));
+}
+
+TEST(ListenSummary, UncalibratedPosesDoNotSpoilTheErrorsOfTheOthers) {
+  ListenSummary summary;
+  ReceivedPose uncalibrated = pose(0);
+  uncalibrated.flags = "uncalibrated|outliers";
+  summary.add(pose(1), 0);
+  summary.add_error(uncalibrated, {0.05, 0.1});
+  summary.add_error(pose(1), {0.001, 0.002});
+  EXPECT_EQ(summary.sources()[0].error.count, 1);
+  EXPECT_DOUBLE_EQ(summary.sources()[0].error.rms_position_m(), 0.002);
+  EXPECT_DOUBLE_EQ(summary.sources()[0].uncalibrated_error.rms_position_m(), 0.1);
+  EXPECT_THAT(summary_text(summary.sources()), HasSubstr("before calibration (1 poses)"));
 }
 
 TEST(PoseError, IsTheAngleBetweenAndTheDistance) {
