@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/bench/peer_solver.hpp"
+
+namespace pharos::tools {
+
+/// The peers' function from the module beside this program, or null where it was not built (no OpenCV).
+PeerFunction load_peers();
+
+}  // namespace pharos::tools
