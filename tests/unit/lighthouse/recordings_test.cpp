@@ -194,7 +194,8 @@ TEST(Recordings, SmoothingDoesNotHurtInMotion) {
   }
   std::vector<double> raw;
   std::vector<double> smoothed;
-  for (const auto& [key, values] : series) {
+  for (const auto& of_sensor : series) {
+    const auto& values = of_sensor.second;  // a binding cannot be captured below (clang 14)
     for (std::size_t i = 3; i < values.size(); ++i) {
       if (values[i][0] - values[i - 3][0] > 3.2 * 2 * kNominalPeriodTicks) continue;
       const auto third = [&](std::size_t k) {
