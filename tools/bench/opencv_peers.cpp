@@ -8,7 +8,7 @@
 
 namespace {
 
-int method_of(pharos::tools::Peer peer) {
+cv::SolvePnPMethod method_of(pharos::tools::Peer peer) {
   switch (peer) {
     case pharos::tools::Peer::kSqpnp:
       return cv::SOLVEPNP_SQPNP;

@@ -49,7 +49,7 @@ TEST(LongCampaign, ExhaustiveSearch) {
       test::PnpSet set;
       set.sigma_rad = arcsec * kRadPerArcsec;
       const MinimaScore score =
-          compare_minima(coplanar ? test::top_plate_target() : test::frustum_target(), set, 10000, 13);
+          compare_minima(coplanar ? test::top_plate_target() : test::frustum_target(), set, 3000, 13);
       std::printf("%4.1f arcsec %s: problems %d ambiguous %d better missed %d second missed %d second false %d\n",
                   arcsec, coplanar ? "coplanar" : "all", score.problems, score.ambiguous, score.better_missed,
                   score.second_missed, score.second_false);
