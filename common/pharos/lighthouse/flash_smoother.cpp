@@ -9,7 +9,7 @@
 namespace pharos::lighthouse {
 namespace {
 
-// Fitted to still targets before two pairs of stations, and checked on recordings that were not used for it; all of
+// Chosen on three recordings of still targets before two pairs of stations, with none kept aside as a check; all of
 // them are flat optima (half or twice the value costs 1-3 % of the noise).
 constexpr double kUsualLengthFlashes = 48;      // over which a code's usual length is averaged
 constexpr double kLargestStepTicks = 32;        // by which one flash may move it
