@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "integration/daemon_under_test.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+
+// True poses of a target at rest, from long before to long after this test.
+void write_truth(const std::filesystem::path& file) {
+  const Quaternion q = somewhere().quaternion();
+  std::ofstream out(file);
+  out.precision(17);
+  out << "utime,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+  for (const char* utime : {"0", "9000000000000000"}) {
+    out << utime << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ",0.3,-0.2,2\n";
+  }
+}
+
+TEST(Listen, SummarisesPosesAgainstTheTruthAndEndsWith0) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  write_truth(daemon.folder() / "truth.csv");
+  ChildProcess listen({PHAROS, "listen", "--url", daemon.url(), "--truth", (daemon.folder() / "truth.csv").string(),
+                       "--summary", "--count", "20"});
+  StillTarget target(somewhere());
+  int exit_code = -1;
+  daemon.play(
+      target, line, [&] { return (exit_code = listen.wait_exit(0.0)) >= 0; }, 20.0);
+  EXPECT_EQ(exit_code, 0) << listen.text();
+  EXPECT_THAT(listen.text(), AllOf(HasSubstr("target dock, station 0:"), HasSubstr("age on arrival"),
+                                   HasSubstr("deg RMS"), HasSubstr("0 refused, 0 lost")));
+}
+
+TEST(Listen, EndsWith1WhenNoPoseCame) {
+  DaemonUnderTest silence;
+  ChildProcess listen({PHAROS, "listen", "--url", silence.url(), "--duration", "0.2"});
+  EXPECT_EQ(listen.wait_exit(), 1);
+  EXPECT_THAT(listen.text(), HasSubstr("nothing was received"));
+}
+
+TEST(Listen, EndsWith2WithoutLcmOrTruthFile) {
+  ChildProcess no_lcm({PHAROS, "listen", "--url", "nowhere://", "--duration", "0.2"});
+  EXPECT_EQ(no_lcm.wait_exit(), 2);
+  ChildProcess no_truth({PHAROS, "listen", "--truth", "/nowhere/truth.csv"});
+  EXPECT_EQ(no_truth.wait_exit(), 2);
+  EXPECT_THAT(no_truth.text(), HasSubstr("/nowhere/truth.csv: cannot be opened"));
+}
+
+}  // namespace
+}  // namespace pharos::host
