@@ -66,7 +66,8 @@ void TargetLine::judge(SourceHealth& health, std::int64_t now_ns) const {
     health.state = SourceState::kError;
     health.message = "bytes come but no frame: is the baud rate that of the target?";
   } else if (!within(last_sweep_ns_, now_ns)) {
-    health.message = "the target sees no station";
+    health.message = counters_.raw_edges > 0 ? "the target sends raw edges only: switch its diagnostic mode off"
+                                             : "the target sees no station";
   } else {
     health.message = last_refusal_.empty() ? "no cycle was answered yet" : "no pose: " + last_refusal_;
   }
