@@ -37,7 +37,11 @@ std::string written(RowFormat format, std::vector<std::string> columns, Fill&& f
 
 void fill_two_rows(RowWriter& writer) {
   writer.number(0.1).integer(-7).text("ok").none().end_row();
-  writer.number(std::numeric_limits<double>::quiet_NaN()).integer(3).text("a,b\"\n").number(-INFINITY).end_row();
+  writer.number(std::numeric_limits<double>::quiet_NaN())
+      .integer(3)
+      .text("a,b\"\n")
+      .number(-std::numeric_limits<double>::infinity())
+      .end_row();
 }
 
 TEST(RowWriter, WritesCsvAndNeverNan) {
