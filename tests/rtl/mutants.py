@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Plants one fault at a time in a copy of the capture logic; the bench must fail on every one of them, and only then.
+
+A mutant that lives means that the bench has a hole. `--few` takes the four that stand for the bench's main promises.
+"""
+
+import argparse
+import pathlib
+import shlex
+import subprocess
+import sys
+
+from mutations import FEW, MUTATIONS
+
+VERILOG = ("pharos_capture.v", "capture_inputs.v", "capture_fifo.v", "capture_losses.v")
+PREFIX = "Vmutant"
+SECONDS = 300
+
+
+def run(command):
+    done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{shlex.join(map(str, command))}\n{done.stdout}{done.stderr}")
+
+
+class Workshop:
+    def __init__(self, arguments):
+        self.verilator = arguments.verilator
+        self.root = arguments.root
+        self.folder = arguments.build
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.parameters = [f"-G{parameter}" for parameter in arguments.parameter]
+        self.compile = [arguments.compiler, "-std=c++20", "-O1", "-w", f"-I{self.root}", f"-I{self.root}/tests",
+          f"-isystem{arguments.include}", f"-isystem{arguments.include}/vltstd"]
+        self.bench = arguments.bench
+
+    def bench_on(self, name, file, original, replacement):
+        """Exit code of the bench on the logic with `original` in `file` replaced."""
+        folder = self.folder / name
+        folder.mkdir(exist_ok=True)
+        for verilog in VERILOG:
+            text = (self.root / "firmware/rtl" / verilog).read_text()
+            if verilog == file:
+                if text.count(original) != 1:
+                    sys.exit(f"{name}: {file} has '{original}' {text.count(original)} times instead of once")
+                text = text.replace(original, replacement)
+            (folder / verilog).write_text(text)
+        run([self.verilator, "--cc", "--Mdir", folder, "--prefix", PREFIX, "--top-module", "pharos_capture", "-Wno-lint",
+          "--output-split", "0", *self.parameters, *(folder / verilog for verilog in VERILOG)])
+        device = folder / "device.cpp"
+        device.write_text((self.root / "tests/rtl/verilated_device.cpp.in").read_text().replace("@prefix@", PREFIX))
+        program = folder / "bench"
+        run([*self.compile, f"-I{folder}", *sorted(folder.glob(PREFIX + "*.cpp")), device, *self.bench, "-o", program,
+          "-lgtest", "-lgtest_main", "-lpthread"])
+        command = [program, "--gtest_fail_fast", "--gtest_brief=1"]
+        return subprocess.run(command, capture_output=True, timeout=SECONDS, check=False).returncode
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("--verilator", "--compiler", "--include"):
+        parser.add_argument(name, required=True)
+    for name in ("--build", "--root"):
+        parser.add_argument(name, required=True, type=pathlib.Path)
+    parser.add_argument("--parameter", action="append", default=[], help="NAME=VALUE of the Verilog")
+    parser.add_argument("--few", action="store_true")
+    parser.add_argument("bench", nargs="+", help="objects and libraries of the bench, built for these parameters")
+    arguments = parser.parse_args()
+    arguments.build = arguments.build / ("few" if arguments.few else "all")
+    workshop = Workshop(arguments)
+
+    if workshop.bench_on("unharmed", "", "", "") != 0:
+        sys.exit("the bench fails on the logic as it is")
+    chosen = [mutation for mutation in MUTATIONS if not arguments.few or mutation[0] in FEW]
+    alive = []
+    for name, *mutation in chosen:
+        killed = workshop.bench_on(name, *mutation) != 0
+        print(f"{'killed' if killed else 'ALIVE '} {name}", flush=True)
+        alive += [] if killed else [name]
+    print(f"{len(chosen) - len(alive)} of {len(chosen)} mutants killed")
+    return 1 if alive else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Faults to plant in the capture logic: name, file, text that stands there once, what to put in its place."""
+
+FEW = ("full_seen_too_late", "gap_not_marked", "records_counted_not_edges", "falling_edges_dropped")
+
+MUTATIONS = (
+  ("one_flop_synchroniser", "capture_inputs.v", "settled <= sampled;", "settled <= pins;"),
+  ("falling_edges_dropped", "capture_inputs.v", "changed <= taken & watched;", "changed <= taken & watched & settled;"),
+  ("mask_ignored", "capture_inputs.v", "changed <= taken & watched;", "changed <= taken;"),
+  ("filter_one_short", "capture_inputs.v", "remaining == 0", "remaining <= 1"),
+  ("filter_not_rearmed", "capture_inputs.v", "!differs[i] || taken[i]", "!differs[i]"),
+  ("glitch_counted_when_taken", "capture_inputs.v", "|(waiting & ~differs & watched)", "|(waiting & watched)"),
+  ("full_seen_too_late", "capture_fifo.v", "full  = write_index ==", "full  = readable_index =="),
+  ("empty_fifo_popped", "capture_fifo.v", "pop && count != 0", "pop"),
+  ("readable_too_soon", "capture_fifo.v", "readable_index <= write_index;",
+    "readable_index <= write_index + {{ADDRESS_WIDTH{1'b0}}, store};"),
+  ("head_lags_after_pop", "capture_fifo.v", "memory[next_read_index", "memory[read_index"),
+  ("full_fifo_overwritten", "capture_fifo.v", "write && !full", "write"),
+  ("clear_forgets_read_index", "capture_fifo.v", "read_index     <= 0;", "read_index     <= read_index;"),
+  ("gap_not_marked", "capture_losses.v", "if (lose || interrupted) gap", "if (interrupted) gap"),
+  ("gap_never_ends", "capture_losses.v", "else if (any) gap <= 1'b0;", ""),
+  ("lost_counter_wraps", "capture_losses.v", "sum[LOST_WIDTH] ? {LOST_WIDTH{1'b1}} :", ""),
+  ("records_counted_not_edges", "capture_losses.v", "ones(changed)", "6'd1"),
+  ("losses_counted_once", "capture_losses.v", "if (lose) lost", "if (lose && !overflow) lost"),
+  ("overflow_cleared_with_new_loss", "capture_losses.v", "if (lose) overflow", "if (lose && !clear_overflow) overflow"),
+  ("stamp_without_top_bit", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
+    "{gap, 1'b0, ticks[30:0], changed, levels}"),
+  ("stamp_a_tick_late", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
+    "{gap, ticks[31:0] + 32'd1, changed, levels}"),
+  ("changed_and_levels_swapped", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
+    "{gap, ticks[31:0], levels, changed}"),
+  ("time_high_not_latched", "pharos_capture.v", "answer = ticks_high_latched", "answer = ticks[63:32]"),
+  ("interrupt_a_record_late", "pharos_capture.v", "count >= threshold", "count > threshold"),
+  ("pop_without_read", "pharos_capture.v", "bus_read && bus_address == ADDRESS_FIFO_LEVELS",
+    "bus_address == ADDRESS_FIFO_LEVELS"),
+  ("clear_unmarked", "pharos_capture.v", "!enabled || clear_fifo || write_input_enable", "!enabled || write_input_enable"),
+  ("enabling_unmarked", "pharos_capture.v", "!enabled || clear_fifo ||", "clear_fifo ||"),
+  ("empty_fifo_shows_old_record", "pharos_capture.v", "ADDRESS_FIFO_CHANGED: if (some)", "ADDRESS_FIFO_CHANGED:"),
+  ("glitch_counter_wraps", "pharos_capture.v", "glitch && !(&glitches)", "glitch"),
+  ("registers_swapped", "pharos_capture.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"),
+)
