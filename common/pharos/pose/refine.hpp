@@ -15,7 +15,7 @@ struct Fit {
 };
 
 struct RefineLimits {
-  int max_iterations = 20;
+  int max_iterations = 50;
   /// Stop when a step's predicted decrease of r^T r falls below this (rad^2).
   double tolerance = 0.0;
   /// Give up (not converged) when a step shows that r^T r will stay above this.

@@ -75,23 +75,36 @@ struct Minima {
   bool has_second = false;
 };
 
-// Both minima of the rows that take part, from one start. The second is complete only where it matters: within
-// kAmbiguousDeltaChi2 of the first.
 int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
 
-Minima descend(Problem& problem, const LighthouseFromBody& start) {
-  Minima m;
-  m.best = refined(problem, start);
-  const LighthouseFromBody mirrored = mirrored_in_depth(problem.hits.sightings, m.best.pose);
-  m.second = refined(problem, mirrored, m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance);
-  m.has_second = m.second.converged && ahead_of_station(problem.hits.sightings, m.second.pose) &&
-                 !same_minimum(m.best, m.second, problem.variance);
-  if (!m.has_second) return m;
+// The mirror image of the best minimum as its rival; the better of the two first.
+void find_rival(Problem& problem, Minima& m) {
+  const Sightings& sightings = problem.hits.sightings;
+  m.second = refined(problem, mirrored_in_depth(sightings, m.best.pose),
+                     m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance);
+  const bool usable = m.second.converged && ahead_of_station(sightings, m.second.pose);
+  m.has_second = usable && !same_minimum(m.best, m.second, problem.variance);
+  if (!m.has_second) return;
   // Where there is nothing to contradict a pose (three sensors), the one that the start led to comes first.
   const bool second_is_better = freedom_of(problem) > 0 && m.second.normal.cost < m.best.normal.cost;
-  const bool first_is_behind = !ahead_of_station(problem.hits.sightings, m.best.pose);
-  if (second_is_better || first_is_behind) std::swap(m.best, m.second);
-  m.has_second = !first_is_behind && problem.options.look_for_second;
+  const bool first_is_usable = m.best.converged && ahead_of_station(sightings, m.best.pose);
+  if (second_is_better || !first_is_usable) std::swap(m.best, m.second);
+  m.has_second = first_is_usable;
+}
+
+// Both minima of the rows that take part, from one start. The second is complete only where it matters: within
+// kAmbiguousDeltaChi2 of the first.
+Minima descend(Problem& problem, const LighthouseFromBody& start) {
+  constexpr int kRounds = 3;
+  Minima m;
+  m.best = refined(problem, start);
+  for (int round = 0; round < kRounds; ++round) {
+    const double cost_before = m.best.normal.cost;
+    find_rival(problem, m);
+    // Where the start led to no valley of the pair, the better one's own mirror image is still to be seen.
+    if (!(m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance < cost_before)) break;
+  }
+  m.has_second = m.has_second && problem.options.look_for_second;
   return m;
 }
 

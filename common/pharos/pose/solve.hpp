@@ -23,7 +23,7 @@ struct SolveOptions {
   double rho = 0.0;                   // correlation between sensors of one rotor, (19)
   Start start = Start::kAuto;
   Residual residual = Residual::kAngle;
-  int max_iterations = 20;
+  int max_iterations = 50;  // about 4 are taken; straight on to a plane some need 30
   bool look_for_second = true;
   /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped
   /// first.
