@@ -20,9 +20,7 @@ class RealEdges : public testing::TestWithParam<const char*> {};
 TEST_P(RealEdges, AllPassThroughTheBlockToTheTick) {
   PHAROS_NEEDS_RECORDINGS();
   auto pulses = test::recorded_pulses(GetParam());
-  std::vector<std::int64_t> rises;
-  for (const auto& pulse : pulses) rises.push_back(pulse.rise_ticks);
-  const std::int64_t start = *std::ranges::min_element(rises);
+  const std::int64_t start = std::ranges::min_element(pulses, {}, &lighthouse::RawPulse::rise_ticks)->rise_ticks;
   std::erase_if(pulses, [&](const lighthouse::RawPulse& pulse) {
     return pulse.rise_ticks < start + kFrom || pulse.rise_ticks >= start + kTo;
   });

@@ -48,8 +48,9 @@ std::vector<RawPulse> some_pulses(std::int64_t start, int count) {
   return pulses;
 }
 
-std::vector<std::tuple<std::int64_t, std::int64_t, int>> expected(std::vector<RawPulse> pulses) {
+std::vector<std::tuple<std::int64_t, std::int64_t, int>> expected(const std::vector<RawPulse>& pulses) {
   std::vector<std::tuple<std::int64_t, std::int64_t, int>> result;
+  result.reserve(pulses.size());
   for (const RawPulse& pulse : pulses) result.emplace_back(pulse.rise_ticks, pulse.fall_ticks, pulse.sensor);
   return result;
 }
@@ -82,6 +83,7 @@ TEST(EdgesPlayer, SkippingIdleTicksChangesNoWord) {
 
 TEST(EdgesPlayer, ASlowReaderLosesEdgesWhichAreCountedAndMarked) {
   std::vector<RawPulse> pulses;
+  pulses.reserve(2'000);
   for (int i = 0; i < 2'000; ++i) pulses.push_back({i * 20, i * 20 + 10, 0});
   const PlayedEdges played = play_edges(pulses, {.service_ticks = 100});
   std::size_t recorded = 0;

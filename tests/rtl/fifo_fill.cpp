@@ -20,7 +20,7 @@ std::vector<std::int64_t> record_ticks(std::span<const lighthouse::RawPulse> pul
     ticks.push_back(pulse.fall_ticks);
   }
   std::ranges::sort(ticks);
-  ticks.erase(std::ranges::unique(ticks).begin(), ticks.end());
+  ticks.erase(std::unique(ticks.begin(), ticks.end()), ticks.end());
   return ticks;
 }
 

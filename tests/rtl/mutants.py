@@ -31,7 +31,7 @@ class Workshop:
         self.folder = arguments.build
         self.folder.mkdir(parents=True, exist_ok=True)
         self.parameters = [f"-G{parameter}" for parameter in arguments.parameter]
-        self.compile = [arguments.compiler, "-std=c++20", "-O1", "-w", f"-I{self.root}", f"-I{self.root}/tests",
+        self.compile = [arguments.compiler, "-std=c++20", "-O0", "-w", f"-I{self.root}", f"-I{self.root}/tests",
           f"-isystem{arguments.include}", f"-isystem{arguments.include}/vltstd"]
         self.bench = arguments.bench
 
@@ -54,7 +54,10 @@ class Workshop:
         run([*self.compile, f"-I{folder}", *sorted(folder.glob(PREFIX + "*.cpp")), device, *self.bench, "-o", program,
           "-lgtest", "-lgtest_main", "-lpthread"])
         command = [program, "--gtest_fail_fast", "--gtest_brief=1"]
-        return subprocess.run(command, capture_output=True, timeout=SECONDS, check=False).returncode
+        try:
+            return subprocess.run(command, capture_output=True, timeout=SECONDS, check=False).returncode
+        except subprocess.TimeoutExpired:
+            return "never ended"
 
 
 def main():
