@@ -22,6 +22,19 @@ std::string version_text(const wire::Hello& hello) {
          std::to_string(hello.firmware_patch);
 }
 
+ReportedBearing reported(const track::TrackedBearing& bearing, std::int64_t cycle_ticks) {
+  ReportedBearing report;
+  report.sensor = bearing.raw.sensor;
+  report.axis = bearing.axis;
+  report.width_ticks = bearing.raw.width_ticks;
+  report.offset_ns = ticks_to_nanoseconds(bearing.raw.time_ticks - cycle_ticks);
+  report.raw_theta_rad = bearing.raw.theta_rad;
+  report.ideal_theta_rad = bearing.ideal_theta_rad;
+  report.used = bearing.used;
+  report.residual_rad = bearing.used ? bearing.residual_rad : 0.0;
+  return report;
+}
+
 }  // namespace
 
 TargetLine::TargetLine(const TargetConfig& config, const PublishConfig& publish, const std::string& source,
@@ -33,7 +46,6 @@ TargetLine::TargetLine(const TargetConfig& config, const PublishConfig& publish,
       publisher_(publisher),
       memory_(memory),
       tracker_(config.target, config.track),
-      bearings_(config.target, config.track),
       line_baud_(line_baud) {
   if (!config_.remember_calibrations) return;
   for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
@@ -76,7 +88,6 @@ void TargetLine::restart(const char* why) {
   ++counters_.target_restarts;
   clock_.restart();
   tracker_ = track::EpochTracker(config_.target, config_.track);
-  bearings_ = CycleBearings(config_.target, config_.track);
   calibrations_.forget_stations();
   any_ticks_ = false;
 }
@@ -84,14 +95,13 @@ void TargetLine::restart(const char* why) {
 void TargetLine::line_lost() {
   link_.restart();
   tracker_ = track::EpochTracker(config_.target, config_.track);
-  bearings_ = CycleBearings(config_.target, config_.track);
   for (std::uint8_t station = 0; station < kMaxStations; ++station) {
     if (const auto* calibration = calibrations_.in_use(station)) tracker_.set_calibration(station, *calibration);
   }
 }
 
 void TargetLine::end_of_input() {
-  while (const auto result = tracker_.flush()) answer(*result, std::nullopt);
+  while (const auto result = tracker_.flush()) answer(*result);
 }
 
 void TargetLine::take(const lighthouse::Sweep& sweep) {
@@ -101,9 +111,7 @@ void TargetLine::take(const lighthouse::Sweep& sweep) {
     return;
   }
   last_sweep_ns_ = arrival_.monotonic_ns;
-  const auto result = tracker_.push(sweep);
-  const auto cycle = publish_.bearings ? bearings_.push(sweep) : std::nullopt;
-  if (result) answer(*result, cycle);
+  if (const auto result = tracker_.push(sweep)) answer(*result);
 }
 
 void TargetLine::take(const lighthouse::OotxPayload& payload) {
@@ -187,7 +195,7 @@ std::optional<CycleReport> TargetLine::timed_report(std::uint8_t station, std::i
   return report;
 }
 
-void TargetLine::answer(const track::EpochResult& result, const std::optional<track::Cycle>& cycle) {
+void TargetLine::answer(const track::EpochResult& result) {
   count_answer(result.pose);
   if (result.pose && !(result.pose->pose.is_finite() && result.pose->covariance.allFinite())) {
     ++counters_.cycles_not_finite;
@@ -203,8 +211,10 @@ void TargetLine::answer(const track::EpochResult& result, const std::optional<tr
     last_pose_ns_ = arrival_.monotonic_ns;
     latency_.add(monotonic_now_ns() - push_began_ns_);
   }
-  if (!cycle) return;
-  report->bearings = bearings_.report(*cycle, calibrations_.in_use(result.station), result, tracker_.residuals());
+  if (!publish_.bearings) return;
+  for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) {
+    report->bearings.push_back(reported(tracker_.bearing(i), result.time_ticks));
+  }
   publisher_.publish_bearings(*report);
 }
 

@@ -9,7 +9,6 @@
 #include "host/clock/clock_map.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
-#include "host/daemon/cycle_bearings.hpp"
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/line_counters.hpp"
 #include "host/publish/publisher.hpp"
@@ -73,7 +72,7 @@ class TargetLine {
 
   void watch_clock(const report::LinkEvent& event);
   void restart(const char* why);
-  void answer(const track::EpochResult& result, const std::optional<track::Cycle>& cycle);
+  void answer(const track::EpochResult& result);
   std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
   void warn_of_foreign_version();
@@ -91,7 +90,6 @@ class TargetLine {
   ClockMap clock_;
   lighthouse::CalibrationStore calibrations_;
   track::EpochTracker tracker_;
-  CycleBearings bearings_;
   int line_baud_ = 0;
   Arrival arrival_;
   std::int64_t push_began_ns_ = 0;  // this computer's monotonic time now, also in a replay

@@ -5,15 +5,13 @@
 
 namespace pharos::tools {
 
-void ResidualTable::push(std::uint8_t station, const track::BearingResiduals& residuals) {
-  for (const track::BearingResidual& residual : residuals) {
-    if (station >= kMaxStations || residual.sensor >= kMaxSensors) continue;
-    Cell& cell = cells_[station][static_cast<std::size_t>(index_of(residual.axis))][residual.sensor];
-    if (residual.used) {
-      cell.used.push(residual.residual_rad);
-    } else {
-      ++cell.left_out;
-    }
+void ResidualTable::push(std::uint8_t station, const track::TrackedBearing& bearing) {
+  if (station >= kMaxStations || bearing.raw.sensor >= kMaxSensors) return;
+  Cell& cell = cells_[station][static_cast<std::size_t>(index_of(bearing.axis))][bearing.raw.sensor];
+  if (bearing.used) {
+    cell.used.push(bearing.residual_rad);
+  } else {
+    ++cell.left_out;
   }
 }
 

@@ -41,7 +41,8 @@ class RunningMoments {
 /// that is not its own shows as a mean.
 class ResidualTable {
  public:
-  void push(std::uint8_t station, const track::BearingResiduals& residuals);
+  /// One bearing of a cycle that was answered with a pose.
+  void push(std::uint8_t station, const track::TrackedBearing& bearing);
   /// One row a station, axis and sensor: `station,axis,sensor,used,left_out,mean_arcsec,sd_arcsec,rms_arcsec`.
   void write(const OutputOptions& options) const;
 

@@ -120,7 +120,7 @@ class Tracking {
     if ((result.flags & track::kEpochUncalibrated) != 0) ++uncalibrated_;
     if (!result.pose) return;
     ++poses_;
-    residuals_.push(result.station, tracker_.residuals());
+    for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) residuals_.push(result.station, tracker_.bearing(i));
   }
 
   CalibrationChoice calibration_;

@@ -23,7 +23,7 @@ std::int64_t mean_ticks(const IdealObservations& ideal, std::int64_t fallback_ti
   std::int64_t count = 0;
   for (std::size_t i = 0; i < ideal.observations.size(); ++i) {
     if (!use(i)) continue;
-    sum += ideal.centre_ticks[i] - fallback_ticks;
+    sum += ideal.raw[i].time_ticks - fallback_ticks;
     ++count;
   }
   return count == 0 ? fallback_ticks : fallback_ticks + sum / count;
@@ -64,52 +64,52 @@ const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const
   return age_s >= 0.0 && age_s < options_.prior_max_age_s ? &*station.last_pose : nullptr;
 }
 
-Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, const Cycle& cycle,
-                                                          IdealObservations& ideal, EpochResult& result) const {
+Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result) {
   const lighthouse::StationCalibration* calibration = station.calibration ? &*station.calibration : nullptr;
   const LighthouseFromBody* last = fresh_pose(station, cycle);
-  ideal = ideal_observations(cycle, target_, calibration, options_.form, nullptr);
-  auto solution = pose::solve(target_, ideal.observations, options_.solve, options_.warm_start ? last : nullptr);
+  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, nullptr);
+  auto solution = pose::solve(target_, ideal_.observations, options_.solve, options_.warm_start ? last : nullptr);
   if (!solution && solution.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
-    solution = pose::solve(target_, ideal.observations, options_.solve, last);
+    solution = pose::solve(target_, ideal_.observations, options_.solve, last);
     if (solution) result.flags |= kEpochPrior;
   }
-  if (!solution || !ideal.guessed) return solution;
+  if (!solution || !ideal_.guessed) return solution;
   // The first pose tells the angle across, which single hits were corrected without.
   const LighthouseFromBody first = solution->estimate.pose;
-  ideal = ideal_observations(cycle, target_, calibration, options_.form, &first);
-  return pose::solve(target_, ideal.observations, options_.solve, &first);
+  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, &first);
+  return pose::solve(target_, ideal_.observations, options_.solve, &first);
 }
 
-void EpochTracker::keep_residuals(const pose::Solution& solution, const IdealObservations& ideal) {
-  residuals_.clear();
-  for (std::size_t i = 0; i < ideal.observations.size(); ++i) {
-    const pose::Observation& observation = ideal.observations[i];
-    const SensorPlacement* sensor = find_sensor(target_, observation.sensor);
-    if (sensor == nullptr) continue;
-    const double predicted = lighthouse::ideal_thetas(solution.estimate.pose * sensor->position_m)[observation.axis];
-    residuals_.push_back({observation.sensor, observation.axis, solution.used[i], observation.theta_rad - predicted});
+TrackedBearing EpochTracker::bearing(std::size_t index) const {
+  const pose::Observation& observation = ideal_.observations[index];
+  TrackedBearing tracked{ideal_.raw[index], observation.axis, observation.theta_rad, used_[index], 0.0};
+  const SensorPlacement* sensor = find_sensor(target_, observation.sensor);
+  if (answered_pose_ && sensor != nullptr) {
+    const lighthouse::ThetaPair predicted = lighthouse::ideal_thetas(*answered_pose_ * sensor->position_m);
+    tracked.residual_rad = observation.theta_rad - predicted[observation.axis];
   }
+  return tracked;
 }
 
 EpochResult EpochTracker::answer(Station& station, const Cycle& cycle) {
   EpochResult result;
   result.station = cycle.station;
   result.flags = flags_of(cycle, station.calibration.has_value());
-  IdealObservations ideal;
-  const auto solution = solve(station, cycle, ideal, result);
-  if (ideal.left_out > 0) result.flags |= kEpochOutliers;
+  const auto solution = solve(station, cycle, result);
+  if (ideal_.left_out > 0) result.flags |= kEpochOutliers;
+  used_.reset();
+  answered_pose_.reset();
   if (!solution) {
-    residuals_.clear();
-    result.observations = static_cast<int>(ideal.observations.size());
-    result.time_ticks = mean_ticks(ideal, cycle.last_flash_ticks, [](std::size_t) { return true; });
+    result.observations = static_cast<int>(ideal_.observations.size());
+    result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [](std::size_t) { return true; });
     result.pose = solution.error();
     return result;
   }
-  keep_residuals(*solution, ideal);
-  if (solution->used.count() < ideal.observations.size()) result.flags |= kEpochOutliers;
+  used_ = solution->used;
+  answered_pose_ = solution->estimate.pose;
+  if (used_.count() < ideal_.observations.size()) result.flags |= kEpochOutliers;
   result.observations = solution->estimate.observations;
-  result.time_ticks = mean_ticks(ideal, cycle.last_flash_ticks, [&](std::size_t i) { return solution->used[i]; });
+  result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
   LighthousePoseEstimate estimate = solution->estimate;
   estimate.time_ns = ticks_to_nanoseconds(result.time_ticks);
   station.last_pose = estimate.pose;

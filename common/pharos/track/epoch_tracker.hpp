@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 
@@ -46,19 +47,19 @@ struct EpochResult {
   Result<LighthousePoseEstimate, pose::Refusal> pose = pose::Refusal::kTooFewSensors;
 };
 
-/// What was left of one bearing of the last cycle: observed minus predicted, rad.
-struct BearingResidual {
-  std::uint8_t sensor = 0;
+/// One bearing of the cycle last answered, and what the solver made of it.
+struct TrackedBearing {
+  lighthouse::Bearing raw;  // as the rotor showed it
   Axis axis = Axis::kX;
+  double ideal_theta_rad = 0.0;  // with the station's errors taken out
   bool used = false;
-  double residual_rad = 0.0;
+  double residual_rad = 0.0;  // ideal minus predicted; 0 where there is no pose or the target has no such sensor
 };
-using BearingResiduals = StaticVector<BearingResidual, pose::kMaxObservations>;
 
 /// Sweeps of one target in, one answer a station and cycle out: each cycle is solved alone, as in paper 002
 /// (section 2.3), as if all its hits had happened at once. Up to two stations side by side, each in its own frame.
 ///
-/// Holds about 12 KiB. One push costs one solve at the most (two where a sensor was hit on one axis only or twice).
+/// Holds about 14 KiB. One push costs one solve at the most (two where a sensor was hit on one axis only or twice).
 class EpochTracker {
  public:
   EpochTracker(const Target& target, const TrackOptions& options);
@@ -69,8 +70,9 @@ class EpochTracker {
   std::optional<EpochResult> push(const lighthouse::Sweep& sweep);
   /// End of the input: the cycle still held back, if any (call until empty).
   std::optional<EpochResult> flush();
-  /// Residuals of the cycle last answered with a pose, hit by hit; empty when it was refused.
-  const BearingResiduals& residuals() const { return residuals_; }
+  /// The bearings of the cycle last answered, hit by hit, refused ones too.
+  std::size_t bearing_count() const { return ideal_.observations.size(); }
+  TrackedBearing bearing(std::size_t index) const;
 
  private:
   struct Station {
@@ -82,15 +84,16 @@ class EpochTracker {
   };
 
   EpochResult answer(Station& station, const Cycle& cycle);
-  Result<pose::Solution, pose::Refusal> solve(Station& station, const Cycle& cycle, IdealObservations& ideal,
-                                              EpochResult& result) const;
+  Result<pose::Solution, pose::Refusal> solve(Station& station, const Cycle& cycle, EpochResult& result);
   const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle) const;
-  void keep_residuals(const pose::Solution& solution, const IdealObservations& ideal);
 
   Target target_;
   TrackOptions options_;
   std::array<Station, kMaxStations> stations_;
-  BearingResiduals residuals_;
+  // The cycle last answered.
+  IdealObservations ideal_;
+  std::bitset<pose::kMaxObservations> used_;
+  std::optional<LighthouseFromBody> answered_pose_;
 };
 
 }  // namespace pharos::track

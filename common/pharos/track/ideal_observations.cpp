@@ -85,7 +85,7 @@ IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
         ++result.left_out;
         continue;
       }
-      result.centre_ticks[result.observations.size()] = bearing.time_ticks;
+      result.raw[result.observations.size()] = bearing;
       result.observations.push_back({bearing.sensor, axis, *theta});
     }
   }

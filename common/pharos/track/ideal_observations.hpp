@@ -12,7 +12,7 @@ namespace pharos::track {
 /// A cycle's bearings as the solver takes them, and for each where it came from.
 struct IdealObservations {
   pose::Observations observations;
-  std::array<std::int64_t, pose::kMaxObservations> centre_ticks{};  // instant of the hit, by observation
+  std::array<lighthouse::Bearing, pose::kMaxObservations> raw{};  // what each observation was made of
   /// Some bearing was corrected with a guess of its sensor's other angle (only one axis hit, or several candidates):
   /// worth correcting again once a pose is known.
   bool guessed = false;

@@ -82,7 +82,13 @@ TEST(EpochTracker, AnswersACycleWithItsPoseAtTheMeanHitTime) {
   // Hits lie about a quarter turn after their flashes; the mean of both sweeps half a turn apart.
   EXPECT_NEAR(static_cast<double>(result->time_ticks), 1'000'000 + kTurn / 4 + kTurn / 4, kTurn * 0.05);
   EXPECT_EQ(result->pose->time_ns, result->time_ticks * kNanosecondsPerTick);
-  EXPECT_EQ(tracker.residuals().size(), 16u);
+  ASSERT_EQ(tracker.bearing_count(), 16u);
+  for (std::size_t i = 0; i < tracker.bearing_count(); ++i) {
+    EXPECT_TRUE(tracker.bearing(i).used);
+    // Half a tick and the fit's own freedom: below 2 ticks (15 urad); the station's phases alone are 16 and 38 mrad.
+    EXPECT_LT(std::abs(tracker.bearing(i).residual_rad), 15e-6);
+    EXPECT_GT(std::abs(tracker.bearing(i).ideal_theta_rad - tracker.bearing(i).raw.theta_rad), 5e-3);
+  }
 }
 
 TEST(EpochTracker, SaysWhenNoCalibrationIsKnownAndThenMeasuresWrong) {

@@ -23,13 +23,19 @@ TEST(RunningMoments, AgreeWithTheirDefinition) {
 }
 
 TEST(ResidualTable, ShowsEachSensorOfEachAxisAndStation) {
-  track::BearingResiduals residuals;
-  residuals.push_back({3, Axis::kY, true, 10.0 * kRadPerArcsec});
-  residuals.push_back({5, Axis::kY, false, 900.0 * kRadPerArcsec});
+  const auto bearing = [](std::uint8_t sensor, bool used, double residual_arcsec) {
+    track::TrackedBearing made;
+    made.raw.sensor = sensor;
+    made.axis = Axis::kY;
+    made.used = used;
+    made.residual_rad = residual_arcsec * kRadPerArcsec;
+    return made;
+  };
   ResidualTable table;
-  table.push(1, residuals);
-  residuals[0].residual_rad = 14.0 * kRadPerArcsec;
-  table.push(1, residuals);
+  table.push(1, bearing(3, true, 10.0));
+  table.push(1, bearing(5, false, 900.0));
+  table.push(1, bearing(3, true, 14.0));
+  table.push(1, bearing(5, false, 900.0));
   const std::string path = ::testing::TempDir() + "pharos_residual_table.csv";
   table.write({false, path});
   std::ifstream file(path);
