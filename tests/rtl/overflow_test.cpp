@@ -56,14 +56,15 @@ TEST(Overflow, FarBeyondLeavesTheOldestRecordsWhole) {
   }
 }
 
+#if PHAROS_RTL_LOST_WIDTH <= 16  // a wider counter is not filled in a test
 TEST(Overflow, StopsCountingAtItsLargestNumberInsteadOfStartingAnew) {
   CaptureRig rig;
-  if (rig.build().lost_width > 16) GTEST_SKIP() << "skipped: a counter this wide is not filled in a test";
   rig.enable();
   toggle(rig, rig.build().depth + most_lost(rig) + 40);
   rig.ticks(kSettle);
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), most_lost(rig));
 }
+#endif
 
 TEST(Overflow, MarksTheRecordBehindTheGapAndItsLevelsAreTrue) {
   CaptureRig rig;
