@@ -23,7 +23,8 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
     "Each row is T_lighthouse_body of one cycle of one station; time_s is the mean time of the hits used.\n"
-    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor.";
+    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, residual_high\n"
+    "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
 
 struct Options {
   std::string edges;

@@ -8,15 +8,6 @@
 
 namespace pharos::tools {
 
-/// A bit of a set of flags and the word that tables have for it.
-struct FlagWord {
-  unsigned bit = 0;
-  const char* word = "";
-};
-
-/// The words of the bits set, joined by `|`.
-std::string joined_flags(unsigned flags, std::span<const FlagWord> words);
-
 /// Words for lighthouse::SweepFlag and track::EpochFlag.
 std::string sweep_flag_words(unsigned flags);
 std::string epoch_flag_words(unsigned flags);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "pharos/base/axis.hpp"
 #include "pharos/base/capacity.hpp"
+#include "pharos/base/flag_word.hpp"
 #include "pharos/base/static_vector.hpp"
 
 namespace pharos::lighthouse {
@@ -29,6 +31,12 @@ enum SweepFlag : std::uint8_t {
   kSweepFlashWeak = 2,      // only weak sensors saw the flash: its time zero was put back by an estimate
   kSweepLockPoor = 4,       // the slot sequence has recent gaps
 };
+
+inline constexpr std::array<FlagWord, 3> kSweepFlagWords{{
+    {kSweepPeriodNominal, "period_nominal"},
+    {kSweepFlashWeak, "flash_weak"},
+    {kSweepLockPoor, "lock_poor"},
+}};
 
 /// One laser hit of one sensor. A sensor may have several in one sweep (reflections): all are kept.
 struct Hit {

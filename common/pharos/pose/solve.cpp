@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/pose/solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pharos/pose/covariance.hpp"
@@ -119,6 +120,15 @@ Refusal too_few(const Problem& problem, bool prior) {
   return problem.hits.strangers ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
 }
 
+// Whether enough hits confirm a pose that contradicts some: with one or two hits more than unknowns, some wrong choice
+// of hits fits by chance (four sensors, one true hit replaced by a reflection: 1 in 6; six, four replaced: 1 in 25),
+// and each two hits more that are left out make as many more choices as one confirming hit rules out.
+bool confirmed(const Problem& problem) {
+  constexpr int kLeastFreedom = 3;
+  const int left_out = problem.hits.places() - problem.hits.sightings.rows();
+  return left_out == 0 || freedom_of(problem) >= std::max(kLeastFreedom, (left_out + 1) / 2);
+}
+
 Refusal verdict(const Problem& problem, const Fit& fit) {
   const int freedom = freedom_of(problem);
   if (!fit.pose.is_finite() || !std::isfinite(fit.normal.cost)) return Refusal::kNotConverged;
@@ -184,7 +194,7 @@ Result<Solution, Refusal> solve(const Target& target, const Observations& observ
     if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
     LighthouseFromBody start;
     if (!fit_rigid_body(problem.hits, starts, options, start)) return Refusal::kNotConverged;
-    if (too_few(problem, prior != nullptr) != Refusal::kNone) return Refusal::kPoorFit;
+    if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return Refusal::kPoorFit;
     minima = descend(problem, start);
   }
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;

@@ -37,7 +37,7 @@ enum class Refusal : std::uint8_t {
   kUnknownSensors,  // bearings of sensors that the target has not
   kDegenerate,      // the sensors seen leave a degree of freedom open
   kNotConverged,
-  kPoorFit,        // nothing rigid fits the bearings
+  kPoorFit,        // nothing rigid fits the bearings, or too few of them confirm what does
   kBehindStation,  // the only fit lies behind the station
   kBadInput,       // a bearing outside (0, pi) or not finite
 };

@@ -3,6 +3,7 @@
 
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/station_model.hpp"
+#include "pharos/pose/place_residuals.hpp"
 
 namespace pharos::track {
 namespace {
@@ -27,6 +28,12 @@ std::int64_t mean_ticks(const IdealObservations& ideal, std::int64_t fallback_ti
     ++count;
   }
   return count == 0 ? fallback_ticks : fallback_ticks + sum / count;
+}
+
+bool residual_credible(const LighthousePoseEstimate& estimate, double sigma_rad) {
+  const double ratio = estimate.residual_rms / sigma_rad;
+  const int freedom = estimate.observations - pose::kPoseUnknowns;
+  return ratio * ratio * estimate.observations <= pose::credible_chi2(freedom);
 }
 
 }  // namespace
@@ -108,6 +115,7 @@ EpochResult EpochTracker::answer(Station& station, const Cycle& cycle) {
   used_ = solution->used;
   answered_pose_ = solution->estimate.pose;
   if (used_.count() < ideal_.observations.size()) result.flags |= kEpochOutliers;
+  if (!residual_credible(solution->estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
   result.observations = solution->estimate.observations;
   result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
   LighthousePoseEstimate estimate = solution->estimate;

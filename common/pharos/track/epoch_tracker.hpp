@@ -36,7 +36,17 @@ enum EpochFlag : std::uint8_t {
   kEpochOutliers = 8,       // hits were left out (reflections, or they fit no rigid body)
   kEpochPrior = 16,         // could only be solved with the last pose as prior
   kEpochLockPoor = 32,      // as in Sweep
+  kEpochResidualHigh = 64,  // the residual is beyond what the assumed noise explains: sigmas and ambiguity are too kind
 };
+inline constexpr std::array<FlagWord, 7> kEpochFlagWords{{
+    {kEpochUncalibrated, "uncalibrated"},
+    {kEpochFlashWeak, "flash_weak"},
+    {kEpochPeriodNominal, "period_nominal"},
+    {kEpochOutliers, "outliers"},
+    {kEpochPrior, "prior"},
+    {kEpochLockPoor, "lock_poor"},
+    {kEpochResidualHigh, "residual_high"},
+}};
 
 /// One cycle of one station (its x and its y sweep): a pose, or why there is none.
 struct EpochResult {

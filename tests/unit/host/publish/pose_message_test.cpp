@@ -113,7 +113,7 @@ TEST(PoseMessage, TimesBeforeTheEpochRoundDownToo) {
 
 TEST(Words, EveryFlagHasItsWord) {
   EXPECT_EQ(flag_words(0), "");
-  EXPECT_EQ(flag_words(0x3F), "uncalibrated|flash_weak|period_nominal|outliers|prior|lock_poor");
+  EXPECT_EQ(flag_words(0x7F), "uncalibrated|flash_weak|period_nominal|outliers|prior|lock_poor|residual_high");
 }
 
 }  // namespace

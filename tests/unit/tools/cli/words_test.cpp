@@ -20,7 +20,7 @@ TEST(Words, JoinFlagsWithBars) {
 
 TEST(Words, HaveOneForEveryFlag) {
   for (unsigned bit = 1; bit <= lighthouse::kSweepLockPoor; bit <<= 1) EXPECT_NE(sweep_flag_words(bit), "") << bit;
-  for (unsigned bit = 1; bit <= track::kEpochLockPoor; bit <<= 1) EXPECT_NE(epoch_flag_words(bit), "") << bit;
+  for (unsigned bit = 1; bit <= track::kEpochResidualHigh; bit <<= 1) EXPECT_NE(epoch_flag_words(bit), "") << bit;
 }
 
 TEST(Words, PrintStationIdsAsTheyStandOnTheStation) {
