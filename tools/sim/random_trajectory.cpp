@@ -81,8 +81,9 @@ class ManoeuvreTrajectory final : public Trajectory {
   double greatest(double duration_s, Distance distance) const {
     double top = 0.0;
     RoomFromBody before = at(0.0);
-    for (double time = kSampleStep_s; time <= duration_s; time += kSampleStep_s) {
-      const RoomFromBody now = at(time);
+    const auto samples = static_cast<int>(duration_s / kSampleStep_s);
+    for (int sample = 1; sample <= samples; ++sample) {
+      const RoomFromBody now = at(sample * kSampleStep_s);
       top = std::max(top, distance(before, now) / kSampleStep_s);
       before = now;
     }

@@ -105,7 +105,7 @@ int play(const Options& options) {
   serial.wait_for_reader = !options.free_running;
   std::optional<sim::PseudoTerminal> line;
   // The truth file is there before the port is, so that whoever waits for the port finds both.
-  std::ofstream(options.truth.empty() ? "/dev/null" : options.truth);
+  if (!options.truth.empty()) std::ofstream(options.truth).flush();
   line.emplace(options.link);
   std::cout << line->path() << std::endl;
   sim::SerialPlayer player(*material.feed, material.clock, target, *line, serial, std::move(truth));
