@@ -44,12 +44,12 @@ struct Options {
 class Smoothers {
  public:
   lighthouse::SweepBearings bearings(const lighthouse::Sweep& sweep) {
-    const auto rotor = static_cast<std::size_t>(sweep.flash.station * kAxes + index_of(sweep.flash.axis));
-    return lighthouse::bearings_of(sweep, smoother_[rotor].push(sweep));
+    const auto axis = static_cast<std::size_t>(index_of(sweep.flash.axis));
+    return lighthouse::bearings_of(sweep, smoother_[sweep.flash.station][axis].push(sweep));
   }
 
  private:
-  std::array<lighthouse::FlashSmoother, kMaxStations * kAxes> smoother_;
+  std::array<std::array<lighthouse::FlashSmoother, kAxes>, kMaxStations> smoother_;
 };
 
 std::bitset<256> sensors_hit_twice(const lighthouse::SweepBearings& bearings) {

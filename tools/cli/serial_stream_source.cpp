@@ -30,7 +30,7 @@ class SerialStreamSource final : public RecordingSource {
       }
     }
     if (ready_.empty()) return std::nullopt;
-    RecordingEvent event = std::move(ready_.front());
+    const RecordingEvent event = ready_.front();
     ready_.pop_front();
     return event;
   }

@@ -66,7 +66,11 @@ int RandomStream::poisson(double mean) {
   if (mean <= 0.0) return 0;
   const double limit = std::exp(-mean);
   int count = 0;
-  for (double product = uniform(); product > limit; product *= uniform()) ++count;
+  double product = uniform();
+  while (product > limit) {
+    product *= uniform();
+    ++count;
+  }
   return count;
 }
 

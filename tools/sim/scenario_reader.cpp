@@ -74,6 +74,7 @@ std::vector<StationScenario> read_stations(const TomlTable& root) {
   if (tables.size() > 2) root.fail("station", "one or two stations, not " + std::to_string(tables.size()));
   if (tables.empty()) return {read_station(root.table_or_empty("station"), 0, 1)};
   std::vector<StationScenario> stations;
+  stations.reserve(tables.size());
   for (const TomlTable& table : tables) stations.push_back(read_station(table, stations.size(), tables.size()));
   if (stations.size() == 2) {
     if (stations[0].mode != StationMode::kB) tables[0].fail("mode", "the first of two stations must be in mode B");

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/serial_player.hpp"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <ctime>
 
 #include "host/support/input_error.hpp"
