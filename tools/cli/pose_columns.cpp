@@ -18,6 +18,7 @@ std::vector<std::string> with_pose_columns(std::vector<std::string> first, const
 
 std::vector<std::string> second_solution_columns() {
   std::vector<std::string> columns;
+  columns.reserve(kPoseColumns.size() + 1);
   for (const char* column : kPoseColumns) columns.push_back(std::string("alt_") + column);
   columns.emplace_back("delta_chi2");
   return columns;

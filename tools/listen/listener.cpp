@@ -28,12 +28,12 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.source = message.source;
   pose.target = message.target;
   pose.station_id = message.station_or_camera;
-  pose.station = message.station;
+  pose.station = static_cast<std::uint8_t>(message.station);
   pose.status = message.status;
   pose.flags = message.flags;
   pose.sigma_rot_rad = message.sigma_rot_rad;
   pose.sigma_pos_m = message.sigma_pos_m;
-  pose.age_s = static_cast<double>(utc_ns / 1000 - message.utime) * 1e-6;
+  pose.age_s = static_cast<double>(utc_ns) * 1e-9 - static_cast<double>(message.utime) * 1e-6;
   if (message.valid == 0) return pose;
   const Quaternion q(message.orientation_wxyz[0], message.orientation_wxyz[1], message.orientation_wxyz[2],
                      message.orientation_wxyz[3]);
