@@ -10,7 +10,6 @@
 namespace pharos::wire {
 namespace {
 
-constexpr std::uint8_t kDelimiter = 0;
 /// A larger jump is a sender that restarted, not a loss: at 250 frames/s this many are 16 s of silence.
 constexpr std::uint16_t kLargestCredibleGap = 4096;
 /// A number this little behind the last one is a frame that came twice or too late, not a restart.
@@ -20,7 +19,7 @@ constexpr std::uint16_t kReplayWindow = 64;
 
 std::optional<Frame> FrameDecoder::push(std::uint8_t byte) {
   ++counters_.bytes;
-  if (byte == kDelimiter) return finish_frame();
+  if (byte == kFrameBorder) return finish_frame();
   if (size_ < buffer_.size()) buffer_[size_] = byte;
   ++size_;
   return std::nullopt;
@@ -30,6 +29,7 @@ void FrameDecoder::restart() {
   counters_.garbage_bytes += size_;
   size_ = 0;
   mid_frame_ = true;
+  reopened_ = true;
 }
 
 void FrameDecoder::drop(std::uint64_t& cause, std::size_t bytes_on_line) {
@@ -93,11 +93,13 @@ bool FrameDecoder::check_sequence(const Frame& frame, std::uint32_t crc) {
   const auto behind = static_cast<std::uint16_t>(last_sequence_ - frame.sequence);
   const bool same_again = frame.sequence == last_sequence_ && crc == last_crc_;
   const bool greeting = frame.type == MessageType::kHello && frame.sequence == 0 && !same_again;
-  if (!first && !greeting && behind < kReplayWindow) {
+  // Behind a gap in the line stands another start as likely as a frame come twice.
+  if (!first && !greeting && !reopened_ && behind < kReplayWindow) {
     ++counters_.repeated;
     return false;
   }
   any_frame_ = true;
+  reopened_ = false;
   last_sequence_ = frame.sequence;
   last_crc_ = crc;
   if (first || gap == 0) return true;

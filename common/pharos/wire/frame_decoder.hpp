@@ -40,6 +40,7 @@ class FrameDecoder {
   std::size_t size_ = 0;   // stuffed bytes since the last border; more than the buffer holds means too long
   bool mid_frame_ = true;  // no border seen yet: the first bytes may be the rest of a frame
   bool any_frame_ = false;
+  bool reopened_ = false;  // no frame since restart()
   std::uint16_t last_sequence_ = 0;
   std::uint32_t last_crc_ = 0;
   std::optional<std::uint8_t> foreign_version_;
