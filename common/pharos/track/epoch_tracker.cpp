@@ -84,7 +84,8 @@ Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, cons
   // The first pose tells the angle across, which single hits were corrected without.
   const LighthouseFromBody first = solution->estimate.pose;
   ideal_ = ideal_observations(cycle, target_, calibration, options_.form, &first);
-  return pose::solve(target_, ideal_.observations, options_.solve, &first);
+  return pose::solve(target_, ideal_.observations, options_.solve,
+                     (result.flags & kEpochPrior) != 0 ? &first : nullptr);
 }
 
 TrackedBearing EpochTracker::bearing(std::size_t index) const {
@@ -120,8 +121,11 @@ EpochResult EpochTracker::answer(Station& station, const Cycle& cycle) {
   result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
   LighthousePoseEstimate estimate = solution->estimate;
   estimate.time_ns = ticks_to_nanoseconds(result.time_ticks);
-  station.last_pose = estimate.pose;
-  station.last_pose_ticks = result.time_ticks;
+  // An answer that leant on the pose before it, or has a rival, is nothing for the next one to lean on.
+  if ((result.flags & kEpochPrior) == 0 && !estimate.ambiguous()) {
+    station.last_pose = estimate.pose;
+    station.last_pose_ticks = result.time_ticks;
+  }
   result.pose = estimate;
   return result;
 }

@@ -152,6 +152,14 @@ TEST(EpochTracker, ThreeSensorsNeedAFreshPoseBeforeThem) {
   ASSERT_TRUE(with);
   expect_pose(*with, some_pose());
   EXPECT_NE(with->flags & kEpochPrior, 0);
+  // Three sensors can carry on from a whole answer, not from one another: no chain of guesses.
+  bool refused = false;
+  for (std::int64_t cycle = 6; cycle < 20; cycle += 2) {
+    const auto next = cycle_of(three, cycle * kHalfTurn);
+    ASSERT_TRUE(next);
+    refused = refused || !next->pose.ok();
+  }
+  EXPECT_TRUE(refused);
   const auto stale = cycle_of(three, 4 * kHalfTurn + 10'000'000);
   ASSERT_TRUE(stale);
   EXPECT_FALSE(stale->pose.ok());
