@@ -41,7 +41,8 @@ std::size_t code_index(const Flash& flash) { return (flash.data ? 1U : 0U) + (fl
 
 double FlashLateness::length_deviation(const Flash& flash) {
   Usual& usual = usual_[code_index(flash)];
-  const double excess = flash.length_ticks - kFlashLengthTicks[flash_code(flash.axis, flash.data, flash.skip)];
+  const double excess =
+      static_cast<double>(flash.length_ticks) - kFlashLengthTicks[flash_code(flash.axis, flash.data, flash.skip)];
   if (usual.count == 0) {
     double sum = 0.0;
     int known = 0;
