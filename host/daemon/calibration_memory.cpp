@@ -95,12 +95,15 @@ std::optional<std::string> CalibrationMemory::keep(const StationCalibration& cal
                                  [&](const StationCalibration& station) { return station.id == calibration.id; });
   if (same == stations_.end()) {
     stations_.push_back(calibration);
-  } else if (*same == calibration) {
+  } else if (*same == calibration && written_) {
     return std::nullopt;
   } else {
     *same = calibration;
   }
-  return file_.empty() ? std::nullopt : write();
+  if (file_.empty()) return std::nullopt;
+  const std::optional<std::string> trouble = write();
+  written_ = !trouble;
+  return trouble;
 }
 
 std::optional<std::string> CalibrationMemory::write() const {

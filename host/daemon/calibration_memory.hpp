@@ -33,6 +33,7 @@ class CalibrationMemory {
 
   std::filesystem::path file_;
   std::vector<lighthouse::StationCalibration> stations_;
+  bool written_ = true;  // the file holds what stations_ does
 };
 
 }  // namespace pharos::host

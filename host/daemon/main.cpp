@@ -51,6 +51,7 @@ int run(const Options& options) {
   host::set_up_log(config.log);
   // A limit on file sizes then fails the write, as a full disk does, instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   host::Signals signals{SIGTERM, SIGINT, SIGHUP};
   host::LcmSink sink(config.lcm.url);
   host::Daemon daemon(config, sink, signals, options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal);

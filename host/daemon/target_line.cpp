@@ -16,6 +16,9 @@ namespace {
 
 // A target's clock that goes back by more than any reordering on the line was started anew.
 constexpr std::int64_t kRestartTicks = kTicksPerSecond;
+// Without a flash for this long the target's decoder does not know its stations again (it extrapolates rotors for 300
+// s).
+constexpr std::int64_t kLongestDarkTicks = 240 * kTicksPerSecond;
 
 std::string version_text(const wire::Hello& hello) {
   return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
@@ -58,10 +61,9 @@ void TargetLine::push(std::span<const std::uint8_t> bytes, const Arrival& arriva
   last_bytes_ns_ = arrival.monotonic_ns;
   for (const std::uint8_t byte : bytes) {
     ++frame_bytes_;
-    const auto event = link_.push(byte);
-    if (!event) continue;
-    handle(*event);
-    frame_bytes_ = 0;
+    if (const auto event = link_.push(byte)) handle(*event);
+    // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
+    if (byte == wire::kFrameBorder) frame_bytes_ = 0;
   }
   warn_of_foreign_version();
 }
@@ -90,10 +92,12 @@ void TargetLine::restart(const char* why) {
   tracker_ = track::EpochTracker(config_.target, config_.track);
   calibrations_.forget_stations();
   any_ticks_ = false;
+  last_flash_ticks_ = 0;
 }
 
 void TargetLine::line_lost() {
   link_.restart();
+  frame_bytes_ = 0;
   tracker_ = track::EpochTracker(config_.target, config_.track);
   for (std::uint8_t station = 0; station < kMaxStations; ++station) {
     if (const auto* calibration = calibrations_.in_use(station)) tracker_.set_calibration(station, *calibration);
@@ -110,6 +114,12 @@ void TargetLine::take(const lighthouse::Sweep& sweep) {
     ++counters_.sweeps_bad_station;
     return;
   }
+  // After so long in the dark a station may have come back under another's number.
+  if (sweep.flash.start_ticks - last_flash_ticks_ > kLongestDarkTicks) {
+    tracker_ = track::EpochTracker(config_.target, config_.track);
+    calibrations_.forget_stations();
+  }
+  last_flash_ticks_ = sweep.flash.start_ticks;
   last_sweep_ns_ = arrival_.monotonic_ns;
   if (const auto result = tracker_.push(sweep)) answer(*result);
 }
@@ -121,7 +131,9 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
       ++counters_.ootx_unreadable;
       return;
     case lighthouse::CalibrationStore::Verdict::kFirstTime:
+      return;
     case lighthouse::CalibrationStore::Verdict::kUnchanged:
+      remember(payload.station);  // again where the disk was full the last time
       return;
     case lighthouse::CalibrationStore::Verdict::kTakenIntoUse:
       break;
@@ -132,7 +144,12 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
   tracker_.set_calibration(payload.station, *calibration);
   spdlog::info("{}: calibration of station {} ({}) in use", config_.name, payload.station,
                station_id_text(calibration->id));
-  if (!config_.remember_calibrations) return;
+  remember(payload.station);
+}
+
+void TargetLine::remember(std::uint8_t station) {
+  const lighthouse::StationCalibration* calibration = calibrations_.in_use(station);
+  if (calibration == nullptr || !config_.remember_calibrations) return;
   if (const auto trouble = memory_.keep(*calibration)) spdlog::warn("{}", *trouble);
 }
 
@@ -153,6 +170,9 @@ void TargetLine::take(const report::EdgesReport& edges) {
 void TargetLine::take(const wire::Time&) {}  // its time was taken by watch_clock
 
 void TargetLine::take(const wire::Hello& hello) {
+  const std::pair start{hello.unique_id, hello.start_count};
+  if (known_start_ && *known_start_ != start) restart("it says so");
+  known_start_ = start;
   std::string identity = std::string(hello.board.view()) + ' ' + version_text(hello);
   if (!hello.target.view().empty()) identity += " \"" + std::string(hello.target.view()) + '"';
   if (hello.role == wire::Role::kLoader) identity += " (boot loader)";
@@ -196,11 +216,11 @@ std::optional<CycleReport> TargetLine::timed_report(std::uint8_t station, std::i
 }
 
 void TargetLine::answer(const track::EpochResult& result) {
-  count_answer(result.pose);
   if (result.pose && !(result.pose->pose.is_finite() && result.pose->covariance.allFinite())) {
     ++counters_.cycles_not_finite;
     return;
   }
+  count_answer(result.pose);
   auto report = timed_report(result.station, result.time_ticks);
   if (!report) return;
   report->sequence = sequence_++;

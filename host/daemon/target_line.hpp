@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "host/clock/clock_map.hpp"
 #include "host/config/daemon_config.hpp"
@@ -70,6 +71,7 @@ class TargetLine {
     ++counters_.unexpected_events;
   }
 
+  void remember(std::uint8_t station);
   void watch_clock(const report::LinkEvent& event);
   void restart(const char* why);
   void answer(const track::EpochResult& result);
@@ -96,6 +98,8 @@ class TargetLine {
   std::size_t frame_bytes_ = 0;     // since the last good frame
   std::int64_t newest_ticks_ = 0;
   bool any_ticks_ = false;
+  std::int64_t last_flash_ticks_ = 0;
+  std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
   LineCounters counters_;
   Told told_;

@@ -25,7 +25,8 @@ std::size_t column_named(std::string_view name) {
 bool parse_whole(std::string_view field, std::int64_t& value) {
   field = trimmed(field);
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc{} && end == field.data() + field.size() && std::abs(value) <= kLargestReading;
+  return error == std::errc{} && end == field.data() + field.size() && value >= -kLargestReading &&
+         value <= kLargestReading;
 }
 
 }  // namespace
