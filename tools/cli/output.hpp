@@ -20,6 +20,9 @@ struct OutputOptions {
 void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// Rows on standard output or in a file, as CSV or JSON lines.
+///
+/// A file is written beside its place and put there when it is whole: a failed run leaves the old one, and a recording
+/// that was named as its own output is read to its end before it is replaced.
 class Output {
  public:
   /// Throws InputError when the file cannot be written.
@@ -27,7 +30,7 @@ class Output {
 
   host::RowWriter& rows() { return *rows_; }
   /// Everything out. Throws InputError when the disk is full.
-  void finish() { rows_->flush(); }
+  void finish();
 
  private:
   struct Close {
@@ -35,6 +38,10 @@ class Output {
       if (file != stdout) std::fclose(file);
     }
   };
+  void open(const std::string& path);
+
+  std::string path_;
+  std::string aside_;  // where the file grows; empty where rows go straight to their place
   std::unique_ptr<std::FILE, Close> file_;
   std::unique_ptr<host::RowWriter> rows_;
 };

@@ -10,6 +10,7 @@
 #include "host/daemon/timer.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/finite_option.hpp"
 #include "tools/listen/listener.hpp"
 
 namespace pharos::tools {
@@ -77,7 +78,12 @@ int listen(const ListenOptions& options) {
   if (ear.listener.foreign() > 0) {
     std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(ear.listener.foreign()));
   }
-  return ear.listener.summary().poses() > 0 ? kExitAnswered : kExitNoAnswer;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw host::InputError(
+        "standard output: rows were lost, it cannot be written; free the disk or choose another file");
+  }
+  const bool heard = ear.listener.summary().poses() > 0 || ear.listener.status_messages() > 0;
+  return heard ? kExitAnswered : kExitNoAnswer;
 }
 
 }  // namespace
@@ -91,7 +97,8 @@ void add_listen(CLI::App& app, int& exit_code) {
   command->add_option("--truth", options->truth,
                       "File with the true poses (utime,qw,...,tz_m), as `pharos sim serial --truth` writes it");
   command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(finite_number())
+      ->check(CLI::PositiveNumber);
   command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::NonNegativeNumber);
   command->add_flag("--csv", options->csv, "A CSV table");
   command->add_flag("--json", options->json, "One JSON object a line")->excludes("--csv");
@@ -99,7 +106,7 @@ void add_listen(CLI::App& app, int& exit_code) {
   command->footer(
       "Example: pharos listen --duration 10 --summary --truth truth.csv\n"
       "         pharos listen PHAROS_STATUS --json\n"
-      "Ends with 0 when at least one pose was received, with 1 when none was.");
+      "Ends with 0 when at least one pose or status message was received, with 1 when none was.");
   command->callback([options, &exit_code] { exit_code = listen(*options); });
 }
 

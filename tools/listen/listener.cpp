@@ -95,6 +95,7 @@ void Listener::print(const ReceivedPose& pose) {
 }
 
 void Listener::take_status(const status_t& message) {
+  ++status_messages_;
   if (format_ == ListenFormat::kNone) return;
   std::puts((format_ == ListenFormat::kJson ? status_json(message) : status_lines(message)).c_str());
   std::fflush(stdout);

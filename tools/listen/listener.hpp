@@ -35,6 +35,7 @@ class Listener {
 
   const ListenSummary& summary() const { return summary_; }
   std::int64_t foreign() const { return foreign_; }
+  std::int64_t status_messages() const { return status_messages_; }
 
  private:
   void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
@@ -48,6 +49,7 @@ class Listener {
   std::unique_ptr<host::RowWriter> rows_;
   ListenSummary summary_;
   std::int64_t foreign_ = 0;
+  std::int64_t status_messages_ = 0;
 };
 
 }  // namespace pharos::tools

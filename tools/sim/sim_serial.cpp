@@ -7,6 +7,7 @@
 
 #include "host/support/input_error.hpp"
 #include "host/table/edges_reader.hpp"
+#include "tools/cli/finite_option.hpp"
 #include "tools/sim/add_sim.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
 #include "tools/sim/serial_player.hpp"
@@ -125,9 +126,11 @@ void add_sim_serial(CLI::App& sim, int& exit_code) {
   command->add_option("INPUT", options->input, "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks)")->required();
   command->add_option("--link", options->link, "symbolic link to the port, for a daemon's configuration");
   command->add_option("--speed", options->serial.speed, "times real speed; 0: as fast as the reader reads")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 1e4))
       ->capture_default_str();
   command->add_option("--baud", options->serial.baud, "speed of the line")
+      ->check(finite_number())
       ->check(CLI::Range(1200.0, 1e8))
       ->capture_default_str();
   command->add_option("--seed", options->serial.seed, "of the scenario and of the line's faults")
@@ -137,8 +140,11 @@ void add_sim_serial(CLI::App& sim, int& exit_code) {
   command->add_flag("--raw-edges", options->raw_edges, "diagnostic mode: every edge instead of sweeps");
   command->add_flag("--free-running", options->free_running, "do not wait until a program has opened the port");
   command->add_option("--corrupt", options->serial.corrupt_rate, "share of bytes with one bit flipped")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--drop", options->serial.drop_rate, "share of bytes lost")->check(CLI::Range(0.0, 1.0));
+  command->add_option("--drop", options->serial.drop_rate, "share of bytes lost")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--unplug", options->unplugs, "AT,FOR: unplug the port at AT s for FOR s (may be repeated)");
   command->footer(
       "Prints the port's path and plays once a program opens it. Ends with the input, or on SIGINT or SIGTERM.\n\n"
