@@ -60,7 +60,7 @@ class Watched {
     require(sweep.period_sixteenth_ticks > 13'000'000 && sweep.period_sixteenth_ticks < 13'700'000);
     require(!flash.skip || sweep.hits.empty());
     if (!flash.skip) lit_.push_back(flash.start_ticks);
-    const auto rotor = static_cast<std::size_t>(2 * flash.station + index_of(flash.axis));
+    const std::size_t rotor = std::size_t{2} * flash.station + static_cast<std::size_t>(index_of(flash.axis));
     const SmoothedFlash smoothed = smoother_[rotor].push(sweep);
     require(std::isfinite(smoothed.offset_ticks) && std::abs(smoothed.offset_ticks) < 1000.0);
     require(std::abs(smoothed.period_ticks / kNominalPeriodTicks - 1.0) < 0.03);
