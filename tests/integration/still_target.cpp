@@ -63,8 +63,10 @@ StillTarget::Bytes StillTarget::cycle(std::int64_t end_ticks) {
   return bytes;
 }
 
-StillTarget::Bytes StillTarget::hello(const char* board) {
+StillTarget::Bytes StillTarget::hello(const char* board, std::int64_t now_ticks, std::uint16_t start_count) {
   wire::Hello hello;
+  hello.time_ticks = now_ticks;
+  hello.start_count = start_count;
   hello.role = wire::Role::kSimulator;
   hello.modes = wire::kModeSweeps;
   hello.firmware_minor = 1;

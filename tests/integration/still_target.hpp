@@ -38,7 +38,7 @@ class StillTarget {
   lighthouse::Sweep sweep(Axis axis, std::int64_t flash_ticks, std::size_t sensors = kMaxSensors) const;
   Bytes bytes_of(const lighthouse::Sweep& sweep) { return copy(reporter_.report(sweep)); }
   Bytes time(std::int64_t now_ticks) { return copy(reporter_.report_time(now_ticks)); }
-  Bytes hello(const char* board);
+  Bytes hello(const char* board, std::int64_t now_ticks = 0, std::uint16_t start_count = 0);
   Bytes counters(std::uint32_t edges_in);
   /// An OOTX payload of a made-up station that shifts no angle, as its flashes would have brought it.
   Bytes ootx(std::int64_t now_ticks, std::uint32_t id);

@@ -95,6 +95,40 @@ TEST_F(TargetLineTest, UtimeIsWhenTheLightWasMeasured) {
   EXPECT_LT(before_end_us, 16'000.0);
 }
 
+TEST_F(TargetLineTest, ADroppedFrameDoesNotMoveUtc) {
+  constexpr int kBaud = 460'800;
+  TargetLine line(config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, kBaud);
+  const auto push_into_line = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      ticks_ += kCycleTicks;
+      line.push(target_.cycle(ticks_), arrival_at(ticks_, 5 * kMillisecondNs));
+    }
+    return poses().back().utime - arrival_at(ticks_, 0).utc_ns / 1000;
+  };
+  const std::int64_t before_us = push_into_line(300);
+  // As long as a frame may be: 11 ms on the wire, had it arrived together with the next one.
+  StillTarget::Bytes garbage(500, 0x55);
+  garbage.push_back(0);
+  line.push(garbage, arrival_at(ticks_, 6 * kMillisecondNs));
+  EXPECT_NEAR(static_cast<double>(push_into_line(600) - before_us), 0.0, 500.0);
+}
+
+TEST_F(TargetLineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
+  push(target_.hello("bench", ticks_, 1), ticks_);
+  push_cycles(20);
+  for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push_cycles(2);
+  ASSERT_FALSE(poses().empty());
+  ASSERT_EQ(poses().back().flags, "");
+  push(target_.hello("bench", ticks_, 1), ticks_);  // the same start greets again: nothing is lost
+  push_cycles(2);
+  EXPECT_EQ(poses().back().flags, "");
+  push(target_.hello("bench", ticks_, 2), ticks_);
+  push_cycles(20);
+  EXPECT_EQ(poses().back().flags, "uncalibrated");
+  EXPECT_EQ(counter("target_restarts"), 1);
+}
+
 TEST_F(TargetLineTest, APoseAndItsBearingsShareTheirNumber) {
   push_cycles(20);
   const auto bearings = list_.all<bearings_t>("PHAROS_LIGHTHOUSE_BEARINGS");
