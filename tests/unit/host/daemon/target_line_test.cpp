@@ -109,7 +109,8 @@ TEST_F(TargetLineTest, ADroppedFrameDoesNotMoveUtc) {
   // As long as a frame may be: 11 ms on the wire, had it arrived together with the next one.
   StillTarget::Bytes garbage(500, 0x55);
   garbage.push_back(0);
-  line.push(garbage, arrival_at(ticks_, 6 * kMillisecondNs));
+  line.push(garbage, arrival_at(ticks_, 5 * kMillisecondNs));
+  line.push(target_.time(ticks_), arrival_at(ticks_, 5 * kMillisecondNs));
   EXPECT_NEAR(static_cast<double>(push_into_line(600) - before_us), 0.0, 500.0);
 }
 
