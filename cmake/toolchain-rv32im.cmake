@@ -9,6 +9,7 @@ set(CMAKE_SYSTEM_PROCESSOR rv32im)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_C_COMPILER riscv64-unknown-elf-gcc)
 set(CMAKE_CXX_COMPILER riscv64-unknown-elf-g++)
+set(CMAKE_ASM_COMPILER ${CMAKE_C_COMPILER})
 
 set(PHAROS_NEWLIB_CXX /usr/include/newlib/c++/12.2.1)
 if(NOT EXISTS ${PHAROS_NEWLIB_CXX}/array)
@@ -16,6 +17,7 @@ if(NOT EXISTS ${PHAROS_NEWLIB_CXX}/array)
 endif()
 
 set(rv32im_flags "-march=rv32im -mabi=ilp32 --specs=picolibc.specs -ffunction-sections -fdata-sections -fstack-usage")
+set(CMAKE_ASM_FLAGS_INIT "-march=rv32im -mabi=ilp32")
 set(CMAKE_CXX_FLAGS_INIT
   "${rv32im_flags} -nostdinc++ -isystem ${PHAROS_NEWLIB_CXX} -isystem ${PHAROS_NEWLIB_CXX}/arm-none-eabi \
 -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit")

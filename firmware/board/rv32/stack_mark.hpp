@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pharos::board {
+
+/// Bytes of the stack that the image reserved (__stack_size).
+std::uint32_t stack_bytes();
+/// Bytes of it that nothing has written since start: start.S filled all with one word. Never more than the truth by
+/// more than what was reserved and left unwritten. Cost: a read a word.
+std::uint32_t stack_never_used_bytes();
+
+}  // namespace pharos::board
