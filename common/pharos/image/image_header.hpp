@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "pharos/base/result.hpp"
+#include "pharos/wire/text.hpp"
+
+namespace pharos::image {
+
+// An image file is one page with the header, then the body: the bytes that are copied to `load_address`. The page is
+// as long as what a NOR flash programs at once, so that the header can be written last.
+
+/// Bytes before the body: the header, and FF to the end of the page.
+inline constexpr std::size_t kPageBytes = 256;
+/// Where images of this and other formats differ: at the header's `format`.
+inline constexpr std::uint8_t kFormat = 1;
+inline constexpr std::uint32_t kMagic = 0x474D4950;  // "PIMG"
+
+struct Version {
+  std::uint8_t major = 0;
+  std::uint8_t minor = 0;
+  std::uint8_t patch = 0;
+
+  auto operator<=>(const Version&) const = default;
+};
+
+/// What an image says of itself, laid out as in the file (README.md): little-endian, no padding.
+struct ImageHeader {
+  std::uint32_t magic = kMagic;
+  std::uint32_t body_bytes = 0;  // a multiple of 4, at least 4
+  std::uint32_t body_crc32 = 0;
+  std::uint32_t load_address = 0;   // where the body is copied to, a multiple of 4
+  std::uint32_t entry_address = 0;  // first instruction, within the body, a multiple of 4
+  std::uint8_t format = kFormat;
+  Version version;
+  wire::Text<24> board;            // the one it is for
+  wire::Text<12> name;             // what it is: "decoder_pose"
+  std::uint32_t header_crc32 = 0;  // of all before it
+};
+static_assert(sizeof(ImageHeader) == 64 && std::is_trivially_copyable_v<ImageHeader>);
+static_assert(std::endian::native == std::endian::little, "images are read as they lie in memory");
+
+/// Why bytes are no image.
+enum class ImageFault : std::uint8_t {
+  kNone,
+  kCutShort,   // fewer bytes than the header tells, or no whole header
+  kNoImage,    // something else: the magic number is not there
+  kFormat,     // of another format than this program knows
+  kBadHeader,  // the header's CRC is wrong, or a field of it means nothing
+  kTooLong,    // bytes behind the body
+  kBadBody,    // the body's CRC is wrong
+};
+
+/// The header at the front of `page` (at least its 64 bytes), when it is whole and every field means something. The
+/// body is not looked at.
+Result<ImageHeader, ImageFault> read_header(std::span<const std::uint8_t> page);
+
+/// The header that `body` needs: its CRC and that of the header filled in.
+ImageHeader sealed(ImageHeader header, std::span<const std::uint8_t> body);
+
+/// A whole image file: header, page and body as they must be. Cost: one CRC over all of it.
+Result<ImageHeader, ImageFault> check_image(std::span<const std::uint8_t> file);
+
+/// The header as its bytes; they hold as long as it.
+inline std::span<const std::uint8_t, sizeof(ImageHeader)> bytes_of(const ImageHeader& header) {
+  return std::span<const std::uint8_t, sizeof(ImageHeader)>(reinterpret_cast<const std::uint8_t*>(&header),
+                                                            sizeof header);
+}
+
+}  // namespace pharos::image
