@@ -43,7 +43,7 @@ Result<ImageHeader, ImageFault> read_header(std::span<const std::uint8_t> page) 
   ImageHeader header;
   std::memcpy(&header, page.data(), sizeof header);
   if (header.magic != kMagic) return ImageFault::kNoImage;
-  if (header.format != kFormat) return ImageFault::kFormat;
+  if (header.format != kFormat) return ImageFault::kOtherFormat;
   if (header.header_crc32 != crc_of(header) || !means_something(header)) return ImageFault::kBadHeader;
   return header;
 }
