@@ -49,12 +49,12 @@ static_assert(std::endian::native == std::endian::little, "images are read as th
 /// Why bytes are no image.
 enum class ImageFault : std::uint8_t {
   kNone,
-  kCutShort,   // fewer bytes than the header tells, or no whole header
-  kNoImage,    // something else: the magic number is not there
-  kFormat,     // of another format than this program knows
-  kBadHeader,  // the header's CRC is wrong, or a field of it means nothing
-  kTooLong,    // bytes behind the body
-  kBadBody,    // the body's CRC is wrong
+  kCutShort,     // fewer bytes than the header tells, or no whole header
+  kNoImage,      // something else: the magic number is not there
+  kOtherFormat,  // of another format than this program knows
+  kBadHeader,    // the header's CRC is wrong, or a field of it means nothing
+  kTooLong,      // bytes behind the body
+  kBadBody,      // the body's CRC is wrong
 };
 
 /// The header at the front of `page` (at least its 64 bytes), when it is whole and every field means something. The
