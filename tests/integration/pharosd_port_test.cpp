@@ -5,58 +5,48 @@
 #include <fstream>
 
 #include "host/serial/serial_port.hpp"
-#include "integration/daemon_under_test.hpp"
+#include "integration/pharosd_fixture.hpp"
 #include "pharos/wire/cobs.hpp"
 #include "pharos/wire/crc32.hpp"
 
 namespace pharos::host {
 namespace {
 
+using PharosdPort = PharosdTest;
 using ::testing::HasSubstr;
 
-LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
-
-TEST(PharosdPort, AMissingPortIsWaitedFor) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdPort, AMissingPortIsWaitedFor) {
   daemon.write_config();
   daemon.start();
   ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr; }));
   EXPECT_EQ(daemon.source()->state, "gone");
   EXPECT_THAT(daemon.source()->message, HasSubstr("no such device"));
   EXPECT_EQ(daemon.status()->state, "error");
-  PseudoTerminal line;
   daemon.plug_in(line);
-  StillTarget target(somewhere());
-  EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+  EXPECT_TRUE(poses_come(5));
 }
 
-TEST(PharosdPort, UnpluggedInTheMiddleOfAFrameItComesBackWhenPluggedIn) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdPort, UnpluggedInTheMiddleOfAFrameItComesBackWhenPluggedIn) {
   daemon.write_config();
-  StillTarget target(somewhere());
   {
-    PseudoTerminal line;
-    daemon.plug_in(line);
+    PseudoTerminal first;
+    daemon.plug_in(first);
     daemon.start();
-    ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+    ASSERT_TRUE(poses_come(5, first));
     std::vector<std::uint8_t> half = target.hello("cut in the middle");
     half.resize(half.size() / 2);
-    line.write(half);
+    first.write(half);
     daemon.pull_out();
   }
   ASSERT_TRUE(daemon.process().wait_for("was unplugged")) << daemon.process().text();
   ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "gone"; }));
   PseudoTerminal other;  // another device number, as after a real replug
   daemon.plug_in(other);
-  const std::size_t before = daemon.valid_poses();
-  ASSERT_TRUE(daemon.play(target, other, [&] { return daemon.valid_poses() >= before + 5; }))
-      << daemon.process().text();
+  ASSERT_TRUE(poses_come(5, other));
   EXPECT_EQ(daemon.counter("port.lost"), 1);
 }
 
-TEST(PharosdPort, ABusyPortIsNamedAndTakenOnceFree) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
+TEST_F(PharosdPort, ABusyPortIsNamedAndTakenOnceFree) {
   daemon.plug_in(line);
   daemon.write_config();
   {
@@ -67,12 +57,10 @@ TEST(PharosdPort, ABusyPortIsNamedAndTakenOnceFree) {
     ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "error"; }));
     EXPECT_THAT(daemon.source()->message, HasSubstr("in use by another program"));
   }
-  StillTarget target(somewhere());
-  EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+  EXPECT_TRUE(poses_come(5));
 }
 
-TEST(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
   daemon.write_config();
   std::ofstream(daemon.port()) << "a file";
   daemon.start();
@@ -81,12 +69,8 @@ TEST(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
   EXPECT_EQ(daemon.source()->state, "error");
 }
 
-TEST(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
+TEST_F(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
+  start();
   ASSERT_TRUE(daemon.process().wait_for("is open"));
   for (std::uint8_t i = 0; i < 5; ++i) {
     std::vector<std::uint8_t> frame{7, 2, i, 0, 1, 2, 3};

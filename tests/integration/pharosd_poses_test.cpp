@@ -5,13 +5,13 @@
 #include <csignal>
 
 #include "host/daemon/now.hpp"
-#include "integration/daemon_under_test.hpp"
+#include "integration/pharosd_fixture.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::host {
 namespace {
 
-LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+using Pharosd = PharosdTest;
 LighthouseFromBody elsewhere() { return {rotation_exp(Vector3(-0.1, 0.2, 0.0)), Vector3(-0.5, 0.1, 3.0)}; }
 
 Vector6 error_of(const pose_t& pose, const LighthouseFromBody& truth) {
@@ -22,14 +22,9 @@ Vector6 error_of(const pose_t& pose, const LighthouseFromBody& truth) {
       truth);
 }
 
-TEST(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 30; })) << daemon.process().text();
+TEST_F(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
+  start();
+  ASSERT_TRUE(poses_come(30));
   std::int64_t last_utime = 0;
   std::int64_t sequence = daemon.poses().front().sequence;
   for (const pose_t& pose : daemon.poses()) {
@@ -46,9 +41,7 @@ TEST(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
   EXPECT_LT(std::abs(utc_now_ns() / 1000 - last_utime), 200'000) << "utime is UTC of this computer";
 }
 
-TEST(Pharosd, TwoTargetsAreToldApart) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
+TEST_F(Pharosd, TwoTargetsAreToldApart) {
   PseudoTerminal second_line;
   daemon.plug_in(line);
   daemon.plug_in(second_line, "second");
@@ -69,14 +62,9 @@ TEST(Pharosd, TwoTargetsAreToldApart) {
   }
 }
 
-TEST(Pharosd, WhatItHadToLeaveLyingIsNeverPublishedAsFresh) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 60; })) << daemon.process().text();
+TEST_F(Pharosd, WhatItHadToLeaveLyingIsNeverPublishedAsFresh) {
+  start();
+  ASSERT_TRUE(poses_come(60));
   // The daemon sleeps while ten cycles arrive, and wakes up a second later.
   daemon.process().signal(SIGSTOP);
   int cycles = 0;
@@ -92,36 +80,23 @@ TEST(Pharosd, WhatItHadToLeaveLyingIsNeverPublishedAsFresh) {
   }
 }
 
-TEST(Pharosd, GarbageOnTheLineCostsNoMoreThanItHits) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 10; })) << daemon.process().text();
+TEST_F(Pharosd, GarbageOnTheLineCostsNoMoreThanItHits) {
+  start();
+  ASSERT_TRUE(poses_come(10));
   std::vector<std::uint8_t> garbage(5000);
   std::uint32_t state = 1;
   for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
   line.write(garbage);
-  const std::size_t before = daemon.valid_poses();
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= before + 10; }))
-      << daemon.process().text();
+  ASSERT_TRUE(poses_come(10));
   ASSERT_TRUE(daemon.wait([&] { return daemon.counter("link.garbage_bytes") > 4000; }));
 }
 
-TEST(Pharosd, CalibrationsAreKeptAcrossARestart) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config("", "state_directory = 'state'");
-  daemon.start();
-  StillTarget target(somewhere());
+TEST_F(Pharosd, CalibrationsAreKeptAcrossARestart) {
+  start("", "state_directory = 'state'");
   line.write(target.ootx(0, 0xBEC08E38));
   line.write(target.ootx(0, 0xBEC08E38));
   EXPECT_TRUE(daemon.process().wait_for("calibration of station 0 (BEC08E38) in use")) << daemon.process().text();
-  daemon.process().signal(SIGTERM);
-  EXPECT_EQ(daemon.process().wait_exit(), 0);
+  EXPECT_EQ(stop(), 0);
   ASSERT_TRUE(std::filesystem::exists(daemon.folder() / "state" / "stations.toml"));
   daemon.start();
   StillTarget again(somewhere());

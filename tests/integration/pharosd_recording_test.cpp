@@ -4,15 +4,14 @@
 
 #include <csignal>
 
-#include "integration/daemon_under_test.hpp"
+#include "integration/pharosd_fixture.hpp"
 
 namespace pharos::host {
 namespace {
 
+using PharosdRecording = PharosdTest;
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
 std::vector<fs::path> recordings_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -21,16 +20,10 @@ std::vector<fs::path> recordings_in(const fs::path& folder) {
   return files;
 }
 
-TEST(PharosdRecording, AReplayPublishesTheSamePosesWithTheSameTimes) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config("[recording]\ndirectory = 'raw'\n");
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 30; })) << daemon.process().text();
-  daemon.process().signal(SIGTERM);
-  ASSERT_EQ(daemon.process().wait_exit(), 0);
+TEST_F(PharosdRecording, AReplayPublishesTheSamePosesWithTheSameTimes) {
+  start("[recording]\ndirectory = 'raw'\n");
+  ASSERT_TRUE(poses_come(30));
+  ASSERT_EQ(stop(), 0);
   daemon.wait([] { return false; }, 0.1);
   const std::vector<pose_t> live = daemon.poses();
   const std::vector<fs::path> files = recordings_in(daemon.folder() / "raw");
@@ -50,32 +43,20 @@ TEST(PharosdRecording, AReplayPublishesTheSamePosesWithTheSameTimes) {
   }
 }
 
-TEST(PharosdRecording, OnAFullDiskPosesGoOnAndTheLossIsReported) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config("[recording]\ndirectory = 'raw'\n");
+TEST_F(PharosdRecording, OnAFullDiskPosesGoOnAndTheLossIsReported) {
   constexpr unsigned long kFileSizeLimit = 8192;  // a few dozen cycles: writing then fails as on a full disk
-  daemon.start({}, kFileSizeLimit);
-  StillTarget target(somewhere());
+  start("[recording]\ndirectory = 'raw'\n", "", kFileSizeLimit);
   ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.counter("recording.bytes_lost") > 0; }))
       << daemon.process().text();
   EXPECT_THAT(daemon.status()->message, HasSubstr("not being recorded"));
   EXPECT_NE(daemon.status()->state, "ok");
   EXPECT_TRUE(daemon.process().wait_for("not being recorded")) << daemon.process().text();
-  const std::size_t before = daemon.valid_poses();
-  EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= before + 30; }))
-      << daemon.process().text();
+  EXPECT_TRUE(poses_come(30));
 }
 
-TEST(PharosdRecording, NothingIsRecordedUnlessAskedFor) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
+TEST_F(PharosdRecording, NothingIsRecordedUnlessAskedFor) {
+  start();
+  ASSERT_TRUE(poses_come(5));
   EXPECT_EQ(daemon.counter("recording.bytes"), -1);
 }
 

@@ -5,40 +5,31 @@
 #include <csignal>
 #include <fstream>
 
-#include "integration/daemon_under_test.hpp"
+#include "integration/pharosd_fixture.hpp"
 
 namespace pharos::host {
 namespace {
 
+using PharosdStart = PharosdTest;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
-
-TEST(PharosdStart, StopsCleanlyOnSigtermWithALastStatus) {
-  DaemonUnderTest daemon;
-  PseudoTerminal line;
-  daemon.plug_in(line);
-  daemon.write_config();
-  daemon.start();
-  StillTarget target(somewhere());
-  ASSERT_TRUE(daemon.play(target, line, [&] { return daemon.valid_poses() >= 5; })) << daemon.process().text();
-  daemon.process().signal(SIGTERM);
-  EXPECT_EQ(daemon.process().wait_exit(), 0);
+TEST_F(PharosdStart, StopsCleanlyOnSigtermWithALastStatus) {
+  start();
+  ASSERT_TRUE(poses_come(5));
+  EXPECT_EQ(stop(), 0);
   EXPECT_THAT(daemon.process().text(), HasSubstr("stopped"));
   EXPECT_TRUE(daemon.wait([&] { return daemon.status() && daemon.status()->message == "stopped"; }));
 }
 
-TEST(PharosdStart, CheckPrintsWhatItUnderstoodAndEndsWith0) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdStart, CheckPrintsWhatItUnderstoodAndEndsWith0) {
   daemon.write_config();
   ChildProcess check({DaemonUnderTest::program(), "--check", (daemon.folder() / "pharosd.toml").string()});
   EXPECT_EQ(check.wait_exit(), 0);
   EXPECT_THAT(check.text(), AllOf(HasSubstr("target dock"), HasSubstr("sensors: 6"), HasSubstr(daemon.url())));
 }
 
-TEST(PharosdStart, AnUnknownKeyIsOneLineAndExit2) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdStart, AnUnknownKeyIsOneLineAndExit2) {
   daemon.write_config("colour = 'red'\n");
   ChildProcess process({DaemonUnderTest::program(), (daemon.folder() / "pharosd.toml").string()});
   EXPECT_EQ(process.wait_exit(), 2);
@@ -46,8 +37,7 @@ TEST(PharosdStart, AnUnknownKeyIsOneLineAndExit2) {
   EXPECT_EQ(std::count(process.text().begin(), process.text().end(), '\n'), 1);
 }
 
-TEST(PharosdStart, ASensorTwiceIsExit2) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdStart, ASensorTwiceIsExit2) {
   daemon.write_config();
   std::ofstream(daemon.folder() / "dock.csv", std::ios::app) << "3,0,0,1\n";
   ChildProcess process({DaemonUnderTest::program(), (daemon.folder() / "pharosd.toml").string()});
@@ -55,8 +45,7 @@ TEST(PharosdStart, ASensorTwiceIsExit2) {
   EXPECT_THAT(process.text(), AllOf(HasSubstr("dock.csv"), HasSubstr("line 8"), HasSubstr("sensor 3")));
 }
 
-TEST(PharosdStart, WithoutLcmItSaysWhatToDoAndEndsWith1) {
-  DaemonUnderTest daemon;
+TEST_F(PharosdStart, WithoutLcmItSaysWhatToDoAndEndsWith1) {
   const auto config = daemon.write_config();
   std::ofstream(config) << "[lcm]\nurl = 'udpm://1.2.3:4'\n[[target]]\nname = 'dock'\nport = '/dev/none'\n"
                         << "target_file = 'dock.csv'\n";
@@ -65,7 +54,7 @@ TEST(PharosdStart, WithoutLcmItSaysWhatToDoAndEndsWith1) {
   EXPECT_THAT(process.text(), AllOf(HasSubstr("LCM cannot be set up"), HasSubstr("route")));
 }
 
-TEST(PharosdStart, WrongUsageIsExit2) {
+TEST_F(PharosdStart, WrongUsageIsExit2) {
   ChildProcess process({DaemonUnderTest::program(), "--no-such-option"});
   EXPECT_EQ(process.wait_exit(), 2);
 }
