@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decoder against any light: pulses and edges of any time and length, mixed with good light. Whatever came before,
 // every pulse is accounted for, nothing absurd comes out, and good light is decoded again within twelve flashes.
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,9 @@
 
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/decoder.hpp"
+#include "pharos/report/convert.hpp"
+#include "pharos/wire/codec.hpp"
+#include "pharos/wire/frame.hpp"
 #include "support/synthetic_light.hpp"
 
 namespace {
@@ -59,6 +63,8 @@ class Watched {
     last_start_ = flash.start_ticks;
     require(sweep.period_sixteenth_ticks > 13'000'000 && sweep.period_sixteenth_ticks < 13'700'000);
     require(!flash.skip || sweep.hits.empty());
+    std::array<std::uint8_t, pharos::wire::kMaxPayload> payload{};
+    require(pharos::wire::encode_payload(pharos::report::to_wire(sweep), payload) > 0);  // the line takes it
     if (!flash.skip) lit_.push_back(flash.start_ticks);
     const std::size_t rotor = std::size_t{2} * flash.station + static_cast<std::size_t>(index_of(flash.axis));
     const SmoothedFlash smoothed = smoother_[rotor].push(sweep);

@@ -6,12 +6,20 @@
 #include <limits>
 
 #include "pharos/base/ticks.hpp"
+#include "pharos/lighthouse/optical_timing.hpp"
 
 namespace pharos::report {
 namespace {
 
 static_assert(wire::Ootx::kMaxData == lighthouse::kMaxOotxPayload);
 static_assert(kNanosecondsPerTick == 20);
+// Whatever the decoder gives out, the line takes.
+static_assert(wire::kMinPulseTicks <= lighthouse::kShortestPulseTicks);
+static_assert(wire::kMaxPulseTicks >= lighthouse::kLongestPulseTicks);
+static_assert(wire::kMinFlashTicks <= lighthouse::kShortestFlashTicks);
+static_assert(wire::kMaxCentreHalfTicks >= 2 * lighthouse::kSweepWindowEndTicks);
+static_assert(wire::kMinPeriodSixteenthTicks < 16 * lighthouse::kTurnTicks);
+static_assert(wire::kMaxPeriodSixteenthTicks > 16 * lighthouse::kTurnTicks);
 
 /// Unit length is lost by nothing but a broken sender: doubles keep it to 1e-15.
 constexpr double kUnitTolerance = 1e-6;

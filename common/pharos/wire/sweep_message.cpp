@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/wire/sweep_message.hpp"
 
+#include <algorithm>
+
 namespace pharos::wire {
 namespace {
 
@@ -12,10 +14,27 @@ constexpr unsigned kBitsUsed = 4;
 
 constexpr bool bit(std::uint8_t bits, unsigned number) { return ((static_cast<unsigned>(bits) >> number) & 1u) != 0; }
 
+template <class T>
+constexpr bool within(T value, T least, T most) {
+  return value >= least && value <= most;
+}
+
+bool is_possible(const SweepHit& hit) {
+  return hit.sensor < kMaxSensors && within<std::int32_t>(hit.width_ticks, kMinPulseTicks, kMaxPulseTicks) &&
+         within(hit.centre_half_ticks, 0, kMaxCentreHalfTicks);
+}
+
+bool is_possible(const Sweep& message) {
+  return message.station < kMaxStations && message.flash_sensors <= kMaxSensors &&
+         within(message.flash_length_ticks, kMinFlashTicks, kMaxPulseTicks) &&
+         within(message.period_sixteenth_ticks, kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks) &&
+         std::all_of(message.hits.begin(), message.hits.end(), [](const SweepHit& hit) { return is_possible(hit); });
+}
+
 }  // namespace
 
 void write(const Sweep& message, ByteWriter& out) {
-  if (message.station >= kMaxStations) out.fail();
+  if (!is_possible(message)) out.fail();
   out.put_ticks(message.flash_start_ticks);
   out.put(message.flash_length_ticks);
   out.put(message.period_sixteenth_ticks);
@@ -25,7 +44,6 @@ void write(const Sweep& message, ByteWriter& out) {
                                     message.data << kDataBit | message.skip << kSkipBit));
   out.put(static_cast<std::uint8_t>(message.hits.size()));
   for (const SweepHit& hit : message.hits) {
-    if (hit.sensor >= kMaxSensors) out.fail();
     out.put(hit.sensor);
     out.put(hit.width_ticks);
     out.put(hit.centre_half_ticks);
@@ -52,9 +70,9 @@ void read(ByteReader& in, Sweep& message) {
     hit.sensor = in.get<std::uint8_t>();
     hit.width_ticks = in.get<std::uint16_t>();
     hit.centre_half_ticks = in.get<std::int32_t>();
-    in.refuse_if(hit.sensor >= kMaxSensors);
     message.hits.push_back(hit);
   }
+  in.refuse_if(!is_possible(message));
 }
 
 }  // namespace pharos::wire

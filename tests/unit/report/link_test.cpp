@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "pharos/report/convert.hpp"
 #include "pharos/report/link_decoder.hpp"
 #include "pharos/report/reporter.hpp"
+#include "pharos/wire/codec.hpp"
 #include "unit/report/samples.hpp"
 
 namespace pharos::report {
@@ -100,6 +102,26 @@ TEST(Link, CountsAPayloadThatMeansNothing) {
   LinkDecoder link;
   const std::size_t size = encoder.encode(wire::MessageType::kSweep, nonsense, line);
   EXPECT_TRUE(receive(link, Reporter::Bytes(line).first(size)).empty());
+  EXPECT_EQ(link.counters().bad_payload, 1u);
+}
+
+TEST(Link, DropsAndCountsASweepThatNoLightGives) {
+  std::mt19937_64 random(43);
+  const auto sent = test::random_sweep(random, 12);
+  std::array<std::uint8_t, wire::kMaxPayload> payload{};
+  const std::size_t payload_size = wire::encode_payload(to_wire(sent), payload);
+  ASSERT_GT(payload_size, 0u);
+  wire::FrameEncoder encoder;
+  std::array<std::uint8_t, wire::kMaxLineFrame> line{};
+  LinkDecoder link;
+  const auto received = [&] {
+    const auto bytes = std::span<const std::uint8_t>(payload).first(payload_size);
+    const std::size_t size = encoder.encode(wire::MessageType::kSweep, bytes, line);
+    return receive(link, Reporter::Bytes(line).first(size)).size();
+  };
+  EXPECT_EQ(received(), 1u);
+  payload[15] = 0xFF;  // the turn becomes 5 s
+  EXPECT_EQ(received(), 0u);
   EXPECT_EQ(link.counters().bad_payload, 1u);
 }
 

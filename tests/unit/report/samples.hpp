@@ -12,22 +12,23 @@
 
 namespace pharos::report::test {
 
+/// A sweep as the decoder may give it out.
 inline lighthouse::Sweep random_sweep(std::mt19937_64& random, std::size_t hits) {
   lighthouse::Sweep sweep;
   sweep.flash.start_ticks = static_cast<std::int64_t>(random() % (std::uint64_t{1} << 50));
-  sweep.flash.length_ticks = static_cast<std::int32_t>(random() % 8000);
+  sweep.flash.length_ticks = static_cast<std::int32_t>(2600 + random() % 4901);
   sweep.flash.station = static_cast<std::uint8_t>(random() % 2);
   sweep.flash.axis = static_cast<Axis>(random() % 2);
   sweep.flash.data = random() % 2 == 1;
   sweep.flash.skip = random() % 2 == 1;
   sweep.flash.sensors = static_cast<std::uint8_t>(random() % 33);
-  sweep.period_sixteenth_ticks = static_cast<std::uint32_t>(random());
+  sweep.period_sixteenth_ticks = static_cast<std::uint32_t>(13'320'000 + random() % 26'667);
   sweep.flags = static_cast<std::uint8_t>(random() % 8);
   for (std::size_t i = 0; i < hits; ++i) {
     lighthouse::Hit hit;
     hit.sensor = static_cast<std::uint8_t>(random() % 32);
-    hit.width_ticks = static_cast<std::uint16_t>(random());
-    hit.centre_half_ticks = static_cast<std::int32_t>(random() % 800000);
+    hit.width_ticks = static_cast<std::uint16_t>(16 + random() % 2584);
+    hit.centre_half_ticks = static_cast<std::int32_t>(120'000 + random() % 540'001);
     sweep.hits.push_back(hit);
   }
   return sweep;

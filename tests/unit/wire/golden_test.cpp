@@ -102,7 +102,7 @@ TEST(GoldenFrames, MeanWhatTheByteTablesSay) {
   EXPECT_TRUE(sweep.data);
   EXPECT_FALSE(sweep.skip);
   ASSERT_EQ(sweep.hits.size(), 4u);
-  EXPECT_EQ(sweep.hits[2], (SweepHit{31, 65535, -7}));
+  EXPECT_EQ(sweep.hits[2], (SweepHit{31, 7500, 0}));
 
   const auto hello = decode_golden<Hello>("hello");
   EXPECT_EQ(hello.reset_cause, ResetCause::kPowerOn);

@@ -93,22 +93,81 @@ TEST(Messages, WhateverDecodesIsWhatAnEncoderWrites) {
   EXPECT_GT(accepted, 5000);
 }
 
-TEST(SweepMessage, RefusesAStationOrSensorThatCannotBe) {
-  Bytes out(kMaxPayload);
+/// One hit, every field within its range.
+Sweep possible_sweep() {
   Sweep sweep;
+  sweep.flash_length_ticks = 3125;
+  sweep.period_sixteenth_ticks = 13'333'333;
+  sweep.station = 1;
+  sweep.hits.push_back({31, 208, 300'001});
+  return sweep;
+}
+
+TEST(SweepMessage, RefusesAStationOrReservedBitThatCannotBe) {
+  Bytes out(kMaxPayload);
+  Sweep sweep = possible_sweep();
   sweep.station = 2;
   EXPECT_EQ(encode_payload(sweep, out), 0u);
-  sweep.station = 1;
-  sweep.hits.push_back({32, 1, 1});
-  EXPECT_EQ(encode_payload(sweep, out), 0u);
-  sweep.hits[0].sensor = 31;
-  out.resize(encode_payload(sweep, out));
+  out.resize(encode_payload(possible_sweep(), out));
   ASSERT_EQ(out.size(), 27u);
-  out[20] = 32;
-  EXPECT_EQ(decode_payload<Sweep>(out).error(), DecodeError::kBadValue);
-  out[20] = 31;
   out[18] |= 0x10;  // a reserved bit
   EXPECT_EQ(decode_payload<Sweep>(out).error(), DecodeError::kBadValue);
+}
+
+/// A field of a sweep by its place in the payload, its size and its range.
+struct RangedField {
+  const char* name;
+  std::size_t at;
+  std::size_t bytes;
+  std::int64_t least;
+  std::int64_t most;
+};
+
+class SweepField : public ::testing::TestWithParam<RangedField> {};
+
+TEST_P(SweepField, IsTakenWithinItsRangeAndRefusedOutsideOnBothEnds) {
+  const RangedField& field = GetParam();
+  Bytes payload(kMaxPayload);
+  payload.resize(encode_payload(possible_sweep(), payload));
+  const auto decodes_with = [&](std::int64_t value) {
+    for (std::size_t i = 0; i < field.bytes; ++i) payload[field.at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    return decode_payload<Sweep>(payload);
+  };
+  for (const std::int64_t inside : {field.least, field.most}) {
+    const auto message = decodes_with(inside);
+    ASSERT_TRUE(message.ok()) << inside;
+    Bytes again(kMaxPayload);
+    again.resize(encode_payload(*message, again));
+    EXPECT_EQ(again, payload) << inside;
+  }
+  for (const std::int64_t outside : {field.least - 1, field.most + 1, std::int64_t{-1}}) {
+    EXPECT_EQ(decodes_with(outside).error(), DecodeError::kBadValue) << outside;
+  }
+}
+
+// The ranges of the byte table in proto/README.md.
+INSTANTIATE_TEST_SUITE_P(ByteTable, SweepField,
+                         ::testing::Values(RangedField{"flash_length", 8, 4, 2600, 7500},
+                                           RangedField{"period", 12, 4, 13'200'000, 13'466'666},
+                                           RangedField{"flash_sensors", 16, 1, 0, 32},
+                                           RangedField{"sensor", 20, 1, 0, 31}, RangedField{"width", 21, 2, 16, 7500},
+                                           RangedField{"centre", 23, 4, 0, 833'334}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(SweepMessage, IsNotWrittenWithAnImpossibleField) {
+  const auto size_of = [](auto change) {
+    Sweep sweep = possible_sweep();
+    change(sweep);
+    Bytes out(kMaxPayload);
+    return encode_payload(sweep, out);
+  };
+  EXPECT_EQ(size_of([](Sweep&) {}), 27u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.flash_length_ticks = 0; }), 0u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.period_sixteenth_ticks = 0; }), 0u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.flash_sensors = 33; }), 0u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.hits[0].sensor = 32; }), 0u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.hits[0].width_ticks = 65'535; }), 0u);
+  EXPECT_EQ(size_of([](Sweep& sweep) { sweep.hits[0].centre_half_ticks = -7; }), 0u);
 }
 
 TEST(PoseMessage, LetsNoNanThrough) {

@@ -32,6 +32,10 @@ class RandomMessages {
     return static_cast<T>(random_());
   }
   std::size_t below(std::size_t bound) { return random_() % bound; }
+  template <class T>
+  T between(std::int64_t least, std::int64_t most) {
+    return static_cast<T>(least + static_cast<std::int64_t>(below(static_cast<std::size_t>(most - least + 1))));
+  }
   std::int64_t ticks() { return integer<std::int64_t>() % (kMaxTicks + 1); }
   double real() {
     const auto mantissa = static_cast<double>(integer<std::int32_t>());
@@ -62,9 +66,9 @@ class RandomMessages {
   }
   void fill(Sweep& m) {
     m.flash_start_ticks = ticks();
-    m.flash_length_ticks = integer<std::int32_t>();
-    m.period_sixteenth_ticks = integer<std::uint32_t>();
-    m.flash_sensors = integer<std::uint8_t>();
+    m.flash_length_ticks = between<std::int32_t>(kMinFlashTicks, kMaxPulseTicks);
+    m.period_sixteenth_ticks = between<std::uint32_t>(kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks);
+    m.flash_sensors = between<std::uint8_t>(0, kMaxSensors);
     m.flags = integer<std::uint8_t>();
     m.station = static_cast<std::uint8_t>(below(2));
     m.axis = static_cast<Axis>(below(2));
@@ -72,8 +76,9 @@ class RandomMessages {
     m.skip = below(2) == 1;
     m.hits.clear();
     for (std::size_t i = below(kMaxHitsPerSweep + 1); i > 0; --i) {
-      m.hits.push_back(
-          {static_cast<std::uint8_t>(below(kMaxSensors)), integer<std::uint16_t>(), integer<std::int32_t>()});
+      m.hits.push_back({between<std::uint8_t>(0, kMaxSensors - 1),
+                        between<std::uint16_t>(kMinPulseTicks, kMaxPulseTicks),
+                        between<std::int32_t>(0, kMaxCentreHalfTicks)});
     }
   }
   void fill(Ootx& m) {

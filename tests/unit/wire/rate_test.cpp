@@ -25,9 +25,10 @@ double share(double bytes_per_second) { return bytes_per_second * kBitsPerByte /
 
 Sweep sweep_with(std::size_t hits) {
   Sweep sweep;
-  sweep.flash_start_ticks = 0x0123456789ABCD;  // no zeros to make stuffing cheaper or dearer
-  sweep.flash_length_ticks = 0x01010C35;
-  for (std::size_t i = 0; i < hits; ++i) sweep.hits.push_back({static_cast<std::uint8_t>(i % 32), 208, 0x01049401});
+  sweep.flash_start_ticks = 0x0123456789ABCD;
+  sweep.flash_length_ticks = 3125;
+  sweep.period_sixteenth_ticks = 13'333'333;
+  for (std::size_t i = 0; i < hits; ++i) sweep.hits.push_back({static_cast<std::uint8_t>(i % 32), 208, 300'033});
   return sweep;
 }
 
