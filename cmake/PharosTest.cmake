@@ -21,6 +21,9 @@ function(pharos_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   gtest_discover_tests(${name} TEST_PREFIX "${PHAROS_TEST_PREFIX}" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_LABEL STREQUAL "data")
+    set_property(GLOBAL APPEND PROPERTY PHAROS_DATA_TESTS ${name})
+  endif()
 endfunction()
 
 # pharos_fuzz(NAME SOURCE file LIBS libraries...): always an ordinary test that replays tests/fuzz/corpus/NAME through

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
+#include "support/real_data.hpp"
 #include "tests/integration/cli/program.hpp"
 
 namespace pharos::cli_test {
@@ -56,10 +55,8 @@ TEST(CliReproduce, SaysWhereRecordingsAreMissing) {
 }
 
 TEST(CliReproduce, RealRecordingsReachWhatIsAskedOfThem) {
-  const char* data = std::getenv("PHAROS_DATA");
-  const auto folder = std::filesystem::path(data != nullptr ? data : "../shared/data") / "lighthouse";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "real recordings absent: set PHAROS_DATA";
-  const Outcome run = pharos("reproduce lighthouse --recordings " + folder.string());
+  PHAROS_NEEDS_DATA("lighthouse");
+  const Outcome run = pharos("reproduce lighthouse --recordings " + test::real_data("lighthouse").string());
   ASSERT_EQ(run.exit_code, 0);
   std::size_t asked = 0;
   for (const Row& row : rows_of(run.out)) {

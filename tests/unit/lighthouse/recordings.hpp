@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "host/table/edges_reader.hpp"
+#include "support/real_data.hpp"
 
 namespace pharos::test {
 
-/// Folder of the real recordings: $PHAROS_DATA/lighthouse, by default ../shared/data beside the repository.
-inline std::filesystem::path recordings() {
-  const char* data = std::getenv("PHAROS_DATA");
-  const auto source = std::filesystem::path(__FILE__).parent_path() / "../../..";
-  return (data != nullptr ? std::filesystem::path(data) : source / "../shared/data") / "lighthouse";
-}
+/// Folder of the real recordings of base stations.
+inline std::filesystem::path recordings() { return real_data("lighthouse"); }
 
 inline std::vector<lighthouse::RawPulse> recorded_pulses(const std::string& name) {
   host::EdgesReader reader(host::ByteSource((recordings() / (name + ".edges.csv.gz")).string()));
@@ -26,8 +22,4 @@ inline std::vector<lighthouse::RawPulse> recorded_pulses(const std::string& name
 
 }  // namespace pharos::test
 
-/// Leaves the test with a clear word where the recordings are not at hand.
-#define PHAROS_NEEDS_RECORDINGS()                                                              \
-  if (!std::filesystem::exists(pharos::test::recordings()))                                    \
-  GTEST_SKIP() << "no recordings at " << pharos::test::recordings() << ": set PHAROS_DATA to " \
-               << "the folder that holds lighthouse/"
+#define PHAROS_NEEDS_RECORDINGS() PHAROS_NEEDS_DATA("lighthouse")
