@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kLeastArrivalSpanNs = 200'000'000;
 /// A pair this far under the line is no better latency but another mapping...
 constexpr double kLargestDropNs = 50e6;
-/// ...unless the mapping is younger than this and may have been late as a whole.
+/// ...unless the mapping is younger than this and may have been late as a whole, and two pairs in a row say so.
 constexpr double kYoungS = 2.0;
 /// Frames come in the order of sending, and speak of instants of the last few slots; older ones are another counter's.
 constexpr std::int64_t kLargestDisorderTicks = kTicksPerSecond / 4;
@@ -51,6 +51,7 @@ void ClockMap::begin(std::int64_t ticks, std::int64_t monotonic_ns, std::int64_t
   first_arrival_ns_ = arrival_monotonic_ns;
   excess_sum_ns_ = excess_count_ = 0.0;
   rival_pairs_ = 0;
+  drop_ns_.reset();
   line_ = {};
 }
 
@@ -61,11 +62,16 @@ void ClockMap::restart() {
   utc_.restart();
 }
 
-bool ClockMap::fits(std::int64_t ticks, double delay_ns, double time_s) const {
+bool ClockMap::fits(std::int64_t ticks, double delay_ns, double time_s) {
   if (ticks < newest_ticks_ - kLargestDisorderTicks) return false;
   const double above_ns = delay_ns - line_.value(time_s);
-  const bool young = line_.span_s < kYoungS;
-  return above_ns > (young ? -kLargestStallNs : -kLargestDropNs) && above_ns < kLargestStallNs;
+  if (above_ns > -kLargestDropNs) {
+    drop_ns_.reset();
+    return above_ns < kLargestStallNs;
+  }
+  const bool second_in_a_row = drop_ns_ && std::abs(*drop_ns_ - delay_ns) < kRivalAgreementNs;
+  drop_ns_ = delay_ns;
+  return line_.span_s < kYoungS && above_ns > -kLargestStallNs && second_in_a_row;
 }
 
 bool ClockMap::repeats(double delay_ns, std::int64_t arrival_monotonic_ns) {
@@ -90,6 +96,10 @@ void ClockMap::follow_utc(std::int64_t offset_ns) {
     offset_ns_ = offset_ns;
     offset_doubts_ = 0;
     ++counters_.host_steps;
+    if (!utc_.would_jump(change_ns)) return;
+    ++counters_.host_jumps;
+    last_jump_ns_ = change_ns;
+    utc_.begin_anew();
   }
 }
 
@@ -117,7 +127,7 @@ void ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t
     excess_sum_ns_ /= 2.0;
     excess_count_ /= 2.0;
   }
-  excess_sum_ns_ += delay_ns - line_.value(time_s);
+  excess_sum_ns_ += std::max(0.0, delay_ns - line_.value(time_s));
   excess_count_ += 1.0;
   newest_ticks_ = std::max(newest_ticks_, ticks);
   synchronised_ = synchronised_ || arrival_monotonic_ns - first_arrival_ns_ >= kLeastArrivalSpanNs;

@@ -12,7 +12,7 @@ namespace pharos::host {
 
 /// A time of the target in this computer's clocks.
 struct MappedTime {
-  std::int64_t utc_ns = 0;        // never earlier than that of any earlier time of the target mapped before
+  std::int64_t utc_ns = 0;        // not before that of any earlier time of the target mapped since the last host jump
   std::int64_t monotonic_ns = 0;  // for ages and latencies: no steering, no steps of the host's clock
   std::int64_t sigma_ns = 0;      // stated uncertainty of utc_ns against the host's own UTC
 };
@@ -22,6 +22,7 @@ struct ClockCounters {
   std::uint64_t pairs_ignored = 0;   // fitted neither the mapping nor each other
   std::uint64_t resynchronised = 0;  // the target's counter began anew or jumped
   std::uint64_t host_steps = 0;      // somebody set the host's clock
+  std::uint64_t host_jumps = 0;      // of them by more than can be worked off: UTC began anew there
 };
 
 /// Maps the target's 20 ns ticks to UTC, from when frames arrived.
@@ -29,7 +30,10 @@ struct ClockCounters {
 /// What is known: a frame that speaks of an instant arrives after it, by a latency that is never negative and at times
 /// small. The map is the line under all delays (LowerEnvelope) in the host's monotonic clock, plus the difference of
 /// UTC to that clock, led smoothly (SteeredClock). What it cannot know is the part of the latency that every frame has:
-/// tell it what is certain, the frame's own time on the line.
+/// tell it what is certain, the frame's own time on the line. One false pair, whatever it says, bends nothing.
+///
+/// When somebody sets the host's clock by more than a second, UTC begins anew there, backwards too: `host_jumps` counts
+/// it and `last_jump_ns()` says by how much, for a visible reason wherever times go backwards.
 class ClockMap {
  public:
   /// A frame arrived: newest instant of the target's clock that it speaks of, both clocks of the host when its last
@@ -47,11 +51,13 @@ class ClockMap {
   double drift_ppm() const { return -line_.drift_ns_per_s * 1e-3; }
   /// As in MappedTime, for the newest pair; -1 until synchronised.
   std::int64_t sigma_ns() const;
+  /// By how much the host's clock was set at the last jump counted, ns; positive: forwards.
+  std::int64_t last_jump_ns() const { return last_jump_ns_; }
   const ClockCounters& counters() const { return counters_; }
 
  private:
   void begin(std::int64_t ticks, std::int64_t monotonic_ns, std::int64_t arrival_monotonic_ns);
-  bool fits(std::int64_t ticks, double delay_ns, double time_s) const;
+  bool fits(std::int64_t ticks, double delay_ns, double time_s);
   bool repeats(double delay_ns, std::int64_t arrival_monotonic_ns);
   void follow_utc(std::int64_t offset_ns);
   std::int64_t monotonic_of(std::int64_t ticks) const;
@@ -71,10 +77,12 @@ class ClockMap {
   double rival_delay_ns_ = 0.0;
   std::int64_t rival_since_ns_ = 0;
   int rival_pairs_ = 0;
+  std::optional<double> drop_ns_;  // delay of the last pair, where it lay far under the line
   // UTC minus monotonic.
   bool offset_known_ = false;
   std::int64_t offset_ns_ = 0;
   int offset_doubts_ = 0;
+  std::int64_t last_jump_ns_ = 0;
   ClockCounters counters_;
 };
 

@@ -17,32 +17,34 @@ constexpr double kLeastSpanS = 2.0;
 /// Two crystals of 100 ppm each.
 constexpr double kLargestDriftNsPerS = 200e3;
 
-}  // namespace
+/// A least delay further under the second least of its bin than so many times what is usual stands alone: exponential
+/// gaps reach that in 1 of 250 bins, where using the second costs next to nothing.
+constexpr double kCredibleGaps = 8.0;
+/// Fewer bins do not tell what is usual: there every least delay stands alone.
+constexpr std::size_t kBinsForGap = 3;
 
-void LowerEnvelope::add(double time_s, double delay_ns) {
-  const auto number = static_cast<std::int64_t>(std::floor(time_s / kBinS));
-  auto bin = bins_.end();
-  while (bin != bins_.begin() && std::prev(bin)->number >= number) --bin;
-  if (bin == bins_.end() || bin->number != number) {
-    bins_.insert(bin, {number, time_s, delay_ns});
-  } else if (delay_ns < bin->delay_ns) {
-    *bin = {number, time_s, delay_ns};
-  }
-  while (bins_.front().number <= bins_.back().number - kWindowBins) bins_.pop_front();
+/// Of at least one value; reorders them.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-double LowerEnvelope::hull_drift() const {
-  std::vector<Bin> hull;
+/// Slope of the lower hull's edge over the mean time. `points` by time.
+template <class Points>
+double hull_drift(const Points& points) {
+  Points hull;
   double mean_s = 0.0;
-  for (const Bin& bin : bins_) {
-    mean_s += bin.time_s / static_cast<double>(bins_.size());
+  for (const auto& point : points) {
+    mean_s += point.time_s / static_cast<double>(points.size());
     const auto turns_down = [&] {
-      const Bin& a = hull[hull.size() - 2];
-      const Bin& b = hull.back();
-      return (b.delay_ns - a.delay_ns) * (bin.time_s - a.time_s) >= (bin.delay_ns - a.delay_ns) * (b.time_s - a.time_s);
+      const auto& a = hull[hull.size() - 2];
+      const auto& b = hull.back();
+      return (b.delay_ns - a.delay_ns) * (point.time_s - a.time_s) >=
+             (point.delay_ns - a.delay_ns) * (b.time_s - a.time_s);
     };
     while (hull.size() >= 2 && turns_down()) hull.pop_back();
-    hull.push_back(bin);
+    hull.push_back(point);
   }
   for (std::size_t i = 1; i < hull.size(); ++i) {
     if (hull[i].time_s < mean_s) continue;
@@ -51,23 +53,55 @@ double LowerEnvelope::hull_drift() const {
   return 0.0;
 }
 
+}  // namespace
+
+void LowerEnvelope::add(double time_s, double delay_ns) {
+  const auto number = static_cast<std::int64_t>(std::floor(time_s / kBinS));
+  auto bin = bins_.end();
+  while (bin != bins_.begin() && std::prev(bin)->number >= number) --bin;
+  const Point point{time_s, delay_ns};
+  if (bin == bins_.end() || bin->number != number) {
+    bins_.insert(bin, {number, point, std::nullopt});
+  } else if (delay_ns < bin->least.delay_ns) {
+    bin->second = bin->least;
+    bin->least = point;
+  } else if (!bin->second || delay_ns < bin->second->delay_ns) {
+    bin->second = point;
+  }
+  while (bins_.front().number <= bins_.back().number - kWindowBins) bins_.pop_front();
+}
+
+std::vector<LowerEnvelope::Point> LowerEnvelope::points() const {
+  std::vector<Point> points;
+  std::vector<double> gaps;
+  for (const Bin& bin : bins_) {
+    if (bin.second) gaps.push_back(bin.second->delay_ns - bin.least.delay_ns);
+  }
+  const double credible_gap_ns = gaps.size() < kBinsForGap ? 0.0 : kCredibleGaps * median(gaps);
+  for (const Bin& bin : bins_) {
+    if (!bin.second && !gaps.empty()) continue;
+    const bool alone = bin.second && bin.second->delay_ns - bin.least.delay_ns > credible_gap_ns;
+    points.push_back(alone ? *bin.second : bin.least);
+  }
+  return points;
+}
+
 std::optional<LowerEnvelope::Line> LowerEnvelope::fit() const {
-  if (bins_.empty()) return std::nullopt;
+  const std::vector<Point> all = points();
+  if (all.empty()) return std::nullopt;
   Line line;
-  line.at_s = bins_.back().time_s;
-  line.span_s = line.at_s - bins_.front().time_s;
+  line.at_s = all.back().time_s;
+  line.span_s = line.at_s - all.front().time_s;
   if (line.span_s >= kLeastSpanS) {
-    line.drift_ns_per_s = std::clamp(hull_drift(), -kLargestDriftNsPerS, kLargestDriftNsPerS);
+    line.drift_ns_per_s = std::clamp(hull_drift(all), -kLargestDriftNsPerS, kLargestDriftNsPerS);
   }
   line.delay_ns = std::numeric_limits<double>::max();
-  for (const Bin& bin : bins_) {
-    line.delay_ns = std::min(line.delay_ns, bin.delay_ns - line.drift_ns_per_s * (bin.time_s - line.at_s));
+  for (const Point& point : all) {
+    line.delay_ns = std::min(line.delay_ns, point.delay_ns - line.drift_ns_per_s * (point.time_s - line.at_s));
   }
   std::vector<double> heights;
-  for (const Bin& bin : bins_) heights.push_back(bin.delay_ns - line.value(bin.time_s));
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  line.scatter_ns = *middle;
+  for (const Point& point : all) heights.push_back(point.delay_ns - line.value(point.time_s));
+  line.scatter_ns = median(heights);
   return line;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 namespace pharos::host {
 
@@ -13,14 +14,16 @@ namespace pharos::host {
 /// Of all lines below every point, the one with the least sum of distances: the edge of the lower convex hull that
 /// spans the mean time. Moon, Skelly, Towsley, "Estimation and removal of clock skew from network delay measurements",
 /// IEEE INFOCOM 1999. The points are the least delays of half-second bins over the last minute, so that a fit costs at
-/// most 120 points, and bursts and stalls, which only ever add latency, leave no trace.
+/// most 120 points, and bursts and stalls, which only ever add latency, leave no trace. A least delay that stands alone
+/// (far below the second least of its bin, by the measure of the other bins) is a false time: the second serves
+/// instead. A bin of one point counts only while no bin has two.
 class LowerEnvelope {
  public:
   struct Line {
     double at_s = 0.0;  // time of the newest bin
     double delay_ns = 0.0;
     double drift_ns_per_s = 0.0;
-    /// Median height of the bins' least delays above the line, ns: how well defined the floor is.
+    /// Median height of the bins' points above the line, ns: how well defined the floor is.
     double scatter_ns = 0.0;
     double span_s = 0.0;  // from the first bin to the last
     double value(double time_s) const { return delay_ns + drift_ns_per_s * (time_s - at_s); }
@@ -31,13 +34,17 @@ class LowerEnvelope {
   void clear() { bins_.clear(); }
 
  private:
-  struct Bin {
-    std::int64_t number = 0;
-    double time_s = 0.0;  // of the least delay
+  struct Point {
+    double time_s = 0.0;
     double delay_ns = 0.0;
   };
+  struct Bin {
+    std::int64_t number = 0;
+    Point least;
+    std::optional<Point> second;
+  };
 
-  double hull_drift() const;
+  std::vector<Point> points() const;
 
   std::deque<Bin> bins_;  // by number
 };

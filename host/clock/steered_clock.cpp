@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace pharos::host {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 /// An error is worked off with this time constant: within seconds, yet slowly enough to smooth the estimate.
 constexpr double kSteeringNs = 0.5e9;
 constexpr double kLargestRateChange = 0.5;
-/// More than this behind is made good at once.
+/// More than this is not worked off but made good at once (of itself only forwards).
 constexpr std::int64_t kJumpNs = 1'000'000'000;
 constexpr std::int64_t kLeastKnotDistanceNs = 20'000'000;
 
@@ -61,6 +62,14 @@ std::optional<std::int64_t> SteeredClock::read(std::int64_t time_ns) {
     latest_shown_ns_ = shown_ns;
   }
   return shown_ns;
+}
+
+bool SteeredClock::would_jump(std::int64_t change_ns) const { return std::abs(remaining_ns_ + change_ns) > kJumpNs; }
+
+void SteeredClock::begin_anew() {
+  restart();
+  latest_shown_ns_ = std::numeric_limits<std::int64_t>::min();
+  remaining_ns_ = 0;
 }
 
 void SteeredClock::restart() {

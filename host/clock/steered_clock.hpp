@@ -9,8 +9,8 @@
 
 namespace pharos::host {
 
-/// A clock that is led towards better knowledge without ever running backwards: piecewise linear in the target's time,
-/// continuous, at half speed at the slowest. Only forwards may it jump, by more than a second at a time.
+/// A clock that is led towards better knowledge without running backwards: piecewise linear in the target's time,
+/// continuous, at half speed at the slowest. Only forwards does it jump of itself, by more than a second at a time.
 class SteeredClock {
  public:
   /// What the clock should show at `time_ns` of the target, and the rate (1 + drift) that is known for it.
@@ -19,6 +19,10 @@ class SteeredClock {
   std::optional<std::int64_t> read(std::int64_t time_ns);
   /// How far it is from what it should show, ns (positive: behind), at the last steering.
   std::int64_t remaining_ns() const { return remaining_ns_; }
+  /// Whether what it should show, changed by `change_ns`, is more than a second away: too far to be worked off.
+  bool would_jump(std::int64_t change_ns) const;
+  /// Forgets all that was shown: the next steering sets it, backwards too.
+  void begin_anew();
   /// The target's time began anew. What was shown is not taken back: the clock goes on from there at the least.
   void restart();
 

@@ -29,6 +29,10 @@ SimulatedLine::Pair feed_seconds(ClockMap& map, SimulatedLine& line, double seco
   return last;
 }
 
+std::int64_t utc_error_ns(ClockMap& map, const SimulatedLine& line, const SimulatedLine::Pair& pair) {
+  return std::abs(map.map(pair.ticks)->utc_ns - pair.truth_ns - line.utc_offset_ns());
+}
+
 struct Kind {
   const char* name;
   LatencyModel latency;
@@ -107,12 +111,13 @@ TEST(ClockMap, TakesOffTheLatencyThatIsCertain) {
   EXPECT_NEAR(static_cast<double>(map.map(last.ticks)->utc_ns - last.truth_ns - line.utc_offset_ns()), 0.0, 50e3);
 }
 
-TEST(ClockMap, NeverRunsBackwardsWhateverHappens) {
+TEST(ClockMap, RunsBackwardsOnlyWhereAHostJumpIsCounted) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SimulatedLine line(1000 + seed, 100.0, {1e6, static_cast<std::int64_t>(seed % 3) * 8 * kMs, 0.05, 300 * kMs});
     ClockMap map;
     std::int64_t last_utc = 0;  // of any time mapped, across restarts too
     std::int64_t last_ticks = 0;
+    std::uint64_t jumps = 0;
     for (int i = 0; i < 3000; ++i) {
       switch (line.random()() % 800) {
         case 0:
@@ -130,6 +135,8 @@ TEST(ClockMap, NeverRunsBackwardsWhateverHappens) {
           break;
       }
       const auto pair = feed(map, line);
+      if (map.counters().host_jumps != jumps) last_utc = last_ticks = 0;
+      jumps = map.counters().host_jumps;
       // Asked about any instant up to the newest, and a little beyond.
       for (const std::int64_t back_ms : {180, 90, 20, 0, -20}) {
         const std::int64_t ticks = pair.ticks - back_ms * 50'000;
@@ -145,24 +152,47 @@ TEST(ClockMap, NeverRunsBackwardsWhateverHappens) {
   }
 }
 
-TEST(ClockMap, FollowsAHostClockSetForwardAtOnceAndBackAtHalfSpeed) {
+TEST(ClockMap, WorksOffASmallStepOfTheHostClockAtHalfSpeedAtTheSlowest) {
   SimulatedLine line(5, 20.0, {100e3, 0, 0.0, 0});
   ClockMap map;
-  const auto error_ns = [&](const SimulatedLine::Pair& pair) {
-    return std::abs(map.map(pair.ticks)->utc_ns - pair.truth_ns - line.utc_offset_ns());
-  };
   feed_seconds(map, line, 10);
-  line.step_utc(3600 * kS);
-  EXPECT_LT(error_ns(feed_seconds(map, line, 0.1)), 1 * kMs);
-  EXPECT_EQ(map.counters().host_steps, 1u);
-
-  line.step_utc(-2 * kS);
-  const auto soon = feed_seconds(map, line, 1);
-  EXPECT_GT(error_ns(soon), kS);
-  EXPECT_GT(map.map(soon.ticks)->sigma_ns, kS) << "what is still to be worked off is stated";
+  line.step_utc(-900 * kMs);
+  const auto soon = feed_seconds(map, line, 0.5);
+  EXPECT_GT(utc_error_ns(map, line, soon), 500 * kMs);
+  EXPECT_GT(map.map(soon.ticks)->sigma_ns, 500 * kMs) << "what is still to be worked off is stated";
   EXPECT_LT(std::abs(map.map(soon.ticks)->monotonic_ns - soon.truth_ns), kMs) << "ages stay right";
-  EXPECT_LT(error_ns(feed_seconds(map, line, 9)), kMs);
-  EXPECT_EQ(map.counters().host_steps, 2u);
+  EXPECT_LT(utc_error_ns(map, line, feed_seconds(map, line, 9)), kMs);
+  EXPECT_EQ(map.counters().host_steps, 1u);
+  EXPECT_EQ(map.counters().host_jumps, 0u);
+}
+
+TEST(ClockMap, BeginsUtcAnewWhenTheHostClockIsSetByHours) {
+  for (const std::int64_t step_ns : {3600 * kS, -3600 * kS, -1100 * kMs, 86'400 * kS, -10 * 86'400 * kS}) {
+    SimulatedLine line(5, 20.0, {100e3, 0, 0.0, 0});
+    ClockMap map;
+    feed_seconds(map, line, 10);
+    line.step_utc(step_ns);
+    const auto at_once = feed_seconds(map, line, 0.1);
+    ASSERT_TRUE(map.map(at_once.ticks).has_value()) << "no gap: the ticks are still understood";
+    EXPECT_LT(utc_error_ns(map, line, at_once), kMs) << step_ns;
+    EXPECT_LT(map.map(at_once.ticks)->sigma_ns, kMs);
+    EXPECT_LT(std::abs(map.map(at_once.ticks)->monotonic_ns - at_once.truth_ns), kMs);
+    EXPECT_EQ(map.counters().host_jumps, 1u) << "the visible reason";
+    EXPECT_NEAR(static_cast<double>(map.last_jump_ns()), static_cast<double>(step_ns), 1e6);
+    EXPECT_EQ(map.counters().resynchronised, 0u);
+    EXPECT_LT(utc_error_ns(map, line, feed_seconds(map, line, 5)), kMs) << "and it stays so";
+    EXPECT_EQ(map.counters().host_jumps, 1u);
+  }
+}
+
+TEST(ClockMap, ManySmallStepsBackAreNotWorkedOffForEver) {
+  SimulatedLine line(12, 20.0, {100e3, 0, 0.0, 0});
+  ClockMap map;
+  feed_seconds(map, line, 10);
+  for (int i = 0; i < 20; ++i) {
+    line.step_utc(-900 * kMs);
+    EXPECT_LT(utc_error_ns(map, line, feed_seconds(map, line, 0.1)), 1100 * kMs) << i;
+  }
 }
 
 TEST(ClockMap, FindsARestartedTargetByItselfWithinHalfASecond) {
@@ -217,6 +247,32 @@ TEST(ClockMap, IgnoresASingleWildTime) {
   }
   EXPECT_EQ(map.counters().pairs_ignored, 3u);
   EXPECT_EQ(map.counters().resynchronised, 0u);
+}
+
+// A false time `ahead_ns` of the truth, in good company, in the `at`-th place.
+void expect_unbent(int at, std::int64_t ahead_ns) {
+  SimulatedLine line(13, 40.0, {100e3, 0, 0.0, 0});
+  ClockMap map;
+  for (int i = 0; i < 4000; ++i) {
+    auto pair = line.next();
+    if (i == at) map.add(pair.ticks + ahead_ns / 20, pair.arrival_utc_ns, pair.arrival_monotonic_ns);
+    map.add(pair.ticks, pair.arrival_utc_ns, pair.arrival_monotonic_ns);
+    if (i < 120 || i == at) continue;
+    const auto mapped = map.map(pair.ticks);
+    ASSERT_TRUE(mapped.has_value()) << "at " << at << ", " << ahead_ns << " ns ahead, pair " << i;
+    ASSERT_LT(std::abs(mapped->utc_ns - pair.truth_ns - line.utc_offset_ns()), kMs)
+        << "at " << at << ", " << ahead_ns << " ns ahead, pair " << i;
+    ASSERT_GT(mapped->sigma_ns, 0);
+  }
+}
+
+TEST(ClockMap, OneFalseTimeBendsNothingWhereverItComes) {
+  for (const int at : {0, 1, 5, 60, 200, 1000, 2500}) {
+    for (const std::int64_t ahead_ns :
+         {kMs, 10 * kMs, 49 * kMs, 240 * kMs, 3 * kS, -kMs, -49 * kMs, -240 * kMs, -3 * kS}) {
+      expect_unbent(at, ahead_ns);
+    }
+  }
 }
 
 TEST(ClockMap, IsNotFooledByBytesThatWaitedInTheKernel) {

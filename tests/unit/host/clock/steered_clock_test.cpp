@@ -41,6 +41,19 @@ TEST(SteeredClock, JumpsForwardsOnly) {
   EXPECT_LT(clock.remaining_ns(), -9'000 * kMs);
 }
 
+TEST(SteeredClock, BeginsAnewWhereverItIsTold) {
+  SteeredClock clock;
+  clock.steer(0, kUtc, 1.0);
+  clock.read(0);
+  EXPECT_FALSE(clock.would_jump(-1000 * kMs));
+  EXPECT_TRUE(clock.would_jump(-1001 * kMs));
+  clock.begin_anew();
+  EXPECT_EQ(clock.read(1), std::nullopt);
+  clock.steer(100 * kMs, kUtc - 5000 * kMs, 1.0);
+  EXPECT_EQ(clock.read(100 * kMs), kUtc - 5000 * kMs);
+  EXPECT_EQ(clock.remaining_ns(), 0);
+}
+
 TEST(SteeredClock, GoesOnFromWhereItWasAfterARestart) {
   SteeredClock clock;
   clock.steer(0, kUtc + 500 * kMs, 1.0);
