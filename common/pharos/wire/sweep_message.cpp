@@ -21,7 +21,7 @@ constexpr bool within(T value, T least, T most) {
 
 bool is_possible(const SweepHit& hit) {
   return hit.sensor < kMaxSensors && within<std::int32_t>(hit.width_ticks, kMinPulseTicks, kMaxPulseTicks) &&
-         within(hit.centre_half_ticks, 0, kMaxCentreHalfTicks);
+         within<std::int32_t>(hit.centre_half_ticks, 0, kMaxCentreHalfTicks);
 }
 
 bool is_possible(const Sweep& message) {
