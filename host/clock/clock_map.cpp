@@ -103,7 +103,7 @@ void ClockMap::follow_utc(std::int64_t offset_ns) {
   }
 }
 
-void ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t arrival_monotonic_ns,
+bool ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t arrival_monotonic_ns,
                    std::int64_t certain_latency_ns) {
   follow_utc(arrival_utc_ns - arrival_monotonic_ns);
   const std::int64_t sent_ns = arrival_monotonic_ns - certain_latency_ns;
@@ -113,7 +113,7 @@ void ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t
   if (!fits(ticks, delay_ns, time_s)) {
     if (!repeats(delay_ns, arrival_monotonic_ns)) {
       ++counters_.pairs_ignored;
-      return;
+      return false;
     }
     ++counters_.resynchronised;
     begin(ticks, sent_ns, arrival_monotonic_ns);
@@ -131,9 +131,11 @@ void ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t
   excess_count_ += 1.0;
   newest_ticks_ = std::max(newest_ticks_, ticks);
   synchronised_ = synchronised_ || arrival_monotonic_ns - first_arrival_ns_ >= kLeastArrivalSpanNs;
-  if (!synchronised_) return;
-  utc_.steer(ticks_to_nanoseconds(newest_ticks_), monotonic_of(newest_ticks_) + offset_ns_,
-             1.0 + line_.drift_ns_per_s * 1e-9);
+  if (synchronised_) {
+    utc_.steer(ticks_to_nanoseconds(newest_ticks_), monotonic_of(newest_ticks_) + offset_ns_,
+               1.0 + line_.drift_ns_per_s * 1e-9);
+  }
+  return true;
 }
 
 std::int64_t ClockMap::monotonic_of(std::int64_t ticks) const {

@@ -37,8 +37,8 @@ struct ClockCounters {
 class ClockMap {
  public:
   /// A frame arrived: newest instant of the target's clock that it speaks of, both clocks of the host when its last
-  /// byte was read, and how much latency is certain.
-  void add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t arrival_monotonic_ns,
+  /// byte was read, and how much latency is certain. False where the pair contradicts the mapping and was not taken.
+  bool add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t arrival_monotonic_ns,
            std::int64_t certain_latency_ns = 0);
   /// Empty until pairs span 0.2 s, for times more than 5 s from the newest pair, and while the newest pairs contradict
   /// the mapping (the target may have restarted).

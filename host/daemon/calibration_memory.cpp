@@ -71,7 +71,7 @@ bool write_all(int fd, const std::string& text) {
     if (written <= 0) return false;
     done += static_cast<std::size_t>(written);
   }
-  return ::fsync(fd) == 0;
+  return true;
 }
 
 }  // namespace
@@ -88,35 +88,46 @@ void CalibrationMemory::load() {
   for (const TomlTable& table : root.tables("station")) stations.push_back(read_station(table));
   root.reject_unknown();
   stations_ = std::move(stations);
+  while (stations_.size() > kMostStations) drop_oldest();
 }
 
-std::optional<std::string> CalibrationMemory::keep(const StationCalibration& calibration) {
-  const auto same = std::find_if(stations_.begin(), stations_.end(),
-                                 [&](const StationCalibration& station) { return station.id == calibration.id; });
-  if (same == stations_.end()) {
-    stations_.push_back(calibration);
-  } else if (*same == calibration && written_) {
-    return std::nullopt;
-  } else {
-    *same = calibration;
-  }
-  if (file_.empty()) return std::nullopt;
-  const std::optional<std::string> trouble = write();
-  written_ = !trouble;
-  return trouble;
+void CalibrationMemory::drop_oldest() {
+  stations_.erase(stations_.begin());
+  ++counters_.dropped;
 }
 
-std::optional<std::string> CalibrationMemory::write() const {
+void CalibrationMemory::keep(const StationCalibration& calibration) {
+  if (!stations_.empty() && stations_.back() == calibration) return;
+  std::erase_if(stations_, [&](const StationCalibration& station) { return station.id == calibration.id; });
+  if (stations_.size() == kMostStations) drop_oldest();
+  stations_.push_back(calibration);
+  unsaved_ = !file_.empty();
+}
+
+void CalibrationMemory::save(std::int64_t monotonic_ns) {
+  if (!unsaved_ || (!trouble_.empty() && monotonic_ns < retry_at_ns_)) return;
+  write();
+  retry_at_ns_ = monotonic_ns + kRetryNs;
+}
+
+void CalibrationMemory::save_at_last() {
+  if (unsaved_) write();
+}
+
+void CalibrationMemory::write() {
   std::string text = kHeading;
   for (const StationCalibration& station : stations_) text += text_of(station);
-  std::error_code error;
-  std::filesystem::create_directories(file_.parent_path(), error);
+  std::error_code ignored;  // if the folder cannot be made, opening says why
+  std::filesystem::create_directories(file_.parent_path(), ignored);
   const std::filesystem::path aside = file_.string() + ".new";
   UniqueFd fd(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (!fd.valid() || !write_all(fd.get(), text) || ::rename(aside.c_str(), file_.c_str()) != 0) {
-    return file_.string() + ": cannot be written: " + std::strerror(errno);
-  }
-  return std::nullopt;
+  unsaved_ = !fd.valid() || !write_all(fd.get(), text) || ::rename(aside.c_str(), file_.c_str()) != 0;
+  trouble_ = unsaved_ ? file_.string() + ": cannot be written: " + std::strerror(errno) +
+                            "; calibrations are not kept across a restart"
+                      : "";
+  if (!unsaved_) return;
+  ++counters_.write_failures;
+  if (fd.valid()) (void)::unlink(aside.c_str());
 }
 
 }  // namespace pharos::host

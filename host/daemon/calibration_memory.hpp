@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,30 +11,55 @@
 
 namespace pharos::host {
 
+/// How often the file could not be written and how many calibrations made room for others.
+struct MemoryCounters {
+  std::int64_t write_failures = 0;
+  std::int64_t dropped = 0;
+};
+
 /// Station calibrations that were accepted once, by station id, kept in `stations.toml` across restarts.
 ///
-/// The file has the form that `pharos track --calibration FILE` takes. It is replaced whole (written aside, synced,
-/// renamed): a power cut leaves the old one or the new one.
+/// The file has the form that `pharos track --calibration FILE` takes. It is replaced whole (written aside, renamed),
+/// so a reader and a program that dies see the old one or the new one. It is not synced: see README.md.
 class CalibrationMemory {
  public:
+  /// More stations than a site has, and each target's own store takes only the newest eight; ids are what a target says
+  /// they are, so there must be an end. The file stays below 32 KiB.
+  static constexpr std::size_t kMostStations = 64;
+  /// After a failure the file is tried again so much later.
+  static constexpr std::int64_t kRetryNs = 10'000'000'000;
+
   /// An empty `directory` keeps nothing.
   explicit CalibrationMemory(const std::filesystem::path& directory);
 
   /// Reads the file; none there is an empty memory. Throws InputError for one that cannot be read or understood; the
-  /// memory is empty then, and the next keep() replaces the file.
+  /// memory is empty then, and the next save() of something kept replaces the file.
   void load();
+  /// Oldest acceptance first.
   const std::vector<lighthouse::StationCalibration>& stations() const { return stations_; }
-  /// Puts `calibration` in the place of the one of the same id and writes the file, unless nothing changed. What went
-  /// wrong is returned in words.
-  std::optional<std::string> keep(const lighthouse::StationCalibration& calibration);
+  /// Puts `calibration` last, in the place of the one of the same id; the first makes room where there is none. Writes
+  /// nothing: cheap between two cycles.
+  void keep(const lighthouse::StationCalibration& calibration);
+  /// Writes the file where it does not hold what was kept; after a failure only once kRetryNs have passed.
+  void save(std::int64_t monotonic_ns);
+  /// The same without waiting: there is no later time.
+  void save_at_last();
+
+  /// Why the file does not hold what was kept, one line for a person; empty when all is well.
+  const std::string& trouble() const { return trouble_; }
+  const MemoryCounters& counters() const { return counters_; }
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  std::optional<std::string> write() const;
+  void write();
+  void drop_oldest();
 
   std::filesystem::path file_;
   std::vector<lighthouse::StationCalibration> stations_;
-  bool written_ = true;  // the file holds what stations_ does
+  bool unsaved_ = false;
+  std::int64_t retry_at_ns_ = 0;
+  std::string trouble_;
+  MemoryCounters counters_;
 };
 
 }  // namespace pharos::host

@@ -103,6 +103,7 @@ void Daemon::run() {
       std::chrono::duration<double>(config_.publish.status_period_s)));
   spdlog::info("pharosd {} started, {} target{}", PHAROS_VERSION, channels_.size(), channels_.size() == 1 ? "" : "s");
   loop_.run();
+  memory_.save_at_last();
   message_ = "stopped";
   publish_health();
   spdlog::info("stopped");
@@ -112,14 +113,20 @@ void Daemon::attend() {
   attend_timer_.take_expiries();
   const std::int64_t now_ns = monotonic_now_ns();
   for (const auto& channel : channels_) channel->feed->attend(now_ns);
-  const std::string trouble = recording_trouble();
-  if (!trouble.empty() && log_limit_.pass("recording", now_ns)) spdlog::warn("{}", trouble);
+  // Poses first, files when no bytes are in hand.
+  memory_.save(now_ns);
+  warn("calibrations", memory_.trouble(), now_ns);
+  warn("recording", recording_trouble(), now_ns);
   const std::int64_t failed = publisher_.counters().failed;
   if (failed > failed_told_ && log_limit_.pass("lcm", now_ns)) {
     spdlog::warn("{} messages could not be sent over LCM: is there still a route for multicast?",
                  failed - failed_told_);
     failed_told_ = failed;
   }
+}
+
+void Daemon::warn(const char* kind, const std::string& trouble, std::int64_t now_ns) {
+  if (!trouble.empty() && log_limit_.pass(kind, now_ns)) spdlog::warn("{}", trouble);
 }
 
 void Daemon::on_signal() {
@@ -134,6 +141,17 @@ std::string Daemon::recording_trouble() const {
   return "";
 }
 
+// What is wrong beside the sources, the first thing first; empty when nothing is.
+std::string Daemon::trouble() const {
+  if (!message_.empty()) return message_;
+  for (const auto& channel : channels_) {
+    const std::string notice = channel->line->clock_notice(channel->feed->monotonic_now());
+    if (!notice.empty()) return channel->name + ": " + notice;
+  }
+  const std::string recording = recording_trouble();
+  return recording.empty() ? memory_.trouble() : recording;
+}
+
 void Daemon::publish_health() {
   status_timer_.take_expiries();
   DaemonHealth health;
@@ -141,7 +159,7 @@ void Daemon::publish_health() {
   health.uptime_ns = monotonic_now_ns() - started_ns_;
   health.host = host_name();
   health.version = PHAROS_VERSION;
-  health.message = message_.empty() ? recording_trouble() : message_;
+  health.message = trouble();
   health.counters = named_counts();
   for (const auto& channel : channels_) {
     const LineFeed& feed = *channel->feed;
@@ -167,6 +185,9 @@ NamedCounts Daemon::named_counts() const {
           {"published_status", sent.status},
           {"published_bytes", sent.bytes},
           {"publish_failures", sent.failed},
+          {"calibrations.kept", static_cast<std::int64_t>(memory_.stations().size())},
+          {"calibrations.dropped", memory_.counters().dropped},
+          {"calibrations.write_failures", memory_.counters().write_failures},
           {"process_cpu_us", usage.cpu_us},
           {"process_resident_kib", usage.resident_kib}};
 }

@@ -41,6 +41,8 @@ class Daemon {
   void publish_health();
   NamedCounts named_counts() const;
   std::string recording_trouble() const;
+  std::string trouble() const;
+  void warn(const char* kind, const std::string& trouble, std::int64_t now_ns);
 
   DaemonConfig config_;
   EventLoop loop_;

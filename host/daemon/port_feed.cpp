@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/port_feed.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
 #include "host/daemon/now.hpp"
@@ -16,7 +14,7 @@ constexpr std::size_t kReadBytes = 16 * 1024;
 }  // namespace
 
 PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, LineFeedEvents events)
-    : loop_(loop), name_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
+    : loop_(loop), log_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
 
 PortFeed::~PortFeed() {
   if (port_.is_open()) loop_.forget(port_.fd());
@@ -28,11 +26,11 @@ void PortFeed::attend(std::int64_t monotonic_ns) {
     case ReopeningPort::Attempt::kStillGone:
       return;
     case ReopeningPort::Attempt::kOpened:
-      spdlog::info("{}: {} is open", name_, port_.path());
+      log_.info("open", port_.path() + " is open", monotonic_ns);
       loop_.watch(port_.fd(), [this] { on_readable(); });
       return;
     case ReopeningPort::Attempt::kFailed:
-      spdlog::warn("{}: {}; trying again", name_, port_.failure().message);
+      log_.warn("not open", port_.failure().message + "; trying again", monotonic_ns);
       return;
   }
 }
@@ -45,7 +43,7 @@ void PortFeed::on_readable() {
   if (!transfer.gone) return;
   loop_.forget(fd);
   was_lost_ = true;
-  spdlog::warn("{}: {} was unplugged; waiting for it", name_, port_.path());
+  log_.warn("unplugged", port_.path() + " was unplugged; waiting for it", arrival.monotonic_ns);
   events_.lost();
 }
 
@@ -65,7 +63,8 @@ std::int64_t PortFeed::monotonic_now() const { return monotonic_now_ns(); }
 
 NamedCounts PortFeed::counters() const {
   return {{"port.opened", static_cast<std::int64_t>(port_.times_opened())},
-          {"port.lost", static_cast<std::int64_t>(port_.times_lost())}};
+          {"port.lost", static_cast<std::int64_t>(port_.times_lost())},
+          {"port.log_lines_held_back", static_cast<std::int64_t>(log_.held_back())}};
 }
 
 }  // namespace pharos::host

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/daemon/event_loop.hpp"
+#include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_feed.hpp"
 #include "host/serial/reopening_port.hpp"
 
@@ -28,7 +29,7 @@ class PortFeed : public LineFeed {
   void on_readable();
 
   EventLoop& loop_;
-  std::string name_;
+  LimitedLog log_;
   ReopeningPort port_;
   LineFeedEvents events_;
   std::vector<std::uint8_t> buffer_;

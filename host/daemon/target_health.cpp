@@ -59,9 +59,7 @@ void TargetLine::judge(SourceHealth& health, std::int64_t now_ns) const {
     health.message = "the target has been silent for " + seconds_text(last_bytes_ns_, now_ns);
   } else if (!within(last_frame_ns_, now_ns) && told_version_) {
     health.state = SourceState::kError;
-    health.message = "the target speaks version " + std::to_string(*told_version_) +
-                     " of the serial protocol, this daemon version " + std::to_string(wire::kProtocolVersion) +
-                     ": update the older one";
+    health.message = foreign_version_text(*told_version_);
   } else if (!within(last_frame_ns_, now_ns)) {
     health.state = SourceState::kError;
     health.message = "bytes come but no frame: is the baud rate that of the target?";
@@ -95,8 +93,10 @@ NamedCounts TargetLine::named_counts() const {
   counts.push_back({"clock.pairs_ignored", static_cast<std::int64_t>(clock_.counters().pairs_ignored)});
   counts.push_back({"clock.resynchronised", static_cast<std::int64_t>(clock_.counters().resynchronised)});
   counts.push_back({"clock.host_steps", static_cast<std::int64_t>(clock_.counters().host_steps)});
-  if (told_.any_decoder) lighthouse::for_each_counter(told_.decoder, add("decoder."));
-  if (told_.any_device) wire::for_each_counter(told_.device, add("device."));
+  counts.push_back({"clock.host_jumps", static_cast<std::int64_t>(clock_.counters().host_jumps)});
+  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
+  told_.decoder.visit(lighthouse::DecoderCounters{}, add("decoder."));
+  told_.device.visit(wire::DeviceCounters{}, add("device."));
   return counts;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/target_line.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
@@ -19,6 +19,9 @@ constexpr std::int64_t kRestartTicks = kTicksPerSecond;
 // Without a flash for this long the target's decoder does not know its stations again (it extrapolates rotors for 300
 // s).
 constexpr std::int64_t kLongestDarkTicks = 240 * kTicksPerSecond;
+
+// So long poses say why their times may have gone back, and the status why.
+constexpr std::int64_t kHostJumpToldNs = 60'000'000'000;
 
 std::string version_text(const wire::Hello& hello) {
   return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
@@ -49,7 +52,8 @@ TargetLine::TargetLine(const TargetConfig& config, const PublishConfig& publish,
       publisher_(publisher),
       memory_(memory),
       tracker_(config.target, config.track),
-      line_baud_(line_baud) {
+      line_baud_(line_baud),
+      log_(config.name) {
   if (!config_.remember_calibrations) return;
   for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
 }
@@ -65,7 +69,7 @@ void TargetLine::push(std::span<const std::uint8_t> bytes, const Arrival& arriva
     // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
     if (byte == wire::kFrameBorder) frame_bytes_ = 0;
   }
-  warn_of_foreign_version();
+  tell_foreign_version();
 }
 
 void TargetLine::handle(const report::LinkEvent& event) {
@@ -77,20 +81,44 @@ void TargetLine::handle(const report::LinkEvent& event) {
 void TargetLine::watch_clock(const report::LinkEvent& event) {
   const auto ticks = report::newest_ticks(event);
   if (!ticks) return;
-  if (any_ticks_ && *ticks < newest_ticks_ - kRestartTicks) restart("its clock went back");
-  newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
-  any_ticks_ = true;
+  // One false time is no restart: it takes two in a row.
+  const bool back = any_ticks_ && *ticks < newest_ticks_ - kRestartTicks;
+  if (back && went_back_) restart("its clock went back");
+  went_back_ = back && any_ticks_;
   const std::size_t frame_bytes = std::min(frame_bytes_, wire::kMaxLineFrame);
-  clock_.add(*ticks, arrival_.utc_ns, arrival_.monotonic_ns, line_time_ns(frame_bytes, line_baud_));
+  const bool taken = clock_.add(*ticks, arrival_.utc_ns, arrival_.monotonic_ns, line_time_ns(frame_bytes, line_baud_));
+  if (taken) {
+    newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
+    any_ticks_ = true;
+  }
+  if (clock_.counters().host_jumps != host_jumps_) tell_host_jump();
+}
+
+void TargetLine::tell_host_jump() {
+  host_jumps_ = clock_.counters().host_jumps;
+  host_jump_ns_ = arrival_.monotonic_ns;
+  log_.warn("host clock", clock_notice(host_jump_ns_), host_jump_ns_);
+}
+
+std::string TargetLine::clock_notice(std::int64_t monotonic_ns) const {
+  if (host_jump_ns_ < 0 || monotonic_ns - host_jump_ns_ >= kHostJumpToldNs) return "";
+  const double jump_s = static_cast<double>(clock_.last_jump_ns()) * 1e-9;
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "this computer's clock was set %s by %.1f s; utime of poses went with it, they carry the flag clock_set",
+      jump_s < 0.0 ? "back" : "forward", std::abs(jump_s));
+  return text.data();
 }
 
 // What the old time base and the old slot numbers told means nothing any more.
 void TargetLine::restart(const char* why) {
-  spdlog::info("{}: target started anew ({})", config_.name, why);
+  log_.info("restart", std::string("target started anew (") + why + ')', arrival_.monotonic_ns);
   ++counters_.target_restarts;
   clock_.restart();
   tracker_ = track::EpochTracker(config_.target, config_.track);
   calibrations_.forget_stations();
+  told_ = {};
   any_ticks_ = false;
   last_flash_ticks_ = 0;
 }
@@ -131,9 +159,7 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
       ++counters_.ootx_unreadable;
       return;
     case lighthouse::CalibrationStore::Verdict::kFirstTime:
-      return;
     case lighthouse::CalibrationStore::Verdict::kUnchanged:
-      remember(payload.station);  // again where the disk was full the last time
       return;
     case lighthouse::CalibrationStore::Verdict::kTakenIntoUse:
       break;
@@ -142,26 +168,16 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
   if (calibration == nullptr) return;
   ++counters_.calibrations_taken;
   tracker_.set_calibration(payload.station, *calibration);
-  spdlog::info("{}: calibration of station {} ({}) in use", config_.name, payload.station,
-               station_id_text(calibration->id));
-  remember(payload.station);
+  log_.info("calibration",
+            "calibration of station " + std::to_string(payload.station) + " (" + station_id_text(calibration->id) +
+                ") in use",
+            arrival_.monotonic_ns);
+  if (config_.remember_calibrations) memory_.keep(*calibration);
 }
 
-void TargetLine::remember(std::uint8_t station) {
-  const lighthouse::StationCalibration* calibration = calibrations_.in_use(station);
-  if (calibration == nullptr || !config_.remember_calibrations) return;
-  if (const auto trouble = memory_.keep(*calibration)) spdlog::warn("{}", *trouble);
-}
+void TargetLine::take(const report::DecoderReport& report) { told_.decoder.take(report.counters); }
 
-void TargetLine::take(const report::DecoderReport& report) {
-  told_.decoder = report.counters;
-  told_.any_decoder = true;
-}
-
-void TargetLine::take(const report::DeviceReport& report) {
-  told_.device = report.counters;
-  told_.any_device = true;
-}
+void TargetLine::take(const report::DeviceReport& report) { told_.device.take(report.counters); }
 
 void TargetLine::take(const report::EdgesReport& edges) {
   counters_.raw_edges += static_cast<std::int64_t>(edges.edges.size());
@@ -179,7 +195,7 @@ void TargetLine::take(const wire::Hello& hello) {
   if (hello.role == wire::Role::kSimulator) identity += " (simulated)";
   if (identity == identity_) return;
   identity_ = identity;
-  spdlog::info("{}: {} speaks", config_.name, identity_);
+  log_.info("identity", identity_ + " speaks", arrival_.monotonic_ns);
 }
 
 void TargetLine::count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose) {
@@ -208,6 +224,7 @@ std::optional<CycleReport> TargetLine::timed_report(std::uint8_t station, std::i
     ++counters_.cycles_stale;
     return std::nullopt;
   }
+  report.clock_was_set = !clock_notice(arrival_.monotonic_ns).empty();
   report.source = source_;
   report.target = config_.name;
   report.station = station;
@@ -249,12 +266,16 @@ void TargetLine::take(const report::PoseReport& pose) {
   publisher_.publish_board_pose(*report);
 }
 
-void TargetLine::warn_of_foreign_version() {
+void TargetLine::tell_foreign_version() {
   const auto version = link_.foreign_version();
   if (!version || version == told_version_) return;
   told_version_ = version;
-  spdlog::error("{}: the target speaks version {} of the serial protocol, this daemon version {}: update the older one",
-                config_.name, *version, wire::kProtocolVersion);
+  log_.error("version", foreign_version_text(*version), arrival_.monotonic_ns);
+}
+
+std::string TargetLine::foreign_version_text(std::uint8_t version) {
+  return "the target speaks version " + std::to_string(version) + " of the serial protocol, this daemon version " +
+         std::to_string(wire::kProtocolVersion) + ": update the older one";
 }
 
 }  // namespace pharos::host

@@ -11,7 +11,9 @@
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
 #include "host/daemon/latency_histogram.hpp"
+#include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_counters.hpp"
+#include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/publisher.hpp"
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/report/link_decoder.hpp"
@@ -45,16 +47,18 @@ class TargetLine {
   SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_trouble,
                       std::int64_t monotonic_ns);
 
+  /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
+  std::string clock_notice(std::int64_t monotonic_ns) const;
+
   const LineCounters& counters() const { return counters_; }
   /// From the last byte of a cycle read to its pose on LCM.
   const LatencyHistogram& latency() const { return latency_; }
 
  private:
+  // Of the target's present start.
   struct Told {
-    lighthouse::DecoderCounters decoder;
-    wire::DeviceCounters device;
-    bool any_decoder = false;
-    bool any_device = false;
+    UnwrappedCounters decoder;
+    UnwrappedCounters device;
   };
 
   void handle(const report::LinkEvent& event);
@@ -71,13 +75,14 @@ class TargetLine {
     ++counters_.unexpected_events;
   }
 
-  void remember(std::uint8_t station);
   void watch_clock(const report::LinkEvent& event);
+  void tell_host_jump();
   void restart(const char* why);
   void answer(const track::EpochResult& result);
   std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
-  void warn_of_foreign_version();
+  void tell_foreign_version();
+  static std::string foreign_version_text(std::uint8_t version);
   void judge(SourceHealth& health, std::int64_t monotonic_ns) const;
   NamedCounts named_counts() const;
 
@@ -98,11 +103,16 @@ class TargetLine {
   std::size_t frame_bytes_ = 0;     // since the last good frame
   std::int64_t newest_ticks_ = 0;
   bool any_ticks_ = false;
+  bool went_back_ = false;  // the last time told lay far before newest_ticks_
   std::int64_t last_flash_ticks_ = 0;
   std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
+  std::uint64_t host_jumps_ = 0;    // of the clock map, as far as told
+  std::int64_t host_jump_ns_ = -1;  // monotonic, of the last one
+
   LineCounters counters_;
   Told told_;
+  LimitedLog log_;
   std::string identity_;
   LatencyHistogram latency_;
   std::int64_t sequence_ = 0;

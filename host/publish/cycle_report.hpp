@@ -32,9 +32,10 @@ struct CycleReport {
   std::int64_t sequence = 0;
   std::string source;
   std::string target;
-  std::string station_id;    // eight hex digits, empty while unknown
-  std::uint8_t station = 0;  // slot position
-  std::uint8_t flags = 0;    // of track::EpochFlag
+  std::string station_id;      // eight hex digits, empty while unknown
+  std::uint8_t station = 0;    // slot position
+  std::uint8_t flags = 0;      // of track::EpochFlag
+  bool clock_was_set = false;  // this computer's clock, a moment ago: utime may have gone backwards
   int observations = 0;
   Result<LighthousePoseEstimate, pose::Refusal> pose = pose::Refusal::kTooFewSensors;
   std::vector<ReportedBearing> bearings;

@@ -73,7 +73,7 @@ pose_t pose_message(const CycleReport& report) {
   message.child_frame = "body";
   message.status = status_word(report.pose);
   message.valid = report.pose.ok() ? 1 : 0;
-  message.flags = flag_words(report.flags);
+  message.flags = flag_words(report);
   message.observations = report.observations;
   if (report.pose) fill_estimate(*report.pose, message);
   return message;
@@ -87,7 +87,7 @@ bearings_t bearings_message(const CycleReport& report) {
   message.station_or_camera = report.station_id;
   message.station = static_cast<std::int8_t>(report.station);
   message.target = report.target;
-  message.flags = flag_words(report.flags);
+  message.flags = flag_words(report);
   message.calibrated = (report.flags & track::kEpochUncalibrated) == 0 ? 1 : 0;
   for (const ReportedBearing& bearing : report.bearings) message.bearings.push_back(bearing_message(bearing));
   message.count = static_cast<std::int32_t>(message.bearings.size());

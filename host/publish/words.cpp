@@ -16,6 +16,12 @@ std::string status_word(const Result<LighthousePoseEstimate, pose::Refusal>& pos
 
 std::string flag_words(std::uint8_t epoch_flags) { return joined_flags(epoch_flags, track::kEpochFlagWords); }
 
+std::string flag_words(const CycleReport& report) {
+  std::string words = flag_words(report.flags);
+  if (report.clock_was_set) words += words.empty() ? "clock_set" : "|clock_set";
+  return words;
+}
+
 std::string station_id_text(std::uint32_t id) {
   std::array<char, 9> text{};
   std::snprintf(text.data(), text.size(), "%08X", id);

@@ -6,8 +6,6 @@
 
 #include "host/serial/serial_port.hpp"
 #include "integration/pharosd_fixture.hpp"
-#include "pharos/wire/cobs.hpp"
-#include "pharos/wire/crc32.hpp"
 
 namespace pharos::host {
 namespace {
@@ -72,17 +70,7 @@ TEST_F(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
 TEST_F(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
   start();
   ASSERT_TRUE(daemon.process().wait_for("is open"));
-  for (std::uint8_t i = 0; i < 5; ++i) {
-    std::vector<std::uint8_t> frame{7, 2, i, 0, 1, 2, 3};
-    const std::uint32_t crc = wire::crc32(frame);
-    for (int k = 0; k < 4; ++k) frame.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
-    std::vector<std::uint8_t> stuffed(64);
-    wire::CobsWriter stuffing{std::span<std::uint8_t>(stuffed).subspan(1)};
-    stuffing.put(frame);
-    stuffed.resize(1 + stuffing.finish());
-    stuffed.push_back(0);
-    line.write(stuffed);
-  }
+  for (std::uint16_t i = 0; i < 5; ++i) line.write(foreign_frame(7, i));
   ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "error"; }))
       << daemon.process().text();
   EXPECT_THAT(daemon.source()->message, HasSubstr("speaks version 7"));

@@ -5,6 +5,8 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/lighthouse/station_model.hpp"
+#include "pharos/wire/cobs.hpp"
+#include "pharos/wire/crc32.hpp"
 
 namespace pharos::host {
 
@@ -90,6 +92,19 @@ StillTarget::Bytes StillTarget::ootx(std::int64_t now_ticks, std::uint32_t id) {
   payload.bytes[0] = 6;  // protocol 6, firmware 0
   for (int i = 0; i < 4; ++i) payload.bytes[static_cast<std::size_t>(2 + i)] = static_cast<std::uint8_t>(id >> (8 * i));
   return copy(reporter_.report(payload));
+}
+
+StillTarget::Bytes foreign_frame(std::uint8_t version, std::uint16_t sequence) {
+  StillTarget::Bytes frame{version, 2, static_cast<std::uint8_t>(sequence), static_cast<std::uint8_t>(sequence >> 8), 1,
+                           2,       3};
+  const std::uint32_t crc = wire::crc32(frame);
+  for (int i = 0; i < 4; ++i) frame.push_back(static_cast<std::uint8_t>(crc >> (8 * i)));
+  StillTarget::Bytes line(64);
+  wire::CobsWriter stuffing(std::span<std::uint8_t>(line).subspan(1));
+  stuffing.put(frame);
+  line.resize(1 + stuffing.finish());
+  line.push_back(0);
+  return line;
 }
 
 }  // namespace pharos::host

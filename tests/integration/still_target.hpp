@@ -51,4 +51,7 @@ class StillTarget {
   report::Reporter reporter_;
 };
 
+/// A good frame of another protocol version, as its sender would make it.
+StillTarget::Bytes foreign_frame(std::uint8_t version, std::uint16_t sequence);
+
 }  // namespace pharos::host

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string>
 
 #include "host/support/input_error.hpp"
 
@@ -38,44 +40,133 @@ StationCalibration station(std::uint32_t id, double scale = 1.0) {
 
 TEST_F(CalibrationMemoryTest, ReadsBackExactlyWhatWasKept) {
   CalibrationMemory memory(folder_);
-  EXPECT_EQ(memory.keep(station(0xBEC08E38)), std::nullopt);
-  EXPECT_EQ(memory.keep(station(0x00000001, 0.5)), std::nullopt);
+  memory.keep(station(0xBEC08E38));
+  memory.keep(station(0x00000001, 0.5));
+  memory.save(0);
+  EXPECT_EQ(memory.trouble(), "");
   EXPECT_THAT(reread(), ElementsAre(station(0xBEC08E38), station(1, 0.5)));
 }
 
-TEST_F(CalibrationMemoryTest, ANewCalibrationReplacesTheOldOneOfTheSameStation) {
+TEST_F(CalibrationMemoryTest, KeepingWritesNothingUntilThereIsTime) {
+  CalibrationMemory memory(folder_);
+  memory.keep(station(7));
+  EXPECT_FALSE(fs::exists(folder_));
+  memory.save(0);
+  EXPECT_THAT(reread(), ElementsAre(station(7)));
+}
+
+TEST_F(CalibrationMemoryTest, WhatDidNotChangeIsNotWrittenAgain) {
+  CalibrationMemory memory(folder_);
+  memory.keep(station(7));
+  memory.save(0);
+  fs::remove(memory.file());
+  memory.keep(station(7));
+  memory.save(1);
+  memory.save_at_last();
+  EXPECT_FALSE(fs::exists(memory.file()));
+}
+
+TEST_F(CalibrationMemoryTest, ANewCalibrationReplacesTheOldOneOfTheSameStationAndIsTheNewest) {
   CalibrationMemory memory(folder_);
   memory.keep(station(7));
   memory.keep(station(8));
   memory.keep(station(7, 0.9));
-  EXPECT_THAT(reread(), ElementsAre(station(7, 0.9), station(8)));
+  memory.save(0);
+  EXPECT_THAT(reread(), ElementsAre(station(8), station(7, 0.9)));
+}
+
+TEST_F(CalibrationMemoryTest, AnInventorOfStationsDropsTheOldestAndTakesNoMoreRoom) {
+  CalibrationMemory memory(folder_);
+  constexpr auto kMost = static_cast<std::uint32_t>(CalibrationMemory::kMostStations);
+  for (std::uint32_t id = 1; id <= kMost; ++id) memory.keep(station(id));
+  memory.keep(station(1));  // in use again: no longer the oldest
+  EXPECT_EQ(memory.counters().dropped, 0);
+  for (std::uint32_t id = 1000; id < 1010; ++id) memory.keep(station(id));
+  EXPECT_EQ(memory.counters().dropped, 10);
+  memory.save(0);
+  const auto stations = reread();
+  ASSERT_EQ(stations.size(), kMost);
+  EXPECT_EQ(stations.front(), station(12));
+  EXPECT_EQ(std::count(stations.begin(), stations.end(), station(1)), 1);
+  EXPECT_EQ(stations.back(), station(1009));
+  EXPECT_LT(fs::file_size(memory.file()), 32u * 1024u);
+}
+
+TEST_F(CalibrationMemoryTest, AFileOfMoreStationsGivesTheNewest) {
+  fs::create_directories(folder_);
+  {
+    std::ofstream file(folder_ / "stations.toml");
+    for (int id = 0; id < 70; ++id) {
+      file << "[[station]]\nid = \"" << std::hex << id << std::dec << "\"\n";
+      for (const char* key : {"phase_rad", "tilt_rad", "curve_rad", "gibbous_phase_rad", "gibbous_magnitude_rad"}) {
+        file << key << " = [0.0, 0.0]\n";
+      }
+    }
+  }
+  CalibrationMemory memory(folder_);
+  memory.load();
+  EXPECT_EQ(memory.stations().size(), CalibrationMemory::kMostStations);
+  EXPECT_EQ(memory.stations().back().id, 69u);
+  EXPECT_EQ(memory.counters().dropped, 6);
 }
 
 TEST_F(CalibrationMemoryTest, NothingThereIsAnEmptyMemory) { EXPECT_TRUE(reread().empty()); }
 
-TEST_F(CalibrationMemoryTest, ADamagedFileIsToldAndThenReplaced) {
+// What a power cut leaves where the file system had made the name and not the content.
+TEST_F(CalibrationMemoryTest, AnEmptyFileIsAnEmptyMemory) {
   fs::create_directories(folder_);
-  std::ofstream(folder_ / "stations.toml") << "[[station]]\nid = \"XYZ\"\n";
-  CalibrationMemory memory(folder_);
-  EXPECT_THROW(memory.load(), InputError);
-  EXPECT_TRUE(memory.stations().empty());
-  EXPECT_EQ(memory.keep(station(7)), std::nullopt);
-  EXPECT_THAT(reread(), ElementsAre(station(7)));
+  std::ofstream(folder_ / "stations.toml") << "";
+  EXPECT_TRUE(reread().empty());
 }
 
-TEST_F(CalibrationMemoryTest, SaysWhyItCannotBeWrittenAndKeepsItInMemory) {
+TEST_F(CalibrationMemoryTest, ADamagedFileIsToldAndThenReplaced) {
+  for (const std::string& damaged : {std::string("[[station]]\nid = \"XYZ\"\n"), std::string(300, '\0')}) {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "stations.toml") << damaged;
+    CalibrationMemory memory(folder_);
+    EXPECT_THROW(memory.load(), InputError);
+    EXPECT_TRUE(memory.stations().empty());
+    memory.keep(station(7));
+    memory.save(0);
+    EXPECT_THAT(reread(), ElementsAre(station(7)));
+  }
+}
+
+TEST_F(CalibrationMemoryTest, SaysWhyItCannotBeWrittenAndTriesAgainAfterAWhile) {
   fs::create_directories(folder_.parent_path());
   std::ofstream(folder_.string()) << "a file where the folder should be";
   CalibrationMemory memory(folder_);
-  const auto error = memory.keep(station(7));
-  ASSERT_TRUE(error.has_value());
-  EXPECT_THAT(*error, ::testing::HasSubstr("stations.toml: cannot be written"));
+  memory.keep(station(7));
+  memory.save(0);
+  EXPECT_THAT(memory.trouble(), ::testing::HasSubstr("stations.toml: cannot be written"));
   EXPECT_THAT(memory.stations(), ElementsAre(station(7)));
+  EXPECT_EQ(memory.counters().write_failures, 1);
+
+  fs::remove(folder_);
+  memory.save(CalibrationMemory::kRetryNs - 1);
+  EXPECT_THAT(memory.trouble(), ::testing::HasSubstr("cannot be written")) << "not at every turn of the loop";
+  memory.save(CalibrationMemory::kRetryNs);
+  EXPECT_EQ(memory.trouble(), "");
+  EXPECT_THAT(reread(), ElementsAre(station(7)));
+  EXPECT_EQ(memory.counters().write_failures, 1);
+}
+
+TEST_F(CalibrationMemoryTest, AtTheEndItIsTriedWhateverTheTime) {
+  fs::create_directories(folder_.parent_path());
+  std::ofstream(folder_.string()) << "a file where the folder should be";
+  CalibrationMemory memory(folder_);
+  memory.keep(station(7));
+  memory.save(0);
+  fs::remove(folder_);
+  memory.save_at_last();
+  EXPECT_THAT(reread(), ElementsAre(station(7)));
 }
 
 TEST_F(CalibrationMemoryTest, WithoutADirectoryNothingIsWritten) {
   CalibrationMemory memory("");
-  EXPECT_EQ(memory.keep(station(7)), std::nullopt);
+  memory.keep(station(7));
+  memory.save(0);
+  EXPECT_EQ(memory.trouble(), "");
   EXPECT_THAT(memory.stations(), ElementsAre(station(7)));
 }
 

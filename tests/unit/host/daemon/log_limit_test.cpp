@@ -15,6 +15,18 @@ TEST(LogLimit, PassesTheFirstAndTellsHowManyWereHeldBack) {
   EXPECT_EQ(limit.pass("crc", 2010), 0u);
 }
 
+TEST(LogLimit, LetsAFewPassInAPeriodAndCountsAllOfTheOthers) {
+  LogLimit limit(1000, 3);
+  int passed = 0;
+  for (int i = 0; i < 500; ++i) passed += limit.pass("restart", 10 + i).has_value() ? 1 : 0;
+  EXPECT_EQ(passed, 3);
+  EXPECT_EQ(limit.held_back(), 497u);
+  EXPECT_EQ(limit.pass("restart", 1010), 497u);
+  EXPECT_EQ(limit.pass("restart", 1011), 0u) << "told once";
+  EXPECT_EQ(held_back_note(0), "");
+  EXPECT_EQ(held_back_note(497), " (497 more lines like this were held back)");
+}
+
 TEST(LogLimit, KindsDoNotHoldEachOtherBack) {
   LogLimit limit(1000);
   EXPECT_TRUE(limit.pass("crc", 0).has_value());

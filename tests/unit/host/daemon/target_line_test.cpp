@@ -1,72 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/daemon/target_line.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "integration/still_target.hpp"
-#include "pharos/base/ticks.hpp"
 #include "pharos/base/units.hpp"
-#include "pharos/bearings_t.hpp"
-#include "pharos/pose_t.hpp"
-#include "pharos/wire/cobs.hpp"
-#include "pharos/wire/crc32.hpp"
-#include "unit/host/publish/message_list.hpp"
+#include "unit/host/daemon/target_line_fixture.hpp"
 
 namespace pharos::host {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr std::int64_t kMillisecondNs = 1'000'000;
-constexpr std::int64_t kUtcMinusMonotonicNs = 1'700'000'000'000'000'000;
-constexpr std::int64_t kCycleTicks = StillTarget::kTurnTicks;
-
-class TargetLineTest : public ::testing::Test {
- protected:
-  static LighthouseFromBody pose_ahead() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
-
-  static TargetConfig config() {
-    TargetConfig config;
-    config.name = "dock";
-    config.target = StillTarget::target();
-    return config;
-  }
-
-  Arrival arrival_at(std::int64_t ticks, std::int64_t delay_ns = kMillisecondNs) const {
-    const std::int64_t monotonic_ns = start_ns_ + ticks * 20 + delay_ns;
-    return {monotonic_ns + kUtcMinusMonotonicNs, monotonic_ns};
-  }
-  std::int64_t now_ns() const { return arrival_at(ticks_).monotonic_ns; }
-  SourceHealth health() { return line_.health("", SourceState::kOk, "", now_ns()); }
-
-  // Bytes that are read `delay_ns` after the target's clock showed `ticks`.
-  void push(const StillTarget::Bytes& bytes, std::int64_t ticks, std::int64_t delay_ns = kMillisecondNs) {
-    line_.push(bytes, arrival_at(ticks, delay_ns));
-  }
-  void push_cycles(int count) {
-    for (int i = 0; i < count; ++i) {
-      ticks_ += kCycleTicks;
-      push(target_.cycle(ticks_), ticks_);
-    }
-  }
-  std::vector<pose_t> poses() const { return list_.all<pose_t>("PHAROS_LIGHTHOUSE_POSE"); }
-  std::int64_t counter(const std::string& name) {
-    for (const NamedCount& count : health().counters) {
-      if (count.name == name) return count.value;
-    }
-    ADD_FAILURE() << "no counter " << name;
-    return -1;
-  }
-
-  MessageList list_;
-  Publisher publisher_{list_, "PHAROS_"};
-  CalibrationMemory memory_{""};
-  TargetLine line_{config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, 0};
-  StillTarget target_{pose_ahead()};
-  std::int64_t ticks_ = 10 * kTicksPerSecond;
-  std::int64_t start_ns_ = 40'000 * kMillisecondNs;  // monotonic time at which the target's clock showed 0
-};
 
 TEST_F(TargetLineTest, BytesBecomeThePoseThatMadeThem) {
   push_cycles(20);
@@ -220,20 +162,6 @@ TEST_F(TargetLineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) {
   StillTarget board(pose_ahead());
   again.push(board.ootx(ticks_, 0xBEC08E38), arrival_at(ticks_));
   EXPECT_EQ(again.counters().calibrations_taken, 1);
-}
-
-// A good frame of another protocol version, as its sender would make it.
-StillTarget::Bytes foreign_frame(std::uint8_t version, std::uint16_t sequence) {
-  std::vector<std::uint8_t> frame{version, 2, static_cast<std::uint8_t>(sequence), 0, 1, 2, 3};
-  const std::uint32_t crc = wire::crc32(frame);
-  for (int i = 0; i < 4; ++i) frame.push_back(static_cast<std::uint8_t>(crc >> (8 * i)));
-  StillTarget::Bytes line(64);
-  line[0] = 0;
-  wire::CobsWriter stuffing(std::span<std::uint8_t>(line).subspan(1));
-  stuffing.put(frame);
-  line.resize(1 + stuffing.finish());
-  line.push_back(0);
-  return line;
 }
 
 TEST_F(TargetLineTest, AnotherProtocolVersionIsNamedInItsHealth) {
