@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::test {
 

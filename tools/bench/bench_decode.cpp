@@ -9,8 +9,8 @@
 #include "host/support/input_error.hpp"
 #include "host/table/edges_reader.hpp"
 #include "pharos/lighthouse/decoder.hpp"
-#include "tests/support/pnp_problems.hpp"
 #include "tools/bench/stopwatch.hpp"
+#include "tools/problems/pnp_problems.hpp"
 #include "tools/sim/recording_writer.hpp"
 
 namespace pharos::tools {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "tests/support/pnp_problems.hpp"
 #include "tools/bench/stopwatch.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::tools {
 namespace {

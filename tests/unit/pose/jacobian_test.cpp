@@ -7,7 +7,7 @@
 #include "pharos/pose/linearise.hpp"
 #include "pharos/pose/paper.hpp"
 #include "pharos/pose/refine.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "pharos/pose/paper.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {

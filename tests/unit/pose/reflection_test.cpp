@@ -9,7 +9,7 @@
 
 #include "pharos/pose/place_residuals.hpp"
 #include "pharos/pose/solve.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {

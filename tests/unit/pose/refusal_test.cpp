@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pharos/pose/solve.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {

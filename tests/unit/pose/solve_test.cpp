@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/support/allocation_guard.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {

@@ -9,7 +9,7 @@
 #include "pharos/pose/homography.hpp"
 #include "pharos/pose/p3p.hpp"
 #include "pharos/pose/rpnp.hpp"
-#include "tests/support/pnp_problems.hpp"
+#include "tools/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
