@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults to plant in the capture logic: name, file, text that stands there once, what to put in its place."""
 
+RECORD = "{gap, ticks[31:0], changed, levels}"
+CHANGED = "changed <= taken & watched;"
+
 FEW = ("full_seen_too_late", "gap_not_marked", "records_counted_not_edges", "falling_edges_dropped")
 
 MUTATIONS = (
   ("one_flop_synchroniser", "capture_inputs.v", "settled <= sampled;", "settled <= pins;"),
-  ("falling_edges_dropped", "capture_inputs.v", "changed <= taken & watched;", "changed <= taken & watched & settled;"),
-  ("mask_ignored", "capture_inputs.v", "changed <= taken & watched;", "changed <= taken;"),
+  ("falling_edges_dropped", "capture_inputs.v", CHANGED, "changed <= taken & watched & settled;"),
+  ("mask_ignored", "capture_inputs.v", CHANGED, "changed <= taken;"),
   ("filter_one_short", "capture_inputs.v", "remaining == 0", "remaining <= 1"),
   ("filter_not_rearmed", "capture_inputs.v", "!differs[i] || taken[i]", "!differs[i]"),
   ("glitch_counted_when_taken", "capture_inputs.v", "|(waiting & ~differs & watched)", "|(waiting & watched)"),
@@ -23,12 +26,9 @@ MUTATIONS = (
   ("records_counted_not_edges", "capture_losses.v", "ones(changed)", "6'd1"),
   ("losses_counted_once", "capture_losses.v", "if (lose) lost", "if (lose && !overflow) lost"),
   ("overflow_cleared_with_new_loss", "capture_losses.v", "if (lose) overflow", "if (lose && !clear_overflow) overflow"),
-  ("stamp_without_top_bit", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
-    "{gap, 1'b0, ticks[30:0], changed, levels}"),
-  ("stamp_a_tick_late", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
-    "{gap, ticks[31:0] + 32'd1, changed, levels}"),
-  ("changed_and_levels_swapped", "pharos_capture.v", "{gap, ticks[31:0], changed, levels}",
-    "{gap, ticks[31:0], levels, changed}"),
+  ("stamp_without_top_bit", "pharos_capture.v", RECORD, "{gap, 1'b0, ticks[30:0], changed, levels}"),
+  ("stamp_a_tick_late", "pharos_capture.v", RECORD, "{gap, ticks[31:0] + 32'd1, changed, levels}"),
+  ("changed_and_levels_swapped", "pharos_capture.v", RECORD, "{gap, ticks[31:0], levels, changed}"),
   ("time_high_not_latched", "pharos_capture.v", "answer = ticks_high_latched", "answer = ticks[63:32]"),
   ("interrupt_a_record_late", "pharos_capture.v", "count >= threshold", "count > threshold"),
   ("pop_without_read", "pharos_capture.v", "bus_read && bus_address == ADDRESS_FIFO_LEVELS",
