@@ -2,6 +2,7 @@
 #include "host/table/byte_source.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "host/support/input_error.hpp"
@@ -64,15 +66,23 @@ class ByteSource::Impl {
     return pending_;
   }
 
+  void on_pause(std::function<void()> before_waiting) { before_waiting_ = std::move(before_waiting); }
   bool cut_off() const { return cut_off_; }
   const std::string& name() const { return name_; }
 
  private:
+  bool would_wait() const {
+    pollfd input{fd_, POLLIN, 0};
+    return ::poll(&input, 1, 0) == 0;
+  }
+
   std::size_t read_fd(char* out, std::size_t size) {
+    if (before_waiting_ && would_wait()) before_waiting_();
     for (;;) {
       const ssize_t got = ::read(fd_, out, size);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) throw InputError(name_ + ": cannot be read: " + std::strerror(errno));
+      if (errno != EINTR)
+        throw InputError(name_ + ": cannot be read: " + std::strerror(errno) + "; give a readable file");
     }
   }
 
@@ -133,6 +143,7 @@ class ByteSource::Impl {
 
   std::string name_;
   int fd_ = -1;
+  std::function<void()> before_waiting_;
   std::vector<char> chunk_;
   std::string_view raw_;  // into chunk_: read from the file, not yet given out or inflated
   std::string pending_;   // peeked
@@ -149,6 +160,7 @@ ByteSource::ByteSource(ByteSource&&) noexcept = default;
 ByteSource& ByteSource::operator=(ByteSource&&) noexcept = default;
 std::size_t ByteSource::read(std::span<char> out) { return impl_->read(out); }
 std::string_view ByteSource::peek(std::size_t count) { return impl_->peek(count); }
+void ByteSource::on_pause(std::function<void()> before_waiting) { impl_->on_pause(std::move(before_waiting)); }
 bool ByteSource::cut_off() const { return impl_->cut_off(); }
 const std::string& ByteSource::name() const { return impl_->name(); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,9 @@ class ByteSource {
   std::size_t read(std::span<char> out);
   /// The first bytes still to be read, at least `count` of them unless the input ends before. Not consumed.
   std::string_view peek(std::size_t count);
+  /// `before_waiting` is called whenever nothing is there to be read yet, before read() waits for it: the moment to
+  /// show what came of the bytes so far.
+  void on_pause(std::function<void()> before_waiting);
   /// The gzip data ended before its end mark: what came before was given out (a recording cut off while writing).
   bool cut_off() const;
   /// For messages: the path, or "standard input".

@@ -90,6 +90,7 @@ RowWriter& RowWriter::integer(std::int64_t value) {
 }
 
 RowWriter& RowWriter::text(std::string_view value) {
+  if (value.empty()) return none();
   begin_field();
   if (format_ == RowFormat::kJson) {
     append_json_text(buffer_, value);

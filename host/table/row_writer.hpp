@@ -14,9 +14,10 @@ enum class RowFormat { kCsv, kJson };
 
 /// Writes rows of named fields: CSV with a header row, or one JSON object a line with the same names.
 ///
-/// Numbers are the shortest text that reads back exactly. A field without a value is empty (JSON: null); so is a number
-/// that is not finite: nan never leaves. Fields are given in the order of the columns, each row ended with end_row();
-/// giving another number of fields is a bug of the caller's (asserted).
+/// Numbers are the shortest text that reads back exactly. A field without a value is empty in CSV and null in JSON; so
+/// are an empty text and a number that is not finite: what is empty in one form is null in the other, nan never leaves.
+/// Fields are given in the order of the columns, each row ended with end_row(); giving another number of fields is a
+/// bug of the caller's (asserted).
 class RowWriter {
  public:
   /// `stream` stays the caller's. The CSV header is written at once.

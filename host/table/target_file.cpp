@@ -13,6 +13,9 @@ namespace pharos::host {
 namespace {
 
 constexpr double kNormalTolerance = 0.05;
+// No base station is seen from farther than some 6 m, so no sensor of one target stands farther from another; twice
+// that leaves room for a body's origin elsewhere. A target of 12 mm already exceeds it when given in millimetres.
+constexpr double kFarthest_m = 12.0;
 
 struct NormalColumns {
   std::size_t x, y, z;
@@ -27,6 +30,20 @@ std::optional<NormalColumns> find_normals(TableReader& table) {
     throw InputError(table.name() + ": line 1: normals need the three columns nx,ny,nz; add the missing or remove all");
   }
   return NormalColumns{*x, *y, *z};
+}
+
+Vector3 read_position(const TableReader& table) {
+  Vector3 position_m;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t column = axis + 1;
+    const double value = table.number(column);
+    if (std::abs(value) > kFarthest_m) {
+      table.fail(column, std::string(table.text(column)) +
+                             " m is more than 12 m from the body's origin; give metres, not millimetres");
+    }
+    position_m[static_cast<Eigen::Index>(axis)] = value;
+  }
+  return position_m;
 }
 
 Vector3 read_normal(const TableReader& table, const NormalColumns& columns) {
@@ -88,7 +105,7 @@ TargetFile read_target(const std::string& path) {
     line_of_sensor[sensor] = table.line_number();
     SensorPlacement placement;
     placement.sensor = static_cast<std::uint8_t>(sensor);
-    placement.position_m = {table.number(1), table.number(2), table.number(3)};
+    placement.position_m = read_position(table);
     if (normals) placement.normal = read_normal(table, *normals);
     file.target.push_back(placement);
   }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/table/byte_source.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
+#include <cstdio>
 
 #include "tests/unit/host/table/temporary_file.hpp"
 
@@ -33,6 +37,27 @@ TEST(ByteSource, GivesAPlainFileAsItIs) {
   ByteSource source(file.path());
   EXPECT_EQ(all_of(source), long_text());
   EXPECT_FALSE(source.cut_off());
+}
+
+TEST(ByteSource, SaysBeforeItWaitsForAPipeThatPauses) {
+  const std::string path = ::testing::TempDir() + "pharos_pausing_pipe_" + std::to_string(::getpid());
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const int writer = ::open(path.c_str(), O_RDWR);  // both ends, so that neither open waits
+  ASSERT_GE(writer, 0);
+  ASSERT_EQ(::write(writer, "ab", 2), 2);
+  ByteSource source(path);
+  int pauses = 0;
+  source.on_pause([&] {
+    ++pauses;
+    ASSERT_EQ(::write(writer, "cd", 2), 2);  // the pause ends
+  });
+  std::array<char, 7> piece;
+  EXPECT_EQ(source.read(piece), 2u);
+  EXPECT_EQ(pauses, 0);
+  EXPECT_EQ(source.read(piece), 2u);
+  EXPECT_EQ(pauses, 1);
+  ::close(writer);
+  std::remove(path.c_str());
 }
 
 TEST(ByteSource, UnpacksGzipWhateverTheFilesName) {

@@ -55,6 +55,12 @@ TEST(RowWriter, WritesTheSameNamesAsJsonLines) {
             "{\"x\":null,\"n\":3,\"status\":\"a,b\\\"\\u000a\",\"y\":null}\n");
 }
 
+TEST(RowWriter, WhatIsEmptyInCsvIsNullInJson) {
+  const auto fill = [](RowWriter& writer) { writer.text("").none().text("x").end_row(); };
+  EXPECT_EQ(written(RowFormat::kCsv, {"a", "b", "c"}, fill), "a,b,c\n,,x\n");
+  EXPECT_EQ(written(RowFormat::kJson, {"a", "b", "c"}, fill), "{\"a\":null,\"b\":null,\"c\":\"x\"}\n");
+}
+
 TEST(RowWriter, WritesTheHeaderEvenWithoutRows) {
   EXPECT_EQ(written(RowFormat::kCsv, {"a", "b"}, [](RowWriter&) {}), "a,b\n");
   EXPECT_EQ(written(RowFormat::kJson, {"a", "b"}, [](RowWriter&) {}), "");

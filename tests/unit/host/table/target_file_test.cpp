@@ -52,6 +52,13 @@ TEST(ReadTarget, NamesTwoSensorsInOnePlace) {
   EXPECT_THAT(error_of(std::string(kSolid) + "9,0.10005,0,0\n"), HasSubstr("7 and 9"));
 }
 
+TEST(ReadTarget, RefusesMillimetresGivenByMistake) {
+  EXPECT_THAT(error_of("sensor,x_m,y_m,z_m\n0,0,0,0\n1,5,0,0\n2,0,-62.5,0\n3,0,0,40\n"),
+              AllOf(HasSubstr("line 4: column 'y_m': -62.5 m"), HasSubstr("give metres, not millimetres")));
+  // A body's origin may lie metres from its sensors.
+  EXPECT_EQ(error_of("sensor,x_m,y_m,z_m\n0,11,0,0\n1,11.1,0,0\n2,11,0.1,0\n3,11,0,0.1\n"), "");
+}
+
 TEST(ReadTarget, RefusesWhatCannotCarryAPose) {
   EXPECT_THAT(error_of("sensor,x_m,y_m,z_m\n0,0,0,0\n1,1,0,0\n"), HasSubstr("fewer than three sensors"));
   EXPECT_THAT(error_of("sensor,x_m,y_m,z_m\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n"), HasSubstr("one line"));
