@@ -13,14 +13,22 @@
 namespace pharos::host {
 namespace {
 
+constexpr std::int64_t kNsPerS = 1'000'000'000;
 // At full speed: so many chunks, then the loop looks at signals and status again.
 constexpr int kChunksPerTurn = 64;
+// A silence of the recording lasts no longer at real speed: nobody waits a week for a replay.
+constexpr std::int64_t kLongestWaitNs = 10'000'000'000;
 
 }  // namespace
 
 ReplayFeed::ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed,
                        LineFeedEvents events)
-    : loop_(loop), name_(std::move(name)), reader_(ByteSource(file)), speed_(speed), events_(std::move(events)) {
+    : loop_(loop),
+      name_(name),
+      log_(std::move(name)),
+      reader_(ByteSource(file)),
+      speed_(speed),
+      events_(std::move(events)) {
   loop_.watch(timer_.fd(), [this] { on_timer(); });
 }
 
@@ -43,8 +51,7 @@ void ReplayFeed::read_next() {
 void ReplayFeed::on_timer() {
   timer_.take_expiries();
   for (int i = 0; next_ && i < kChunksPerTurn; ++i) {
-    const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - monotonic_now_ns();
-    if (speed_ == ReplaySpeed::kReal && wait_ns > 0) {
+    if (const std::int64_t wait_ns = wait_for_next(); wait_ns > 0) {
       timer_.start(std::chrono::nanoseconds(wait_ns));
       return;
     }
@@ -58,6 +65,19 @@ void ReplayFeed::on_timer() {
   }
 }
 
+std::int64_t ReplayFeed::wait_for_next() {
+  if (speed_ == ReplaySpeed::kFastest) return 0;
+  const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - monotonic_now_ns();
+  if (wait_ns <= kLongestWaitNs) return wait_ns;
+  shift_ns_ -= wait_ns - kLongestWaitNs;
+  ++silences_cut_;
+  log_.info("silence",
+            "a silence of " + std::to_string(wait_ns / kNsPerS) + " s in the recording is cut to " +
+                std::to_string(kLongestWaitNs / kNsPerS) + " s",
+            monotonic_now_ns());
+  return kLongestWaitNs;
+}
+
 void ReplayFeed::play(const StreamChunk& chunk) {
   played_ns_ = chunk.monotonic_ns;
   events_.bytes(chunk.bytes, {chunk.utc_ns, chunk.monotonic_ns});
@@ -66,12 +86,17 @@ void ReplayFeed::play(const StreamChunk& chunk) {
 void ReplayFeed::finish() {
   finished_ = true;
   spdlog::info("{}: the recording has come to its end{}", name_, reader_.cut_off() ? " (cut off in a chunk)" : "");
+  if (reader_.bad_times() > 0) {
+    spdlog::warn("{}: {} chunks were dropped for their impossible times", name_, reader_.bad_times());
+  }
   events_.finished();
 }
 
 NamedCounts ReplayFeed::counters() const {
   return {{"replay.dropped_bytes", static_cast<std::int64_t>(reader_.dropped_bytes())},
-          {"replay.lost_bytes", static_cast<std::int64_t>(reader_.lost_bytes())}};
+          {"replay.lost_bytes", static_cast<std::int64_t>(reader_.lost_bytes())},
+          {"replay.chunks_bad_time", static_cast<std::int64_t>(reader_.bad_times())},
+          {"replay.silences_cut", silences_cut_}};
 }
 
 }  // namespace pharos::host

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/daemon/event_loop.hpp"
+#include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_feed.hpp"
 #include "host/daemon/timer.hpp"
 #include "host/record/stream_reader.hpp"
@@ -16,7 +17,8 @@ namespace pharos::host {
 /// How fast a recording is played.
 enum class ReplaySpeed : std::uint8_t { kReal, kFastest };
 
-/// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then.
+/// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then. At
+/// real speed a silence lasts ten seconds at the most.
 class ReplayFeed : public LineFeed {
  public:
   /// Throws InputError when the file is no recording. `loop` must outlive this.
@@ -35,11 +37,13 @@ class ReplayFeed : public LineFeed {
  private:
   void on_timer();
   void read_next();
+  std::int64_t wait_for_next();
   void play(const StreamChunk& chunk);
   void finish();
 
   EventLoop& loop_;
   std::string name_;
+  LimitedLog log_;
   StreamReader reader_;
   ReplaySpeed speed_;
   LineFeedEvents events_;
@@ -47,6 +51,7 @@ class ReplayFeed : public LineFeed {
   std::optional<StreamChunk> next_;
   bool started_ = false;
   bool finished_ = false;
+  std::int64_t silences_cut_ = 0;
   std::int64_t shift_ns_ = 0;   // recorded monotonic time to this computer's
   std::int64_t played_ns_ = 0;  // recorded monotonic time of the last chunk played
 };

@@ -13,6 +13,10 @@ namespace {
 using namespace stream_format;
 
 constexpr std::size_t kReadBytes = 128 * 1024;
+/// Half of what 64 bits hold, year 2116: sums and differences of such times cannot overflow.
+constexpr std::int64_t kLatestNs = std::int64_t{1} << 62;
+
+bool in_bounds(std::int64_t time_ns) { return time_ns >= 0 && time_ns < kLatestNs; }
 
 bool has_good_crc(std::span<const std::uint8_t> bytes) {
   const auto crc = wire::ByteReader(bytes.last(kCrcBytes)).get<std::uint32_t>();
@@ -68,6 +72,10 @@ void StreamReader::read_header() {
   header_.baud = reader.get<std::uint32_t>();
   header_.utc_ns = reader.get<std::int64_t>();
   header_.monotonic_ns = reader.get<std::int64_t>();
+  if (!in_bounds(header_.utc_ns) || !in_bounds(header_.monotonic_ns)) {
+    throw InputError(file + ": the head of this recording tells impossible times; no pharosd made it");
+  }
+  last_monotonic_ns_ = header_.monotonic_ns;
   const auto letters = ahead(whole).subspan(kHeadBytes, name);
   header_.target.assign(letters.begin(), letters.end());
   at_ += whole;
@@ -83,6 +91,11 @@ std::size_t StreamReader::whole_chunk_size() {
   if (count > kMaxChunkBytes) return 0;
   const std::size_t whole = kChunkHeadBytes + count + kCrcBytes;
   return fill(whole) && has_good_crc(ahead(whole)) ? whole : 0;
+}
+
+bool StreamReader::credible(const StreamChunk& chunk) const {
+  return in_bounds(chunk.utc_ns) && in_bounds(chunk.monotonic_ns) && chunk.monotonic_ns >= last_monotonic_ns_ &&
+         chunk.monotonic_ns - last_monotonic_ns_ <= kLongestSilenceNs;
 }
 
 std::optional<StreamChunk> StreamReader::next() {
@@ -111,8 +124,14 @@ std::optional<StreamChunk> StreamReader::next() {
       lost_bytes_ += lost;
       continue;
     }
-    chunk.lost_before = lost_before;
     chunk.bytes = bytes.subspan(kChunkHeadBytes, whole - kChunkHeadBytes - kCrcBytes);
+    if (!credible(chunk)) {
+      ++bad_times_;
+      lost_before += chunk.bytes.size();
+      continue;
+    }
+    chunk.lost_before = lost_before;
+    last_monotonic_ns_ = chunk.monotonic_ns;
     return chunk;
   }
   dropped_bytes_ += skipped;

@@ -44,6 +44,8 @@ void StreamRecorder::append_chunk(std::span<const std::uint8_t> bytes, std::int6
     scratch_.clear();
     stream_format::append_chunk({utc_ns, monotonic_ns, lost_before_, bytes}, scratch_);
     if (write_all(scratch_)) {
+      if (!holds_chunks_) ++counters_.files;
+      holds_chunks_ = true;
       file_bytes_ += scratch_.size();
       counters_.bytes_recorded += bytes.size();
       lost_before_ = 0;
@@ -82,13 +84,13 @@ bool StreamRecorder::open_file(std::int64_t utc_ns, std::int64_t monotonic_ns) {
   const auto head =
       stream_format::encode_head({options_.target, static_cast<std::uint32_t>(options_.baud), utc_ns, monotonic_ns});
   file_bytes_ = 0;
+  holds_chunks_ = false;
   if (!write_all(head)) {
     fail(file_.string() + ": cannot be written", errno, monotonic_ns);
     return false;
   }
   file_bytes_ = head.size();
   file_begun_ns_ = monotonic_ns;
-  ++counters_.files;
   return true;
 }
 
@@ -106,10 +108,15 @@ void StreamRecorder::fail(const std::string& doing, int error, std::int64_t mono
   ++counters_.failures;
   trouble_ = doing + ": " + std::strerror(error) + "; the stream is not being recorded";
   retry_at_ns_ = monotonic_ns + kRetryNs;
+  // What was written of the broken chunk goes, and with it a file that would hold nothing but its head: on a full disk
+  // every attempt would leave another one.
   if (fd_.valid()) {
-    // What was written of the broken chunk goes; a file that holds nothing is not left lying about.
-    if (::ftruncate(fd_.get(), static_cast<off_t>(file_bytes_)) != 0) ++counters_.failures;
-    if (file_bytes_ == 0) (void)::unlink(file_.c_str());
+    const bool cleaned =
+        holds_chunks_ ? ::ftruncate(fd_.get(), static_cast<off_t>(file_bytes_)) == 0 : ::unlink(file_.c_str()) == 0;
+    if (!cleaned) {
+      ++counters_.failures;
+      trouble_ += "; " + file_.string() + (holds_chunks_ ? " ends with a broken chunk" : " is left without content");
+    }
   }
   close_file();
 }

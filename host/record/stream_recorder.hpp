@@ -24,16 +24,16 @@ struct RecorderOptions {
 struct RecorderCounters {
   std::uint64_t bytes_recorded = 0;  // of the stream
   std::uint64_t bytes_lost = 0;      // of the stream: they could not be written
-  std::uint64_t files = 0;
-  std::uint64_t failures = 0;  // to open or to write
+  std::uint64_t files = 0;           // that hold a chunk
+  std::uint64_t failures = 0;        // to open or to write
 };
 
 /// Records a raw serial stream into a series of files `TARGET_YYYYMMDDTHHMMSSZ[_N].phraw`.
 ///
 /// Never throws and never stands in the way of the poses: what cannot be written (disk full, folder gone) is counted,
 /// told by trouble(), tried again once a second, and marked in the recording when that goes on. Files end with a whole
-/// chunk, whatever happened. One write() a chunk, no buffer: what was appended survives the program's death.
-/// The program must ignore SIGXFSZ, or a limit on file sizes kills it.
+/// chunk, whatever happened, and none holds nothing but its head. One write() a chunk, no buffer: what was appended
+/// survives the program's death. The program must ignore SIGXFSZ, or a limit on file sizes kills it.
 class StreamRecorder {
  public:
   explicit StreamRecorder(RecorderOptions options) : options_(std::move(options)) {}
@@ -60,7 +60,8 @@ class StreamRecorder {
   std::string trouble_;
   UniqueFd fd_;
   std::filesystem::path file_;
-  std::uint64_t file_bytes_ = 0;  // whole chunks only
+  std::uint64_t file_bytes_ = 0;  // head and whole chunks only
+  bool holds_chunks_ = false;
   std::int64_t file_begun_ns_ = 0;
   std::int64_t retry_at_ns_ = 0;
   std::uint64_t lost_before_ = 0;  // since the last chunk written

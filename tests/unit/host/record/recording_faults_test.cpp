@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <limits>
 #include <random>
 
 #include "host/record/stream_reader.hpp"
@@ -135,6 +136,78 @@ TEST(RecordingFaults, AFullDiskLosesBytesAndSaysSoAndGoesOnWhenThereIsRoom) {
   const Read after = read_all(files[1]);
   EXPECT_EQ(after.lost, counters.bytes_lost) << "the recording itself tells the hole";
   EXPECT_EQ(before.bytes.size() + after.bytes.size(), counters.bytes_recorded);
+}
+
+TEST(RecordingFaults, ADiskWithRoomForAHeadAndNoChunkIsNotFilledWithHeads) {
+  TemporaryFolder folder;
+  StreamRecorder recorder({folder.path(), "chaser", 460'800});
+  {
+    FileSizeLimit only_a_head(60);
+    for (std::int64_t now = 0; now < 20 * kS; now += kS / 10) {
+      recorder.append(Bytes(100, 7), kUtc + now, now);
+      ASSERT_TRUE(folder.files().empty()) << now;
+    }
+    EXPECT_NE(recorder.trouble().find("not being recorded"), std::string::npos) << recorder.trouble();
+    EXPECT_GE(recorder.counters().failures, 19u) << "it was tried";
+    EXPECT_EQ(recorder.counters().files, 0u);
+  }
+  recorder.append(Bytes(100, 8), kUtc + 30 * kS, 30 * kS);
+  EXPECT_EQ(recorder.counters().files, 1u);
+  EXPECT_EQ(read_all(recorder.file()).lost, 200u * 100u);
+}
+
+// Chunks of one byte each, the byte their place, at these times.
+struct Times {
+  std::int64_t utc_ns;
+  std::int64_t monotonic_ns;
+};
+std::filesystem::path recording_at(const TemporaryFolder& folder, const std::vector<Times>& times) {
+  Bytes bytes = stream_format::encode_head({"chaser", 460'800, kUtc, 50 * kS});
+  for (std::uint8_t i = 0; i < times.size(); ++i) {
+    stream_format::append_chunk({times[i].utc_ns, times[i].monotonic_ns, 0, {&i, 1}}, bytes);
+  }
+  test::write_file(folder.path() / "hostile", bytes);
+  return folder.path() / "hostile";
+}
+
+TEST(RecordingFaults, ImpossibleTimesAreDroppedAndCountedAndSpoilNoOther) {
+  constexpr std::int64_t kYear = 365 * 86'400 * kS;
+  constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  TemporaryFolder folder;
+  const auto file = recording_at(folder, {{kUtc, 50 * kS},                    // 0
+                                          {kUtc, 50 * kS + 100 * kYear},      // sleep 100 years
+                                          {kUtc, 51 * kS},                    // 2
+                                          {kUtc, 49 * kS},                    // backwards
+                                          {kUtc, kMax},                       //
+                                          {kUtc, kMin},                       //
+                                          {kMax, 52 * kS},                    // UTC beyond all bounds
+                                          {kMin, 52 * kS},                    //
+                                          {kUtc - 3600 * kS, 52 * kS},        // 8: somebody set the clock
+                                          {kUtc, 52 * kS + 7 * 86'400 * kS},  // 9: a week of silence
+                                          {kUtc, 53 * kS}});                  // backwards now
+  StreamReader reader{ByteSource(file)};
+  Bytes got;
+  std::int64_t last_ns = 0;
+  std::uint64_t lost = 0;
+  while (const auto chunk = reader.next()) {
+    got.push_back(chunk->bytes[0]);
+    lost += chunk->lost_before;
+    EXPECT_GE(chunk->monotonic_ns, last_ns);
+    last_ns = chunk->monotonic_ns;
+  }
+  EXPECT_EQ(got, (Bytes{0, 2, 8, 9}));
+  EXPECT_EQ(reader.bad_times(), 7u);
+  EXPECT_EQ(lost, 6u) << "whoever decodes the stream knows that bytes are missing";
+}
+
+TEST(RecordingFaults, AHeadOfImpossibleTimesIsRefused) {
+  TemporaryFolder folder;
+  for (const std::int64_t bad :
+       {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()}) {
+    test::write_file(folder.path() / "bad", stream_format::encode_head({"chaser", 460'800, kUtc, bad}));
+    EXPECT_THROW(read_all(folder.path() / "bad"), InputError) << bad;
+  }
 }
 
 TEST(RecordingFaults, AChunkThatFitsOnlyHalfIsCutBack) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/replay_feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/support/input_error.hpp"
+#include "unit/host/record/temporary_folder.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kUtc = 1'763'721'000'000'000'000;
+constexpr std::int64_t kDayNs = 86'400 * std::int64_t{1'000'000'000};
+
+class ReplayFeedTest : public ::testing::Test {
+ protected:
+  // One byte at each of these monotonic times.
+  std::string recording(const std::vector<std::int64_t>& times_ns) const {
+    test::Bytes bytes = stream_format::encode_head({"dock", 460'800, kUtc, 0});
+    const std::uint8_t byte = 0;
+    for (const std::int64_t time_ns : times_ns) stream_format::append_chunk({kUtc, time_ns, 0, {&byte, 1}}, bytes);
+    test::write_file(folder_.path() / "r.phraw", bytes);
+    return (folder_.path() / "r.phraw").string();
+  }
+  LineFeedEvents events() {
+    return {
+        [this](std::span<const std::uint8_t>, const Arrival& arrival) { arrivals_.push_back(arrival.monotonic_ns); },
+        [] {}, [this] { finished_ = true; }};
+  }
+  static std::int64_t count(const ReplayFeed& feed, const std::string& name) {
+    for (const NamedCount& count : feed.counters()) {
+      if (count.name == name) return count.value;
+    }
+    return -1;
+  }
+
+  test::TemporaryFolder folder_;
+  EventLoop loop_;
+  std::vector<std::int64_t> arrivals_;
+  bool finished_ = false;
+};
+
+TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
+  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDayNs}), ReplaySpeed::kReal, events());
+  feed.attend(0);
+  while (arrivals_.empty()) loop_.turn(1000);
+  EXPECT_EQ(count(feed, "replay.silences_cut"), 1);
+}
+
+TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
+  const std::string file = recording({0, 40'000 * kDayNs, 10, 5, 20, std::numeric_limits<std::int64_t>::min(), 30});
+  ReplayFeed feed(loop_, "dock", file, ReplaySpeed::kReal, events());
+  feed.attend(0);
+  while (!finished_) loop_.turn(1000);
+  EXPECT_EQ(arrivals_, (std::vector<std::int64_t>{0, 10, 20, 30}));
+  EXPECT_EQ(count(feed, "replay.chunks_bad_time"), 3);
+  EXPECT_EQ(count(feed, "replay.silences_cut"), 0);
+}
+
+TEST_F(ReplayFeedTest, AtFullSpeedNothingIsWaitedFor) {
+  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDayNs, 9 * kDayNs}), ReplaySpeed::kFastest, events());
+  feed.attend(0);
+  while (!finished_) loop_.turn(1000);
+  EXPECT_EQ(arrivals_.size(), 3u);
+}
+
+}  // namespace
+}  // namespace pharos::host
