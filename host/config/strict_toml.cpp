@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <numeric>
 #include <set>
@@ -107,11 +108,15 @@ TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) 
 }
 
 TomlTable TomlTable::parse_file(const std::filesystem::path& path) {
+  std::ostringstream content;
+  if (path == "-") {
+    content << std::cin.rdbuf();
+    return parse_text(content.str(), "standard input");
+  }
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw InputError(path.string() + ": is a directory, not a TOML file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path.string() + ": cannot be opened; check the path and its permissions");
-  std::ostringstream content;
   content << in.rdbuf();
   if (in.bad()) throw InputError(path.string() + ": cannot be read");
   return parse_text(content.str(), path.string());

@@ -31,7 +31,7 @@ inline constexpr Range kFraction{0.0, 1.0};
 /// Copies refer to the same table; the file's content lives as long as any of them.
 class TomlTable {
  public:
-  /// The file's top level. Throws InputError when it cannot be read or is not TOML.
+  /// The file's top level (`-`: of standard input). Throws InputError when it cannot be read or is not TOML.
   static TomlTable parse_file(const std::filesystem::path& path);
   /// The same from text; `name` stands for the file in messages.
   static TomlTable parse_text(std::string_view text, const std::string& name);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "host/stations/station_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/row_writer.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 using host::InputError;
 
 [[noreturn]] void refuse(const fs::path& path) {
-  throw InputError(path.string() + ": cannot be written: " + std::strerror(errno));
+  throw InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
 }
 
 struct CloseFile {
@@ -39,10 +40,7 @@ File create(const fs::path& path) {
 
 std::string shortest(double value) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  std::string result(text, end);
-  // TOML tells integers from numbers.
-  return result.find_first_of(".e") == std::string::npos ? result + ".0" : result;
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 // Pulses as a gzip table, gathered into large writes.
@@ -128,40 +126,44 @@ void write_truth(const fs::path& path, const LighthouseSimulator& simulator) {
   rows.flush();
 }
 
-std::string errors_table(const SheetErrors& errors) {
-  return "phase_rad = " + shortest(errors.phase_rad) + "\ntilt_rad = " + shortest(errors.tilt_rad) +
-         "\ncurve_rad = " + shortest(errors.curve_rad) + "\ngibbous_phase_rad = " + shortest(errors.gibbous_phase_rad) +
-         "\ngibbous_magnitude_rad = " + shortest(errors.gibbous_magnitude_rad) + "\n";
+lighthouse::StationCalibration calibration(std::uint32_t id, const std::array<SheetErrors, 2>& errors) {
+  lighthouse::StationCalibration station;
+  station.id = id;
+  for (std::size_t rotor = 0; rotor < errors.size(); ++rotor) {
+    const SheetErrors& e = errors[rotor];
+    station.rotor[rotor] = {e.phase_rad, e.tilt_rad, e.curve_rad, e.gibbous_phase_rad, e.gibbous_magnitude_rad};
+  }
+  return station;
 }
 
-void write_stations(const fs::path& path, const LighthouseSimulator& simulator) {
+void write_text(const fs::path& path, const std::string& text) {
   std::ofstream out(path);
-  out << "# The simulated stations: pose in the room, what they say of themselves, what is true.\n"
-      << "model_form = " << static_cast<int>(simulator.scenario().form) << "\n";
+  out << text << std::flush;
+  if (!out) refuse(path);
+}
+
+// What the stations say of themselves.
+void write_announced(const fs::path& path, const LighthouseSimulator& simulator) {
+  std::string text = "# What the simulated stations say of themselves, for track --calibration.\n";
   for (const SimulatedStation& station : simulator.stations()) {
-    char id[16];
-    std::snprintf(id, sizeof id, "%08X", station.announced.id);
-    std::string payload;
-    for (const std::uint8_t byte : announcement_bytes(station.announced)) {
-      char hex[4];
-      std::snprintf(hex, sizeof hex, "%02x", byte);
-      payload += hex;
-    }
+    text += "\n" + host::station_text(calibration(station.announced.id, station.announced.rotor));
+  }
+  write_text(path, text);
+}
+
+// What is true of them; for track --calibration, too. Where they stand is for people: a comment.
+void write_true(const fs::path& path, const LighthouseSimulator& simulator) {
+  std::string text = "# The simulated stations as they are, for track --calibration FILE --form " +
+                     std::to_string(static_cast<int>(simulator.scenario().form)) + ".\n";
+  for (const SimulatedStation& station : simulator.stations()) {
     const Quaternion q = station.pose.quaternion();
     const Vector3& t = station.pose.t;
-    out << "\n[[station]]\nid = \"" << id << "\"\nmode = \""
-        << "ABC"[station.announced.mode] << "\"\n"
-        << "orientation_wxyz = [" << shortest(q.w()) << ", " << shortest(q.x()) << ", " << shortest(q.y()) << ", "
-        << shortest(q.z()) << "]\nposition_m = [" << shortest(t.x()) << ", " << shortest(t.y()) << ", "
-        << shortest(t.z()) << "]\npayload_hex = \"" << payload << "\"\n";
-    const char* const names[] = {"x", "y"};
-    for (std::size_t rotor = 0; rotor < 2; ++rotor) {
-      out << "[station.announced_" << names[rotor] << "]\n" << errors_table(station.announced.rotor[rotor]);
-      out << "[station.true_" << names[rotor] << "]\n" << errors_table(station.true_errors[rotor]);
-    }
+    text += std::string("\n# mode ") + "ABC"[station.announced.mode] + "; in the room: position_m " + shortest(t.x()) +
+            ", " + shortest(t.y()) + ", " + shortest(t.z()) + "; orientation_wxyz " + shortest(q.w()) + ", " +
+            shortest(q.x()) + ", " + shortest(q.y()) + ", " + shortest(q.z()) + "\n";
+    text += host::station_text(calibration(station.announced.id, station.true_errors));
   }
-  out.flush();
-  if (!out) refuse(path);
+  write_text(path, text);
 }
 
 void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults) {
@@ -182,7 +184,8 @@ void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults
 RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64_t seed, const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw InputError(directory.string() + ": cannot be made: " + error.message());
+  if (error)
+    throw InputError(directory.string() + ": cannot be made: " + error.message() + "; choose another --output");
   LighthouseSimulator simulator(scenario, seed);
   RecordingSummary summary;
   PulseTable pulses(directory / "edges.csv.gz", scenario.clock.wrap32);
@@ -194,7 +197,8 @@ RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64
   write_truth(directory / "truth.csv", simulator);
   write_target(directory / "target.csv", simulator.nominal_target());
   write_target(directory / "target_true.csv", simulator.true_target());
-  write_stations(directory / "stations.toml", simulator);
+  write_announced(directory / "stations.toml", simulator);
+  write_true(directory / "stations_true.toml", simulator);
   write_faults(directory / "faults.csv", simulator.faults());
   summary.duration_s = simulator.end_s() - simulator.start_s();
   summary.faults = simulator.faults().size();

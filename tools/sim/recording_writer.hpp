@@ -16,7 +16,8 @@ struct RecordingSummary {
 };
 
 /// Simulates the scenario into `directory` (made if need be): edges.csv.gz, truth.csv, target.csv (nominal),
-/// target_true.csv (as built), stations.toml, faults.csv. Throws host::InputError when it cannot be written.
+/// target_true.csv (as built), stations.toml (what the stations say of themselves), stations_true.toml, faults.csv.
+/// Throws host::InputError when it cannot be written.
 RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64_t seed,
                                  const std::filesystem::path& directory);
 

@@ -18,6 +18,8 @@ class ExampleRecording {
 
   std::string edges() const { return folder_.path("edges.csv.gz"); }
   std::string target() const { return folder_.path("target.csv"); }
+  std::string stations() const { return folder_.path("stations.toml"); }
+  std::string true_stations() const { return folder_.path("stations_true.toml"); }
   /// The same recording as text.
   std::string edges_text() const;
   const LighthouseFromBody& truth() const { return truth_; }

@@ -75,6 +75,16 @@ TEST(CliTrack, TakesACalibrationFromAFileById) {
   EXPECT_LT((pose_of(rows.back()).t - recording().truth().t).norm(), 1e-3);
 }
 
+TEST(CliTrack, TakesTheStationFileThatTheSimulatorWrites) {
+  const std::string by_ootx = track().out;
+  EXPECT_EQ(track("--calibration " + recording().stations()).out, by_ootx);
+  // Without systematic errors the stations are as they say.
+  EXPECT_EQ(track("--calibration " + recording().true_stations()).out, by_ootx);
+  const Outcome from_pipe = pharos("track " + recording().edges() + " --calibration - --target " + recording().target(),
+                                   content_of(recording().stations()));
+  EXPECT_EQ(from_pipe.out, by_ootx);
+}
+
 TEST(CliTrack, SaysFileLineAndKeyOfABadCalibration) {
   const Folder folder;
   const std::string file = folder.write("stations.toml", "[[station]]\nid = \"BEC08E38\"\nfase_rad = [0.03, 0.03]\n");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/stations/station_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/edges_reader.hpp"
 #include "host/table/target_file.hpp"
@@ -138,7 +139,17 @@ TEST_F(ScenarioFile, RecordingsHoldPulsesTruthTargetsStationsAndFaults) {
     expected_time += 0.001;
   }
   EXPECT_NEAR(expected_time, 2.0, 0.0015);
-  EXPECT_THAT(bytes_of(directory_ / "out/stations.toml"), HasSubstr("payload_hex = \"063d" + std::string("388ec0be")));
+  const auto announced = host::read_station_file((directory_ / "out/stations.toml").string());
+  const auto actual = host::read_station_file((directory_ / "out/stations_true.toml").string());
+  ASSERT_EQ(announced.size(), simulator.stations().size());
+  ASSERT_EQ(actual.size(), announced.size());
+  for (std::size_t i = 0; i < announced.size(); ++i) {
+    const SimulatedStation& station = simulator.stations()[i];
+    EXPECT_EQ(announced[i].id, station.announced.id);
+    EXPECT_EQ(announced[i].calibration.rotor[1].tilt_rad, station.announced.rotor[1].tilt_rad);
+    EXPECT_EQ(actual[i].calibration.rotor[0].phase_rad, station.true_errors[0].phase_rad);
+    EXPECT_EQ(actual[i].calibration.rotor[1].gibbous_phase_rad, station.true_errors[1].gibbous_phase_rad);
+  }
   EXPECT_THAT(bytes_of(directory_ / "out/faults.csv"), HasSubstr("missed_hit"));
 }
 
@@ -146,7 +157,8 @@ TEST_F(ScenarioFile, SameSeedSameBytes) {
   const LighthouseScenario scenario = read_scenario(fs::path(PHAROS_SCENARIOS) / "recordings_like.toml", 9);
   write_recording(scenario, 9, directory_ / "a");
   write_recording(scenario, 9, directory_ / "b");
-  for (const char* name : {"edges.csv.gz", "truth.csv", "target_true.csv", "stations.toml", "faults.csv"}) {
+  for (const char* name :
+       {"edges.csv.gz", "truth.csv", "target_true.csv", "stations.toml", "stations_true.toml", "faults.csv"}) {
     EXPECT_EQ(bytes_of(directory_ / "a" / name), bytes_of(directory_ / "b" / name)) << name;
   }
   // Stamps of the wrapped counter keep to 32 bits, although the recording passes the wrap.

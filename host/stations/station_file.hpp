@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pharos/lighthouse/station_calibration.hpp"
+
+namespace pharos::host {
+
+/// One [[station]] of a station file: by id as its OOTX says, by slot position whatever its id, or both.
+struct StationEntry {
+  std::optional<std::uint32_t> id;
+  std::optional<std::uint8_t> slot;
+  lighthouse::StationCalibration calibration;  // its id is `id`, 0 where the file gives none
+};
+
+/// Reads a station file (README.md shows one; `-` is standard input). Throws InputError naming file, line and key for
+/// what is not one: an entry without id and slot, an unknown key, an angle that no station has.
+std::vector<StationEntry> read_station_file(const std::string& path);
+
+/// One [[station]] by id, which read_station_file reads back exactly.
+std::string station_text(const lighthouse::StationCalibration& station);
+
+}  // namespace pharos::host
