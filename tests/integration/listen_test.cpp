@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <fstream>
+#include <memory>
+#include <vector>
 
 #include "integration/daemon_under_test.hpp"
 
@@ -48,6 +52,41 @@ TEST(Listen, EndsWith1WhenNoPoseCame) {
   ChildProcess listen({PHAROS, "listen", "--url", silence.url(), "--duration", "0.2"});
   EXPECT_EQ(listen.wait_exit(), 1);
   EXPECT_THAT(listen.text(), HasSubstr("nothing was received"));
+}
+
+TEST(Listen, ACsvTableHasItsHeaderAlsoWhenNothingComes) {
+  DaemonUnderTest silence;
+  ChildProcess listen({PHAROS, "listen", "--url", silence.url(), "--csv"});
+  EXPECT_TRUE(listen.wait_for("utime,source,target,station,"));
+  listen.signal(SIGINT);
+  EXPECT_EQ(listen.wait_exit(), 1);
+}
+
+TEST(Listen, EndsWith2AtOnceForABrokenRegularExpression) {
+  DaemonUnderTest silence;
+  ChildProcess listen({PHAROS, "listen", "PHAROS_(", "--url", silence.url()});
+  EXPECT_EQ(listen.wait_exit(), 2);
+  EXPECT_THAT(listen.text(), HasSubstr("pharos listen: CHANNEL 'PHAROS_(' is not a regular expression"));
+}
+
+TEST(Listen, ListenersStartedAtOnceAllHear) {
+  DaemonUnderTest daemon;
+  PseudoTerminal line;
+  daemon.plug_in(line);
+  daemon.write_config();
+  daemon.start();
+  std::vector<std::unique_ptr<ChildProcess>> listeners;
+  for (int i = 0; i < 6; ++i) {
+    listeners.push_back(std::make_unique<ChildProcess>(
+        std::vector<std::string>{PHAROS, "listen", "--url", daemon.url(), "--summary", "--count", "20"}));
+  }
+  const auto all_ended = [&] {
+    return std::all_of(listeners.begin(), listeners.end(),
+                       [](auto& listener) { return listener->wait_exit(0.0) >= 0; });
+  };
+  StillTarget target(somewhere());
+  EXPECT_TRUE(daemon.play(target, line, all_ended, 20.0));
+  for (const auto& listener : listeners) EXPECT_EQ(listener->wait_exit(0.0), 0) << listener->text();
 }
 
 TEST(Listen, EndsWith2WithoutLcmOrTruthFile) {

@@ -108,7 +108,7 @@ int run(const Options& options) {
   Output output(options.output, options.ootx ? kOotxColumns : kBearingColumns);
   Progress progress("decode", "sweeps");
   Smoothers smoothers;
-  const bool live = !is_rereadable(options.edges);
+  recording.on_pause([&output] { output.rows().flush(); });
   while (const std::optional<RecordingEvent> event = recording.next()) {
     if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&*event)) {
       stations.push(*payload);
@@ -118,14 +118,13 @@ int run(const Options& options) {
       write_bearings(*sweep, bearings, station_id_text(stations.id(sweep->flash.station)), output.rows());
       progress.step();
     }
-    if (live) output.rows().flush();
   }
   output.finish();
   recording.print_remarks();
   if (options.stats) recording.print_statistics();
   if (output.rows().rows() > 0) return kExitAnswered;
-  note(options.ootx ? "no OOTX frame in " + options.edges + "; it takes 3 s of unbroken light"
-                    : "no bearing in " + options.edges + "; --stats says what became of its pulses");
+  note(recording.name() + (options.ootx ? ": no OOTX frame; it takes 3 s of unbroken light, record longer"
+                                        : ": no bearing; --stats says what became of its pulses"));
   return kExitNoAnswer;
 }
 
@@ -136,7 +135,7 @@ void add_decode(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option(
-          "edges", options->edges,
+          "EDGES", options->edges,
           "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
       ->required();
   command->add_flag("--ootx", options->ootx, "The OOTX payloads instead of bearings");

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <iostream>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/usage.hpp"
 
 int main(int argc, char** argv) {
+  using namespace pharos::tools;
   CLI::App app("Relative pose of spacecraft at close range", "pharos");
   app.require_subcommand(1);
   app.set_version_flag("--version", PHAROS_VERSION);
   app.footer("Every subcommand has --help with an example. Exit code: 0 at least one answer, 1 none, 2 wrong usage.");
-  int exit_code = pharos::tools::kExitAnswered;
+  int exit_code = kExitAnswered;
+  add_commands(app, exit_code);
+  const NamedCommand named = named_command(app, {argv + std::min(argc, 1), argv + argc});
+  speak_as(named.name);
   try {
-    pharos::tools::add_commands(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? pharos::tools::kExitAnswered : pharos::tools::kExitUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    note(usage_message(named, error));
+    return kExitUsage;
   } catch (const std::exception& error) {
-    std::cerr << "pharos: " << error.what() << '\n';
-    return pharos::tools::kExitUsage;
+    note(error.what());
+    return kExitUsage;
   }
   return exit_code;
 }

@@ -31,6 +31,9 @@ class Output {
   host::RowWriter& rows() { return *rows_; }
   /// Everything out. Throws InputError when the disk is full.
   void finish();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output();
 
  private:
   struct Close {
@@ -46,7 +49,12 @@ class Output {
   std::unique_ptr<host::RowWriter> rows_;
 };
 
-/// One line for people on standard error, after the program's name.
+/// Throws InputError when `path` cannot be written, for a table that comes at the end of long work. Changes nothing.
+void require_writable(const std::string& path);
+
+/// Who note() speaks as: "pharos track". "pharos" until told.
+void speak_as(const std::string& name);
+/// One line for people on standard error, after the name of the command.
 void note(const std::string& message);
 
 }  // namespace pharos::tools

@@ -7,6 +7,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/solver_options.hpp"
+#include "tools/cli/standard_input.hpp"
 #include "tools/cli/target_notes.hpp"
 
 namespace pharos::tools {
@@ -49,6 +50,7 @@ bool write_row(const host::PoseRow& row, const Target& target, const NoiseOption
 }
 
 int run(const Options& options) {
+  require_one_standard_input({{"--target", options.target}, {"--poses", options.poses}});
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
   const std::vector<host::PoseRow> poses = host::read_poses(options.poses, "pose");

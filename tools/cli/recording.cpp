@@ -29,8 +29,9 @@ bool looks_like_text(std::string_view first_bytes) {
   });
 }
 
-std::unique_ptr<RecordingSource> open_source(const std::string& path) {
+std::unique_ptr<RecordingSource> open_source(const std::string& path, std::function<void()> on_pause) {
   host::ByteSource bytes(path);
+  bytes.on_pause(std::move(on_pause));
   const std::string_view first_bytes = bytes.peek(kBytesToTell).substr(0, kBytesToTell);
   if (host::StreamReader::looks_like(first_bytes)) return open_serial_stream(std::move(bytes));
   if (looks_like_text(first_bytes)) return open_pulse_table(std::move(bytes));
@@ -40,8 +41,14 @@ std::unique_ptr<RecordingSource> open_source(const std::string& path) {
 
 }  // namespace
 
-Recording::Recording(const std::string& path) : source_(open_source(path)) {}
+Recording::Recording(const std::string& path)
+    : name_(path == "-" ? "standard input" : path),
+      show_(std::make_shared<std::function<void()>>()),
+      source_(open_source(path, [show = show_] {
+        if (*show) (*show)();
+      })) {}
 Recording::~Recording() = default;
+void Recording::on_pause(std::function<void()> show) { *show_ = std::move(show); }
 std::optional<RecordingEvent> Recording::next() { return source_->next(); }
 
 void Recording::print_statistics() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,8 +27,13 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
+  /// `show` is called whenever a live recording has no more to say for now, before next() waits for it.
+  void on_pause(std::function<void()> show);
   /// The next event in order of time; empty at the end. Throws InputError where a table is broken.
   std::optional<RecordingEvent> next();
+
+  /// For messages: the path, or "standard input".
+  const std::string& name() const { return name_; }
 
   /// Every counter on standard error, one a line: name, value, what it counts.
   void print_statistics() const;
@@ -35,6 +41,8 @@ class Recording {
   void print_remarks() const;
 
  private:
+  std::string name_;
+  std::shared_ptr<std::function<void()>> show_;
   std::unique_ptr<RecordingSource> source_;
 };
 

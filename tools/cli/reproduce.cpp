@@ -7,6 +7,7 @@
 #include "tools/cli/reproduce/dynamic_runs.hpp"
 #include "tools/cli/reproduce/recordings.hpp"
 #include "tools/cli/reproduce/static_sets.hpp"
+#include "tools/cli/seed_option.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -57,6 +58,8 @@ std::vector<ComparisonRow> simulated_rows(const Options& options) {
 }
 
 int run(const Options& options) {
+  require_writable(options.output.path);
+  if (!options.sets_file.empty()) require_writable(options.sets_file);
   const std::vector<ComparisonRow> rows =
       options.real ? measure_recordings(recordings_directory(options.recordings)) : simulated_rows(options);
   if (options.markdown) {
@@ -72,6 +75,7 @@ int run(const Options& options) {
 void add_reproduce(CLI::App& app, int& exit_code) {
   CLI::App* reproduce = app.add_subcommand("reproduce", "The papers' tables: published, ours, ratio");
   reproduce->require_subcommand(1);
+  reproduce->footer("Example: pharos reproduce lighthouse --quick");
   CLI::App* command =
       reproduce->add_subcommand("lighthouse", "Paper 002: figure 5, section 4.2, table 2; or recordings");
   const auto options = std::make_shared<Options>();
@@ -79,7 +83,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   CLI::Option* recordings = command->add_option("--recordings", options->recordings,
                                                 "The real recordings in DIR instead (default: PHAROS_DATA/lighthouse)");
   recordings->type_name("[DIR]")->expected(0, 1);
-  command->add_option("--seed", options->seed, "Of poses, noise and errors")->capture_default_str();
+  add_seed_option(*command, options->seed, "Of poses, noise and errors");
   command->add_option("--sets", options->sets_file, "File for one row a set of figure 5");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);

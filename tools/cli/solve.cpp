@@ -13,6 +13,7 @@
 #include "tools/cli/pose_columns.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/solver_options.hpp"
+#include "tools/cli/standard_input.hpp"
 #include "tools/cli/target_notes.hpp"
 
 namespace pharos::tools {
@@ -22,7 +23,9 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos solve problems.csv --target target.csv --sigma-arcsec 60 --time 100 > poses.csv\n"
     "problems.csv: problem,sensor,theta_x_rad,theta_y_rad, rows with one name in `problem` belong together; either\n"
-    "angle may be empty; several rows of one sensor are candidates of which one at most is used.";
+    "angle may be empty; several rows of one sensor are candidates of which one at most is used. A problem of more "
+    "than\n"
+    "128 angles is refused (refused_too_many_angles).";
 
 struct Options {
   std::string problems;
@@ -34,16 +37,23 @@ struct Options {
 
 struct Problem {
   std::string name;
-  pose::Observations observations;
+  std::vector<pose::Observation> observations;  // as many as the table gives
+
+  bool fits() const { return observations.size() <= pose::kMaxObservations; }
 };
+
+pose::Observations observations_of(const Problem& problem) {
+  pose::Observations observations;
+  for (const pose::Observation& observation : problem.observations) observations.push_back(observation);
+  return observations;
+}
 
 void add_row(const host::TableReader& table, Problem& problem) {
   const auto sensor = static_cast<std::uint8_t>(table.integer(1, 0, 255));
   const std::array<std::optional<double>, kAxes> theta = {table.optional_number(2), table.optional_number(3)};
   for (const Axis axis : {Axis::kX, Axis::kY}) {
     const std::optional<double>& angle = theta[static_cast<std::size_t>(index_of(axis))];
-    if (!angle || problem.observations.push_back({sensor, axis, *angle})) continue;
-    table.fail_row("more than " + std::to_string(pose::kMaxObservations) + " angles in problem '" + problem.name + "'");
+    if (angle) problem.observations.push_back({sensor, axis, *angle});
   }
 }
 
@@ -75,22 +85,38 @@ std::vector<std::string> columns() {
   return with_pose_columns({"problem"}, last);
 }
 
-void write_answer(const Problem& problem, const Result<pose::Solution, pose::Refusal>& answer, host::RowWriter& rows) {
+void write_refusal(const Problem& problem, const char* reason, host::RowWriter& rows) {
   rows.text(problem.name);
-  if (!answer) {
-    write_no_pose(rows);
-    rows.none(4).text(std::string("refused_") + pose::name_of(answer.error()));
-    write_second_solution(rows, nullptr);
-    rows.none(2).integer(static_cast<std::int64_t>(problem.observations.size())).end_row();
-    return;
-  }
-  const LighthousePoseEstimate& estimate = answer->estimate;
+  write_no_pose(rows);
+  rows.none(4).text(std::string("refused_") + reason);
+  write_second_solution(rows, nullptr);
+  rows.none(2).integer(static_cast<std::int64_t>(problem.observations.size())).end_row();
+}
+
+void write_answer(const Problem& problem, const LighthousePoseEstimate& estimate, host::RowWriter& rows) {
+  rows.text(problem.name);
   write_pose(rows, estimate.pose);
   rows.number(estimate.residual_rms * kArcsecPerRad).number(estimate.adop_deg_per_rad).number(estimate.pdop_m_per_rad);
   rows.integer(estimate.iterations).text(status_of(estimate));
   write_second_solution(rows, &estimate);
   rows.number(estimate.sigma_rotation_rad() * kDegPerRad).number(estimate.sigma_position_m() * kMmPerM);
   rows.integer(estimate.observations).end_row();
+}
+
+// Whether the problem had an answer.
+bool solve_problem(const Problem& problem, const Target& target, const pose::SolveOptions& options,
+                   host::RowWriter& rows) {
+  if (!problem.fits()) {
+    write_refusal(problem, "too_many_angles", rows);
+    return false;
+  }
+  const auto answer = pose::solve(target, observations_of(problem), options);
+  if (answer) {
+    write_answer(problem, answer->estimate, rows);
+  } else {
+    write_refusal(problem, pose::name_of(answer.error()), rows);
+  }
+  return static_cast<bool>(answer);
 }
 
 // Every single solve timed by itself; the median is not moved by what else the machine does.
@@ -101,8 +127,10 @@ double median_ns(const std::vector<Problem>& problems, const Target& target, con
   Progress progress("timing", "rounds", static_cast<std::size_t>(repeats));
   for (int round = 0; round < repeats; ++round) {
     for (const Problem& problem : problems) {
+      if (!problem.fits()) continue;
+      const pose::Observations observations = observations_of(problem);
       const auto start = std::chrono::steady_clock::now();
-      const auto answer = pose::solve(target, problem.observations, options);
+      const auto answer = pose::solve(target, observations, options);
       const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
       if (answer) times_ns.push_back(taken.count());
     }
@@ -115,6 +143,7 @@ double median_ns(const std::vector<Problem>& problems, const Target& target, con
 }
 
 int run(const Options& options) {
+  require_one_standard_input({{"PROBLEMS", options.problems}, {"--target", options.target}});
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
   const std::vector<Problem> problems = read_problems(options.problems);
@@ -123,9 +152,7 @@ int run(const Options& options) {
   Progress progress("solve", "problems", problems.size());
   std::size_t answered = 0;
   for (const Problem& problem : problems) {
-    const auto answer = pose::solve(target.target, problem.observations, solve_options);
-    if (answer) ++answered;
-    write_answer(problem, answer, output.rows());
+    if (solve_problem(problem, target.target, solve_options, output.rows())) ++answered;
     progress.step();
   }
   output.finish();
@@ -147,7 +174,7 @@ void add_solve(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("solve", "Tables of bearings and a target to poses");
   const auto options = std::make_shared<Options>();
   command
-      ->add_option("problems", options->problems,
+      ->add_option("PROBLEMS", options->problems,
                    "Table problem,sensor,theta_x_rad,theta_y_rad (paper's angles); .gz; - is standard input")
       ->required();
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "tools/cli/finite_option.hpp"
+#include "tools/cli/number_option.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -35,12 +35,10 @@ pose::SolveOptions SolverOptions::solve() const {
 
 void add_noise_options(CLI::App& command, NoiseOptions& options) {
   command.add_option("--sigma-arcsec", options.sigma_arcsec, "Noise of one bearing that sigmas and gates assume")
-      ->check(finite_number())
-      ->check(CLI::Range(kLeastSigma_arcsec, kMostSigma_arcsec))
+      ->check(number_from(kLeastSigma_arcsec, kMostSigma_arcsec))
       ->capture_default_str();
   command.add_option("--rho", options.rho, "Correlation between sensors of one rotor, equation (19)")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, kMostRho))
+      ->check(number_from(0.0, kMostRho))
       ->capture_default_str();
 }
 

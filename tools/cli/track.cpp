@@ -2,6 +2,7 @@
 // pharos track: a recording and a target to poses of the target in each station's frame.
 #include <array>
 
+#include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/track/epoch_tracker.hpp"
@@ -13,6 +14,7 @@
 #include "tools/cli/recording.hpp"
 #include "tools/cli/residual_table.hpp"
 #include "tools/cli/solver_options.hpp"
+#include "tools/cli/standard_input.hpp"
 #include "tools/cli/target_notes.hpp"
 #include "tools/cli/words.hpp"
 
@@ -100,6 +102,7 @@ class Tracking {
     while (const auto result = tracker_.flush()) take(*result);
     output_.finish();
   }
+  /// What came out so far.
   void show() { output_.rows().flush(); }
 
   const ResidualTable& residuals() const { return residuals_; }
@@ -133,32 +136,42 @@ class Tracking {
   std::size_t uncalibrated_ = 0;
 };
 
-void say_what_came_out(const Options& options, Tracking& tracking) {
+void say_what_came_out(const Options& options, const std::string& name, Tracking& tracking) {
   if (options.calibration == "ootx" && tracking.uncalibrated()) {
-    note(options.edges + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
+    note(name + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
   }
   if (tracking.poses() > 0) return;
-  note(tracking.rows() > 0 ? options.edges + ": every cycle was refused; see the column status"
-                           : options.edges + ": no complete cycle; --stats says what became of its pulses");
+  note(tracking.rows() > 0 ? name + ": every cycle was refused; see the column status"
+                           : name + ": no complete cycle; --stats says what became of its pulses");
+}
+
+void check_files(const Options& options) {
+  require_one_standard_input(
+      {{"EDGES", options.edges}, {"--target", options.target}, {"--calibration", options.calibration}});
+  if (options.sensors.empty()) return;
+  if (options.sensors == options.output.path) {
+    throw host::InputError("--sensors and --output both name " + options.sensors + "; give two files");
+  }
+  require_writable(options.sensors);
 }
 
 int run(const Options& options) {
+  check_files(options);
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
   Recording recording(options.edges);
   const auto tracking = std::make_unique<Tracking>(options, target.target);
   Progress progress("track", "sweeps and payloads");
-  const bool live = !is_rereadable(options.edges);
+  recording.on_pause([&tracking] { tracking->show(); });
   while (const std::optional<RecordingEvent> event = recording.next()) {
     tracking->push(*event);
-    if (live) tracking->show();
     progress.step();
   }
   tracking->finish();
   if (!options.sensors.empty()) tracking->residuals().write({options.output.json, options.sensors});
   recording.print_remarks();
   if (options.stats) recording.print_statistics();
-  say_what_came_out(options, *tracking);
+  say_what_came_out(options, recording.name(), *tracking);
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }
 
@@ -169,7 +182,7 @@ void add_track(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option(
-          "edges", options->edges,
+          "EDGES", options->edges,
           "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
       ->required();
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
@@ -180,7 +193,8 @@ void add_track(CLI::App& app, int& exit_code) {
       ->add_option("--calibration", options->calibration,
                    "ootx (what the stations send; a file is read twice), none, or a TOML file of [[station]] tables")
       ->capture_default_str();
-  command->add_option("--form", options->form, "Sign form of the station model")
+  command
+      ->add_option("--form", options->form, "Sign form of the station model's curve term; real stations fit 1 better")
       ->check(CLI::IsMember({1, 2}))
       ->capture_default_str();
   command->add_flag("--raw-flashes", options->raw_flashes, "Flash times as measured, not smoothed");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
@@ -10,11 +11,14 @@
 #include "host/daemon/timer.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/cli/commands.hpp"
-#include "tools/cli/finite_option.hpp"
+#include "tools/cli/number_option.hpp"
 #include "tools/listen/listener.hpp"
 
 namespace pharos::tools {
 namespace {
+
+constexpr double kShortest_s = 1e-3;
+constexpr double kLongest_s = 1e9;
 
 struct ListenOptions {
   std::string channel = "PHAROS_LIGHTHOUSE_POSE";
@@ -33,16 +37,26 @@ ListenFormat format_of(const ListenOptions& options) {
   return options.csv ? ListenFormat::kCsv : ListenFormat::kLines;
 }
 
-// Connects LCM's callback to the listener.
-struct Ear {
-  Listener listener;
-  void hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    listener.take(channel, buffer->data, static_cast<int>(buffer->data_size), host::utc_now_ns(),
-                  host::monotonic_now_ns());
-  }
-};
+void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
+  static_cast<Listener*>(listener)->take(channel, buffer->data, static_cast<int>(buffer->data_size), host::utc_now_ns(),
+                                         host::monotonic_now_ns());
+}
 
-void listen_until_done(lcm::LCM& lcm, Ear& ear, host::Signals& signals, const ListenOptions& options) {
+// Through LCM's C functions: those of C++ give a subscription also where there is none, and who has it waits for ever.
+// Receiving is set up first, with LCM's test of its own multicast, so that it is known which of the two went wrong.
+void subscribe(lcm::LCM& lcm, Listener& listener, const ListenOptions& options) {
+  if (!lcm.good() || lcm.getFileno() < 0) {
+    throw host::InputError("LCM cannot be set up with --url " + options.url +
+                           ": check it, and that there is a route for multicast (without a network: "
+                           "ip route add 224.0.0.0/4 dev lo)");
+  }
+  if (lcm_subscribe(lcm.getUnderlyingLCM(), options.channel.c_str(), hear, &listener) == nullptr) {
+    throw host::InputError("CHANNEL '" + options.channel +
+                           "' is not a regular expression; mend it (PHAROS_.* hears all of them)");
+  }
+}
+
+void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals, const ListenOptions& options) {
   host::EventLoop loop;
   host::Timer timer;
   if (options.duration_s > 0.0) {
@@ -53,7 +67,7 @@ void listen_until_done(lcm::LCM& lcm, Ear& ear, host::Signals& signals, const Li
   loop.watch(timer.fd(), [&] { loop.stop(); });
   loop.watch(lcm.getFileno(), [&] {
     lcm.handle();
-    if (options.count > 0 && ear.listener.summary().poses() >= options.count) loop.stop();
+    if (options.count > 0 && listener.summary().poses() >= options.count) loop.stop();
   });
   loop.run();
 }
@@ -63,26 +77,26 @@ int listen(const ListenOptions& options) {
   host::Signals signals{SIGINT, SIGTERM};
   std::optional<TruthFile> truth;
   if (!options.truth.empty()) truth.emplace(options.truth);
-  Ear ear{Listener(format_of(options), std::move(truth))};
   lcm::LCM lcm(options.url);
-  if (!lcm.good() || lcm.subscribe(options.channel, &Ear::hear, &ear) == nullptr) {
-    throw host::InputError("LCM cannot be set up with the URL \"" + options.url + "\" and the channel \"" +
-                           options.channel +
-                           "\": check both (--url, CHANNEL), and that there is a route for "
-                           "multicast (without a network: ip route add 224.0.0.0/4 dev lo)");
-  }
-  listen_until_done(lcm, ear, signals, options);
-  ear.listener.finish();
-  const std::string text = summary_text(ear.listener.summary().sources());
+  Listener listener(format_of(options), std::move(truth));
+  subscribe(lcm, listener, options);
+  listener.begin();
+  listen_until_done(lcm, listener, signals, options);
+  listener.finish();
+  const std::string text = summary_text(listener.summary().sources());
   std::fputs(text.c_str(), options.summary ? stdout : stderr);
-  if (ear.listener.foreign() > 0) {
-    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(ear.listener.foreign()));
+  if (listener.foreign() > 0) {
+    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.foreign()));
+  }
+  if (options.csv && listener.status_messages() > 0) {
+    std::fprintf(stderr, "%lld status messages not shown: they are no rows; use --json\n",
+                 static_cast<long long>(listener.status_messages()));
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw host::InputError(
         "standard output: rows were lost, it cannot be written; free the disk or choose another file");
   }
-  const bool heard = ear.listener.summary().poses() > 0 || ear.listener.status_messages() > 0;
+  const bool heard = listener.summary().poses() > 0 || listener.status_messages() > 0;
   return heard ? kExitAnswered : kExitNoAnswer;
 }
 
@@ -91,16 +105,15 @@ int listen(const ListenOptions& options) {
 void add_listen(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ListenOptions>();
   CLI::App* command = app.add_subcommand("listen", "Poses (or status messages) on LCM as they arrive, one line each");
-  command->add_option("channel", options->channel, "Channel, or a regular expression for several")
+  command->add_option("CHANNEL", options->channel, "Channel, or a regular expression for several")
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL")->capture_default_str();
   command->add_option("--truth", options->truth,
                       "File with the true poses (utime,qw,...,tz_m), as `pharos sim serial --truth` writes it");
   command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
-      ->check(finite_number())
-      ->check(CLI::PositiveNumber);
-  command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::NonNegativeNumber);
-  command->add_flag("--csv", options->csv, "A CSV table");
+      ->check(number_from(kShortest_s, kLongest_s));
+  command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::Range(0, INT_MAX));
+  command->add_flag("--csv", options->csv, "A CSV table of the poses");
   command->add_flag("--json", options->json, "One JSON object a line")->excludes("--csv");
   command->add_flag("--summary", options->summary, "Only the summary at the end, on standard output");
   command->footer(

@@ -44,7 +44,15 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
 
 }  // namespace
 
-Listener::Listener(ListenFormat format, std::optional<TruthFile> truth) : format_(format), truth_(std::move(truth)) {}
+Listener::Listener(ListenFormat format, std::optional<TruthFile> truth) : format_(format), truth_(std::move(truth)) {
+  if (format_ != ListenFormat::kCsv && format_ != ListenFormat::kJson) return;
+  const auto row_format = format_ == ListenFormat::kJson ? host::RowFormat::kJson : host::RowFormat::kCsv;
+  rows_ = std::make_unique<host::RowWriter>(stdout, row_format, pose_columns());
+}
+
+void Listener::begin() {
+  if (rows_) rows_->flush();
+}
 
 void Listener::take(const std::string& channel, const void* data, int size, std::int64_t utc_ns,
                     std::int64_t monotonic_ns) {
@@ -87,16 +95,12 @@ void Listener::print(const ReceivedPose& pose) {
     std::fflush(stdout);
     return;
   }
-  if (!rows_) {
-    const auto row_format = format_ == ListenFormat::kJson ? host::RowFormat::kJson : host::RowFormat::kCsv;
-    rows_ = std::make_unique<host::RowWriter>(stdout, row_format, pose_columns());
-  }
   write_pose_row(*rows_, pose);
 }
 
 void Listener::take_status(const status_t& message) {
   ++status_messages_;
-  if (format_ == ListenFormat::kNone) return;
+  if (format_ == ListenFormat::kNone || format_ == ListenFormat::kCsv) return;
   std::puts((format_ == ListenFormat::kJson ? status_json(message) : status_lines(message)).c_str());
   std::fflush(stdout);
 }

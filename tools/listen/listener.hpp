@@ -28,7 +28,10 @@ class Listener {
  public:
   Listener(ListenFormat format, std::optional<TruthFile> truth);
 
-  /// Any message of a channel listened to: pose_t and status_t are printed, others counted as foreign.
+  /// What comes before the first message: the header row of a CSV table.
+  void begin();
+  /// Any message of a channel listened to: pose_t and status_t are printed (a status not as CSV: it
+  /// is no row), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Compares poses whose truth had not been written yet when they came.
   void finish();
@@ -46,7 +49,7 @@ class Listener {
   ListenFormat format_;
   std::optional<TruthFile> truth_;
   std::vector<ReceivedPose> not_compared_;
-  std::unique_ptr<host::RowWriter> rows_;
+  std::unique_ptr<host::RowWriter> rows_;  // of CSV and JSON
   ListenSummary summary_;
   std::int64_t foreign_ = 0;
   std::int64_t status_messages_ = 0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "tools/cli/seed_option.hpp"
 #include "tools/sim/recording_writer.hpp"
 
 namespace pharos::tools {
@@ -21,13 +22,15 @@ struct LighthouseOptions {
 void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
   auto options = std::make_shared<LighthouseOptions>();
   CLI::App* command = sim.add_subcommand("lighthouse", "Simulate laser base stations and a target before them");
-  command->add_option("SCENARIO", options->scenario, "scenario file (TOML; examples in tools/sim/scenarios)")
+  command
+      ->add_option("SCENARIO", options->scenario,
+                   "scenario file (TOML; examples in tools/sim/scenarios); - is standard input")
       ->required();
-  command->add_option("--seed", options->seed, "same seed, same bytes")->capture_default_str();
+  add_seed_option(*command, options->seed, "same seed, same bytes");
   command->add_option("--output", options->output, "directory for the recording, its truth and its target")->required();
   command->footer(
       "Writes edges.csv.gz, truth.csv (T_lighthouse_body, a row per millisecond and station), target.csv,\n"
-      "target_true.csv, stations.toml and faults.csv.\n\n"
+      "target_true.csv, stations.toml (calibrations as announced), stations_true.toml and faults.csv.\n\n"
       "Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output /tmp/demo");
   command->callback([options, &exit_code] {
     const sim::LighthouseScenario scenario = sim::read_scenario(options->scenario, options->seed);
@@ -41,6 +44,7 @@ void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
 void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Simulate sensors: recordings with truth, and a target on a serial line");
   sim->require_subcommand(1);
+  sim->footer("Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output demo");
   add_sim_lighthouse(*sim, exit_code);
   add_sim_serial(*sim, exit_code);
 }

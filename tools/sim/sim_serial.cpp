@@ -7,7 +7,8 @@
 
 #include "host/support/input_error.hpp"
 #include "host/table/edges_reader.hpp"
-#include "tools/cli/finite_option.hpp"
+#include "tools/cli/number_option.hpp"
+#include "tools/cli/seed_option.hpp"
 #include "tools/sim/add_sim.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
 #include "tools/sim/serial_player.hpp"
@@ -75,7 +76,7 @@ Material open_recording(const Options& options) {
   host::EdgesReader* edges = material.edges.get();
   material.feed = std::make_unique<sim::PulseFeed>([edges] { return edges->next(); });
   const std::optional<std::int64_t> first = material.feed->first_ticks();
-  if (!first) throw InputError(options.input + ": holds no pulses");
+  if (!first) throw InputError(options.input + ": holds no pulses; give a recording with light");
   const std::int64_t start = *first;
   material.clock.seconds_at = [start](std::int64_t ticks) { return static_cast<double>(ticks - start) * 20e-9; };
   material.clock.ticks_at = [start](double time_s) { return start + std::llround(time_s * 50e6); };
@@ -89,7 +90,7 @@ int play(const Options& options) {
   std::optional<sim::PlayTruth> truth;
   if (!options.truth.empty()) {
     sim::LighthouseSimulator* simulator = material.simulator.get();
-    if (simulator == nullptr) throw InputError("--truth: a recording has none; play a scenario");
+    if (simulator == nullptr) throw InputError("--truth: a recording has none; leave it out, or play a scenario");
     truth = sim::PlayTruth{[simulator](std::size_t station, double time_s) {
                              return simulator->truth(station, simulator->clock().counter_time(time_s));
                            },
@@ -123,28 +124,25 @@ int play(const Options& options) {
 void add_sim_serial(CLI::App& sim, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = sim.add_subcommand("serial", "Play a scenario or a recording as a target on a serial line");
-  command->add_option("INPUT", options->input, "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks)")->required();
+  command
+      ->add_option("INPUT", options->input,
+                   "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks; - is standard input)")
+      ->required();
   command->add_option("--link", options->link, "symbolic link to the port, for a daemon's configuration");
   command->add_option("--speed", options->serial.speed, "times real speed; 0: as fast as the reader reads")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 1e4))
+      ->check(number_from(0.0, 1e4))
       ->capture_default_str();
   command->add_option("--baud", options->serial.baud, "speed of the line")
-      ->check(finite_number())
-      ->check(CLI::Range(1200.0, 1e8))
+      ->check(number_from(1200.0, 1e8))
       ->capture_default_str();
-  command->add_option("--seed", options->serial.seed, "of the scenario and of the line's faults")
-      ->capture_default_str();
+  add_seed_option(*command, options->serial.seed, "of the scenario and of the line's faults");
   command->add_option("--name", options->name, "name that the target gives itself");
   command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)");
   command->add_flag("--raw-edges", options->raw_edges, "diagnostic mode: every edge instead of sweeps");
   command->add_flag("--free-running", options->free_running, "do not wait until a program has opened the port");
   command->add_option("--corrupt", options->serial.corrupt_rate, "share of bytes with one bit flipped")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--drop", options->serial.drop_rate, "share of bytes lost")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_from(0.0, 1.0));
+  command->add_option("--drop", options->serial.drop_rate, "share of bytes lost")->check(number_from(0.0, 1.0));
   command->add_option("--unplug", options->unplugs, "AT,FOR: unplug the port at AT s for FOR s (may be repeated)");
   command->footer(
       "Prints the port's path and plays once a program opens it. Ends with the input, or on SIGINT or SIGTERM.\n\n"

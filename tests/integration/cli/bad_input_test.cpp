@@ -17,7 +17,7 @@ void expect_refusal(const Outcome& run, const std::string& words) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(count_lines(run.err), 1u) << run.err;
-  EXPECT_THAT(run.err, ::testing::StartsWith("pharos: "));
+  EXPECT_THAT(run.err, ::testing::MatchesRegex("pharos [a-z]+: .+\n"));
   EXPECT_THAT(run.err, HasSubstr(words));
 }
 
@@ -28,6 +28,30 @@ TEST(CliBadInput, UnknownFiles) {
   expect_refusal(pharos("solve /nowhere/p.csv --target " + recording().target()), "/nowhere/p.csv");
   expect_refusal(pharos("precision --poses /nowhere/p.csv --target " + recording().target()), "/nowhere/p.csv");
   expect_refusal(pharos("decode " + recording().edges() + " --output /nowhere/out.csv"), "/nowhere/out.csv");
+}
+
+TEST(CliBadInput, WhatCannotBeWrittenAtTheEndIsSaidAtTheStart) {
+  const std::string track = "track " + recording().edges() + " --target " + recording().target();
+  expect_refusal(pharos(track + " --sensors /nowhere/sensors.csv"), "/nowhere/sensors.csv: cannot be written");
+  const Folder folder;
+  const std::string same = folder.path("same.csv");
+  expect_refusal(pharos(track + " --sensors " + same + " --output " + same), "--sensors and --output both name");
+}
+
+TEST(CliBadInput, OneStandardInputCannotBeTwoTables) {
+  expect_refusal(pharos("track - --target -"), "EDGES and --target cannot both be standard input");
+  expect_refusal(pharos("track - --calibration - --target " + recording().target()), "EDGES and --calibration");
+  expect_refusal(pharos("solve - --target -"), "PROBLEMS and --target");
+  expect_refusal(pharos("precision --target - --poses -"), "--target and --poses");
+}
+
+TEST(CliBadInput, AFailedRunLeavesTheOldOutputAndNothingBesideIt) {
+  const Folder folder;
+  const std::string out = folder.write("out.csv", "old");
+  const std::string broken = folder.write("a.csv", "sensor,rise_ticks,fall_ticks\n1,2,3\n1,2,x\n");
+  EXPECT_EQ(pharos("decode " + broken + " --output " + out).exit_code, 2);
+  EXPECT_EQ(content_of(out), "old");
+  EXPECT_FALSE(std::filesystem::exists(out + ".new"));
 }
 
 TEST(CliBadInput, WrongColumns) {
@@ -97,6 +121,8 @@ TEST(CliBadInput, ImpossibleTargets) {
   expect_refusal(track_with("sensor,x_m,y_m,z_m\n1,0,0,0\n2,0.1,0,0\n3,0.2,0,0\n4,0.3,0,0\n"), "on one line");
   expect_refusal(track_with("sensor,x_m,y_m,z_m\n1,0,0,0\n2,0.1,0,0\n3,0.1,0,0\n4,0,0.3,0\n"), "2 and 3");
   expect_refusal(track_with("sensor,x_m,y_m,z_m\n99,0,0,0\n"), "0 to 31");
+  expect_refusal(track_with("sensor,x_m,y_m,z_m\n0,25,25,62.5\n1,25,-25,62.5\n2,-25,25,62.5\n"),
+                 "target.csv: line 2: column 'x_m': 25 m is more than 12 m");
 }
 
 TEST(CliBadInput, ACoplanarTargetIsAllowedWithANote) {

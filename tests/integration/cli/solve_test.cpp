@@ -79,6 +79,17 @@ TEST(CliSolve, RefusesWithAReasonAndKeepsTheRow) {
   EXPECT_THAT(run.out, Not(HasSubstr("nan")));
 }
 
+TEST(CliSolve, AProblemOfTooManyAnglesIsRefusedAndTheRunGoesOn) {
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += "many,0,1.5,1.5\n";
+  const auto rows = rows_of(solve(kHeader + many + problem_rows("good", 8), "--time 1").out);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("status"), "refused_too_many_angles");
+  EXPECT_EQ(rows[0].at("qw"), "");
+  EXPECT_EQ(rows[0].at("observations"), "130");
+  EXPECT_EQ(rows[1].at("status"), "ok");
+}
+
 TEST(CliSolve, EndsWith1WhenNothingCouldBeSolved) {
   const Outcome run = solve(kHeader + problem_rows("few", 2));
   EXPECT_EQ(run.exit_code, 1);

@@ -8,9 +8,11 @@ namespace pharos::cli_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(CliUsage, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command : {"decode", "track", "solve", "precision", "reproduce lighthouse", "sim lighthouse"}) {
+  for (const char* command :
+       {"decode", "track", "solve", "precision", "reproduce lighthouse", "sim lighthouse", "sim serial", "listen"}) {
     const Outcome run = pharos(std::string(command) + " --help");
     EXPECT_EQ(run.exit_code, 0) << command;
     EXPECT_THAT(run.out, HasSubstr("Example")) << command;
@@ -24,16 +26,46 @@ TEST(CliUsage, TellsItsVersion) {
   EXPECT_THAT(run.out, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
-TEST(CliUsage, WrongUsageEndsWith2AndPrintsNoRows) {
+TEST(CliUsage, WrongUsageIsOneLineOfTheCommandThatEndsWith2) {
   for (const char* arguments :
-       {"", "nonsense", "decode", "track edges.csv", "solve - --target", "decode a.csv --nonsense",
+       {"decode", "track edges.csv", "solve - --target", "decode a.csv b.csv", "decode a.csv --nonsense",
         "track a.csv --target b.csv --form 3", "track a.csv --target b.csv --method telepathy",
         "solve a.csv --target b.csv --start luck", "solve a.csv --target b.csv --rho 1.5",
-        "solve a.csv --target b.csv --sigma-arcsec 0", "solve a.csv --target b.csv --time 0", "reproduce"}) {
+        "solve a.csv --target b.csv --rho nan", "solve a.csv --target b.csv --sigma-arcsec 0",
+        "solve a.csv --target b.csv --time 0", "listen --duration -1", "listen --count -1", "listen --csv --json"}) {
+    const Outcome run = pharos(arguments);
+    const std::string words = arguments;
+    EXPECT_EQ(run.exit_code, 2) << words;
+    EXPECT_EQ(run.out, "") << words;
+    EXPECT_EQ(count_lines(run.err), 1u) << run.err;
+    EXPECT_THAT(run.err, StartsWith("pharos " + words.substr(0, words.find(' ')) + ": ")) << words;
+    EXPECT_LT(run.err.size(), 200u) << run.err;
+  }
+}
+
+TEST(CliUsage, NamesAnUnknownCommandAndThoseThatThereAre) {
+  const auto expect = [](const char* arguments, const std::string& start, const std::string& words) {
     const Outcome run = pharos(arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_EQ(run.out, "") << arguments;
-    EXPECT_NE(run.err, "") << arguments;
+    EXPECT_EQ(count_lines(run.err), 1u) << run.err;
+    EXPECT_THAT(run.err, StartsWith(start));
+    EXPECT_THAT(run.err, HasSubstr(words));
+  };
+  expect("bogus", "pharos: unknown command 'bogus'; the commands are decode, track, solve", "`pharos --help`");
+  expect("--bogus", "pharos: unknown option '--bogus'", "`pharos --help`");
+  expect("", "pharos: no command given", "decode, track, solve");
+  expect("sim bogus", "pharos sim: unknown command 'bogus'", "lighthouse, serial");
+  expect("reproduce", "pharos reproduce: no command given", "lighthouse");
+}
+
+TEST(CliUsage, ASeedIsAWholeNumber) {
+  for (const char* command : {"reproduce lighthouse", "sim lighthouse a.toml --output out", "sim serial a.toml"}) {
+    for (const char* seed : {"-1", "1.5", "x", "99999999999999999999"}) {
+      const Outcome run = pharos(std::string(command) + " --seed " + seed);
+      EXPECT_EQ(run.exit_code, 2) << command << seed;
+      EXPECT_THAT(run.err, HasSubstr(std::string("--seed: ") + seed + " is not a whole number")) << command;
+    }
   }
 }
 

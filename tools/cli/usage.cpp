@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/usage.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace pharos::tools {
+namespace {
+
+const CLI::App* subcommand(const CLI::App& command, std::string_view word) {
+  for (const CLI::App* candidate : command.get_subcommands({})) {
+    if (candidate->get_name() == word) return candidate;
+  }
+  return nullptr;
+}
+
+std::string subcommand_names(const CLI::App& command) {
+  std::string names;
+  for (const CLI::App* candidate : command.get_subcommands({})) {
+    names += (names.empty() ? "" : ", ") + candidate->get_name();
+  }
+  return names;
+}
+
+}  // namespace
+
+NamedCommand named_command(const CLI::App& app, std::span<const char* const> words) {
+  NamedCommand named{&app, app.get_name(), ""};
+  for (const std::string_view word : words) {
+    if (named.command->get_subcommands({}).empty()) break;
+    const CLI::App* next = subcommand(*named.command, word);
+    if (next == nullptr) {
+      named.unknown = word;
+      break;
+    }
+    named.command = next;
+    named.name += " " + next->get_name();
+  }
+  return named;
+}
+
+std::string usage_message(const NamedCommand& named, const CLI::ParseError& error) {
+  const std::string help = "; `" + named.name + " --help` says how";
+  if (!named.unknown.empty()) {
+    return (named.unknown.starts_with('-') ? "unknown option '" : "unknown command '") + named.unknown +
+           "'; the commands are " + subcommand_names(*named.command) + help;
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !named.command->get_subcommands({}).empty()) {
+    return "no command given; the commands are " + subcommand_names(*named.command) + help;
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const std::string text = error.what();
+    return text.substr(0, text.find(':')) + ": its value is missing" + help;
+  }
+  std::string what = error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  return what + help;
+}
+
+}  // namespace pharos::tools
