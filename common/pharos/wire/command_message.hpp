@@ -14,7 +14,7 @@ enum class CommandCode : std::uint8_t {
   kIdentify = 1,     // send a Hello; ack value 0
   kSetModes = 2,     // value: HelloMode bits wanted; ack value: those now in force
   kReset = 3,        // start anew; the ack comes before
-  kEnterLoader = 4,  // start the loader and stay in it; the ack comes before
+  kEnterLoader = 4,  // start the loader and stay in it for a minute of silence at most; the ack comes before
 };
 
 struct Command {
@@ -37,14 +37,17 @@ struct Ack {
 
 enum class NakReason : std::uint8_t {
   kUnsupported = 1,  // unknown command or type
-  kBadPayload = 2,   // the payload means nothing
-  kOutOfOrder = 3,   // data before begin, or an offset that is not the next; value: the offset expected
+  kBadPayload = 2,   // the payload means nothing, or the image cannot run here
+  kOutOfOrder = 3,   // an offset that is not the next; value: the offset expected, or kNothingBegun
   kTooLarge = 4,     // does not fit; value: bytes there are
   kWrongBoard = 5,   // an image for another board
   kBadCrc = 6,       // the image does not verify; value: the CRC found
   kWriteFailed = 7,  // the memory did not take it; value: the offset
   kNotVerified = 8,  // start before a good verify
 };
+
+/// Value of kOutOfOrder where no image was announced.
+inline constexpr std::uint32_t kNothingBegun = 0xFFFFFFFF;
 
 /// Not done, and why.
 struct Nak {

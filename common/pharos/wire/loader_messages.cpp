@@ -6,7 +6,7 @@ namespace pharos::wire {
 void write(const LoaderInfo& message, ByteWriter& out) {
   out.put(message.loader_version);
   out.put(message.block_bytes);
-  out.put(message.load_address);
+  out.put(message.slot_offset);
   out.put(message.capacity_bytes);
   write(message.board, out);
 }
@@ -14,7 +14,7 @@ void write(const LoaderInfo& message, ByteWriter& out) {
 void read(ByteReader& in, LoaderInfo& message) {
   message.loader_version = in.get<std::uint16_t>();
   message.block_bytes = in.get<std::uint16_t>();
-  message.load_address = in.get<std::uint32_t>();
+  message.slot_offset = in.get<std::uint32_t>();
   message.capacity_bytes = in.get<std::uint32_t>();
   read(in, message.board);
 }

@@ -11,11 +11,16 @@
 
 namespace pharos::wire {
 
-// How an image gets into the target: query -> info, begin, data…, verify, start; every request but the query is
-// answered by Ack or Nak before the next is sent. The loader tells the start of an image's area, so that one host
-// serves all boards.
+// How an image (common/pharos/image) gets into the target: query -> hello and info, begin, data…, verify, start. Every
+// request but the query is answered by Ack or Nak before the next is sent, but for data, of which kLoaderWindow may be
+// on their way. Repeating a request is harmless.
 
-/// Host to loader: who is there? Answered by LoaderInfo.
+/// Blocks of data that may be sent before the first of them is answered. Three keep a line of 460,800 baud busy over an
+/// adapter that hands on what came every 16 ms, and while a page of flash is written.
+inline constexpr std::size_t kLoaderWindow = 3;
+
+/// Host to loader: who is there? Answered by Hello, with the version of the image that the loader would start (0.0.0:
+/// none), and LoaderInfo.
 struct LoaderQuery {
   static constexpr MessageType kType = MessageType::kLoaderQuery;
   static constexpr std::size_t kMaxBytes = 0;
@@ -27,13 +32,14 @@ struct LoaderInfo {
   static constexpr std::size_t kMaxBytes = 36;
 
   std::uint16_t loader_version = 0;
-  std::uint16_t block_bytes = 0;     // longest data of one LoaderData that it takes
-  std::uint32_t load_address = 0;    // where images begin
+  std::uint16_t block_bytes = 0;     // data of each LoaderData but the last
+  std::uint32_t slot_offset = 0;     // where in the flash the image will lie
   std::uint32_t capacity_bytes = 0;  // longest image
   Text<24> board;
 };
 
-/// Host to loader: an image follows. Ack value: 0.
+/// Host to loader: an image follows. The slot is erased before the Ack, which takes seconds. Ack value: the offset
+/// expected first; not 0 when the loader has the beginning of this very image already.
 struct LoaderBegin {
   static constexpr MessageType kType = MessageType::kLoaderBegin;
   static constexpr std::size_t kMaxBytes = 32;
@@ -44,7 +50,7 @@ struct LoaderBegin {
 };
 
 /// Host to loader: bytes of the image at `offset`. Ack value: the offset expected next. A block that was already taken
-/// (the ack got lost) is acknowledged again.
+/// (the ack got lost) is acknowledged again; one too early gets Nak kOutOfOrder with the offset expected.
 struct LoaderData {
   static constexpr MessageType kType = MessageType::kLoaderData;
   static constexpr std::size_t kMaxData = 256;
@@ -54,13 +60,14 @@ struct LoaderData {
   StaticVector<std::uint8_t, kMaxData> data;
 };
 
-/// Host to loader: compare the CRC-32 of what was written with the one announced. Ack value: the CRC found.
+/// Host to loader: compare the CRC-32 of what was written with the one announced and, when all is well, mark the slot
+/// as the newest. Ack value: the CRC found.
 struct LoaderVerify {
   static constexpr MessageType kType = MessageType::kLoaderVerify;
   static constexpr std::size_t kMaxBytes = 0;
 };
 
-/// Host to loader: run the verified image. The Ack (value: the address) comes before the jump.
+/// Host to loader: start anew, with the newest good image. The Ack (value: 0) comes before.
 struct LoaderStart {
   static constexpr MessageType kType = MessageType::kLoaderStart;
   static constexpr std::size_t kMaxBytes = 0;

@@ -133,7 +133,7 @@ class RandomMessages {
   void fill(LoaderInfo& m) {
     m.loader_version = integer<std::uint16_t>();
     m.block_bytes = integer<std::uint16_t>();
-    m.load_address = integer<std::uint32_t>();
+    m.slot_offset = integer<std::uint32_t>();
     m.capacity_bytes = integer<std::uint32_t>();
     fill(m.board);
   }
