@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "pharos/wire/crc32.hpp"
+#include "pharos/wire/text.hpp"
 
 namespace pharos::image {
 namespace {
@@ -25,30 +26,32 @@ bool is_clean(std::span<const char> text) {
   return true;
 }
 
-bool is_aligned(std::uint32_t value) { return value % kAlignment == 0; }
-
 bool means_something(const ImageHeader& header) {
-  // The body ends below the last address, so that no sum of address and length wraps.
-  const std::uint32_t room_above = UINT32_MAX - header.load_address;
-  return header.body_bytes > 0 && header.body_bytes <= room_above && is_aligned(header.body_bytes) &&
-         is_aligned(header.load_address) && is_aligned(header.entry_address) &&
-         header.entry_address - header.load_address < header.body_bytes && is_clean(header.board.characters) &&
-         is_clean(header.name.characters);
+  const std::uint32_t aligned = header.body_bytes | header.load_address | header.entry_address;
+  return aligned % kAlignment == 0 && header.entry_address - header.load_address < header.body_bytes;
 }
 
 }  // namespace
+
+ImageFault fault_of(const ImageHeader& header) {
+  if (header.magic != kMagic) return ImageFault::kNoImage;
+  if (header.format != kFormat) return ImageFault::kOtherFormat;
+  if (header.header_crc32 != crc_of(header) || !means_something(header)) return ImageFault::kBadHeader;
+  return ImageFault::kNone;
+}
 
 Result<ImageHeader, ImageFault> read_header(std::span<const std::uint8_t> page) {
   if (page.size() < sizeof(ImageHeader)) return ImageFault::kCutShort;
   ImageHeader header;
   std::memcpy(&header, page.data(), sizeof header);
-  if (header.magic != kMagic) return ImageFault::kNoImage;
-  if (header.format != kFormat) return ImageFault::kOtherFormat;
-  if (header.header_crc32 != crc_of(header) || !means_something(header)) return ImageFault::kBadHeader;
+  if (const ImageFault fault = fault_of(header); fault != ImageFault::kNone) return fault;
+  if (!is_clean(header.board) || !is_clean(header.name)) return ImageFault::kBadHeader;
   return header;
 }
 
 ImageHeader sealed(ImageHeader header, std::span<const std::uint8_t> body) {
+  header.magic = kMagic;
+  header.format = kFormat;
   header.body_bytes = static_cast<std::uint32_t>(body.size());
   header.body_crc32 = wire::crc32(body);
   header.header_crc32 = crc_of(header);

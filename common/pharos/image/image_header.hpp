@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <bit>
 #include <compare>
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include <type_traits>
 
 #include "pharos/base/result.hpp"
-#include "pharos/wire/text.hpp"
 
 namespace pharos::image {
 
@@ -23,27 +23,28 @@ inline constexpr std::uint8_t kFormat = 1;
 inline constexpr std::uint32_t kMagic = 0x474D4950;  // "PIMG"
 
 struct Version {
-  std::uint8_t major = 0;
-  std::uint8_t minor = 0;
-  std::uint8_t patch = 0;
+  std::uint8_t major;
+  std::uint8_t minor;
+  std::uint8_t patch;
 
   auto operator<=>(const Version&) const = default;
 };
 
-/// What an image says of itself, laid out as in the file (README.md): little-endian, no padding.
+/// What an image says of itself, laid out as in the file (README.md): little-endian, no padding. No initial values: the
+/// loader has no room for what it reads over.
 struct ImageHeader {
-  std::uint32_t magic = kMagic;
-  std::uint32_t body_bytes = 0;  // a multiple of 4, at least 4
-  std::uint32_t body_crc32 = 0;
-  std::uint32_t load_address = 0;   // where the body is copied to, a multiple of 4
-  std::uint32_t entry_address = 0;  // first instruction, within the body, a multiple of 4
-  std::uint8_t format = kFormat;
+  std::uint32_t magic;
+  std::uint32_t body_bytes;  // a multiple of 4, at least 4
+  std::uint32_t body_crc32;
+  std::uint32_t load_address;   // where the body is copied to, a multiple of 4
+  std::uint32_t entry_address;  // first instruction, within the body, a multiple of 4
+  std::uint8_t format;
   Version version;
-  wire::Text<24> board;            // the one it is for
-  wire::Text<12> name;             // what it is: "decoder_pose"
-  std::uint32_t header_crc32 = 0;  // of all before it
+  std::array<char, 24> board;  // the one it is for, printable ASCII padded with zeros
+  std::array<char, 12> name;   // what it is: "decoder_pose"
+  std::uint32_t header_crc32;  // of all before it
 };
-static_assert(sizeof(ImageHeader) == 64 && std::is_trivially_copyable_v<ImageHeader>);
+static_assert(sizeof(ImageHeader) == 64 && std::is_trivial_v<ImageHeader>);
 static_assert(std::endian::native == std::endian::little, "images are read as they lie in memory");
 
 /// Why bytes are no image.
@@ -57,11 +58,15 @@ enum class ImageFault : std::uint8_t {
   kBadBody,      // the body's CRC is wrong
 };
 
+/// What is wrong with a header as it was read, its texts apart: kNoImage, kOtherFormat, kBadHeader or kNone. For who
+/// has no room for more.
+ImageFault fault_of(const ImageHeader& header);
+
 /// The header at the front of `page` (at least its 64 bytes), when it is whole and every field means something. The
 /// body is not looked at.
 Result<ImageHeader, ImageFault> read_header(std::span<const std::uint8_t> page);
 
-/// The header that `body` needs: its CRC and that of the header filled in.
+/// The header that `body` needs: magic, format, length and both CRCs filled in.
 ImageHeader sealed(ImageHeader header, std::span<const std::uint8_t> body);
 
 /// A whole image file: header, page and body as they must be. Cost: one CRC over all of it.

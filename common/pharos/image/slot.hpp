@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 
 #include "pharos/image/image_header.hpp"
 
@@ -19,29 +16,23 @@ namespace pharos::image {
 /// Two: one keeps what ran last while the other is written.
 inline constexpr std::size_t kSlots = 2;
 
-/// Which of two whole images is the newer one. Written once a flashing, from 1 on: no flash lives to see it wrap.
+/// Which of two whole images is the newer one.
 struct SlotMark {
-  std::uint32_t sequence = 0;
-  std::uint32_t check = 0;  // CRC-32 of `sequence`, going on from the header's
+  std::uint32_t sequence;  // from 1 on, one more each time: no flash lives to see it wrap
+  std::uint32_t check;     // CRC-32 of `sequence`, going on from the header's
 };
-inline constexpr std::size_t kMarkOffset = sizeof(ImageHeader);
-/// What must be read of a slot to know what it says.
-inline constexpr std::size_t kSlotHeadBytes = kMarkOffset + sizeof(SlotMark);
 
 SlotMark make_mark(const ImageHeader& header, std::uint32_t sequence);
 
-/// What a slot says it holds. The body is still to be checked.
-struct SlotContent {
+/// What must be read of a slot to know what it says, as it lies there.
+struct SlotHead {
   ImageHeader header;
-  std::uint32_t sequence = 0;
+  SlotMark mark;
 };
+static_assert(sizeof(SlotHead) == 72);
 
-/// Empty when there is no header or mark, or one that was not written to its end.
-std::optional<SlotContent> read_slot(std::span<const std::uint8_t, kSlotHeadBytes> head);
-
-using SlotContents = std::array<std::optional<SlotContent>, kSlots>;
-
-/// The slot to be tried first; the other one follows. 0 where neither holds anything.
-std::size_t newest(const SlotContents& slots);
+/// The slot's sequence number; 0 when there is no header or mark, or one that was not written to its end. The greater
+/// one is to be tried first. The body is still to be checked.
+std::uint32_t sequence_of(const SlotHead& head);
 
 }  // namespace pharos::image
