@@ -39,11 +39,14 @@ inline void note_reset(volatile Retained& retained) {
     retained.announced = static_cast<std::uint32_t>(wire::ResetCause::kPowerOn);
     retained.stay_in_loader = 0;
     retained.start_count = 0;
-    retained.fault_cause = retained.fault_address = retained.fault_value = 0;
+    retained.fault_cause = 0;
+    retained.fault_address = 0;
+    retained.fault_value = 0;
     retained.mark = Retained::kMark;
   }
   const std::uint32_t announced = retained.announced;
-  retained.last_cause = announced != 0 ? announced : static_cast<std::uint32_t>(wire::ResetCause::kWatchdog);
+  const bool known = announced - 1 < wire::kResetCauses - 1u;
+  retained.last_cause = known ? announced : static_cast<std::uint32_t>(wire::ResetCause::kWatchdog);
   retained.announced = 0;
   retained.start_count = retained.start_count + 1;
 }
@@ -57,9 +60,8 @@ inline bool take_loader_request(volatile Retained& retained) {
 
 /// Why the target started last; unknown where no loader ran before.
 inline wire::ResetCause last_reset(const volatile Retained& retained) {
-  const std::uint32_t cause = retained.last_cause;
-  const bool known = retained.mark == Retained::kMark && cause < wire::kResetCauses;
-  return known ? static_cast<wire::ResetCause>(cause) : wire::ResetCause::kUnknown;
+  const bool known = retained.mark == Retained::kMark && retained.last_cause < wire::kResetCauses;
+  return known ? static_cast<wire::ResetCause>(retained.last_cause) : wire::ResetCause::kUnknown;
 }
 
 }  // namespace pharos::boot

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware/boot/retained.hpp"
+#include "firmware/hal/flash.hpp"
+#include "pharos/image/slot.hpp"
+
+namespace pharos::boot {
+
+/// Ticks of the board's counter, and of every time below.
+inline constexpr std::uint32_t kTicksPerSecond = 50'000'000;
+
+/// What the loader needs of a board: there is only one, so a type does. Nothing here waits but the flash; start() and
+/// restart() do not return.
+template <class B>
+concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint32_t bytes) {
+  { B::kName } -> std::same_as<const std::array<char, 24>&>;  // padded with zeros
+  /// Once, before all else.
+  B::prepare();
+  requires hal::Flash<typename B::Flash>;
+  { B::flash() } -> std::convertible_to<typename B::Flash>;
+  /// Where in the flash a slot begins (a multiple of its sector), and how long each is.
+  { B::slot_offset(std::size_t{}) } -> std::same_as<std::uint32_t>;
+  { B::kSlotBytes } -> std::convertible_to<std::uint32_t>;
+  requires B::kSlotBytes % B::Flash::kSectorBytes == 0;
+  /// The next byte of the serial line; negative when there is none.
+  { B::receive() } -> std::same_as<int>;
+  /// Takes a byte for the serial line; false when it has no room now.
+  { B::transmit(byte) } -> std::same_as<bool>;
+  { B::ticks() } -> std::same_as<std::uint32_t>;
+  /// Memory that an image may be copied to; null where any of it may not be.
+  { B::memory(address, bytes) } -> std::same_as<std::uint8_t*>;
+  { B::retained() } -> std::same_as<volatile Retained&>;
+  B::start(address);
+  B::restart();
+};
+
+}  // namespace pharos::boot

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "firmware/boot/boot_board.hpp"
+#include "firmware/boot/loader_line.hpp"
+#include "firmware/boot/payloads.hpp"
+#include "firmware/boot/slots.hpp"
+#include "pharos/wire/crc32.hpp"
+
+namespace pharos::boot {
+
+inline constexpr std::uint16_t kLoaderVersion = 1;
+/// How long after every reset the line is listened to for a LoaderQuery: what gets a host in where the image itself no
+/// longer listens.
+inline constexpr std::uint32_t kWindowTicks = kTicksPerSecond / 5;
+/// Silence after which the loader starts the image that it has: a host that went away leaves no target behind that
+/// waits for ever. Less than the 85.9 s of the tick counter.
+inline constexpr std::uint32_t kPatienceTicks = 60 * kTicksPerSecond;
+
+/// The loader's side of proto/README.md, "Loader": takes an image into the slot that does not hold the good one.
+///
+/// Order of writes: erase, body, header with mark. The good slot is never written, so power may go at any moment.
+template <BootBoard Board>
+class Loader {
+ public:
+  /// Once, before all else.
+  void find_image();
+  /// The image that was found and copied to its place; null when there is none.
+  const image::ImageHeader* loaded() const { return slots_.loaded(); }
+  /// Whether a host asks for the loader within the window.
+  bool is_called();
+  /// Serves a host until it asks for a start, or went away and there is an image to start.
+  void serve();
+
+ private:
+  /// What the answer says: reason 0 is Ack.
+  struct Answer {
+    std::uint32_t reason;
+    std::uint32_t value;
+  };
+  static Answer done(std::uint32_t value) { return {0, value}; }
+  static Answer refused(wire::NakReason reason, std::uint32_t value = 0) {
+    return {static_cast<std::uint32_t>(reason), value};
+  }
+  /// The image as it was sent does not go into this slot: the next begin starts anew.
+  Answer give_up(wire::NakReason reason, std::uint32_t value = 0) {
+    image_bytes_ = 0;
+    return refused(reason, value);
+  }
+
+  /// Does what the line's frame asks and answers it. True: it asks for a start.
+  bool answer();
+  Answer answer_to(const FrameReceiver& request);
+  Answer begin(const BeginPayload& request);
+  Answer take(std::uint32_t offset, std::span<const std::uint8_t> data);
+  Answer verify();
+  bool write_head();
+  void say_hello();
+  void say_info();
+
+  bool is_receiving() const { return image_bytes_ != 0; }
+  /// What the flash calls while it works.
+  auto taking_bytes() {
+    return [this] { line_.take_bytes(); };
+  }
+  std::uint32_t slot_offset() const { return Board::slot_offset(slots_.spare()); }
+
+  HelloPayload hello_{};
+  Slots<Board> slots_;
+  LoaderLine<Board> line_;
+  std::uint32_t image_bytes_ = 0;  // 0: nothing begun
+  std::uint32_t image_crc32_ = 0;
+  std::uint32_t expected_ = 0;  // offset
+  bool verified_ = false;
+  /// The image's first page, written last, with the mark in its place.
+  union {
+    std::array<std::uint8_t, image::kPageBytes> page_{};
+    image::SlotHead head_;
+  };
+};
+
+template <BootBoard Board>
+void Loader<Board>::find_image() {
+  slots_.find();
+  hello_.role = wire::Role::kLoader;
+  hello_.reset_cause = static_cast<std::uint8_t>(Board::retained().last_cause);
+  hello_.start_count = static_cast<std::uint16_t>(Board::retained().start_count);
+  hello_.tick_rate_hz = kTicksPerSecond;
+  hello_.board = Board::kName;
+  if (loaded() != nullptr) hello_.firmware = loaded()->version;
+}
+
+template <BootBoard Board>
+bool Loader<Board>::is_called() {
+  const std::uint32_t start = Board::ticks();
+  while (Board::ticks() - start < kWindowTicks) {
+    if (line_.next_frame() && line_.request().type() == wire::MessageType::kLoaderQuery) return true;
+  }
+  return false;
+}
+
+template <BootBoard Board>
+void Loader<Board>::serve() {
+  std::uint32_t last_frame = Board::ticks();
+  std::uint32_t last_hello = last_frame - kTicksPerSecond;
+  for (;;) {
+    const std::uint32_t now = Board::ticks();
+    if (!is_receiving() && now - last_hello >= kTicksPerSecond) {
+      last_hello = now;
+      say_hello();
+    }
+    if (line_.next_frame()) {
+      last_frame = now;
+      if (answer()) return;
+    }
+    if (loaded() != nullptr && now - last_frame >= kPatienceTicks) return;
+  }
+}
+
+template <BootBoard Board>
+void Loader<Board>::say_hello() {
+  hello_.time_ticks = Board::ticks();
+  line_.send(wire::MessageType::kHello, bytes_of(hello_));
+}
+
+template <BootBoard Board>
+void Loader<Board>::say_info() {
+  InfoPayload info;
+  info.loader_version = kLoaderVersion;
+  info.block_bytes = image::kPageBytes;
+  info.slot_offset = slot_offset();
+  info.capacity_bytes = Board::kSlotBytes;
+  info.board = hello_.board;
+  line_.send(wire::MessageType::kLoaderInfo, bytes_of(info));
+}
+
+template <BootBoard Board>
+bool Loader<Board>::answer() {
+  const FrameReceiver& request = line_.request();
+  const wire::MessageType type = request.type();
+  if (type == wire::MessageType::kLoaderQuery) {
+    say_hello();
+    say_info();
+    return false;
+  }
+  const Answer answer = answer_to(request);
+  const bool good = answer.reason == 0;
+  NakPayload payload;
+  payload.for_type = static_cast<std::uint8_t>(type);
+  std::memcpy(&payload.for_sequence, request.sequence(), sizeof payload.for_sequence);
+  payload.reason = static_cast<std::uint8_t>(answer.reason);
+  payload.value = answer.value;
+  auto* bytes = reinterpret_cast<std::uint8_t*>(&payload);
+  if (good) std::memcpy(bytes + offsetof(NakPayload, reason), &answer.value, sizeof answer.value);
+  line_.send(good ? wire::MessageType::kAck : wire::MessageType::kNak, {bytes, sizeof payload - (good ? 1u : 0u)});
+  return type == wire::MessageType::kLoaderStart && good;
+}
+
+template <BootBoard Board>
+auto Loader<Board>::answer_to(const FrameReceiver& request) -> Answer {
+  const std::uint8_t* payload = request.payload();
+  const std::size_t size = request.payload_bytes();
+  switch (request.type()) {
+    case wire::MessageType::kLoaderBegin:
+      if (size != sizeof(BeginPayload)) break;
+      return begin(*reinterpret_cast<const BeginPayload*>(payload));
+    case wire::MessageType::kLoaderData: {
+      const auto& head = *reinterpret_cast<const DataHead*>(payload);
+      if (size < sizeof head || size != sizeof head + head.bytes) break;
+      return take(head.offset, {payload + sizeof head, head.bytes});
+    }
+    case wire::MessageType::kLoaderVerify:
+      return verify();
+    case wire::MessageType::kLoaderStart:
+      if (verified_ || (loaded() != nullptr && !is_receiving())) return done(0);
+      return refused(wire::NakReason::kNotVerified);
+    default:
+      return refused(wire::NakReason::kUnsupported);
+  }
+  return refused(wire::NakReason::kBadPayload);
+}
+
+template <BootBoard Board>
+auto Loader<Board>::begin(const BeginPayload& request) -> Answer {
+  if (!slots_.is_name(request.board)) return refused(wire::NakReason::kWrongBoard);
+  if (request.image_bytes > Board::kSlotBytes) return refused(wire::NakReason::kTooLarge, Board::kSlotBytes);
+  if (request.image_bytes <= image::kPageBytes) return refused(wire::NakReason::kBadPayload);
+  if (request.image_bytes == image_bytes_ && request.image_crc32 == image_crc32_) return done(expected_);
+  verified_ = false;
+  expected_ = 0;
+  image_bytes_ = request.image_bytes;
+  image_crc32_ = request.image_crc32;
+  for (std::uint32_t offset = 0; offset < image_bytes_; offset += Board::Flash::kSectorBytes) {
+    if (!Board::flash().erase_sector(slot_offset() + offset, taking_bytes())) {
+      return give_up(wire::NakReason::kWriteFailed, offset);
+    }
+  }
+  return done(0);
+}
+
+template <BootBoard Board>
+auto Loader<Board>::take(std::uint32_t offset, std::span<const std::uint8_t> data) -> Answer {
+  if (!is_receiving()) return refused(wire::NakReason::kOutOfOrder, wire::kNothingBegun);
+  if (offset < expected_) return done(expected_);
+  if (offset > expected_) return refused(wire::NakReason::kOutOfOrder, expected_);
+  // Blocks are pages, the last one what is left.
+  if (data.size() != std::min<std::uint32_t>(image::kPageBytes, image_bytes_ - expected_)) {
+    return refused(wire::NakReason::kBadPayload);
+  }
+  if (offset == 0) {
+    std::memcpy(page_.data(), data.data(), page_.size());
+    const bool good = image::fault_of(head_.header) == image::ImageFault::kNone &&
+                      head_.header.body_bytes == image_bytes_ - image::kPageBytes && slots_.fits(head_.header);
+    if (!good) return give_up(wire::NakReason::kBadPayload);
+  } else if (!Board::flash().program(slot_offset() + offset, data, taking_bytes())) {
+    return give_up(wire::NakReason::kWriteFailed, offset);
+  }
+  expected_ += static_cast<std::uint32_t>(data.size());
+  return done(expected_);
+}
+
+template <BootBoard Board>
+auto Loader<Board>::verify() -> Answer {
+  if (!is_receiving()) return refused(wire::NakReason::kOutOfOrder, wire::kNothingBegun);
+  if (expected_ != image_bytes_) return refused(wire::NakReason::kOutOfOrder, expected_);
+  if (verified_) return done(image_crc32_);
+  // As at every start: what counts is what comes back from the flash.
+  const image::ImageHeader& header = head_.header;
+  const bool good_body = slots_.load(slots_.spare(), header);
+  const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
+  const std::uint32_t crc = wire::crc32(body, wire::crc32(page_));
+  if (crc != image_crc32_) return give_up(wire::NakReason::kBadCrc, crc);
+  if (!good_body) return give_up(wire::NakReason::kBadPayload);
+  if (!write_head()) return give_up(wire::NakReason::kWriteFailed);
+  verified_ = true;
+  return done(crc);
+}
+
+template <BootBoard Board>
+bool Loader<Board>::write_head() {
+  head_.mark = image::make_mark(head_.header, slots_.next_sequence());
+  return Board::flash().program(slot_offset(), std::span(page_).first(sizeof head_), taking_bytes()) &&
+         slots_.read(slots_.spare(), head_) == slots_.next_sequence();
+}
+
+}  // namespace pharos::boot

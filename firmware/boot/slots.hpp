@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "firmware/boot/boot_board.hpp"
+#include "pharos/image/slot.hpp"
+#include "pharos/wire/crc32.hpp"
+
+namespace pharos::boot {
+
+/// What the slots of a board hold: known after find().
+template <BootBoard Board>
+class Slots {
+ public:
+  /// Reads what the slots say, and copies the newest whole image to its place.
+  void find() {
+    for (std::size_t slot = 0; slot < image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
+    const std::size_t newest = heads_[1].mark.sequence > heads_[0].mark.sequence ? 1 : 0;
+    next_sequence_ = heads_[newest].mark.sequence + 1;
+    if (!take(newest)) (void)take(1 - newest);
+  }
+
+  /// The image that was copied to its place; null when no slot holds a whole one.
+  const image::ImageHeader* loaded() const { return loaded_; }
+  /// The slot that does not hold it.
+  std::size_t spare() const { return spare_; }
+  /// Greater than any in the slots.
+  std::uint32_t next_sequence() const { return next_sequence_; }
+
+  /// Whether 24 characters are this board's name.
+  static bool is_name(const std::array<char, 24>& board) {
+    return std::memcmp(board.data(), Board::kName.data(), board.size()) == 0;
+  }
+  /// Whether this board can hold and run what the header tells of.
+  static bool fits(const image::ImageHeader& header) {
+    return is_name(header.board) && header.body_bytes <= Board::kSlotBytes - image::kPageBytes &&
+           Board::memory(header.load_address, header.body_bytes) != nullptr;
+  }
+  /// What a slot says: its sequence number, 0 when it holds nothing that can run here.
+  static std::uint32_t read(std::size_t slot, image::SlotHead& head) {
+    Board::flash().read(Board::slot_offset(slot), {reinterpret_cast<std::uint8_t*>(&head), sizeof head});
+    return fits(head.header) ? image::sequence_of(head) : 0;
+  }
+  /// Copies the body to its place and sums it up there: what was checked is what runs, even where the flash gives other
+  /// bytes when read again.
+  static bool load(std::size_t slot, const image::ImageHeader& header) {
+    const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
+    Board::flash().read(Board::slot_offset(slot) + image::kPageBytes, body);
+    return wire::crc32(body) == header.body_crc32;
+  }
+
+ private:
+  bool take(std::size_t slot) {
+    const image::SlotHead& head = heads_[slot];
+    if (head.mark.sequence == 0 || !load(slot, head.header)) return false;
+    loaded_ = &head.header;
+    spare_ = 1 - slot;
+    return true;
+  }
+
+  std::array<image::SlotHead, image::kSlots> heads_{};  // sequence 0: nothing there that can run
+  const image::ImageHeader* loaded_ = nullptr;
+  std::size_t spare_ = 0;
+  std::uint32_t next_sequence_ = 0;
+};
+
+}  // namespace pharos::boot
