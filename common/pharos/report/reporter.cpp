@@ -24,15 +24,21 @@ Reporter::Bytes Reporter::report(const DecoderReport& counters) { return send(to
 Reporter::Bytes Reporter::report(const DeviceReport& counters) { return send(to_wire(counters)); }
 
 Reporter::Bytes Reporter::report(const lighthouse::Edge& edge, std::uint32_t edges_lost) {
-  const wire::RawEdge raw = to_wire(edge);
-  if (raw.sensor >= kMaxSensors || !wire::is_credible_time(raw.stamp_ticks)) return refuse();
-  Bytes full;
-  if (!edges_.push(raw)) {
-    full = flush_edges();
-    edges_.push(raw);
-  }
-  edges_lost_ = edges_lost;
+  if (hold(edge, edges_lost)) return {};
+  const Bytes full = flush_edges();
+  hold(edge, edges_lost);
   return full;
+}
+
+bool Reporter::hold(const lighthouse::Edge& edge, std::uint32_t edges_lost) {
+  const wire::RawEdge raw = to_wire(edge);
+  if (raw.sensor >= kMaxSensors || !wire::is_credible_time(raw.stamp_ticks)) {
+    ++refused_;
+    return true;
+  }
+  if (!edges_.push(raw)) return false;
+  edges_lost_ = edges_lost;
+  return true;
 }
 
 Reporter::Bytes Reporter::flush_edges() {

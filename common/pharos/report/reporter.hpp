@@ -31,6 +31,8 @@ class Reporter {
   Bytes report_time(std::int64_t now_ticks) { return send(wire::Time{now_ticks}); }
   /// Diagnostic mode: takes the edge; gives a frame when one was full.
   Bytes report(const lighthouse::Edge& edge, std::uint32_t edges_lost);
+  /// The same for a caller whose line is busy: makes no frame. False when the edge found no room: flush_edges(), again.
+  bool hold(const lighthouse::Edge& edge, std::uint32_t edges_lost);
   /// Diagnostic mode: what is held back of edges, for when they come slowly.
   Bytes flush_edges();
 

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/app/program.hpp"
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/wire/hello_message.hpp"
+
+namespace pharos::app {
+namespace {
+
+/// Records of one pass: some 0.5 ms of a 50 MHz core, so that the line is served in between.
+constexpr int kRecordsAPass = 32;
+/// How often the decoder is told the time when no light tells it.
+constexpr std::int64_t kAdvance_ticks = kTicksPerSecond / 1000;
+/// Raw edges wait no longer than this for a frame to fill.
+constexpr std::int64_t kRawEdges_ticks = kTicksPerSecond / 20;
+/// A line that takes nothing for so long is broken, and with it the program: the longest frame takes 12 ms.
+constexpr std::int64_t kLineStuck_ticks = kTicksPerSecond;
+/// The solver must have come by within so long.
+constexpr std::int64_t kSolverStuck_ticks = 2 * kTicksPerSecond;
+
+constexpr std::uint8_t modes_of(const PoseDesk* desk) {
+  return static_cast<std::uint8_t>(wire::kModeSweeps | (desk != nullptr ? wire::kModePoses : 0));
+}
+
+}  // namespace
+
+Program::Program(const hal::Board& board, PoseDesk* desk)
+    : board_(board),
+      desk_(desk),
+      commands_(static_cast<std::uint8_t>(modes_of(desk) | wire::kModeRawEdges), modes_of(desk)),
+      line_(board.line) {
+  now_ticks_ = board_.capture.now_ticks();
+  edges_.note_time(now_ticks_);
+  schedule_.start(now_ticks_);
+  advanced_ticks_ = flushed_ticks_ = line_free_ticks_ = solver_seen_ticks_ = busy_since_ticks_ = now_ticks_;
+}
+
+bool Program::poll() {
+  const std::uint32_t begin = board_.system.cycles();
+  const bool received = receive();
+  const bool captured = capture();
+  const bool sent = send();
+  stay_alive();
+  const bool busy = received || captured || sent;
+  if (busy) busy_cycles_ += board_.system.cycles() - begin;
+  return busy;
+}
+
+bool Program::receive() {
+  bool any = false;
+  while (const auto byte = board_.line.read()) {
+    any = true;
+    commands_.push(*byte);
+  }
+  return any;
+}
+
+bool Program::capture() {
+  now_ticks_ = board_.capture.now_ticks();  // before the records: those stamped until now are all behind it
+  hal::CaptureRecord record;
+  for (int i = 0; i < kRecordsAPass; ++i) {
+    if (!board_.capture.read(record)) {
+      if (now_ticks_ - advanced_ticks_ >= kAdvance_ticks) {
+        advanced_ticks_ = now_ticks_;
+        edges_.note_time(now_ticks_ - hal::EdgeCapture::kSettleTicks);
+        decoder_.advance(now_ticks_ - hal::EdgeCapture::kSettleTicks);
+      }
+      return i != 0;
+    }
+    edges_.push(record, [this](const lighthouse::Edge& edge) { take(edge); });
+  }
+  return true;
+}
+
+void Program::take(const lighthouse::Edge& edge) {
+  decoder_.push(edge);
+  if (!has_mode(wire::kModeRawEdges) || hold(edge)) return;
+  // The frame is full. It goes as soon as the line is free; until then edges find no room.
+  if (line_.free()) {
+    flushed_ticks_ = now_ticks_;
+    line_.send(reporter_.flush_edges());
+    hold(edge);
+  } else {
+    ++raw_edges_lost_;
+  }
+}
+
+bool Program::hold(const lighthouse::Edge& edge) {
+  return reporter_.hold(edge, raw_edges_lost_ + board_.capture.edges_lost());
+}
+
+bool Program::send() {
+  bool any = false;
+  while (line_.free()) {
+    line_free_ticks_ = now_ticks_;
+    const report::Reporter::Bytes frame = next_frame();
+    if (frame.empty()) break;
+    line_.send(frame);
+    any = true;
+  }
+  return any;
+}
+
+report::Reporter::Bytes Program::next_frame() {
+  if (commands_.take_identify()) schedule_.want_hello();
+  if (const Due due = schedule_.next(now_ticks_); due != Due::kNothing) return say(due);
+  if (commands_.has_answer()) return answer();
+  return next_result();
+}
+
+report::Reporter::Bytes Program::next_result() {
+  // What the host does not want is taken all the same: the decoder holds only four sweeps, and the solver wants them.
+  while (const auto sweep = decoder_.take_sweep()) {
+    if (desk_ != nullptr) desk_->take(*sweep);
+    if (has_mode(wire::kModeSweeps)) return reporter_.report(*sweep);
+  }
+  while (const auto payload = decoder_.take_ootx()) {
+    if (desk_ != nullptr) desk_->take(*payload);
+    if (has_mode(wire::kModeSweeps)) return reporter_.report(*payload);
+  }
+  if (desk_ != nullptr && has_mode(wire::kModePoses)) {
+    if (const auto frame = desk_->next_frame(reporter_); !frame.empty()) return frame;
+  }
+  if (now_ticks_ - flushed_ticks_ >= kRawEdges_ticks) {
+    flushed_ticks_ = now_ticks_;
+    return reporter_.flush_edges();
+  }
+  return {};
+}
+
+report::Reporter::Bytes Program::say(Due what) {
+  switch (what) {
+    case Due::kHello:
+      return hello();
+    case Due::kDecoderCounters:
+      return reporter_.report(report::DecoderReport{now_ticks_, decoder_.counters()});
+    case Due::kDeviceCounters:
+      return device_counters();
+    case Due::kTime:
+      return reporter_.report_time(board_.capture.now_ticks());
+    case Due::kNothing:
+      break;
+  }
+  return {};
+}
+
+report::Reporter::Bytes Program::hello() {
+  wire::Hello hello;
+  hello.role = wire::Role::kDecoder;
+  hello.reset_cause = board_.system.reset_cause();
+  hello.modes = commands_.modes();
+  hello.firmware_major = PHAROS_VERSION_MAJOR;
+  hello.firmware_minor = PHAROS_VERSION_MINOR;
+  hello.firmware_patch = PHAROS_VERSION_PATCH;
+  hello.start_count = board_.system.start_count();
+  hello.tick_rate_hz = static_cast<std::uint32_t>(kTicksPerSecond);
+  hello.sensors = board_.capture.inputs();
+  hello.time_ticks = now_ticks_;
+  hello.unique_id = board_.system.unique_id();
+  hello.board = wire::Text<24>(board_.system.board_name());
+  return reporter_.send(hello);
+}
+
+report::Reporter::Bytes Program::device_counters() {
+  if (board_.capture.take_overflow()) ++overflows_;
+  if (desk_ != nullptr) busy_cycles_ += desk_->take_busy_cycles();
+  wire::DeviceCounters counters;
+  counters.capture_overflows = overflows_;
+  counters.edges_lost = board_.capture.edges_lost();
+  counters.frames_sent = line_.frames();
+  counters.frames_skipped = schedule_.skipped() + decoder_.counters().outputs_overflow;
+  counters.commands = commands_.obeyed();
+  counters.commands_refused = commands_.refused();
+  counters.receive_errors = board_.line.receive_errors() + commands_.damaged();
+  const auto elapsed = static_cast<std::uint32_t>(now_ticks_ - busy_since_ticks_);
+  if (elapsed >= 1000) counters.busy_permille = busy_cycles_ / (elapsed / 1000);
+  counters.stack_free_bytes = board_.system.stack_never_used_bytes();
+  busy_cycles_ = 0;
+  busy_since_ticks_ = now_ticks_;
+  return reporter_.report(report::DeviceReport{now_ticks_, counters});
+}
+
+report::Reporter::Bytes Program::answer() {
+  const Answer answer = commands_.take_answer();
+  if (!answer.refused) return reporter_.send(wire::Ack{answer.for_type, answer.for_sequence, answer.value});
+  return reporter_.send(wire::Nak{answer.for_type, answer.for_sequence, *answer.refused, answer.value});
+}
+
+void Program::stay_alive() {
+  const Commands::Restart wanted = commands_.restart();
+  if (wanted != Commands::Restart::kNone && line_.silent()) {
+    board_.system.restart(wanted == Commands::Restart::kLoader);
+  }
+  if (desk_ == nullptr || desk_->take_alive()) solver_seen_ticks_ = now_ticks_;
+  const bool line_moves = now_ticks_ - line_free_ticks_ < kLineStuck_ticks;
+  const bool solver_moves = now_ticks_ - solver_seen_ticks_ < kSolverStuck_ticks;
+  if (line_moves && solver_moves) board_.system.feed_watchdog();
+}
+
+}  // namespace pharos::app

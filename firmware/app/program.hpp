@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/app/commands.hpp"
+#include "firmware/app/edge_stream.hpp"
+#include "firmware/app/line_sender.hpp"
+#include "firmware/app/pose_desk.hpp"
+#include "firmware/app/schedule.hpp"
+#include "firmware/hal/board.hpp"
+#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/report/reporter.hpp"
+
+namespace pharos::app {
+
+/// The target's program but for poses: capture -> decoder -> frames, commands -> answers, and what is said by the
+/// clock.
+///
+/// poll() does what there is to do and never waits. Called in a loop, or from an interrupt a thousand times a second;
+/// the FIFO of the capture block bridges tens of milliseconds (firmware/rtl/README.md), so there is no ring behind it.
+class Program {
+ public:
+  /// `desk`: where sweeps go and poses come from, where the build solves them; else null.
+  Program(const hal::Board& board, PoseDesk* desk);
+
+  /// True when there was anything to do.
+  bool poll();
+
+ private:
+  bool receive();
+  bool capture();
+  void take(const lighthouse::Edge& edge);
+  bool hold(const lighthouse::Edge& edge);
+  bool send();
+  report::Reporter::Bytes next_frame();
+  report::Reporter::Bytes next_result();
+  report::Reporter::Bytes say(Due what);
+  report::Reporter::Bytes hello();
+  report::Reporter::Bytes device_counters();
+  report::Reporter::Bytes answer();
+  void stay_alive();
+  bool has_mode(wire::HelloMode mode) const { return (commands_.modes() & mode) != 0; }
+
+  hal::Board board_;
+  PoseDesk* desk_;
+  lighthouse::Decoder decoder_;
+  report::Reporter reporter_;
+  Commands commands_;
+  EdgeStream edges_;
+  LineSender line_;
+  Schedule schedule_;
+  std::int64_t now_ticks_ = 0;
+  std::int64_t advanced_ticks_ = 0;   // of the last advance()
+  std::int64_t flushed_ticks_ = 0;    // of the last frame of raw edges
+  std::int64_t line_free_ticks_ = 0;  // when the line last took a whole frame
+  std::int64_t solver_seen_ticks_ = 0;
+  std::uint32_t overflows_ = 0;
+  std::uint32_t raw_edges_lost_ = 0;  // for want of line speed
+  std::uint32_t busy_cycles_ = 0;     // since the last report
+  std::int64_t busy_since_ticks_ = 0;
+};
+
+}  // namespace pharos::app

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/hal/board.hpp"
+
+#include "firmware/board/qemu_virt/capture_tape.hpp"
+#include "firmware/board/qemu_virt/machine.hpp"
+#include "firmware/board/rv32/processor.hpp"
+#include "firmware/board/rv32/restart.hpp"
+#include "firmware/board/rv32/stack_mark.hpp"
+#include "firmware/board/rv32/trap.hpp"
+#include "firmware/board/uart16550.hpp"
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::board {
+namespace {
+
+constexpr std::uintptr_t kUart = 0x10000000;
+constexpr std::size_t kUartFifo = 16;
+/// QEMU's UART takes bytes at any speed. This is what a line of 460,800 baud takes, in the tape's time; like the
+/// board's UART it holds 128 bytes.
+constexpr std::int64_t kByteTicks = 10 * kTicksPerSecond / 460'800;
+constexpr std::int64_t kLineHolds = 128;
+/// Longer than the board's: a busy computer may stop the emulator for a second.
+constexpr std::int64_t kWatchdogTicks = 10 * kTicksPerSecond;
+constexpr std::int64_t kMillisecond = kTicksPerSecond / 1000;
+/// What an instruction costs on a soft core of this class, for `cycles`.
+constexpr std::uint32_t kCyclesPerInstruction = 3;
+
+CaptureTape tape;
+
+class Line final : public hal::SerialLine {
+ public:
+  void start() { uart_.start(0); }
+  std::size_t write(std::span<const std::uint8_t> bytes) override {
+    const std::int64_t now = tape.now_ticks();
+    if (busy_until_ < now) busy_until_ = now;
+    const std::int64_t room = kLineHolds - (busy_until_ - now + kByteTicks - 1) / kByteTicks;
+    if (room <= 0) return 0;
+    const auto most = static_cast<std::size_t>(room);
+    const std::size_t taken = uart_.write(bytes.first(bytes.size() < most ? bytes.size() : most));
+    busy_until_ += static_cast<std::int64_t>(taken) * kByteTicks;
+    return taken;
+  }
+  bool idle() override { return uart_.idle(); }
+  std::optional<std::uint8_t> read() override { return uart_.read(); }
+  std::uint32_t receive_errors() override { return uart_.receive_errors(); }
+
+ private:
+  Uart16550 uart_{kUart, 1, kUartFifo};
+  std::int64_t busy_until_ = 0;
+};
+Line line;
+
+// The machine timer serves the watchdog, which the machine has not, and the call every millisecond.
+std::int64_t watchdog_deadline = INT64_MAX;
+void (*millisecond_handler)(void*) = nullptr;
+void* millisecond_context = nullptr;
+
+void set_next_timer() {
+  const std::int64_t next = machine_ticks() + kMillisecond;
+  set_timer(millisecond_handler != nullptr || next > watchdog_deadline ? next : watchdog_deadline);
+}
+
+class System final : public hal::System {
+ public:
+  std::uint32_t cycles() override { return static_cast<std::uint32_t>(instructions_retired()) * kCyclesPerInstruction; }
+  void feed_watchdog() override { watchdog_deadline = machine_ticks() + kWatchdogTicks; }
+  void restart(bool stay_in_loader) override {
+    boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
+    reset_machine();
+  }
+  wire::ResetCause reset_cause() override { return boot::last_reset(retained()); }
+  std::uint16_t start_count() override { return static_cast<std::uint16_t>(retained().start_count); }
+  std::uint32_t stack_never_used_bytes() override { return board::stack_never_used_bytes(); }
+  std::string_view board_name() override { return "qemu_virt"; }
+  std::uint32_t unique_id() override { return 0; }
+};
+System system;
+
+/// The loader notes why the machine was reset; where an image is started without one, nobody has.
+void note_reset_without_loader() {
+  volatile boot::Retained& kept = retained();
+  if (kept.mark != boot::Retained::kMark || kept.announced != 0) boot::note_reset(kept);
+}
+
+}  // namespace
+
+void on_timer_interrupt() {
+  if (machine_ticks() > watchdog_deadline) {
+    boot::announce_reset(retained(), wire::ResetCause::kWatchdog);
+    reset_machine();
+  }
+  if (millisecond_handler != nullptr) millisecond_handler(millisecond_context);
+  set_next_timer();
+}
+
+}  // namespace pharos::board
+
+namespace pharos::hal {
+
+using namespace board;
+
+Board start_board() {
+  note_reset_without_loader();
+  line.start();
+  enable_timer_interrupt();
+  set_timer(machine_ticks() + kMillisecond);
+  tape.start();
+  board::system.feed_watchdog();
+  set_next_timer();
+  enable_interrupts();
+  return {tape, line, board::system};
+}
+
+void rest() {
+  if (tape.ended()) exit_emulator(0);
+  set_timer(machine_ticks() + kMillisecond);
+  wait_for_interrupt();
+}
+
+void call_every_millisecond(void (*handler)(void*), void* context) {
+  const NoInterrupts guard;
+  millisecond_context = context;
+  millisecond_handler = handler;
+  set_next_timer();
+}
+
+NoInterrupts::NoInterrupts() { disable_interrupts(); }
+NoInterrupts::~NoInterrupts() { enable_interrupts(); }
+
+}  // namespace pharos::hal

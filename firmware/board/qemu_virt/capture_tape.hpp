@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/board/qemu_virt/virtio_console.hpp"
+#include "firmware/hal/edge_capture.hpp"
+
+namespace pharos::board {
+
+/// A capture block played from outside: what its registers would have read, four little-endian words at a time.
+///
+///   STATUS with a count:    STATUS, FIFO_TIME, FIFO_CHANGED, FIFO_LEVELS   a record
+///   STATUS with count 0:    STATUS, TIME_LOW, TIME_HIGH, LOST             the FIFO was empty at that time
+///   0xFFFFFFFF and three words of anything                                 the end: the emulator ends with success
+///
+/// Time stands still between two of them: it is the block's and not the emulator's, so that the same tape always
+/// makes the same frames.
+class CaptureTape final : public hal::EdgeCapture {
+ public:
+  /// Waits for the first words, so that the program starts with the tape's time.
+  void start();
+  bool read(hal::CaptureRecord& record) override;
+  std::int64_t now_ticks() override { return now_ticks_; }
+  std::uint32_t edges_lost() override { return lost_; }
+  bool take_overflow() override;
+  std::uint32_t inputs() override { return UINT32_MAX; }
+  /// All words have been read.
+  bool ended() const { return ended_; }
+
+ private:
+  bool next();
+
+  VirtioConsole console_;
+  std::array<std::uint8_t, 16> bytes_{};
+  std::size_t count_ = 0;
+  std::int64_t now_ticks_ = 0;
+  std::uint32_t lost_ = 0;
+  bool overflow_ = false;      // the flag as last read
+  bool new_overflow_ = false;  // it rose since last asked
+  bool held_ = false;          // the record in bytes_ is not given out yet
+  bool ended_ = false;
+};
+
+}  // namespace pharos::board
