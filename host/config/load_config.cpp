@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
+#include "host/config/lcm_url.hpp"
 #include "host/config/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 
@@ -44,12 +45,7 @@ fs::path read_path(const TomlTable& table, std::string_view key, const fs::path&
 LcmConfig read_lcm(const TomlTable& table) {
   LcmConfig lcm;
   lcm.url = table.text_or("url", lcm.url);
-  constexpr std::string_view kProviders[] = {"udpm://", "tcpq://", "file://", "memq://"};
-  if (std::none_of(std::begin(kProviders), std::end(kProviders),
-                   [&](auto word) { return lcm.url.rfind(word, 0) == 0; }) ||
-      lcm.url.find('\0') != std::string::npos) {
-    table.fail("url", "must begin with udpm://, tcpq://, file:// or memq://");
-  }
+  if (const std::string trouble = lcm_url_trouble(lcm.url); !trouble.empty()) table.fail("url", trouble);
   lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
   if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
     table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
@@ -102,7 +98,7 @@ track::TrackOptions read_solve(const TomlTable& table) {
   return options;
 }
 
-TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const TargetReader& read_target) {
+TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings) {
   TargetConfig target;
   target.name = read_name(table, "name", table.text("name"));
   target.port = table.text("port");
@@ -112,15 +108,18 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   if (target.is_replay()) {
     if (target.replay_file().is_relative())
       target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
-    if (!std::ifstream(target.replay_file()))
-      table.fail("port", target.replay_file().string() + " cannot be opened; check the path");
+    try {
+      surroundings.check_recording(target.replay_file());
+    } catch (const InputError& error) {
+      table.fail("port", error.what());
+    }
   }
   target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000));
   target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations);
   target.track = read_solve(table.table_or_empty("solve"));
   target.target_file = read_path(table, "target_file", folder);
   try {
-    const TargetFile file = read_target(target.target_file.string());
+    const TargetFile file = surroundings.read_target(target.target_file.string());
     target.target = file.target;
     target.shape = file.shape;
   } catch (const InputError& error) {
@@ -129,21 +128,27 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   return target;
 }
 
-std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const TargetReader& read_target) {
+std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder,
+                                       const Surroundings& surroundings) {
   std::vector<TargetConfig> targets;
   std::set<std::string> names;
-  std::set<std::string> ports;
+  std::map<std::string, std::string> ports;  // identity -> spelling
   for (const TomlTable& table : root.tables("target")) {
-    targets.push_back(read_target_table(table, folder, read_target));
+    targets.push_back(read_target_table(table, folder, surroundings));
     const TargetConfig& target = targets.back();
     if (!names.insert(target.name).second) table.fail("name", "\"" + target.name + "\" is taken by another target");
-    if (!ports.insert(target.port).second) table.fail("port", "\"" + target.port + "\" is taken by another target");
+    const std::string path = target.is_replay() ? target.replay_file().string() : target.port;
+    const auto [taken, is_free] = ports.emplace(surroundings.identity(path), target.port);
+    if (!is_free) {
+      table.fail("port", "\"" + target.port + "\" is taken by another target" +
+                             (taken->second == target.port ? "" : ", as \"" + taken->second + "\""));
+    }
   }
   if (targets.empty()) root.fail("target", "is missing; add a [[target]] with name, port and target_file");
   return targets;
 }
 
-DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const TargetReader& read_target) {
+DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surroundings& surroundings) {
   DaemonConfig config;
   config.source = read_name(root, "source", root.text_or("source", config.source));
   if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
@@ -151,7 +156,7 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Targ
   config.publish = read_publish(root.table_or_empty("publish"));
   if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
   config.log = read_log(root.table_or_empty("log"), folder);
-  config.targets = read_targets(root, folder, read_target);
+  config.targets = read_targets(root, folder, surroundings);
   root.reject_unknown();
   return config;
 }
@@ -159,12 +164,12 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Targ
 }  // namespace
 
 DaemonConfig load_daemon_config(const fs::path& file) {
-  return read_root(TomlTable::parse_file(file), file.parent_path(), read_target);
+  return read_root(TomlTable::parse_file(file), file.parent_path(), this_computer());
 }
 
 DaemonConfig parse_daemon_config(std::string_view text, const std::string& name, const fs::path& folder,
-                                 const TargetReader& read_target) {
-  return read_root(TomlTable::parse_text(text, name), folder, read_target);
+                                 const Surroundings& surroundings) {
+  return read_root(TomlTable::parse_text(text, name), folder, surroundings);
 }
 
 }  // namespace pharos::host

@@ -2,19 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
 #include "host/config/daemon_config.hpp"
-#include "host/table/target_file.hpp"
+#include "host/config/surroundings.hpp"
 
 namespace pharos::host {
 
-/// How a target file becomes a target; throws InputError.
-using TargetReader = std::function<TargetFile(const std::string& path)>;
-
-/// Reads and checks the daemon's configuration, the target files and the presence of replay files with it.
+/// Reads and checks the daemon's configuration, and with it the target files, the heads of recordings to be replayed
+/// and that no two targets share a port, however it is spelt.
 ///
 /// Throws InputError, one line with file, line, key and what to do, for anything that is not understood completely:
 /// no key is ignored, no value is bent into range. Ports need not exist: they may be plugged in later.
@@ -22,7 +19,7 @@ DaemonConfig load_daemon_config(const std::filesystem::path& file);
 
 /// The same from text. `name` stands for the file in messages; relative paths start at `folder`.
 DaemonConfig parse_daemon_config(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                                 const TargetReader& read_target);
+                                 const Surroundings& surroundings);
 
 /// What was understood, for people: every setting with its unit, defaults included.
 std::string describe(const DaemonConfig& config);

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "host/config/load_config.hpp"
 #include "host/daemon/daemon.hpp"
@@ -43,12 +45,18 @@ void replay_instead(host::DaemonConfig& config, const std::string& file) {
 
 int run(const Options& options) {
   host::DaemonConfig config = host::load_daemon_config(options.config);
+  const std::vector<std::string> troubles = host::directory_troubles(config);
   if (options.check) {
     std::fputs(host::describe(config).c_str(), stdout);
-    return 0;
+    for (const std::string& trouble : troubles) {
+      std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), trouble.c_str());
+    }
+    return troubles.empty() ? 0 : kExitUsage;
   }
   if (!options.replay.empty()) replay_instead(config, options.replay);
   host::set_up_log(config.log);
+  // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
+  for (const std::string& trouble : troubles) spdlog::warn("{}", trouble);
   // A limit on file sizes then fails the write, as a full disk does, instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -66,7 +74,8 @@ int main(int argc, char** argv) {
   Options options;
   app.set_version_flag("--version", PHAROS_VERSION);
   app.add_option("config", options.config, "Configuration (TOML)")->required();
-  app.add_flag("--check", options.check, "Only read the configuration and print what was understood");
+  app.add_flag("--check", options.check,
+               "Only check the configuration and what it names, and print what was understood");
   app.add_option("--replay", options.replay, "Play a recorded serial stream instead of listening to its target's port");
   app.add_flag("--fast", options.fast, "Play recordings as fast as they can be worked on, not at real speed");
   app.footer(

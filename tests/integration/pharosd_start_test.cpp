@@ -47,11 +47,37 @@ TEST_F(PharosdStart, ASensorTwiceIsExit2) {
 
 TEST_F(PharosdStart, WithoutLcmItSaysWhatToDoAndEndsWith1) {
   const auto config = daemon.write_config();
-  std::ofstream(config) << "[lcm]\nurl = 'udpm://1.2.3:4'\n[[target]]\nname = 'dock'\nport = '/dev/none'\n"
-                        << "target_file = 'dock.csv'\n";
+  std::ofstream(config) << "[lcm]\nurl = 'file:///no/such/folder/log?mode=w'\n[[target]]\nname = 'dock'\n"
+                        << "port = '/dev/none'\ntarget_file = 'dock.csv'\n";
   ChildProcess process({DaemonUnderTest::program(), config.string()});
   EXPECT_EQ(process.wait_exit(), 1);
   EXPECT_THAT(process.text(), AllOf(HasSubstr("LCM cannot be set up"), HasSubstr("route")));
+}
+
+// What --check finds keeps the daemon from starting as well.
+TEST_F(PharosdStart, WhatIsNotUnderstoodAroundTheConfigurationIsExit2WithAndWithoutCheck) {
+  const std::string second = "[[target]]\nname = 'free'\ntarget_file = 'dock.csv'\nport = ";
+  daemon.plug_in(line);
+  for (const std::string& bad : {second + "'" + line.path() + "'\n", second + "'replay:dock.csv'\n"}) {
+    const std::string config = daemon.write_config(bad).string();
+    ChildProcess check({DaemonUnderTest::program(), "--check", config});
+    ChildProcess process({DaemonUnderTest::program(), config});
+    EXPECT_EQ(check.wait_exit(), 2);
+    EXPECT_EQ(process.wait_exit(), 2);
+    EXPECT_THAT(check.text(), AllOf(HasSubstr("pharosd.toml:"), HasSubstr("target[1].port: ")));
+    EXPECT_EQ(process.text(), check.text());
+  }
+}
+
+TEST_F(PharosdStart, ADirectoryThatCannotBeWrittenFailsTheCheckAndIsToldAtTheStart) {
+  const std::string config = daemon.write_config("[recording]\ndirectory = 'dock.csv'\n").string();
+  daemon.plug_in(line);
+  ChildProcess check({DaemonUnderTest::program(), "--check", config});
+  EXPECT_EQ(check.wait_exit(), 2);
+  EXPECT_THAT(check.text(), HasSubstr("recording.directory: "));
+  daemon.start();
+  EXPECT_TRUE(daemon.process().wait_for("recording.directory: ")) << daemon.process().text();
+  EXPECT_TRUE(poses_come(5)) << "poses need no disk";
 }
 
 TEST_F(PharosdStart, WrongUsageIsExit2) {

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "host/config/load_config.hpp"
@@ -10,9 +12,11 @@
 // Any bytes are either a configuration that describes itself or an InputError of one line; never anything else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto no_file = [](const std::string&) { return pharos::host::TargetFile{}; };
+  const pharos::host::Surroundings nothing{[](const std::string&) { return pharos::host::TargetFile{}; },
+                                           [](const std::filesystem::path&) {},
+                                           [](const std::string& path) { return path; }};
   try {
-    const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", no_file);
+    const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);
     if (config.targets.empty() || pharos::host::describe(config).empty()) std::abort();
   } catch (const pharos::host::InputError& error) {
     if (std::string_view(error.what()).rfind("fuzz.toml:", 0) != 0) std::abort();

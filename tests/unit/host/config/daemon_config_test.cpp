@@ -26,7 +26,16 @@ TargetFile any_target(const std::string&) {
   return file;
 }
 
-DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", any_target); }
+// No disk: every file is a recording but those called gone, and /dev/left and /dev/right are one device.
+Surroundings made_up() {
+  return {any_target,
+          [](const std::filesystem::path& file) {
+            if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
+          },
+          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; }};
+}
+
+DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up()); }
 
 std::string error_of(const std::string& text) {
   try {
@@ -136,8 +145,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "p.toml:6: target[1].name: \"dock\" is taken"},
         BadLine{"SamePort", "", "[[target]]\nname = 'b'\nport = '/dev/ttyUSB0'\ntarget_file = 'b.csv'\n",
                 "p.toml:7: target[1].port: \"/dev/ttyUSB0\" is taken"},
+        BadLine{"SamePortOtherSpelling", "[[target]]\nname = 'a'\nport = '/dev/left'\ntarget_file = 'a.csv'\n",
+                "[[target]]\nname = 'b'\nport = '/dev/right'\ntarget_file = 'b.csv'\n",
+                "p.toml:11: target[2].port: \"/dev/right\" is taken by another target, as \"/dev/left\""},
+        BadLine{"SameReplay", "[[target]]\nname = 'a'\nport = 'replay:r'\ntarget_file = 'a.csv'\n",
+                "[[target]]\nname = 'b'\nport = 'replay:r'\ntarget_file = 'b.csv'\n",
+                "p.toml:11: target[2].port: \"replay:/etc/pharos/r\" is taken"},
+        BadLine{"NotMulticast", "[lcm]\nurl = 'udpm://192.168.1.7:7667'\n", "",
+                "p.toml:2: lcm.url: \"192.168.1.7\" is no multicast address"},
         BadLine{"NoReplayFile", "", "[[target]]\nname = 'b'\nport = 'replay:gone'\ntarget_file = 'b.csv'\n",
-                "p.toml:7: target[1].port: /etc/pharos/gone cannot be opened"}),
+                "p.toml:7: target[1].port: /etc/pharos/gone: cannot be opened"}),
     [](const auto& entry) { return entry.param.name; });
 
 TEST(DaemonConfig, RefusesAFileWithoutATarget) {

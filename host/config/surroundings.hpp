@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/config/daemon_config.hpp"
+#include "host/table/target_file.hpp"
+
+namespace pharos::host {
+
+/// What a configuration names outside of itself. Handed in, so that tests and the fuzzer touch no disk.
+struct Surroundings {
+  /// How a target file becomes a target; throws InputError.
+  std::function<TargetFile(const std::string& path)> read_target;
+  /// Throws InputError unless the file is a recorded serial stream that can be read.
+  std::function<void(const std::filesystem::path& file)> check_recording;
+  /// The same text for every spelling of one port or file: symbolic links, `..`, two device nodes.
+  std::function<std::string(const std::string& path)> identity;
+};
+
+/// This computer's files and devices.
+Surroundings this_computer();
+
+/// State and recording directory that cannot be written, one line each for a person. Nothing is made on the disk, not
+/// even the directories where they are missing: then the folder that they would be made in is asked.
+std::vector<std::string> directory_troubles(const DaemonConfig& config);
+
+}  // namespace pharos::host
