@@ -18,6 +18,8 @@ class CalibrationChoice {
 
   /// What the recording says as it goes on.
   void push(const lighthouse::OotxPayload& payload) { stations_.push(payload); }
+  /// After a long dark: the stations may stand in other slots.
+  void forget_stations() { stations_.forget(); }
   /// The calibration that holds now; null for none.
   const lighthouse::StationCalibration* calibration(std::uint8_t station) const;
   std::optional<std::uint32_t> station_id(std::uint8_t station) const { return stations_.id(station); }

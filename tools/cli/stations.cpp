@@ -14,6 +14,11 @@ bool Stations::push(const lighthouse::OotxPayload& payload) {
   return store_.push(payload) == lighthouse::CalibrationStore::Verdict::kTakenIntoUse;
 }
 
+void Stations::forget() {
+  store_.forget_stations();
+  first_id_ = {};
+}
+
 const lighthouse::StationCalibration* Stations::calibration(std::uint8_t station) const {
   return store_.in_use(station);
 }

@@ -16,6 +16,8 @@ class Stations {
  public:
   /// Takes a payload in; true when it changed the calibration in use of its station.
   bool push(const lighthouse::OotxPayload& payload);
+  /// Forgets who stands in which slot, not the calibrations that were accepted: one more payload brings one back.
+  void forget();
   /// Calibration in use (came twice); null until there is one.
   const lighthouse::StationCalibration* calibration(std::uint8_t station) const;
   /// The station's id: of the calibration in use, else of the first readable payload.

@@ -95,6 +95,7 @@ class Tracking {
       calibration_.push(*payload);
       refresh_calibrations();
     } else if (const auto* sweep = std::get_if<lighthouse::Sweep>(&event)) {
+      if (tracker_.after_long_dark(*sweep)) forget_stations();
       if (const auto result = tracker_.push(*sweep)) take(*result);
     }
   }
@@ -111,6 +112,12 @@ class Tracking {
   bool uncalibrated() const { return uncalibrated_ > 0; }
 
  private:
+  void forget_stations() {
+    tracker_.forget_stations();
+    calibration_.forget_stations();
+    known_ = {};
+    refresh_calibrations();  // a file may name them by slot
+  }
   void refresh_calibrations() {
     for (std::uint8_t station = 0; station < kMaxStations; ++station) {
       const lighthouse::StationCalibration* now = calibration_.calibration(station);

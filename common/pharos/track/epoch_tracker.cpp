@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/track/epoch_tracker.hpp"
 
+#include <algorithm>
+
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 #include "pharos/pose/place_residuals.hpp"
@@ -44,8 +46,19 @@ void EpochTracker::set_calibration(std::uint8_t station, const lighthouse::Stati
   if (station < kMaxStations) stations_[station].calibration = calibration;
 }
 
+bool EpochTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
+  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > kLongestDarkTicks;
+}
+
+void EpochTracker::forget_stations() {
+  stations_ = {};
+  newest_flash_ticks_.reset();
+}
+
 std::optional<EpochResult> EpochTracker::push(const lighthouse::Sweep& sweep) {
   if (sweep.flash.station >= kMaxStations) return std::nullopt;
+  if (after_long_dark(sweep)) forget_stations();
+  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(sweep.flash.start_ticks), sweep.flash.start_ticks);
   Station& station = stations_[sweep.flash.station];
   const auto axis = static_cast<std::size_t>(index_of(sweep.flash.axis));
   const lighthouse::SmoothedFlash smoothed = station.smoother[axis].push(sweep);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "pharos/base/ticks.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/flash_smoother.hpp"
@@ -27,6 +28,10 @@ struct TrackOptions {
   /// Start every cycle from a last pose that young, not only those of three sensors: fewer operations, for slow cores.
   bool warm_start = false;
 };
+
+/// Without a flash for this long a station may come back under another's number (decoders extrapolate rotors for 300
+/// s), so nothing that was known of a number holds any more.
+inline constexpr std::int64_t kLongestDarkTicks = 240 * kTicksPerSecond;
 
 /// Words said about one cycle's answer; a bit set.
 enum EpochFlag : std::uint8_t {
@@ -75,6 +80,11 @@ class EpochTracker {
   EpochTracker(const Target& target, const TrackOptions& options);
   /// Calibration of the station in this slot position, from now on.
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
+  /// Whether more than kLongestDarkTicks lie between the newest flash so far and this sweep's. Whoever keeps
+  /// calibrations by station number forgets them then, as push() does with those that were set here.
+  bool after_long_dark(const lighthouse::Sweep& sweep) const;
+  /// Everything known of the stations: calibrations, flashes, last poses, cycles not complete.
+  void forget_stations();
   /// The answer of the cycle that this sweep completed, if any: the y sweep completes its cycle at once; a cycle whose
   /// y sweep did not come is answered when the station's next sweep does. A skipped sweep only feeds the smoother.
   std::optional<EpochResult> push(const lighthouse::Sweep& sweep);
@@ -100,6 +110,7 @@ class EpochTracker {
   Target target_;
   TrackOptions options_;
   std::array<Station, kMaxStations> stations_;
+  std::optional<std::int64_t> newest_flash_ticks_;
   // The cycle last answered.
   IdealObservations ideal_;
   std::bitset<pose::kMaxObservations> used_;

@@ -91,6 +91,24 @@ TEST(EpochTracker, AnswersACycleWithItsPoseAtTheMeanHitTime) {
   }
 }
 
+TEST(EpochTracker, ForgetsItsStationsInALongDark) {
+  const Target target = cube_target();
+  const auto flags_after = [&](std::int64_t dark_ticks) {
+    EpochTracker tracker(target, {});
+    tracker.set_calibration(0, some_calibration());
+    tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
+    tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
+    const auto next = make_sweep(target, some_pose(), some_calibration(), Axis::kX, kHalfTurn + dark_ticks);
+    EXPECT_EQ(tracker.after_long_dark(next), dark_ticks > kLongestDarkTicks);
+    tracker.push(next);
+    const auto result =
+        tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn + dark_ticks + kHalfTurn));
+    return result ? static_cast<int>(result->flags) : -1;
+  };
+  EXPECT_EQ(flags_after(kLongestDarkTicks) & kEpochUncalibrated, 0);
+  EXPECT_EQ(flags_after(kLongestDarkTicks + 1) & kEpochUncalibrated, kEpochUncalibrated);
+}
+
 TEST(EpochTracker, SaysWhenNoCalibrationIsKnownAndThenMeasuresWrong) {
   const Target target = cube_target();
   EpochTracker tracker(target, {});
