@@ -2,12 +2,8 @@
 // A target or a computer that misbehaves: what becomes of poses, status and log.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 
-#include <memory>
-#include <sstream>
-
+#include "unit/host/daemon/captured_log.hpp"
 #include "unit/host/daemon/target_line_fixture.hpp"
 
 namespace pharos::host {
@@ -21,21 +17,7 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 class TargetLineFaults : public TargetLineTest {
  protected:
-  TargetLineFaults() : before_(spdlog::default_logger()) {
-    auto logger = std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_st>(log_));
-    logger->set_pattern("%v");
-    spdlog::set_default_logger(logger);
-  }
-  ~TargetLineFaults() override { spdlog::set_default_logger(before_); }
-
-  std::vector<std::string> log_lines(const std::string& words) const {
-    std::vector<std::string> lines;
-    std::istringstream text(log_.str());
-    for (std::string line; std::getline(text, line);) {
-      if (line.find(words) != std::string::npos) lines.push_back(line);
-    }
-    return lines;
-  }
+  std::vector<std::string> log_lines(const std::string& words) const { return log_.lines(words); }
   // Nothing comes for `seconds`.
   void pause(std::int64_t seconds) { ticks_ += seconds * kTicksPerSecond; }
   void calibrate() {
@@ -45,8 +27,7 @@ class TargetLineFaults : public TargetLineTest {
   }
 
  private:
-  std::ostringstream log_;
-  std::shared_ptr<spdlog::logger> before_;
+  test::CapturedLog log_;
 };
 
 TEST_F(TargetLineFaults, ACalibrationOutlivesADarknessShorterThan240SecondsAndNoLonger) {

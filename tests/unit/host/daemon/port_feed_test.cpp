@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/port_feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "host/daemon/now.hpp"
+#include "unit/host/daemon/captured_log.hpp"
+#include "unit/host/record/temporary_folder.hpp"
+#include "unit/host/serial/pty.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PortFeedTest : public ::testing::Test {
+ protected:
+  // Plugs a line in, lets the daemon open it, pulls it out.
+  void flap() {
+    test::Pty pty;
+    fs::create_symlink(pty.path, name_);
+    now_ns_ += kReopenPeriodNs;
+    feed_.attend(now_ns_);
+    fs::remove(name_);
+    pty.unplug();
+    while (feed_.state() == SourceState::kOk) loop_.turn(1000);
+  }
+  std::int64_t count(const std::string& name) const {
+    for (const NamedCount& count : feed_.counters()) {
+      if (count.name == name) return count.value;
+    }
+    return -1;
+  }
+
+  test::CapturedLog log_;
+  test::TemporaryFolder folder_;
+  fs::path name_ = folder_.path() / "port";
+  EventLoop loop_;
+  int lost_ = 0;
+  std::int64_t now_ns_ = monotonic_now_ns();
+  PortFeed feed_{loop_,
+                 "dock",
+                 name_.string(),
+                 460'800,
+                 {[](std::span<const std::uint8_t>, const Arrival&) {}, [this] { ++lost_; }, [] {}}};
+};
+
+TEST_F(PortFeedTest, APlugPulledAndPutInAgainIsToldInFull) {
+  flap();
+  flap();
+  EXPECT_EQ(log_.lines("is open").size(), 2u);
+  EXPECT_EQ(log_.lines("was unplugged").size(), 2u);
+  EXPECT_EQ(count("port.log_lines_held_back"), 0);
+}
+
+TEST_F(PortFeedTest, AFlappingPortDoesNotFillTheLog) {
+  constexpr int kTimes = 40;
+  for (int i = 0; i < kTimes; ++i) flap();
+  EXPECT_EQ(lost_, kTimes);
+  EXPECT_EQ(count("port.lost"), kTimes) << "every one is counted";
+  const std::size_t told = log_.lines("dock: ").size();
+  EXPECT_LE(told, 30u);  // of 80: attend()'s clock goes 20 s, two and a bit periods
+  EXPECT_EQ(count("port.log_lines_held_back"), 2 * kTimes - static_cast<std::int64_t>(told));
+}
+
+}  // namespace
+}  // namespace pharos::host
