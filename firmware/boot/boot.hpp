@@ -6,20 +6,20 @@
 
 namespace pharos::boot {
 
-/// All that happens after a reset, with a loader as it was made. Ends in the board's start() or restart().
+/// All that happens after a reset, with a loader as it was made.
 template <BootBoard Board>
-void boot(Loader<Board>& loader) {
+[[noreturn]] void boot(Loader<Board>& loader) {
   Board::prepare();
   note_reset(Board::retained());
-  const bool asked = take_loader_request(Board::retained());
-  loader.find_image();
-  if (loader.loaded() != nullptr && !asked && !loader.is_called()) {
-    Board::start(loader.loaded()->entry_address);
-    return;
+  loader.prepare(take_loader_request(Board::retained()));
+  for (;;) {
+    const Turn turn = loader.turn();
+    if (turn == Turn::kStart) Board::start(loader.loaded()->entry_address);
+    if (turn == Turn::kRestart) {
+      announce_reset(Board::retained(), wire::ResetCause::kCommand);
+      Board::restart();
+    }
   }
-  loader.serve();
-  announce_reset(Board::retained(), wire::ResetCause::kCommand);
-  Board::restart();
 }
 
 }  // namespace pharos::boot

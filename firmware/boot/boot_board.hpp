@@ -24,7 +24,7 @@ concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint
   /// Once, before all else.
   B::prepare();
   requires hal::Flash<typename B::Flash>;
-  { B::flash() } -> std::convertible_to<typename B::Flash>;
+  B::flash();
   /// Where in the flash a slot begins (a multiple of its sector), and how long each is.
   { B::slot_offset(std::size_t{}) } -> std::same_as<std::uint32_t>;
   { B::kSlotBytes } -> std::convertible_to<std::uint32_t>;

@@ -24,20 +24,21 @@ inline constexpr std::uint32_t kWindowTicks = kTicksPerSecond / 5;
 /// waits for ever. Less than the 85.9 s of the tick counter.
 inline constexpr std::uint32_t kPatienceTicks = 60 * kTicksPerSecond;
 
+/// What the loader wants after a turn.
+enum class Turn : std::uint8_t { kAgain, kStart, kRestart };
+
 /// The loader's side of proto/README.md, "Loader": takes an image into the slot that does not hold the good one.
 ///
 /// Order of writes: erase, body, header with mark. The good slot is never written, so power may go at any moment.
 template <BootBoard Board>
 class Loader {
  public:
-  /// Once, before all else.
-  void find_image();
-  /// The image that was found and copied to its place; null when there is none.
+  /// Finds the image to be started and copies it to its place; once, before all else. `stay`: the loader was asked for.
+  void prepare(bool stay);
+  /// The image that was found; null when there is none.
   const image::ImageHeader* loaded() const { return slots_.loaded(); }
-  /// Whether a host asks for the loader within the window.
-  bool is_called();
-  /// Serves a host until it asks for a start, or went away and there is an image to start.
-  void serve();
+  /// Does what there is to do at the moment. kStart: run loaded(). kRestart: begin anew with a reset.
+  Turn turn();
 
  private:
   /// What the answer says: reason 0 is Ack.
@@ -55,6 +56,8 @@ class Loader {
     return refused(reason, value);
   }
 
+  Turn listen();
+  Turn serve();
   /// Does what the line's frame asks and answers it. True: it asks for a start.
   bool answer();
   Answer answer_to(const FrameReceiver& request);
@@ -75,6 +78,9 @@ class Loader {
   HelloPayload hello_{};
   Slots<Board> slots_;
   LoaderLine<Board> line_;
+  std::uint32_t last_frame_ = 0;  // ticks; before the first frame, of the start
+  std::uint32_t last_hello_ = 0;
+  bool serving_ = false;           // not listening any more
   std::uint32_t image_bytes_ = 0;  // 0: nothing begun
   std::uint32_t image_crc32_ = 0;
   std::uint32_t expected_ = 0;  // offset
@@ -87,7 +93,7 @@ class Loader {
 };
 
 template <BootBoard Board>
-void Loader<Board>::find_image() {
+void Loader<Board>::prepare(bool stay) {
   slots_.find();
   hello_.role = wire::Role::kLoader;
   hello_.reset_cause = static_cast<std::uint8_t>(Board::retained().last_cause);
@@ -95,33 +101,34 @@ void Loader<Board>::find_image() {
   hello_.tick_rate_hz = kTicksPerSecond;
   hello_.board = Board::kName;
   if (loaded() != nullptr) hello_.firmware = loaded()->version;
+  serving_ = stay || loaded() == nullptr;
+  last_frame_ = Board::ticks();
+  last_hello_ = last_frame_ - kTicksPerSecond;
 }
 
 template <BootBoard Board>
-bool Loader<Board>::is_called() {
-  const std::uint32_t start = Board::ticks();
-  while (Board::ticks() - start < kWindowTicks) {
-    if (line_.next_frame() && line_.request().type() == wire::MessageType::kLoaderQuery) return true;
-  }
-  return false;
+Turn Loader<Board>::turn() {
+  return serving_ ? serve() : listen();
 }
 
 template <BootBoard Board>
-void Loader<Board>::serve() {
-  std::uint32_t last_frame = Board::ticks();
-  std::uint32_t last_hello = last_frame - kTicksPerSecond;
-  for (;;) {
-    const std::uint32_t now = Board::ticks();
-    if (!is_receiving() && now - last_hello >= kTicksPerSecond) {
-      last_hello = now;
-      say_hello();
-    }
-    if (line_.next_frame()) {
-      last_frame = now;
-      if (answer()) return;
-    }
-    if (loaded() != nullptr && now - last_frame >= kPatienceTicks) return;
+Turn Loader<Board>::listen() {
+  if (line_.next_frame() && line_.request().type() == wire::MessageType::kLoaderQuery) serving_ = true;
+  return Board::ticks() - last_frame_ < kWindowTicks || serving_ ? Turn::kAgain : Turn::kStart;
+}
+
+template <BootBoard Board>
+Turn Loader<Board>::serve() {
+  const std::uint32_t now = Board::ticks();
+  if (!is_receiving() && now - last_hello_ >= kTicksPerSecond) {
+    last_hello_ = now;
+    say_hello();
   }
+  if (line_.next_frame()) {
+    last_frame_ = now;
+    if (answer()) return Turn::kRestart;
+  }
+  return loaded() != nullptr && now - last_frame_ >= kPatienceTicks ? Turn::kRestart : Turn::kAgain;
 }
 
 template <BootBoard Board>

@@ -12,7 +12,4 @@ constinit pharos::boot::Loader<LoaderBoard> loader;
 
 }  // namespace
 
-extern "C" [[noreturn]] void pharos_loader() {
-  pharos::boot::boot(loader);
-  __builtin_unreachable();
-}
+extern "C" [[noreturn]] void pharos_loader() { pharos::boot::boot(loader); }

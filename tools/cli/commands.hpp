@@ -19,6 +19,7 @@ void add_precision(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);     // tools/sim
 void add_listen(CLI::App& app, int& exit_code);  // tools/listen
+void add_flash(CLI::App& app, int& exit_code);   // tools/flash
 void add_bench(CLI::App& app, int& exit_code);   // tools/bench
 
 inline void add_commands(CLI::App& app, int& exit_code) {
@@ -29,6 +30,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_reproduce(app, exit_code);
   add_sim(app, exit_code);
   add_listen(app, exit_code);
+  add_flash(app, exit_code);
   add_bench(app, exit_code);
 }
 

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/flash/flasher.hpp"
+
+#include <string>
+
+#include "host/support/input_error.hpp"
+#include "pharos/wire/crc32.hpp"
+#include "tools/flash/block_sender.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+/// Between two calls of a silent target: shorter than the loader's window of 200 ms after a reset.
+constexpr std::int64_t kCallNs = 80 * kMs;
+constexpr std::int64_t kHintNs = 2000 * kMs;
+constexpr std::int64_t kAnswerNs = 500 * kMs;
+constexpr int kAttempts = 10;
+/// A sector of serial flash takes up to 3 s, an image up to four of them.
+constexpr std::int64_t kEraseNs = 2000 * kMs;
+constexpr int kEraseAttempts = 15;
+constexpr std::int64_t kVerifyNs = 5000 * kMs;
+constexpr int kVerifyAttempts = 3;
+/// From the loader's window to the program's first words.
+constexpr std::int64_t kStartNs = 10'000 * kMs;
+/// Times that all is begun anew after the target was reset.
+constexpr int kBeginnings = 4;
+
+image::Version version_of(const wire::Hello& hello) {
+  return {hello.firmware_major, hello.firmware_minor, hello.firmware_patch};
+}
+
+/// A loader without an image says 0.0.0.
+bool has_image(const wire::Hello& hello) {
+  return hello.role != wire::Role::kLoader || version_of(hello) != image::Version{0, 0, 0};
+}
+
+}  // namespace
+
+Flasher::Flasher(FlashLine& line, const FlashReports& reports, const FlashOptions& options)
+    : talk_(line), reports_(reports), options_(options) {}
+
+bool Flasher::look_once(Peer& peer) {
+  talk_.end_what_was_begun();
+  talk_.send(wire::LoaderQuery{});
+  talk_.send(wire::Command{wire::CommandCode::kIdentify, 0});
+  const std::int64_t deadline = talk_.now_ns() + kCallNs;
+  while (const auto frame = talk_.receive(deadline)) {
+    if (frame->type == wire::MessageType::kHello) {
+      const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
+      if (hello) peer.hello = *hello;
+    } else if (frame->type == wire::MessageType::kLoaderInfo) {
+      const auto info = wire::decode_payload<wire::LoaderInfo>(frame->payload);
+      if (info) peer.loader = *info;
+    }
+    if (peer.loader) return true;
+  }
+  return peer.hello && peer.hello->role != wire::Role::kLoader;
+}
+
+void Flasher::nobody_there() {
+  if (const auto version = talk_.foreign_version()) {
+    throw FlashError("the target speaks version " + std::to_string(*version) +
+                     " of the protocol, this pharos version " + std::to_string(wire::kProtocolVersion) +
+                     "; use the pharos that came with it");
+  }
+  if (talk_.counters().frames == 0 && talk_.counters().garbage_bytes > 0) {
+    throw FlashError("bytes come, but no frame among them; is " + std::to_string(options_.baud) +
+                     " baud the speed of the line (--baud)?");
+  }
+  throw FlashError("no answer from the target; check power, cable and --baud, and switch it on while this waits");
+}
+
+Flasher::Peer Flasher::find(std::int64_t wait_ns) {
+  talk_.forget_received();
+  const std::int64_t start = talk_.now_ns();
+  bool hinted = false;
+  Peer peer;
+  while (!look_once(peer)) {
+    const std::int64_t waited = talk_.now_ns() - start;
+    if (waited > wait_ns) nobody_there();
+    if (!hinted && waited > kHintNs) {
+      hinted = true;
+      reports_.note("no answer yet; switch the target off and on again");
+      talk_.skip_numbers();
+    }
+  }
+  return peer;
+}
+
+Flasher::Peer Flasher::enter_loader(const Peer& program) {
+  if (program.hello->role == wire::Role::kSimulator) {
+    throw FlashError("at the other end is a simulator: nothing can be flashed there");
+  }
+  const auto reply = talk_.request(wire::Command{wire::CommandCode::kEnterLoader, 0}, kAnswerNs, kAttempts);
+  if (reply && reply->refusal) {
+    throw FlashError(
+        "the program that runs does not start the loader; switch the target off, run this, and switch it on");
+  }
+  const std::int64_t deadline = talk_.now_ns() + kStartNs;
+  while (talk_.now_ns() < deadline) {
+    Peer peer;
+    if (look_once(peer) && peer.loader) {
+      if (!peer.hello) peer.hello = program.hello;
+      return peer;
+    }
+  }
+  throw FlashError("the target does not start its loader; switch it off and on while this runs again");
+}
+
+void Flasher::check(const ImageFile& image, const Peer& peer) {
+  const image::ImageHeader& header = image.header;
+  const std::string_view board = peer.loader ? peer.loader->board.view() : peer.hello->board.view();
+  if (board != view(header.board)) {
+    throw host::InputError("the image is for the board '" + std::string(view(header.board)) + "', the target is a '" +
+                           std::string(board) + "'; take the image for that");
+  }
+  if (peer.loader && image.bytes.size() > peer.loader->capacity_bytes) {
+    throw host::InputError("the image has " + std::to_string(image.bytes.size()) + " bytes, the target's slot holds " +
+                           std::to_string(peer.loader->capacity_bytes));
+  }
+  if (older_allowed_ || !peer.hello || !has_image(*peer.hello)) return;
+  const image::Version running = version_of(*peer.hello);
+  if (header.version < running && !reports_.allow_older(running)) {
+    throw FlashError("the image is version " + to_text(header.version) + ", older than " + to_text(running) +
+                     " that is there; --allow-older writes it all the same");
+  }
+  older_allowed_ = true;
+}
+
+std::uint32_t Flasher::begin(const ImageFile& image) {
+  wire::LoaderBegin request;
+  request.image_bytes = static_cast<std::uint32_t>(image.bytes.size());
+  request.image_crc32 = wire::crc32(image.bytes);
+  request.board.characters = image.header.board;
+  const auto reply = talk_.request(request, kEraseNs, kEraseAttempts);
+  if (!reply)
+    throw FlashError("the target does not answer while it erases; what ran before is still there: run this again");
+  if (reply->refusal == wire::NakReason::kUnsupported) throw TransferLost("the target was reset and runs its program");
+  if (reply->refusal == wire::NakReason::kWriteFailed) {
+    throw FlashError("the target's flash cannot be erased; what ran before is still there");
+  }
+  if (reply->refusal)
+    throw FlashError("the target refuses the image (reason " + std::to_string(static_cast<int>(*reply->refusal)) + ")");
+  return reply->value;
+}
+
+void Flasher::verify(const ImageFile& image) {
+  const auto reply = talk_.request(wire::LoaderVerify{}, kVerifyNs, kVerifyAttempts);
+  if (!reply)
+    throw FlashError("the target does not answer while it verifies; what ran before is still there: run this again");
+  if (!reply->refusal && reply->value == wire::crc32(image.bytes)) return;
+  if (reply->refusal == wire::NakReason::kWriteFailed) {
+    throw FlashError("the target's flash cannot be written; what ran before is still there");
+  }
+  if (reply->refusal == wire::NakReason::kBadPayload)
+    throw FlashError("the target refuses the image; what ran before is still there");
+  throw TransferLost("what the target's flash gives back is not what was sent");
+}
+
+void Flasher::start() {
+  const auto reply = talk_.request(wire::LoaderStart{}, kAnswerNs, kAttempts);
+  if (reply && reply->refusal && *reply->refusal != wire::NakReason::kUnsupported) {
+    throw FlashError("the target does not start what was written; run this again");
+  }
+  // No answer, or a program that does not know the request: the Ack got lost and the program runs already.
+}
+
+wire::Hello Flasher::await_program(const image::ImageHeader& header) {
+  const std::int64_t deadline = talk_.now_ns() + kStartNs;
+  while (const auto frame = talk_.receive(deadline)) {
+    if (frame->type != wire::MessageType::kHello) continue;
+    const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
+    if (!hello) continue;
+    if (hello->role == wire::Role::kLoader) {
+      throw FlashError("the image was written and verified, but the target's loader does not start it");
+    }
+    if (version_of(*hello) != header.version) {
+      throw FlashError("the image was written and verified, but what runs says that it is version " +
+                       to_text(version_of(*hello)) + " and not " + to_text(header.version));
+    }
+    return *hello;
+  }
+  throw FlashError(
+      "the image was written and verified, but nothing that it runs says Hello; to go back, flash another one: run "
+      "this and switch the target off and on");
+}
+
+void Flasher::transfer(const ImageFile& image, const wire::LoaderInfo& loader, Flashed& result) {
+  const std::uint32_t offset = begin(image);
+  if (offset > 0) reports_.note("going on at byte " + std::to_string(offset) + ", where it was broken off");
+  const std::int64_t window_bytes =
+      static_cast<std::int64_t>(wire::kLoaderWindow * wire::line_size(wire::LoaderData::kMaxBytes));
+  BlockSender blocks(talk_, image.bytes, loader.block_bytes, window_bytes * 10'000 * kMs / options_.baud);
+  const std::int64_t first = talk_.now_ns();
+  blocks.send_from(offset, reports_.progress);
+  result.line_ns = talk_.now_ns() - first;
+  result.blocks_sent = blocks.blocks_sent();
+  result.slot_offset = loader.slot_offset;
+  verify(image);
+}
+
+Flashed Flasher::flash(const ImageFile& image) {
+  Flashed result;
+  for (int beginning = 1;; ++beginning) {
+    Peer peer = find(options_.wait_ns);
+    if (!result.before && peer.hello && has_image(*peer.hello)) result.before = version_of(*peer.hello);
+    check(image, peer);
+    if (!peer.loader) peer = enter_loader(peer);
+    try {
+      check(image, peer);
+      transfer(image, *peer.loader, result);
+      break;
+    } catch (const TransferLost& lost) {
+      if (beginning == kBeginnings) {
+        throw FlashError(std::string(lost.what()) + ", again and again; what ran before is still there");
+      }
+      reports_.note(std::string(lost.what()) + "; beginning anew");
+    } catch (const host::InputError&) {
+      start();  // nothing is written: let what is there run
+      throw;
+    }
+  }
+  start();
+  result.running = await_program(image.header);
+  return result;
+}
+
+}  // namespace pharos::tools
