@@ -6,10 +6,10 @@
 
 #include "pharos/pose/covariance.hpp"
 #include "pharos/pose/hits.hpp"
+#include "pharos/pose/minima.hpp"
 #include "pharos/pose/place_residuals.hpp"
 #include "pharos/pose/refine.hpp"
 #include "pharos/pose/reject.hpp"
-#include "pharos/pose/second_minimum.hpp"
 #include "pharos/pose/start.hpp"
 
 namespace pharos::pose {
@@ -17,8 +17,6 @@ namespace {
 
 constexpr int kLeastSensors = 4;
 constexpr int kLeastSensorsWithPrior = 3;
-// Two fits nearer than this (squared, in sigmas, by the first one's information) are one and the same minimum.
-constexpr double kSameMinimum = 1.0;
 
 struct Problem {
   explicit Problem(const SolveOptions& o) : options(o), variance(o.sigma_rad * o.sigma_rad) {}
@@ -28,33 +26,6 @@ struct Problem {
   double variance;
   int iterations = 0;
 };
-
-RefineLimits limits_of(const Problem& problem) {
-  return {problem.options.max_iterations, kConvergedShare * problem.variance, 1e300};
-}
-
-Fit refined(Problem& problem, const LighthouseFromBody& start, double hopeless_cost = 1e300) {
-  RefineLimits limits = limits_of(problem);
-  limits.hopeless_cost = hopeless_cost;
-  const Fit fit = refine(problem.hits.sightings, start, problem.options.residual, limits);
-  problem.iterations += fit.iterations;
-  return fit;
-}
-
-bool ahead_of_station(const Sightings& sightings, const LighthouseFromBody& pose) {
-  return (pose * sightings.body_centroid()).z() > 0.0;
-}
-
-bool same_minimum(const Fit& a, const Fit& b, double variance) {
-  const Vector6 d = pose_difference(b.pose, a.pose);
-  double square = 0.0;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      square += d[static_cast<int>(i)] * a.normal.matrix(i, j) * d[static_cast<int>(j)];
-    }
-  }
-  return square < kSameMinimum * variance;
-}
 
 // The start that fits best as it is.
 const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& starts) {
@@ -70,43 +41,15 @@ const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& star
   return starts[best];
 }
 
-struct Minima {
-  Fit best;
-  Fit second;
-  bool has_second = false;
-};
-
 int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
 
-// The mirror image of the best minimum as its rival; the better of the two first.
-void find_rival(Problem& problem, Minima& m) {
-  const Sightings& sightings = problem.hits.sightings;
-  m.second = refined(problem, mirrored_in_depth(sightings, m.best.pose),
-                     m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance);
-  const bool usable = m.second.converged && ahead_of_station(sightings, m.second.pose);
-  m.has_second = usable && !same_minimum(m.best, m.second, problem.variance);
-  if (!m.has_second) return;
-  // Where there is nothing to contradict a pose (three sensors), the one that the start led to comes first.
-  const bool second_is_better = freedom_of(problem) > 0 && m.second.normal.cost < m.best.normal.cost;
-  const bool first_is_usable = m.best.converged && ahead_of_station(sightings, m.best.pose);
-  if (second_is_better || !first_is_usable) std::swap(m.best, m.second);
-  m.has_second = first_is_usable;
-}
-
-// Both minima of the rows that take part, from one start. The second is complete only where it matters: within
-// kAmbiguousDeltaChi2 of the first.
-Minima descend(Problem& problem, const LighthouseFromBody& start) {
-  constexpr int kRounds = 3;
-  Minima m;
-  m.best = refined(problem, start);
-  for (int round = 0; round < kRounds; ++round) {
-    const double cost_before = m.best.normal.cost;
-    find_rival(problem, m);
-    // Where the start led to no valley of the pair, the better one's own mirror image is still to be seen.
-    if (!(m.best.normal.cost + kAmbiguousDeltaChi2 * problem.variance < cost_before)) break;
-  }
-  m.has_second = m.has_second && problem.options.look_for_second;
-  return m;
+// Both minima of the rows that take part, from one start.
+Minima<DoubleSystem> minima_from(Problem& problem, const LighthouseFromBody& start) {
+  const DoubleSystem system(problem.hits.sightings, problem.options.residual);
+  Minima<DoubleSystem> minima = both_minima(system, start, problem.options.max_iterations, problem.variance);
+  minima.has_second = minima.has_second && problem.options.look_for_second;
+  problem.iterations += minima.iterations;
+  return minima;
 }
 
 bool credible(const Problem& problem, const Fit& fit) {
@@ -137,7 +80,7 @@ Refusal verdict(const Problem& problem, const Fit& fit) {
     return Refusal::kPoorFit;
   }
   if (!fit.converged) return Refusal::kNotConverged;
-  if (!ahead_of_station(problem.hits.sightings, fit.pose)) return Refusal::kBehindStation;
+  if (!DoubleSystem(problem.hits.sightings, problem.options.residual).ahead(fit.pose)) return Refusal::kBehindStation;
   return Refusal::kNone;
 }
 
@@ -149,7 +92,7 @@ void mark_used(const Hits& hits, std::bitset<kMaxObservations>& used) {
   }
 }
 
-Solution solution_of(const Problem& problem, const Minima& minima) {
+Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima) {
   const SolveOptions& options = problem.options;
   const Sightings& sightings = problem.hits.sightings;
   Solution solution;
@@ -188,14 +131,14 @@ Result<Solution, Refusal> solve(const Target& target, const Observations& observ
   } else {
     starts = start_poses(problem.hits.sightings, options.start);
   }
-  Minima minima;
-  if (!starts.empty() && !problem.hits.several) minima = descend(problem, nearest(problem, starts));
+  Minima<DoubleSystem> minima;
+  if (!starts.empty() && !problem.hits.several) minima = minima_from(problem, nearest(problem, starts));
   if (problem.hits.several || !credible(problem, minima.best)) {
     if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
     LighthouseFromBody start;
     if (!fit_rigid_body(problem.hits, starts, options, start)) return Refusal::kNotConverged;
     if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return Refusal::kPoorFit;
-    minima = descend(problem, start);
+    minima = minima_from(problem, start);
   }
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;
   return solution_of(problem, minima);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+
+#include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/pose/descent.hpp"
+#include "pharos/pose/place_residuals.hpp"
+
+namespace pharos::pose {
+
+/// The two minima of one set of bearings.
+template <class System>
+struct Minima {
+  Descent<System> best;
+  Descent<System> second;
+  bool has_second = false;
+  bool undecided = false;  // some descent: whether there is a second is not known for certain
+  int iterations = 0;
+};
+
+// The mirror image of the best minimum as its rival; the better of the two first.
+template <class System>
+void find_rival(const System& system, int max_iterations, double variance, Minima<System>& m) {
+  // Two fits nearer than this (squared, in sigmas, by the first one's information) are one and the same minimum.
+  constexpr double kSameMinimum = 1.0;
+  m.second =
+      descend(system, system.mirrored(m.best.pose),
+              {max_iterations, System::kConverged * variance, m.best.normal.cost + kAmbiguousDeltaChi2 * variance});
+  m.iterations += m.second.iterations;
+  m.undecided = m.undecided || m.second.undecided();
+  const bool usable = m.second.converged && system.ahead(m.second.pose);
+  m.has_second =
+      usable && !(system.square_between(m.best.pose, m.best.normal, m.second.pose) < kSameMinimum * variance);
+  if (!m.has_second) return;
+  // Where there is nothing to contradict a pose (three sensors), the one that the start led to comes first.
+  const bool second_is_better = system.rows() > kPoseUnknowns && m.second.normal.cost < m.best.normal.cost;
+  const bool first_is_usable = m.best.converged && system.ahead(m.best.pose);
+  if (second_is_better || !first_is_usable) std::swap(m.best, m.second);
+  m.has_second = first_is_usable;
+}
+
+/// Both minima of the rows that take part, from one start. The second is complete only where it matters: within
+/// kAmbiguousDeltaChi2 of the first. `variance`: of one bearing, rad^2.
+template <class System>
+Minima<System> both_minima(const System& system, const typename System::Pose& start, int max_iterations,
+                           double variance) {
+  constexpr int kRounds = 3;
+  Minima<System> m;
+  m.best = descend(system, start, {max_iterations, System::kConverged * variance, 1e300});
+  m.iterations = m.best.iterations;
+  m.undecided = m.best.undecided();
+  for (int round = 0; round < kRounds; ++round) {
+    const double cost_before = m.best.normal.cost;
+    find_rival(system, max_iterations, variance, m);
+    // Where the start led to no valley of the pair, the better one's own mirror image is still to be seen.
+    if (!(m.best.normal.cost + kAmbiguousDeltaChi2 * variance < cost_before)) break;
+  }
+  return m;
+}
+
+}  // namespace pharos::pose
