@@ -7,15 +7,15 @@
 namespace pharos::pose {
 
 /// Symmetric N x N matrix, lower triangle by rows: what normal equations are summed in and solved from.
-template <std::size_t N>
+template <std::size_t N, class Number = double>
 struct PackedSymmetric {
-  std::array<double, N*(N + 1) / 2> lower{};
+  std::array<Number, N*(N + 1) / 2> lower{};
 
   static constexpr std::size_t index(std::size_t row, std::size_t column) {
     return row >= column ? row * (row + 1) / 2 + column : column * (column + 1) / 2 + row;
   }
-  constexpr double& operator()(std::size_t row, std::size_t column) { return lower[index(row, column)]; }
-  constexpr double operator()(std::size_t row, std::size_t column) const { return lower[index(row, column)]; }
+  constexpr Number& operator()(std::size_t row, std::size_t column) { return lower[index(row, column)]; }
+  constexpr Number operator()(std::size_t row, std::size_t column) const { return lower[index(row, column)]; }
 };
 
 /// L D L^T of a positive definite matrix, without square roots. Cost at N = 6: 70 multiplications, 6 divisions.

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/pose/fixed_descent.hpp"
+
+#include <limits>
+
+namespace pharos::pose {
+namespace {
+
+using fixed::product;
+using fixed::Q30;
+using fixed::times;
+
+constexpr int kGradientPlaces = 55;
+/// Sums of 128 rows stay within 64 bits while no residual exceeds 1/8 rad and no sensor is nearer to the station's
+/// plane than 1/8 of the unit of length.
+constexpr Q30 kLargestTangent = fixed::kOne / 8;
+constexpr Q30 kLeastDepth = fixed::kOne / 8;
+constexpr Q30 kLongestStep = fixed::kOne / 2;
+
+constexpr Q30 q30(double value) { return static_cast<Q30>(value * fixed::kOne); }
+
+// One axis of one sensor: residual (Q30 rad) and its derivatives by the point's coordinates along and ahead (Q25).
+struct AxisTerms {
+  Q30 residual;
+  std::int32_t by_along, by_ahead;
+};
+
+bool axis_terms(Q30 along, Q30 ahead, Q30 cosine, Q30 sine, AxisTerms& terms) {
+  const auto opposite = static_cast<Q30>((product(ahead, cosine) - product(along, sine)) >> 30);
+  const std::int64_t adjacent = (product(along, cosine) + product(ahead, sine)) >> 30;
+  if (adjacent < kLeastDepth || adjacent > std::numeric_limits<Q30>::max()) return false;
+  const std::int32_t inverse = fixed::reciprocal(static_cast<Q30>(adjacent));
+  const std::int64_t tangent = product(opposite, inverse) >> 27;
+  if (tangent > kLargestTangent || tangent < -kLargestTangent) return false;
+  const auto u = static_cast<Q30>(tangent);
+  const Q30 square = times(u, u);
+  const Q30 series = q30(1.0 / 3.0) - times(square, q30(1.0 / 5.0) - times(square, q30(1.0 / 7.0)));
+  terms.residual = u - times(u, times(square, series));
+  // along^2 + ahead^2 = adjacent^2 (1 + u^2).
+  const auto inverse_square = static_cast<std::int32_t>(product(inverse, inverse) >> 30);  // Q24
+  const std::int32_t scale = times(inverse_square, fixed::kOne - times(square, fixed::kOne - square));
+  terms.by_along = -static_cast<std::int32_t>(product(ahead, scale) >> 29);
+  terms.by_ahead = static_cast<std::int32_t>(product(along, scale) >> 29);
+  return true;
+}
+
+// Adds one row, whose translation part is by_along on unknown `along` and by_ahead on the depth.
+template <std::size_t along>
+void add(const std::array<std::int32_t, 3>& r, const AxisTerms& t, FixedNormal& n, std::int64_t& square_sum) {
+  n.matrix.lower[0] += product(r[0], r[0]);
+  n.matrix.lower[1] += product(r[1], r[0]);
+  n.matrix.lower[2] += product(r[1], r[1]);
+  n.matrix.lower[3] += product(r[2], r[0]);
+  n.matrix.lower[4] += product(r[2], r[1]);
+  n.matrix.lower[5] += product(r[2], r[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    n.matrix(along, k) += product(r[k], t.by_along);
+    n.matrix(5, k) += product(r[k], t.by_ahead);
+    n.gradient[k] += product(r[k], t.residual);
+  }
+  n.matrix(along, along) += product(t.by_along, t.by_along);
+  n.matrix(5, along) += product(t.by_along, t.by_ahead);
+  n.matrix(5, 5) += product(t.by_ahead, t.by_ahead);
+  n.gradient[along] += product(t.by_along, t.residual);
+  n.gradient[5] += product(t.by_ahead, t.residual);
+  square_sum += product(t.residual, t.residual);
+}
+
+bool add_sensor(const FixedSightings& s, const FixedSightings::Sensor& sensor, const FixedPose& pose, FixedNormal& n,
+                std::int64_t& square_sum) {
+  const FixedVector q = turned(pose, sensor.body);
+  const int places = s.length_places - s.body_places;
+  FixedVector p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int64_t sum = std::int64_t{pose.centroid[k]} + (q[k] >> places);
+    if (fixed::places_of(sum) > 31) return false;
+    p[k] = static_cast<std::int32_t>(sum);
+  }
+  AxisTerms t;
+  if (sensor.seen[0]) {
+    if (!axis_terms(p[0], p[2], sensor.cosine[0], sensor.sine[0], t)) return false;
+    add<3>({times(t.by_ahead, q[1]), times(t.by_along, q[2]) - times(t.by_ahead, q[0]), -times(t.by_along, q[1])}, t, n,
+           square_sum);
+  }
+  if (sensor.seen[1]) {
+    if (!axis_terms(p[1], p[2], sensor.cosine[1], sensor.sine[1], t)) return false;
+    add<4>({times(t.by_ahead, q[1]) - times(t.by_along, q[2]), -times(t.by_ahead, q[0]), times(t.by_along, q[0])}, t, n,
+           square_sum);
+  }
+  return true;
+}
+
+FixedVector cross(const FixedVector& a, const FixedVector& b) {
+  const auto element = [&](std::size_t i, std::size_t j) {
+    return static_cast<std::int32_t>((product(a[i], b[j]) - product(a[j], b[i])) >> 30);
+  };
+  return {element(1, 2), element(2, 0), element(0, 1)};
+}
+
+// The damping that DoubleSystem applies; false where a sum does not fit.
+bool damp(FixedMatrix& matrix, double damping) {
+  constexpr double kRoom = 1e18;
+  const auto share = [&](std::int64_t diagonal) { return fixed::to_double(diagonal, 0) * damping; };
+  const double turn = share(std::max({matrix(0, 0), matrix(1, 1), matrix(2, 2)}));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double more = i < 3 ? turn : share(matrix(i, i));
+    if (!(more < kRoom)) return false;
+    matrix(i, i) += fixed::from_double(more, 0);
+  }
+  return true;
+}
+
+}  // namespace
+
+FixedNormal FixedSystem::linearise(const FixedPose& pose) const {
+  FixedNormal normal;
+  std::int64_t square_sum = 0;
+  for (int i = 0; i < sightings_.count; ++i) {
+    if (!add_sensor(sightings_, sightings_.sensor[static_cast<std::size_t>(i)], pose, normal, square_sum)) {
+      normal.cost = std::numeric_limits<double>::infinity();
+      return normal;
+    }
+  }
+  normal.cost = fixed::to_double(square_sum, 60);
+  return normal;
+}
+
+FixedStep FixedSystem::step(const FixedNormal& normal, double damping) const {
+  FixedStep step;
+  FixedMatrix matrix = normal.matrix;
+  if (damping != 0.0 && !damp(matrix, damping)) return step;
+  const FixedCholesky factor(matrix);
+  if (!factor.good()) return step;
+  const FixedCholesky::Vector half = factor.half_solved(normal.gradient);
+  const FixedCholesky::Vector full = factor.solved(half);
+  step.solved = true;
+  // g^T A^-1 g is the square of the half-solved vector.
+  int largest = 0;
+  for (const std::int64_t y : half.element) largest = std::max(largest, fixed::places_of(y));
+  std::int64_t square = 0;
+  for (const std::int64_t y : half.element) {
+    const std::int64_t cut = fixed::shifted(y, 30 - largest);
+    square += cut * cut;
+  }
+  step.decrease = fixed::to_double(square, 2 * (30 - largest - half.places + kGradientPlaces));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const int unit = i < 3 ? sightings_.length_places - sightings_.body_places : 0;
+    const int places = full.places + factor.places_of_unknown(i) + unit - kGradientPlaces + 30;
+    const bool too_long = fixed::places_of(full.element[i]) + places > 30;
+    const std::int64_t delta =
+        too_long ? (full.element[i] < 0 ? -fixed::kOne : fixed::kOne) : fixed::shifted(full.element[i], places);
+    step.delta[i] = -fixed::clamped(delta, kLongestStep);
+  }
+  return step;
+}
+
+FixedPose FixedSystem::stepped(const FixedPose& pose, const FixedStep& step) const {
+  const FixedVector half{step.delta[0] / 2, step.delta[1] / 2, step.delta[2] / 2};
+  const Q30 square = times(half[0], half[0]) + times(half[1], half[1]) + times(half[2], half[2]);
+  const std::int32_t scale = fixed::reciprocal(fixed::kOne + square);  // Q27
+  FixedPose moved;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const FixedVector once = cross(half, pose.column[c]);
+    const FixedVector twice = cross(half, once);
+    for (std::size_t i = 0; i < 3; ++i) {
+      moved.column[c][i] = pose.column[c][i] + static_cast<Q30>(product(once[i] + twice[i], scale) >> 26);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t sum = std::int64_t{pose.centroid[i]} + step.delta[i + 3];
+    moved.centroid[i] = fixed::clamped(sum, std::numeric_limits<std::int32_t>::max());
+  }
+  return moved;
+}
+
+double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const {
+  // Half the sum of the columns' cross products is the turn's axis times its sine.
+  std::array<double, 6> d{};
+  std::int64_t cosine = 0;
+  std::array<std::int64_t, 3> axis{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const FixedVector part = cross(a.column[c], b.column[c]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      axis[i] += part[i];
+      cosine += product(a.column[c][i], b.column[c][i]) >> 30;
+    }
+  }
+  // 1 + 2 cos: beyond half a radian the two are never the same.
+  if (cosine < q30(0.87) + std::int64_t{fixed::kOne} + q30(0.87)) return 1e300;
+  for (std::size_t i = 0; i < 3; ++i) {
+    d[i] = fixed::to_double(axis[i], 31 + sightings_.length_places - sightings_.body_places);
+    d[i + 3] = fixed::to_double(std::int64_t{b.centroid[i]} - a.centroid[i], 30);
+  }
+  double square = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    double row = 0.5 * fixed::to_double(normal.matrix(i, i), 50) * d[i];
+    for (std::size_t j = 0; j < i; ++j) row += fixed::to_double(normal.matrix(i, j), 50) * d[j];
+    square += 2.0 * d[i] * row;
+  }
+  return square;
+}
+
+}  // namespace pharos::pose

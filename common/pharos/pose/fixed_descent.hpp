@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "pharos/pose/fixed_cholesky.hpp"
+#include "pharos/pose/fixed_sightings.hpp"
+
+namespace pharos::pose {
+
+/// Sums of one linearisation in integers, as NormalEquations. Unknowns: the turn about the centroid in units of
+/// 2^(length_places - body_places) rad, the centroid's move in units of length; both in the lighthouse frame.
+struct FixedNormal {
+  FixedMatrix matrix;                      // Q50
+  std::array<std::int64_t, 6> gradient{};  // Q55
+  double cost = 0.0;                       // r^T r, rad^2; infinite where a residual is beyond 1/8 rad
+};
+
+/// One step of a descent: the turn in rad and the move in units of length.
+struct FixedStep {
+  std::array<fixed::Q30, 6> delta{};  // cut to +-1/2
+  double decrease = 0.0;              // of r^T r, that the linear model predicts
+  double smallest_pivot_ratio = 1.0;  // not below what FixedCholesky can solve
+  bool solved = false;                // false: too near to singular for these integers
+};
+
+/// The system of equations that `descend` and `both_minima` work on, in integers.
+class FixedSystem {
+ public:
+  using Pose = FixedPose;
+  using Normal = FixedNormal;
+  using Step = FixedStep;
+  /// As kConvergedShare; residuals are rounded to 1e-9 rad, which hides a decrease of 3e-4.
+  static constexpr double kConverged = 1e-3;
+
+  explicit FixedSystem(const FixedSightings& sightings) : sightings_(sightings) {}
+
+  /// Cost: some 700 instructions a sensor on RV32IM.
+  FixedNormal linearise(const FixedPose& pose) const;
+  FixedStep step(const FixedNormal& normal, double damping) const;
+  FixedPose stepped(const FixedPose& pose, const FixedStep& step) const;
+  /// As mirrored_in_depth.
+  FixedPose mirrored(const FixedPose& pose) const;
+  bool ahead(const FixedPose& pose) const { return pose.centroid[2] > 0; }
+  double square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const;
+  int rows() const { return sightings_.rows; }
+
+ private:
+  const FixedSightings& sightings_;
+};
+
+}  // namespace pharos::pose

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/pose/fixed_sightings.hpp"
+
+#include "pharos/base/units.hpp"
+
+namespace pharos::pose {
+namespace {
+
+using fixed::Q30;
+using WideVector = std::array<std::int64_t, 3>;
+
+constexpr int kMetrePlaces = 40;  // lengths on the way in: 2^-40 m
+constexpr Q30 kQuarterTurn = static_cast<Q30>(kPi / 2 * fixed::kOne);
+// Farther than 2^18 m, nearer or smaller than 2^-10 m nothing is a target.
+constexpr int kFarthestPlaces = 18, kNearestPlaces = -10;
+
+WideVector wide(const Vector3& v) {
+  return {fixed::from_double(v[0], kMetrePlaces), fixed::from_double(v[1], kMetrePlaces),
+          fixed::from_double(v[2], kMetrePlaces)};
+}
+
+// The least n for which the vector is shorter than 2^n m.
+int length_places_of(const WideVector& v) {
+  const int largest = std::max({fixed::places_of(v[0]), fixed::places_of(v[1]), fixed::places_of(v[2])});
+  std::int64_t square = 0;
+  for (const std::int64_t x : v) {
+    const std::int64_t scaled = fixed::shifted(x, 30 - largest);
+    square += scaled * scaled;
+  }
+  return (fixed::places_of(square) + 1) / 2 - 30 + largest - kMetrePlaces;
+}
+
+// Position of the centroid in the lighthouse frame, 2^-40 m.
+WideVector centroid_of(const WideVector& centre, const LighthouseFromBody& pose) {
+  WideVector sum = wide(pose.t);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const auto k = static_cast<std::size_t>(i);
+      sum[k] += fixed::times_wide(centre[static_cast<std::size_t>(j)],
+                                  static_cast<Q30>(fixed::from_double(pose.R(i, j), 30)));
+    }
+  }
+  return sum;
+}
+
+bool see(FixedSightings& s, std::size_t entry, const Observation& o) {
+  FixedSightings::Sensor& sensor = s.sensor[entry];
+  const auto a = static_cast<std::size_t>(index_of(o.axis));
+  if (sensor.seen[a]) return false;
+  const auto off = static_cast<Q30>(fixed::from_double(o.theta_rad, 30) - kQuarterTurn);
+  const fixed::SineCosine sc = fixed::sine_cosine(off);
+  sensor.seen[a] = true;
+  sensor.cosine[a] = -sc.sine;
+  sensor.sine[a] = sc.cosine;
+  ++s.rows;
+  return true;
+}
+
+// The sensors seen, from their centroid, scaled to the largest.
+bool place_sensors(const std::array<WideVector, kMaxSensors>& body, FixedSightings& s) {
+  const auto count = static_cast<std::size_t>(s.count);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += body[k][i];
+    s.centre[i] = sum / s.count;
+  }
+  const auto from_centre = [&](std::size_t k) {
+    return WideVector{body[k][0] - s.centre[0], body[k][1] - s.centre[1], body[k][2] - s.centre[2]};
+  };
+  s.body_places = kNearestPlaces;
+  for (std::size_t k = 0; k < count; ++k) s.body_places = std::max(s.body_places, length_places_of(from_centre(k)));
+  if (s.body_places > kFarthestPlaces) return false;
+  for (std::size_t k = 0; k < count; ++k) {
+    const WideVector v = from_centre(k);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.sensor[k].body[i] = static_cast<std::int32_t>(fixed::shifted(v[i], 30 - kMetrePlaces - s.body_places));
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool collect_fixed(const Target& target, const Observations& observations, const LighthouseFromBody& prior,
+                   FixedSightings& sightings) {
+  constexpr std::int8_t kNone = -1;
+  std::array<std::int8_t, kMaxSensors> placement_of, entry_of;
+  placement_of.fill(kNone);
+  entry_of.fill(kNone);
+  for (std::size_t k = 0; k < target.size(); ++k) {
+    if (target[k].sensor < kMaxSensors) placement_of[target[k].sensor] = static_cast<std::int8_t>(k);
+  }
+  std::array<WideVector, kMaxSensors> body;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const Observation& o = observations[k];
+    if (!(o.theta_rad > 0.0 && o.theta_rad < kPi)) return false;
+    if (o.sensor >= kMaxSensors || placement_of[o.sensor] == kNone) continue;
+    std::int8_t& entry = entry_of[o.sensor];
+    if (entry == kNone) {
+      entry = static_cast<std::int8_t>(sightings.count++);
+      sightings.sensor[static_cast<std::size_t>(entry)].seen = {};
+      body[static_cast<std::size_t>(entry)] = wide(target[static_cast<std::size_t>(placement_of[o.sensor])].position_m);
+    }
+    if (!see(sightings, static_cast<std::size_t>(entry), o)) return false;
+    sightings.used[k] = true;
+  }
+  if (sightings.count == 0 || !place_sensors(body, sightings)) return false;
+  sightings.length_places = length_places_of(centroid_of(sightings.centre, prior));
+  return sightings.length_places >= std::max(kNearestPlaces, sightings.body_places) &&
+         sightings.length_places <= kFarthestPlaces;
+}
+
+FixedPose fixed_pose(const FixedSightings& sightings, const LighthouseFromBody& pose) {
+  FixedPose out;
+  const WideVector centroid = centroid_of(sightings.centre, pose);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      out.column[j][i] = static_cast<Q30>(fixed::from_double(pose.R(static_cast<int>(i), static_cast<int>(j)), 30));
+    }
+    out.centroid[i] =
+        static_cast<std::int32_t>(fixed::shifted(centroid[i], 30 - kMetrePlaces - sightings.length_places));
+  }
+  return out;
+}
+
+LighthouseFromBody double_pose(const FixedSightings& sightings, const FixedPose& pose) {
+  // One step of the polar decomposition's iteration, R (3 - R^T R) / 2, on a rotation that is one to 2^-28: what R^T R
+  // departs from the unit matrix by is exact in integers, and small.
+  LighthouseFromBody out;
+  std::array<std::array<double, 3>, 3> excess{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      std::int64_t sum = i == j ? -(std::int64_t{1} << 60) : 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += fixed::product(pose.column[i][k], pose.column[j][k]);
+      excess[i][j] = excess[j][i] = fixed::to_double(sum, 61);
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const auto r = static_cast<std::size_t>(i);
+    std::array<double, 3> row{};
+    for (std::size_t j = 0; j < 3; ++j) row[j] = fixed::to_double(pose.column[j][r], 30);
+    std::int64_t origin = fixed::shifted(pose.centroid[r], sightings.length_places + kMetrePlaces - 30);
+    for (std::size_t j = 0; j < 3; ++j) {
+      out.R(i, static_cast<int>(j)) = row[j] - (row[0] * excess[0][j] + row[1] * excess[1][j] + row[2] * excess[2][j]);
+      origin -= fixed::times_wide(sightings.centre[j], pose.column[j][r]);
+    }
+    out.t[i] = fixed::to_double(origin, kMetrePlaces);
+  }
+  return out;
+}
+
+FixedVector turned(const FixedPose& pose, const FixedVector& body) {
+  FixedVector out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t sum = fixed::product(pose.column[0][i], body[0]) + fixed::product(pose.column[1][i], body[1]) +
+                             fixed::product(pose.column[2][i], body[2]);
+    out[i] = static_cast<std::int32_t>((sum + (std::int64_t{1} << 29)) >> 30);
+  }
+  return out;
+}
+
+}  // namespace pharos::pose
