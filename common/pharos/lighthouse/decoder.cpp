@@ -191,7 +191,9 @@ void Decoder::flush() {
 
 std::optional<Sweep> Decoder::take_sweep() {
   if (!collector_.has_finished()) return std::nullopt;
-  return collector_.take();
+  std::optional<Sweep> sweep(collector_.finished());
+  collector_.drop_finished();
+  return sweep;
 }
 
 std::optional<OotxPayload> Decoder::take_ootx() {

@@ -45,6 +45,8 @@ class RotorClock {
   static constexpr std::uint32_t kUnits = 256;  // of a tick, in period_
   static constexpr std::uint32_t kNominalPeriod = 213'333'333;
 
+  std::int64_t turns_in(std::int64_t elapsed) const;
+
   std::int64_t last_ticks_ = 0;
   std::uint32_t period_ = kNominalPeriod;
   std::uint32_t last_slot_ = 0;

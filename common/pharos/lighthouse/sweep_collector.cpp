@@ -2,6 +2,7 @@
 #include "pharos/lighthouse/sweep_collector.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace pharos::lighthouse {
 namespace {
@@ -16,26 +17,30 @@ constexpr std::int64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
 
 void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) {
   Open& open = open_[flash.flash.station];
-  if (open.open) finish_until(open.sweep.flash.start_ticks, counters);
-  open.sweep.flash = flash.flash;
-  open.sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
-  open.sweep.flags = flash.flags;
-  open.sweep.hits.clear();
+  if (open.open) finish_until(open.flash.start_ticks, counters);
+  open.flash = flash.flash;
+  open.place = static_cast<std::uint8_t>(std::countr_zero(free_));
   open.open = true;
   open.ever = true;
+  free_ &= free_ - 1U;
+  Sweep& sweep = places_[open.place];
+  sweep.flash = flash.flash;
+  sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
+  sweep.flags = flash.flags;
+  sweep.hits.clear();
   deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
 }
 
 void SweepCollector::push(const Pulse& hit, DecoderCounters& counters) {
   bool flash_seen = false;
   for (Open& open : open_) {
-    if (!open.ever || open.sweep.flash.skip) continue;
-    const std::int64_t after_flash = hit.rise_ticks - open.sweep.flash.start_ticks;
+    if (!open.ever || open.flash.skip) continue;
+    const std::int64_t after_flash = hit.rise_ticks - open.flash.start_ticks;
     flash_seen = flash_seen || (after_flash >= 0 && after_flash < kNextWindowTicks);
     if (!open.open) continue;
     const std::int64_t centre_half_ticks = 2 * after_flash + hit.width_ticks;
     if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
-    const bool kept = open.sweep.hits.push_back(
+    const bool kept = places_[open.place].hits.push_back(
         {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), static_cast<std::int32_t>(centre_half_ticks)});
     ++(kept ? counters.hits : counters.hits_overflow);
     return;
@@ -48,7 +53,7 @@ void SweepCollector::pass_time(std::int64_t now_ticks, DecoderCounters& counters
   finish_until(now_ticks - kSweepDoneTicks, counters);
   deadline_ = INT64_MAX;
   for (const Open& open : open_) {
-    if (open.open) deadline_ = std::min(deadline_, open.sweep.flash.start_ticks + kSweepDoneTicks);
+    if (open.open) deadline_ = std::min(deadline_, open.flash.start_ticks + kSweepDoneTicks);
   }
 }
 
@@ -58,23 +63,24 @@ void SweepCollector::finish_all(DecoderCounters& counters) {
 }
 
 void SweepCollector::finish_until(std::int64_t start_ticks, DecoderCounters& counters) {
-  Open& first = open_[open_[1].sweep.flash.start_ticks < open_[0].sweep.flash.start_ticks ? 1 : 0];
+  Open& first = open_[open_[1].flash.start_ticks < open_[0].flash.start_ticks ? 1 : 0];
   Open& second = &first == &open_[0] ? open_[1] : open_[0];
   for (Open* open : {&first, &second}) {
-    if (open->open && open->sweep.flash.start_ticks <= start_ticks) finish(*open, counters);
+    if (open->open && open->flash.start_ticks <= start_ticks) finish(*open, counters);
   }
 }
 
 void SweepCollector::finish(Open& open, DecoderCounters& counters) {
   open.open = false;
-  if (!finished_.push(open.sweep)) {
+  if (!finished_.push(open.place)) {
     ++counters.outputs_overflow;
+    free_ |= 1U << open.place;
     return;
   }
   ++counters.sweeps;
-  if (open.sweep.flash.skip) {
+  if (open.flash.skip) {
     ++counters.sweeps_dark;
-  } else if (open.sweep.hits.empty()) {
+  } else if (places_[open.place].hits.empty()) {
     ++counters.sweeps_empty;
   }
 }

@@ -31,11 +31,14 @@ class SweepCollector {
   /// Earliest time at which pass_time() has something to do.
   std::int64_t deadline_ticks() const { return deadline_; }
   bool has_finished() const { return !finished_.empty(); }
-  Sweep take() { return finished_.pop(); }
+  /// The oldest finished sweep; there must be one. It stands until drop_finished().
+  const Sweep& finished() const { return places_[finished_.front()]; }
+  void drop_finished() { free_ |= 1U << finished_.pop(); }
 
  private:
   struct Open {
-    Sweep sweep;  // after it is finished: of the station's last flash
+    Flash flash;             // of the station's last sweep, open or not
+    std::uint8_t place = 0;  // of its sweep while it is open
     bool open = false;
     bool ever = false;
   };
@@ -45,7 +48,12 @@ class SweepCollector {
 
   std::array<Open, kMaxStations> open_;  // by station number
   std::int64_t deadline_ = INT64_MAX;
-  Ring<Sweep, kHeld> finished_;
+  // A sweep is half a kilobyte: it is filled where it stays until it is taken. There is a place for every one that
+  // waits or is open.
+  static constexpr std::size_t kPlaces = kHeld + kMaxStations;
+  std::array<Sweep, kPlaces> places_;
+  std::uint32_t free_ = (1U << kPlaces) - 1U;  // bit per place
+  Ring<std::uint8_t, kHeld> finished_;         // places, oldest sweep first
 };
 
 }  // namespace pharos::lighthouse
