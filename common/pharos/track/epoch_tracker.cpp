@@ -6,6 +6,7 @@
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 #include "pharos/pose/place_residuals.hpp"
+#include "pharos/pose/warm.hpp"
 
 namespace pharos::track {
 namespace {
@@ -84,21 +85,27 @@ const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const
   return age_s >= 0.0 && age_s < options_.prior_max_age_s ? &*station.last_pose : nullptr;
 }
 
+Result<pose::Solution, pose::Refusal> EpochTracker::solve_from(const LighthouseFromBody* prior) const {
+  if (options_.warm_start && prior != nullptr) {
+    if (const auto warm = pose::solve_warm(target_, ideal_.observations, options_.solve, *prior)) return *warm;
+  }
+  return pose::solve(target_, ideal_.observations, options_.solve, prior);
+}
+
 Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result) {
   const lighthouse::StationCalibration* calibration = station.calibration ? &*station.calibration : nullptr;
   const LighthouseFromBody* last = fresh_pose(station, cycle);
-  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, nullptr);
-  auto solution = pose::solve(target_, ideal_.observations, options_.solve, options_.warm_start ? last : nullptr);
+  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, nullptr, options_.warm_start);
+  auto solution = solve_from(options_.warm_start ? last : nullptr);
   if (!solution && solution.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
-    solution = pose::solve(target_, ideal_.observations, options_.solve, last);
+    solution = solve_from(last);
     if (solution) result.flags |= kEpochPrior;
   }
   if (!solution || !ideal_.guessed) return solution;
   // The first pose tells the angle across, which single hits were corrected without.
   const LighthouseFromBody first = solution->estimate.pose;
-  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, &first);
-  return pose::solve(target_, ideal_.observations, options_.solve,
-                     (result.flags & kEpochPrior) != 0 ? &first : nullptr);
+  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, &first, options_.warm_start);
+  return solve_from(options_.warm_start || (result.flags & kEpochPrior) != 0 ? &first : nullptr);
 }
 
 TrackedBearing EpochTracker::bearing(std::size_t index) const {

@@ -25,7 +25,8 @@ struct TrackOptions {
   /// With three sensors only, the last pose of the same station serves as prior when it is younger than this: at 2 m/s
   /// and 180 deg/s a target moves 0.2 m and 18 deg in it. 0 = never.
   double prior_max_age_s = 0.1;
-  /// Start every cycle from a last pose that young, not only those of three sensors: fewer operations, for slow cores.
+  /// For cores without a floating-point unit: start every cycle from a last pose that young, and work in integers
+  /// wherever they tell the same (pose::solve_warm).
   bool warm_start = false;
 };
 
@@ -104,6 +105,7 @@ class EpochTracker {
   };
 
   EpochResult answer(Station& station, const Cycle& cycle);
+  Result<pose::Solution, pose::Refusal> solve_from(const LighthouseFromBody* prior) const;
   Result<pose::Solution, pose::Refusal> solve(Station& station, const Cycle& cycle, EpochResult& result);
   const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle) const;
 

@@ -2,6 +2,7 @@
 #include "pharos/track/ideal_observations.hpp"
 
 #include "pharos/base/units.hpp"
+#include "pharos/lighthouse/fixed_station_model.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 
 namespace pharos::track {
@@ -23,26 +24,32 @@ double middle_theta(const lighthouse::SweepBearings& bearings) {
 class Corrector {
  public:
   Corrector(const Cycle& cycle, const Target& target, const lighthouse::StationCalibration& calibration,
-            lighthouse::ModelForm form, const LighthouseFromBody* pose)
+            lighthouse::ModelForm form, const LighthouseFromBody* pose, bool integers)
       : cycle_(cycle), target_(target), calibration_(calibration), form_(form), pose_(pose) {
+    if (integers) fixed_.emplace(calibration, form);
     middle_[0] = middle_theta(cycle[Axis::kX]);
     middle_[1] = middle_theta(cycle[Axis::kY]);
   }
 
   std::optional<double> ideal(Axis axis, const Bearing& bearing) {
     const Axis across = other_axis(axis);
-    if (const SensorPlacement* sensor = pose_ ? find_sensor(target_, bearing.sensor) : nullptr) {
+    const Bearing* partner = only_bearing(cycle_[across], bearing.sensor);
+    const bool paired =
+        bearing.sensor < kMaxSensors && partner != nullptr && only_bearing(cycle_[axis], bearing.sensor) != nullptr;
+    const bool by_pose = pose_ != nullptr && !(fixed_ && paired);
+    if (const SensorPlacement* sensor = by_pose ? find_sensor(target_, bearing.sensor) : nullptr) {
       const ThetaPair predicted = lighthouse::ideal_thetas(*pose_ * sensor->position_m);
       return lighthouse::ideal_from_raw(calibration_, form_, axis, bearing.theta_rad, predicted[across]);
     }
-    const Bearing* partner = only_bearing(cycle_[across], bearing.sensor);
-    if (partner == nullptr || only_bearing(cycle_[axis], bearing.sensor) == nullptr) guessed_ = true;
+    if (!paired) guessed_ = true;
+    if (paired && known_[bearing.sensor]) return (*known_[bearing.sensor])[axis];
     const double partner_raw =
         partner != nullptr ? partner->theta_rad : middle_[static_cast<std::size_t>(index_of(across))];
     const ThetaPair raw =
         axis == Axis::kX ? ThetaPair{bearing.theta_rad, partner_raw} : ThetaPair{partner_raw, bearing.theta_rad};
-    const auto pair = lighthouse::ideal_from_raw(calibration_, form_, raw);
+    const auto pair = fixed_ ? fixed_->ideal_from_raw(raw) : lighthouse::ideal_from_raw(calibration_, form_, raw);
     if (!pair) return std::nullopt;
+    if (paired) known_[bearing.sensor] = pair;
     return (*pair)[axis];
   }
 
@@ -65,6 +72,8 @@ class Corrector {
   const lighthouse::StationCalibration& calibration_;
   lighthouse::ModelForm form_;
   const LighthouseFromBody* pose_;
+  std::optional<lighthouse::FixedStationModel> fixed_;
+  std::array<std::optional<ThetaPair>, kMaxSensors> known_;  // of sensors with both bearings
   std::array<double, kAxes> middle_{};
   bool guessed_ = false;
 };
@@ -73,9 +82,9 @@ class Corrector {
 
 IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
                                      const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
-                                     const LighthouseFromBody* pose) {
+                                     const LighthouseFromBody* pose, bool integers) {
   const lighthouse::StationCalibration none;
-  Corrector corrector(cycle, target, calibration != nullptr ? *calibration : none, form, pose);
+  Corrector corrector(cycle, target, calibration != nullptr ? *calibration : none, form, pose, integers);
   IdealObservations result;
   for (const Axis axis : {Axis::kX, Axis::kY}) {
     for (const Bearing& bearing : cycle[axis]) {

@@ -24,9 +24,10 @@ struct IdealObservations {
 ///
 /// The correction of one axis needs the direction across it: from `pose` where one is given, else from the same
 /// sensor's other sweep, else from the middle of the other sweep. Bearings that no direction ahead can show are left
-/// out. `calibration` null: raw bearings pass as ideal ones.
+/// out. `calibration` null: raw bearings pass as ideal ones. `integers`: for cores without a floating-point unit, to
+/// 2e-8 rad; a sensor with both its bearings then is not corrected again by the pose, which tells nothing more of it.
 IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
                                      const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
-                                     const LighthouseFromBody* pose);
+                                     const LighthouseFromBody* pose, bool integers = false);
 
 }  // namespace pharos::track
