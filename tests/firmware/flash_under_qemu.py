@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""`pharos flash` against the real loader under QEMU: the ways it goes and the ways it must fail. 77 = skipped."""
+
+import argparse
+import fcntl
+import os
+import pathlib
+import pty
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from qemu_target import DECODER, LOADER, QemuTarget, have_qemu, raw_line
+
+PHAROS = IMAGES = None
+LOADER_MOST_BYTES = 4096
+
+
+def flash(port, image, *options, **keywords):
+    return subprocess.run([PHAROS, "flash", port, image, *options], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=120, **keywords)
+
+
+class FlashUnderQemu(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.target = QemuTarget(IMAGES, pathlib.Path(self.folder.name) / "flash")
+        self.addCleanup(self.target.switch_off)
+        self.first, self.second, self.large = (IMAGES / f"flash_probe_{n}.image" for n in (1, 2, 3))
+
+    def damaged(self, change):
+        data = bytearray(self.first.read_bytes())
+        path = pathlib.Path(self.folder.name) / "damaged.image"
+        path.write_bytes(change(data) or data)
+        return path
+
+    def flashed(self, image, *options):
+        run = flash(self.target.port, image, *options)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return dict(zip(*(line.split(",") for line in run.stdout.splitlines())))
+
+    def refused(self, code, words, image, *options):
+        run = flash(self.target.port, image, *options)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(words, run.stderr)
+        self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertEqual(run.stdout, "")
+
+    def assert_runs(self, version):
+        self.target.forget()
+        hello = self.target.hello()
+        self.assertIsNotNone(hello, "nothing says Hello")
+        self.assertEqual((hello.role, hello.version, hello.board), (DECODER, version, "qemu_virt"))
+        return hello
+
+    def test_takes_images_in_turn_and_keeps_them_without_power(self):
+        self.target.switch_on()
+        hello = self.target.hello()
+        self.assertEqual((hello.role, hello.board), (LOADER, "qemu_virt"))
+        row = self.flashed(self.first)
+        self.assertEqual((row["board"], row["name"], row["version"], row["version_before"]), ("qemu_virt", "flash_probe", "1.0.1", ""))
+        self.assertEqual(self.assert_runs((1, 0, 1)).reset_cause, 2)
+        row = self.flashed(self.second)
+        self.assertEqual((row["version"], row["version_before"]), ("1.0.2", "1.0.1"))
+        self.assert_runs((1, 0, 2))
+        self.target.switch_off()
+        self.target.switch_on()
+        hello = self.assert_runs((1, 0, 2))
+        self.assertEqual((hello.reset_cause, hello.start_count), (1, 1))
+        self.refused(1, "version 1.0.1, older than 1.0.2", self.first)
+        self.assert_runs((1, 0, 2))
+        self.assertEqual(self.flashed(self.first, "--allow-older")["version"], "1.0.1")
+        self.assert_runs((1, 0, 1))
+
+    def test_refuses_what_is_no_image_for_this_target(self):
+        self.target.switch_on()
+        self.flashed(self.first)
+        self.refused(2, "cut short", self.damaged(lambda data: data[:-100]))
+        self.refused(2, "damaged", self.damaged(lambda data: data.__setitem__(5000, data[5000] ^ 1)))
+        self.refused(2, "damaged", self.damaged(lambda data: data.__setitem__(30, data[30] ^ 1)))
+        self.refused(2, "is no image", self.target.loader)
+        self.refused(2, "cannot be read", pathlib.Path("/nowhere"))
+        self.refused(2, "for the board 'ep4ce10'", self.made("--board", "ep4ce10", "--version", "2.0.0"))
+        self.assert_runs((1, 0, 1))
+
+    def test_takes_64_kib(self):
+        self.target.switch_on()
+        row = self.flashed(self.large)
+        self.assertGreater(int(row["image_bytes"]), 65536)
+        print(f"{row['image_bytes']} bytes, QEMU's UART knows no speed: {row['line_s']} s")
+        self.assert_runs((1, 0, 3))
+
+    def made(self, *options):
+        path = pathlib.Path(self.folder.name) / "made.image"
+        maker = pathlib.Path(__file__).parents[2] / "firmware/boot/make_image.py"
+        subprocess.run([sys.executable, "-B", maker, *options, "--name", "made", IMAGES / "flash_probe_1.elf", path], check=True)
+        return path
+
+    def test_a_held_port_is_told(self):
+        held, end = pty.openpty()
+        fcntl.flock(end, fcntl.LOCK_EX)  # as pharosd and pharos hold it
+        self.addCleanup(os.close, held)
+        self.addCleanup(os.close, end)
+        run = flash(os.ttyname(end), self.first)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("in use by another program", run.stderr)
+
+    def test_a_silent_port_ends_with_what_to_do(self):
+        silent, end = pty.openpty()
+        raw_line(end)
+        run = flash(os.ttyname(end), self.first, "--wait", "1")
+        os.close(silent)
+        os.close(end)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("no answer from the target", run.stderr)
+
+    def test_shows_progress_on_a_terminal(self):
+        self.target.switch_on()
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([PHAROS, "flash", self.target.port, self.first], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=theirs) as run:
+            os.close(theirs)
+            shown = b""
+            try:
+                while part := os.read(ours, 4096):
+                    shown += part
+            except OSError:
+                pass  # the program ended
+        os.close(ours)
+        self.assertEqual(run.returncode, 0, shown)
+        self.assertIn(b"writing", shown)
+
+    def test_the_loader_keeps_its_4_kib(self):
+        size = (IMAGES / "qemu_virt_loader.bin").stat().st_size
+        print(f"loader, code and constants: {size} bytes")
+        self.assertLessEqual(size, LOADER_MOST_BYTES)
+        self.assertGreater(size, 1000)
+
+
+def main():
+    global PHAROS, IMAGES
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pharos", type=pathlib.Path)
+    parser.add_argument("images", type=pathlib.Path)
+    parser.add_argument("tests", nargs="*")
+    arguments = parser.parse_args()
+    PHAROS, IMAGES = arguments.pharos, arguments.images
+    if not have_qemu():
+        print("skipped: qemu-system-riscv32 is not installed (tools/install-dependencies test)")
+        return 77
+    program = unittest.main(argv=[sys.argv[0], *arguments.tests], exit=False, verbosity=2)
+    return 0 if program.result.wasSuccessful() else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

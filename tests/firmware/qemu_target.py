@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A target under QEMU that is switched on and off: the loader, its flash kept in a file, its line a pseudo-terminal."""
+
+import os
+import pathlib
+import re
+import select
+import shutil
+import struct
+import subprocess
+import termios
+import time
+import tty
+import zlib
+
+FLASH_BYTES = 32 << 20  # what the machine's bank has
+HELLO = 1
+RESIDUE = 0x2144DF1C
+DECODER, LOADER = 0, 1
+
+
+def unstuffed(stuffed):
+    plain = bytearray()
+    at = 0
+    while at < len(stuffed):
+        code = stuffed[at]
+        plain += stuffed[at + 1 : at + code]
+        at += code
+        if code != 0xFF and at < len(stuffed):
+            plain.append(0)
+    return bytes(plain)
+
+
+class Hello:
+    def __init__(self, payload):
+        self.role, self.reset_cause = payload[0], payload[1]
+        self.version = tuple(payload[3:6])
+        self.start_count = struct.unpack_from("<H", payload, 6)[0]
+        self.board = payload[28:52].rstrip(b"\0").decode()
+
+
+def raw_line(fd):
+    tty.setraw(fd, termios.TCSANOW)
+
+
+class QemuTarget:
+    """`flash`: the file that holds the flash; made empty when there is none. As a context: switched off at its end."""
+
+    def __init__(self, images: pathlib.Path, flash: pathlib.Path):
+        self.loader = images / "qemu_virt_loader.elf"
+        self.flash = flash
+        self.machine = None
+        self.line = -1
+        self.port = None
+        self.received = b""
+        if not flash.exists():
+            flash.touch()
+            os.truncate(flash, FLASH_BYTES)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.switch_off()
+
+    def switch_on(self):
+        self.machine = subprocess.Popen(
+            ["qemu-system-riscv32", "-M", "virt", "-smp", "1", "-m", "32M", "-bios", "none", "-nodefaults", "-display", "none",
+             "-serial", "pty", "-device", f"loader,file={self.loader},cpu-num=0",
+             "-drive", f"if=pflash,unit=1,format=raw,file={self.flash}"],
+            stdout=subprocess.PIPE, text=True)
+        first = self.machine.stdout.readline()
+        found = re.search(r"/dev/pts/\d+", first)
+        if not found:
+            raise RuntimeError(f"QEMU did not start: {first}")
+        self.port = found[0]
+        # Held open: the machine talks only while somebody listens.
+        self.line = os.open(self.port, os.O_RDWR | os.O_NOCTTY)
+        raw_line(self.line)
+        self.received = b""
+
+    def switch_off(self):
+        """As pulling the plug: SIGKILL. What was written to the flash is in the file."""
+        if self.machine:
+            self.machine.kill()
+            self.machine.wait()
+            self.machine.stdout.close()
+            os.close(self.line)
+            self.machine = None
+
+    def hello(self, seconds=20.0):
+        """The next Hello on the line; None when none comes. Not while another program has the line."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            while b"\0" in self.received:
+                frame, self.received = self.received.split(b"\0", 1)
+                plain = unstuffed(frame)
+                if len(plain) >= 8 and zlib.crc32(plain) == RESIDUE and plain[1] == HELLO:
+                    return Hello(plain[4:-4])
+            if select.select([self.line], [], [], 0.1)[0]:
+                self.received += os.read(self.line, 4096)
+        return None
+
+    def forget(self):
+        """Drops what has come so far."""
+        self.received = b""
+        while select.select([self.line], [], [], 0)[0]:
+            os.read(self.line, 4096)
+
+
+def have_qemu():
+    return shutil.which("qemu-system-riscv32") is not None
