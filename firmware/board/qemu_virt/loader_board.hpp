@@ -19,7 +19,10 @@ class LoaderBoard : public LoaderMemory {
   alignas(4) static constexpr std::array<char, 24> kName{"qemu_virt"};
   static constexpr std::uint32_t kSlotBytes = CfiFlash::kSectorBytes;
 
-  static void prepare() { mmio8(kUart + 2) = 1; }  // receive up to 16 bytes ahead
+  static void prepare() {
+    mmio8(kUart + 2) = 1;                           // receive up to 16 bytes ahead
+    (void)static_cast<std::uint8_t>(mmio8(kUart));  // QEMU drops what came before, and takes no more until it was asked
+  }
 
   static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? 0 : kSlotBytes; }
   static Flash flash() { return {}; }
