@@ -7,6 +7,7 @@
 
 extern "C" {
 // By boot/loader.ld.
+extern std::uint8_t __loader[];
 extern std::uint8_t __chip_start[];
 extern std::uint8_t __loader_start[];
 extern std::uint8_t __external_start[];

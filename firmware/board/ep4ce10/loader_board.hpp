@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/board/ep4ce10/addresses.hpp"
+#include "firmware/board/rv32/loader_memory.hpp"
+#include "firmware/board/rv32/mmio.hpp"
+#include "firmware/board/spi_nor_flash.hpp"
+#include "firmware/rtl/capture_registers.h"
+
+namespace pharos::board {
+
+/// Intel's SPI core (Embedded Peripherals IP User Guide, "SPI Core"): a word a register.
+class AvalonSpi {
+ public:
+  static void select() { mmio32(kControl) = kForceSelect; }
+  static void deselect() {
+    while ((mmio32(kStatus) & kTransmitted) == 0) {
+    }
+    mmio32(kControl) = 0;
+  }
+  static std::uint8_t exchange(std::uint8_t byte) {
+    mmio32(kTransmit) = byte;
+    while ((mmio32(kStatus) & kReceived) == 0) {
+    }
+    return static_cast<std::uint8_t>(mmio32(kReceive));
+  }
+
+ private:
+  static constexpr std::uintptr_t kReceive = kSpi;
+  static constexpr std::uintptr_t kTransmit = kSpi + 4;
+  static constexpr std::uintptr_t kStatus = kSpi + 8;
+  static constexpr std::uintptr_t kControl = kSpi + 12;
+  static constexpr std::uint32_t kTransmitted = 0x20;
+  static constexpr std::uint32_t kReceived = 0x80;
+  static constexpr std::uint32_t kForceSelect = 0x400;
+};
+
+/// What the loader needs of the EP4CE10 board (boot/boot_board.hpp). The slots lie behind the FPGA's configuration
+/// (368,011 bytes) in its EPCS16. Links; has not run on a board.
+class LoaderBoard : public LoaderMemory {
+ public:
+  alignas(4) static constexpr std::array<char, 24> kName{"ep4ce10"};
+  using Flash = SpiNorFlash<AvalonSpi>;
+  static constexpr std::uint32_t kSlotBytes = 4 * Flash::kSectorBytes;
+
+  static void prepare() {
+    mmio32(kUartLineControl) = kEightBits | kDivisorLatch;
+    mmio32(kUart) = kUartDivisor;
+    mmio32(kUart + 4) = 0;
+    mmio32(kUartLineControl) = kEightBits;
+    mmio32(kUart + 8) = 1;  // FIFOs on
+  }
+  static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? kFirstSlot : kFirstSlot + kSlotBytes; }
+  static Flash flash() { return {}; }
+
+  static int receive() { return (mmio32(kUartLineStatus) & 0x01) != 0 ? static_cast<int>(mmio32(kUart) & 0xFF) : -1; }
+  static bool transmit(std::uint8_t byte) {
+    if ((mmio32(kUartLineStatus) & 0x20) == 0) return false;
+    mmio32(kUart) = byte;
+    return true;
+  }
+  static std::uint32_t ticks() { return mmio32(kCapture + PHAROS_CAPTURE_TIME_LOW_OFFSET); }
+  /// The loader's memory is a ROM, so its first instruction is as good as a reset.
+  [[noreturn]] static void restart() { start(reinterpret_cast<std::uintptr_t>(__loader)); }
+
+ private:
+  static constexpr std::uint32_t kFirstSlot = 0x100000;
+  static constexpr std::uintptr_t kUartLineControl = kUart + 12;
+  static constexpr std::uintptr_t kUartLineStatus = kUart + 20;
+  static constexpr std::uint32_t kEightBits = 0x03;
+  static constexpr std::uint32_t kDivisorLatch = 0x80;
+};
+
+}  // namespace pharos::board
