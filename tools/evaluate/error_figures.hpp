@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tools/evaluate/alignment.hpp"
+
+namespace pharos::evaluate {
+
+/// The error of one pose: (25) of paper 002 is the norm of each half.
+struct PoseError {
+  double time_s = 0.0;  // on ESTIMATE's clock
+  Vector3 rotation_rad = Vector3::Zero();
+  Vector3 position_m = Vector3::Zero();
+  std::optional<double> sigma_rotation_rad;
+  std::optional<double> sigma_position_m;
+};
+
+std::vector<PoseError> errors_of(const std::vector<Pair>& pairs, const Alignment& alignment);
+
+/// Root mean square, quantiles and maximum of error norms.
+struct Distribution {
+  double rms = 0.0;
+  double median = 0.0;
+  double p95 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+Distribution distribution_of(std::vector<double> norms);
+
+/// Stated sigma (square root of a trace) against real errors.
+struct Honesty {
+  std::array<double, 3> within{};  // share of errors up to 1, 2 and 3 sigma
+  double normalised_square =
+      0.0;  // mean of (error / sigma)^2: 1 where sigmas are honest, more where they are too small
+};
+
+/// One side, rotation (rad) or position (m).
+struct Figures {
+  Distribution error;              // (25)
+  double spread = 0.0;             // (23): rms of errors about their mean, which a constant offset leaves alone
+  std::optional<Honesty> honesty;  // where every compared pose states a sigma
+  std::optional<double> relative;  // RPE: rms error of the motion over a time
+};
+
+struct AllFigures {
+  Figures rotation;  // rad
+  Figures position;  // m
+  /// RMS position error after a least-squares fit of the paths (rotation and offset), m: what trajectory tools call
+  /// ATE.
+  double ate_m = 0.0;
+  std::size_t relative_pairs = 0;
+  /// Share of the time common to both recordings in which compared poses are no further apart than the gap allowed.
+  double coverage = 0.0;
+};
+
+/// Span of time that ESTIMATE (all rows, on its own clock) and TRUTH share; empty where end < begin.
+struct CommonSpan {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// Figures of at least one pair. `relative_s`: time over which motion errors are taken; `max_gap_s`: between poses that
+/// cover the time between them.
+AllFigures figures_of(const std::vector<Pair>& pairs, const Alignment& alignment, CommonSpan span, double relative_s,
+                      double max_gap_s);
+
+}  // namespace pharos::evaluate

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos evaluate: poses against an outside truth (002, section 4.3).
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/number_option.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/standard_input.hpp"
+#include "tools/evaluate/comparison.hpp"
+#include "tools/evaluate/error_plot.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using evaluate::AlignMode;
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos evaluate poses.csv mocap.csv --align hand-eye --time-offset auto --plot errors.svg\n"
+    "poses.csv: a table of pharos track; mocap.csv: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m of the marker body.\n"
+    "hand-eye finds the pose of the motion capture's frame in ESTIMATE's and that of ESTIMATE's body in the marker\n"
+    "body: T_estimate = world * T_truth * body. se3 finds the first only, from positions by least squares.\n"
+    "rot_* and pos_*: errors (25); spread_*: (23), errors about their mean; *_normalised_square is 1 where stated\n"
+    "sigmas are honest. Refused and ambiguous rows are counted and left out.";
+
+struct Options {
+  std::string estimate;
+  std::string truth;
+  AlignMode mode = AlignMode::kNone;
+  std::string time_offset = "0";
+  double max_gap_s = 0.0;
+  double relative_s = 1.0;
+  int station = -1;
+  evaluate::TrajectoryChoice choice;
+  std::string plot;
+  OutputOptions output;
+};
+
+const std::vector<std::string> kColumns = {"align",
+                                           "time_offset_s",
+                                           "rows",
+                                           "compared",
+                                           "refused",
+                                           "ambiguous",
+                                           "flagged",
+                                           "outside",
+                                           "in_gap",
+                                           "coverage",
+                                           "rot_rms_deg",
+                                           "rot_median_deg",
+                                           "rot_p95_deg",
+                                           "rot_p99_deg",
+                                           "rot_max_deg",
+                                           "spread_rot_deg",
+                                           "rpe_rot_deg",
+                                           "rot_within_1sigma",
+                                           "rot_within_2sigma",
+                                           "rot_within_3sigma",
+                                           "rot_normalised_square",
+                                           "pos_rms_mm",
+                                           "pos_median_mm",
+                                           "pos_p95_mm",
+                                           "pos_p99_mm",
+                                           "pos_max_mm",
+                                           "spread_pos_mm",
+                                           "rpe_pos_mm",
+                                           "pos_within_1sigma",
+                                           "pos_within_2sigma",
+                                           "pos_within_3sigma",
+                                           "pos_normalised_square",
+                                           "ate_mm",
+                                           "rpe_s",
+                                           "rpe_pairs",
+                                           "world_qw",
+                                           "world_qx",
+                                           "world_qy",
+                                           "world_qz",
+                                           "world_tx_m",
+                                           "world_ty_m",
+                                           "world_tz_m",
+                                           "body_qw",
+                                           "body_qx",
+                                           "body_qy",
+                                           "body_qz",
+                                           "body_tx_m",
+                                           "body_ty_m",
+                                           "body_tz_m",
+                                           "open",
+                                           "status"};
+constexpr std::size_t kFigureColumns = 11;  // of each half
+constexpr std::size_t kOtherFigures = 3;
+constexpr std::size_t kPoseColumns = 7;
+
+void write_half(host::RowWriter& rows, const evaluate::Figures& figures, double scale) {
+  for (const double value : {figures.error.rms, figures.error.median, figures.error.p95, figures.error.p99,
+                             figures.error.max, figures.spread}) {
+    rows.number(value * scale);
+  }
+  if (figures.relative) {
+    rows.number(*figures.relative * scale);
+  } else {
+    rows.none();
+  }
+  if (!figures.honesty) {
+    rows.none(4);
+    return;
+  }
+  for (const double share : figures.honesty->within) rows.number(share);
+  rows.number(figures.honesty->normalised_square);
+}
+
+template <class AnyPose>
+void write_any_pose(host::RowWriter& rows, const AnyPose& pose) {
+  const Quaternion q = pose.quaternion();
+  for (const double v : {q.w(), q.x(), q.y(), q.z(), pose.t.x(), pose.t.y(), pose.t.z()}) rows.number(v);
+}
+
+std::string open_parts(const evaluate::Aligned& aligned) {
+  std::string text;
+  for (const evaluate::OpenDirection& open : aligned.open) text += (text.empty() ? "" : "; ") + open.parts();
+  return text;
+}
+
+const char* name_of(AlignMode mode) {
+  return mode == AlignMode::kNone ? "none" : mode == AlignMode::kSe3 ? "se3" : "hand-eye";
+}
+
+void write_count(host::RowWriter& rows, std::size_t count) { rows.integer(static_cast<std::int64_t>(count)); }
+
+void write_answer(host::RowWriter& rows, const evaluate::Comparison& c, double relative_s) {
+  rows.number(c.figures.coverage);
+  write_half(rows, c.figures.rotation, kDegPerRad);
+  write_half(rows, c.figures.position, kMmPerM);
+  rows.number(c.figures.ate_m * kMmPerM).number(relative_s);
+  write_count(rows, c.figures.relative_pairs);
+  write_any_pose(rows, c.aligned.alignment.world);
+  write_any_pose(rows, c.aligned.alignment.body);
+  rows.text(open_parts(c.aligned)).text("ok").end_row();
+}
+
+void write_row(host::RowWriter& rows, const Options& options, const evaluate::TrajectoryFile<evaluate::EstimatePose>& e,
+               const evaluate::Comparison& c) {
+  const bool answered = c.refused.empty();
+  rows.text(name_of(options.mode));
+  if (answered) {
+    rows.number(c.aligned.alignment.time_offset_s);
+  } else {
+    rows.none();
+  }
+  write_count(rows, e.rows);
+  write_count(rows, answered ? c.pairs.pairs.size() : 0);
+  write_count(rows, e.refused);
+  write_count(rows, e.ambiguous);
+  write_count(rows, e.flagged);
+  write_count(rows, c.pairs.outside);
+  write_count(rows, c.pairs.in_gap);
+  if (answered) {
+    write_answer(rows, c, options.relative_s);
+  } else {
+    rows.none(1 + 2 * kFigureColumns + kOtherFigures + 2 * kPoseColumns).text(open_parts(c.aligned));
+    rows.text(c.refused).end_row();
+  }
+}
+
+evaluate::ComparisonOptions comparison_options(const Options& options) {
+  evaluate::ComparisonOptions result;
+  result.mode = options.mode;
+  result.time_offset_s.reset();
+  if (options.time_offset != "auto") result.time_offset_s = std::stod(options.time_offset);
+  if (options.max_gap_s > 0.0) result.max_gap_s = options.max_gap_s;
+  result.relative_s = options.relative_s;
+  return result;
+}
+
+void remark(const Options& options, const evaluate::Comparison& c) {
+  if (!c.refused.empty()) {
+    note(options.estimate + " against " + options.truth + ": " + c.why);
+    return;
+  }
+  for (const evaluate::OpenDirection& open : c.aligned.open) {
+    note("the motion leaves open " + open.words() + "; the errors do not depend on it");
+  }
+}
+
+int run(const Options& options) {
+  require_one_standard_input({{"ESTIMATE", options.estimate}, {"TRUTH", options.truth}});
+  if (!options.plot.empty()) require_writable(options.plot);
+  evaluate::TrajectoryChoice choice = options.choice;
+  if (options.station >= 0) choice.station = options.station;
+  const auto estimate = evaluate::read_trajectory<evaluate::EstimatePose>(options.estimate, choice);
+  const auto truth = evaluate::read_trajectory<evaluate::TruthPose>(options.truth, choice);
+  const evaluate::Comparison comparison = evaluate::compare(estimate, truth, comparison_options(options));
+  Output output(options.output, kColumns);
+  write_row(output.rows(), options, estimate, comparison);
+  output.finish();
+  remark(options, comparison);
+  if (!comparison.refused.empty()) return kExitNoAnswer;
+  if (!options.plot.empty()) {
+    evaluate::plot_errors(options.plot, evaluate::errors_of(comparison.pairs.pairs, comparison.aligned.alignment),
+                          comparison.figures, comparison.coverage_gap_s);
+  }
+  return kExitAnswered;
+}
+
+CLI::Validator auto_or_seconds() {
+  const CLI::Validator number = number_from(-1e10, 1e10);
+  return {[number](std::string& text) { return text == "auto" ? std::string() : number(text); }, "auto or seconds",
+          "offset"};
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("evaluate", "Poses against an outside truth: errors, one row");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option("ESTIMATE", options->estimate,
+                   "Table with time_s (or utime, frame) and qw..tz_m, or TUM lines; .gz; - is standard input")
+      ->required();
+  command->add_option("TRUTH", options->truth, "The same forms; motion capture: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m")
+      ->required();
+  const std::map<std::string, AlignMode> modes = {
+      {"none", AlignMode::kNone}, {"se3", AlignMode::kSe3}, {"hand-eye", AlignMode::kHandEye}};
+  command->add_option("--align", options->mode, "none, se3 (worlds) or hand-eye (worlds and bodies)")
+      ->transform(CLI::CheckedTransformer(modes));
+  command
+      ->add_option("--time-offset", options->time_offset,
+                   "Seconds to add to ESTIMATE's times, or auto: found from the motion")
+      ->check(auto_or_seconds())
+      ->capture_default_str();
+  command->add_option("--max-gap", options->max_gap_s, "Longest step of TRUTH bridged, s; default: 3.5 median steps")
+      ->check(number_from(1e-6, 1e6));
+  command->add_option("--rpe", options->relative_s, "Time over which motion errors are taken, s")
+      ->check(number_from(1e-6, 1e6))
+      ->capture_default_str();
+  command->add_option("--station", options->station, "Only rows of this station")->check(number_from(0, 1e6));
+  command->add_option("--rate", options->choice.frame_rate_hz, "Frames a second, for tables with frame instead of time")
+      ->check(number_from(1e-6, 1e6))
+      ->capture_default_str();
+  command->add_flag("--ambiguous", options->choice.keep_ambiguous, "Count ambiguous poses among the answers");
+  command->add_option("--without", options->choice.without_flags, "Leave out rows with this word in flags; repeatable");
+  command->add_option("--plot", options->plot, "File for a picture (SVG) of the errors over time");
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
