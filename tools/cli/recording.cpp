@@ -11,6 +11,7 @@
 #include "host/record/stream_reader.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/table_reader.hpp"
+#include "pharos/wire/frame.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/recording_source.hpp"
 
@@ -34,6 +35,7 @@ std::unique_ptr<RecordingSource> open_source(const std::string& path, std::funct
   bytes.on_pause(std::move(on_pause));
   const std::string_view first_bytes = bytes.peek(kBytesToTell).substr(0, kBytesToTell);
   if (host::StreamReader::looks_like(first_bytes)) return open_serial_stream(std::move(bytes));
+  if (first_bytes.starts_with(wire::kFrameBorder)) return open_line_bytes(std::move(bytes));
   if (looks_like_text(first_bytes)) return open_pulse_table(std::move(bytes));
   throw host::InputError(bytes.name() + ": neither a table sensor,rise_ticks,fall_ticks nor a recorded serial stream " +
                          "(it begins with " + host::quoted(first_bytes) + "); give a recording");

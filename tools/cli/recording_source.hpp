@@ -34,5 +34,7 @@ class RecordingSource {
 std::unique_ptr<RecordingSource> open_pulse_table(host::ByteSource bytes);
 /// A recorded serial stream.
 std::unique_ptr<RecordingSource> open_serial_stream(host::ByteSource bytes);
+/// The bare bytes of a serial line, from the border of a frame on.
+std::unique_ptr<RecordingSource> open_line_bytes(host::ByteSource bytes);
 
 }  // namespace pharos::tools

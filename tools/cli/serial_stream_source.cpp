@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <deque>
+#include <span>
 #include <utility>
 
 #include "host/record/stream_reader.hpp"
@@ -15,14 +17,60 @@ namespace {
 // other passed over, so that nothing counts twice.
 enum class Content : std::uint8_t { kUnknown, kDecoded, kRawEdges };
 
+// A recording made by StreamRecorder.
+class RecordedBytes {
+ public:
+  explicit RecordedBytes(host::ByteSource bytes) : reader_(std::move(bytes)) {}
+
+  const std::string& name() const { return reader_.name(); }
+  std::optional<std::span<const std::uint8_t>> next() {
+    const std::optional<host::StreamChunk> chunk = reader_.next();
+    if (!chunk) return std::nullopt;
+    return chunk->bytes;
+  }
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> out;
+    if (reader_.cut_off()) out.push_back(name() + ": cut off in the middle of a chunk; all before it used");
+    if (reader_.dropped_bytes() > 0) {
+      out.push_back(name() + ": " + std::to_string(reader_.dropped_bytes()) + " bytes of the file damaged and dropped");
+    }
+    if (reader_.lost_bytes() > 0) {
+      out.push_back(name() + ": " + std::to_string(reader_.lost_bytes()) + " bytes of the stream were never recorded");
+    }
+    return out;
+  }
+
+ private:
+  host::StreamReader reader_;
+};
+
+// What came out of a serial line, byte by byte and nothing else.
+class LineBytes {
+ public:
+  explicit LineBytes(host::ByteSource bytes) : source_(std::move(bytes)) {}
+
+  const std::string& name() const { return source_.name(); }
+  std::optional<std::span<const std::uint8_t>> next() {
+    const std::size_t count = source_.read(buffer_);
+    if (count == 0) return std::nullopt;
+    return std::span(reinterpret_cast<const std::uint8_t*>(buffer_.data()), count);
+  }
+  std::vector<std::string> remarks() const { return {}; }
+
+ private:
+  host::ByteSource source_;
+  std::array<char, 4096> buffer_{};
+};
+
+template <class Bytes>
 class SerialStreamSource final : public RecordingSource {
  public:
-  explicit SerialStreamSource(host::ByteSource bytes) : reader_(std::move(bytes)) {}
+  explicit SerialStreamSource(host::ByteSource bytes) : bytes_(std::move(bytes)) {}
 
   std::optional<RecordingEvent> next() override {
     while (ready_.empty() && !ended_) {
-      if (const std::optional<host::StreamChunk> chunk = reader_.next()) {
-        for (const std::uint8_t byte : chunk->bytes) {
+      if (const auto bytes = bytes_.next()) {
+        for (const std::uint8_t byte : *bytes) {
           if (const auto event = link_.push(byte)) take(*event);
         }
       } else {
@@ -40,18 +88,7 @@ class SerialStreamSource final : public RecordingSource {
     lighthouse::for_each_counter(content_ == Content::kRawEdges ? decoder_.counters() : target_counters_, visit);
   }
 
-  std::vector<std::string> remarks() const override {
-    std::vector<std::string> out;
-    const std::string& name = reader_.name();
-    if (reader_.cut_off()) out.push_back(name + ": cut off in the middle of a chunk; all before it used");
-    if (reader_.dropped_bytes() > 0) {
-      out.push_back(name + ": " + std::to_string(reader_.dropped_bytes()) + " bytes of the file damaged and dropped");
-    }
-    if (reader_.lost_bytes() > 0) {
-      out.push_back(name + ": " + std::to_string(reader_.lost_bytes()) + " bytes of the stream were never recorded");
-    }
-    return out;
-  }
+  std::vector<std::string> remarks() const override { return bytes_.remarks(); }
 
  private:
   void take(const report::LinkEvent& event) {
@@ -88,11 +125,11 @@ class SerialStreamSource final : public RecordingSource {
     decoder_.flush();
     take_decoded();
     if (link_.counters().frames > 0 || !link_.foreign_version()) return;
-    throw host::InputError(reader_.name() + ": every frame has protocol version " +
+    throw host::InputError(bytes_.name() + ": every frame has protocol version " +
                            std::to_string(*link_.foreign_version()) + ", this program has another; use a matching one");
   }
 
-  host::StreamReader reader_;
+  Bytes bytes_;
   report::LinkDecoder link_;
   lighthouse::Decoder decoder_;
   lighthouse::DecoderCounters target_counters_;
@@ -104,7 +141,11 @@ class SerialStreamSource final : public RecordingSource {
 }  // namespace
 
 std::unique_ptr<RecordingSource> open_serial_stream(host::ByteSource bytes) {
-  return std::make_unique<SerialStreamSource>(std::move(bytes));
+  return std::make_unique<SerialStreamSource<RecordedBytes>>(std::move(bytes));
+}
+
+std::unique_ptr<RecordingSource> open_line_bytes(host::ByteSource bytes) {
+  return std::make_unique<SerialStreamSource<LineBytes>>(std::move(bytes));
 }
 
 }  // namespace pharos::tools

@@ -47,6 +47,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->footer("Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output demo");
   add_sim_lighthouse(*sim, exit_code);
   add_sim_serial(*sim, exit_code);
+  add_sim_capture(*sim, exit_code);
 }
 
 }  // namespace pharos::tools

@@ -2,20 +2,15 @@
 #include "tools/sim/serial_player.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <ctime>
-
-#include "host/support/input_error.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr double kStep_s = 0.001;      // as often as the line is served
-constexpr double kBitsPerByte = 10.0;  // start, eight, stop
-constexpr double kTruthStep_s = 0.005;
+constexpr double kStep_s = 0.001;          // as often as the line is served
+constexpr double kBitsPerByte = 10.0;      // start, eight, stop
 constexpr double kEndLinger_s = 0.3;       // for the reader to take the last bytes
 constexpr std::size_t kQueueBytes = 8192;  // of frames that wait for the line, before new ones are given up
 
@@ -33,12 +28,6 @@ sigset_t stop_signals() {
   return set;
 }
 
-void append(std::string& text, double value, char end) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-  text.push_back(end);
-}
-
 }  // namespace
 
 SerialPlayer::SerialPlayer(PulseFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
@@ -48,14 +37,10 @@ SerialPlayer::SerialPlayer(PulseFeed& feed, const PlayClock& clock, SimulatedTar
       target_(target),
       line_(line),
       options_(options),
-      truth_(std::move(truth)),
       random_(options.seed, "serial line") {
   std::sort(options_.unplugs.begin(), options_.unplugs.end(),
             [](const Unplug& a, const Unplug& b) { return a.at_s < b.at_s; });
-  if (!truth_) return;
-  truth_file_.open(truth_->file);
-  if (!truth_file_) throw host::InputError(truth_->file.string() + ": cannot be written");
-  truth_file_ << "utime,station,qw,qx,qy,qz,tx_m,ty_m,tz_m" << std::endl;
+  if (truth) truth_.emplace(std::move(*truth));
 }
 
 double SerialPlayer::elapsed_s() const {
@@ -84,7 +69,7 @@ SerialSummary SerialPlayer::play() {
   ::sigprocmask(SIG_BLOCK, &set, &before);
   if (wait_for_reader()) {
     start_ns_ = clock_ns(CLOCK_MONOTONIC);
-    start_utc_us_ = clock_ns(CLOCK_REALTIME) / 1000;
+    if (truth_) truth_->start(clock_ns(CLOCK_REALTIME) / 1000, options_.speed > 0.0 ? options_.speed : 1.0);
     double time_s = 0.0;
     while (feed_.peek() != nullptr && !summary_.stopped) {
       if (options_.speed > 0.0) {
@@ -117,7 +102,7 @@ void SerialPlayer::play_until(double time_s) {
   }
   target_.advance(clock_.ticks_at(time_s));
   target_.receive(line_.read());
-  write_truth(time_s);
+  if (truth_) truth_->write_until(time_s);
   if (options_.speed > 0.0) {
     // What the line carries in the time that passed; it does not save up what it did not carry.
     const double per_step = options_.baud / kBitsPerByte * kStep_s * options_.speed;
@@ -201,24 +186,6 @@ void SerialPlayer::send(std::size_t budget_bytes) {
     target_.count_skipped();
     ++summary_.frames_skipped;
   }
-}
-
-void SerialPlayer::write_truth(double time_s) {
-  if (!truth_) return;
-  const double speed = options_.speed > 0.0 ? options_.speed : 1.0;
-  std::string rows;
-  for (; static_cast<double>(truth_row_) * kTruthStep_s <= std::min(time_s, truth_->end_s); ++truth_row_) {
-    const double at_s = static_cast<double>(truth_row_) * kTruthStep_s;
-    const std::int64_t utime = start_utc_us_ + std::llround(at_s / speed * 1e6);
-    for (std::size_t station = 0; station < truth_->stations; ++station) {
-      const LighthouseFromBody T = truth_->at(station, at_s);
-      const Quaternion q = T.quaternion();
-      rows += std::to_string(utime) + "," + std::to_string(station) + ",";
-      for (const double value : {q.w(), q.x(), q.y(), q.z(), T.t.x(), T.t.y()}) append(rows, value, ',');
-      append(rows, T.t.z(), '\n');
-    }
-  }
-  if (!rows.empty()) truth_file_ << rows << std::flush;
 }
 
 void SerialPlayer::drain() {

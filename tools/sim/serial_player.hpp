@@ -2,17 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "pharos/geometry/pose.hpp"
 #include "tools/sim/pseudo_terminal.hpp"
 #include "tools/sim/pulse_feed.hpp"
 #include "tools/sim/random_stream.hpp"
 #include "tools/sim/simulated_target.hpp"
+#include "tools/sim/truth_log.hpp"
 
 namespace pharos::sim {
 
@@ -30,14 +27,6 @@ struct SerialOptions {
   std::vector<Unplug> unplugs;
   bool wait_for_reader = true;
   std::uint64_t seed = 1;
-};
-
-/// What is true at a time since the start, for the stations there are.
-struct PlayTruth {
-  std::function<LighthouseFromBody(std::size_t station, double time_s)> at;
-  std::size_t stations = 0;
-  double end_s = 0.0;
-  std::filesystem::path file;
 };
 
 /// What was played.
@@ -70,7 +59,6 @@ class SerialPlayer {
   void notice_reader();
   void send(std::size_t budget_bytes);
   void damage(std::vector<std::uint8_t>& bytes);
-  void write_truth(double time_s);
   void drain();
   bool sleep_or_signal(double seconds);
   double elapsed_s() const;
@@ -80,8 +68,7 @@ class SerialPlayer {
   SimulatedTarget& target_;
   PseudoTerminal& line_;
   SerialOptions options_;
-  std::optional<PlayTruth> truth_;
-  std::ofstream truth_file_;
+  std::optional<TruthLog> truth_;
   RandomStream random_;
   SerialSummary summary_;
   std::vector<std::uint8_t> sending_;  // of the frame on the line: what the kernel has not taken yet
@@ -89,9 +76,7 @@ class SerialPlayer {
   bool had_reader_ = false;
   std::size_t unplugs_done_ = 0;
   bool unplugged_ = false;
-  std::int64_t truth_row_ = 0;
   std::int64_t start_ns_ = 0;  // monotonic
-  std::int64_t start_utc_us_ = 0;
 };
 
 }  // namespace pharos::sim

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
-#include <cmath>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "host/support/input_error.hpp"
-#include "host/table/edges_reader.hpp"
 #include "tools/cli/number_option.hpp"
 #include "tools/cli/seed_option.hpp"
 #include "tools/sim/add_sim.hpp"
-#include "tools/sim/lighthouse_simulator.hpp"
+#include "tools/sim/play_material.hpp"
 #include "tools/sim/serial_player.hpp"
 
 namespace pharos::tools {
@@ -42,60 +41,10 @@ sim::Unplug parse_unplug(const std::string& text) {
   return unplug;
 }
 
-// What is played: where its pulses come from and what its clock says.
-struct Material {
-  std::unique_ptr<sim::LighthouseSimulator> simulator;
-  std::unique_ptr<host::EdgesReader> edges;
-  std::unique_ptr<sim::PulseFeed> feed;
-  sim::PlayClock clock;
-  std::uint32_t sensors = 0xFFFFFFFFu;
-};
-
-Material open_scenario(const Options& options) {
-  Material material;
-  material.simulator = std::make_unique<sim::LighthouseSimulator>(
-      sim::read_scenario(options.input, options.serial.seed), options.serial.seed);
-  sim::LighthouseSimulator* simulator = material.simulator.get();
-  material.feed = std::make_unique<sim::PulseFeed>([simulator]() -> std::optional<lighthouse::RawPulse> {
-    const auto pulse = simulator->next();
-    if (!pulse) return std::nullopt;
-    return lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor};
-  });
-  material.clock.seconds_at = [simulator](std::int64_t ticks) {
-    return simulator->clock().true_time(static_cast<double>(ticks) * 20e-9);
-  };
-  material.clock.ticks_at = [simulator](double time_s) { return simulator->clock().stamp(time_s); };
-  material.sensors = 0;
-  for (const SensorPlacement& sensor : simulator->nominal_target()) material.sensors |= 1u << sensor.sensor;
-  return material;
-}
-
-Material open_recording(const Options& options) {
-  Material material;
-  material.edges = std::make_unique<host::EdgesReader>(host::ByteSource(options.input));
-  host::EdgesReader* edges = material.edges.get();
-  material.feed = std::make_unique<sim::PulseFeed>([edges] { return edges->next(); });
-  const std::optional<std::int64_t> first = material.feed->first_ticks();
-  if (!first) throw InputError(options.input + ": holds no pulses; give a recording with light");
-  const std::int64_t start = *first;
-  material.clock.seconds_at = [start](std::int64_t ticks) { return static_cast<double>(ticks - start) * 20e-9; };
-  material.clock.ticks_at = [start](double time_s) { return start + std::llround(time_s * 50e6); };
-  return material;
-}
-
-bool is_scenario(const std::string& path) { return path.size() > 5 && path.substr(path.size() - 5) == ".toml"; }
-
 int play(const Options& options) {
-  Material material = is_scenario(options.input) ? open_scenario(options) : open_recording(options);
+  sim::PlayMaterial material = sim::open_play_material(options.input, options.serial.seed);
   std::optional<sim::PlayTruth> truth;
-  if (!options.truth.empty()) {
-    sim::LighthouseSimulator* simulator = material.simulator.get();
-    if (simulator == nullptr) throw InputError("--truth: a recording has none; leave it out, or play a scenario");
-    truth = sim::PlayTruth{[simulator](std::size_t station, double time_s) {
-                             return simulator->truth(station, simulator->clock().counter_time(time_s));
-                           },
-                           simulator->stations().size(), simulator->scenario().duration_s, options.truth};
-  }
+  if (!options.truth.empty()) truth = sim::truth_of(material, options.truth);
   sim::TargetIdentity identity;
   identity.name = options.name;
   identity.sensors = material.sensors;

@@ -19,9 +19,11 @@ constexpr std::size_t kUartFifo = 16;
 /// board's UART it holds 128 bytes.
 constexpr std::int64_t kByteTicks = 10 * kTicksPerSecond / 460'800;
 constexpr std::int64_t kLineHolds = 128;
-/// Longer than the board's: a busy computer may stop the emulator for a second.
-constexpr std::int64_t kWatchdogTicks = 10 * kTicksPerSecond;
 constexpr std::int64_t kMillisecond = kTicksPerSecond / 1000;
+/// The watchdog, which the machine has not: so many looks of the timer's interrupt without food between them. Longer
+/// than the board's, because a busy computer may stop the emulator for a second.
+constexpr std::int64_t kWatchdogLook = kTicksPerSecond / 10;
+constexpr int kWatchdogLooks = 100;
 /// What an instruction costs on a soft core of this class, for `cycles`.
 constexpr std::uint32_t kCyclesPerInstruction = 3;
 
@@ -41,29 +43,45 @@ class Line final : public hal::SerialLine {
     return taken;
   }
   bool idle() override { return uart_.idle(); }
-  std::optional<std::uint8_t> read() override { return uart_.read(); }
+  // Looks once a millisecond of the tape: a look costs the emulator more than a record does.
+  std::optional<std::uint8_t> read() override {
+    if (!more_ && tape.now_ticks() - looked_ticks_ < kMillisecond && !tape.waiting()) return std::nullopt;
+    looked_ticks_ = tape.now_ticks();
+    const auto byte = uart_.read();
+    more_ = byte.has_value();
+    return byte;
+  }
   std::uint32_t receive_errors() override { return uart_.receive_errors(); }
 
  private:
   Uart16550 uart_{kUart, 1, kUartFifo};
   std::int64_t busy_until_ = 0;
+  std::int64_t looked_ticks_ = 0;
+  bool more_ = false;
 };
 Line line;
 
-// The machine timer serves the watchdog, which the machine has not, and the call every millisecond.
-std::int64_t watchdog_deadline = INT64_MAX;
+// The machine timer serves the watchdog and the call every millisecond.
+volatile bool fed = false;
+int hungry_looks = 0;
+std::int64_t next_look = 0;
 void (*millisecond_handler)(void*) = nullptr;
 void* millisecond_context = nullptr;
 
-void set_next_timer() {
-  const std::int64_t next = machine_ticks() + kMillisecond;
-  set_timer(millisecond_handler != nullptr || next > watchdog_deadline ? next : watchdog_deadline);
+void look_after_watchdog(std::int64_t now) {
+  if (now < next_look) return;
+  next_look = now + kWatchdogLook;
+  hungry_looks = fed ? 0 : hungry_looks + 1;
+  fed = false;
+  if (hungry_looks < kWatchdogLooks) return;
+  boot::announce_reset(retained(), wire::ResetCause::kWatchdog);
+  reset_machine();
 }
 
 class System final : public hal::System {
  public:
   std::uint32_t cycles() override { return static_cast<std::uint32_t>(instructions_retired()) * kCyclesPerInstruction; }
-  void feed_watchdog() override { watchdog_deadline = machine_ticks() + kWatchdogTicks; }
+  void feed_watchdog() override { fed = true; }
   void restart(bool stay_in_loader) override {
     boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
     reset_machine();
@@ -85,12 +103,10 @@ void note_reset_without_loader() {
 }  // namespace
 
 void on_timer_interrupt() {
-  if (machine_ticks() > watchdog_deadline) {
-    boot::announce_reset(retained(), wire::ResetCause::kWatchdog);
-    reset_machine();
-  }
+  const std::int64_t now = machine_ticks();
+  look_after_watchdog(now);
   if (millisecond_handler != nullptr) millisecond_handler(millisecond_context);
-  set_next_timer();
+  set_timer(millisecond_handler != nullptr ? now + kMillisecond : next_look);
 }
 
 }  // namespace pharos::board
@@ -103,16 +119,16 @@ Board start_board() {
   note_reset_without_loader();
   line.start();
   enable_timer_interrupt();
-  set_timer(machine_ticks() + kMillisecond);
   tape.start();
-  board::system.feed_watchdog();
-  set_next_timer();
+  next_look = machine_ticks() + kWatchdogLook;
+  set_timer(next_look);
   enable_interrupts();
   return {tape, line, board::system};
 }
 
 void rest() {
   if (tape.ended()) exit_emulator(0);
+  if (!tape.waiting()) return;  // a look at the clock is no record, but more may follow at once
   set_timer(machine_ticks() + kMillisecond);
   wait_for_interrupt();
 }
@@ -121,7 +137,7 @@ void call_every_millisecond(void (*handler)(void*), void* context) {
   const NoInterrupts guard;
   millisecond_context = context;
   millisecond_handler = handler;
-  set_next_timer();
+  set_timer(machine_ticks() + kMillisecond);
 }
 
 NoInterrupts::NoInterrupts() { disable_interrupts(); }

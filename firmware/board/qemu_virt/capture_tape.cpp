@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/board/qemu_virt/capture_tape.hpp"
 
+#include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/processor.hpp"
 #include "firmware/rtl/capture_registers.h"
 #include "pharos/base/ticks.hpp"
@@ -20,16 +21,26 @@ std::uint32_t word(const std::array<std::uint8_t, 16>& bytes, std::size_t index)
 void CaptureTape::start() {
   if (!console_.start()) return;
   while (!held_ && now_ticks_ == 0 && !ended_) {
-    if (!next()) wait_for_interrupt();
+    if (next()) continue;
+    set_timer(machine_ticks() + kTicksPerSecond / 1000);
+    wait_for_interrupt();
   }
 }
 
-// Takes the next words, if they have come whole. True when they were.
 bool CaptureTape::next() {
+  const auto before = static_cast<std::uint32_t>(instructions_retired());
+  const bool any = take_words();
+  instructions_ += static_cast<std::uint32_t>(instructions_retired()) - before;
+  return any;
+}
+
+// Takes the next words, if they have come whole. True when they were.
+bool CaptureTape::take_words() {
   while (count_ < bytes_.size()) {
-    const auto byte = console_.read();
-    if (!byte) return false;
-    bytes_[count_++] = *byte;
+    const auto come = console_.read(bytes_.size() - count_);
+    waiting_ = come.empty();
+    if (waiting_) return false;
+    for (const volatile std::uint8_t& byte : come) bytes_[count_++] = byte;
   }
   count_ = 0;
   const std::uint32_t status = word(bytes_, 0);

@@ -27,20 +27,27 @@ class CaptureTape final : public hal::EdgeCapture {
   std::uint32_t edges_lost() override { return lost_; }
   bool take_overflow() override;
   std::uint32_t inputs() override { return UINT32_MAX; }
+  /// Instructions spent on the tape, where a board reads four registers.
+  std::uint32_t instructions() const { return instructions_; }
+  /// No more words have come so far.
+  bool waiting() const { return waiting_; }
   /// All words have been read.
   bool ended() const { return ended_; }
 
  private:
   bool next();
+  bool take_words();
 
   VirtioConsole console_;
   std::array<std::uint8_t, 16> bytes_{};
   std::size_t count_ = 0;
   std::int64_t now_ticks_ = 0;
   std::uint32_t lost_ = 0;
+  std::uint32_t instructions_ = 0;
   bool overflow_ = false;      // the flag as last read
   bool new_overflow_ = false;  // it rose since last asked
   bool held_ = false;          // the record in bytes_ is not given out yet
+  bool waiting_ = false;
   bool ended_ = false;
 };
 

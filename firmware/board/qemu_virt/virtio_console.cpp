@@ -36,9 +36,12 @@ struct Used {
 struct Queue {
   Descriptor descriptors[kBuffers];
   std::uint16_t available_flags, available_count, available[kBuffers], available_event;
-  alignas(kAlign) std::uint16_t used_flags, used_count;
+  alignas(kAlign) std::uint16_t used_flags;
+  std::uint16_t used_count;
   Used used[kBuffers];
 };
+
+static_assert(offsetof(Queue, used) == 0xA4);
 
 [[gnu::section(".device")]] alignas(kAlign) volatile Queue queue;
 [[gnu::section(".device")]] volatile std::uint8_t buffers[kBuffers][kBufferBytes];
@@ -92,25 +95,20 @@ void VirtioConsole::offer(std::uint16_t buffer) {
   mmio32(base_ + kQueueNotify) = kReceiveQueue;
 }
 
-std::optional<std::uint8_t> VirtioConsole::read() {
+std::span<const volatile std::uint8_t> VirtioConsole::read(std::size_t most) {
   if (at_ == size_) {
-    if (size_ != 0) {
-      size_ = at_ = 0;
-      offer(buffer_);
-    }
+    if (size_ != 0) offer(buffer_);
+    size_ = at_ = 0;
     memory_barrier();
-    if (base_ == 0 || queue.used_count == taken_) return std::nullopt;
+    if (base_ == 0 || queue.used_count == taken_) return {};
     const volatile Used& used = queue.used[taken_ % kBuffers];
+    ++taken_;
     buffer_ = static_cast<std::uint16_t>(used.buffer);
     size_ = used.size;
-    at_ = 0;
-    ++taken_;
-    if (size_ == 0) {
-      offer(buffer_);
-      return std::nullopt;
-    }
   }
-  return buffers[buffer_][at_++];
+  const std::size_t begin = at_;
+  at_ += size_ - at_ < most ? size_ - at_ : most;
+  return std::span(buffers[buffer_]).subspan(begin, at_ - begin);
 }
 
 }  // namespace pharos::board

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
 
 namespace pharos::board {
 
@@ -16,8 +15,9 @@ class VirtioConsole {
   /// Buffers and ring lie in device memory (.device), which stands for the capture block's FIFO and not for the
   /// program's memory.
   bool start();
-  /// The next byte, if one has come.
-  std::optional<std::uint8_t> read();
+  /// Bytes that have come: as many as lie together, at most `most`; empty when there are none. They hold until the next
+  /// call.
+  std::span<const volatile std::uint8_t> read(std::size_t most);
 
  private:
   void offer(std::uint16_t buffer);

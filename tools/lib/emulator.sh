@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# The decoder board, emulated. Sourced by scripts.
+
+# emulate IMAGE LINE [QEMU-OPTION...]: runs an image with the capture block's words from standard input
+# (firmware/board/qemu_virt/capture_tape.hpp) until they end; what its UART says goes to the file LINE. Repeatable: an
+# instruction takes 1 ns of the emulator's time. Its exit code is that of the image, 124 when it hangs.
+emulate() {
+  local image=$1 line=$2
+  shift 2
+  timeout --kill-after=5 600 qemu-system-riscv32 -M virt -smp 1 -m 32M -bios none -nodefaults -display none \
+    -icount shift=0,sleep=off -device loader,file="$image",cpu-num=0 -serial "file:$line" \
+    -chardev stdio,id=edges,signal=off -device virtio-serial-device -device virtconsole,chardev=edges "$@"
+}
