@@ -34,7 +34,7 @@ void Decoder::push(const RawPulse& pulse) {
   } else if (width < kShortestPulseTicks) {
     ++counters_.pulses_glitch;
   } else {
-    admit({pulse.fall_ticks, static_cast<std::int32_t>(width), pulse.sensor, LightEvent::Kind::kPulse});
+    admit({pulse.fall_ticks, static_cast<std::uint16_t>(width), pulse.sensor, LightEvent::Kind::kPulse});
   }
 }
 
@@ -155,7 +155,7 @@ void Decoder::pass_time(std::int64_t now_ticks) {
 void Decoder::close(FlashGroup& group) {
   const FlashCandidate candidate = candidate_of(group);
   if (candidate.length_ticks < kShortestFlashTicks) {
-    for (const Pulse& pulse : group.pulses) collector_.push(pulse, counters_);
+    for (std::size_t k = 0; k < group.size(); ++k) collector_.push(group[k], counters_);
   } else {
     const auto flash = tracker_.push(candidate, counters_);
     (flash ? counters_.pulses_in_flashes : counters_.pulses_flash_length) += candidate.sensors;

@@ -25,8 +25,7 @@ class EventOrder {
   /// Must not be called when full().
   Verdict insert(const LightEvent& event) {
     if (event.stamp_ticks < given_out_ticks_) return Verdict::kLate;
-    const Held held{static_cast<std::uint32_t>(event.stamp_ticks), static_cast<std::uint16_t>(event.width_ticks),
-                    event.sensor, event.kind};
+    const Held held{static_cast<std::uint32_t>(event.stamp_ticks), event.width_ticks, event.sensor, event.kind};
     std::size_t place = size_;
     while (place > 0 && ticks_difference(at(place - 1).stamp, held.stamp) > 0) --place;
     for (std::size_t i = place; i > 0 && at(i - 1).stamp == held.stamp; --i) {
@@ -63,7 +62,7 @@ class EventOrder {
  private:
   struct Held {
     std::uint32_t stamp = 0;
-    std::uint16_t width_ticks = 0;  // at most kLongestPulseTicks
+    std::uint16_t width_ticks = 0;
     std::uint8_t sensor = 0;
     LightEvent::Kind kind = LightEvent::Kind::kPulse;
   };

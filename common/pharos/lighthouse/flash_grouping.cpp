@@ -7,13 +7,14 @@ namespace pharos::lighthouse {
 
 FlashCandidate candidate_of(const FlashGroup& group) {
   FlashCandidate candidate;
-  for (const Pulse& pulse : group.pulses) {
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const Pulse pulse = group[k];
     if (pulse.width_ticks > candidate.length_ticks) {
       candidate.length_ticks = pulse.width_ticks;
       candidate.start_ticks = pulse.rise_ticks;
     }
   }
-  candidate.sensors = static_cast<std::uint8_t>(group.pulses.size());
+  candidate.sensors = static_cast<std::uint8_t>(group.size());
   return candidate;
 }
 
@@ -24,11 +25,10 @@ bool FlashGrouping::push(const Pulse& pulse) {
       free = &group;
       continue;
     }
-    const std::int64_t apart = pulse.rise_ticks - group.pulses[0].rise_ticks;
-    if (apart <= kFlashRiseSpreadTicks && apart >= -kFlashRiseSpreadTicks && group.pulses.push_back(pulse)) return true;
+    if (group.rises_with(pulse) && group.push(pulse)) return true;
   }
   if (free == nullptr) return false;
-  free->pulses.push_back(pulse);
+  free->push(pulse);
   refresh_deadline();
   return true;
 }
@@ -40,7 +40,7 @@ FlashGroup& FlashGrouping::first_to_close() {
 }
 
 void FlashGrouping::close(FlashGroup& group) {
-  group.pulses.clear();
+  group.clear();
   refresh_deadline();
 }
 

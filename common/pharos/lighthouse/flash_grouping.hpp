@@ -12,12 +12,36 @@
 namespace pharos::lighthouse {
 
 /// Long pulses of several sensors that rise together: one flash, or something that looks like it.
-struct FlashGroup {
-  StaticVector<Pulse, kMaxSensors> pulses;
-
-  bool empty() const { return pulses.empty(); }
+class FlashGroup {
+ public:
+  bool empty() const { return pulses_.empty(); }
+  std::size_t size() const { return pulses_.size(); }
+  Pulse operator[](std::size_t k) const {
+    return {first_rise_ticks_ + pulses_[k].rise_after_first, pulses_[k].width_ticks, pulses_[k].sensor};
+  }
+  /// Whether it rises with the others; the first of a group always does.
+  bool rises_with(const Pulse& pulse) const {
+    const std::int64_t apart = pulse.rise_ticks - first_rise_ticks_;
+    return apart <= kFlashRiseSpreadTicks && apart >= -kFlashRiseSpreadTicks;
+  }
+  /// `pulse` rises with the others, or is the first; false when full.
+  bool push(const Pulse& pulse) {
+    if (empty()) first_rise_ticks_ = pulse.rise_ticks;
+    return pulses_.push_back({static_cast<std::int16_t>(pulse.rise_ticks - first_rise_ticks_),
+                              static_cast<std::uint16_t>(pulse.width_ticks), pulse.sensor});
+  }
+  void clear() { pulses_.clear(); }
   /// No pulse of this group can fall later.
-  std::int64_t deadline_ticks() const { return pulses[0].rise_ticks + kFlashRiseSpreadTicks + kLongestPulseTicks; }
+  std::int64_t deadline_ticks() const { return first_rise_ticks_ + kFlashRiseSpreadTicks + kLongestPulseTicks; }
+
+ private:
+  struct LongPulse {
+    std::int16_t rise_after_first = 0;  // within +-kFlashRiseSpreadTicks
+    std::uint16_t width_ticks = 0;
+    std::uint8_t sensor = 0;
+  };
+  StaticVector<LongPulse, kMaxSensors> pulses_;
+  std::int64_t first_rise_ticks_ = 0;
 };
 
 /// What a group says as a whole.

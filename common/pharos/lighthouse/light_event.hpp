@@ -10,13 +10,9 @@ struct LightEvent {
   enum class Kind : std::uint8_t { kPulse, kRise, kFall };
 
   std::int64_t stamp_ticks = 0;
-  std::int32_t width_ticks = 0;  // of a pulse
+  std::uint16_t width_ticks = 0;  // of a pulse; at most kLongestPulseTicks
   std::uint8_t sensor = 0;
   Kind kind = Kind::kPulse;
-
-  bool same_as(const LightEvent& other) const {
-    return stamp_ticks == other.stamp_ticks && sensor == other.sensor && kind == other.kind;
-  }
 };
 
 }  // namespace pharos::lighthouse
