@@ -103,9 +103,15 @@ bool Program::send() {
 
 report::Reporter::Bytes Program::next_frame() {
   if (commands_.take_identify()) schedule_.want_hello();
-  if (const Due due = schedule_.next(now_ticks_); due != Due::kNothing) return say(due);
-  if (commands_.has_answer()) return answer();
-  return next_result();
+  if (commands_.has_answer() && line_.frames() != 0) return answer();  // Hello is the first frame of all
+  // In turns, so that a Hello and two sets of counters in a row never hold up the few sweeps that can wait.
+  if (told_) {
+    told_ = false;
+    if (const auto frame = next_result(); !frame.empty()) return frame;
+  }
+  const Due due = schedule_.next(now_ticks_);
+  told_ = due != Due::kNothing;
+  return told_ ? say(due) : next_result();
 }
 
 report::Reporter::Bytes Program::next_result() {

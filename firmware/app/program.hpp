@@ -55,6 +55,7 @@ class Program {
   std::int64_t flushed_ticks_ = 0;    // of the last frame of raw edges
   std::int64_t line_free_ticks_ = 0;  // when the line last took a whole frame
   std::int64_t solver_seen_ticks_ = 0;
+  bool told_ = false;  // the last frame was said by the clock
   std::uint32_t overflows_ = 0;
   std::uint32_t raw_edges_lost_ = 0;  // for want of line speed
   std::uint32_t busy_cycles_ = 0;     // since the last report
