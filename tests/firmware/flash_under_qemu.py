@@ -12,10 +12,11 @@ import sys
 import tempfile
 import unittest
 
-from qemu_target import DECODER, LOADER, QemuTarget, have_qemu, raw_line
+from qemu_target import DECODER, LOADER, PoorLine, QemuTarget, have_qemu, raw_line
 
 PHAROS = IMAGES = None
 LOADER_MOST_BYTES = 4096
+BAUD = 460_800
 
 
 def flash(port, image, *options, **keywords):
@@ -37,8 +38,8 @@ class FlashUnderQemu(unittest.TestCase):
         path.write_bytes(change(data) or data)
         return path
 
-    def flashed(self, image, *options):
-        run = flash(self.target.port, image, *options)
+    def flashed(self, image, *options, port=None):
+        run = flash(port or self.target.port, image, *options)
         self.assertEqual(run.returncode, 0, run.stderr)
         return dict(zip(*(line.split(",") for line in run.stdout.splitlines())))
 
@@ -86,12 +87,43 @@ class FlashUnderQemu(unittest.TestCase):
         self.refused(2, "for the board 'ep4ce10'", self.made("--board", "ep4ce10", "--version", "2.0.0"))
         self.assert_runs((1, 0, 1))
 
-    def test_takes_64_kib(self):
+    def test_takes_64_kib_over_a_line_of_460800_baud(self):
         self.target.switch_on()
-        row = self.flashed(self.large)
-        self.assertGreater(int(row["image_bytes"]), 65536)
-        print(f"{row['image_bytes']} bytes, QEMU's UART knows no speed: {row['line_s']} s")
-        self.assert_runs((1, 0, 3))
+        line = PoorLine(self.target.port, BAUD)
+        self.addCleanup(line.close)
+        row = self.flashed(self.large, port=line.port)
+        payload = int(row["image_bytes"])
+        self.assertGreater(payload, 65536)
+        seconds = float(row["line_s"])
+        # The seconds are those of this computer and of what else it does; the bytes are not.
+        self.assertGreaterEqual(payload / line.bytes, 0.65)
+        print(f"{payload} bytes in {seconds:.2f} s: {1000 * payload / BAUD / seconds:.0f} % of the line; {line.bytes} bytes sent in all")
+
+    def test_a_line_that_loses_bytes_ends_well_or_cleanly(self):
+        self.target.switch_on()
+        self.flashed(self.first)
+        codes = []
+        for round, lost_of in enumerate((20_000, 5_000, 1_000, 200)):
+            line = PoorLine(self.target.port, 10 * BAUD, lost_of, seed=round)
+            run = flash(line.port, self.second if round % 2 == 0 else self.first, "--allow-older")
+            line.close()
+            codes.append(run.returncode)
+            self.assertIn(run.returncode, (0, 1), run.stderr)
+            self.target.switch_off()
+            self.target.switch_on()
+            self.assertIn(self.target.hello().version, ((1, 0, 1), (1, 0, 2)))
+        self.assertEqual(codes[:2], [0, 0])
+        self.flashed(self.first, "--allow-older")
+
+    def test_the_decoder_starts_the_loader_and_comes_back(self):
+        edges = pathlib.Path(self.folder.name) / "edges"
+        self.target = QemuTarget(IMAGES, pathlib.Path(self.folder.name) / "decoder_flash", edges)
+        self.addCleanup(self.target.switch_off)
+        self.target.switch_on()
+        decoder = IMAGES / "decoder.qemu_virt.image"
+        row = self.flashed(decoder)
+        self.assertEqual((row["board"], row["name"]), ("qemu_virt", "decoder"))
+        self.assertEqual(self.flashed(decoder)["version_before"], row["version"])
 
     def made(self, *options):
         path = pathlib.Path(self.folder.name) / "made.image"
@@ -133,11 +165,12 @@ class FlashUnderQemu(unittest.TestCase):
         self.assertEqual(run.returncode, 0, shown)
         self.assertIn(b"writing", shown)
 
-    def test_the_loader_keeps_its_4_kib(self):
-        size = (IMAGES / "qemu_virt_loader.bin").stat().st_size
-        print(f"loader, code and constants: {size} bytes")
-        self.assertLessEqual(size, LOADER_MOST_BYTES)
-        self.assertGreater(size, 1000)
+    def test_the_loaders_keep_their_4_kib(self):
+        for board in ("qemu_virt", "ep4ce10"):
+            size = (IMAGES / f"{board}_loader.bin").stat().st_size
+            print(f"loader of {board}, code and constants: {size} bytes")
+            self.assertLessEqual(size, LOADER_MOST_BYTES)
+            self.assertGreater(size, 1000)
 
 
 def main():

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A target under QEMU that is switched on and off: the loader, its flash kept in a file, its line a pseudo-terminal."""
+"""A target under QEMU that is switched on and off: the loader, its flash kept in a file, its line a pseudo-terminal; and a line
+that is slow and loses bytes."""
 
 import os
 import pathlib
+import pty
+import random
 import re
 import select
 import shutil
+import socket
 import struct
 import subprocess
 import termios
+import threading
 import time
 import tty
 import zlib
@@ -44,11 +49,13 @@ def raw_line(fd):
 
 
 class QemuTarget:
-    """`flash`: the file that holds the flash; made empty when there is none. As a context: switched off at its end."""
+    """`flash`: the file that holds the flash; made empty when there is none. `edges`: a socket for the capture block's words, whose
+    time the decoder lives in. As a context: switched off at its end."""
 
-    def __init__(self, images: pathlib.Path, flash: pathlib.Path):
+    def __init__(self, images: pathlib.Path, flash: pathlib.Path, edges: pathlib.Path | None = None):
         self.loader = images / "qemu_virt_loader.elf"
         self.flash = flash
+        self.edges = edges
         self.machine = None
         self.line = -1
         self.port = None
@@ -64,10 +71,14 @@ class QemuTarget:
         self.switch_off()
 
     def switch_on(self):
+        capture = []
+        if self.edges:
+            capture = ["-chardev", f"socket,id=edges,path={self.edges},server=on,wait=off", "-device", "virtio-serial-device",
+                       "-device", "virtconsole,chardev=edges"]
         self.machine = subprocess.Popen(
             ["qemu-system-riscv32", "-M", "virt", "-smp", "1", "-m", "32M", "-bios", "none", "-nodefaults", "-display", "none",
              "-serial", "pty", "-device", f"loader,file={self.loader},cpu-num=0",
-             "-drive", f"if=pflash,unit=1,format=raw,file={self.flash}"],
+             "-drive", f"if=pflash,unit=1,format=raw,file={self.flash}", *capture],
             stdout=subprocess.PIPE, text=True)
         first = self.machine.stdout.readline()
         found = re.search(r"/dev/pts/\d+", first)
@@ -78,6 +89,22 @@ class QemuTarget:
         self.line = os.open(self.port, os.O_RDWR | os.O_NOCTTY)
         raw_line(self.line)
         self.received = b""
+        if self.edges:
+            threading.Thread(target=self.feed_time, daemon=True).start()
+
+    def feed_time(self):
+        """An empty capture FIFO, told again and again, with its time (board/qemu_virt/capture_tape.hpp)."""
+        tape = socket.socket(socket.AF_UNIX)
+        began = time.monotonic()
+        try:
+            tape.connect(str(self.edges))
+            while True:
+                ticks = int((time.monotonic() - began) * 50e6)
+                tape.sendall(struct.pack("<IQI", 0, ticks, 0))
+                time.sleep(0.002)
+        except OSError:
+            pass  # switched off
+        tape.close()
 
     def switch_off(self):
         """As pulling the plug: SIGKILL. What was written to the flash is in the file."""
@@ -106,6 +133,39 @@ class QemuTarget:
         self.received = b""
         while select.select([self.line], [], [], 0)[0]:
             os.read(self.line, 4096)
+
+
+class PoorLine:
+    """A line between `port` and another pseudo-terminal: as slow as `baud` says, and of so many bytes one gets lost."""
+
+    def __init__(self, port, baud, lost_of=None, seed=1):
+        self.seconds_a_byte = 10 / baud
+        self.lost_of = lost_of
+        self.bytes = 0  # towards the target
+        self.target = os.open(port, os.O_RDWR | os.O_NOCTTY)
+        self.host, self.held = pty.openpty()
+        raw_line(self.held)
+        self.port = os.ttyname(self.held)
+        self.open = True
+        for source, sink, counts in ((self.host, self.target, True), (self.target, self.host, False)):
+            threading.Thread(target=self.carry, args=(source, sink, counts, random.Random(seed)), daemon=True).start()
+
+    def carry(self, source, sink, counts, dice):
+        free = time.monotonic()
+        while self.open:
+            if not select.select([source], [], [], 0.1)[0]:
+                continue
+            data = os.read(source, 64)
+            if counts:
+                self.bytes += len(data)
+            free = max(free, time.monotonic()) + len(data) * self.seconds_a_byte
+            time.sleep(max(0.0, free - time.monotonic()))
+            if self.lost_of:
+                data = bytes(byte for byte in data if dice.randrange(self.lost_of))
+            os.write(sink, data)
+
+    def close(self):
+        self.open = False
 
 
 def have_qemu():
