@@ -17,7 +17,8 @@ class FrameSender {
  public:
   static constexpr std::size_t kMaxPayload = wire::Hello::kMaxBytes;
 
-  /// A whole frame with its borders; it holds until the next call. `payload`: at most kMaxPayload bytes.
+  /// A whole frame with its borders; it holds until the next call. `payload`: 1 to kMaxPayload bytes (the
+  /// loader says nothing empty).
   std::span<const std::uint8_t> encode(wire::MessageType type, std::span<const std::uint8_t> payload);
 
  private:

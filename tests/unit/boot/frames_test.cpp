@@ -83,7 +83,7 @@ TEST(FrameSender, IsUnderstoodByTheHouse) {
   wire::FrameDecoder decoder;
   std::mt19937 random(3);
   for (std::uint16_t number = 0; number < 2000; ++number) {
-    const Bytes payload = random_payload(random, random() % (FrameSender::kMaxPayload + 1), number % 2 == 0);
+    const Bytes payload = random_payload(random, 1 + random() % FrameSender::kMaxPayload, number % 2 == 0);
     std::optional<wire::Frame> frame;
     for (const std::uint8_t byte : sender.encode(wire::MessageType::kHello, payload)) {
       ASSERT_FALSE(frame);
