@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The EP4CE10 system as addresses.hpp describes it. Links in every build; has not run on a board.
+#include "firmware/hal/board.hpp"
+
+#include "firmware/board/ep4ce10/addresses.hpp"
+#include "firmware/board/ep4ce10/capture_block.hpp"
+#include "firmware/board/rv32/processor.hpp"
+#include "firmware/board/rv32/restart.hpp"
+#include "firmware/board/rv32/stack_mark.hpp"
+#include "firmware/board/rv32/trap.hpp"
+#include "firmware/board/uart16550.hpp"
+
+namespace pharos::board {
+namespace {
+
+constexpr std::size_t kUartFifo = 128;
+constexpr std::uint32_t kMillisecond = 50'000;  // of the machine timer, which counts the core's 50 MHz
+// Intel's Interval Timer core set up as a watchdog of one second (Embedded Peripherals IP User Guide): it stands still
+// until started, and writing a period register winds it up again.
+constexpr std::uintptr_t kWatchdogControl = kWatchdog + 4;
+constexpr std::uintptr_t kWatchdogPeriod = kWatchdog + 8;
+constexpr std::uint32_t kWatchdogStart = 4;
+
+CaptureBlock capture(kCapture);
+
+class Line final : public hal::SerialLine {
+ public:
+  void start() { uart_.start(kUartDivisor); }
+  std::size_t write(std::span<const std::uint8_t> bytes) override { return uart_.write(bytes); }
+  bool idle() override { return uart_.idle(); }
+  std::optional<std::uint8_t> read() override { return uart_.read(); }
+  std::uint32_t receive_errors() override { return uart_.receive_errors(); }
+
+ private:
+  Uart16550 uart_{kUart, 4, kUartFifo};
+};
+Line line;
+
+class System final : public hal::System {
+ public:
+  std::uint32_t cycles() override { return mmio32(kMachineTimer); }
+  void feed_watchdog() override { mmio32(kWatchdogPeriod) = 0; }
+  void restart(bool stay_in_loader) override {
+    boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
+    reset_machine();
+  }
+  wire::ResetCause reset_cause() override { return boot::last_reset(retained()); }
+  std::uint16_t start_count() override { return static_cast<std::uint16_t>(retained().start_count); }
+  std::uint32_t stack_never_used_bytes() override { return board::stack_never_used_bytes(); }
+  std::string_view board_name() override { return "ep4ce10"; }
+  std::uint32_t unique_id() override { return 0; }
+};
+System system;
+
+void (*millisecond_handler)(void*) = nullptr;
+void* millisecond_context = nullptr;
+
+void set_timer_in(std::uint32_t ticks) {
+  const std::uint32_t high = mmio32(kMachineTimer + 4);
+  const std::uint32_t now = mmio32(kMachineTimer);
+  const std::uint32_t carry = mmio32(kMachineTimer + 4) - high;  // it passed a low word of 0 in between
+  const std::uint64_t next = (std::uint64_t{high + carry} << 32 | now) + ticks;
+  mmio32(kMachineTimerCompare + 4) = UINT32_MAX;
+  mmio32(kMachineTimerCompare) = static_cast<std::uint32_t>(next);
+  mmio32(kMachineTimerCompare + 4) = static_cast<std::uint32_t>(next >> 32);
+}
+
+}  // namespace
+
+/// No device can pull the reset line on demand, so the watchdog does: it is no longer fed.
+void reset_machine() {
+  disable_interrupts();
+  mmio32(kWatchdogControl) = kWatchdogStart;
+  for (;;) asm volatile("");
+}
+
+void on_timer_interrupt() {
+  set_timer_in(kMillisecond);
+  if (millisecond_handler != nullptr) millisecond_handler(millisecond_context);
+}
+
+}  // namespace pharos::board
+
+namespace pharos::hal {
+
+using namespace board;
+
+Board start_board() {
+  line.start();
+  mmio32(kWatchdogControl) = kWatchdogStart;
+  // Another block than this image was built for: no edge would mean anything.
+  if (!capture.start()) on_fault({.cause = 0, .address = kCapture, .value = mmio32(kCapture)});
+  return {capture, line, board::system};
+}
+
+void rest() {}
+
+void call_every_millisecond(void (*handler)(void*), void* context) {
+  millisecond_context = context;
+  millisecond_handler = handler;
+  set_timer_in(kMillisecond);
+  enable_timer_interrupt();
+  enable_interrupts();
+}
+
+NoInterrupts::NoInterrupts() { disable_interrupts(); }
+NoInterrupts::~NoInterrupts() { enable_interrupts(); }
+
+}  // namespace pharos::hal
