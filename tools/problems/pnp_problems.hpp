@@ -119,7 +119,12 @@ class PnpGenerator {
     const double y = std::tan(uniform(-set_.half_field_rad, set_.half_field_rad));
     LighthouseFromBody pose;
     pose.t = uniform(set_.least_range_m, set_.most_range_m) * Vector3(x, y, 1.0).normalized();
-    pose.R = Quaternion(normal(), normal(), normal(), normal()).normalized().toRotationMatrix();
+    // One draw a statement: compilers differ in the order of arguments, and a seed must give the same problems on all.
+    const double qz = normal();
+    const double qy = normal();
+    const double qx = normal();
+    const double qw = normal();
+    pose.R = Quaternion(qw, qx, qy, qz).normalized().toRotationMatrix();
     return pose;
   }
 

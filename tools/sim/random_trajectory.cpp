@@ -145,8 +145,10 @@ std::vector<RoomFromBody> random_rest_poses(const RandomRest& limits, const Targ
   std::vector<RoomFromBody> poses;
   for (int i = 0; i < limits.count; ++i) {
     const double angle = limits.max_angle_deg * kRadPerDeg;
-    const Vector3 direction =
-        Vector3(std::tan(random.uniform(-angle, angle)), std::tan(random.uniform(-angle, angle)), 1.0).normalized();
+    // One draw a statement: compilers differ in the order of arguments.
+    const double y = std::tan(random.uniform(-angle, angle));
+    const double x = std::tan(random.uniform(-angle, angle));
+    const Vector3 direction = Vector3(x, y, 1.0).normalized();
     const Vector3 position = direction * random.uniform(limits.min_range_m, limits.max_range_m);
     RoomFromBody pose{random_rotation(random), position};
     int tries = 0;
