@@ -61,17 +61,18 @@ int main() {
     const lighthouse::Edge edge{row.stamp_ticks(), row.sensor(), row.rising()};
     if (k == 0) first_ticks = edge.stamp_ticks;
     last_ticks = edge.stamp_ticks;
-    std::optional<lighthouse::Sweep> sweep;
-    std::optional<lighthouse::OotxPayload> payload;
-    std::uint32_t count = bench::instructions_of([&] {
-      measured.decoder.push(edge);
-      sweep = measured.decoder.take_sweep();
-      payload = measured.decoder.take_ootx();
-    });
-    while (sweep) {
-      take(tracker, *sweep);
-      count += bench::instructions_of([&] { sweep = measured.decoder.take_sweep(); });
+    std::uint32_t count = bench::instructions_of([&] { measured.decoder.push(edge); });
+    // As a program takes them: an optional that is assigned to is copied whole, full or not.
+    for (bool more = true; more;) {
+      const bench::Count taking;
+      const auto sweep = measured.decoder.take_sweep();
+      count += taking.instructions();
+      more = sweep.has_value();
+      if (more) take(tracker, *sweep);
     }
+    const bench::Count taking;
+    const auto payload = measured.decoder.take_ootx();
+    count += taking.instructions();
     if (payload) ++measured.payloads;
     measured.edge.add(count);
   }

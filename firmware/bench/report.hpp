@@ -45,14 +45,29 @@ class Input {
   std::uintptr_t at_ = kInputAddress;
 };
 
-/// Instructions of a call, without those of counting.
+/// Counts instructions from its construction on, without those of counting.
+class Count {
+ public:
+  Count() : empty_begin_(now()), begin_(now()) {}
+  std::uint32_t instructions() const {
+    const std::uint32_t end = now();
+    return end - begin_ - (begin_ - empty_begin_);
+  }
+
+ private:
+  // The counter's lower half: nothing that is counted runs for 2^32 instructions.
+  static std::uint32_t now() { return static_cast<std::uint32_t>(board::instructions_retired()); }
+
+  std::uint32_t empty_begin_;
+  std::uint32_t begin_;
+};
+
+/// Instructions of a call.
 template <class Call>
 std::uint32_t instructions_of(Call&& call) {
-  const auto empty_begin = static_cast<std::uint32_t>(board::instructions_retired());
-  const auto begin = static_cast<std::uint32_t>(board::instructions_retired());
+  const Count count;
   call();
-  const auto end = static_cast<std::uint32_t>(board::instructions_retired());
-  return end - begin - (begin - empty_begin);
+  return count.instructions();
 }
 
 /// Median and worst of many counts, exact up to kBins, then to the next power of two's 256th.

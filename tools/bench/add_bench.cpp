@@ -2,9 +2,11 @@
 // pharos bench: speed and accuracy beside peers, in one run.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "tools/bench/bench_decode.hpp"
 #include "tools/bench/bench_pose.hpp"
+#include "tools/bench/bench_target.hpp"
 #include "tools/bench/peer_module.hpp"
 #include "tools/cli/commands.hpp"
 
@@ -14,18 +16,36 @@ namespace {
 constexpr const char* kExample =
     "Example:\n"
     "  pharos bench pose --csv\n"
+    "  pharos bench target --edges recording.edges.csv.gz\n"
     "ratio: how many times better ours is than the peer's in the same run. Times are medians over the problems of the\n"
-    "least of nine repeats.";
+    "least of nine repeats.\n"
+    "target: what the soft core spends, counted by programs that run on its instruction set under QEMU (built by the\n"
+    "target `firmware`); the same in every run. The host's figures beside them are times.";
 
 struct Options {
   std::string what = "all";
   std::string edges;
-  int problems = 2000;
+  std::optional<int> problems;
+  std::string images;
+  bool by_sensors = false;
   bool csv = false;
   bool json = false;
 };
 
+BenchForm form_of(const Options& options) {
+  return options.json ? BenchForm::kJson : options.csv ? BenchForm::kCsv : BenchForm::kPretty;
+}
+
+int run_target(const Options& options) {
+  TargetBench target{options.edges, options.images};
+  if (options.problems) target.problems = *options.problems;
+  write_target_rows(options.by_sensors ? bench_target_by_sensors(target) : bench_target(target), form_of(options));
+  return kExitAnswered;
+}
+
 int run(const Options& options) {
+  constexpr int kProblems = 2000;
+  if (options.what == "target") return run_target(options);
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
   if (options.what != "decode") {
@@ -34,10 +54,10 @@ int run(const Options& options) {
       std::fprintf(stderr, "pharos bench: %s is not beside the program (built without OpenCV): no peers\n",
                    kPeerModuleName);
     }
-    append(bench_pose(options.problems, peers));
+    append(bench_pose(options.problems.value_or(kProblems), peers));
   }
   if (options.what != "pose") append(bench_decode(options.edges));
-  write_rows(rows, options.json ? BenchForm::kJson : options.csv ? BenchForm::kCsv : BenchForm::kPretty);
+  write_rows(rows, form_of(options));
   return kExitAnswered;
 }
 
@@ -46,10 +66,13 @@ int run(const Options& options) {
 void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Speed and accuracy, ours and peers', as ratios in one run");
   const auto options = std::make_shared<Options>();
-  command->add_option("what", options->what, "pose, decode or all (default)")
-      ->check(CLI::IsMember({"all", "pose", "decode"}));
+  command->add_option("what", options->what, "pose, decode, all of these (default), or target: the soft core")
+      ->check(CLI::IsMember({"all", "pose", "decode", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
-  command->add_option("--problems", options->problems, "Pose problems (2000)")->check(CLI::Range(10, 1'000'000));
+  command->add_option("--problems", options->problems, "Pose problems (2000; target 200)")
+      ->check(CLI::Range(10, 1'000'000));
+  command->add_option("--images", options->images, "target: folder of the images (the build's, or the installed one)");
+  command->add_flag("--sensors", options->by_sensors, "target: how the figures grow from 4 to 32 sensors");
   auto* csv = command->add_flag("--csv", options->csv, "what,ours,peer,ratio,unit instead of aligned columns");
   command->add_flag("--json", options->json, "One JSON object a line")->excludes(csv);
   command->footer(kExample);
