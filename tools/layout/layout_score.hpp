@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/target.hpp"
+
+namespace pharos::layout {
+
+/// What of the poses' precision counts: their mean, the worst, or the value that a share of them does not exceed.
+struct Objective {
+  enum class Kind { kMean, kWorst, kPercentile };
+  Kind kind = Kind::kMean;
+  double percentile = 95.0;
+};
+double statistic(std::vector<double> values, const Objective& objective);
+
+/// Precision factors (22) of paper 002 at each pose; none where a target cannot be measured.
+struct Dop {
+  double adop_deg_per_rad = 0.0;
+  double pdop_m_per_rad = 0.0;
+};
+using Dops = std::vector<std::optional<Dop>>;
+
+/// How light and sensors behave.
+struct Sight {
+  double incidence_rad = 0.0;  // from a sensor's normal up to which it sees the station
+  double rho = 0.0;            // correlation of bearings within a rotor, (19)
+};
+
+/// Sensors are seen by their normals; the body is convex and so casts no shadow on a sensor that faces the station.
+Dops dops_of(const Target& target, const std::vector<LighthouseFromBody>& poses, const Sight& sight);
+
+/// Factors over poses, joined.
+struct Score {
+  double adop_deg_per_rad = 0.0;
+  double pdop_m_per_rad = 0.0;
+  std::size_t measured = 0;
+};
+
+/// Over the poses that were measured. Nothing measured: zeros.
+Score score_of(const Dops& dops, const Objective& objective);
+
+/// Judges layouts by one number: weight * ADOP / reference + (1 - weight) * PDOP / reference, 1 for the reference
+/// itself. A pose that cannot be measured counts as ten times the reference, so that covering it is worth something.
+class Judge {
+ public:
+  /// `reference` has measured at least one pose.
+  Judge(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective, double attitude_weight,
+        const Score& reference);
+  double operator()(const Target& target) const;
+
+ private:
+  std::vector<LighthouseFromBody> poses_;
+  Sight sight_;
+  Objective objective_;
+  double attitude_weight_;
+  Score reference_;
+};
+
+}  // namespace pharos::layout

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "tools/layout/convex_body.hpp"
+#include "tools/layout/layout_score.hpp"
+
+namespace pharos::layout {
+
+/// Where sensors may sit.
+struct Rules {
+  std::size_t sensors = 12;
+  double spacing_m = 0.012;  // between centres
+  double edge_m = 0.003;     // from a centre to its face's edges: half of a photodiode of 5 mm, and 0.5 mm
+};
+
+/// A place on a body.
+struct Seat {
+  std::size_t facet = 0;
+  Vector2 xy = Vector2::Zero();
+};
+using Seats = std::vector<Seat>;
+
+/// Sensors 0, 1, … on their seats, normals those of the faces; positions on whole 0.01 mm.
+Target target_of(const ConvexBody& body, const Seats& seats);
+
+/// Facets that a sensor on them could see the station from, at one of the poses at least.
+std::vector<std::size_t> seen_facets(const ConvexBody& body, const std::vector<LighthouseFromBody>& poses,
+                                     double incidence_rad);
+
+/// Searches the best layout on some facets: `starts` spread or random layouts, each improved by exchanging one sensor
+/// at a time for the best free seat of a grid, the best of them then by moving sensors on their faces down to 0.1 mm.
+/// The same seed gives the same layout on every machine with the same arithmetic.
+class LayoutSearch {
+ public:
+  LayoutSearch(const ConvexBody& body, std::vector<std::size_t> facets, Rules rules, std::uint64_t seed);
+
+  /// A first layout, spread as far as it goes; none where the sensors have no room.
+  std::optional<Seats> spread() const;
+  /// Needs spread() to have an answer. Every so often `tick` is called.
+  Seats best(const Judge& judge, int starts, const std::function<void()>& tick) const;
+
+ private:
+  Seats scattered(std::uint64_t seed) const;
+  bool has_room(const Seats& seats, std::size_t except, const Seat& seat) const;
+  double exchange(Seats& seats, const Judge& judge, const std::function<void()>& tick) const;
+  void polish(Seats& seats, const Judge& judge, const std::function<void()>& tick) const;
+
+  const ConvexBody& body_;
+  Rules rules_;
+  std::uint64_t seed_;
+  std::vector<std::vector<Vector2>> insets_;  // by facet of the body; empty: no seats there
+  std::vector<Seat> grid_;
+  double step_m_ = 0.0;
+};
+
+}  // namespace pharos::layout
