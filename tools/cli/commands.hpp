@@ -17,10 +17,12 @@ void add_track(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_precision(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
-void add_sim(CLI::App& app, int& exit_code);     // tools/sim
-void add_listen(CLI::App& app, int& exit_code);  // tools/listen
-void add_flash(CLI::App& app, int& exit_code);   // tools/flash
-void add_bench(CLI::App& app, int& exit_code);   // tools/bench
+void add_sim(CLI::App& app, int& exit_code);       // tools/sim
+void add_listen(CLI::App& app, int& exit_code);    // tools/listen
+void add_flash(CLI::App& app, int& exit_code);     // tools/flash
+void add_bench(CLI::App& app, int& exit_code);     // tools/bench
+void add_evaluate(CLI::App& app, int& exit_code);  // tools/evaluate
+void add_layout(CLI::App& app, int& exit_code);    // tools/layout
 
 inline void add_commands(CLI::App& app, int& exit_code) {
   add_decode(app, exit_code);
@@ -32,6 +34,8 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_listen(app, exit_code);
   add_flash(app, exit_code);
   add_bench(app, exit_code);
+  add_evaluate(app, exit_code);
+  add_layout(app, exit_code);
 }
 
 }  // namespace pharos::tools
