@@ -96,9 +96,11 @@ TEST_F(Loader, FallsBackToTheOlderImageWhenTheNewerOneRotted) {
   target.run(kTicksPerSecond);
   EXPECT_TRUE(runs(target, old_image));
   // What is flashed now goes over the rotten one, and is newer than it.
+  const Bytes before = slot_bytes(target, 0);
   ASSERT_TRUE(host.flash(new_image));
   target.run(kTicksPerSecond);
   EXPECT_TRUE(runs(target, new_image));
+  EXPECT_EQ(slot_bytes(target, 0), before);
 }
 
 TEST_F(Loader, RefusesWhatCannotRunHere) {

@@ -99,6 +99,18 @@ TEST(PowerCut, OverAnInterruptedFlashingLeavesAWholeImage) {
   cut_at_every_step(300, target.machine.flash.bytes, good, next);
 }
 
+TEST(PowerCut, OverANewerImageThatRottedLeavesTheOlderOne) {
+  const Bytes good = make_image(1, {.body_bytes = 600});
+  const Bytes rotten = make_image(2, {.body_bytes = 500});
+  const Bytes next = make_image(3, {.body_bytes = 400});
+  VirtualTarget target;
+  Host host(target);
+  start_with(target, host, good);
+  ASSERT_TRUE(host.flash(rotten));
+  target.machine.flash.bytes[ModelBoard::slot_offset(1) + 400] ^= 1;
+  cut_at_every_step(400, target.machine.flash.bytes, good, next);
+}
+
 TEST(PowerCut, WhileTheFirstImageIsWrittenLeavesALoaderThatTakesIt) {
   const Bytes image = make_image(1, {.body_bytes = 300});
   for (std::uint64_t cut = 0; cut < 6 + 300 + 72; cut += 7) {
