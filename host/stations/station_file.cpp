@@ -66,10 +66,15 @@ std::string exact(double value) {
 
 }  // namespace
 
-std::vector<StationEntry> read_station_file(const std::string& path) {
-  const TomlTable root = TomlTable::parse_file(path);
+std::vector<StationEntry> read_stations(const TomlTable& root) {
   std::vector<StationEntry> entries;
   for (const TomlTable& table : root.tables("station")) entries.push_back(read_entry(table));
+  return entries;
+}
+
+std::vector<StationEntry> read_station_file(const std::string& path) {
+  const TomlTable root = TomlTable::parse_file(path);
+  std::vector<StationEntry> entries = read_stations(root);
   root.reject_unknown();
   return entries;
 }

@@ -10,6 +10,8 @@
 
 namespace pharos::host {
 
+class TomlTable;
+
 /// One [[station]] of a station file: by id as its OOTX says, by slot position whatever its id, or both.
 struct StationEntry {
   std::optional<std::uint32_t> id;
@@ -20,6 +22,9 @@ struct StationEntry {
 /// Reads a station file (README.md shows one; `-` is standard input). Throws InputError naming file, line and key for
 /// what is not one: an entry without id and slot, an unknown key, an angle that no station has.
 std::vector<StationEntry> read_station_file(const std::string& path);
+
+/// The [[station]] tables of a file that holds more than stations.
+std::vector<StationEntry> read_stations(const TomlTable& root);
 
 /// One [[station]] by id, which read_station_file reads back exactly.
 std::string station_text(const lighthouse::StationCalibration& station);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "host/calibrate/still.hpp"
+#include "host/calibrate/unknowns.hpp"
+
+namespace pharos::calibrate {
+
+/// Everything that one adjustment starts from and is measured against.
+struct BundleProblem {
+  const std::vector<Still>* stills = nullptr;
+  Homes home;        // by still
+  Unknowns nominal;  // prior means; poses and station poses are starting values
+  PriorSigmas sigmas;
+  std::vector<MeasuredLength> lengths;
+  lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
+  /// What the model does not explain, on every mean angle, 1 sigma.
+  double unmodelled_rad = 0.0;
+};
+
+/// One bearing after the adjustment.
+struct BearingResidual {
+  std::size_t still = 0;
+  std::size_t view = 0;       // index in Still::rotors
+  std::size_t bearing = 0;    // index in RotorView::bearings
+  double residual_rad = 0.0;  // measured minus model, the common part taken out
+  double sigma_rad = 0.0;     // own part, unmodelled part included
+  /// Share of this bearing that the unknowns took up, 0 to 1: its residual's variance is sigma^2 (1 - leverage).
+  double leverage = 0.0;
+};
+
+/// What one length says beside everything else.
+struct LengthCheck {
+  double by_rest_m = 0.0;  // the distance that all the rest gives
+  double by_rest_sigma_m = 0.0;
+  double sigmas_apart = 0.0;  // difference over the sigma of both
+};
+
+/// One calibration parameter, as it was believed and as it is.
+struct Parameter {
+  std::string name;  // "sensor 3 x_m", "station BEC08E38 rotor x phase_rad"
+  double prior = 0.0;
+  double value = 0.0;
+  double prior_sigma = 0.0;  // in the same body frame; 0: there was no prior (where two stations stand)
+  double sigma = 0.0;
+};
+
+struct BundleResult {
+  Unknowns unknowns;
+  bool converged = false;
+  std::vector<BearingResidual> residuals;
+  std::vector<LengthCheck> lengths;
+  std::vector<Parameter> parameters;
+  /// Of the parameters' errors, in their order. Where two stations stand: rotation vector (rad) before translation, of
+  /// the error delta of Pose::moved_by. Sensors that were never hit keep their prior.
+  Eigen::MatrixXd covariance;
+  /// Of the target's size, relative: sigma before and after the recordings and lengths.
+  double scale_prior_sigma = 0.0;
+  double scale_sigma = 0.0;
+};
+
+/// Adjusts everything at once: sensor positions, rotor parameters, where the second station stands and every still's
+/// pose, with Huber's loss at three sigma on each bearing. The body frame is the one in which the sensors that were hit
+/// lie on their nominal positions by least squares.
+///
+/// Cost: (15 + 4 stills)^3 operations a step; 30 stills of 12 sensors take some 0.2 s.
+BundleResult adjust(const BundleProblem& problem);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/calibration_file.hpp"
+
+#include "host/config/strict_toml.hpp"
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::calibrate {
+namespace {
+
+using host::InputError;
+using host::Range;
+using host::TomlTable;
+
+constexpr Range kMetres{-12.0, 12.0};  // as in a target's table
+constexpr double kSamePlace_m = 1e-3;
+constexpr std::int64_t kMostParameters = 3 * kMaxSensors + kMaxStations * kAxes * kRotorParameters + 6;
+
+Vector3 vector_of(const std::array<double, 3>& values) { return Vector3(values.data()); }
+
+void read_sensor(const TomlTable& table, CalibrationFile& file) {
+  SensorPlacement sensor;
+  sensor.sensor = static_cast<std::uint8_t>(table.integer("sensor", 0, kMaxSensors - 1));
+  sensor.position_m = vector_of(table.vector<3>("position_m", kMetres));
+  sensor.normal = vector_of(table.vector_or<3>("normal", {}, {-1.0, 1.0}));
+  if (find_sensor(file.sensors, sensor.sensor) != nullptr) table.fail("sensor", "stands already in the file");
+  file.sensors.push_back(sensor);
+  file.nominal_m.push_back(vector_of(table.vector<3>("nominal_m", kMetres)));
+  table.vector_or<3>("sigma_m", {}, host::kNotNegative);
+}
+
+// For people and for whoever wants to know how sure the calibration is; tracking itself uses the scale.
+void read_summary(const TomlTable& table, CalibrationFile& file) {
+  table.choice_or("scale", "prior", {"prior", "measured"});
+  file.scale_sigma = table.number_or("scale_sigma", 0.0, {0.0, 1.0});
+  file.model_form = static_cast<int>(table.integer_or("model_form", 0, 1, 2));
+  table.integer_or("stills", 0, 0, 1'000'000'000);
+  table.integer_or("poses", 0, 0, 1'000'000'000);
+  table.number_or("unmodelled_arcsec", 0.0, host::kNotNegative);
+  table.text_or("body_frame", "");
+  file.parameters = table.texts("parameters");
+  if (file.parameters.size() > static_cast<std::size_t>(kMostParameters)) {
+    table.fail("parameters", "more than any calibration has");
+  }
+  file.covariance = table.rows("covariance", file.parameters.size());
+  if (file.covariance.size() != file.parameters.size()) {
+    table.fail("covariance", "must have a row for each of the parameters");
+  }
+}
+
+void read_pair(const TomlTable& table) {
+  table.text("reference");
+  table.text("station");
+  table.vector<4>("orientation_wxyz", {-1.0, 1.0});
+  table.vector<3>("position_m");
+}
+
+}  // namespace
+
+CalibrationFile read_calibration_file(const std::string& path) {
+  const TomlTable root = TomlTable::parse_file(path);
+  CalibrationFile file;
+  file.name = path == "-" ? "standard input" : path;
+  file.stations = host::read_stations(root);
+  read_summary(root.table_or_empty("calibration"), file);
+  for (const TomlTable& table : root.tables("sensor")) read_sensor(table, file);
+  for (const TomlTable& table : root.tables("pair")) read_pair(table);
+  root.reject_unknown();
+  if (file.has_target()) {
+    const auto shape = check_target(file.sensors);
+    if (!shape) throw InputError(file.name + ": the [[sensor]] tables are no target: " + describe(shape.error()));
+  }
+  return file;
+}
+
+Target calibrated_target(const CalibrationFile& file, const Target& nominal) {
+  if (!file.has_target()) return nominal;
+  const std::string other = file.name + ": a calibration of another target: ";
+  Target target = nominal;
+  for (SensorPlacement& sensor : target) {
+    const SensorPlacement* calibrated = find_sensor(file.sensors, sensor.sensor);
+    const std::string which = "sensor " + std::to_string(sensor.sensor);
+    if (calibrated == nullptr) {
+      throw InputError(other + which + " is not in it; give the calibration made with this table");
+    }
+    const Vector3& was = file.nominal_m[static_cast<std::size_t>(calibrated - file.sensors.begin())];
+    if ((sensor.position_m - was).norm() > kSamePlace_m) {
+      throw InputError(other + which + " stands elsewhere in its table; calibrate with this table");
+    }
+    sensor.position_m = calibrated->position_m;
+  }
+  for (const SensorPlacement& sensor : file.sensors) {
+    if (find_sensor(nominal, sensor.sensor) == nullptr) {
+      throw InputError(other + "its sensor " + std::to_string(sensor.sensor) +
+                       " is not in the target's table; give the calibration made with this table");
+    }
+  }
+  return target;
+}
+
+void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma) {
+  // A target that is larger by s stands farther away by s.
+  const Vector3 shift_m = scale_sigma * estimate.pose.t;
+  estimate.covariance.bottomRightCorner<3, 3>() += shift_m * shift_m.transpose();
+}
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/calibrate/lighthouse_calibration.hpp"
+#include "host/stations/station_file.hpp"
+#include "pharos/geometry/pose_estimate.hpp"
+
+namespace pharos::calibrate {
+
+/// What a file of calibrations says: stations alone (host/stations), or with the target that was calibrated with them.
+struct CalibrationFile {
+  std::string name;  // for messages
+  std::vector<host::StationEntry> stations;
+  Target sensors;                  // as calibrated; empty: of stations only
+  std::vector<Vector3> nominal_m;  // of each of them, as the target's table gave it
+  double scale_sigma = 0.0;        // relative, of the target's size and so of every range
+  int model_form = 0;              // 0: the file does not say
+  std::vector<std::string> parameters;
+  std::vector<std::vector<double>> covariance;
+
+  bool has_target() const { return !sensors.empty(); }
+};
+
+/// Reads a calibration (`-`: standard input). Throws InputError naming file, line and key.
+CalibrationFile read_calibration_file(const std::string& path);
+
+/// `nominal` with the calibrated positions; `nominal` itself where the file holds no target. Throws InputError where
+/// the file is of another target: other sensor numbers, or positions other than those that it was calibrated from (1
+/// mm).
+Target calibrated_target(const CalibrationFile& file, const Target& nominal);
+
+/// A pose's covariance with what the target's uncertain size puts on its range.
+void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma);
+
+/// The file of a calibration, which read_calibration_file reads back exactly. README.md says what it holds.
+std::string calibration_text(const LighthouseCalibration& calibration, const Target& nominal);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/lighthouse_calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <tuple>
+
+#include "host/calibrate/gather.hpp"
+#include "host/calibrate/layout.hpp"
+#include "host/calibrate/noise_level.hpp"
+#include "host/calibrate/start_pose.hpp"
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+
+namespace pharos::calibrate {
+namespace {
+
+using host::InputError;
+
+// Nominal positions and stations put about 0.4 mm at 2 m on an angle, which a single pose cannot explain.
+constexpr double kNominalSigma_rad = 60.0 * kRadPerArcsec;
+// After a first adjustment.
+constexpr double kCalibratedSigma_rad = 10.0 * kRadPerArcsec;
+// A pose elsewhere, for counting: what a hand moves on purpose.
+constexpr double kElsewhere_m = 0.02;
+constexpr double kElsewhere_rad = 5.0 * kRadPerDeg;
+constexpr std::size_t kFewestPoses = 6;
+constexpr double kContradiction = 5.0;
+
+// Poses of one still before each station.
+using StationPoses = std::array<std::optional<LighthouseFromBody>, kMaxStations>;
+
+class Calibration {
+ public:
+  explicit Calibration(LighthouseMaterial material) : material_(std::move(material)) {
+    require_sensors();
+    Gathered gathered = gather(material_);
+    stills_ = std::move(gathered.stills);
+    result_.strangers = gathered.strangers;
+    result_.form = material_.form;
+    result_.scale_measured = !material_.lengths.empty();
+    nominal_.target = material_.target;
+    nominal_.station = std::move(gathered.stations);
+  }
+
+  LighthouseCalibration run() {
+    start(nominal_.target, nominal_.station, kNominalSigma_rad);
+    require_poses();
+    require_length_ends();
+    note_before();
+    BundleResult first = adjust(problem());
+    refuse_contradiction(first);
+    // Whoever stood in its mirror image, or was ambiguous, comes right with what was learnt.
+    stills_ = all_stills_;
+    start(first.unknowns.target, first.unknowns.station, std::hypot(kCalibratedSigma_rad, unmodelled_of(first)));
+    result_.bundle = settle(std::move(first));
+    refuse_contradiction(result_.bundle);
+    note_after();
+    result_.stills = stills_.size();
+    result_.poses = distinct_poses();
+    result_.unmodelled_rad = unmodelled_rad_;
+    return std::move(result_);
+  }
+
+ private:
+  void require_sensors() const {
+    for (const MeasuredLength& length : material_.lengths) {
+      for (const std::uint8_t sensor : {length.a, length.b}) {
+        if (find_sensor(material_.target, sensor) != nullptr) continue;
+        throw InputError(text_of(length) + ": the target has no sensor " + std::to_string(sensor) +
+                         "; give two numbers of its table");
+      }
+    }
+  }
+
+  // A pose for every still and station that see each other; keeps the stills that have one.
+  void start(const Target& target, const std::vector<lighthouse::StationCalibration>& stations, double sigma_rad) {
+    if (all_stills_.empty()) all_stills_ = stills_;
+    std::vector<Still> kept;
+    std::vector<StationPoses> poses;
+    result_.stills_unsolved = 0;
+    for (Still& still : stills_) {
+      StationPoses here;
+      for (std::size_t s = 0; s < stations.size(); ++s) {
+        const auto found = start_pose(still, s, target, stations[s], material_.form, sigma_rad);
+        if (found && !found->ambiguous) {
+          here[s] = found->pose;
+        } else {
+          std::erase_if(still.rotors, [s](const RotorView& view) { return view.station == s; });
+        }
+      }
+      if (still.rotors.empty()) {
+        ++result_.stills_unsolved;
+        continue;
+      }
+      kept.push_back(std::move(still));
+      poses.push_back(here);
+    }
+    stills_ = std::move(kept);
+    tie_stations(poses);
+    place(poses);
+  }
+
+  // Where the second station stands: of what each still that both see says, the one nearest to all others.
+  void tie_stations(const std::vector<StationPoses>& poses) {
+    nominal_.T_reference_station.assign(nominal_.station.size(), std::nullopt);
+    nominal_.T_reference_station[0] = ReferenceFromStation{};
+    std::vector<ReferenceFromStation> said;
+    for (const StationPoses& here : poses) {
+      if (here[0] && here[1]) said.push_back(*here[0] * here[1]->inverse());
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const ReferenceFromStation& candidate : said) {
+      double sum = 0.0;
+      for (const ReferenceFromStation& other : said) sum += pose_difference(candidate, other).norm();
+      if (sum >= least) continue;
+      least = sum;
+      nominal_.T_reference_station[1] = candidate;
+    }
+  }
+
+  void place(const std::vector<StationPoses>& poses) {
+    home_.clear();
+    nominal_.T_home_body.clear();
+    for (const StationPoses& here : poses) {
+      const bool tied = nominal_.station.size() > 1 && nominal_.T_reference_station[1].has_value();
+      home_.push_back(here[0] || tied ? 0 : 1);
+      if (here[home_.back()]) {
+        nominal_.T_home_body.push_back(*here[home_.back()]);
+      } else {
+        nominal_.T_home_body.push_back(*nominal_.T_reference_station[1] * *here[1]);
+      }
+    }
+  }
+
+  std::size_t distinct_poses() const {
+    std::vector<std::pair<std::size_t, LighthouseFromBody>> places;
+    for (std::size_t i = 0; i < stills_.size(); ++i) {
+      const LighthouseFromBody& pose = nominal_.T_home_body[i];
+      const bool known = std::any_of(places.begin(), places.end(), [&](const auto& place) {
+        const Vector6 difference = pose_difference(pose, place.second);
+        return place.first == home_[i] && difference.head<3>().norm() < kElsewhere_rad &&
+               difference.tail<3>().norm() < kElsewhere_m;
+      });
+      if (!known) places.emplace_back(home_[i], pose);
+    }
+    return places.size();
+  }
+
+  void require_poses() const {
+    const std::size_t poses = distinct_poses();
+    const std::string rested = std::to_string(stills_.size() + result_.stills_unsolved) + " rests";
+    if (poses == 0) {
+      throw InputError("none of " + rested +
+                       " gave a pose; is --target the table of this target? `pharos track` says why");
+    }
+    if (poses == 1) {
+      throw InputError("the target never moved: " + rested +
+                       ", all in one pose; record rests in at least six poses that differ in place and attitude");
+    }
+    if (poses < kFewestPoses) {
+      throw InputError("too few poses: " + std::to_string(poses) + " of the needed " + std::to_string(kFewestPoses) +
+                       " (" + rested + ", " + std::to_string(result_.stills_unsolved) +
+                       " without a sure pose); record more, differing in place and attitude");
+    }
+  }
+
+  void require_length_ends() const {
+    const Blocks blocks(problem());
+    for (const MeasuredLength& length : material_.lengths) {
+      for (const std::uint8_t sensor : {length.a, length.b}) {
+        if (blocks.hit[index_in(material_.target, sensor)]) continue;
+        throw InputError(text_of(length) + ": sensor " + std::to_string(sensor) +
+                         " was never hit at rest; record poses that show it, or give another length");
+      }
+    }
+  }
+
+  BundleProblem problem() const {
+    BundleProblem problem;
+    problem.stills = &stills_;
+    problem.home = home_;
+    problem.nominal = nominal_;
+    problem.sigmas = material_.sigmas;
+    problem.lengths = material_.lengths;
+    problem.form = material_.form;
+    problem.unmodelled_rad = unmodelled_rad_;
+    return problem;
+  }
+
+  // Adjusts, strikes what fits no rigid body and sets the level of what the model does not explain, until both stay.
+  BundleResult settle(BundleResult last) {
+    constexpr int kMostRounds = 6;
+    for (int round = 0; round < kMostRounds; ++round) {
+      last = adjust(problem());
+      const std::size_t struck = strike_outliers(last.residuals, stills_);
+      const double level = unmodelled_level(last.residuals, unmodelled_rad_);
+      const bool settled = struck == 0 && std::abs(level - unmodelled_rad_) < 0.02 * level + 0.02 * kRadPerArcsec;
+      result_.bearings_struck += struck;
+      if (settled) break;
+      unmodelled_rad_ = level;
+      nominal_.T_home_body = last.unknowns.T_home_body;
+      nominal_.T_reference_station = last.unknowns.T_reference_station;
+    }
+    return last;
+  }
+
+  double unmodelled_of(const BundleResult& bundle) const { return unmodelled_level(bundle.residuals, 0.0); }
+
+  static std::string text_of(const MeasuredLength& length) {
+    return "--length " + std::to_string(length.a) + "," + std::to_string(length.b);
+  }
+
+  void refuse_contradiction(const BundleResult& bundle) const {
+    std::size_t worst = 0;
+    for (std::size_t i = 1; i < bundle.lengths.size(); ++i) {
+      if (bundle.lengths[i].sigmas_apart > bundle.lengths[worst].sigmas_apart) worst = i;
+    }
+    if (bundle.lengths.empty() || bundle.lengths[worst].sigmas_apart < kContradiction) return;
+    const MeasuredLength& length = material_.lengths[worst];
+    std::array<char, 256> text{};
+    std::snprintf(
+        text.data(), text.size(),
+        ": %.3f mm contradicts all the rest by %.1f sigma (%.3f +- %.3f mm); measure again, or correct the target's "
+        "table",
+        length.length_m * kMmPerM, bundle.lengths[worst].sigmas_apart, bundle.lengths[worst].by_rest_m * kMmPerM,
+        bundle.lengths[worst].by_rest_sigma_m * kMmPerM);
+    throw InputError(text_of(length) + text.data());
+  }
+
+  SensorFit& fit_of(std::size_t station, Axis axis, std::uint8_t sensor) {
+    const auto [place, fresh] = fit_index_.try_emplace({station, axis, sensor}, result_.fits.size());
+    if (fresh) result_.fits.push_back({station, axis, sensor, 0, 0.0, 0.0});
+    return result_.fits[place->second];
+  }
+
+  // With what was believed: every still's pose alone.
+  void note_before() {
+    std::map<std::size_t, int> counts;
+    for (std::size_t i = 0; i < stills_.size(); ++i) {
+      for (const RotorView& view : stills_[i].rotors) {
+        LighthouseFromBody T_station_body = nominal_.T_home_body[i];
+        if (view.station != home_[i]) {
+          T_station_body = nominal_.T_reference_station[view.station]->inverse() * T_station_body;
+        }
+        for (const MeanBearing& bearing : view.bearings) {
+          const Vector3 p = T_station_body * find_sensor(nominal_.target, bearing.sensor)->position_m;
+          const double residual =
+              bearing.raw_rad - lighthouse::raw_theta(nominal_.station[view.station], material_.form, view.axis, p);
+          SensorFit& fit = fit_of(view.station, view.axis, bearing.sensor);
+          fit.before_rad += residual * residual;
+          ++counts[static_cast<std::size_t>(&fit - result_.fits.data())];
+        }
+      }
+    }
+    for (const auto& [index, count] : counts) {
+      result_.fits[index].before_rad = std::sqrt(result_.fits[index].before_rad / count);
+    }
+  }
+
+  void note_after() {
+    for (const BearingResidual& residual : result_.bundle.residuals) {
+      const RotorView& view = stills_[residual.still].rotors[residual.view];
+      SensorFit& fit = fit_of(view.station, view.axis, view.bearings[residual.bearing].sensor);
+      fit.after_rad += residual.residual_rad * residual.residual_rad;
+      ++fit.stills;
+    }
+    for (SensorFit& fit : result_.fits) fit.after_rad = std::sqrt(fit.after_rad / std::max(fit.stills, 1));
+    std::sort(result_.fits.begin(), result_.fits.end(), [](const SensorFit& a, const SensorFit& b) {
+      return std::tie(a.station, a.axis, a.sensor) < std::tie(b.station, b.axis, b.sensor);
+    });
+  }
+
+  LighthouseMaterial material_;
+  std::vector<Still> all_stills_;  // with every candidate
+  std::vector<Still> stills_;
+  Homes home_;
+  Unknowns nominal_;
+  double unmodelled_rad_ = 0.0;
+  std::map<std::tuple<std::size_t, Axis, std::uint8_t>, std::size_t> fit_index_;
+  LighthouseCalibration result_;
+};
+
+}  // namespace
+
+LighthouseCalibration calibrate_lighthouse(LighthouseMaterial material) {
+  return Calibration(std::move(material)).run();
+}
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/noise_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+
+namespace pharos::calibrate {
+namespace {
+
+constexpr double kHuber = 3.0;  // residuals beyond it count as it: they are outliers, not the level
+constexpr double kOutlier = 6.0;
+constexpr double kMedianToSigma = 1.4826;
+constexpr double kMost_rad = 600.0 * kRadPerArcsec;
+
+double free_share(const BearingResidual& r) { return std::max(1.0 - r.leverage, 0.02); }
+
+// Residual in sigmas of its own, with what its leverage took away put back.
+double normalised(const BearingResidual& r) { return r.residual_rad / (r.sigma_rad * std::sqrt(free_share(r))); }
+
+double usual(const std::vector<BearingResidual>& residuals) {
+  std::vector<double> sizes;
+  for (const BearingResidual& r : residuals) sizes.push_back(std::abs(normalised(r)));
+  if (sizes.empty()) return 1.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return std::max(kMedianToSigma * *middle, 1.0);
+}
+
+}  // namespace
+
+double unmodelled_level(const std::vector<BearingResidual>& residuals, double present_rad) {
+  double freedom = 0.0;
+  for (const BearingResidual& r : residuals) freedom += std::max(1.0 - r.leverage, 0.0);
+  const double limit = kHuber * usual(residuals);
+  const auto excess = [&](double level_rad) {
+    double sum = 0.0;
+    for (const BearingResidual& r : residuals) {
+      if (std::abs(normalised(r)) > limit) continue;
+      const double variance = r.sigma_rad * r.sigma_rad - present_rad * present_rad + level_rad * level_rad;
+      sum += r.residual_rad * r.residual_rad / variance;
+    }
+    return sum - freedom;
+  };
+  if (freedom <= 0.0 || excess(0.0) < 3.0 * std::sqrt(2.0 * freedom)) return 0.0;
+  double low = 0.0;
+  double high = kMost_rad;
+  constexpr int kHalvings = 50;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) > 0.0 ? low : high) = middle;
+  }
+  return high;
+}
+
+std::size_t strike_outliers(const std::vector<BearingResidual>& residuals, std::vector<Still>& stills) {
+  const double limit = kOutlier * usual(residuals);
+  std::size_t struck = 0;
+  // From the back, so that indices in front keep their meaning.
+  for (auto r = residuals.rbegin(); r != residuals.rend(); ++r) {
+    if (std::abs(normalised(*r)) < limit) continue;
+    auto& bearings = stills[r->still].rotors[r->view].bearings;
+    bearings.erase(bearings.begin() + static_cast<std::ptrdiff_t>(r->bearing));
+    ++struck;
+  }
+  return struck;
+}
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/calibrate/bundle.hpp"
+
+namespace pharos::calibrate {
+
+/// What the model does not explain, 1 sigma on every mean bearing: the level at which the residuals' squares add up to
+/// their degrees of freedom; 0 where the noise of the means explains them (within three sigma of their chi-squared).
+/// `present_rad` is the level that the residuals' sigmas include already.
+double unmodelled_level(const std::vector<BearingResidual>& residuals, double present_rad);
+
+/// Takes bearings out of `stills` whose residual is beyond six of their own sigmas and six times the usual; returns how
+/// many. The indices of `residuals` no longer hold then.
+std::size_t strike_outliers(const std::vector<BearingResidual>& residuals, std::vector<Still>& stills);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "host/calibrate/layout.hpp"
+
+namespace pharos::calibrate {
+
+/// What an adjustment knows of its parameters, from its whitened Jacobian.
+class Information {
+ public:
+  /// `jacobian`: rows in any order, columns in the order of Blocks: calibration, poses, common parts.
+  Information(const Eigen::MatrixXd& jacobian, const BundleProblem& problem, const Blocks& blocks);
+
+  /// Share of one row that the unknowns take up.
+  double leverage(std::size_t row) const;
+  /// Sigmas before and after of every parameter and of the scale, and the calibration's covariance.
+  void fill(BundleResult& result) const;
+
+ private:
+  const Eigen::MatrixXd& jacobian_;
+  const BundleProblem& problem_;
+  const Blocks& blocks_;
+  Eigen::MatrixXd covariance_;  // of all unknowns
+};
+
+}  // namespace pharos::calibrate

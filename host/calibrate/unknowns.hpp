@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/target.hpp"
+#include "pharos/lighthouse/station_calibration.hpp"
+
+namespace pharos::calibrate {
+
+/// T_reference_station: pose of a station in the reference station's frame.
+using ReferenceFromStation = Pose<frame::Lighthouse, frame::Lighthouse>;
+
+inline constexpr std::size_t kRotorParameters = 5;
+inline constexpr std::array<const char*, kRotorParameters> kRotorParameterNames = {
+    "phase_rad", "tilt_rad", "curve_rad", "gibbous_phase_rad", "gibbous_magnitude_rad"};
+using RotorParameters = std::array<double, kRotorParameters>;
+
+RotorParameters parameters_of(const lighthouse::RotorCalibration& rotor);
+lighthouse::RotorCalibration rotor_of(const RotorParameters& parameters);
+
+/// How far the nominal values may be off, 1 sigma, before the recordings are heard: the *workshop* errors.
+struct PriorSigmas {
+  double sensor_position_m = 0.4e-3;  // per axis
+  /// In the order of kRotorParameterNames: what is left of phase, tilt, curve and gibbous magnitude after OOTX. The
+  /// gibbous phase: 0.3 mrad across a magnitude of 6 mrad, the typical one.
+  RotorParameters rotor = {0.5e-3, 0.3e-3, 0.3e-3, 0.05, 0.3e-3};
+};
+
+/// A distance between two sensors that somebody measured.
+struct MeasuredLength {
+  std::uint8_t a = 0;
+  std::uint8_t b = 0;
+  double length_m = 0.0;
+  double sigma_m = 0.0;
+};
+
+/// Everything that a calibration solves for.
+struct Unknowns {
+  Target target;                                                         // sensor positions; numbers and normals stay
+  std::vector<lighthouse::StationCalibration> station;                   // by index; the first is the reference
+  std::vector<std::optional<ReferenceFromStation>> T_reference_station;  // empty: never seen with the reference
+  std::vector<LighthouseFromBody> T_home_body;  // of each still, in the frame of its home station
+};
+
+/// The station in whose frame a still's pose is kept: the reference where that sees it or is tied to one that does.
+using Homes = std::vector<std::size_t>;
+
+}  // namespace pharos::calibrate
