@@ -13,7 +13,7 @@ struct Descent {
   double smallest_pivot_ratio = 1.0;  // of the last step's normal matrix
   int iterations = 0;
   bool converged = false;
-  bool hopeless = false;  // given up: see RefineLimits
+  bool hopeless = false;  // given up: see RefineLimits, or `in_known_valley` said so
   /// Where it ends is not known: steps ran out, or the system's numbers could not follow.
   bool undecided() const { return !converged && !hopeless; }
 };
@@ -54,8 +54,11 @@ class Damping {
 
 /// Levenberg-Marquardt on the left error of the pose. The first step is undamped (Gauss-Newton); damping enters only
 /// where a step fails to lower the cost, so a good start costs about three linearisations.
-template <class System>
-Descent<System> descend(const System& system, const typename System::Pose& start, const RefineLimits& limits) {
+///
+/// `in_known_valley(pose, cost)`: asked after every step that lowered the cost; true ends the descent.
+template <class System, class InKnownValley>
+Descent<System> descend(const System& system, const typename System::Pose& start, const RefineLimits& limits,
+                        InKnownValley in_known_valley) {
   // A fit is given up only when even thrice the decrease that the linear model predicts would leave it hopeless, and
   // only after this many steps: far from a minimum the model's prediction is worth little.
   constexpr double kOptimism = 3.0;
@@ -91,12 +94,21 @@ Descent<System> descend(const System& system, const typename System::Pose& start
       damping.succeeded((fit.normal.cost - at_trial.cost) / step.decrease);
       fit.pose = trial;
       fit.normal = at_trial;
+      if (in_known_valley(fit.pose, fit.normal.cost)) {
+        fit.hopeless = true;
+        return fit;
+      }
     } else if (!damping.failed()) {
       fit.converged = step.decrease < limits.tolerance;
       return fit;
     }
   }
   return fit;
+}
+
+template <class System>
+Descent<System> descend(const System& system, const typename System::Pose& start, const RefineLimits& limits) {
+  return descend(system, start, limits, [](const typename System::Pose&, double) { return false; });
 }
 
 }  // namespace pharos::pose

@@ -32,6 +32,8 @@ class FixedSystem {
   using Step = FixedStep;
   /// As kConvergedShare; residuals are rounded to 1e-9 rad, which hides a decrease of 3e-4.
   static constexpr double kConverged = 1e-3;
+  /// A linearisation costs more than to ask whether the next ones are worth it.
+  static constexpr bool kAsksForValley = true;
 
   explicit FixedSystem(const FixedSightings& sightings) : sightings_(sightings) {}
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <utility>
 
 #include "pharos/geometry/pose_estimate.hpp"
@@ -24,9 +25,16 @@ template <class System>
 void find_rival(const System& system, int max_iterations, double variance, Minima<System>& m) {
   // Two fits nearer than this (squared, in sigmas, by the first one's information) are one and the same minimum.
   constexpr double kSameMinimum = 1.0;
-  m.second =
-      descend(system, system.mirrored(m.best.pose),
-              {max_iterations, System::kConverged * variance, m.best.normal.cost + kAmbiguousDeltaChi2 * variance});
+  // Where cost has risen from the best minimum as its own parabola does, what follows leads back to it.
+  constexpr double kParabola = 0.15;
+  const auto in_first_valley = [&](const typename System::Pose& pose, double cost) {
+    if constexpr (!System::kAsksForValley) return false;
+    const double square = system.square_between(m.best.pose, m.best.normal, pose);
+    return std::fabs(cost - m.best.normal.cost - square) < kParabola * square;
+  };
+  const RefineLimits limits{max_iterations, System::kConverged * variance,
+                            m.best.normal.cost + kAmbiguousDeltaChi2 * variance};
+  m.second = descend(system, system.mirrored(m.best.pose), limits, in_first_valley);
   m.iterations += m.second.iterations;
   m.undecided = m.undecided || m.second.undecided();
   const bool usable = m.second.converged && system.ahead(m.second.pose);

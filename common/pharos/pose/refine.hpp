@@ -28,6 +28,7 @@ class DoubleSystem {
   using Normal = NormalEquations;
   using Step = DoubleStep;
   static constexpr double kConverged = kConvergedShare;
+  static constexpr bool kAsksForValley = false;
 
   DoubleSystem(const Sightings& sightings, Residual residual) : sightings_(sightings), residual_(residual) {}
 
