@@ -81,14 +81,14 @@ Q30 FixedStationModel::raw_of(const Rotor& rotor, const Angle& swept, const Angl
   return swept.angle + off + gibbous + static_cast<Q30>(fixed::product(rotor.curve, quarter) >> 28);
 }
 
-std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw) const {
+std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw) {
   const std::int64_t wide_x = fixed::from_double(raw.x_rad, 30) - kQuarterTurn;
   const std::int64_t wide_y = fixed::from_double(raw.y_rad, 30) - kQuarterTurn;
   if (!usable_ || wide_x > kWidest || wide_x < -kWidest || wide_y > kWidest || wide_y < -kWidest) {
     return lighthouse::ideal_from_raw(station_, form_, raw);
   }
   const auto raw_x = static_cast<Q30>(wide_x), raw_y = static_cast<Q30>(wide_y);
-  Q30 x = raw_x, y = raw_y;
+  Q30 x = raw_x + last_x_, y = raw_y + last_y_;
   for (int step = 0; step < kMaxSteps && !wide(x) && !wide(y); ++step) {
     const Angle angle_x{x, fixed::sine_cosine(x)}, angle_y{y, fixed::sine_cosine(y)};
     const Q30 dx = raw_x - raw_of(rotor_[0], angle_x, angle_y, 1);
@@ -96,6 +96,8 @@ std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw)
     x += dx;
     y += dy;
     if (dx <= kConverged && dx >= -kConverged && dy <= kConverged && dy >= -kConverged) {
+      last_x_ = x - raw_x;
+      last_y_ = y - raw_y;
       return ThetaPair{fixed::to_double(x + kQuarterTurn, 30), fixed::to_double(y + kQuarterTurn, 30)};
     }
   }

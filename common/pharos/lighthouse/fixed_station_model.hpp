@@ -18,7 +18,8 @@ class FixedStationModel {
  public:
   FixedStationModel(const StationCalibration& station, ModelForm form);
 
-  std::optional<ThetaPair> ideal_from_raw(const ThetaPair& raw) const;
+  /// Starts from the last answer's correction: the next sensor's is nearly the same.
+  std::optional<ThetaPair> ideal_from_raw(const ThetaPair& raw);
 
  private:
   struct Rotor {
@@ -37,6 +38,7 @@ class FixedStationModel {
   const StationCalibration& station_;
   ModelForm form_;
   std::array<Rotor, kAxes> rotor_{};
+  fixed::Q30 last_x_ = 0, last_y_ = 0;  // ideal minus raw
   bool usable_ = true;
 };
 

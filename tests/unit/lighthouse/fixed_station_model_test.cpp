@@ -24,7 +24,7 @@ class FixedStationModelTest : public ::testing::TestWithParam<ModelForm> {
     return s;
   }
   void expect_equal(const StationCalibration& s, double half_field_rad, double tolerance_rad) {
-    const FixedStationModel fixed(s, GetParam());
+    FixedStationModel fixed(s, GetParam());
     for (int k = 0; k < 200; ++k) {
       const ThetaPair raw{kPi / 2 + uniform(-half_field_rad, half_field_rad),
                           kPi / 2 + uniform(-half_field_rad, half_field_rad)};
