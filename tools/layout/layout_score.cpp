@@ -11,7 +11,7 @@
 namespace pharos::layout {
 namespace {
 
-constexpr double kUnmeasured = 10.0;
+constexpr double kUnmeasured = 100.0;
 
 }  // namespace
 

@@ -44,7 +44,7 @@ struct Score {
 Score score_of(const Dops& dops, const Objective& objective);
 
 /// Judges layouts by one number: weight * ADOP / reference + (1 - weight) * PDOP / reference, 1 for the reference
-/// itself. A pose that cannot be measured counts as ten times the reference, so that covering it is worth something.
+/// itself. A pose that cannot be measured counts as a hundred times the reference, worse than any that can.
 class Judge {
  public:
   /// `reference` has measured at least one pose.

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluate/trajectory_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::evaluate {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using File = TrajectoryFile<EstimatePose>;
+
+File read(const std::string& text, const TrajectoryChoice& choice = {}) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("trajectory_" + std::to_string(::getpid()) + ".txt");
+  std::ofstream(path) << text;
+  const struct Remove {
+    std::filesystem::path path;
+    ~Remove() { std::filesystem::remove(path); }
+  } remove{path};
+  return read_trajectory<EstimatePose>(path.string(), choice);
+}
+
+void expect_refused(const std::string& text, const std::string& why) {
+  EXPECT_THAT([&] { read(text); }, ThrowsMessage<host::InputError>(HasSubstr(why))) << text;
+}
+
+constexpr const char* kHeader = "time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+
+TEST(TrajectoryFile, TumAndTableSayTheSame) {
+  const File tum = read("# timestamp tx ty tz qx qy qz qw\n1.5 1 2 3 0 0.6 0 0.8\n2.5\t4 5 6 0 0 0 1\n");
+  const File table = read(std::string(kHeader) + "1.5,0.8,0,0.6,0,1,2,3\n2.5,1,0,0,0,4,5,6\n");
+  ASSERT_EQ(tum.samples.size(), 2u);
+  ASSERT_EQ(table.samples.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(tum.samples[i].time_s, table.samples[i].time_s);
+    EXPECT_TRUE(tum.samples[i].pose.R.isApprox(table.samples[i].pose.R));
+    EXPECT_EQ(tum.samples[i].pose.t, table.samples[i].pose.t);
+  }
+}
+
+TEST(TrajectoryFile, CountsWhatItLeavesOut) {
+  const std::string text =
+      "time_s,station,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status,flags\n"
+      "1,0,1,0,0,0,0,0,2,0.1,2,ok,\n"
+      "2,0,,,,,,,,,,refused_too_few_sensors,\n"
+      "3,0,1,0,0,0,0,0,2,0.1,2,ambiguous,\n"
+      "4,0,1,0,0,0,0,0,2,0.1,2,ok,outliers|prior\n";
+  TrajectoryChoice choice;
+  File file = read(text, choice);
+  EXPECT_EQ(file.rows, 4u);
+  EXPECT_EQ(file.refused, 1u);
+  EXPECT_EQ(file.ambiguous, 1u);
+  EXPECT_EQ(file.samples.size(), 2u);
+  EXPECT_NEAR(*file.samples[0].sigma_rotation_rad, 0.1 * kRadPerDeg, 1e-15);
+  EXPECT_NEAR(*file.samples[0].sigma_position_m, 0.002, 1e-15);
+  choice.keep_ambiguous = true;
+  choice.without_flags = {"prior"};
+  file = read(text, choice);
+  EXPECT_EQ(file.ambiguous, 0u);
+  EXPECT_EQ(file.flagged, 1u);
+  EXPECT_EQ(file.samples.size(), 2u);
+}
+
+TEST(TrajectoryFile, WantsOneStation) {
+  const std::string text =
+      "time_s,station,qw,qx,qy,qz,tx_m,ty_m,tz_m\n1,0,1,0,0,0,0,0,2\n1.001,1,1,0,0,0,0,0,3\n2,0,1,0,0,0,0,0,2\n";
+  expect_refused(text, "--station");
+  TrajectoryChoice choice;
+  choice.station = 1;
+  const File file = read(text, choice);
+  ASSERT_EQ(file.samples.size(), 1u);
+  EXPECT_EQ(file.samples[0].pose.t.z(), 3.0);
+}
+
+TEST(TrajectoryFile, CountsFramesAsTimeWhereThereIsNone) {
+  TrajectoryChoice choice;
+  choice.frame_rate_hz = 4.0;
+  const File file = read("frame,tx_m,ty_m,tz_m,qw,qx,qy,qz,status\n2,0,0,3,1,0,0,0,ok\n", choice);
+  ASSERT_EQ(file.samples.size(), 1u);
+  EXPECT_EQ(file.samples[0].time_s, 0.5);
+}
+
+TEST(TrajectoryFile, RefusesWhatItCannotTrust) {
+  const std::string header = kHeader;
+  expect_refused("", "empty");
+  expect_refused(header + "1,0.8,0,0.5,0,1,2,3\n", "line 2: the quaternion has length 0.94");
+  expect_refused(header + "1,0,0,0,0,1,2,3\n", "length 0.0");
+  expect_refused(header + "2,1,0,0,0,1,2,3\n1,1,0,0,0,1,2,3\n", "line 3: its time is not later");
+  expect_refused(header + "2,1,0,0,0,1,2,3\n2,1,0,0,0,1,2,3\n", "its time is not later");
+  expect_refused(header + "1,1,0,0,0,1,2,4e7\n", "metres");
+  expect_refused(header + "nan,1,0,0,0,1,2,3\n", "line 2");
+  expect_refused("1 2 3 0 0 0 1\n", "8 numbers");
+  expect_refused("1 2 3 4 0 0 0 1 9\n", "8 numbers");
+  expect_refused("1 2 3 x 0 0 0 1\n", "'x' is not a number");
+  expect_refused("1 2 3 inf 0 0 0 1\n", "not a number");
+  expect_refused("time_s,qw,qx\n1,1,0\n", "no column 'qy'");
+}
+
+}  // namespace
+}  // namespace pharos::evaluate
