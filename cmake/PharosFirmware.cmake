@@ -56,4 +56,10 @@ function(pharos_firmware_tree)
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
     USES_TERMINAL_BUILD ON)
+  # The decoder for the emulator alone, without the test programs: what tools/demo needs.
+  add_custom_target(firmware_decoder
+    COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
+      -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+    COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/firmware --target decoder.qemu_virt
+    USES_TERMINAL VERBATIM)
 endfunction()

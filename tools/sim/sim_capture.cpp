@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"
@@ -80,8 +81,8 @@ class CapturePlayer {
     while (heard && time_s < last_s + kTail_s) {
       time_s += kStep_s;
       if (options_.speed > 0.0) {
-        const std::chrono::duration<double> due(time_s / options_.speed);
-        ::usleep(static_cast<useconds_t>(std::max(0.0, (due - (Clock::now() - start)).count()) * 1e6));
+        const std::chrono::duration<double> ahead = start - Clock::now();
+        std::this_thread::sleep_for(ahead + std::chrono::duration<double>(time_s / options_.speed));
       }
       while (const sim::PulseFeed::Due* due = material_.feed->peek()) {
         last_s = std::max(last_s, material_.clock.seconds_at(due->due_ticks));
