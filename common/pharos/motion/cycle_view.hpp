@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+#include "pharos/motion/sweep_fit.hpp"
+
+namespace pharos::motion {
+
+/// The last sweep of each rotor taken together, as if solved alone: precision factors (22), what no pose explains, and
+/// how errors that stay with the sensors reach the pose.
+class CycleView {
+ public:
+  /// Residual of both sweeps that no pose and no shift common to a sweep explains: sum of squares (rad^2) and its
+  /// degrees of freedom (0: not to be told).
+  struct Misfit {
+    double square = 0.0;
+    int freedom = 0;
+  };
+
+  /// Takes a sweep's hits, their residuals against the prediction. `own_variance`: hits noisier than that count less.
+  Misfit set(Axis axis, const HitFits& hits, double own_variance, std::int64_t time_ticks);
+  /// The belief was moved by `shift` after that sweep: its residuals are now against the belief moved.
+  void shifted(Axis axis, const Vector6& shift);
+
+  /// The two sweeps leave no direction open and are no older than a turn and a half.
+  bool known() const { return known_; }
+  /// Covariance of a pose solved from both sweeps, per unit variance of errors that each hit has of its own. The last
+  /// one known, zero before.
+  const Matrix6& unit_covariance() const { return unit_; }
+  /// The same for errors correlated by rho within a sweep, (18) and (19).
+  Matrix6 unit_covariance(double rho) const;
+
+ private:
+  struct Sweep {
+    Matrix6 square = Matrix6::Zero();  // sum of h h^T
+    Vector6 sum = Vector6::Zero();     // sum of h
+    // The same, weighted, with the weighted mean taken out of h and residuals.
+    Matrix6 centred = Matrix6::Zero();
+    Vector6 by_residual = Vector6::Zero();
+    double residual_square = 0.0;
+    int hits = 0;
+    std::int64_t time_ticks = INT64_MIN;
+  };
+
+  std::array<Sweep, kAxes> sweep_;
+  Matrix6 unit_ = Matrix6::Zero();
+  bool known_ = false;
+};
+
+}  // namespace pharos::motion

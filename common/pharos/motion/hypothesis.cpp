@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::motion {
+namespace {
+
+// How far off a single-cycle solution may be when the body turns 1.5 deg and moves 16 mm within the cycle.
+constexpr double kStartRotation_rad = 0.06, kStartPosition_m = 0.1;
+// Longest single prediction: a body that turns at 10 rad/s stays within what one step is good for.
+constexpr double kLongestStep_s = 0.01;
+// Range of the learnt own variance over the assumed one, and how many degrees of freedom it remembers.
+constexpr double kLeastLevel = 0.8, kMostLevel = 1e4;
+constexpr double kLevelFreedom = 200.0, kLevelPrior = 2.0;
+// Up to here the learnt variance may be noise alone: narrow hits, a noisier rotor.
+constexpr double kWhiteLevel = 2.0;
+// One sweep moves it by no more than this many times its expectation.
+constexpr double kLargestRatio = 9.0;
+
+void predict(MotionBank& bank, double dt_s) {
+  for (; dt_s > 1.5 * kLongestStep_s; dt_s -= kLongestStep_s) bank.predict(kLongestStep_s);
+  if (dt_s > 0.0) bank.predict(dt_s);
+}
+
+// Sensors that must agree with one another before a sweep may overthrow every belief.
+constexpr int kEnoughToStartle = 4;
+// Chi-squared of a sweep (five degrees of freedom) that not even the wildest motion gives: one in ten million.
+constexpr double kStartling = 40.0;
+
+bool surprises(const SweepFit& fit, const Belief& prediction) {
+  if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
+  return innovation_of(fit.information, prediction.widest, Vector6::Zero()).chi2 > kStartling;
+}
+
+}  // namespace
+
+std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Target& target) {
+  std::int64_t last = INT64_MIN;
+  for (const lighthouse::Bearing& bearing : bearings) {
+    if (find_sensor(target, bearing.sensor) != nullptr) last = std::max(last, bearing.time_ticks);
+  }
+  return last;
+}
+
+Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double own_scale,
+                       const StationView& view, const AssumedNoise& noise) {
+  LighthouseFromBody start = pose;
+  for (int round = 0; round < 2; ++round) {
+    *this = Hypothesis();
+    bank_.start(start, kStartRotation_rad, kStartPosition_m, rate);
+    level_ = std::clamp(own_scale * own_scale, kLeastLevel, kMostLevel);
+    std::int64_t begun_ticks = INT64_MIN;
+    for (const Axis axis : {Axis::kX, Axis::kY}) {
+      const std::int64_t last = last_hit_ticks(cycle[axis], *view.target);
+      if (last == INT64_MIN) continue;
+      if (begun_ticks == INT64_MIN) begun_ticks = time_ticks_ = last;
+      push(cycle[axis], axis, view, noise);
+    }
+    start = predicted(begun_ticks).pose;
+  }
+}
+
+const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                                 const AssumedNoise& noise) {
+  const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
+  const double since_s = ticks_to_seconds(time - time_ticks_);
+  predict(bank_, since_s);
+  time_ticks_ = time;
+  ++sweeps_;
+  const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * level_), noise.sigma_rad * std::sqrt(noise.rho)};
+  Belief prediction = honest(bank_.belief());
+  fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
+  startled_ = fit_.sensors >= kEnoughToStartle && surprises(fit_, prediction);
+  if (startled_) {
+    bank_.startle(since_s);
+    prediction = honest(bank_.belief());
+    fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
+  }
+  surprise_ = innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2;
+  const int used = static_cast<int>(fit_.used.size());
+  doubts_ = startled_ || used == 0 || 2 * used < fit_.sensors ? doubts_ + 1 : 0;
+  cost_ += fit_.log_density;
+  if (used > 0) {
+    const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
+    const CycleView::Misfit misfit = cycle_view_.set(axis, fit_.used, level_ * own_variance, time);
+    cost_ += bank_.correct(fit_.information, fit_.pose);
+    cycle_view_.shifted(axis, pose_difference(bank_.belief().pose, fit_.pose));
+    last_used_ticks_ = time;
+    learn_noise(misfit, own_variance);
+    systematic_ = std::max(0.0, level_ - kWhiteLevel) * own_variance * cycle_view_.unit_covariance();
+  }
+  belief_ = honest(bank_.belief());
+  return fit_;
+}
+
+void Hypothesis::learn_noise(const CycleView::Misfit& misfit, double own_variance) {
+  if (misfit.freedom == 0) return;
+  // Each sweep is looked at twice, with the one before and the one after.
+  const double freedom = 0.5 * misfit.freedom;
+  const double ratio = std::min(misfit.square / (misfit.freedom * level_ * own_variance), kLargestRatio);
+  level_freedom_ = std::min(level_freedom_ + freedom, kLevelFreedom);
+  const double gain = freedom / (level_freedom_ + kLevelPrior);
+  level_ = std::clamp(level_ * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
+}
+
+// What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the
+// same in every sweep of a view, so no averaging removes it: it is added to what the sweeps say together.
+Belief Hypothesis::honest(Belief belief) const {
+  belief.covariance += systematic_;
+  belief.widest += systematic_;
+  return belief;
+}
+
+double Hypothesis::own_scale() const { return std::sqrt(level_); }
+
+Belief Hypothesis::predicted(std::int64_t time_ticks) const {
+  const double dt_s = ticks_to_seconds(time_ticks - time_ticks_);
+  if (dt_s == 0.0) return belief_;
+  MotionBank bank = bank_;
+  if (dt_s < 0.0) {
+    bank.predict_mean(dt_s);
+  } else {
+    predict(bank, dt_s);
+  }
+  return honest(bank.belief());
+}
+
+}  // namespace pharos::motion

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/lighthouse/bearing.hpp"
+#include "pharos/motion/cycle_view.hpp"
+#include "pharos/motion/motion_bank.hpp"
+#include "pharos/motion/sweep_fit.hpp"
+#include "pharos/track/cycle.hpp"
+
+namespace pharos::motion {
+
+/// Noise of one bearing as assumed: its standard deviation (rad) and the correlation between sensors of one sweep.
+struct AssumedNoise {
+  double sigma_rad = 0.0;
+  double rho = 0.0;
+};
+
+/// One idea of where the body is: a bank of beliefs that takes sweep after sweep, how well it fared, and how large the
+/// hits' own noise turned out to be.
+class Hypothesis {
+ public:
+  /// From a single-cycle solution and that cycle's sweeps. The solution serves as the place to linearise at: its hits
+  /// are taken anew, each at its own instant, twice. `own_scale`: own noise over the assumed one, as a first guess;
+  /// what leaves the assumed noise no chance (a target or station that nobody calibrated) must be told here.
+  /// `rate`: where one is roughly known, else null.
+  Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double own_scale,
+             const StationView& view, const AssumedNoise& noise);
+
+  /// Moves on to the sweep and adds it. A sweep none of whose hits fits changes nothing but the time.
+  const SweepFit& push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                       const AssumedNoise& noise);
+
+  const MotionBank& bank() const { return bank_; }
+  /// The belief after the last sweep, at time_ticks(); what stays wrong with the sensors included.
+  const Belief& belief() const { return belief_; }
+  const CycleView& cycle_view() const { return cycle_view_; }
+  /// What is believed of any time, from what is known now; up to kLost_s ahead.
+  Belief predicted(std::int64_t time_ticks) const;
+  std::int64_t time_ticks() const { return time_ticks_; }
+  std::int64_t last_used_ticks() const { return last_used_ticks_; }
+  const SweepFit& last_fit() const { return fit_; }
+  /// Chi-squared of what the last sweep said to the prediction; its degrees of freedom are the rank of last_fit().
+  double last_surprise() const { return surprise_; }
+  /// -2 ln of the likelihood of all sweeps since reset_cost().
+  double cost() const { return cost_; }
+  void reset_cost() { cost_ = 0.0; }
+  int sweeps() const { return sweeps_; }
+  /// Sweeps in a row that mostly contradicted it.
+  int doubts() const { return doubts_; }
+  /// Own noise over the assumed one, as learnt.
+  double own_scale() const;
+
+ private:
+  Hypothesis() = default;
+  void learn_noise(const CycleView::Misfit& misfit, double own_variance);
+  Belief honest(Belief belief) const;
+
+  MotionBank bank_;
+  Belief belief_;
+  SweepFit fit_;
+  CycleView cycle_view_;
+  Matrix6 systematic_ = Matrix6::Zero();  // of the pose, from errors that do not average out
+  std::int64_t time_ticks_ = 0;
+  std::int64_t last_used_ticks_ = 0;
+  double cost_ = 0.0;
+  double surprise_ = 0.0;
+  double level_ = 1.0;          // own variance over the assumed one
+  double level_freedom_ = 0.0;  // degrees of freedom that it was learnt from
+  int sweeps_ = 0;
+  int doubts_ = 0;
+  bool startled_ = false;
+};
+
+/// Time of the last hit of the target's sensors; INT64_MIN where there is none.
+std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Target& target);
+
+}  // namespace pharos::motion

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/motion/sweep_information.hpp"
+
+namespace pharos::motion {
+
+/// What a sweep says to a belief, before the belief takes it: innovation and its covariance, in the sweep's own
+/// whitened coordinates.
+struct Innovation {
+  Matrix6 factor = Matrix6::Zero();  // C of I + L^T P L = C C^T, lower triangular
+  Vector6 whitened = Vector6::Zero();
+  double chi2 = 0.0;     // of the prediction's part
+  double log_det = 0.0;  // of I + L^T P L
+};
+
+/// Innovation of a sweep for a belief whose pose error has this covariance; `offset`: the belief's pose minus the one
+/// that the sweep was linearised at.
+Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_covariance, const Vector6& offset);
+
+/// What the innovation makes of a pose with this error covariance.
+Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
+
+/// Belief that the body rests: a pose and the covariance of its error (Pose::moved_by).
+struct RestingState {
+  LighthouseFromBody pose;
+  Matrix6 covariance = Matrix6::Zero();
+
+  void correct(const SweepInformation& sweep, const Innovation& innovation);
+};
+
+/// Gaussian belief about pose, rate and acceleration.
+///
+/// Mean: T_lighthouse_body; rate (angular velocity rad/s, then velocity of the body's origin m/s) and its derivative,
+/// in the lighthouse frame. Error: delta of Pose::moved_by, then differences of rate and acceleration. Covariance by
+/// blocks: of pose (p), rate (r), acceleration (a) and across; rp = E[rate error x pose error^T].
+struct MovingState {
+  LighthouseFromBody pose;
+  Vector6 rate = Vector6::Zero();
+  Vector6 acceleration = Vector6::Zero();
+  Matrix6 pp = Matrix6::Zero(), rp = Matrix6::Zero(), rr = Matrix6::Zero();
+  Matrix6 ap = Matrix6::Zero(), ar = Matrix6::Zero(), aa = Matrix6::Zero();
+
+  /// Moves the belief on by dt_s under white jerk of spectral density `jerk_rotation` (rad/s^3)^2 s and
+  /// `jerk_translation` (m/s^3)^2 s. Exact but for the coupling of rates across one step: keep |angular velocity| dt
+  /// below 0.1 rad.
+  void predict(double dt_s, double jerk_rotation, double jerk_translation);
+  void predict_mean(double dt_s);
+  void correct(const SweepInformation& sweep, const Innovation& innovation);
+};
+
+}  // namespace pharos::motion

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/motion_bank.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::motion {
+namespace {
+
+constexpr std::size_t kModels = MotionBank::kModels;
+constexpr std::size_t kMoving = MotionBank::kMoving;
+
+// White jerk that drives the moving models: spectral densities, (rad/s^3)^2 s and (m/s^3)^2 s. From a satellite's slow
+// drift over a manoeuvre at half a metre and 60 deg a second to a hand that shakes the target.
+struct Jerk {
+  double rotation, translation;
+};
+constexpr std::array<Jerk, kMoving> kJerk{{{0.02, 0.005}, {5.0, 2.0}, {500000.0, 5000.0}}};
+// A body at rest creeps (a table that gives, warmth): a random walk of 0.1 mm and 0.006 deg in three hours keeps the
+// belief from growing deaf.
+constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s, m^2/s
+
+// Standard deviations of what begins to move: rate and acceleration, rotation and translation.
+struct Onset {
+  double rotation_rate, velocity, rotation_acceleration, acceleration;
+};
+constexpr std::array<Onset, kMoving> kOnset{{{0.05, 0.02, 0.2, 0.05}, {0.3, 0.1, 2.0, 0.5}, {1.0, 0.3, 10.0, 3.0}}};
+constexpr std::array<Onset, kMoving> kRoughlyKnown{
+    {{1.0, 0.5, 1.0, 0.5}, {2.0, 1.0, 10.0, 3.0}, {4.0, 1.5, 100.0, 50.0}}};
+constexpr std::array<Onset, kMoving> kUnknown{{{2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 10.0, 3.0}, {15.0, 5.0, 100.0, 50.0}}};
+
+// Changes per second, from row to column: rest, calm, brisk, wild.
+constexpr double kChange[kModels][kModels] = {
+    {0.0, 0.2, 0.2, 0.2}, {0.2, 0.0, 0.2, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
+constexpr double kLongestStep_s = 0.05;
+// Shares below are not worth a blend; beliefs less probable are not corrected, but taken anew from the others.
+constexpr double kNegligible = 1e-3;
+
+Vector6 small_difference(const LighthouseFromBody& to, const LighthouseFromBody& from) {
+  const Matrix3 turn = to.R.lazyProduct(from.R.transpose());
+  Vector6 delta;
+  delta << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)), 0.5 * (turn(1, 0) - turn(0, 1)),
+      to.t - from.t;
+  return delta;
+}
+
+void set_variances(Matrix6& covariance, double rotation_sigma, double translation_sigma) {
+  covariance.setZero();
+  covariance.diagonal().head<3>().setConstant(rotation_sigma * rotation_sigma);
+  covariance.diagonal().tail<3>().setConstant(translation_sigma * translation_sigma);
+}
+
+MovingState beginning_to_move(const RestingState& resting, const Onset& onset) {
+  MovingState state;
+  state.pose = resting.pose;
+  state.pp = resting.covariance;
+  set_variances(state.rr, onset.rotation_rate, onset.velocity);
+  set_variances(state.aa, onset.rotation_acceleration, onset.acceleration);
+  return state;
+}
+
+void blend_block(Matrix6& into, const Matrix6& other, double weight, const Vector6& left, const Vector6& right) {
+  into += weight * (other - into) + (weight * (1.0 - weight) * left).lazyProduct(right.transpose());
+}
+
+// Moments of two beliefs, the second with the share `weight`.
+void blend(RestingState& into, const LighthouseFromBody& pose, const Matrix6& covariance, double weight) {
+  const Vector6 p = small_difference(pose, into.pose);
+  blend_block(into.covariance, covariance, weight, p, p);
+  into.pose = into.pose.moved_by(weight * p);
+}
+
+void blend(MovingState& into, const MovingState& other, double weight) {
+  const Vector6 p = small_difference(other.pose, into.pose);
+  const Vector6 r = other.rate - into.rate, a = other.acceleration - into.acceleration;
+  blend_block(into.pp, other.pp, weight, p, p);
+  blend_block(into.rp, other.rp, weight, r, p);
+  blend_block(into.rr, other.rr, weight, r, r);
+  blend_block(into.ap, other.ap, weight, a, p);
+  blend_block(into.ar, other.ar, weight, a, r);
+  blend_block(into.aa, other.aa, weight, a, a);
+  into.pose = into.pose.moved_by(weight * p);
+  into.rate += weight * r;
+  into.acceleration += weight * a;
+}
+
+}  // namespace
+
+void MotionBank::start(const LighthouseFromBody& pose, double sigma_rotation_rad, double sigma_position_m,
+                       const Vector6* rate) {
+  resting_.pose = pose;
+  set_variances(resting_.covariance, sigma_rotation_rad, sigma_position_m);
+  for (std::size_t m = 0; m < kMoving; ++m) {
+    moving_[m] = beginning_to_move(resting_, rate != nullptr ? kRoughlyKnown[m] : kUnknown[m]);
+    if (rate != nullptr) moving_[m].rate = *rate;
+  }
+  probability_ = {0.4, 0.2, 0.2, 0.2};
+}
+
+void MotionBank::interact(double dt_s) {
+  const double dt = std::min(dt_s, kLongestStep_s);
+  Flow flow;  // probability of having gone from i to j
+  std::array<double, kModels> next{};
+  for (std::size_t i = 0; i < kModels; ++i) {
+    double stays = 1.0;
+    for (std::size_t j = 0; j < kModels; ++j) {
+      flow[i][j] = probability_[i] * kChange[i][j] * dt;
+      stays -= kChange[i][j] * dt;
+    }
+    flow[i][i] = probability_[i] * stays;
+    for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];
+  }
+  // Calmer beliefs take over from brisker ones, in this order, which leaves every source as it was.
+  double sum = flow[0][0];
+  for (std::size_t i = 1; i < kModels; ++i) {
+    if (flow[i][0] <= kNegligible * next[0]) continue;
+    sum += flow[i][0];
+    blend(resting_, moving_[i - 1].pose, moving_[i - 1].pp, flow[i][0] / sum);
+  }
+  for (std::size_t j = 1; j < kModels; ++j) {
+    sum = flow[j][j];
+    for (std::size_t i = j + 1; i < kModels; ++i) {
+      if (flow[i][j] <= kNegligible * next[j]) continue;
+      sum += flow[i][j];
+      blend(moving_[j - 1], moving_[i - 1], flow[i][j] / sum);
+    }
+  }
+  probability_ = next;
+}
+
+void MotionBank::predict(double dt_s) {
+  interact(dt_s);
+  for (int k = 0; k < 3; ++k) {
+    resting_.covariance(k, k) += kCreepRotation * dt_s;
+    resting_.covariance(k + 3, k + 3) += kCreepTranslation * dt_s;
+  }
+  for (std::size_t m = 0; m < kMoving; ++m) moving_[m].predict(dt_s, kJerk[m].rotation, kJerk[m].translation);
+}
+
+void MotionBank::startle(double dt_s) {
+  const Belief now = belief();
+  MovingState& wildest = moving_.back();
+  wildest.pose = now.pose;
+  wildest.rate = now.rate;
+  wildest.pp = now.covariance;
+  wildest.rp.setZero();
+  wildest.ap.setZero();
+  wildest.ar.setZero();
+  constexpr Onset unknown = {8.0, 2.5, 100.0, 50.0};
+  set_variances(wildest.rr, unknown.rotation_rate, unknown.velocity);
+  set_variances(wildest.aa, unknown.rotation_acceleration, unknown.acceleration);
+  wildest.pp += (dt_s * dt_s) * wildest.rr;
+  wildest.rp += dt_s * wildest.rr;
+  probability_ = {0.01, 0.01, 0.08, 0.9};
+}
+
+void MotionBank::predict_mean(double dt_s) {
+  for (MovingState& m : moving_) m.predict_mean(dt_s);
+}
+
+Belief MotionBank::belief() const {
+  Belief b;
+  const auto pose_of = [&](std::size_t i) -> const LighthouseFromBody& {
+    return i == 0 ? resting_.pose : moving_[i - 1].pose;
+  };
+  const auto top =
+      static_cast<std::size_t>(std::max_element(probability_.begin(), probability_.end()) - probability_.begin());
+  Vector6 mean = Vector6::Zero();
+  std::array<Vector6, kModels> away;
+  for (std::size_t i = 0; i < kModels; ++i) {
+    if (probability_[i] < 1e-9) continue;
+    away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(pose_of(i), pose_of(top));
+    mean += probability_[i] * away[i];
+    if (i > 0) b.rate += probability_[i] * moving_[i - 1].rate;
+  }
+  b.pose = pose_of(top).moved_by(mean);
+  for (std::size_t i = 0; i < kModels; ++i) {
+    if (probability_[i] < 1e-9) continue;
+    const Vector6 e = away[i] - mean;
+    b.covariance +=
+        probability_[i] * ((i == 0 ? resting_.covariance : moving_[i - 1].pp) + e.lazyProduct(e.transpose()));
+    Vector6 variance = b.rate.cwiseAbs2();
+    if (i > 0) variance = (moving_[i - 1].rate - b.rate).cwiseAbs2() + moving_[i - 1].rr.diagonal();
+    b.rotation_rate_variance += probability_[i] * variance.head<3>().sum() / 3.0;
+    b.velocity_variance += probability_[i] * variance.tail<3>().sum() / 3.0;
+  }
+  const MovingState& wildest = moving_.back();
+  const Vector6 apart = small_difference(wildest.pose, b.pose);
+  b.widest = b.covariance + wildest.pp + apart.lazyProduct(apart.transpose());
+  return b;
+}
+
+double MotionBank::correct(const SweepInformation& sweep, const LighthouseFromBody& pose) {
+  std::array<Innovation, kModels> innovation;
+  double least = 1e300;
+  for (std::size_t i = 0; i < kModels; ++i) {
+    const LighthouseFromBody& own = i == 0 ? resting_.pose : moving_[i - 1].pose;
+    innovation[i] = innovation_of(sweep, i == 0 ? resting_.covariance : moving_[i - 1].pp, small_difference(own, pose));
+    least = std::min(least, innovation[i].chi2 + innovation[i].log_det);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kModels; ++i) {
+    probability_[i] *= std::exp(-0.5 * (innovation[i].chi2 + innovation[i].log_det - least));
+    sum += probability_[i];
+  }
+  for (std::size_t i = 0; i < kModels; ++i) {
+    probability_[i] /= sum;
+    probability_[i] = std::max(probability_[i], 1e-9);
+    if (i == 0) {
+      resting_.correct(sweep, innovation[i]);
+    } else {
+      moving_[i - 1].correct(sweep, innovation[i]);
+    }
+  }
+  return sweep.misfit + least - 2.0 * std::log(sum);
+}
+
+}  // namespace pharos::motion

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "pharos/motion/kinematic_state.hpp"
+
+namespace pharos::motion {
+
+/// Where the body is, as the whole bank sees it: moments of the mixture.
+struct Belief {
+  LighthouseFromBody pose;
+  Matrix6 covariance = Matrix6::Zero();  // of the pose error
+  Vector6 rate = Vector6::Zero();        // rad/s, m/s, lighthouse frame
+  double rotation_rate_variance = 0.0;   // of one component, (rad/s)^2
+  double velocity_variance = 0.0;        // of one component, (m/s)^2
+  Matrix6 widest = Matrix6::Zero();      // covariance if the wildest motion were certain: what gates must allow
+};
+
+/// Interacting multiple models (Blom and Bar-Shalom, "The interacting multiple model algorithm", 1988): one belief that
+/// the body rests and three that it moves, calmly, briskly, wildly, each with its probability. This is what adapts the
+/// process noise: at once, and without a detector.
+class MotionBank {
+ public:
+  static constexpr std::size_t kMoving = 3;
+  static constexpr std::size_t kModels = 1 + kMoving;  // 0 rests
+
+  /// Nothing is known but about where: sigmas of rotation (rad) and position (m); and perhaps a rough rate (rad/s,
+  /// m/s), from two poses a turn or two apart.
+  void start(const LighthouseFromBody& pose, double sigma_rotation_rad, double sigma_position_m, const Vector6* rate);
+  /// Moves all beliefs on by dt_s, after each has taken over what the others know (interaction).
+  void predict(double dt_s);
+  /// Moves the means alone, also backwards.
+  void predict_mean(double dt_s);
+  /// The last dt_s brought what none of the beliefs allows for: a blow, a catch. The wildest one now holds it possible
+  /// that the rates are anything.
+  void startle(double dt_s);
+  Belief belief() const;
+  /// Adds a sweep that was linearised at `pose`; -2 ln of its likelihood but for constants of the noise.
+  double correct(const SweepInformation& sweep, const LighthouseFromBody& pose);
+
+  const std::array<double, kModels>& probability() const { return probability_; }
+
+ private:
+  using Flow = std::array<std::array<double, kModels>, kModels>;
+  void interact(double dt_s);
+  void feed_resting(const Flow& flow, double sum);
+  void feed_moving(std::size_t model, const Flow& flow, double sum, const MovingState& into);
+
+  RestingState resting_;
+  std::array<MovingState, kMoving> moving_;
+  std::array<double, kModels> probability_{};
+};
+
+}  // namespace pharos::motion

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/motion_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/pose/covariance.hpp"
+
+namespace pharos::motion {
+namespace {
+
+// Beyond these an answer is none: a body seen so badly is as good as lost.
+constexpr double kLargestRotation_rad = 0.35, kLargestPosition_m = 0.3;
+// Own noise that is this many times what was assumed is said aloud.
+constexpr double kNoisy = 3.0;
+
+std::uint8_t flags_of(const lighthouse::Sweep& sweep, bool calibrated) {
+  std::uint8_t flags = 0;
+  if (!calibrated) flags |= track::kEpochUncalibrated;
+  if (sweep.flags & lighthouse::kSweepFlashWeak) flags |= track::kEpochFlashWeak;
+  if (sweep.flags & lighthouse::kSweepPeriodNominal) flags |= track::kEpochPeriodNominal;
+  if (sweep.flags & lighthouse::kSweepLockPoor) flags |= track::kEpochLockPoor;
+  return flags;
+}
+
+std::int64_t last_used_hit(const lighthouse::SweepBearings& bearings, const HitFits& used) {
+  std::int64_t last = INT64_MIN;
+  for (const HitFit& hit : used) last = std::max(last, bearings[hit.bearing].time_ticks);
+  return last;
+}
+
+double residual_rms(const HitFits& used, const Vector6& shift) {
+  double square = 0.0;
+  for (const HitFit& hit : used) {
+    const double left = hit.residual_rad - hit.jacobian.dot(shift);
+    square += left * left;
+  }
+  return std::sqrt(square / static_cast<double>(used.size()));
+}
+
+}  // namespace
+
+MotionTracker::MotionTracker(const Target& target, const MotionOptions& options) : target_(target), options_(options) {}
+
+void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
+  if (station >= kMaxStations) return;
+  Station& s = stations_[station];
+  // Another calibration moves every angle: what was believed is another body's place.
+  if (s.calibration && *s.calibration != calibration) s.track.lose();
+  if (!s.calibration) s.track.lose();
+  s.calibration = calibration;
+}
+
+bool MotionTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
+  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > track::kLongestDarkTicks;
+}
+
+void MotionTracker::forget_stations() {
+  stations_ = {};
+  newest_flash_ticks_.reset();
+}
+
+StationView MotionTracker::view_of(const Station& station) const {
+  return {&target_, station.calibration ? &*station.calibration : nullptr, options_.form};
+}
+
+std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& sweep) {
+  if (sweep.flash.station >= kMaxStations) return std::nullopt;
+  if (after_long_dark(sweep)) forget_stations();
+  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(sweep.flash.start_ticks), sweep.flash.start_ticks);
+  Station& station = stations_[sweep.flash.station];
+  const Axis axis = sweep.flash.axis;
+  const lighthouse::SmoothedFlash smoothed = station.smoother[static_cast<std::size_t>(index_of(axis))].push(sweep);
+  if (sweep.flash.skip) return std::nullopt;
+  const lighthouse::SweepBearings bearings =
+      options_.smooth_flashes ? lighthouse::bearings_of(sweep, smoothed) : lighthouse::bearings_of(sweep);
+
+  const Hypothesis* leader = station.track.leader();
+  if (leader != nullptr && ticks_to_seconds(sweep.flash.start_ticks - leader->last_used_ticks()) > kLost_s) {
+    station.track.lose();
+  }
+  const bool lit = last_hit_ticks(bearings, target_) != INT64_MIN;
+  if (lit) station.track.push(bearings, axis, view_of(station), noise());
+  if (const auto cycle =
+          station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
+    station.track.check(*cycle, view_of(station), noise(), options_.solve);
+  }
+  if (!lit) return std::nullopt;
+  return answer(station, sweep, bearings);
+}
+
+track::EpochResult MotionTracker::answer(Station& station, const lighthouse::Sweep& sweep,
+                                         const lighthouse::SweepBearings& bearings) {
+  track::EpochResult result;
+  result.station = sweep.flash.station;
+  result.flags = flags_of(sweep, station.calibration.has_value());
+  result.time_ticks = last_hit_ticks(bearings, target_);
+  result.observations = static_cast<int>(bearings.size());
+  innovation_ = {};
+  // A leader that has just begun from an older cycle has nothing to say of this sweep.
+  const Hypothesis* leader = station.track.leader();
+  const bool took_part = leader != nullptr && leader->time_ticks() >= result.time_ticks;
+  keep_bearings(bearings, sweep.flash.axis, took_part ? &leader->last_fit() : nullptr);
+  if (!took_part) {
+    result.pose = station.track.last_refusal() == pose::Refusal::kNone ? pose::Refusal::kTooFewSensors
+                                                                       : station.track.last_refusal();
+    return result;
+  }
+  const SweepInformation& information = leader->last_fit().information;
+  innovation_ = {leader->last_surprise(), information.rank, information.misfit, information.hits - information.rank};
+  result.pose = estimate(station, bearings, result);
+  return result;
+}
+
+Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Station& station,
+                                                                      const lighthouse::SweepBearings& bearings,
+                                                                      track::EpochResult& result) const {
+  const Hypothesis& leader = *station.track.leader();
+  const SweepFit& fit = leader.last_fit();
+  if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
+  if (leader.own_scale() > kNoisy) result.flags |= track::kEpochResidualHigh;
+  if (fit.used.empty()) return pose::Refusal::kPoorFit;
+  result.observations = static_cast<int>(fit.used.size());
+  result.time_ticks = last_used_hit(bearings, fit.used);
+
+  const Belief belief = leader.predicted(result.time_ticks);
+  LighthousePoseEstimate e;
+  e.time_ns = ticks_to_nanoseconds(result.time_ticks);
+  e.pose = belief.pose;
+  e.pose.R = orthonormalised(belief.pose.R);
+  e.covariance = belief.covariance;
+  e.observations = result.observations;
+  e.iterations = 1;
+  e.residual_rms = residual_rms(fit.used, pose_difference(leader.belief().pose, fit.pose));
+  if (leader.cycle_view().known()) {
+    const Matrix6 unit = leader.cycle_view().unit_covariance(options_.solve.rho);
+    e.adop_deg_per_rad = pose::adop_of(unit);
+    e.pdop_m_per_rad = pose::pdop_of(unit);
+  } else {
+    result.flags |= track::kEpochPrior;
+  }
+  if (e.sigma_rotation_rad() > kLargestRotation_rad || e.sigma_position_m() > kLargestPosition_m) {
+    return pose::Refusal::kTooFewSensors;
+  }
+  if (!e.pose.is_finite() || !e.covariance.allFinite()) return pose::Refusal::kNotConverged;
+  if (const Hypothesis* rival = station.track.rival()) {
+    const double delta = station.track.delta_chi2();
+    if (delta < kAmbiguousDeltaChi2) e.second = {rival->belief().pose, std::max(0.0, delta)};
+  }
+  return e;
+}
+
+void MotionTracker::keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit) {
+  bearings_.clear();
+  for (const lighthouse::Bearing& bearing : bearings)
+    bearings_.push_back({bearing, axis, bearing.theta_rad, false, 0.0});
+  if (fit == nullptr) return;
+  for (const HitFit& hit : fit->used) {
+    track::TrackedBearing& kept = bearings_[hit.bearing];
+    kept.used = true;
+    kept.ideal_theta_rad = hit.ideal_rad;
+    kept.residual_rad = hit.residual_rad;
+  }
+}
+
+std::optional<Belief> MotionTracker::predicted(std::uint8_t station, std::int64_t time_ticks) const {
+  if (station >= kMaxStations) return std::nullopt;
+  const Hypothesis* leader = stations_[station].track.leader();
+  if (leader == nullptr || ticks_to_seconds(time_ticks - leader->last_used_ticks()) > kLost_s) return std::nullopt;
+  return leader->predicted(time_ticks);
+}
+
+}  // namespace pharos::motion

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "pharos/motion/station_track.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+
+namespace pharos::motion {
+
+struct MotionOptions {
+  pose::SolveOptions solve;  // of the cycles solved alone; its sigma is the noise of one bearing, its rho that of ADOP
+  lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
+  bool smooth_flashes = true;
+  /// Share of a bearing's variance that rotor and flash give to all sensors of one sweep alike: 0.87 in the paper, 0.96
+  /// to 0.99 in recordings.
+  double rho = kPaperRho;
+};
+
+/// What the last sweep said of the tracker's own honesty.
+struct InnovationStatistics {
+  double surprise = 0.0;  // chi-squared of what it said to the prediction
+  int surprise_freedom = 0;
+  double misfit = 0.0;  // chi-squared of what no pose explains
+  int misfit_freedom = 0;
+};
+
+/// Sweeps of one target in, a pose after every sweep out: motion-aware, each hit taken at its own instant. Up to two
+/// stations side by side, each in its own frame.
+///
+/// One answer a sweep that hit the target; its time is that of the last hit used. Answers have the form of
+/// EpochTracker's; `prior` then means that the body was seen too little of late to be solved alone. State: some 35 KiB.
+/// Cost: README.
+class MotionTracker {
+ public:
+  MotionTracker(const Target& target, const MotionOptions& options);
+  void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
+  /// As EpochTracker's.
+  bool after_long_dark(const lighthouse::Sweep& sweep) const;
+  void forget_stations();
+  std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep);
+  /// As EpochTracker's; nothing is ever held back.
+  std::optional<track::EpochResult> flush() { return std::nullopt; }
+
+  /// Pose, rates and covariance at any time from what is known now: up to kLost_s ahead of the last hit (then empty, as
+  /// where nothing is tracked); backwards the mean is moved and the covariance stays that of now.
+  std::optional<Belief> predicted(std::uint8_t station, std::int64_t time_ticks) const;
+
+  /// The bearings of the sweep last answered, hit by hit, those left out too.
+  std::size_t bearing_count() const { return bearings_.size(); }
+  track::TrackedBearing bearing(std::size_t index) const { return bearings_[index]; }
+  const InnovationStatistics& innovation() const { return innovation_; }
+
+  /// After this long without a hit that fits, the body is lost and looked for anew.
+  static constexpr double kLost_s = 0.5;
+
+ private:
+  struct Station {
+    std::optional<lighthouse::StationCalibration> calibration;
+    std::array<lighthouse::FlashSmoother, kAxes> smoother;
+    track::CycleAssembler assembler;
+    StationTrack track;
+  };
+
+  StationView view_of(const Station& station) const;
+  AssumedNoise noise() const { return {options_.solve.sigma_rad, options_.rho}; }
+  track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,
+                            const lighthouse::SweepBearings& bearings);
+  Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station,
+                                                         const lighthouse::SweepBearings& bearings,
+                                                         track::EpochResult& result) const;
+  void keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit);
+
+  Target target_;
+  MotionOptions options_;
+  std::array<Station, kMaxStations> stations_;
+  std::optional<std::int64_t> newest_flash_ticks_;
+  // The sweep last answered.
+  StaticVector<track::TrackedBearing, kMaxHitsPerSweep> bearings_;
+  InnovationStatistics innovation_;
+};
+
+}  // namespace pharos::motion

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/station_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/pose/packed_symmetric.hpp"
+#include "pharos/track/ideal_observations.hpp"
+
+namespace pharos::motion {
+namespace {
+
+constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a leader that does well
+constexpr int kDoubts = 2;        // sweeps in a row that contradict a leader; one makes a check due at once
+// Second minima are looked for as if the noise were so much larger: what motion does to a cycle must not hide one.
+constexpr double kStartInflation = 4.0;
+// Chi-squared by which one of two must be better to be the only one: e^9 to one.
+constexpr double kDecided = 18.0;
+// Sweeps that a rival from mid-flight needs to learn its rates before it is compared.
+constexpr int kSettleSweeps = 6;
+// Squared distance (6 degrees of freedom) from which a solved cycle contradicts the leader.
+constexpr double kContradiction = 40.0;
+// Two solved cycles further apart than this tell no rate.
+constexpr double kLongestBetween_s = 0.07;
+// Time over which a cycle's hits are spread, for what motion does to its solution.
+constexpr double kCycle_s = 0.01;
+
+}  // namespace
+
+void StationTrack::lose() {
+  leader_.reset();
+  rival_.reset();
+  refusal_ = pose::Refusal::kTooFewSensors;
+}
+
+void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                        const AssumedNoise& noise) {
+  if (!leader_) return;
+  leader_->push(bearings, axis, view, noise);
+  if (!rival_) return;
+  rival_->push(bearings, axis, view, noise);
+  decide();
+}
+
+void StationTrack::decide() {
+  if (!rival_settled_) {
+    if (rival_->sweeps() < kSettleSweeps) return;
+    rival_settled_ = true;
+    leader_->reset_cost();
+    rival_->reset_cost();
+    return;
+  }
+  if (rival_->cost() < leader_->cost()) std::swap(leader_, rival_);
+  if (delta_chi2() > kDecided) rival_.reset();
+}
+
+bool StationTrack::due() const {
+  if (!leader_) return true;
+  return leader_->doubts() >= kDoubts || (!rival_ && (leader_->doubts() > 0 || cycles_unchecked_ >= kCheckCycles));
+}
+
+bool StationTrack::agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const {
+  const Belief& belief = leader_->belief();
+  Matrix6 allowed = belief.covariance + covariance;
+  const double turned = belief.rate.head<3>().norm() * kCycle_s, moved = belief.rate.tail<3>().norm() * kCycle_s;
+  for (int k = 0; k < 3; ++k) {
+    allowed(k, k) += turned * turned;
+    allowed(k + 3, k + 3) += moved * moved;
+  }
+  pose::PackedSymmetric<6> packed;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) packed(i, j) = allowed(static_cast<int>(i), static_cast<int>(j));
+  }
+  const Vector6 d = pose_difference(pose, belief.pose);
+  std::array<double, 6> right;
+  for (std::size_t i = 0; i < 6; ++i) right[i] = d[static_cast<int>(i)];
+  const std::array<double, 6> solved = pose::Factorisation<6>(packed).solve(right);
+  double square = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) square += right[i] * solved[i];
+  return square < kContradiction;
+}
+
+void StationTrack::check(const track::Cycle& cycle, const StationView& view, const AssumedNoise& noise,
+                         const pose::SolveOptions& options) {
+  ++cycles_unchecked_;
+  if (!due()) return;
+  pose::SolveOptions start = options;
+  start.sigma_rad *= kStartInflation;
+  track::IdealObservations ideal = ideal_observations(cycle, *view.target, view.calibration, view.form, nullptr);
+  auto solution = pose::solve(*view.target, ideal.observations, start);
+  if (solution && ideal.guessed) {
+    const LighthouseFromBody first = solution->estimate.pose;
+    ideal = ideal_observations(cycle, *view.target, view.calibration, view.form, &first);
+    solution = pose::solve(*view.target, ideal.observations, start);
+  }
+  refusal_ = solution ? pose::Refusal::kNone : solution.error();
+  if (!solution) return;
+  cycles_unchecked_ = 0;
+  const LighthousePoseEstimate& e = solution->estimate;
+  // What the fit left, motion within the cycle included, over the noise assumed: the hits' own where that is too small.
+  const int freedom = std::max(1, e.observations - 6);
+  const double own_sigma = noise.sigma_rad * std::sqrt(1.0 - noise.rho);
+  const double left = e.residual_rms * std::sqrt(static_cast<double>(e.observations) / freedom);
+  const double own_scale = std::max(1.0, left / own_sigma);
+  // Two solutions in a row, as long as a leader is in doubt, also tell how fast it goes.
+  Vector6 between;
+  const Vector6* rate = nullptr;
+  const double since_s = ticks_to_seconds(cycle.last_flash_ticks - solved_flash_ticks_);
+  if (solved_ && since_s > 0.0 && since_s < kLongestBetween_s) {
+    between = pose_difference(e.pose, *solved_) / since_s;
+    rate = &between;
+  }
+  solved_.reset();
+  if (!e.second) {
+    solved_ = e.pose;
+    solved_flash_ticks_ = cycle.last_flash_ticks;
+  }
+  const auto begin = [&](std::optional<Hypothesis>& hypothesis, const LighthouseFromBody& pose) {
+    hypothesis.emplace(cycle, pose, rate, own_scale, view, noise);
+  };
+  // Where sweep after sweep contradicts the leader while a whole cycle has an answer of its own, it is over.
+  if (!leader_ || leader_->doubts() >= kDoubts) {
+    begin(leader_, e.pose);
+    rival_.reset();
+    if (e.second) begin(rival_, e.second->pose);
+    rival_settled_ = true;
+    if (rival_) decide();
+    return;
+  }
+  if (agrees(e.pose, e.covariance) || (e.second && agrees(e.second->pose, e.covariance))) return;
+  begin(rival_, e.pose);
+  rival_settled_ = false;
+}
+
+}  // namespace pharos::motion

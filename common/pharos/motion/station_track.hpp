@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "pharos/lighthouse/flash_smoother.hpp"
+#include "pharos/motion/hypothesis.hpp"
+#include "pharos/pose/solve.hpp"
+
+namespace pharos::motion {
+
+/// What one station sees of the body: the hypothesis that leads, and at times a rival.
+///
+/// A rival is the second minimum of the first solution, or what a cycle solved alone says where it contradicts the
+/// leader. Both take every sweep; the likelihood decides.
+class StationTrack {
+ public:
+  void push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const AssumedNoise& noise);
+  /// A complete cycle whose sweeps were pushed: starts, or checks now and then, by solving it alone. `refusal` says why
+  /// it could not.
+  void check(const track::Cycle& cycle, const StationView& view, const AssumedNoise& noise,
+             const pose::SolveOptions& options);
+  void lose();
+
+  const Hypothesis* leader() const { return leader_ ? &*leader_ : nullptr; }
+  /// The rival once it may be compared with the leader, else null; its chi-squared minus the leader's.
+  const Hypothesis* rival() const { return rival_ && rival_settled_ ? &*rival_ : nullptr; }
+  double delta_chi2() const { return rival_->cost() - leader_->cost(); }
+  pose::Refusal last_refusal() const { return refusal_; }
+
+ private:
+  bool due() const;
+  bool agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const;
+  void decide();
+
+  std::optional<Hypothesis> leader_, rival_;
+  bool rival_settled_ = false;
+  int cycles_unchecked_ = 0;
+  // The last cycle solved alone without a rival.
+  std::optional<LighthouseFromBody> solved_;
+  std::int64_t solved_flash_ticks_ = 0;
+  pose::Refusal refusal_ = pose::Refusal::kTooFewSensors;
+};
+
+}  // namespace pharos::motion

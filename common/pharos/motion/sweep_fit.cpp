@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/sweep_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/station_model.hpp"
+#include "pharos/pose/place_residuals.hpp"
+
+namespace pharos::motion {
+namespace {
+
+// Nearer to the station than this nothing is lit.
+constexpr double kNearest_m = 1e-3;
+
+// A hit that is not this body's may lie anywhere within 20 mrad or so: 2 ln(0.02) - ln(2 pi).
+constexpr double kStrayLogDensity = -9.7;
+
+using Candidates = StaticVector<HitFit, kMaxHitsPerSweep>;
+
+double quadratic(const Vector6& h, const Matrix6& m) { return h.dot(m.lazyProduct(h)); }
+
+// What a belief says of points at instants near its own.
+class Linearisation {
+ public:
+  Linearisation(Axis axis, const StationView& view, const Belief& belief, std::int64_t time_ticks, double own_variance)
+      : axis_(axis), view_(view), belief_(belief), time_ticks_(time_ticks), own_variance_(own_variance) {}
+
+  // False where the point would be behind the station.
+  bool hit(const lighthouse::Bearing& bearing, const Vector3& body_m, HitFit& fit) const {
+    const double dt_s = ticks_to_seconds(bearing.time_ticks - time_ticks_);
+    const Vector3 q = belief_.pose.R * body_m;
+    const Vector3 p = q + belief_.pose.t + dt_s * (belief_.rate.tail<3>() + belief_.rate.head<3>().cross(q));
+    const double along = p[index_of(axis_)], ahead = p.z();
+    if (!(ahead > kNearest_m)) return false;
+    const double inverse_square = 1.0 / (along * along + ahead * ahead);
+    Vector3 gradient = Vector3::Zero();
+    gradient[index_of(axis_)] = -ahead * inverse_square;
+    gradient.z() = along * inverse_square;
+    fit.jacobian << q.cross(gradient), gradient;
+    const double ideal = kPi / 2 - std::atan2(along, ahead);
+    const double raw = view_.calibration != nullptr ? raw_theta(*view_.calibration, view_.form, axis_, p) : ideal;
+    fit.residual_rad = bearing.theta_rad - raw;
+    fit.ideal_rad = ideal + fit.residual_rad;
+    // The unknown part of the rates moves the point between this hit and the belief's instant.
+    fit.variance = own_variance_ + dt_s * dt_s *
+                                       (inverse_square * belief_.velocity_variance +
+                                        fit.jacobian.head<3>().squaredNorm() * belief_.rotation_rate_variance);
+    return true;
+  }
+
+ private:
+  Axis axis_;
+  const StationView& view_;
+  const Belief& belief_;
+  std::int64_t time_ticks_;
+  double own_variance_;
+};
+
+double median_residual(const HitFits& hits) {
+  StaticVector<double, kMaxSensors> values;
+  for (const HitFit& hit : hits) values.push_back(hit.residual_rad);
+  double* middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// For each sensor the candidate whose residual is nearest to `centre`.
+HitFits nearest_to(double centre, const Candidates& candidates, const lighthouse::SweepBearings& bearings) {
+  std::array<std::int8_t, kMaxSensors> place;
+  place.fill(-1);
+  HitFits chosen;
+  for (const HitFit& candidate : candidates) {
+    std::int8_t& at = place[bearings[candidate.bearing].sensor];
+    if (at < 0) {
+      at = static_cast<std::int8_t>(chosen.size());
+      chosen.push_back(candidate);
+      continue;
+    }
+    HitFit& rival = chosen[static_cast<std::size_t>(at)];
+    if (std::abs(candidate.residual_rad - centre) < std::abs(rival.residual_rad - centre)) rival = candidate;
+  }
+  return chosen;
+}
+
+// Leaves out what departs from the common shift; everything where the shift itself is beyond belief.
+void gate(HitFits& hits, double centre, const Matrix6& covariance, double common_variance) {
+  Vector6 mean = Vector6::Zero();
+  double own = 0.0;
+  for (const HitFit& hit : hits) {
+    mean += hit.jacobian;
+    own = std::max(own, hit.variance);
+  }
+  mean /= static_cast<double>(hits.size());
+  constexpr double kSquare = kHitGate * kHitGate;
+  if (centre * centre > kSquare * (quadratic(mean, covariance) + own + common_variance)) {
+    hits.clear();
+    return;
+  }
+  for (std::size_t i = hits.size(); i-- > 0;) {
+    const double departure = hits[i].residual_rad - centre;
+    // The median itself has up to one hit's noise.
+    const double spread = quadratic(hits[i].jacobian - mean, covariance) + 2.0 * hits[i].variance;
+    if (departure * departure > kSquare * spread) hits.erase_unordered(i);
+  }
+}
+
+SweepInformation summed(const HitFits& hits, double common_variance) {
+  InformationSums sums;
+  for (const HitFit& hit : hits) sums.add(hit.jacobian, hit.residual_rad, 1.0 / hit.variance);
+  return sums.close(common_variance);
+}
+
+// The hit that fits the others' pose worst; its residual in standard deviations.
+std::size_t worst_of(const HitFits& hits, const SweepInformation& information, const Matrix6& covariance,
+                     double& deviations) {
+  const Innovation innovation = innovation_of(information, covariance, Vector6::Zero());
+  const Vector6 shift = pose_shift(covariance, information, innovation);
+  double weights = 0.0, mean = 0.0;
+  for (const HitFit& hit : hits) {
+    weights += 1.0 / hit.variance;
+    mean += (hit.residual_rad - hit.jacobian.dot(shift)) / hit.variance;
+  }
+  mean /= weights;
+  std::size_t worst = 0;
+  deviations = 0.0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const double left = hits[i].residual_rad - hits[i].jacobian.dot(shift) - mean;
+    const double size = std::abs(left) / std::sqrt(hits[i].variance);
+    if (size > deviations) {
+      deviations = size;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+bool credible(const SweepInformation& information) {
+  return information.misfit <= pose::credible_chi2(information.hits - information.rank);
+}
+
+}  // namespace
+
+SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& belief,
+                   std::int64_t time_ticks, const SweepNoise& noise) {
+  SweepFit fit;
+  fit.pose = belief.pose;
+  const double common_variance = noise.common_rad * noise.common_rad;
+  const Linearisation linearisation(axis, view, belief, time_ticks, noise.own_rad * noise.own_rad);
+  Candidates candidates;
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    const SensorPlacement* sensor = find_sensor(*view.target, bearings[i].sensor);
+    HitFit hit;
+    hit.bearing = static_cast<std::uint8_t>(i);
+    if (sensor != nullptr && linearisation.hit(bearings[i], sensor->position_m, hit)) candidates.push_back(hit);
+  }
+  fit.candidates = static_cast<int>(candidates.size());
+  if (candidates.empty()) return fit;
+
+  fit.used = nearest_to(0.0, candidates, bearings);
+  fit.sensors = static_cast<int>(fit.used.size());
+  const double centre = median_residual(fit.used);
+  if (candidates.size() > fit.used.size()) fit.used = nearest_to(centre, candidates, bearings);
+  gate(fit.used, centre, belief.widest, common_variance);
+  fit.information = summed(fit.used, common_variance);
+  while (!credible(fit.information)) {
+    double deviations = 0.0;
+    const std::size_t worst = worst_of(fit.used, fit.information, belief.widest, deviations);
+    if (deviations < kHitGate) break;
+    fit.used.erase_unordered(worst);
+    fit.information = summed(fit.used, common_variance);
+  }
+  fit.log_density = kStrayLogDensity * (fit.sensors - static_cast<int>(fit.used.size()));
+  for (const HitFit& hit : fit.used) fit.log_density += std::log(hit.variance);
+  return fit;
+}
+
+}  // namespace pharos::motion

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/geometry/target.hpp"
+#include "pharos/lighthouse/bearing.hpp"
+#include "pharos/lighthouse/station_calibration.hpp"
+#include "pharos/motion/motion_bank.hpp"
+#include "pharos/motion/sweep_information.hpp"
+
+namespace pharos::motion {
+
+/// Noise of one sweep's bearings, rad.
+struct SweepNoise {
+  double own_rad = 0.0;     // of each hit alone
+  double common_rad = 0.0;  // of rotor and flash: the same for all hits of one sweep
+};
+
+/// How one station's angles come about.
+struct StationView {
+  const Target* target = nullptr;
+  const lighthouse::StationCalibration* calibration = nullptr;  // null: angles as the ideal station's
+  lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
+};
+
+/// One hit against a belief.
+struct HitFit {
+  Vector6 jacobian;           // of its bearing by the pose error
+  double residual_rad = 0.0;  // measured - predicted
+  double ideal_rad = 0.0;     // measured, the station's errors taken out
+  double variance = 0.0;      // own, rad^2
+  std::uint8_t bearing = 0;   // index in the sweep
+};
+
+using HitFits = StaticVector<HitFit, kMaxSensors>;
+
+/// A sweep's hits, linearised, at most one a sensor, and what they say together.
+struct SweepFit {
+  SweepInformation information;
+  LighthouseFromBody pose;  // that it was linearised at
+  int candidates = 0;       // hits of the target's sensors
+  int sensors = 0;          // sensors that were hit
+  /// -2 ln of the densities that go with the hits' own noise: of hits used, ln of their variance; of sensors left out,
+  /// that of light that may come from anywhere. What makes beliefs of different noise comparable.
+  double log_density = 0.0;
+  HitFits used;
+};
+
+/// Standard deviations beyond which a hit is no hit of this body.
+inline constexpr double kHitGate = 5.0;
+
+/// Linearises every hit at its own instant against a belief that holds at `time_ticks`, and chooses.
+///
+/// Of a sensor's candidates that one is taken whose residual is nearest to the median residual of the sweep: what all
+/// share (an unforeseen shift, the flash's jitter) must not decide. Left out is what departs from that median by more
+/// than the belief and the noise allow, and then, one by one, what a common pose cannot explain.
+SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& belief,
+                   std::int64_t time_ticks, const SweepNoise& noise);
+
+}  // namespace pharos::motion

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/geometry/types.hpp"
+
+namespace pharos::motion {
+
+/// All that a sweep's hits say of the pose, summed: what is left of H^T R^-1 H, H^T R^-1 r and r^T R^-1 r.
+///
+/// H = L^T in the whitened sense: `factor` L is lower triangular with L L^T = H^T R^-1 H (6x6, rank at most five, as
+/// one rotor never sees all six directions; columns without rank are zero), `whitened` beta solves L beta = H^T R^-1 r,
+/// and `misfit` is the part of r^T R^-1 r that no pose explains: chi-squared of hits - rank.
+struct SweepInformation {
+  Matrix6 factor = Matrix6::Zero();
+  Vector6 whitened = Vector6::Zero();
+  double misfit = 0.0;
+  int rank = 0;
+  int hits = 0;
+};
+
+/// Sums over hits with noise R = diag(own variance) + common variance x 1 1^T: what rotor and flash do to all hits of
+/// one sweep alike. By the Woodbury identity two extra sums carry the common part exactly.
+class InformationSums {
+ public:
+  /// A hit: derivatives of its bearing by the pose error, innovation (rad), 1 / own variance.
+  void add(const Vector6& jacobian, double residual_rad, double weight);
+  SweepInformation close(double common_variance) const;
+
+ private:
+  Matrix6 square_ = Matrix6::Zero();
+  Vector6 by_residual_ = Vector6::Zero();
+  Vector6 sum_ = Vector6::Zero();
+  double weight_ = 0.0;
+  double residual_sum_ = 0.0;
+  double residual_square_ = 0.0;
+  int hits_ = 0;
+};
+
+}  // namespace pharos::motion
