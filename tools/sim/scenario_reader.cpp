@@ -223,7 +223,11 @@ std::shared_ptr<const Trajectory> read_rest(const TomlTable& table, const Lighth
   if (poses.empty()) table.fail("poses", "give poses, or random_poses above 0");
   const double hold = table.number_or("hold_s", scenario.duration_s / static_cast<double>(poses.size()), {0.01, 1e6});
   const double gap = table.number_or("gap_s", 0.0, {0.0, hold});
-  return std::make_shared<RestTrajectory>(std::move(poses), hold, gap);
+  const double move = table.number_or("move_s", 0.0, {0.0, hold});
+  if (move == 0.0) return std::make_shared<RestTrajectory>(std::move(poses), hold, gap);
+  if (gap > 0.0)
+    table.fail("move_s", "and gap_s exclude each other: the target is carried in the light or in the dark");
+  return std::make_shared<CarriedTrajectory>(std::move(poses), hold, move);
 }
 
 std::shared_ptr<const Trajectory> read_waypoints(const TomlTable& table) {

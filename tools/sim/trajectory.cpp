@@ -25,6 +25,22 @@ bool RestTrajectory::lit(double time_s) const {
   return index + 1 == poses_.size() || time_s < static_cast<double>(index + 1) * hold_s_ - gap_s_;
 }
 
+CarriedTrajectory::CarriedTrajectory(std::vector<RoomFromBody> poses, double hold_s, double move_s)
+    : poses_(std::move(poses)), hold_s_(hold_s), move_s_(move_s) {}
+
+RoomFromBody CarriedTrajectory::at(double time_s) const {
+  const double stop = std::clamp(std::floor(time_s / hold_s_), 0.0, static_cast<double>(poses_.size() - 1));
+  const auto index = static_cast<std::size_t>(stop);
+  const double moved_s = time_s - (stop + 1.0) * hold_s_ + move_s_;
+  if (index + 1 == poses_.size() || moved_s <= 0.0) return poses_[index];
+  // The smoothest step: speed and acceleration are zero at both ends.
+  const double u = std::min(moved_s / move_s_, 1.0);
+  const double way = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+  const RoomFromBody& from = poses_[index];
+  const RoomFromBody& to = poses_[index + 1];
+  return {rotation_exp(way * rotation_log(to.R * from.R.transpose())) * from.R, from.t + way * (to.t - from.t)};
+}
+
 double Sine::at(double time_s) const {
   return amplitude == 0.0 ? 0.0 : amplitude * std::sin(kTwoPi * frequency_hz * time_s + phase_rad);
 }

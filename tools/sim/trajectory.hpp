@@ -41,6 +41,19 @@ class RestTrajectory final : public Trajectory {
   double gap_s_;
 };
 
+/// At rest in one pose after the other, `hold_s` each, the last `move_s` of each carried to the next one in the light:
+/// straight, turning evenly, without a jerk at either end.
+class CarriedTrajectory final : public Trajectory {
+ public:
+  CarriedTrajectory(std::vector<RoomFromBody> poses, double hold_s, double move_s);
+  RoomFromBody at(double time_s) const override;
+
+ private:
+  std::vector<RoomFromBody> poses_;
+  double hold_s_;
+  double move_s_;
+};
+
 /// One coordinate as a sine: amplitude sin(2 pi frequency t + phase).
 struct Sine {
   double amplitude = 0.0;

@@ -12,6 +12,18 @@
 namespace pharos::sim {
 namespace {
 
+TEST(CarriedTrajectory, RestsInEachPoseAndMovesSmoothlyBetween) {
+  RoomFromBody a{Matrix3::Identity(), {0.0, 0.0, 1.0}};
+  RoomFromBody b{rotation_exp(Vector3(0.0, 1.0, 0.0)), {1.0, 0.0, 1.0}};
+  const CarriedTrajectory carried({a, b}, 3.0, 1.0);
+  for (const double time_s : {-1.0, 0.0, 1.9}) EXPECT_EQ(carried.at(time_s).t, a.t);
+  for (const double time_s : {3.0, 5.0, 99.0}) EXPECT_LT(pose_difference(carried.at(time_s), b).norm(), 1e-12);
+  EXPECT_NEAR(carried.at(2.5).t.x(), 0.5, 1e-12);
+  EXPECT_NEAR(rotation_log(carried.at(2.5).R).y(), 0.5, 1e-12);
+  EXPECT_LT((carried.at(2.01).t - a.t).norm(), 2e-5);
+  EXPECT_TRUE(carried.lit(2.5));
+}
+
 TEST(RestTrajectory, HoldsEachPoseAndIsDarkBetween) {
   const RoomFromBody a{facing(), {0, 0, 1}};
   const RoomFromBody b{facing(), {0, 0, 2}};
