@@ -83,10 +83,8 @@ void write_result(const track::EpochResult& result, const std::string& station_i
 // One run over a recording.
 class Tracking {
  public:
-  Tracking(const Options& options, const Target& target)
-      : calibration_(options.calibration, options.edges),
-        tracker_(target, options.track()),
-        output_(options.output, columns()) {
+  Tracking(const Options& options, CalibrationChoice calibration, const Target& target)
+      : calibration_(std::move(calibration)), tracker_(target, options.track()), output_(options.output, columns()) {
     refresh_calibrations();
   }
 
@@ -126,7 +124,8 @@ class Tracking {
       tracker_.set_calibration(station, *now);
     }
   }
-  void take(const track::EpochResult& result) {
+  void take(track::EpochResult result) {
+    if (result.pose) calibration_.widen(*result.pose);
     write_result(result, station_id_text(calibration_.station_id(result.station)), output_.rows());
     if ((result.flags & track::kEpochUncalibrated) != 0) ++uncalibrated_;
     if (!result.pose) return;
@@ -166,8 +165,10 @@ int run(const Options& options) {
   check_files(options);
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
+  CalibrationChoice calibration(options.calibration, options.edges);
+  const Target believed = calibration.target(target.target, options.track().form);
   Recording recording(options.edges);
-  const auto tracking = std::make_unique<Tracking>(options, target.target);
+  const auto tracking = std::make_unique<Tracking>(options, std::move(calibration), believed);
   Progress progress("track", "sweeps and payloads");
   recording.on_pause([&tracking] { tracking->show(); });
   while (const std::optional<RecordingEvent> event = recording.next()) {
@@ -198,7 +199,8 @@ void add_track(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--calibration", options->calibration,
-                   "ootx (what the stations send; a file is read twice), none, or a TOML file of [[station]] tables")
+                   "ootx (what the stations send; a file is read twice), none, or a TOML file: of `pharos calibrate "
+                   "lighthouse`, whose sensor positions hold too, or of [[station]] tables")
       ->capture_default_str();
   command
       ->add_option("--form", options->form, "Sign form of the station model's curve term; real stations fit 1 better")
