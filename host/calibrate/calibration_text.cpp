@@ -37,7 +37,7 @@ std::string summary_text(const LighthouseCalibration& calibration) {
   std::string out = "# Written by `pharos calibrate lighthouse`, for `pharos track --calibration` and for pharosd.\n";
   out += "[calibration]\n";
   out += std::string("scale = ") + (calibration.scale_measured ? "\"measured\"" : "\"prior\"") +
-         "  # prior: nobody measured a length; the size is the nominal one\n";
+         "  # \"prior\": nobody measured a length, the size is the nominal one\n";
   out += "scale_sigma = " + exact(bundle.scale_sigma) +
          "  # relative, of the target's size: part of every range's sigma\n";
   out += "model_form = " + std::to_string(static_cast<int>(calibration.form)) + "\n";

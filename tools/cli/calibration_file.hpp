@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "host/stations/station_file.hpp"
+#include "host/calibrate/calibration_file.hpp"
 
 namespace pharos::tools {
 
-/// Station calibrations from a file in the form of host/stations.
+/// Calibrations from a file: of stations alone (host/stations), or of a target with its stations (host/calibrate).
 class CalibrationFile {
  public:
   /// Throws InputError naming file, line and key.
@@ -18,9 +17,10 @@ class CalibrationFile {
 
   /// The entry for this slot position, else the one for this id; null where the file has neither.
   const lighthouse::StationCalibration* find(std::uint8_t slot, const std::optional<std::uint32_t>& id) const;
+  const calibrate::CalibrationFile& content() const { return content_; }
 
  private:
-  std::vector<host::StationEntry> entries_;
+  calibrate::CalibrationFile content_;
 };
 
 }  // namespace pharos::tools

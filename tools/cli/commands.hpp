@@ -16,6 +16,7 @@ void add_decode(CLI::App& app, int& exit_code);
 void add_track(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_precision(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);  // cli/calibrate
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);       // tools/sim
 void add_listen(CLI::App& app, int& exit_code);    // tools/listen
@@ -29,6 +30,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_track(app, exit_code);
   add_solve(app, exit_code);
   add_precision(app, exit_code);
+  add_calibrate(app, exit_code);
   add_reproduce(app, exit_code);
   add_sim(app, exit_code);
   add_listen(app, exit_code);

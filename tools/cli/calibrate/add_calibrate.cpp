@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/calibrate/add_calibrate.hpp"
+
+#include "tools/cli/commands.hpp"
+
+namespace pharos::tools {
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("calibrate", "Recordings or images to a calibration file");
+  command->require_subcommand(1);
+  command->footer(
+      "Example:\n  pharos calibrate lighthouse rests.edges.csv.gz --target target.csv --output calibrated.toml");
+  add_calibrate_lighthouse(*command, exit_code);
+}
+
+}  // namespace pharos::tools

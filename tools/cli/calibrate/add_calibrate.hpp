@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace pharos::tools {
+
+// Every kind of calibration adds itself below `calibrate`, as subcommands do below the program.
+void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code);
+
+}  // namespace pharos::tools
