@@ -36,10 +36,11 @@ class Line final : public hal::SerialLine {
     const std::int64_t now = tape.now_ticks();
     if (busy_until_ < now) busy_until_ = now;
     const std::int64_t room = kLineHolds - (busy_until_ - now + kByteTicks - 1) / kByteTicks;
-    if (room <= 0) return 0;
-    const auto most = static_cast<std::size_t>(room);
+    if (room <= 0 && !tape.ended()) return 0;
+    const auto most = tape.ended() ? bytes.size() : static_cast<std::size_t>(room);  // at the end nothing is cut off
     const std::size_t taken = uart_.write(bytes.first(bytes.size() < most ? bytes.size() : most));
     busy_until_ += static_cast<std::int64_t>(taken) * kByteTicks;
+    wrote_ = wrote_ || taken != 0;
     return taken;
   }
   bool idle() override { return uart_.idle(); }
@@ -52,12 +53,19 @@ class Line final : public hal::SerialLine {
     return byte;
   }
   std::uint32_t receive_errors() override { return uart_.receive_errors(); }
+  /// Whether anything was written since last asked.
+  bool take_wrote() {
+    const bool wrote = wrote_;
+    wrote_ = false;
+    return wrote;
+  }
 
  private:
   Uart16550 uart_{kUart, 1, kUartFifo};
   std::int64_t busy_until_ = 0;
   std::int64_t looked_ticks_ = 0;
   bool more_ = false;
+  bool wrote_ = false;
 };
 Line line;
 
@@ -127,8 +135,8 @@ Board start_board() {
 }
 
 void rest() {
-  if (tape.ended()) exit_emulator(0);
-  if (!tape.waiting()) return;  // a look at the clock is no record, but more may follow at once
+  if (tape.ended() && !line.take_wrote()) exit_emulator(0);
+  if (tape.ended() || !tape.waiting()) return;  // a look at the clock is no record, but more may follow at once
   set_timer(machine_ticks() + kMillisecond);
   wait_for_interrupt();
 }

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""usage: budget_test.py IMAGES: sections of the board's images against its block RAM. Prints the table of firmware/README.md."""
+
+import pathlib
+import subprocess
+import sys
+
+RETAINED = 32
+LOADER = 4096  # its section, whether it fills it or not
+CHIP = 36 * 1024
+# Most bytes of variables and stack, and of everything (code, constants, variables, stack, loader) together. `decoder` does not
+# fit on chip yet: its second figure keeps it from growing.
+LIMITS = {"decoder.ep4ce10": (12 * 1024, 42 * 1024), "decoder_pose.ep4ce10": (CHIP, None)}
+
+
+def sections(elf):
+    text = subprocess.run(["riscv64-unknown-elf-size", "-A", elf], capture_output=True, text=True, check=True).stdout
+    return {fields[0]: int(fields[1]) for fields in map(str.split, text.splitlines()) if len(fields) == 3 and fields[1].isdigit()}
+
+
+def main():
+    images = pathlib.Path(sys.argv[1])
+    failed = False
+    print("| image | code and constants | hot code | variables | stack | variables + stack | with loader | of 36,864 |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, (most_ram, most_all) in LIMITS.items():
+        elf = images / f"{name}.elf"
+        if not elf.exists():
+            continue
+        size = sections(elf)
+        code = size[".text"] + size[".rodata"]
+        variables = size[".data"] + size[".bss"] + RETAINED
+        ram = variables + size[".stack"]
+        on_chip = ram + size[".hot"] + LOADER + (code if most_all else 0)
+        print(f"| {name} | {code:,} | {size['.hot']:,} | {variables:,} | {size['.stack']:,} | {ram:,} | {on_chip:,} | "
+              f"{CHIP - on_chip:+,} |")
+        if ram > most_ram or on_chip > (most_all or CHIP):
+            print(f"FAILED: {name} is over its budget of {most_ram:,} variables and stack, {most_all or CHIP:,} in all")
+            failed = True
+    loader = images / "ep4ce10_loader.bin"
+    if loader.stat().st_size > LOADER:
+        print(f"FAILED: the loader has {loader.stat().st_size} bytes of {LOADER}")
+        failed = True
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
