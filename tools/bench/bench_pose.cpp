@@ -48,7 +48,7 @@ Problem problem_of(const Target& target, const test::PnpSet& set, test::PnpGener
 struct Record {
   std::vector<double> seconds;
   test::PnpScore score;
-  double median_us() const { return median_of(seconds) * kUs; }
+  double median_us() const { return middle_of(seconds) * kUs; }
 };
 
 template <class Solve>

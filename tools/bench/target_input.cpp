@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr double kDomeRadius_m = 0.06;
-constexpr double kSimulated_s = 4.0;
+constexpr double kSimulated_s = 10.0;
 constexpr double kPriorRotation_rad = 5e-3, kPriorPosition_m = 5e-3;  // a cycle's motion, 1 sigma an axis
 // Stamps that step back by more start another stretch of time (a device's stale first pulses).
 constexpr std::int64_t kStretchTicks = 2'500'000;
@@ -193,8 +193,8 @@ PoseInput pose_problems(const Target& target, int least_seen, int most_seen, int
   append(input.bytes, header);
   append_target(input.bytes, target);
   input.bytes.insert(input.bytes.end(), rows.begin(), rows.end());
-  input.host_warm_us = 1e6 * median_of(warm_s);
-  input.host_nothing_us = 1e6 * median_of(nothing_s);
+  input.host_warm_us = 1e6 * middle_of(warm_s);
+  input.host_nothing_us = 1e6 * middle_of(nothing_s);
   return input;
 }
 
