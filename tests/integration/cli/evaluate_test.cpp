@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "host/table/pose_table.hpp"
+#include "tests/integration/cli/example_recording.hpp"
+
+namespace pharos::cli_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// What motion capture does not share with the track: its frame, its marker body, its clock.
+struct CaptureFrame {};
+struct MarkerBody {};
+const Pose<frame::Lighthouse, CaptureFrame> kFrame = {rotation_exp({-1.4620, 1.3741, -1.0023}), {0.680, 0.624, 2.884}};
+const Pose<MarkerBody, frame::Body> kMarkers = {rotation_exp({0.3, -0.2, 0.5}), {0.05, -0.03, 0.04}};
+constexpr double kClock_s = 1234.56789;
+constexpr std::size_t kStep = 16;  // of the truth's milliseconds: 62.5 Hz
+
+/// A simulated manoeuvre, its track and its motion capture.
+struct Experiment {
+  Folder folder;
+  std::string poses = folder.path("poses.csv");
+  std::string truth = folder.path("out/truth.csv");
+  std::string capture;
+
+  Experiment() {
+    const std::string scenario = folder.write(
+        "scenario.toml", "duration_s = 15\ntarget = \"" + folder.write("solid.csv", solid_target_csv()) +
+                             "\"\n[[station]]\ncalibration = \"typical\"\n[trajectory]\nkind = \"manoeuvre\"\n");
+    const Outcome made = pharos("sim lighthouse " + scenario + " --seed 3 --output " + folder.path("out"));
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const Outcome tracked = pharos("track " + folder.path("out/edges.csv.gz") + " --method epoch --target " +
+                                   folder.path("out/target.csv") + " --output " + poses);
+    EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
+    capture = folder.write("capture.csv", captured());
+  }
+
+  std::string captured() const {
+    std::string text = "time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+    const auto rows = host::read_poses(truth, "time_s");
+    for (std::size_t i = 0; i < rows.size(); i += kStep) {
+      const auto pose = kFrame.inverse() * *rows[i].T_lighthouse_body * kMarkers.inverse();
+      const Quaternion q = pose.quaternion();
+      text += std::to_string(std::stod(rows[i].key) + kClock_s);
+      for (const double v : {q.w(), q.x(), q.y(), q.z(), pose.t.x(), pose.t.y(), pose.t.z()}) {
+        text += "," + std::to_string(v);
+      }
+      text += "\n";
+    }
+    return text;
+  }
+  static const Experiment& get() {
+    static const Experiment experiment;
+    return experiment;
+  }
+};
+
+double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
+
+TEST(CliEvaluate, FindsWhatMotionCaptureDoesNotShareAndThenTheSameErrors) {
+  const Experiment& e = Experiment::get();
+  const std::string picture = e.folder.path("errors.svg");
+  const Outcome direct = pharos("evaluate " + e.poses + " " + e.truth);
+  ASSERT_EQ(direct.exit_code, 0) << direct.err;
+  const Outcome found =
+      pharos("evaluate " + e.poses + " " + e.capture + " --align hand-eye --time-offset auto --plot " + picture);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Row truth = rows_of(direct.out).at(0);
+  const Row row = rows_of(found.out).at(0);
+  EXPECT_NEAR(number(row, "time_offset_s"), kClock_s, 0.005);
+  EXPECT_NEAR(number(row, "body_tx_m"), kMarkers.t.x(), 0.01);
+  EXPECT_NEAR(number(row, "body_ty_m"), kMarkers.t.y(), 0.01);
+  EXPECT_NEAR(number(row, "body_tz_m"), kMarkers.t.z(), 0.01);
+  EXPECT_EQ(row.at("compared"), truth.at("compared"));
+  for (const char* column : {"rot_rms_deg", "rot_median_deg", "pos_rms_mm", "pos_median_mm"}) {
+    EXPECT_NEAR(number(row, column) / number(truth, column), 1.0, 0.2) << column;
+  }
+  EXPECT_EQ(row.at("open"), "");
+  EXPECT_THAT(content_of(picture), StartsWith("<svg"));
+}
+
+TEST(CliEvaluate, GivesEveryRowOneFate) {
+  const Experiment& e = Experiment::get();
+  const Row row = rows_of(pharos("evaluate " + e.poses + " " + e.truth).out).at(0);
+  double sum = 0.0;
+  for (const char* fate : {"compared", "refused", "ambiguous", "flagged", "outside", "in_gap"})
+    sum += number(row, fate);
+  EXPECT_EQ(sum, number(row, "rows"));
+  EXPECT_EQ(rows_of(content_of(e.poses)).size(), number(row, "rows"));
+}
+
+TEST(CliEvaluate, EndsWith1AndARowWhereTimesDoNotMeet) {
+  const Experiment& e = Experiment::get();
+  const Outcome run = pharos("evaluate " + e.poses + " " + e.capture);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("--time-offset auto"));
+  EXPECT_EQ(rows_of(run.out).at(0).at("status"), "refused_no_overlap");
+  EXPECT_EQ(rows_of(run.out).at(0).at("pos_rms_mm"), "");
+}
+
+TEST(CliEvaluate, EndsWith2OnFilesThatAreNoTrajectories) {
+  const Experiment& e = Experiment::get();
+  EXPECT_EQ(pharos("evaluate " + e.poses + " " + e.folder.path("solid.csv")).exit_code, 2);
+  EXPECT_EQ(pharos("evaluate - -").exit_code, 2);
+  EXPECT_EQ(pharos("evaluate " + e.poses + " " + e.truth + " --time-offset soon").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace pharos::cli_test
