@@ -210,8 +210,11 @@ int run(const Options& options) {
 
 CLI::Validator auto_or_seconds() {
   const CLI::Validator number = number_from(-1e10, 1e10);
-  return {[number](std::string& text) { return text == "auto" ? std::string() : number(text); }, "auto or seconds",
-          "offset"};
+  return {[number](std::string& text) {
+            if (text == "auto" || number(text).empty()) return std::string();
+            return text + " is neither auto nor a number of seconds";
+          },
+          "auto or seconds", "offset"};
 }
 
 }  // namespace
