@@ -20,8 +20,12 @@ struct TargetConfig {
   std::string port;
   int baud = 460'800;
   std::filesystem::path target_file;
-  Target target;
+  Target target;  // as calibrated, where a calibration is named
   TargetShape shape;
+  /// Of `pharos calibrate lighthouse`; empty: the target's table and what stations send hold.
+  std::filesystem::path calibration_file;
+  std::vector<lighthouse::StationCalibration> calibrated_stations;
+  double scale_sigma = 0.0;  // relative, of the target's size
   track::TrackOptions track;
   /// Keep accepted station calibrations in the state directory and use them after a restart.
   bool remember_calibrations = true;

@@ -39,6 +39,10 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
   if (!target.is_replay()) out << " at " << target.baud << " baud";
   out << "\n  sensors: " << target.shape.sensors << " from " << target.target_file.string();
   if (target.shape.coplanar) out << " (all in one plane: single cycles may fit two poses)";
+  if (!target.calibration_file.empty()) {
+    out << "\n  calibrated: " << target.calibrated_stations.size() << " stations and the sensors, from "
+        << target.calibration_file.string() << ", size known to " << 100.0 * target.scale_sigma << " %";
+  }
   out << "\n  solve: sigma " << target.track.solve.sigma_rad * kArcsecPerRad << " arcsec, rho "
       << target.track.solve.rho << ", station model form " << static_cast<int>(target.track.form)
       << ", smoothed flashes: " << yes_no(target.track.smooth_flashes) << ", prior younger than "

@@ -98,6 +98,28 @@ track::TrackOptions read_solve(const TomlTable& table) {
   return options;
 }
 
+// Sensor positions and stations as calibrated.
+void read_calibration(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
+                      TargetConfig& target) {
+  if (!table.has("calibration_file")) return;
+  target.calibration_file = read_path(table, "calibration_file", folder);
+  try {
+    const calibrate::CalibrationFile file = surroundings.read_calibration(target.calibration_file.string());
+    target.target = calibrate::calibrated_target(file, target.target);
+    target.scale_sigma = file.scale_sigma;
+    for (const StationEntry& station : file.stations) {
+      if (!station.id) throw InputError(file.name + ": a [[station]] without id; the daemon knows stations by theirs");
+      target.calibrated_stations.push_back(station.calibration);
+    }
+    if (file.model_form != 0 && file.model_form != static_cast<int>(target.track.form)) {
+      throw InputError(file.name + ": calibrated with sign form " + std::to_string(file.model_form) +
+                       "; set solve.model_form to it");
+    }
+  } catch (const InputError& error) {
+    table.fail("calibration_file", error.what());
+  }
+}
+
 TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings) {
   TargetConfig target;
   target.name = read_name(table, "name", table.text("name"));
@@ -125,6 +147,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   } catch (const InputError& error) {
     table.fail("target_file", error.what());
   }
+  read_calibration(table, folder, surroundings, target);
   return target;
 }
 

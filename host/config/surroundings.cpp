@@ -60,7 +60,11 @@ void add_trouble(std::vector<std::string>& troubles, const char* key, const fs::
 
 }  // namespace
 
-Surroundings this_computer() { return {read_target, check_recording, identity}; }
+Surroundings this_computer() { return {read_target, check_recording, identity, calibrate::read_calibration_file}; }
+
+calibrate::CalibrationFile Surroundings::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
 
 std::vector<std::string> directory_troubles(const DaemonConfig& config) {
   std::vector<std::string> troubles;

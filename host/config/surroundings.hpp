@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/calibrate/calibration_file.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/table/target_file.hpp"
 
@@ -19,6 +20,10 @@ struct Surroundings {
   std::function<void(const std::filesystem::path& file)> check_recording;
   /// The same text for every spelling of one port or file: symbolic links, `..`, two device nodes.
   std::function<std::string(const std::string& path)> identity;
+  /// How a calibration file becomes a calibration; throws InputError. Unless given, there is none.
+  std::function<calibrate::CalibrationFile(const std::string& path)> read_calibration = no_calibration;
+
+  static calibrate::CalibrationFile no_calibration(const std::string& path);
 };
 
 /// This computer's files and devices.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "host/calibrate/calibration_file.hpp"
 #include "host/daemon/now.hpp"
 #include "host/publish/words.hpp"
 #include "pharos/base/ticks.hpp"
@@ -128,7 +129,7 @@ void TargetLine::line_lost() {
   frame_bytes_ = 0;
   tracker_ = track::EpochTracker(config_.target, config_.track);
   for (std::uint8_t station = 0; station < kMaxStations; ++station) {
-    if (const auto* calibration = calibrations_.in_use(station)) tracker_.set_calibration(station, *calibration);
+    if (const auto* sent = calibrations_.in_use(station)) tracker_.set_calibration(station, believed(*sent));
   }
 }
 
@@ -167,12 +168,26 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
   const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
   if (calibration == nullptr) return;
   ++counters_.calibrations_taken;
-  tracker_.set_calibration(payload.station, *calibration);
+  tracker_.set_calibration(payload.station, believed(*calibration));
+  if (!config_.calibration_file.empty() && &believed(*calibration) == calibration) {
+    log_.warn("other station",
+              "station " + station_id_text(calibration->id) + " is not in " + config_.calibration_file.string() +
+                  ": what it sends of itself is used; calibrate with it",
+              arrival_.monotonic_ns);
+  }
   log_.info("calibration",
             "calibration of station " + std::to_string(payload.station) + " (" + station_id_text(calibration->id) +
                 ") in use",
             arrival_.monotonic_ns);
   if (config_.remember_calibrations) memory_.keep(*calibration);
+}
+
+// What the calibration file says of a station goes before what it sends of itself.
+const lighthouse::StationCalibration& TargetLine::believed(const lighthouse::StationCalibration& sent) const {
+  for (const lighthouse::StationCalibration& station : config_.calibrated_stations) {
+    if (station.id == sent.id) return station;
+  }
+  return sent;
 }
 
 void TargetLine::take(const report::DecoderReport& report) { told_.decoder.take(report.counters); }
@@ -244,6 +259,7 @@ void TargetLine::answer(const track::EpochResult& result) {
   report->flags = result.flags;
   report->observations = result.observations;
   report->pose = result.pose;
+  if (report->pose) calibrate::widen_by_scale(*report->pose, config_.scale_sigma);
   if (publisher_.publish_pose(*report) && result.pose) {
     last_pose_ns_ = arrival_.monotonic_ns;
     latency_.add(monotonic_now_ns() - push_began_ns_);

@@ -75,6 +75,7 @@ class TargetLine {
     ++counters_.unexpected_events;
   }
 
+  const lighthouse::StationCalibration& believed(const lighthouse::StationCalibration& sent) const;
   void watch_clock(const report::LinkEvent& event);
   void tell_host_jump();
   void restart(const char* why);

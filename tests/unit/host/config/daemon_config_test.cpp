@@ -32,7 +32,12 @@ Surroundings made_up() {
           [](const std::filesystem::path& file) {
             if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
           },
-          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; }};
+          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
+          [](const std::string& path) {
+            calibrate::CalibrationFile file;
+            file.name = path;
+            return file;
+          }};
 }
 
 DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up()); }
@@ -44,6 +49,55 @@ std::string error_of(const std::string& text) {
     return error.what();
   }
   return "no error";
+}
+
+// One sensor, calibrated to stand elsewhere, and one station.
+calibrate::CalibrationFile calibrated(const std::string& path) {
+  calibrate::CalibrationFile file;
+  file.name = path;
+  file.model_form = 2;
+  file.scale_sigma = 0.002;
+  file.sensors.push_back({3, {0.0004, 0.0, 0.0}, Vector3::Zero()});
+  file.nominal_m.push_back(Vector3::Zero());
+  StationEntry station;
+  station.id = 0xBEC08E38u;
+  station.calibration.id = 0xBEC08E38u;
+  station.calibration.rotor[0].phase_rad = 0.01;
+  file.stations.push_back(station);
+  return file;
+}
+
+TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
+  Surroundings surroundings = made_up();
+  surroundings.read_calibration = calibrated;
+  std::uint8_t sensor = 3;
+  surroundings.read_target = [&](const std::string&) {
+    TargetFile file;
+    file.target.push_back({sensor, Vector3::Zero(), Vector3::Zero()});
+    return file;
+  };
+  const std::string with_file = std::string(kOneTarget) + "calibration_file = 'cal.toml'\n";
+  const std::string second_form = "[target.solve]\nmodel_form = 2\n";
+  const auto parsed = [&](const std::string& text) {
+    return parse_daemon_config(text, "p.toml", "/etc/pharos", surroundings).targets.at(0);
+  };
+  const TargetConfig target = parsed(with_file + second_form);
+  EXPECT_EQ(target.calibration_file, "/etc/pharos/cal.toml");
+  EXPECT_EQ(target.target[0].position_m.x(), 0.0004);
+  ASSERT_EQ(target.calibrated_stations.size(), 1u);
+  EXPECT_EQ(target.calibrated_stations[0].rotor[0].phase_rad, 0.01);
+  EXPECT_EQ(target.scale_sigma, 0.002);
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      parsed(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(refusal(with_file), AllOf(StartsWith("p.toml:5: "), HasSubstr("sign form 2")));
+  sensor = 4;
+  EXPECT_THAT(refusal(with_file + second_form), HasSubstr("another target: sensor 4"));
 }
 
 TEST(DaemonConfig, DefaultsSufficeForOneTarget) {

@@ -164,6 +164,34 @@ TEST_F(TargetLineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) {
   EXPECT_EQ(again.counters().calibrations_taken, 1);
 }
 
+TEST_F(TargetLineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
+  constexpr double kPhase_rad = 0.01;
+  TargetConfig calibrated = config();
+  calibrated.calibration_file = "calibrated.toml";
+  calibrated.scale_sigma = 0.005;
+  calibrated.calibrated_stations.resize(1);
+  calibrated.calibrated_stations[0].id = 0xBEC08E38;
+  calibrated.calibrated_stations[0].rotor[0].phase_rad = kPhase_rad;
+  TargetLine line(calibrated, PublishConfig{}, "lighthouse/test", publisher_, memory_, 0);
+  const auto push_into_line = [&](const StillTarget::Bytes& bytes) { line.push(bytes, arrival_at(ticks_)); };
+  const auto push_turns = [&] {
+    for (int i = 0; i < 20; ++i) {
+      ticks_ += kCycleTicks;
+      push_into_line(target_.cycle(ticks_));
+    }
+  };
+  push_turns();
+  const pose_t before = poses().back();
+  push_into_line(target_.ootx(ticks_, 0xBEC08E38));
+  push_into_line(target_.ootx(ticks_, 0xBEC08E38));
+  push_turns();
+  const pose_t after = poses().back();
+  EXPECT_EQ(after.flags, "");
+  EXPECT_NEAR(std::abs(after.position_m[0] - before.position_m[0]), kPhase_rad * 2.0, 0.2 * kPhase_rad * 2.0);
+  // What is not known of the target's size widens the range from the first pose on.
+  EXPECT_GT(std::sqrt(before.covariance[6 * 5 + 5]), 0.005 * 2.0);
+}
+
 TEST_F(TargetLineTest, AnotherProtocolVersionIsNamedInItsHealth) {
   for (std::uint16_t i = 0; i < 3; ++i) push(foreign_frame(9, i), ticks_);
   const SourceHealth health = line_.health("/dev/x", SourceState::kOk, "", now_ns());
