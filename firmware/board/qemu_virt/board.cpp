@@ -136,8 +136,10 @@ Board start_board() {
 
 void rest() {
   if (tape.ended() && !line.take_wrote()) exit_emulator(0);
-  if (tape.ended() || !tape.waiting()) return;  // a look at the clock is no record, but more may follow at once
-  set_timer(machine_ticks() + kMillisecond);
+  const bool interrupt_reads = millisecond_handler != nullptr;
+  // A look at the clock is no record, but more may follow at once.
+  if (!interrupt_reads && (tape.ended() || !tape.waiting())) return;
+  if (!interrupt_reads) set_timer(machine_ticks() + kMillisecond);
   wait_for_interrupt();
 }
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/app/pose_task.hpp"
+
+#include <optional>
+
+#include "firmware/hal/board.hpp"
+
+namespace pharos::app {
+namespace {
+
+track::TrackOptions warm() {
+  track::TrackOptions options;
+  options.warm_start = true;
+  return options;
+}
+
+// The oldest entry of a ring that the interrupt fills.
+template <class T, std::size_t N>
+std::optional<T> take_oldest(Ring<T, N>& ring) {
+  const hal::NoInterrupts guard;
+  if (ring.empty()) return std::nullopt;
+  return ring.pop();
+}
+
+}  // namespace
+
+PoseTask::PoseTask(hal::System& system, const Target& target) : system_(system), tracker_(target, warm()) {}
+
+void PoseTask::take(const lighthouse::Sweep& sweep) {
+  if (!sweeps_.push(sweep)) ++missed_;
+}
+
+void PoseTask::take(const lighthouse::OotxPayload& payload) {
+  payloads_.push(payload);  // the station says the same again in three seconds
+}
+
+report::Reporter::Bytes PoseTask::next_frame(report::Reporter& reporter) {
+  if (answers_.empty()) return {};
+  return reporter.report(answers_.pop());
+}
+
+std::uint32_t PoseTask::take_busy_cycles() {
+  const std::uint32_t cycles = busy_cycles_;
+  busy_cycles_ = 0;
+  return cycles;
+}
+
+bool PoseTask::take_alive() {
+  const bool alive = alive_;
+  alive_ = false;
+  return alive;
+}
+
+bool PoseTask::solve() {
+  alive_ = true;
+  const std::uint32_t begin = system_.cycles();
+  if (const auto payload = take_oldest(payloads_)) {
+    calibrations_.push(*payload);
+    if (const auto* calibration = calibrations_.in_use(payload->station)) {
+      tracker_.set_calibration(payload->station, *calibration);
+    }
+    return true;
+  }
+  const auto sweep = take_oldest(sweeps_);
+  if (!sweep) return false;
+  if (const auto result = tracker_.push(*sweep)) answer(*result);
+  const std::uint32_t spent = system_.cycles() - begin;
+  const hal::NoInterrupts guard;
+  busy_cycles_ += spent;
+  return true;
+}
+
+void PoseTask::answer(const track::EpochResult& result) {
+  report::PoseReport report;
+  report.station = result.station;
+  report.flags = result.flags;
+  report.time_ticks = result.time_ticks;
+  report.observations = result.observations;
+  report.pose = result.pose;
+  const hal::NoInterrupts guard;
+  if (!answers_.push(report)) ++missed_;
+}
+
+}  // namespace pharos::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/app/pose_desk.hpp"
+#include "firmware/hal/system.hpp"
+#include "pharos/base/ring.hpp"
+#include "pharos/lighthouse/calibration_store.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+
+namespace pharos::app {
+
+/// Solves cycles on board, each warm-started from the last pose, while the program decodes from the timer's interrupt:
+/// one solve from nothing takes longer than the capture block's FIFO lasts.
+///
+/// take() and next_frame() run in the interrupt, solve() in the main loop; what passes between them is copied with
+/// interrupts off.
+class PoseTask final : public PoseDesk {
+ public:
+  PoseTask(hal::System& system, const Target& target);
+
+  void take(const lighthouse::Sweep& sweep) override;
+  void take(const lighthouse::OotxPayload& payload) override;
+  report::Reporter::Bytes next_frame(report::Reporter& reporter) override;
+  std::uint32_t sweeps_missed() override { return missed_; }
+  std::uint32_t take_busy_cycles() override;
+  bool take_alive() override;
+
+  /// Main loop: takes one sweep or payload further. False when none waits.
+  bool solve();
+
+ private:
+  void answer(const track::EpochResult& result);
+
+  hal::System& system_;
+  track::EpochTracker tracker_;
+  lighthouse::CalibrationStore calibrations_;
+  Ring<lighthouse::Sweep, 2> sweeps_;
+  Ring<lighthouse::OotxPayload, 1> payloads_;
+  Ring<report::PoseReport, 1> answers_;
+  std::uint32_t missed_ = 0;
+  std::uint32_t busy_cycles_ = 0;
+  volatile bool alive_ = false;
+};
+
+}  // namespace pharos::app
