@@ -31,7 +31,9 @@ constexpr std::array<Onset, kMoving> kUnknown{{{2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 
 
 // Changes per second, from row to column: rest, calm, brisk, wild.
 constexpr double kChange[kModels][kModels] = {
-    {0.0, 0.2, 0.2, 0.2}, {0.2, 0.0, 0.2, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
+    {0.0, 0.2, 0.05, 0.01}, {0.2, 0.0, 0.2, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
+// A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones.
+constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kLongestStep_s = 0.05;
 // Shares below are not worth a blend; beliefs less probable are not corrected, but taken anew from the others.
 constexpr double kNegligible = 1e-3;
@@ -109,6 +111,16 @@ void MotionBank::interact(double dt_s) {
     }
     flow[i][i] = probability_[i] * stays;
     for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];
+  }
+  for (std::size_t m = 0; m < kMoving; ++m) {
+    const bool lost = moving_[m].pp.topLeftCorner<3, 3>().trace() > kLostRotation_rad * kLostRotation_rad ||
+                      moving_[m].pp.bottomRightCorner<3, 3>().trace() > kLostPosition_m * kLostPosition_m;
+    if (!lost) continue;
+    if (m == 0) {
+      moving_[0] = beginning_to_move(resting_, kOnset[0]);
+    } else {
+      moving_[m] = moving_[m - 1];
+    }
   }
   // Calmer beliefs take over from brisker ones, in this order, which leaves every source as it was.
   double sum = flow[0][0];

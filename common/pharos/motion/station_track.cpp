@@ -14,18 +14,42 @@ namespace {
 
 constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a leader that does well
 constexpr int kDoubts = 2;        // sweeps in a row that contradict a leader; one makes a check due at once
-// Second minima are looked for as if the noise were so much larger: what motion does to a cycle must not hide one.
-constexpr double kStartInflation = 4.0;
 // Chi-squared by which one of two must be better to be the only one: e^9 to one.
 constexpr double kDecided = 18.0;
 // Sweeps that a rival from mid-flight needs to learn its rates before it is compared.
 constexpr int kSettleSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the leader.
 constexpr double kContradiction = 40.0;
+// A leader that knows less than this of the pose is none.
+constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
 // Two solved cycles further apart than this tell no rate.
 constexpr double kLongestBetween_s = 0.07;
 // Time over which a cycle's hits are spread, for what motion does to its solution.
 constexpr double kCycle_s = 0.01;
+
+// No sensor has this number.
+constexpr std::uint8_t kNobody = 255;
+
+// The cycle with the bearings that the solution left out given to nobody, in their places.
+track::Cycle believed_part(const track::Cycle& cycle, const track::IdealObservations& ideal,
+                           const pose::Solution& solution) {
+  track::Cycle part = cycle;
+  const auto was_used = [&](Axis axis, const lighthouse::Bearing& bearing) {
+    for (std::size_t i = 0; i < ideal.observations.size(); ++i) {
+      if (solution.used[i] && ideal.observations[i].axis == axis && ideal.raw[i].sensor == bearing.sensor &&
+          ideal.raw[i].time_ticks == bearing.time_ticks) {
+        return true;
+      }
+    }
+    return false;
+  };
+  for (const Axis axis : {Axis::kX, Axis::kY}) {
+    for (lighthouse::Bearing& bearing : part.bearings[static_cast<std::size_t>(index_of(axis))]) {
+      if (!was_used(axis, bearing)) bearing.sensor = kNobody;
+    }
+  }
+  return part;
+}
 
 }  // namespace
 
@@ -39,6 +63,12 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
                         const AssumedNoise& noise) {
   if (!leader_) return;
   leader_->push(bearings, axis, view, noise);
+  const Matrix6& covariance = leader_->belief().covariance;
+  if (!(covariance.topLeftCorner<3, 3>().trace() < kLostRotation_rad * kLostRotation_rad) ||
+      !(covariance.bottomRightCorner<3, 3>().trace() < kLostPosition_m * kLostPosition_m)) {
+    lose();
+    return;
+  }
   if (!rival_) return;
   rival_->push(bearings, axis, view, noise);
   decide();
@@ -86,14 +116,12 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
                          const pose::SolveOptions& options) {
   ++cycles_unchecked_;
   if (!due()) return;
-  pose::SolveOptions start = options;
-  start.sigma_rad *= kStartInflation;
   track::IdealObservations ideal = ideal_observations(cycle, *view.target, view.calibration, view.form, nullptr);
-  auto solution = pose::solve(*view.target, ideal.observations, start);
+  auto solution = pose::solve(*view.target, ideal.observations, options);
   if (solution && ideal.guessed) {
     const LighthouseFromBody first = solution->estimate.pose;
     ideal = ideal_observations(cycle, *view.target, view.calibration, view.form, &first);
-    solution = pose::solve(*view.target, ideal.observations, start);
+    solution = pose::solve(*view.target, ideal.observations, options);
   }
   refusal_ = solution ? pose::Refusal::kNone : solution.error();
   if (!solution) return;
@@ -117,8 +145,9 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
     solved_ = e.pose;
     solved_flash_ticks_ = cycle.last_flash_ticks;
   }
+  const track::Cycle believed = believed_part(cycle, ideal, *solution);
   const auto begin = [&](std::optional<Hypothesis>& hypothesis, const LighthouseFromBody& pose) {
-    hypothesis.emplace(cycle, pose, rate, own_scale, view, noise);
+    hypothesis.emplace(believed, pose, rate, own_scale, view, noise);
   };
   // Where sweep after sweep contradicts the leader while a whole cycle has an answer of its own, it is over.
   if (!leader_ || leader_->doubts() >= kDoubts) {
