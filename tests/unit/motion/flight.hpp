@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/motion/motion_tracker.hpp"
+#include "tools/problems/pnp_problems.hpp"
+#include "tools/sim/lighthouse_simulator.hpp"
+
+namespace pharos::test {
+
+/// One ideal station before the paper's target, with the paper's noise: what a flight varies.
+inline sim::LighthouseScenario flight_scenario(double duration_s) {
+  sim::LighthouseScenario scenario;
+  scenario.duration_s = duration_s;
+  scenario.target = frustum_target();
+  scenario.noise.narrow_sigma_arcsec = 0.0;
+  scenario.stations.emplace_back();
+  return scenario;
+}
+
+inline sim::LighthouseScenario manoeuvre(double duration_s, double speed_m_s, double rate_deg_s, std::uint64_t seed) {
+  sim::LighthouseScenario scenario = flight_scenario(duration_s);
+  sim::ManoeuvreLimits limits;
+  limits.speed_m_s = speed_m_s;
+  limits.rate_deg_s = rate_deg_s;
+  scenario.trajectory = sim::make_random_manoeuvre(limits, duration_s, sim::RandomStream(seed, "flight"));
+  return scenario;
+}
+
+/// A random pose at rest that shows at least `lit` sensors.
+inline sim::LighthouseScenario still(double duration_s, double range_m, std::uint64_t seed, int lit = 6) {
+  sim::LighthouseScenario scenario = flight_scenario(duration_s);
+  sim::RandomRest rest;
+  rest.min_range_m = rest.max_range_m = range_m;
+  rest.min_lit = lit;
+  scenario.trajectory = std::make_shared<sim::RestTrajectory>(
+      sim::random_rest_poses(rest, scenario.target, scenario.light.max_incidence_deg, sim::RandomStream(seed, "still")),
+      duration_s, 0.0);
+  return scenario;
+}
+
+/// One answer beside the truth at its time.
+struct FlightAnswer {
+  double time_s = 0.0;
+  const track::EpochResult* result = nullptr;
+  LighthouseFromBody truth;
+
+  double rotation_deg() const { return rotation_angle_between(result->pose->pose.R, truth.R) * kDegPerRad; }
+  double position_mm() const { return (result->pose->pose.t - truth.t).norm() * kMmPerM; }
+  double nees() const { return nees_of(truth, result->pose.value()); }
+};
+
+/// Flies a scenario through decoder and tracker. `spoil` may change each sweep before the tracker sees it.
+inline void fly(
+    const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightAnswer&)>& take,
+    const std::function<void(lighthouse::Sweep&)>& spoil = [](lighthouse::Sweep&) {}) {
+  sim::LighthouseSimulator simulator(scenario, seed);
+  const auto decoder = std::make_unique<lighthouse::Decoder>();
+  motion::MotionOptions options;
+  options.smooth_flashes = false;  // the simulated flash has no memory: nothing to smooth
+  const auto tracker = std::make_unique<motion::MotionTracker>(scenario.target, options);
+  tracker->set_calibration(0, {});
+  const auto give = [&] {
+    while (decoder->take_ootx()) {
+    }
+    while (auto sweep = decoder->take_sweep()) {
+      spoil(*sweep);
+      if (const auto result = tracker->push(*sweep)) {
+        const double time_s = ticks_to_seconds(result->time_ticks);
+        take({time_s, &*result, simulator.truth(0, time_s)});
+      }
+    }
+  };
+  while (const auto pulse = simulator.next()) {
+    decoder->push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+    give();
+  }
+  decoder->flush();
+  give();
+}
+
+/// Consistency and accuracy of many answers.
+struct FlightScore {
+  int answers = 0, ambiguous = 0, refused = 0;
+  double nees = 0.0, rotation_square = 0.0, position_square = 0.0, rotation_max_deg = 0.0, position_max_mm = 0.0;
+
+  void add(const FlightAnswer& answer) {
+    if (!answer.result->pose) {
+      ++refused;
+      return;
+    }
+    if (answer.result->pose->ambiguous()) {
+      ++ambiguous;
+      return;
+    }
+    ++answers;
+    nees += answer.nees();
+    rotation_square += answer.rotation_deg() * answer.rotation_deg();
+    position_square += answer.position_mm() * answer.position_mm();
+    rotation_max_deg = std::max(rotation_max_deg, answer.rotation_deg());
+    position_max_mm = std::max(position_max_mm, answer.position_mm());
+  }
+  double nees_per_freedom() const { return nees / (6.0 * answers); }
+  double rotation_rms_deg() const { return std::sqrt(rotation_square / answers); }
+  double position_rms_mm() const { return std::sqrt(position_square / answers); }
+};
+
+}  // namespace pharos::test

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/kinematic_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+namespace pharos::motion {
+namespace {
+
+using Matrix18 = Eigen::Matrix<double, 18, 18>;
+
+Matrix18 whole(const MovingState& s) {
+  Matrix18 P;
+  P << s.pp, s.rp.transpose(), s.ap.transpose(), s.rp, s.rr, s.ar.transpose(), s.ap, s.ar, s.aa;
+  return P;
+}
+
+MovingState some_state(unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  Matrix18 root;
+  for (int i = 0; i < 18; ++i) {
+    for (int j = 0; j < 18; ++j) root(i, j) = 0.01 * normal(engine);
+  }
+  const Matrix18 P = root * root.transpose();
+  MovingState s;
+  s.pose = {rotation_exp({0.3, -0.5, 0.9}), {0.2, -0.1, 2.0}};
+  s.rate << 0.4, -0.3, 0.8, 0.1, 0.2, -0.3;
+  s.acceleration << 0.5, 0.1, -0.2, 0.3, -0.4, 0.2;
+  s.pp = P.block<6, 6>(0, 0);
+  s.rp = P.block<6, 6>(6, 0);
+  s.rr = P.block<6, 6>(6, 6);
+  s.ap = P.block<6, 6>(12, 0);
+  s.ar = P.block<6, 6>(12, 6);
+  s.aa = P.block<6, 6>(12, 12);
+  return s;
+}
+
+MovingState moved(const MovingState& s, const Eigen::Matrix<double, 18, 1>& error) {
+  MovingState other = s;
+  other.pose = s.pose.moved_by(error.head<6>());
+  other.rate += error.segment<6>(6);
+  other.acceleration += error.tail<6>();
+  return other;
+}
+
+TEST(MovingState, PredictsTheCovarianceThatItsMeanHasBySmallDifferences) {
+  constexpr double kStep_s = 0.008, kSmall = 1e-6;
+  const MovingState s = some_state(1);
+  MovingState end = s;
+  end.predict_mean(kStep_s);
+  Matrix18 F;
+  for (int k = 0; k < 18; ++k) {
+    Eigen::Matrix<double, 18, 1> error = Eigen::Matrix<double, 18, 1>::Zero();
+    error[k] = kSmall;
+    MovingState other = moved(s, error);
+    other.predict_mean(kStep_s);
+    F.col(k) << pose_difference(other.pose, end.pose), other.rate - end.rate, other.acceleration - end.acceleration;
+  }
+  F /= kSmall;
+  MovingState predicted = s;
+  predicted.predict(kStep_s, 0.0, 0.0);
+  const Matrix18 expected = F * whole(s) * F.transpose();
+  // What is left out is half the turn of one step (0.4 %) of the rate's share.
+  EXPECT_LT((whole(predicted) - expected).norm(), 1e-3 * expected.norm());
+  EXPECT_LT((predicted.pose.R - end.pose.R).norm(), 1e-12);
+}
+
+TEST(MovingState, WhiteJerkGrowsAsItsIntegralsSay) {
+  MovingState s;
+  s.pose.t = {0.0, 0.0, 2.0};
+  constexpr double q = 3.0, kStep_s = 0.01;
+  constexpr int kSteps = 50;
+  for (int k = 0; k < kSteps; ++k) s.predict(kStep_s, 0.0, q);
+  const double T = kSteps * kStep_s;
+  EXPECT_NEAR(s.pp(5, 5), q * std::pow(T, 5) / 20.0, 1e-9);
+  EXPECT_NEAR(s.rr(5, 5), q * std::pow(T, 3) / 3.0, 1e-9);
+  EXPECT_NEAR(s.aa(5, 5), q * T, 1e-9);
+  EXPECT_NEAR(s.ap(5, 5), q * std::pow(T, 3) / 6.0, 1e-9);
+  EXPECT_EQ(s.pp(0, 0), 0.0);
+}
+
+TEST(MovingState, ACorrectionIsKalmans) {
+  MovingState s = some_state(2);
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> normal;
+  InformationSums sums;
+  Eigen::Matrix<double, 7, 18> H = Eigen::Matrix<double, 7, 18>::Zero();
+  Eigen::Matrix<double, 7, 1> r;
+  constexpr double kOwn = 1e-4, kCommon = 9e-4;
+  Eigen::Matrix<double, 7, 7> R = Eigen::Matrix<double, 7, 7>::Constant(kCommon);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 6; ++j) H(i, j) = normal(engine);
+    r[i] = 0.01 * normal(engine);
+    R(i, i) += kOwn;
+    sums.add(H.row(i).head<6>().transpose(), r[i], 1.0 / kOwn);
+  }
+  const SweepInformation information = sums.close(kCommon);
+  const Matrix18 P = whole(s);
+  const Eigen::Matrix<double, 7, 7> S = H * P * H.transpose() + R;
+  const Eigen::Matrix<double, 18, 7> K = P * H.transpose() * S.inverse();
+  const Eigen::Matrix<double, 18, 1> shift = K * r;
+  const Matrix18 expected = P - K * H * P;
+
+  const MovingState before = s;
+  const Innovation innovation = innovation_of(information, s.pp, Vector6::Zero());
+  s.correct(information, innovation);
+  EXPECT_LT((whole(s) - expected).norm(), 1e-9 * P.norm());
+  EXPECT_LT((pose_difference(s.pose, before.pose) - shift.head<6>()).norm(), 1e-9);
+  EXPECT_LT((s.rate - before.rate - shift.segment<6>(6)).norm(), 1e-9);
+  EXPECT_LT((s.acceleration - before.acceleration - shift.tail<6>()).norm(), 1e-9);
+  EXPECT_NEAR(innovation.chi2 + information.misfit, r.dot(S.inverse() * r), 1e-6);
+  EXPECT_NEAR(innovation.log_det, std::log(S.determinant() / R.determinant()), 1e-8);
+}
+
+}  // namespace
+}  // namespace pharos::motion

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <bitset>
+
+#include "tests/unit/motion/flight.hpp"
+
+namespace pharos::motion {
+namespace {
+
+using test::FlightAnswer;
+using test::FlightScore;
+
+// Twelve short manoeuvres, four at each of three paces.
+TEST(MotionFlight, CovarianceIsHonestOverManoeuvres) {
+  FlightScore all;
+  std::uint64_t seed = 1;
+  for (const double pace : {1.0, 2.0, 3.0}) {
+    for (int run = 0; run < 4; ++run, ++seed) {
+      test::fly(test::manoeuvre(8.0, 0.5 * pace, 60.0 * pace, seed), seed,
+                [&](const FlightAnswer& answer) { all.add(answer); });
+    }
+  }
+  EXPECT_GT(all.answers, 10'000);
+  // Few and correlated answers: twice the campaign's band.
+  EXPECT_GT(all.nees_per_freedom(), 0.8);
+  EXPECT_LT(all.nees_per_freedom(), 1.2);
+}
+
+TEST(MotionFlight, AtRestItIsTwiceAsGoodAsOneCycleAfterAFifthOfASecond) {
+  constexpr double kSettled_s = 0.2;
+  double rotation = 0.0, position = 0.0, bound_rotation = 0.0, bound_position = 0.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const sim::LighthouseScenario scenario = test::still(0.6, 3.0, seed);
+    double first_s = -1.0;
+    bool taken = false;
+    test::fly(scenario, seed, [&](const FlightAnswer& answer) {
+      if (taken || !answer.result->pose || answer.result->pose->ambiguous()) return;
+      if (first_s < 0.0) first_s = answer.time_s;
+      if (answer.time_s < first_s + kSettled_s) return;
+      taken = true;
+      rotation += std::pow(answer.rotation_deg(), 2);
+      position += std::pow(answer.position_mm(), 2);
+      const auto seen = pose::visible_sensors(scenario.target, answer.truth, pose::kVisibleIncidence_rad);
+      const auto precision = pose::precision_of(scenario.target, answer.truth, seen, kPaperRho);
+      ASSERT_TRUE(precision.ok());
+      bound_rotation += std::pow(precision->adop_deg_per_rad * kPaperSigmaRad, 2);
+      bound_position += std::pow(precision->pdop_m_per_rad * kPaperSigmaRad * kMmPerM, 2);
+    });
+    EXPECT_TRUE(taken) << "seed " << seed;
+  }
+  EXPECT_LT(std::sqrt(rotation / bound_rotation), 0.5);
+  EXPECT_LT(std::sqrt(position / bound_position), 0.5);
+}
+
+TEST(MotionFlight, AtRestItNeitherDriftsNorGrowsTooSure) {
+  double late_square = 0.0, nees = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    test::fly(test::still(20.0, 2.0, seed), seed, [&](const FlightAnswer& answer) {
+      if (answer.time_s < 11.0 || !answer.result->pose) return;
+      late_square += std::pow(answer.position_mm(), 2);
+      nees += answer.nees() / 6.0;
+      ++count;
+    });
+  }
+  ASSERT_GT(count, 3000);
+  EXPECT_LT(std::sqrt(late_square / count), 0.1);  // mm, ten seconds on
+  EXPECT_LT(nees / count, 2.0);                    // three still poses: three correlated samples
+}
+
+TEST(MotionFlight, ComesBackAfterDarkness) {
+  sim::LighthouseScenario scenario = test::manoeuvre(12.0, 1.0, 120.0, 5);
+  scenario.faults.blackouts = {{3.0, 3.15}, {6.0, 7.5}};
+  FlightScore all;
+  double last_before_s = 0.0, first_after_s = 0.0;
+  test::fly(scenario, 5, [&](const FlightAnswer& answer) {
+    all.add(answer);
+    const double time_s = answer.time_s - 1.0;  // the counter starts at one second
+    if (!answer.result->pose) return;
+    if (time_s < 6.0) last_before_s = time_s;
+    if (time_s > 7.5 && first_after_s == 0.0) first_after_s = time_s;
+  });
+  EXPECT_GT(last_before_s, 5.9);
+  EXPECT_LT(first_after_s, 7.75);  // the decoder finds its lock again, then one cycle
+  EXPECT_LT(all.nees_per_freedom(), 1.4);
+  EXPECT_LT(all.rotation_max_deg, 10.0);
+}
+
+// For four seconds one sensor gets only light that went another way, another gets both, the false one stronger.
+TEST(MotionFlight, LeavesReflectionsOutHoweverStrong) {
+  const auto spoil = [](lighthouse::Sweep& sweep) {
+    const double time_s = ticks_to_seconds(sweep.flash.start_ticks);
+    if (time_s < 3.0 || time_s > 7.0) return;
+    const std::size_t hits = sweep.hits.size();
+    for (std::size_t i = 0; i < hits; ++i) {
+      lighthouse::Hit& hit = sweep.hits[i];
+      if (hit.sensor == 0) hit.centre_half_ticks += 2 * 866;
+      if (hit.sensor == 3) {
+        lighthouse::Hit second = hit;
+        second.centre_half_ticks -= 2 * 600;
+        second.width_ticks = static_cast<std::uint16_t>(2 * hit.width_ticks);
+        sweep.hits.push_back(second);
+      }
+    }
+  };
+  FlightScore all;
+  test::fly(
+      test::manoeuvre(8.0, 0.5, 60.0, 9), 9, [&](const FlightAnswer& answer) { all.add(answer); }, spoil);
+  EXPECT_GT(all.answers, 900);
+  EXPECT_LT(all.position_rms_mm(), 5.0);
+  EXPECT_LT(all.rotation_rms_deg(), 1.0);
+}
+
+TEST(MotionFlight, GoesOnWhenHalfOfTheSensorsDie) {
+  FlightScore all;
+  test::fly(
+      test::still(8.0, 2.0, 4, 8), 4, [&](const FlightAnswer& answer) { all.add(answer); },
+      [](lighthouse::Sweep& sweep) {
+        if (ticks_to_seconds(sweep.flash.start_ticks) < 4.0) return;
+        for (std::size_t i = sweep.hits.size(); i-- > 0;) {
+          if (sweep.hits[i].sensor % 2 == 1) sweep.hits.erase_unordered(i);
+        }
+      });
+  EXPECT_GT(all.answers, 850);
+  EXPECT_LT(all.position_max_mm, 20.0);
+}
+
+TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
+  const Target target = test::frustum_target();
+  MotionTracker tracker(target, {});
+  lighthouse::StationCalibration first, second;
+  first.id = 1;
+  second.id = 1;
+  second.rotor[0].phase_rad = 0.03;
+  tracker.set_calibration(0, first);
+  EXPECT_FALSE(tracker.predicted(0, 0).has_value());
+  const sim::LighthouseScenario scenario = test::still(1.0, 2.0, 2);
+  sim::LighthouseSimulator simulator(scenario, 2);
+  lighthouse::Decoder decoder;
+  std::int64_t last_ticks = 0;
+  while (const auto pulse = simulator.next()) {
+    decoder.push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+    while (decoder.take_ootx()) {
+    }
+    while (const auto sweep = decoder.take_sweep()) {
+      last_ticks = sweep->flash.start_ticks;
+      tracker.push(*sweep);
+    }
+  }
+  ASSERT_TRUE(tracker.predicted(0, last_ticks).has_value());
+  tracker.set_calibration(0, first);  // the same again changes nothing
+  ASSERT_TRUE(tracker.predicted(0, last_ticks).has_value());
+  tracker.set_calibration(0, second);
+  EXPECT_FALSE(tracker.predicted(0, last_ticks).has_value());
+}
+
+TEST(MotionFlight, PredictsAheadWithGrowingDoubtAndThenNotAtAll) {
+  const sim::LighthouseScenario scenario = test::manoeuvre(3.0, 0.5, 60.0, 3);
+  sim::LighthouseSimulator simulator(scenario, 3);
+  lighthouse::Decoder decoder;
+  MotionOptions options;
+  options.smooth_flashes = false;
+  MotionTracker tracker(scenario.target, options);
+  tracker.set_calibration(0, {});
+  std::int64_t last_ticks = 0;
+  while (const auto pulse = simulator.next()) {
+    decoder.push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+    while (decoder.take_ootx()) {
+    }
+    while (const auto sweep = decoder.take_sweep()) {
+      if (const auto result = tracker.push(*sweep)) last_ticks = result->time_ticks;
+    }
+  }
+  const auto after = [&](double ahead_s) {
+    return tracker.predicted(0, last_ticks + static_cast<std::int64_t>(ahead_s * kTicksPerSecond));
+  };
+  const auto now = after(0.0), soon = after(0.05), later = after(0.2);
+  ASSERT_TRUE(now && soon && later);
+  EXPECT_LT(now->covariance.trace(), soon->covariance.trace());
+  EXPECT_LT(soon->covariance.trace(), later->covariance.trace());
+  const LighthouseFromBody truth = simulator.truth(0, ticks_to_seconds(last_ticks) + 0.05);
+  const Vector6 error = pose_difference(truth, soon->pose);
+  EXPECT_LT(error.dot(soon->covariance.ldlt().solve(error)), 30.0);  // six degrees of freedom
+  EXPECT_FALSE(after(MotionTracker::kLost_s + 0.01).has_value());
+}
+
+}  // namespace
+}  // namespace pharos::motion

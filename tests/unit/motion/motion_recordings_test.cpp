@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real stations, with what OOTX says of them and nothing else.
+#include <gtest/gtest.h>
+
+#include <bitset>
+#include <memory>
+#include <vector>
+
+#include "host/table/edges_reader.hpp"
+#include "host/table/target_file.hpp"
+#include "pharos/lighthouse/calibration_store.hpp"
+#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/motion/motion_tracker.hpp"
+#include "tests/support/real_data.hpp"
+
+namespace pharos::motion {
+namespace {
+
+struct Outcome {
+  int lit = 0, valid = 0;  // sweeps of four and more sensors of the target
+  double surprise = 0.0, misfit = 0.0;
+  int surprise_freedom = 0, misfit_freedom = 0;
+
+  double valid_share() const { return static_cast<double>(valid) / lit; }
+  double surprise_per_freedom() const { return surprise / surprise_freedom; }
+  double misfit_per_freedom() const { return misfit / misfit_freedom; }
+};
+
+std::size_t sensors_lit(const lighthouse::Sweep& sweep, const Target& target) {
+  std::bitset<kMaxSensors> lit;
+  for (const lighthouse::Hit& hit : sweep.hits) {
+    if (find_sensor(target, hit.sensor) != nullptr) lit.set(hit.sensor);
+  }
+  return lit.count();
+}
+
+// By station.
+std::array<Outcome, kMaxStations> track(const std::string& recording, const std::string& target_name) {
+  const std::filesystem::path folder = test::real_data("lighthouse");
+  const Target target = host::read_target((folder / target_name).string()).target;
+  std::vector<lighthouse::Sweep> sweeps;
+  lighthouse::CalibrationStore stations;
+  host::EdgesReader reader{host::ByteSource((folder / recording).string())};
+  const auto decoder = std::make_unique<lighthouse::Decoder>();
+  while (const auto pulse = reader.next()) {
+    decoder->push(*pulse);
+    while (const auto sweep = decoder->take_sweep()) sweeps.push_back(*sweep);
+    while (const auto payload = decoder->take_ootx()) stations.push(*payload);
+  }
+  const auto tracker = std::make_unique<MotionTracker>(target, MotionOptions{});
+  for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+    if (const auto* calibration = stations.in_use(station)) tracker->set_calibration(station, *calibration);
+  }
+  std::array<Outcome, kMaxStations> outcomes;
+  for (const lighthouse::Sweep& sweep : sweeps) {
+    const auto result = tracker->push(sweep);
+    if (!result) continue;
+    Outcome& outcome = outcomes[result->station];
+    const bool lit = sensors_lit(sweep, target) >= 4;
+    outcome.lit += lit ? 1 : 0;
+    if (!result->pose) continue;
+    outcome.valid += lit ? 1 : 0;
+    outcome.surprise += tracker->innovation().surprise;
+    outcome.surprise_freedom += tracker->innovation().surprise_freedom;
+    outcome.misfit += tracker->innovation().misfit;
+    outcome.misfit_freedom += tracker->innovation().misfit_freedom;
+  }
+  return outcomes;
+}
+
+TEST(MotionRecordings, AQuickHandKeepsItsPose) {
+  PHAROS_NEEDS_DATA("lighthouse");
+  const auto outcomes = track("controller_quick.edges.csv.gz", "controller_quick.target_a.csv");
+  // The near station, which sees the hand all the time; the far one sees four to five sensors in a quarter of it.
+  EXPECT_GT(outcomes[1].lit, 3000);
+  EXPECT_GE(outcomes[1].valid_share(), 0.99);
+  EXPECT_GE(outcomes[0].valid_share(), 0.9);
+  EXPECT_LT(outcomes[1].misfit_per_freedom(), 1.5);
+}
+
+TEST(MotionRecordings, StillBodiesSurpriseNobody) {
+  PHAROS_NEEDS_DATA("lighthouse");
+  for (const std::string name : {"hmd_static", "two_bodies_hmd", "two_bodies_controller"}) {
+    const auto outcomes = track(name + ".edges.csv.gz", name + ".target.csv");
+    for (const Outcome& outcome : outcomes) {
+      EXPECT_GE(outcome.valid_share(), 0.985) << name;
+      // One is perfect. Sensors are tens of arcsec from where the target file says; covariances are widened for it.
+      EXPECT_LT(outcome.surprise_per_freedom(), 2.0) << name;
+      if (outcome.misfit_freedom > 0) {
+        EXPECT_LT(outcome.misfit_per_freedom(), 1.5) << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pharos::motion
