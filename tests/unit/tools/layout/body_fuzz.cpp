@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as a body: an InputError, or a convex one with faces that look outwards.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "host/support/input_error.hpp"
+#include "tools/layout/convex_body.hpp"
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check(const std::string& path) {
+  const pharos::layout::ConvexBody body = pharos::layout::read_body(path);
+  const pharos::Vector3 middle = 0.5 * (body.low + body.high);
+  require(body.facets.size() >= 4);
+  for (const auto& facet : body.facets) {
+    require(facet.normal.allFinite() && facet.corners.size() >= 3);
+    // No face is on the far side of the body's middle by more than rounding.
+    require(facet.normal.dot(facet.origin - middle) > -0.5 * (body.high - body.low).norm());
+    for (const auto& corner : pharos::layout::inset(facet.corners, 0.001)) require(corner.allFinite());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const int fd = memfd_create("fuzz", 0);
+  require(::write(fd, data, size) == static_cast<ssize_t>(size));
+  try {
+    check("/proc/self/fd/" + std::to_string(fd));
+  } catch (const pharos::host::InputError& error) {
+    require(error.what()[0] != '\0');
+  }
+  ::close(fd);
+  return 0;
+}
