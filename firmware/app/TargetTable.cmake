@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# target_table.hpp: the target whose poses decoder_pose solves, from a table sensor,x_m,y_m,z_m,nx,ny,nz.
+# target_table.cpp: the target whose poses decoder_pose solves, from a table sensor,x_m,y_m,z_m,nx,ny,nz.
 set(PHAROS_TARGET_TABLE ${PROJECT_SOURCE_DIR}/tools/sim/scenarios/target12.csv CACHE FILEPATH
   "The target whose poses the build decoder_pose solves on board")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PHAROS_TARGET_TABLE})
@@ -14,24 +14,22 @@ foreach(row IN LISTS rows)
   if(NOT row MATCHES "^([0-9]+),${number},${number},${number},${number},${number},${number}")
     message(FATAL_ERROR "${PHAROS_TARGET_TABLE}: cannot read the row '${row}'")
   endif()
-  string(APPEND entries "    {${CMAKE_MATCH_1}, {${CMAKE_MATCH_2}, ${CMAKE_MATCH_3}, ${CMAKE_MATCH_4}}, "
-    "{${CMAKE_MATCH_5}, ${CMAKE_MATCH_6}, ${CMAKE_MATCH_7}}},\n")
+  string(APPEND entries "    {${CMAKE_MATCH_1}, {{${CMAKE_MATCH_2}, ${CMAKE_MATCH_3}, ${CMAKE_MATCH_4}}}, "
+    "{{${CMAKE_MATCH_5}, ${CMAKE_MATCH_6}, ${CMAKE_MATCH_7}}}},\n")
 endforeach()
-file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/target_table.hpp @ONLY CONTENT
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/target_table.cpp @ONLY CONTENT
 "// Made from @PHAROS_TARGET_TABLE@.
-#pragma once
-
-#include <cstdint>
+#include \"firmware/app/target_table.hpp\"
 
 namespace pharos::app {
+namespace {
 
-struct TargetRow {
-  std::uint8_t sensor;
-  double position_m[3];
-  double normal[3];
-};
-inline constexpr TargetRow kTargetTable[] = {
+constexpr TargetRow kRows[] = {
 @entries@};
+
+}  // namespace
+
+std::span<const TargetRow> target_table() { return kRows; }
 
 }  // namespace pharos::app
 ")

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The build `decoder_pose`: sweeps, OOTX payloads and on-board poses of the target that target_table.hpp describes. The
+// The build `decoder_pose`: sweeps, OOTX payloads and on-board poses of the target that target_table() describes. The
 // program runs from the timer's interrupt, the solver in the main loop.
 #include "firmware/app/pose_task.hpp"
 #include "firmware/app/program.hpp"
+#include "firmware/app/target_table.hpp"
 #include "firmware/hal/board.hpp"
-#include "target_table.hpp"
 
 namespace {
 
 pharos::Target target() {
   pharos::Target placements;
-  for (const auto& row : pharos::app::kTargetTable) {
+  for (const auto& row : pharos::app::target_table()) {
     pharos::SensorPlacement placement;
     placement.sensor = row.sensor;
     placement.position_m = {row.position_m[0], row.position_m[1], row.position_m[2]};

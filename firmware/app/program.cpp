@@ -175,6 +175,7 @@ report::Reporter::Bytes Program::device_counters() {
   counters.edges_lost = board_.capture.edges_lost();
   counters.frames_sent = line_.frames();
   counters.frames_skipped = schedule_.skipped() + decoder_.counters().outputs_overflow;
+  if (desk_ != nullptr) counters.frames_skipped += desk_->sweeps_missed();  // poses that were never made
   counters.commands = commands_.obeyed();
   counters.commands_refused = commands_.refused();
   counters.receive_errors = board_.line.receive_errors() + commands_.damaged();
