@@ -37,7 +37,7 @@ class Rows {
 
 std::string with_cycles(const std::string& what, double cycles) {
   char text[64];
-  std::snprintf(text, sizeof text, ", %g cycles/instruction", cycles);
+  std::snprintf(text, sizeof text, " at %g cycles/instruction", cycles);
   return what + text;
 }
 
@@ -50,9 +50,9 @@ void add_shares(const Findings& light, Rows& rows) {
   const double decoding = of(light, "edge_sum"), tracking = of(light, "track_sum"), ticks = of(light, "ticks");
   for (const double cycles : {1.0, 2.0, kStatedCycles, 4.0}) {
     const bool stated = cycles == kStatedCycles;
-    rows.add(with_cycles("share of the core, decoder", cycles), share(decoding, ticks, cycles),
+    rows.add(with_cycles("share of the core: decoder", cycles), share(decoding, ticks, cycles),
              stated ? std::optional<double>(10.0) : std::nullopt, "%");
-    rows.add(with_cycles("share of the core, decoder and poses", cycles), share(decoding + tracking, ticks, cycles),
+    rows.add(with_cycles("share of the core: decoder and poses", cycles), share(decoding + tracking, ticks, cycles),
              stated ? std::optional<double>(100.0) : std::nullopt, "%");
   }
 }
@@ -75,22 +75,23 @@ void add_sizes(const std::filesystem::path& images, Rows& rows) {
 }
 
 void add_edges(const Findings& light, double host_ns, Rows& rows) {
-  rows.add("instructions an edge, median", of(light, "edge_median"), 250.0, "instructions", host_ns, "ns");
-  rows.add("instructions an edge, mean", of(light, "edge_sum") / of(light, "edge_number"), std::nullopt,
+  rows.add("instructions an edge: median", of(light, "edge_median"), 250.0, "instructions", host_ns, "ns");
+  rows.add("instructions an edge: mean", of(light, "edge_sum") / of(light, "edge_number"), std::nullopt,
            "instructions");
-  rows.add("instructions an edge, 99 %", of(light, "edge_99_percent"), std::nullopt, "instructions");
-  rows.add("instructions an edge, worst", of(light, "edge_worst"), std::nullopt, "instructions");
+  rows.add("instructions an edge: 99 %", of(light, "edge_99_percent"), std::nullopt, "instructions");
+  rows.add("instructions an edge: worst", of(light, "edge_worst"), std::nullopt, "instructions");
 }
 
 void add_poses(const Findings& pose, const PoseInput& input, Rows& rows) {
-  rows.add("instructions a pose, 8 sensors, from the last one, median", of(pose, "warm_median"), 250e3, "instructions",
+  rows.add("instructions a pose of 8 sensors from the last one: median", of(pose, "warm_median"), 250e3, "instructions",
            input.host_warm_us, "us");
-  rows.add("the same, worst", of(pose, "warm_worst"), std::nullopt, "instructions");
-  rows.add("the same, farthest from the host's answer", 1e-6 * of(pose, "farthest_sigma_millionths"), 0.1, "sigma");
-  rows.add("the same, flagged otherwise than the host", of(pose, "other_flags"), 0.0, "poses");
-  rows.add("instructions a pose, 8 sensors, from nothing, median", of(pose, "nothing_median"), 4e6, "instructions",
+  rows.add("from the last one: worst", of(pose, "warm_worst"), std::nullopt, "instructions");
+  rows.add("from the last one: farthest from the host's answer", 1e-6 * of(pose, "farthest_sigma_millionths"), 0.1,
+           "sigma");
+  rows.add("from the last one: flagged otherwise than the host", of(pose, "other_flags"), 0.0, "poses");
+  rows.add("instructions a pose of 8 sensors from nothing: median", of(pose, "nothing_median"), 4e6, "instructions",
            input.host_nothing_us, "us");
-  rows.add("the same, worst", of(pose, "nothing_worst"), std::nullopt, "instructions");
+  rows.add("from nothing: worst", of(pose, "nothing_worst"), std::nullopt, "instructions");
   rows.add("stack of a pose in integers; of one from nothing", of(pose, "stack_of_integers"), std::nullopt, "bytes",
            of(pose, "stack"), "bytes");
 }
@@ -131,15 +132,15 @@ std::vector<TargetRow> bench_target_by_sensors(const TargetBench& options) {
     const Findings pose = run_image(images, "measure_pose", input.bytes);
     const double ticks = of(light, "ticks");
     rows.add(name + "edges a second", of(light, "edge_number") / (ticks * kSecondsPerTick), std::nullopt, "1/s");
-    rows.add(name + "instructions an edge, mean", of(light, "edge_sum") / of(light, "edge_number"), std::nullopt,
+    rows.add(name + "instructions an edge: mean", of(light, "edge_sum") / of(light, "edge_number"), std::nullopt,
              "instructions");
-    rows.add(name + "instructions a pose from the last one, median", of(pose, "warm_median"), std::nullopt,
+    rows.add(name + "instructions a pose from the last one: median", of(pose, "warm_median"), std::nullopt,
              "instructions", input.host_warm_us, "us");
-    rows.add(name + "instructions a pose from nothing, median", of(pose, "nothing_median"), std::nullopt,
+    rows.add(name + "instructions a pose from nothing: median", of(pose, "nothing_median"), std::nullopt,
              "instructions", input.host_nothing_us, "us");
-    rows.add(name + with_cycles("share of the core, decoder", kStatedCycles),
+    rows.add(name + with_cycles("share of the core: decoder", kStatedCycles),
              share(of(light, "edge_sum"), ticks, kStatedCycles), std::nullopt, "%");
-    rows.add(name + with_cycles("share of the core, decoder and poses", kStatedCycles),
+    rows.add(name + with_cycles("share of the core: decoder and poses", kStatedCycles),
              share(of(light, "edge_sum") + of(light, "track_sum"), ticks, kStatedCycles), std::nullopt, "%");
   }
   return rows.take();
