@@ -5,6 +5,7 @@
 #include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/ticks.hpp"
+#include "pharos/motion/motion_tracker.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 #include "tools/cli/calibration_choice.hpp"
 #include "tools/cli/commands.hpp"
@@ -25,6 +26,9 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
     "Each row is T_lighthouse_body of one cycle of one station; time_s is the mean time of the hits used.\n"
+    "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated; noise shared by all "
+    "hits\n"
+    "of a sweep is taken as 0.87 of a bearing's variance unless --rho says otherwise.\n"
     "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, residual_high\n"
     "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
 
@@ -47,6 +51,12 @@ struct Options {
     options.smooth_flashes = !raw_flashes;
     return options;
   }
+  motion::MotionOptions motion() const {
+    const track::TrackOptions same = track();
+    motion::MotionOptions options{same.solve, same.form, same.smooth_flashes};
+    if (solver.noise.rho > 0.0) options.rho = solver.noise.rho;
+    return options;
+  }
 };
 
 std::vector<std::string> columns() {
@@ -64,7 +74,10 @@ void write_result(const track::EpochResult& result, const std::string& station_i
   if (estimate != nullptr) {
     write_pose(rows, estimate->pose);
     rows.number(estimate->sigma_rotation_rad() * kDegPerRad).number(estimate->sigma_position_m() * kMmPerM);
-    rows.number(estimate->adop_deg_per_rad).number(estimate->pdop_m_per_rad);
+    // A moving target seen too little of late has a pose, but no cycle to tell a precision factor of.
+    const bool factors = estimate->pdop_m_per_rad > 0.0;
+    rows.number(factors ? std::optional(estimate->adop_deg_per_rad) : std::nullopt);
+    rows.number(factors ? std::optional(estimate->pdop_m_per_rad) : std::nullopt);
     rows.number(estimate->residual_rms * kArcsecPerRad);
   } else {
     write_no_pose(rows);
@@ -81,10 +94,11 @@ void write_result(const track::EpochResult& result, const std::string& station_i
 }
 
 // One run over a recording.
+template <class Tracker>
 class Tracking {
  public:
-  Tracking(const Options& options, CalibrationChoice calibration, const Target& target)
-      : calibration_(std::move(calibration)), tracker_(target, options.track()), output_(options.output, columns()) {
+  Tracking(const Options& options, CalibrationChoice calibration, Tracker tracker)
+      : calibration_(std::move(calibration)), tracker_(std::move(tracker)), output_(options.output, columns()) {
     refresh_calibrations();
   }
 
@@ -134,7 +148,7 @@ class Tracking {
   }
 
   CalibrationChoice calibration_;
-  track::EpochTracker tracker_;
+  Tracker tracker_;
   Output output_;
   ResidualTable residuals_;
   std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> known_;
@@ -142,7 +156,8 @@ class Tracking {
   std::size_t uncalibrated_ = 0;
 };
 
-void say_what_came_out(const Options& options, const std::string& name, Tracking& tracking) {
+template <class Tracker>
+void say_what_came_out(const Options& options, const std::string& name, Tracking<Tracker>& tracking) {
   if (options.calibration == "ootx" && tracking.uncalibrated()) {
     note(name + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
   }
@@ -161,14 +176,10 @@ void check_files(const Options& options) {
   require_writable(options.sensors);
 }
 
-int run(const Options& options) {
-  check_files(options);
-  const host::TargetFile target = host::read_target(options.target);
-  note_target_shape(options.target, target.shape);
-  CalibrationChoice calibration(options.calibration, options.edges);
-  const Target believed = calibration.target(target.target, options.track().form);
+template <class Tracker>
+int run_with(const Options& options, CalibrationChoice calibration, Tracker tracker) {
   Recording recording(options.edges);
-  const auto tracking = std::make_unique<Tracking>(options, std::move(calibration), believed);
+  const auto tracking = std::make_unique<Tracking<Tracker>>(options, std::move(calibration), std::move(tracker));
   Progress progress("track", "sweeps and payloads");
   recording.on_pause([&tracking] { tracking->show(); });
   while (const std::optional<RecordingEvent> event = recording.next()) {
@@ -183,6 +194,18 @@ int run(const Options& options) {
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }
 
+int run(const Options& options) {
+  check_files(options);
+  const host::TargetFile target = host::read_target(options.target);
+  note_target_shape(options.target, target.shape);
+  CalibrationChoice calibration(options.calibration, options.edges);
+  const Target believed = calibration.target(target.target, options.track().form);
+  if (options.method == "epoch") {
+    return run_with(options, std::move(calibration), track::EpochTracker(believed, options.track()));
+  }
+  return run_with(options, std::move(calibration), motion::MotionTracker(believed, options.motion()));
+}
+
 }  // namespace
 
 void add_track(CLI::App& app, int& exit_code) {
@@ -194,8 +217,10 @@ void add_track(CLI::App& app, int& exit_code) {
           "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
       ->required();
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
-  command->add_option("--method", options->method, "epoch: each cycle alone, the paper's way")
-      ->check(CLI::IsMember({"epoch"}))
+  command
+      ->add_option("--method", options->method,
+                   "epoch: each cycle alone, the paper's way; motion: every hit at its own instant, a row a sweep")
+      ->check(CLI::IsMember({"epoch", "motion"}))
       ->capture_default_str();
   command
       ->add_option("--calibration", options->calibration,
