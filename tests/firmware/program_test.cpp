@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// The target's program on a board of the test's own: what it says first, answers, gives up and tells of.
+#include "firmware/app/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <vector>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/report/link_decoder.hpp"
+#include "pharos/wire/frame_encoder.hpp"
+
+namespace pharos::app {
+namespace {
+
+struct Restarted {
+  bool stay_in_loader;
+};
+
+class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public hal::System {
+ public:
+  bool read(hal::CaptureRecord& record) override {
+    if (records.empty()) return false;
+    record = records.front();
+    records.pop_front();
+    return true;
+  }
+  std::int64_t now_ticks() override { return now; }
+  std::uint32_t edges_lost() override { return lost; }
+  bool take_overflow() override { return std::exchange(overflow, false); }
+  std::uint32_t inputs() override { return 0xFFF; }
+
+  std::size_t write(std::span<const std::uint8_t> bytes) override {
+    const std::size_t count = std::min(room, bytes.size());
+    room -= count;
+    for (const std::uint8_t byte : bytes.first(count)) {
+      if (const auto event = host.push(byte)) events.push_back(*event);
+    }
+    return count;
+  }
+  bool idle() override { return true; }
+  std::optional<std::uint8_t> read() override {
+    if (received.empty()) return std::nullopt;
+    const std::uint8_t byte = received.front();
+    received.pop_front();
+    return byte;
+  }
+  std::uint32_t receive_errors() override { return 0; }
+
+  std::uint32_t cycles() override { return 0; }
+  void feed_watchdog() override { ++fed; }
+  void restart(bool stay_in_loader) override { throw Restarted{stay_in_loader}; }
+  wire::ResetCause reset_cause() override { return wire::ResetCause::kWatchdog; }
+  std::uint16_t start_count() override { return 7; }
+  std::uint32_t stack_never_used_bytes() override { return 321; }
+  std::string_view board_name() override { return "test"; }
+  std::uint32_t unique_id() override { return 0; }
+
+  void command(wire::CommandCode code, std::uint32_t value) {
+    std::array<std::uint8_t, wire::Command::kMaxBytes> payload{};
+    std::array<std::uint8_t, wire::kMaxLineFrame> line{};
+    const std::size_t size = wire::encode_payload(wire::Command{code, value}, payload);
+    const std::size_t bytes = encoder.encode(wire::MessageType::kCommand, std::span(payload).first(size), line);
+    received.insert(received.end(), line.begin(), line.begin() + static_cast<std::ptrdiff_t>(bytes));
+  }
+  template <class T>
+  std::vector<T> all() const {
+    std::vector<T> found;
+    for (const auto& event : events) {
+      if (const auto* value = std::get_if<T>(&event)) found.push_back(*value);
+    }
+    return found;
+  }
+
+  std::deque<hal::CaptureRecord> records;
+  std::deque<std::uint8_t> received;
+  std::size_t room = SIZE_MAX;
+  std::int64_t now = 5 * kTicksPerSecond;
+  std::uint32_t lost = 0;
+  bool overflow = false;
+  int fed = 0;
+  report::LinkDecoder host;
+  std::vector<report::LinkEvent> events;
+  wire::FrameEncoder encoder;
+};
+
+class ProgramTest : public testing::Test {
+ protected:
+  void run(std::int64_t ticks) {
+    const std::int64_t end = board.now + ticks;
+    for (; board.now < end; board.now += kTicksPerSecond / 1000) program.poll();
+  }
+  TestBoard board;
+  Program program{hal::Board{board, board, board}, nullptr};
+};
+
+TEST_F(ProgramTest, SaysHelloFirstWithTheCauseOfItsStart) {
+  board.command(wire::CommandCode::kIdentify, 0);  // already waits when the program starts
+  run(kTicksPerSecond / 100);
+  ASSERT_FALSE(board.events.empty());
+  const auto* hello = std::get_if<wire::Hello>(&board.events.front());
+  ASSERT_NE(hello, nullptr);
+  EXPECT_EQ(hello->reset_cause, wire::ResetCause::kWatchdog);
+  EXPECT_EQ(hello->start_count, 7);
+  EXPECT_EQ(hello->sensors, 0xFFFu);
+  EXPECT_EQ(hello->board.view(), "test");
+  EXPECT_EQ(board.all<wire::Ack>().size(), 1u);
+  EXPECT_EQ(board.all<wire::Hello>().size(), 1u);  // which is the one that was asked for, too
+}
+
+TEST_F(ProgramTest, TellsTimeTenTimesAndCountersOnceASecond) {
+  run(5 * kTicksPerSecond);
+  EXPECT_EQ(board.all<wire::Hello>().size(), 5u);
+  EXPECT_EQ(board.all<report::DecoderReport>().size(), 5u);
+  EXPECT_EQ(board.all<report::DeviceReport>().size(), 5u);
+  EXPECT_EQ(board.all<wire::Time>().size(), 50u);
+  EXPECT_EQ(board.all<report::DeviceReport>().back().counters.stack_free_bytes, 321u);
+  EXPECT_EQ(board.host.counters().frames_lost, 0u);
+}
+
+TEST_F(ProgramTest, RestartsOnlyAfterItsAckHasGoneOut) {
+  run(kTicksPerSecond / 10);
+  board.room = 0;
+  board.command(wire::CommandCode::kEnterLoader, 0);
+  EXPECT_NO_THROW(run(kTicksPerSecond / 10));
+  board.room = SIZE_MAX;
+  try {
+    run(kTicksPerSecond / 10);
+    FAIL() << "no restart";
+  } catch (const Restarted& restarted) {
+    EXPECT_TRUE(restarted.stay_in_loader);
+  }
+  EXPECT_EQ(board.all<wire::Ack>().size(), 1u);
+}
+
+TEST_F(ProgramTest, RefusesWhatItDoesNotKnow) {
+  board.command(static_cast<wire::CommandCode>(99), 0);
+  board.command(wire::CommandCode::kSetModes, wire::kModePoses | wire::kModeRawEdges);
+  run(2 * kTicksPerSecond);
+  ASSERT_EQ(board.all<wire::Nak>().size(), 1u);
+  EXPECT_EQ(board.all<wire::Nak>().front().reason, wire::NakReason::kUnsupported);
+  ASSERT_EQ(board.all<wire::Ack>().size(), 1u);
+  EXPECT_EQ(board.all<wire::Ack>().front().value, wire::kModeRawEdges) << "this build solves no poses";
+  EXPECT_EQ(board.all<report::DeviceReport>().back().counters.commands_refused, 1u);
+}
+
+TEST_F(ProgramTest, StarvesTheWatchdogWhenTheLineIsStuck) {
+  run(kTicksPerSecond);
+  board.room = 0;
+  run(2 * kTicksPerSecond);
+  const int fed = board.fed;
+  run(kTicksPerSecond);
+  EXPECT_EQ(board.fed, fed);
+  board.room = SIZE_MAX;
+  run(kTicksPerSecond / 10);
+  EXPECT_GT(board.fed, fed);
+}
+
+TEST_F(ProgramTest, CountsWhatALineThatWasSilentDidNotCarry) {
+  run(kTicksPerSecond / 2);
+  board.room = 0;
+  run(3 * kTicksPerSecond);
+  board.room = SIZE_MAX;
+  run(2 * kTicksPerSecond);
+  const auto counters = board.all<report::DeviceReport>().back().counters;
+  EXPECT_GT(counters.frames_skipped, 20u);  // times and seconds that passed unsaid
+  EXPECT_EQ(board.host.counters().frames_lost, 0u) << "no number was used up by a frame that was never made";
+}
+
+TEST_F(ProgramTest, TellsOverflowsAndRawEdgesThroughAGap) {
+  board.command(wire::CommandCode::kSetModes, wire::kModeRawEdges);
+  run(kTicksPerSecond / 10);
+  const auto at = [&](int tick) { return static_cast<std::uint32_t>(board.now + tick); };
+  board.records = {{at(0), 0b01, 0b01, false},
+                   {at(9000), 0b10, 0b11, true},
+                   {at(9100), 0b01, 0b10, false},
+                   {at(9200), 0b10, 0b00, false}};
+  board.lost = 6;
+  board.overflow = true;
+  board.now += 10'000;
+  run(2 * kTicksPerSecond);
+  std::vector<lighthouse::Edge> edges;
+  for (const auto& report : board.all<report::EdgesReport>()) {
+    EXPECT_EQ(report.edges_lost, 6u);
+    edges.insert(edges.end(), report.edges.begin(), report.edges.end());
+  }
+  // Sensor 0 was lit when the gap came: since when is unknown, so its fall says nothing.
+  ASSERT_EQ(edges.size(), 3u);
+  EXPECT_TRUE(edges[0].rising && edges[0].sensor == 0);
+  EXPECT_TRUE(edges[1].rising && edges[1].sensor == 1);
+  EXPECT_TRUE(!edges[2].rising && edges[2].sensor == 1);
+  const auto counters = board.all<report::DeviceReport>().back().counters;
+  EXPECT_EQ(counters.capture_overflows, 1u);
+  EXPECT_EQ(counters.edges_lost, 6u);
+}
+
+}  // namespace
+}  // namespace pharos::app
