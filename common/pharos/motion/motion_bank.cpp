@@ -15,7 +15,7 @@ constexpr std::size_t kMoving = MotionBank::kMoving;
 struct Jerk {
   double rotation, translation;
 };
-constexpr std::array<Jerk, kMoving> kJerk{{{0.02, 0.005}, {5.0, 2.0}, {500000.0, 5000.0}}};
+constexpr std::array<Jerk, kMoving> kJerk{{{0.08, 0.03}, {10.0, 6.0}, {500000.0, 5000.0}}};
 // A body at rest creeps (a table that gives, warmth): a random walk of 0.1 mm and 0.006 deg in three hours keeps the
 // belief from growing deaf.
 constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s, m^2/s
@@ -31,7 +31,7 @@ constexpr std::array<Onset, kMoving> kUnknown{{{2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 
 
 // Changes per second, from row to column: rest, calm, brisk, wild.
 constexpr double kChange[kModels][kModels] = {
-    {0.0, 0.2, 0.05, 0.01}, {0.2, 0.0, 0.2, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
+    {0.0, 0.2, 0.05, 0.01}, {0.2, 0.0, 0.5, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
 // A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones.
 constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kLongestStep_s = 0.05;
