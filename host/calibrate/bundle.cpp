@@ -6,7 +6,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <memory>
 
@@ -32,7 +31,7 @@ class Adjustment {
 
   bool solve() {
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = kMostSteps;
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
@@ -65,7 +64,7 @@ class Adjustment {
 
  private:
   struct Linearised {
-    Eigen::MatrixXd jacobian;  // whitened, after the loss
+    SparseRows jacobian;  // whitened, after the loss
     std::vector<double> residual;
   };
 
@@ -166,13 +165,8 @@ class Adjustment {
     ceres_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
     options.apply_loss_function = false;
     ceres_.Evaluate(options, nullptr, &out.residual, nullptr, nullptr);
-    out.jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-    for (int row = 0; row < sparse.num_rows; ++row) {
-      for (int k = sparse.rows[static_cast<std::size_t>(row)]; k < sparse.rows[static_cast<std::size_t>(row) + 1];
-           ++k) {
-        out.jacobian(row, sparse.cols[static_cast<std::size_t>(k)]) = sparse.values[static_cast<std::size_t>(k)];
-      }
-    }
+    out.jacobian = Eigen::Map<const SparseRows>(sparse.num_rows, sparse.num_cols, sparse.rows.back(),
+                                                sparse.rows.data(), sparse.cols.data(), sparse.values.data());
     return out;
   }
 

@@ -67,7 +67,7 @@ struct BundleResult {
 /// pose, with Huber's loss at three sigma on each bearing. The body frame is the one in which the sensors that were hit
 /// lie on their nominal positions by least squares.
 ///
-/// Cost: (15 + 4 stills)^3 operations a step; 30 stills of 12 sensors take some 0.2 s.
+/// Cost: 30 stills of 12 sensors take some 0.1 s, most of it the covariance: (parameters + 8 a still and station)^3.
 BundleResult adjust(const BundleProblem& problem);
 
 }  // namespace pharos::calibrate

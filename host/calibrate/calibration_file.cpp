@@ -55,12 +55,9 @@ void read_pair(const TomlTable& table) {
   table.vector<3>("position_m");
 }
 
-}  // namespace
-
-CalibrationFile read_calibration_file(const std::string& path) {
-  const TomlTable root = TomlTable::parse_file(path);
+CalibrationFile read(const TomlTable& root, const std::string& name) {
   CalibrationFile file;
-  file.name = path == "-" ? "standard input" : path;
+  file.name = name;
   file.stations = host::read_stations(root);
   read_summary(root.table_or_empty("calibration"), file);
   for (const TomlTable& table : root.tables("sensor")) read_sensor(table, file);
@@ -71,6 +68,16 @@ CalibrationFile read_calibration_file(const std::string& path) {
     if (!shape) throw InputError(file.name + ": the [[sensor]] tables are no target: " + describe(shape.error()));
   }
   return file;
+}
+
+}  // namespace
+
+CalibrationFile read_calibration_file(const std::string& path) {
+  return read(TomlTable::parse_file(path), path == "-" ? "standard input" : path);
+}
+
+CalibrationFile parse_calibration(std::string_view text, const std::string& name) {
+  return read(TomlTable::parse_text(text, name), name);
 }
 
 Target calibrated_target(const CalibrationFile& file, const Target& nominal) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/calibrate/lighthouse_calibration.hpp"
@@ -27,6 +28,9 @@ struct CalibrationFile {
 
 /// Reads a calibration (`-`: standard input). Throws InputError naming file, line and key.
 CalibrationFile read_calibration_file(const std::string& path);
+
+/// The same from text; `name` stands for the file in messages.
+CalibrationFile parse_calibration(std::string_view text, const std::string& name);
 
 /// `nominal` with the calibrated positions; `nominal` itself where the file holds no target. Throws InputError where
 /// the file is of another target: other sensor numbers, or positions other than those that it was calibrated from (1

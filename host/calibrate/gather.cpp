@@ -105,9 +105,9 @@ Gathered gather(const LighthouseMaterial& material) {
     throw InputError(names + ": no sweep of a station; `pharos decode EDGES --stats` says what became of its pulses");
   }
   if (gathered.stills.empty()) {
-    throw InputError(names + ": the target never rested (" + std::to_string(too_short) + " rests below 0.7 s, " +
-                     std::to_string(creeping) +
-                     " creeping); set it down or clamp it for two seconds in each of at least six poses");
+    throw InputError(names + ": the target never rested (too short, below 0.7 s: " + std::to_string(too_short) +
+                     "; creeping: " + std::to_string(creeping) +
+                     "); set it down or clamp it for two seconds in each of at least six poses");
   }
   remove_strangers(material.target, gathered.stills, gathered.strangers);
   weigh(gathered.stills);

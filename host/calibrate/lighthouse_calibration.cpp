@@ -2,10 +2,10 @@
 #include "host/calibrate/lighthouse_calibration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <tuple>
+#include <limits>
 
 #include "host/calibrate/gather.hpp"
 #include "host/calibrate/layout.hpp"
@@ -13,7 +13,6 @@
 #include "host/calibrate/start_pose.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
-#include "pharos/lighthouse/station_model.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -50,15 +49,16 @@ class Calibration {
     start(nominal_.target, nominal_.station, kNominalSigma_rad);
     require_poses();
     require_length_ends();
-    note_before();
-    BundleResult first = adjust(problem());
+    fits_.add_before(problem());
+    const BundleResult first = adjust(problem());
     refuse_contradiction(first);
     // Whoever stood in its mirror image, or was ambiguous, comes right with what was learnt.
     stills_ = all_stills_;
     start(first.unknowns.target, first.unknowns.station, std::hypot(kCalibratedSigma_rad, unmodelled_of(first)));
-    result_.bundle = settle(std::move(first));
+    result_.bundle = settle();
     refuse_contradiction(result_.bundle);
-    note_after();
+    fits_.add_after(stills_, result_.bundle.residuals);
+    result_.fits = fits_.table();
     result_.stills = stills_.size();
     result_.poses = distinct_poses();
     result_.unmodelled_rad = unmodelled_rad_;
@@ -152,14 +152,15 @@ class Calibration {
 
   void require_poses() const {
     const std::size_t poses = distinct_poses();
-    const std::string rested = std::to_string(stills_.size() + result_.stills_unsolved) + " rests";
+    const std::size_t rests = stills_.size() + result_.stills_unsolved;
+    const std::string rested = std::to_string(rests) + (rests == 1 ? " rest" : " rests");
     if (poses == 0) {
       throw InputError("none of " + rested +
                        " gave a pose; is --target the table of this target? `pharos track` says why");
     }
     if (poses == 1) {
       throw InputError("the target never moved: " + rested +
-                       ", all in one pose; record rests in at least six poses that differ in place and attitude");
+                       " in one pose; record rests in at least six poses that differ in place and attitude");
     }
     if (poses < kFewestPoses) {
       throw InputError("too few poses: " + std::to_string(poses) + " of the needed " + std::to_string(kFewestPoses) +
@@ -192,20 +193,20 @@ class Calibration {
   }
 
   // Adjusts, strikes what fits no rigid body and sets the level of what the model does not explain, until both stay.
-  BundleResult settle(BundleResult last) {
+  BundleResult settle() {
     constexpr int kMostRounds = 6;
-    for (int round = 0; round < kMostRounds; ++round) {
-      last = adjust(problem());
+    for (int round = 0;; ++round) {
+      BundleResult last = adjust(problem());
+      if (round == kMostRounds) return last;  // without what was struck before
       const std::size_t struck = strike_outliers(last.residuals, stills_);
       const double level = unmodelled_level(last.residuals, unmodelled_rad_);
       const bool settled = struck == 0 && std::abs(level - unmodelled_rad_) < 0.02 * level + 0.02 * kRadPerArcsec;
       result_.bearings_struck += struck;
-      if (settled) break;
+      if (settled) return last;
       unmodelled_rad_ = level;
       nominal_.T_home_body = last.unknowns.T_home_body;
       nominal_.T_reference_station = last.unknowns.T_reference_station;
     }
-    return last;
   }
 
   double unmodelled_of(const BundleResult& bundle) const { return unmodelled_level(bundle.residuals, 0.0); }
@@ -231,56 +232,13 @@ class Calibration {
     throw InputError(text_of(length) + text.data());
   }
 
-  SensorFit& fit_of(std::size_t station, Axis axis, std::uint8_t sensor) {
-    const auto [place, fresh] = fit_index_.try_emplace({station, axis, sensor}, result_.fits.size());
-    if (fresh) result_.fits.push_back({station, axis, sensor, 0, 0.0, 0.0});
-    return result_.fits[place->second];
-  }
-
-  // With what was believed: every still's pose alone.
-  void note_before() {
-    std::map<std::size_t, int> counts;
-    for (std::size_t i = 0; i < stills_.size(); ++i) {
-      for (const RotorView& view : stills_[i].rotors) {
-        LighthouseFromBody T_station_body = nominal_.T_home_body[i];
-        if (view.station != home_[i]) {
-          T_station_body = nominal_.T_reference_station[view.station]->inverse() * T_station_body;
-        }
-        for (const MeanBearing& bearing : view.bearings) {
-          const Vector3 p = T_station_body * find_sensor(nominal_.target, bearing.sensor)->position_m;
-          const double residual =
-              bearing.raw_rad - lighthouse::raw_theta(nominal_.station[view.station], material_.form, view.axis, p);
-          SensorFit& fit = fit_of(view.station, view.axis, bearing.sensor);
-          fit.before_rad += residual * residual;
-          ++counts[static_cast<std::size_t>(&fit - result_.fits.data())];
-        }
-      }
-    }
-    for (const auto& [index, count] : counts) {
-      result_.fits[index].before_rad = std::sqrt(result_.fits[index].before_rad / count);
-    }
-  }
-
-  void note_after() {
-    for (const BearingResidual& residual : result_.bundle.residuals) {
-      const RotorView& view = stills_[residual.still].rotors[residual.view];
-      SensorFit& fit = fit_of(view.station, view.axis, view.bearings[residual.bearing].sensor);
-      fit.after_rad += residual.residual_rad * residual.residual_rad;
-      ++fit.stills;
-    }
-    for (SensorFit& fit : result_.fits) fit.after_rad = std::sqrt(fit.after_rad / std::max(fit.stills, 1));
-    std::sort(result_.fits.begin(), result_.fits.end(), [](const SensorFit& a, const SensorFit& b) {
-      return std::tie(a.station, a.axis, a.sensor) < std::tie(b.station, b.axis, b.sensor);
-    });
-  }
-
   LighthouseMaterial material_;
   std::vector<Still> all_stills_;  // with every candidate
   std::vector<Still> stills_;
   Homes home_;
   Unknowns nominal_;
   double unmodelled_rad_ = 0.0;
-  std::map<std::tuple<std::size_t, Axis, std::uint8_t>, std::size_t> fit_index_;
+  SensorFits fits_;
   LighthouseCalibration result_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/calibrate/bundle.hpp"
+#include "host/calibrate/sensor_fits.hpp"
 #include "host/calibrate/still.hpp"
 #include "host/calibrate/sweep_log.hpp"
 
@@ -17,16 +18,6 @@ struct LighthouseMaterial {
   std::vector<MeasuredLength> lengths;
   PriorSigmas sigmas;
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
-};
-
-/// How one sensor fitted one rotor, rms over the stills.
-struct SensorFit {
-  std::size_t station = 0;
-  Axis axis = Axis::kX;
-  std::uint8_t sensor = 0;
-  int stills = 0;
-  double before_rad = 0.0;  // nominal parameters, each still's pose solved alone
-  double after_rad = 0.0;
 };
 
 struct LighthouseCalibration {

@@ -9,19 +9,24 @@
 namespace pharos::calibrate {
 namespace {
 
+// Of the sensors that keep the body frame.
+Vector3 middle_of_hit(const BundleProblem& problem, const Blocks& blocks) {
+  Vector3 sum = Vector3::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < blocks.hit.size(); ++i) {
+    if (!blocks.hit[i]) continue;
+    sum += problem.nominal.target[i].position_m;
+    count += 1.0;
+  }
+  return sum / std::max(count, 1.0);
+}
+
 // What the sensors' prior says once the body frame is kept: an isotropic prior without the six rigid motions of the
 // sensors that keep the frame.
 Eigen::MatrixXd framed_prior(const BundleProblem& problem, const Blocks& blocks) {
   const auto n = static_cast<Eigen::Index>(blocks.sensor.size());
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * n, 6);
-  Vector3 middle = Vector3::Zero();
-  double count = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!blocks.hit[static_cast<std::size_t>(i)]) continue;
-    middle += problem.nominal.target[static_cast<std::size_t>(i)].position_m;
-    count += 1.0;
-  }
-  middle /= std::max(count, 1.0);
+  const Vector3 middle = middle_of_hit(problem, blocks);
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!blocks.hit[static_cast<std::size_t>(i)]) continue;
     motions.block<3, 3>(3 * i, 0) = Matrix3::Identity();
@@ -37,14 +42,7 @@ Eigen::MatrixXd framed_prior(const BundleProblem& problem, const Blocks& blocks)
 // Relative growth of the sensors that were hit as a linear function of all sensor coordinates.
 Eigen::VectorXd growth(const BundleProblem& problem, const Blocks& blocks) {
   const std::size_t n = blocks.sensor.size();
-  Vector3 middle = Vector3::Zero();
-  double count = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!blocks.hit[i]) continue;
-    middle += problem.nominal.target[i].position_m;
-    count += 1.0;
-  }
-  middle /= std::max(count, 1.0);
+  const Vector3 middle = middle_of_hit(problem, blocks);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * n));
   double square = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -58,10 +56,10 @@ Eigen::VectorXd growth(const BundleProblem& problem, const Blocks& blocks) {
 
 }  // namespace
 
-Information::Information(const Eigen::MatrixXd& jacobian, const BundleProblem& problem, const Blocks& blocks)
+Information::Information(const SparseRows& jacobian, const BundleProblem& problem, const Blocks& blocks)
     : jacobian_(jacobian), problem_(problem), blocks_(blocks) {
   // Scaled to a unit diagonal: metres and radians differ by orders of magnitude.
-  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  Eigen::MatrixXd normal = Eigen::MatrixXd(SparseRows(jacobian.transpose() * jacobian));
   const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
   normal = scale.asDiagonal() * normal * scale.asDiagonal();
   covariance_ = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
@@ -69,15 +67,12 @@ Information::Information(const Eigen::MatrixXd& jacobian, const BundleProblem& p
 }
 
 double Information::leverage(std::size_t row) const {
-  // Rows are short: only their own columns count.
-  const auto r = static_cast<Eigen::Index>(row);
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index c = 0; c < jacobian_.cols(); ++c) {
-    if (jacobian_(r, c) != 0.0) columns.push_back(c);
-  }
+  using Entry = SparseRows::InnerIterator;
   double sum = 0.0;
-  for (const Eigen::Index a : columns) {
-    for (const Eigen::Index b : columns) sum += jacobian_(r, a) * covariance_(a, b) * jacobian_(r, b);
+  for (Entry a(jacobian_, static_cast<Eigen::Index>(row)); a; ++a) {
+    for (Entry b(jacobian_, static_cast<Eigen::Index>(row)); b; ++b) {
+      sum += a.value() * covariance_(a.col(), b.col()) * b.value();
+    }
   }
   return sum;
 }

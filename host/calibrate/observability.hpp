@@ -2,16 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "host/calibrate/layout.hpp"
 
 namespace pharos::calibrate {
 
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
 /// What an adjustment knows of its parameters, from its whitened Jacobian.
 class Information {
  public:
   /// `jacobian`: rows in any order, columns in the order of Blocks: calibration, poses, common parts.
-  Information(const Eigen::MatrixXd& jacobian, const BundleProblem& problem, const Blocks& blocks);
+  Information(const SparseRows& jacobian, const BundleProblem& problem, const Blocks& blocks);
 
   /// Share of one row that the unknowns take up.
   double leverage(std::size_t row) const;
@@ -19,7 +22,7 @@ class Information {
   void fill(BundleResult& result) const;
 
  private:
-  const Eigen::MatrixXd& jacobian_;
+  const SparseRows& jacobian_;
   const BundleProblem& problem_;
   const Blocks& blocks_;
   Eigen::MatrixXd covariance_;  // of all unknowns

@@ -61,6 +61,42 @@ TEST(LighthouseCalibration, TiesTwoStationsTogether) {
   EXPECT_LT(compare(calibration, simulator).nees, 1.6);
 }
 
+// The same target in eight more poses, before the same station or another.
+LighthouseMaterial two_recordings(std::uint32_t second_id) {
+  LighthouseMaterial material;
+  for (const std::uint64_t poses_seed : {1u, 2u}) {
+    Session session = short_session(poses_seed);
+    session.poses = 8;
+    sim::LighthouseScenario scenario = scenario_of(session);
+    if (poses_seed == 2) scenario.stations.front().id = second_id;
+    sim::LighthouseSimulator simulator(scenario, 1);
+    LighthouseMaterial one = material_of(simulator, 1);
+    material.target = one.target;
+    material.lengths = one.lengths;
+    material.recordings.push_back(std::move(one.recordings.front()));
+  }
+  return material;
+}
+
+TEST(LighthouseCalibration, JoinsRecordingsOfOneStation) {
+  sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
+  const LighthouseCalibration calibration = calibrate_lighthouse(two_recordings(simulator.stations()[0].announced.id));
+  EXPECT_EQ(calibration.poses, 16u);
+  EXPECT_EQ(calibration.bundle.unknowns.station.size(), 1u);
+  EXPECT_LT(compare(calibration, simulator).nees, 1.6);
+}
+
+TEST(LighthouseCalibration, LearnsOneTargetFromStationsNeverSeenTogether) {
+  sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
+  const LighthouseCalibration calibration = calibrate_lighthouse(two_recordings(0xC33B4DE1u));
+  const BundleResult& bundle = calibration.bundle;
+  EXPECT_EQ(calibration.poses, 16u);
+  ASSERT_EQ(bundle.unknowns.station.size(), 2u);
+  EXPECT_FALSE(bundle.unknowns.T_reference_station[1].has_value());
+  EXPECT_EQ(bundle.parameters.size(), 3u * 12u + 2u * 2u * kRotorParameters);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_LT(bundle.parameters[i].sigma, 0.1e-3) << bundle.parameters[i].name;
+}
+
 TEST(LighthouseCalibration, KnowsThatAnglesAloneTellNoScale) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
   LighthouseMaterial material = material_of(simulator, 1);

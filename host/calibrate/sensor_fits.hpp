@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "host/calibrate/bundle.hpp"
+
+namespace pharos::calibrate {
+
+/// How one sensor fitted one rotor, rms over the stills.
+struct SensorFit {
+  std::size_t station = 0;
+  Axis axis = Axis::kX;
+  std::uint8_t sensor = 0;
+  int stills = 0;
+  double before_rad = 0.0;  // nominal parameters, each still's pose solved alone
+  double after_rad = 0.0;
+};
+
+/// Gathers residuals by sensor and rotor.
+class SensorFits {
+ public:
+  /// Residuals of the nominal unknowns, at their own poses.
+  void add_before(const BundleProblem& problem);
+  void add_after(const std::vector<Still>& stills, const std::vector<BearingResidual>& residuals);
+  /// In the order of station, rotor, sensor.
+  std::vector<SensorFit> table() const;
+
+ private:
+  struct Sum {
+    double square = 0.0;
+    int count = 0;
+    void add(double residual_rad);
+    double rms() const;
+  };
+  struct Cell {
+    Sum before;
+    Sum after;
+  };
+  std::map<std::tuple<std::size_t, Axis, std::uint8_t>, Cell> cells_;
+};
+
+}  // namespace pharos::calibrate
