@@ -29,9 +29,6 @@ constexpr double kElsewhere_rad = 5.0 * kRadPerDeg;
 constexpr std::size_t kFewestPoses = 6;
 constexpr double kContradiction = 5.0;
 
-// Poses of one still before each station.
-using StationPoses = std::array<std::optional<LighthouseFromBody>, kMaxStations>;
-
 class Calibration {
  public:
   explicit Calibration(LighthouseMaterial material) : material_(std::move(material)) {
@@ -49,7 +46,7 @@ class Calibration {
     start(nominal_.target, nominal_.station, kNominalSigma_rad);
     require_poses();
     require_length_ends();
-    fits_.add_before(problem());
+    fits_.add_before(problem(), alone_);
     const BundleResult first = adjust(problem());
     refuse_contradiction(first);
     // Whoever stood in its mirror image, or was ambiguous, comes right with what was learnt.
@@ -102,6 +99,7 @@ class Calibration {
     stills_ = std::move(kept);
     tie_stations(poses);
     place(poses);
+    alone_ = std::move(poses);
   }
 
   // Where the second station stands: of what each still that both see says, the one nearest to all others.
@@ -236,6 +234,7 @@ class Calibration {
   std::vector<Still> all_stills_;  // with every candidate
   std::vector<Still> stills_;
   Homes home_;
+  std::vector<StationPoses> alone_;  // by still
   Unknowns nominal_;
   double unmodelled_rad_ = 0.0;
   SensorFits fits_;

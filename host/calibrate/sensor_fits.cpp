@@ -15,16 +15,14 @@ void SensorFits::Sum::add(double residual_rad) {
 
 double SensorFits::Sum::rms() const { return std::sqrt(square / std::max(count, 1)); }
 
-void SensorFits::add_before(const BundleProblem& problem) {
+void SensorFits::add_before(const BundleProblem& problem, const std::vector<StationPoses>& poses) {
   const Unknowns& nominal = problem.nominal;
   for (std::size_t i = 0; i < problem.stills->size(); ++i) {
     for (const RotorView& view : (*problem.stills)[i].rotors) {
-      LighthouseFromBody T_station_body = nominal.T_home_body[i];
-      if (view.station != problem.home[i]) {
-        T_station_body = nominal.T_reference_station[view.station]->inverse() * T_station_body;
-      }
+      const std::optional<LighthouseFromBody>& T_station_body = poses[i][view.station];
+      if (!T_station_body) continue;
       for (const MeanBearing& bearing : view.bearings) {
-        const Vector3 p = T_station_body * find_sensor(nominal.target, bearing.sensor)->position_m;
+        const Vector3 p = *T_station_body * find_sensor(nominal.target, bearing.sensor)->position_m;
         const double expected = lighthouse::raw_theta(nominal.station[view.station], problem.form, view.axis, p);
         cells_[{view.station, view.axis, bearing.sensor}].before.add(bearing.raw_rad - expected);
       }

@@ -22,8 +22,8 @@ struct SensorFit {
 /// Gathers residuals by sensor and rotor.
 class SensorFits {
  public:
-  /// Residuals of the nominal unknowns, at their own poses.
-  void add_before(const BundleProblem& problem);
+  /// Residuals of the nominal parameters at each still's and station's own pose (`poses`, by still).
+  void add_before(const BundleProblem& problem, const std::vector<StationPoses>& poses);
   void add_after(const std::vector<Still>& stills, const std::vector<BearingResidual>& residuals);
   /// In the order of station, rotor, sensor.
   std::vector<SensorFit> table() const;

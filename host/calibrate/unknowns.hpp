@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pharos/base/capacity.hpp"
 #include "pharos/geometry/pose.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/station_calibration.hpp"
@@ -47,6 +48,9 @@ struct Unknowns {
   std::vector<std::optional<ReferenceFromStation>> T_reference_station;  // empty: never seen with the reference
   std::vector<LighthouseFromBody> T_home_body;  // of each still, in the frame of its home station
 };
+
+/// Poses of one still before each station, solved alone; empty where that gave none.
+using StationPoses = std::array<std::optional<LighthouseFromBody>, kMaxStations>;
 
 /// The station in whose frame a still's pose is kept: the reference where that sees it or is tied to one that does.
 using Homes = std::vector<std::size_t>;
