@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tools/bench/bench_decode.hpp"
+#include "tools/bench/bench_motion.hpp"
 #include "tools/bench/bench_pose.hpp"
 #include "tools/bench/bench_target.hpp"
 #include "tools/bench/peer_module.hpp"
@@ -48,7 +49,8 @@ int run(const Options& options) {
   if (options.what == "target") return run_target(options);
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
-  if (options.what != "decode") {
+  const auto wanted = [&](const char* what) { return options.what == "all" || options.what == what; };
+  if (wanted("pose")) {
     const PeerFunction peers = load_peers();
     if (peers == nullptr) {
       std::fprintf(stderr, "pharos bench: %s is not beside the program (built without OpenCV): no peers\n",
@@ -56,7 +58,8 @@ int run(const Options& options) {
     }
     append(bench_pose(options.problems.value_or(kProblems), peers));
   }
-  if (options.what != "pose") append(bench_decode(options.edges));
+  if (wanted("decode")) append(bench_decode(options.edges));
+  if (wanted("motion")) append(bench_motion());
   write_rows(rows, form_of(options));
   return kExitAnswered;
 }
@@ -66,8 +69,8 @@ int run(const Options& options) {
 void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Speed and accuracy, ours and peers', as ratios in one run");
   const auto options = std::make_shared<Options>();
-  command->add_option("what", options->what, "pose, decode, all of these (default), or target: the soft core")
-      ->check(CLI::IsMember({"all", "pose", "decode", "target"}));
+  command->add_option("what", options->what, "pose, decode, motion, all of these (default), or target: the soft core")
+      ->check(CLI::IsMember({"all", "pose", "decode", "motion", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
   command->add_option("--problems", options->problems, "Pose problems (2000; target 200)")
       ->check(CLI::Range(10, 1'000'000));

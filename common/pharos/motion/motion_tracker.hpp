@@ -31,7 +31,7 @@ struct InnovationStatistics {
 /// stations side by side, each in its own frame.
 ///
 /// One answer a sweep that hit the target; its time is that of the last hit used. Answers have the form of
-/// EpochTracker's; `prior` then means that the body was seen too little of late to be solved alone. State: some 35 KiB.
+/// EpochTracker's; `prior` then means that the body was seen too little of late to be solved alone. State: some 60 KiB.
 /// Cost: README.
 class MotionTracker {
  public:

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bench/bench_motion.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/motion/motion_tracker.hpp"
+#include "tools/bench/stopwatch.hpp"
+#include "tools/problems/pnp_problems.hpp"
+#include "tools/sim/lighthouse_simulator.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr int kRepeats = 9;
+constexpr double kFlight_s = 20.0;
+
+std::vector<lighthouse::Sweep> flown_sweeps(const Target& target) {
+  sim::LighthouseScenario scenario;
+  scenario.duration_s = kFlight_s;
+  scenario.target = target;
+  scenario.stations.emplace_back();
+  scenario.trajectory = sim::make_random_manoeuvre({}, kFlight_s, sim::RandomStream(1, "bench motion"));
+  sim::LighthouseSimulator simulator(scenario, 1);
+  const auto decoder = std::make_unique<lighthouse::Decoder>();
+  std::vector<lighthouse::Sweep> sweeps;
+  while (const auto pulse = simulator.next()) {
+    decoder->push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+    while (decoder->take_ootx()) {
+    }
+    while (const auto sweep = decoder->take_sweep()) sweeps.push_back(*sweep);
+  }
+  return sweeps;
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_motion() {
+  const Target target = test::frustum_target();
+  const std::vector<lighthouse::Sweep> sweeps = flown_sweeps(target);
+  std::size_t hits = 0;
+  for (const lighthouse::Sweep& sweep : sweeps) hits += sweep.hits.size();
+  double best_s = 1e9;
+  for (int k = 0; k < kRepeats; ++k) {
+    const auto tracker = std::make_unique<motion::MotionTracker>(target, motion::MotionOptions{});
+    tracker->set_calibration(0, {});
+    best_s = std::min(best_s, seconds_of([&] {
+                        for (const lighthouse::Sweep& sweep : sweeps) tracker->push(sweep);
+                      }));
+  }
+  constexpr double kMicroseconds = 1e6;
+  return {{"motion-aware step, a hit", best_s * kMicroseconds / static_cast<double>(hits), std::nullopt, "us", true}};
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tools/bench/comparison_table.hpp"
+
+namespace pharos::tools {
+
+/// What a motion-aware step costs, microseconds a hit on one core, everything included (flash smoothing, station model,
+/// checks by cycles solved alone): twenty simulated seconds of the paper's manoeuvre before one calibrated station.
+std::vector<BenchRow> bench_motion();
+
+}  // namespace pharos::tools
