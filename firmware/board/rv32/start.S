@@ -13,6 +13,7 @@ _start:
   la    gp, __global_pointer$
   .option pop
   la    sp, __stack_top
+  la    tp, __tls_base            # the C library's errno
   la    t0, pharos_trap
   csrw  mtvec, t0
 
