@@ -83,25 +83,25 @@ bool place_sensors(const std::array<WideVector, kMaxSensors>& body, FixedSightin
 
 bool collect_fixed(const Target& target, const Observations& observations, const LighthouseFromBody& prior,
                    FixedSightings& sightings) {
-  constexpr std::int8_t kNone = -1;
-  std::array<std::int8_t, kMaxSensors> placement_of, entry_of;
+  constexpr std::uint8_t kNone = 0xFF;
+  std::array<std::uint8_t, kMaxSensors> placement_of, entry_of;
   placement_of.fill(kNone);
   entry_of.fill(kNone);
   for (std::size_t k = 0; k < target.size(); ++k) {
-    if (target[k].sensor < kMaxSensors) placement_of[target[k].sensor] = static_cast<std::int8_t>(k);
+    if (target[k].sensor < kMaxSensors) placement_of[target[k].sensor] = static_cast<std::uint8_t>(k);
   }
   std::array<WideVector, kMaxSensors> body;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Observation& o = observations[k];
     if (!(o.theta_rad > 0.0 && o.theta_rad < kPi)) return false;
     if (o.sensor >= kMaxSensors || placement_of[o.sensor] == kNone) continue;
-    std::int8_t& entry = entry_of[o.sensor];
+    std::uint8_t& entry = entry_of[o.sensor];
     if (entry == kNone) {
-      entry = static_cast<std::int8_t>(sightings.count++);
-      sightings.sensor[static_cast<std::size_t>(entry)].seen = {};
-      body[static_cast<std::size_t>(entry)] = wide(target[static_cast<std::size_t>(placement_of[o.sensor])].position_m);
+      entry = static_cast<std::uint8_t>(sightings.count++);
+      sightings.sensor[entry].seen = {};
+      body[entry] = wide(target[placement_of[o.sensor]].position_m);
     }
-    if (!see(sightings, static_cast<std::size_t>(entry), o)) return false;
+    if (!see(sightings, entry, o)) return false;
     sightings.used[k] = true;
   }
   if (sightings.count == 0 || !place_sensors(body, sightings)) return false;

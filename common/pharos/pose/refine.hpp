@@ -18,7 +18,7 @@ struct DoubleStep {
   std::array<double, 6> delta;
   double decrease;  // of r^T r, that the linear model predicts of an undamped step
   double smallest_pivot_ratio;
-  static constexpr bool solved = true;
+  bool solved = true;  // double always can; the integers may not
 };
 
 /// The system of equations that `descend` and `both_minima` work on, in double.
