@@ -22,7 +22,10 @@ constexpr double kWhiteLevel = 2.0;
 constexpr double kLargestRatio = 9.0;
 
 void predict(MotionBank& bank, double dt_s) {
-  for (; dt_s > 1.5 * kLongestStep_s; dt_s -= kLongestStep_s) bank.predict(kLongestStep_s);
+  while (dt_s > 1.5 * kLongestStep_s) {
+    bank.predict(kLongestStep_s);
+    dt_s -= kLongestStep_s;
+  }
   if (dt_s > 0.0) bank.predict(dt_s);
 }
 
