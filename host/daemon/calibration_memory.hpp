@@ -11,7 +11,7 @@
 
 namespace pharos::host {
 
-/// How often the file could not be written and how many calibrations made room for others.
+/// How often the file could not be written, and how many calibrations made room for others or were none of any station.
 struct MemoryCounters {
   std::int64_t write_failures = 0;
   std::int64_t dropped = 0;

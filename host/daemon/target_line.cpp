@@ -11,15 +11,13 @@
 #include "host/daemon/now.hpp"
 #include "host/publish/words.hpp"
 #include "pharos/base/ticks.hpp"
+#include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
 namespace {
 
 // A target's clock that goes back by more than any reordering on the line was started anew.
 constexpr std::int64_t kRestartTicks = kTicksPerSecond;
-// Without a flash for this long the target's decoder does not know its stations again (it extrapolates rotors for 300
-// s).
-constexpr std::int64_t kLongestDarkTicks = 240 * kTicksPerSecond;
 
 // So long poses say why their times may have gone back, and the status why.
 constexpr std::int64_t kHostJumpToldNs = 60'000'000'000;
@@ -144,7 +142,7 @@ void TargetLine::take(const lighthouse::Sweep& sweep) {
     return;
   }
   // After so long in the dark a station may have come back under another's number.
-  if (sweep.flash.start_ticks - last_flash_ticks_ > kLongestDarkTicks) {
+  if (sweep.flash.start_ticks - last_flash_ticks_ > track::kLongestDarkTicks) {
     tracker_ = track::EpochTracker(config_.target, config_.track);
     calibrations_.forget_stations();
   }

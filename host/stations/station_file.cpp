@@ -79,6 +79,16 @@ std::vector<StationEntry> read_station_file(const std::string& path) {
   return entries;
 }
 
+bool is_believable(const lighthouse::StationCalibration& station) {
+  for (const Field& field : kFields) {
+    for (const RotorCalibration& rotor : station.rotor) {
+      const double value = rotor.*field.member;
+      if (!(value >= field.range.low && value <= field.range.high)) return false;
+    }
+  }
+  return true;
+}
+
 std::string station_text(const lighthouse::StationCalibration& station) {
   std::array<char, 16> id{};
   std::snprintf(id.data(), id.size(), "%08X", static_cast<unsigned>(station.id));

@@ -47,6 +47,15 @@ TEST_F(CalibrationMemoryTest, ReadsBackExactlyWhatWasKept) {
   EXPECT_THAT(reread(), ElementsAre(station(0xBEC08E38), station(1, 0.5)));
 }
 
+TEST_F(CalibrationMemoryTest, AnglesOfNoStationAreDroppedAndSpoilNotTheOthers) {
+  CalibrationMemory memory(folder_);
+  memory.keep(station(0xBEC08E38));
+  memory.keep(station(1, 30.0));
+  memory.save(0);
+  EXPECT_EQ(memory.counters().dropped, 1);
+  EXPECT_THAT(reread(), ElementsAre(station(0xBEC08E38)));
+}
+
 TEST_F(CalibrationMemoryTest, KeepingWritesNothingUntilThereIsTime) {
   CalibrationMemory memory(folder_);
   memory.keep(station(7));
