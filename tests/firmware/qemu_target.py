@@ -18,22 +18,12 @@ import time
 import tty
 import zlib
 
+from tape import unstuffed
+
 FLASH_BYTES = 32 << 20  # what the machine's bank has
 HELLO = 1
 RESIDUE = 0x2144DF1C
 DECODER, LOADER = 0, 1
-
-
-def unstuffed(stuffed):
-    plain = bytearray()
-    at = 0
-    while at < len(stuffed):
-        code = stuffed[at]
-        plain += stuffed[at + 1 : at + code]
-        at += code
-        if code != 0xFF and at < len(stuffed):
-            plain.append(0)
-    return bytes(plain)
 
 
 class Hello:
