@@ -4,9 +4,9 @@
 
 #include "firmware/board/ep4ce10/addresses.hpp"
 #include "firmware/board/ep4ce10/capture_block.hpp"
+#include "firmware/board/rv32/common_system.hpp"
 #include "firmware/board/rv32/processor.hpp"
 #include "firmware/board/rv32/restart.hpp"
-#include "firmware/board/rv32/stack_mark.hpp"
 #include "firmware/board/rv32/trap.hpp"
 #include "firmware/board/uart16550.hpp"
 
@@ -36,19 +36,11 @@ class Line final : public hal::SerialLine {
 };
 Line line;
 
-class System final : public hal::System {
+class System final : public CommonSystem {
  public:
   std::uint32_t cycles() override { return mmio32(kMachineTimer); }
   void feed_watchdog() override { mmio32(kWatchdogPeriod) = 0; }
-  void restart(bool stay_in_loader) override {
-    boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
-    reset_machine();
-  }
-  wire::ResetCause reset_cause() override { return boot::last_reset(retained()); }
-  std::uint16_t start_count() override { return static_cast<std::uint16_t>(retained().start_count); }
-  std::uint32_t stack_never_used_bytes() override { return board::stack_never_used_bytes(); }
   std::string_view board_name() override { return "ep4ce10"; }
-  std::uint32_t unique_id() override { return 0; }
 };
 System system;
 

@@ -3,9 +3,9 @@
 
 #include "firmware/board/qemu_virt/capture_tape.hpp"
 #include "firmware/board/qemu_virt/machine.hpp"
+#include "firmware/board/rv32/common_system.hpp"
 #include "firmware/board/rv32/processor.hpp"
 #include "firmware/board/rv32/restart.hpp"
-#include "firmware/board/rv32/stack_mark.hpp"
 #include "firmware/board/rv32/trap.hpp"
 #include "firmware/board/uart16550.hpp"
 #include "pharos/base/ticks.hpp"
@@ -86,19 +86,11 @@ void look_after_watchdog(std::int64_t now) {
   reset_machine();
 }
 
-class System final : public hal::System {
+class System final : public CommonSystem {
  public:
   std::uint32_t cycles() override { return static_cast<std::uint32_t>(instructions_retired()) * kCyclesPerInstruction; }
   void feed_watchdog() override { fed = true; }
-  void restart(bool stay_in_loader) override {
-    boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
-    reset_machine();
-  }
-  wire::ResetCause reset_cause() override { return boot::last_reset(retained()); }
-  std::uint16_t start_count() override { return static_cast<std::uint16_t>(retained().start_count); }
-  std::uint32_t stack_never_used_bytes() override { return board::stack_never_used_bytes(); }
   std::string_view board_name() override { return "qemu_virt"; }
-  std::uint32_t unique_id() override { return 0; }
 };
 System system;
 
