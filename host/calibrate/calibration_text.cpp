@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <charconv>
 #include <cstdio>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "host/support/exact_number.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::calibrate {
 namespace {
 
-// The shortest text that reads back exactly.
-std::string exact(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  const std::string out(text.data(), result.ptr);
-  return out.find_first_of(".e") == std::string::npos ? out + ".0" : out;
-}
-
-template <class Values>
-std::string list(const Values& values) {
-  std::string out;
-  for (const double value : values) out += (out.empty() ? "" : ", ") + exact(value);
-  return "[" + out + "]";
-}
+using host::exact_list;
+using host::exact_number;
 
 std::array<double, 3> array_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -38,12 +26,12 @@ std::string summary_text(const LighthouseCalibration& calibration) {
   out += "[calibration]\n";
   out += std::string("scale = ") + (calibration.scale_measured ? "\"measured\"" : "\"prior\"") +
          "  # \"prior\": nobody measured a length, the size is the nominal one\n";
-  out += "scale_sigma = " + exact(bundle.scale_sigma) +
+  out += "scale_sigma = " + exact_number(bundle.scale_sigma) +
          "  # relative, of the target's size: part of every range's sigma\n";
   out += "model_form = " + std::to_string(static_cast<int>(calibration.form)) + "\n";
   out += "stills = " + std::to_string(calibration.stills) + "\n";
   out += "poses = " + std::to_string(calibration.poses) + "\n";
-  out += "unmodelled_arcsec = " + exact(calibration.unmodelled_rad * kArcsecPerRad) +
+  out += "unmodelled_arcsec = " + exact_number(calibration.unmodelled_rad * kArcsecPerRad) +
          "  # left in every mean angle beyond its noise\n";
   out += "body_frame = \"the sensors that were hit lie on their nominal positions by least squares\"\n";
   out += "parameters = [\n";
@@ -51,7 +39,7 @@ std::string summary_text(const LighthouseCalibration& calibration) {
   out += "]\ncovariance = [\n";
   for (Eigen::Index i = 0; i < bundle.covariance.rows(); ++i) {
     const Eigen::VectorXd row = bundle.covariance.row(i);
-    out += "  " + list(row) + ",\n";
+    out += "  " + exact_list(row) + ",\n";
   }
   return out + "]\n";
 }
@@ -61,10 +49,10 @@ std::string sensor_text(const BundleResult& bundle, std::size_t index, const Tar
   const std::array<double, 3> sigma = {bundle.parameters[3 * index].sigma, bundle.parameters[3 * index + 1].sigma,
                                        bundle.parameters[3 * index + 2].sigma};
   std::string out = "\n[[sensor]]\nsensor = " + std::to_string(sensor.sensor) + "\n";
-  out += "position_m = " + list(array_of(sensor.position_m)) + "\n";
-  out += "sigma_m = " + list(sigma) + "\n";
-  out += "nominal_m = " + list(array_of(nominal[index].position_m)) + "\n";
-  if (sensor.has_normal()) out += "normal = " + list(array_of(sensor.normal)) + "\n";
+  out += "position_m = " + exact_list(array_of(sensor.position_m)) + "\n";
+  out += "sigma_m = " + exact_list(sigma) + "\n";
+  out += "nominal_m = " + exact_list(array_of(nominal[index].position_m)) + "\n";
+  if (sensor.has_normal()) out += "normal = " + exact_list(array_of(sensor.normal)) + "\n";
   return out;
 }
 
@@ -75,7 +63,7 @@ std::string pair_text(const Unknowns& unknowns) {
   return "\n# The second station's pose in the reference's frame: p_reference = R p_station + position.\n[[pair]]\n"
          "reference = " +
          id_text(unknowns.station[0].id) + "\nstation = " + id_text(unknowns.station[1].id) +
-         "\norientation_wxyz = " + list(wxyz) + "\nposition_m = " + list(array_of(T.t)) + "\n";
+         "\norientation_wxyz = " + exact_list(wxyz) + "\nposition_m = " + exact_list(array_of(T.t)) + "\n";
 }
 
 }  // namespace

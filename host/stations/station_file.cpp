@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "host/config/strict_toml.hpp"
+#include "host/support/exact_number.hpp"
 #include "pharos/base/capacity.hpp"
 
 namespace pharos::host {
@@ -56,14 +57,6 @@ StationEntry read_entry(const TomlTable& table) {
   return entry;
 }
 
-// The shortest text that reads back exactly, and as a number: TOML tells integers from them.
-std::string exact(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  const std::string out(text.data(), result.ptr);
-  return out.find_first_of(".e") == std::string::npos ? out + ".0" : out;
-}
-
 }  // namespace
 
 std::vector<StationEntry> read_stations(const TomlTable& root) {
@@ -94,8 +87,8 @@ std::string station_text(const lighthouse::StationCalibration& station) {
   std::snprintf(id.data(), id.size(), "%08X", static_cast<unsigned>(station.id));
   std::string out = std::string("[[station]]\nid = \"") + id.data() + "\"\n";
   for (const Field& field : kFields) {
-    out += std::string(field.key) + " = [" + exact(station.rotor[0].*field.member) + ", " +
-           exact(station.rotor[1].*field.member) + "]\n";
+    out += std::string(field.key) + " = [" + exact_number(station.rotor[0].*field.member) + ", " +
+           exact_number(station.rotor[1].*field.member) + "]\n";
   }
   return out;
 }

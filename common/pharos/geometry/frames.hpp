@@ -12,6 +12,8 @@ struct Lighthouse {};
 struct Body {};
 /// C: camera, x right, y down, z forward (as in OpenCV).
 struct Camera {};
+/// R: a rig of two cameras, x right, y down, z ahead.
+struct Rig {};
 /// T: docking ring's target frame.
 struct Target {};
 /// V: chase vehicle.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cameras/file_parts.hpp"
+
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <string_view>
+
+#include "host/support/exact_number.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kLargestSide_px = 32768;
+// A telescope of 30 m focal length on pixels of 3 um has 1e7; an image cut out of a larger one has its principal point
+// outside; narrow fields of view bring large coefficients.
+constexpr Range kFocalLength_px{1.0, 1e9};
+constexpr Range kPrincipalPoint_px{-1e6, 1e6};
+constexpr Range kDistortion{-1e12, 1e12};
+// Two cameras with nine values each and the pose between them.
+constexpr std::size_t kMostParameters = 24;
+constexpr std::int64_t kMostCounted = 1'000'000'000;
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (std::iscntrl(static_cast<unsigned char>(c)) == 0) {
+      out += c;
+    } else {
+      std::array<char, 8> escaped{};
+      std::snprintf(escaped.data(), escaped.size(), "\\u%04X", static_cast<unsigned>(c));
+      out += escaped.data();
+    }
+  }
+  return out + "\"";
+}
+
+std::string toml_strings(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + toml_string(text);
+  return "[" + out + "]";
+}
+
+}  // namespace
+
+PinholeCamera read_optics(const TomlTable& table) {
+  PinholeCamera optics;
+  optics.width_px = static_cast<std::int32_t>(table.integer("width_px", 1, kLargestSide_px));
+  optics.height_px = static_cast<std::int32_t>(table.integer("height_px", 1, kLargestSide_px));
+  optics.fx_px = table.number("fx_px", kFocalLength_px);
+  optics.fy_px = table.number("fy_px", kFocalLength_px);
+  optics.cx_px = table.number("cx_px", kPrincipalPoint_px);
+  optics.cy_px = table.number("cy_px", kPrincipalPoint_px);
+  optics.distortion = table.vector<5>("distortion", kDistortion);
+  return optics;
+}
+
+std::string optics_text(const PinholeCamera& optics) {
+  std::string out = "width_px = " + std::to_string(optics.width_px) + "\n";
+  out += "height_px = " + std::to_string(optics.height_px) + "\n";
+  out += "fx_px = " + exact_number(optics.fx_px) + "\n";
+  out += "fy_px = " + exact_number(optics.fy_px) + "\n";
+  out += "cx_px = " + exact_number(optics.cx_px) + "\n";
+  out += "cy_px = " + exact_number(optics.cy_px) + "\n";
+  return out + "distortion = " + exact_list(optics.distortion) + "  # k1, k2, p1, p2, k3\n";
+}
+
+std::optional<CalibrationRecord> read_record(const TomlTable& root) {
+  if (!root.has("calibration")) return std::nullopt;
+  const TomlTable table = root.table("calibration");
+  CalibrationRecord record;
+  record.images = table.integer("images", 0, kMostCounted);
+  record.points = table.integer("points", 0, kMostCounted);
+  record.rms_px = table.number("rms_px", kNotNegative);
+  record.parameters = table.texts("parameters");
+  if (record.parameters.size() > kMostParameters) table.fail("parameters", "more than two cameras have");
+  record.covariance = table.rows("covariance", record.parameters.size());
+  if (record.covariance.size() != record.parameters.size()) {
+    table.fail("covariance", "must have a row for each of the parameters");
+  }
+  record.untold = table.texts("untold");
+  return record;
+}
+
+std::string record_text(const CalibrationRecord& record) {
+  std::string out = "\n[calibration]\nimages = " + std::to_string(record.images) + "\n";
+  out += "points = " + std::to_string(record.points) + "\n";
+  out += "rms_px = " + exact_number(record.rms_px) + "\n";
+  out += "parameters = " + toml_strings(record.parameters) + "\ncovariance = [\n";
+  for (const std::vector<double>& row : record.covariance) out += "  " + exact_list(row) + ",\n";
+  return out + "]\nuntold = " + toml_strings(record.untold) + "\n";
+}
+
+}  // namespace pharos::host

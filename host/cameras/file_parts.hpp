@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/cameras/calibration_record.hpp"
+#include "host/config/strict_toml.hpp"
+#include "pharos/camera/pinhole_camera.hpp"
+
+// What camera files and rig files have in common.
+namespace pharos::host {
+
+PinholeCamera read_optics(const TomlTable& table);
+std::string optics_text(const PinholeCamera& optics);
+
+/// [calibration], where there is one.
+std::optional<CalibrationRecord> read_record(const TomlTable& root);
+std::string record_text(const CalibrationRecord& record);
+
+}  // namespace pharos::host
