@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "pharos/base/image_view.hpp"
+#include "pharos/ellipse/detected_ellipse.hpp"
+#include "pharos/ellipse/settings.hpp"
+#include "pharos/ellipse/workspace.hpp"
+
+namespace pharos::ellipse {
+
+/// Ellipses whose edges stand in the image, best score first (paper 000, 2.2.1).
+///
+/// `image`: grey values of any scale; thresholds adapt. Concentric ellipses whose edges can be told apart are answered
+/// as two. Images smaller than kMinSide_px, larger than kMaxSide_px or than the workspace's planes give no ellipse.
+/// The answer lies in the workspace and holds until its next use.
+std::span<const DetectedEllipse> detect_ellipses(ImageView<const std::uint16_t> image, const EllipseSettings& settings,
+                                                 EllipseWorkspace& workspace);
+
+}  // namespace pharos::ellipse

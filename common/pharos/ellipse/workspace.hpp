@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/ellipse/arc.hpp"
+#include "pharos/ellipse/detected_ellipse.hpp"
+#include "pharos/ellipse/edge_point.hpp"
+
+namespace pharos::ellipse {
+
+/// Most edge points kept of one image: twice what the busiest of the rendered frames of 640x480 have. What finds no
+/// place is counted; the thresholds rise before that happens.
+inline constexpr std::size_t kMaxEdgePoints = 40960;
+/// Most arcs kept of one image.
+inline constexpr std::size_t kMaxArcs = 512;
+/// Most ellipses answered of one image, the best by score.
+inline constexpr std::size_t kMaxEllipses = 64;
+/// Planes of 16 bits a pixel that the caller lends: the smoothed image, gradient magnitude, places of edge points.
+inline constexpr std::size_t kPlanes = 3;
+/// Narrower or lower images have no room for an edge with its surroundings.
+inline constexpr std::int32_t kMinSide_px = 8;
+/// Wider or higher images would not fit an edge point's column and row, nor the steps of its arithmetic.
+inline constexpr std::int32_t kMaxSide_px = 32767;
+
+/// What was met in the last image.
+struct EllipseCounters {
+  std::uint32_t edge_points = 0;
+  std::uint32_t edge_points_dropped = 0;
+  std::uint32_t contours = 0;
+  std::uint32_t arcs = 0;
+  std::uint32_t arcs_dropped = 0;
+  std::uint32_t candidates = 0;
+  std::uint32_t ellipses_dropped = 0;
+};
+
+/// All memory that detection needs beside the stack; the caller owns both parts.
+struct EllipseWorkspace {
+  /// `planes` holds kPlanes * width * height values of the largest image to come.
+  explicit EllipseWorkspace(std::span<std::uint16_t> planes_of_caller) : planes(planes_of_caller) {}
+
+  std::span<std::uint16_t> planes;
+  EllipseCounters counters;
+
+  StaticVector<EdgePoint, kMaxEdgePoints> edges;    ///< as found, row by row
+  StaticVector<EdgePoint, kMaxEdgePoints> ordered;  ///< along contours; arcs are ranges of it
+  std::array<std::uint16_t, kMaxEdgePoints> order{};
+  StaticVector<Arc, kMaxArcs> arcs;
+  StaticVector<DetectedEllipse, kMaxEllipses> found;
+};
+
+}  // namespace pharos::ellipse
