@@ -28,12 +28,21 @@ if(PHAROS_FUZZ)
 endif()
 
 # pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; same floating-point results
-# on every machine (no fused multiply-add where the source has none).
+# on every machine (no fused multiply-add where the source has none). For the soft core NAME_12 too, the same sources for
+# a board of 12 inputs (base/capacity.hpp), built where an image asks for it; an image links rooms of one kind only.
 function(pharos_core_library name)
   add_library(${name} STATIC ${ARGN})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/common)
-  target_link_libraries(${name} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
-  target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti -ffp-contract=off)
+  set(libraries ${name})
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+    add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARGN})
+    target_compile_definitions(${name}_12 PUBLIC PHAROS_MAX_SENSORS=12)
+    list(APPEND libraries ${name}_12)
+  endif()
+  foreach(library IN LISTS libraries)
+    target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
+    target_link_libraries(${library} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
+    target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti -ffp-contract=off)
+  endforeach()
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 
