@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/device/frame_queue.hpp"
+
+namespace pharos::host {
+
+// What a source counts, once by name. X(name, what it counts)
+#define PHAROS_FRAME_SOURCE_COUNTERS(X)                                                 \
+  X(frames_received, "whole frames of the right size and format")                       \
+  X(frames_incomplete, "frames with packets missing")                                   \
+  X(frames_missing, "frames of which nothing came, told by gaps in their numbers")      \
+  X(frames_wrong_size, "frames of another size or format than was agreed")              \
+  X(frames_unpaired, "depth frames whose intensity frame did not come, or the reverse") \
+  X(frames_dropped, "whole frames that gave way to newer ones: the loop was busy")      \
+  X(camera_opened, "times the camera was opened")                                       \
+  X(camera_lost, "times it was lost")                                                   \
+  X(camera_silences, "times it was opened anew because no frame came")
+
+struct FrameSourceCounters {
+#define PHAROS_X(name, text) std::int64_t name = 0;
+  PHAROS_FRAME_SOURCE_COUNTERS(PHAROS_X)
+#undef PHAROS_X
+};
+
+/// Calls visit(name, value) for every counter.
+template <class Visitor>
+void for_each_counter(const FrameSourceCounters& counters, Visitor&& visit) {
+#define PHAROS_X(name, text) visit(#name, counters.name);
+  PHAROS_FRAME_SOURCE_COUNTERS(PHAROS_X)
+#undef PHAROS_X
+}
+
+enum class CameraState : std::uint8_t {
+  kOpen,    // frames come, or may be expected to
+  kSilent,  // open, but no frame comes
+  kGone,    // not there
+  kTaken,   // another program holds it
+  kWrong,   // it is not what the configuration says
+};
+
+/// How a source of frames fares.
+struct FrameSourceStatus {
+  CameraState state = CameraState::kGone;
+  std::string trouble;   // what is wrong and what to do; empty when open
+  std::string identity;  // vendor, model, serial number, mode, format, packets
+  FrameSourceCounters counters;
+  std::uint32_t session = 0;
+  bool finished = false;  // a recording has come to its end
+};
+
+/// Where depth frames come from: a camera on the network, or recorded frames.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// Readable while frames wait.
+  virtual int fd() const = 0;
+  virtual DepthFramePtr take() = 0;
+  virtual void give_back(DepthFramePtr frame) = 0;
+  virtual FrameSourceStatus status() const = 0;
+  /// What it reads from, for people.
+  virtual std::string device() const = 0;
+};
+
+}  // namespace pharos::host

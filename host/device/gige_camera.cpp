@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/device/gige_camera.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/daemon/now.hpp"
+#include "host/device/find_camera.hpp"
+#include "host/device/frame_numbers.hpp"
+#include "host/device/gobject.hpp"
+#include "host/device/pixel_format.hpp"
+
+namespace pharos::host {
+namespace {
+
+// A tenth of a second of frames that may arrive while the camera's thread is not scheduled, and those being filled.
+constexpr int kBuffers = 8;
+// Of the kernel; net.core.rmem_max may make it less.
+constexpr int kSocketBytes = 8 << 20;
+// In turns: how long the other format's frame may take, through a stop and a start of the camera.
+constexpr std::chrono::milliseconds kOtherFormatTimeout{1000};
+
+[[noreturn]] void refuse(const std::string& message) { throw CameraError(CameraState::kWrong, message); }
+
+/// A name -> value list of the camera's own words, for messages.
+std::string list_of(const char* const* words, guint count) {
+  std::string list;
+  for (guint i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + std::string(words[i]);
+  return list;
+}
+
+std::uint32_t format_of(ArvBuffer* buffer) {
+  return static_cast<std::uint32_t>(arv_buffer_get_image_pixel_format(buffer));
+}
+
+}  // namespace
+
+struct GigeCamera::Parts {
+  CameraSettings settings;
+  GObjectPtr<ArvCamera> camera;
+  GObjectPtr<ArvStream> stream;
+  std::string identity;
+  std::string address;
+  bool in_turns = false;
+  bool has_ptp = false;
+  std::optional<CoordinateScale> scale;
+  FrameNumbers numbers;
+
+  bool has(const char* feature) const {
+    ArvError error;
+    return arv_camera_is_feature_available(camera.get(), feature, error.out()) != 0 && !error;
+  }
+  bool offers_format(const char* format) const {
+    ArvError error;
+    return arv_camera_is_enumeration_entry_available(camera.get(), "PixelFormat", format, error.out()) != 0 && !error;
+  }
+  std::string word(const char* feature) const {
+    ArvError error;
+    const char* text = arv_camera_get_string(camera.get(), feature, error.out());
+    return text == nullptr || error ? "" : text;
+  }
+  void set_word(const char* feature, const std::string& value, const char* key) const;
+  void set_mode();
+  void set_format();
+  void set_packets();
+  void check_size() const;
+  void read_scale();
+  void start_ptp();
+  void start_stream();
+  void start() const;
+  void stop() const;
+  void describe();
+
+  GObjectPtr<ArvBuffer> pop(std::chrono::milliseconds timeout) const;
+  void give_back(GObjectPtr<ArvBuffer> buffer) const;
+  FrameOutcome outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame, std::int64_t& missing);
+  bool unpack(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame) const;
+  FrameOutcome intensity_of(DepthFrame& frame);
+};
+
+void GigeCamera::Parts::set_word(const char* feature, const std::string& value, const char* key) const {
+  ArvError error;
+  arv_camera_set_string(camera.get(), feature, value.c_str(), error.out());
+  if (!error) return;
+  guint count = 0;
+  ArvError ignored;
+  const GMemory<const char*> words(
+      arv_camera_dup_available_enumerations_as_strings(camera.get(), feature, &count, ignored.out()));
+  refuse("the camera does not take " + std::string(key) + " \"" + value + "\"" +
+         (words ? "; it knows " + list_of(words.get(), count) : ": " + error.text()));
+}
+
+void GigeCamera::Parts::set_mode() {
+  if (settings.mode.empty()) return;
+  if (!has("Scan3dOperatingMode"))
+    refuse("the camera has no Scan3dOperatingMode: is it a depth camera? Or remove mode");
+  set_word("Scan3dOperatingMode", settings.mode, "mode");
+}
+
+void GigeCamera::Parts::set_format() {
+  if (offers_format("Coord3D_ABCY16")) {
+    set_word("PixelFormat", "Coord3D_ABCY16", "the pixel format");
+  } else if (offers_format("Coord3D_C16") && offers_format("Mono16")) {
+    in_turns = true;
+    set_word("PixelFormat", "Coord3D_C16", "the pixel format");
+  } else {
+    guint count = 0;
+    ArvError ignored;
+    const GMemory<const char*> words(
+        arv_camera_dup_available_pixel_formats_as_strings(camera.get(), &count, ignored.out()));
+    refuse("the camera offers neither Coord3D_ABCY16 nor Coord3D_C16 with Mono16" +
+           (words ? ", only " + list_of(words.get(), count) : std::string()));
+  }
+}
+
+void GigeCamera::Parts::set_packets() {
+  ArvError error;
+  // Otherwise the start of the stream would try sizes of its own, and end at 1400.
+  arv_camera_gv_set_packet_size_adjustment(camera.get(), ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
+  arv_camera_gv_set_packet_size(camera.get(), settings.packet_size, error.out());
+  if (error)
+    refuse("the camera does not take packet_size " + std::to_string(settings.packet_size) + ": " + error.text());
+  if (settings.frame_rate_hz <= 0.0) return;
+  arv_camera_set_frame_rate(camera.get(), settings.frame_rate_hz, error.out());
+  if (error) refuse("the camera does not take frame_rate_hz: " + error.text());
+}
+
+void GigeCamera::Parts::check_size() const {
+  ArvError error;
+  gint x = 0;
+  gint y = 0;
+  gint width = 0;
+  gint height = 0;
+  arv_camera_get_region(camera.get(), &x, &y, &width, &height, error.out());
+  if (error) throw CameraError(CameraState::kGone, "the camera does not tell its size: " + error.text());
+  if (width == settings.width_px && height == settings.height_px) return;
+  refuse("the camera gives " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels, its camera file is for " + std::to_string(settings.width_px) + " x " +
+         std::to_string(settings.height_px) + "; set one of them (binning changes the size)");
+}
+
+void GigeCamera::Parts::read_scale() {
+  if (!has("Scan3dCoordinateSelector") || !has("Scan3dCoordinateScale")) return;
+  constexpr std::array<const char*, 3> kAxes{"CoordinateA", "CoordinateB", "CoordinateC"};
+  constexpr double kMetresPerMillimetre = 1e-3;
+  CoordinateScale read;
+  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+    ArvError error;
+    arv_camera_set_string(camera.get(), "Scan3dCoordinateSelector", kAxes[axis], error.out());
+    if (error) refuse("the camera's coordinate scale cannot be read: " + error.text());
+    const double scale_mm = arv_camera_get_float(camera.get(), "Scan3dCoordinateScale", error.out());
+    if (error) refuse("the camera's coordinate scale cannot be read: " + error.text());
+    const double offset_mm =
+        has("Scan3dCoordinateOffset") ? arv_camera_get_float(camera.get(), "Scan3dCoordinateOffset", error.out()) : 0.0;
+    if (error) refuse("the camera's coordinate offset cannot be read: " + error.text());
+    read.scale_m[axis] = scale_mm * kMetresPerMillimetre;
+    read.offset_m[axis] = offset_mm * kMetresPerMillimetre;
+  }
+  scale = read;
+}
+
+void GigeCamera::Parts::start_ptp() {
+  has_ptp = settings.ptp && has("PtpEnable") && has("PtpStatus");
+  if (!has_ptp) return;
+  ArvError ignored;  // a camera that does not let it be switched may follow all the same
+  arv_camera_set_boolean(camera.get(), "PtpEnable", TRUE, ignored.out());
+}
+
+void GigeCamera::Parts::start_stream() {
+  ArvError error;
+  stream.reset(arv_camera_create_stream(camera.get(), nullptr, nullptr, error.out()));
+  if (!stream) throw CameraError(CameraState::kGone, "the camera gives no stream: " + error.text());
+  g_object_set(stream.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size", kSocketBytes,
+               nullptr);
+  const guint payload = arv_camera_get_payload(camera.get(), error.out());
+  if (error) throw CameraError(CameraState::kGone, "the camera does not tell its payload: " + error.text());
+  for (int i = 0; i < kBuffers; ++i) arv_stream_push_buffer(stream.get(), arv_buffer_new(payload, nullptr));
+  start();
+}
+
+void GigeCamera::Parts::start() const {
+  ArvError error;
+  arv_camera_start_acquisition(camera.get(), error.out());
+  if (error) throw CameraError(CameraState::kGone, "the camera does not start: " + error.text());
+}
+
+void GigeCamera::Parts::stop() const {
+  ArvError ignored;
+  arv_camera_stop_acquisition(camera.get(), ignored.out());
+}
+
+void GigeCamera::Parts::describe() {
+  identity = word("DeviceVendorName") + ' ' + word("DeviceModelName") + ' ' + serial_of(camera.get());
+  if (const std::string mode = word("Scan3dOperatingMode"); !mode.empty()) identity += ", " + mode;
+  identity += in_turns ? ", Coord3D_C16 and Mono16 in turns" : ", Coord3D_ABCY16";
+  identity += ", packets of " + std::to_string(settings.packet_size);
+}
+
+GigeCamera::GigeCamera(const CameraSettings& settings) : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  parts.settings = settings;
+  parts.camera = find_camera(settings);
+  parts.address = address_of(parts.camera.get());
+  parts.stop();  // a client that died may have left it running
+  parts.set_mode();
+  parts.set_format();
+  parts.set_packets();
+  parts.check_size();
+  parts.read_scale();  // the mode and the format decide it
+  parts.start_ptp();
+  parts.describe();
+  parts.start_stream();
+}
+
+GigeCamera::~GigeCamera() {
+  if (parts_->stream) parts_->stop();
+}
+
+const std::string& GigeCamera::identity() const { return parts_->identity; }
+const std::string& GigeCamera::address() const { return parts_->address; }
+
+bool GigeCamera::is_controller() const {
+  return arv_gv_device_is_controller(ARV_GV_DEVICE(arv_camera_get_device(parts_->camera.get()))) != 0;
+}
+
+bool GigeCamera::follows_ptp() const { return parts_->has_ptp && parts_->word("PtpStatus") == "Slave"; }
+
+GObjectPtr<ArvBuffer> GigeCamera::Parts::pop(std::chrono::milliseconds timeout) const {
+  return GObjectPtr<ArvBuffer>(
+      arv_stream_timeout_pop_buffer(stream.get(), static_cast<guint64>(std::chrono::microseconds(timeout).count())));
+}
+
+void GigeCamera::Parts::give_back(GObjectPtr<ArvBuffer> buffer) const {
+  arv_stream_push_buffer(stream.get(), buffer.release());
+}
+
+bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame) const {
+  if (arv_buffer_get_payload_type(buffer) != ARV_BUFFER_PAYLOAD_TYPE_IMAGE || format_of(buffer) != format) return false;
+  if (arv_buffer_get_image_width(buffer) != settings.width_px ||
+      arv_buffer_get_image_height(buffer) != settings.height_px) {
+    return false;
+  }
+  std::size_t size = 0;
+  const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
+  const std::span<const std::uint8_t> bytes(
+      data, std::min(size, payload_bytes(format, settings.width_px, settings.height_px)));
+  frame.resize(settings.width_px, settings.height_px);
+  if (format == kCoord3dAbcy16) return unpack_abcy16(bytes, frame.depth, frame.intensity);
+  return unpack_16(bytes, format == kMono16 ? frame.intensity : frame.depth);
+}
+
+FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame,
+                                        std::int64_t& missing) {
+  // Where depth and intensity take turns, frames are given up at every change: their numbers tell nothing.
+  if (!in_turns) missing += numbers.missing_before(arv_buffer_get_frame_id(buffer));
+  const ArvBufferStatus status = arv_buffer_get_status(buffer);
+  if (status == ARV_BUFFER_STATUS_SIZE_MISMATCH) return FrameOutcome::kWrongSize;
+  if (status != ARV_BUFFER_STATUS_SUCCESS) return FrameOutcome::kIncomplete;
+  if (!unpack(buffer, format, frame)) return FrameOutcome::kWrongSize;
+  frame.camera_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
+  frame.complete_monotonic_ns = monotonic_now_ns();
+  frame.arrival_utc_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+  frame.arrival_monotonic_ns = frame.complete_monotonic_ns - (utc_now_ns() - frame.arrival_utc_ns);
+  frame.taken_in_turns = in_turns;
+  frame.scale = scale;
+  return FrameOutcome::kFrame;
+}
+
+// The depth is there: the same view's intensity, from the frame that follows in the other format.
+FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& frame) {
+  stop();
+  set_word("PixelFormat", "Mono16", "the pixel format");
+  start();
+  FrameOutcome outcome = FrameOutcome::kUnpaired;
+  const std::int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kOtherFormatTimeout).count();
+  while (outcome == FrameOutcome::kUnpaired && monotonic_now_ns() < until_ns) {
+    GObjectPtr<ArvBuffer> buffer = pop(kOtherFormatTimeout / 10);
+    if (!buffer) continue;
+    if (arv_buffer_get_status(buffer.get()) == ARV_BUFFER_STATUS_SUCCESS && unpack(buffer.get(), kMono16, frame)) {
+      outcome = FrameOutcome::kFrame;
+    }
+    give_back(std::move(buffer));
+  }
+  stop();
+  set_word("PixelFormat", "Coord3D_C16", "the pixel format");
+  start();
+  frame.complete_monotonic_ns = monotonic_now_ns();
+  return outcome;
+}
+
+FrameOutcome GigeCamera::next(DepthFrame& frame, std::chrono::milliseconds timeout, std::int64_t& missing) {
+  GObjectPtr<ArvBuffer> buffer = parts_->pop(timeout);
+  if (!buffer) return FrameOutcome::kNone;
+  if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the camera changed
+    parts_->give_back(std::move(buffer));
+    return FrameOutcome::kNone;
+  }
+  const std::uint32_t format = parts_->in_turns ? kCoord3dC16 : kCoord3dAbcy16;
+  const FrameOutcome outcome = parts_->outcome(buffer.get(), format, frame, missing);
+  parts_->give_back(std::move(buffer));
+  return outcome == FrameOutcome::kFrame && parts_->in_turns ? parts_->intensity_of(frame) : outcome;
+}
+
+}  // namespace pharos::host
