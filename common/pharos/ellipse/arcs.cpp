@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ellipse/arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "pharos/ellipse/polygon.hpp"
+
+namespace pharos::ellipse {
+namespace {
+
+constexpr float kPolygonTolerance_px = 0.7F;
+// T_theta. Sides of the polygon of a circle of radius r turn by sqrt(8 * 0.7 / r): 43 deg at 10 px.
+constexpr float kMaxBend_rad = 1.05F;
+// A bend the other way below this is a bump of the edge, no turn.
+constexpr float kMinBend_rad = 0.06F;
+// Shorter arcs support nothing, straighter ones neither.
+constexpr std::uint32_t kMinPoints = 8;
+constexpr float kMinTurn_rad = 0.10F;
+// What may propose an ellipse.
+constexpr std::uint32_t kMinSeedPoints = 12;
+constexpr float kMinSeedTurn_rad = 0.35F;
+// Tangents at ends: mean of the gradients of so many points.
+constexpr std::uint32_t kEndPoints = 4;
+
+float angle_between(PointF a, PointF b) { return std::atan2(a.u * b.v - a.v * b.u, a.u * b.u + a.v * b.v); }
+
+PointF unit(PointF p) {
+  const float length = std::sqrt(p.u * p.u + p.v * p.v);
+  return length > 0.0F ? PointF{p.u / length, p.v / length} : PointF{1.0F, 0.0F};
+}
+
+PointF place_of(const EdgePoint& p) { return {p.u_px, p.v_px}; }
+
+PointF normal_of(const EdgePoint& p) {
+  return unit({static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)});
+}
+
+PointF side(std::span<const EdgePoint> points, std::uint16_t from, std::uint16_t to) {
+  return {points[to].u_px - points[from].u_px, points[to].v_px - points[from].v_px};
+}
+
+// Direction of the contour over some points: their mean gradient turned by +90 deg.
+PointF tangent_of(std::span<const EdgePoint> points) {
+  PointF sum;
+  for (const EdgePoint& p : points) {
+    const PointF normal = normal_of(p);
+    sum.u -= normal.v;
+    sum.v += normal.u;
+  }
+  return unit(sum);
+}
+
+Arc make_arc(std::span<const EdgePoint> points, std::uint32_t begin) {
+  Arc arc;
+  arc.begin = begin;
+  arc.end = begin + static_cast<std::uint32_t>(points.size());
+  const std::size_t end_points = std::min<std::size_t>(kEndPoints, points.size());
+  arc.start = place_of(points.front());
+  arc.middle = place_of(points[points.size() / 2]);
+  arc.finish = place_of(points.back());
+  arc.start_tangent = tangent_of(points.first(end_points));
+  arc.finish_tangent = tangent_of(points.last(end_points));
+  for (std::size_t k = 0; k < kArcSamples; ++k) {
+    const EdgePoint& p = points[k * (points.size() - 1) / (kArcSamples - 1)];
+    arc.samples[k] = place_of(p);
+    arc.normals[k] = normal_of(p);
+  }
+  // Between samples no arc turns by half a turn: the sum unwinds whole turns.
+  PointF direction = arc.start_tangent;
+  for (std::size_t k = 0; k <= kArcSamples; ++k) {
+    const PointF next = k < kArcSamples ? PointF{-arc.normals[k].v, arc.normals[k].u} : arc.finish_tangent;
+    arc.turn_rad += angle_between(direction, next);
+    direction = next;
+  }
+  return arc;
+}
+
+class ArcCutter {
+ public:
+  explicit ArcCutter(EllipseWorkspace& workspace) : workspace_(workspace) {}
+
+  void cut(std::uint32_t begin, std::uint32_t end) {
+    points_ = std::span<const EdgePoint>(workspace_.ordered.data() + begin, end - begin);
+    offset_ = begin;
+    approximate_polygon(points_, kPolygonTolerance_px, vertices_);
+    std::uint16_t arc_begin = 0;
+    float before = 0.0F;
+    for (std::size_t k = 1; k + 1 < vertices_.size(); ++k) {
+      const std::uint16_t here = vertices_[k];
+      const float bend = angle_between(side(points_, vertices_[k - 1], here), side(points_, here, vertices_[k + 1]));
+      if (std::abs(bend) > kMaxBend_rad) {
+        keep(arc_begin, here);
+        arc_begin = here;
+        before = 0.0F;
+        continue;
+      }
+      if (std::abs(bend) < kMinBend_rad) continue;
+      if (bend_changes(before, bend)) {
+        // Somewhere on the side between the two vertices: both arcs keep their own bend.
+        const auto turn = static_cast<std::uint16_t>((vertices_[k - 1] + here) / 2);
+        keep(arc_begin, turn);
+        arc_begin = turn;
+      }
+      before = bend;
+    }
+    keep(arc_begin, vertices_.back());
+  }
+
+ private:
+  void keep(std::uint16_t first, std::uint16_t last) {
+    const std::uint32_t count = last + 1U - first;
+    if (count < kMinPoints) return;
+    Arc arc = make_arc(points_.subspan(first, count), offset_ + first);
+    const float turn = std::abs(arc.turn_rad);
+    if (turn < kMinTurn_rad) return;
+    arc.seed = count >= kMinSeedPoints && turn >= kMinSeedTurn_rad;
+    if (workspace_.arcs.push_back(arc)) return;
+    ++workspace_.counters.arcs_dropped;
+    Arc& shortest = *std::min_element(workspace_.arcs.begin(), workspace_.arcs.end(),
+                                      [](const Arc& a, const Arc& b) { return a.points() < b.points(); });
+    if (shortest.points() < arc.points()) shortest = arc;
+  }
+
+  EllipseWorkspace& workspace_;
+  std::span<const EdgePoint> points_;
+  std::uint32_t offset_ = 0;
+  Vertices vertices_;
+};
+
+}  // namespace
+
+void find_arcs(const Contours& contours, EllipseWorkspace& workspace) {
+  workspace.arcs.clear();
+  ArcCutter cutter(workspace);
+  for (const Contour& contour : contours) {
+    for (std::uint32_t begin = contour.begin; begin < contour.end; begin += kMaxPolygonPoints) {
+      cutter.cut(begin, std::min(contour.end, begin + kMaxPolygonPoints));
+    }
+  }
+  workspace.counters.arcs = static_cast<std::uint32_t>(workspace.arcs.size());
+}
+
+}  // namespace pharos::ellipse

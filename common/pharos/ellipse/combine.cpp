@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ellipse/combine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pharos/ellipse/arc_pair.hpp"
+#include "pharos/ellipse/cluster.hpp"
+#include "pharos/ellipse/direct_fit.hpp"
+#include "pharos/ellipse/refine_fit.hpp"
+#include "pharos/ellipse/score.hpp"
+#include "pharos/ellipse/support.hpp"
+
+namespace pharos::ellipse {
+namespace {
+
+// An arc that turns by less is not fitted alone, nor a pair that does so together: the fit's freedom would be noise.
+constexpr float kMinTurnAlone_rad = 1.75F;
+constexpr float kMinTurnOfPair_rad = 1.0F;
+// A first fit must pass this near to the samples it is made of.
+constexpr double kMaxFitRms_px = 1.0;
+// Edge points join a first fit from this far, a refined one from nearer.
+constexpr double kFirstGate_px = 2.0;
+constexpr double kGate_px = 1.25;
+// Best pairs of one arc that are completed.
+constexpr std::size_t kBestPairs = 3;
+// Neighbouring edge points see the same pixels through the filter: with sigma = 1 px their noise is that of one
+// measurement in 3.5 px (the sum of exp(-d^2/4) over the distances d).
+constexpr double kCorrelation_px = 3.5;
+// An arc of which this share lies on an accepted ellipse proposes no other.
+constexpr double kExplained = 0.5;
+
+struct Candidate {
+  Ellipse ellipse;
+  double rank = 0.0;  // share of the contour that the arcs it was made of cover
+};
+
+bool plausible(const Ellipse& e, const EllipseSettings& settings) {
+  return e.b_px >= settings.min_minor_px && e.a_px < settings.max_axis_ratio * e.b_px && e.a_px < kMaxSide_px;
+}
+
+class Combiner {
+ public:
+  Combiner(const EllipseSettings& settings, EllipseWorkspace& workspace) : settings_(settings), workspace_(workspace) {}
+
+  void run() {
+    for (std::size_t k = 0; k < arcs().size(); ++k) order_[k] = static_cast<std::uint16_t>(k);
+    std::sort(
+        order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(arcs().size()),
+        [&](std::uint16_t a, std::uint16_t b) { return weight(a) > weight(b) || (weight(a) == weight(b) && a < b); });
+    for (std::size_t k = 0; k < arcs().size(); ++k) propose(k);
+  }
+
+ private:
+  const StaticVector<Arc, kMaxArcs>& arcs() const { return workspace_.arcs; }
+  float weight(std::uint16_t k) const {
+    return static_cast<float>(arcs()[k].points()) * std::min(3.0F, std::abs(arcs()[k].turn_rad));
+  }
+
+  void propose(std::size_t position) {
+    const std::uint16_t seed = order_[position];
+    const Arc& arc = arcs()[seed];
+    if (!arc.seed || explained_[seed]) return;
+    best_ = {};
+    if (std::abs(arc.turn_rad) >= kMinTurnAlone_rad) consider(arc, nullptr);
+    if (!(std::abs(arc.turn_rad) >= 5.5F && !best_.empty())) {
+      for (std::size_t k = position + 1; k < arcs().size(); ++k) {
+        const std::uint16_t other = order_[k];
+        const Arc& partner = arcs()[other];
+        if (!partner.seed || explained_[other]) continue;
+        if (std::abs(arc.turn_rad + partner.turn_rad) < kMinTurnOfPair_rad || !may_pair(arc, partner)) continue;
+        consider(arc, &partner);
+      }
+    }
+    DetectedEllipse best;
+    for (const Candidate& candidate : best_) {
+      const std::optional<DetectedEllipse> found = complete(candidate.ellipse, arc.turn_rad < 0.0F);
+      if (found && found->score > best.score) best = *found;
+    }
+    if (best.score < settings_.min_score) return;
+    add_to_clusters(best, workspace_);
+    mark_explained(best);
+  }
+
+  // The fit to one arc or two, kept among the best.
+  void consider(const Arc& one, const Arc* other) {
+    ++workspace_.counters.candidates;
+    std::array<PointF, 2 * kArcSamples> points;
+    std::copy(one.samples.begin(), one.samples.end(), points.begin());
+    std::size_t count = kArcSamples;
+    if (other != nullptr) {
+      std::copy(other->samples.begin(), other->samples.end(), points.begin() + kArcSamples);
+      count += kArcSamples;
+    }
+    const std::span<const PointF> used(points.data(), count);
+    const std::optional<Ellipse> ellipse = fit_direct(used);
+    if (!ellipse || !plausible(*ellipse, settings_)) return;
+    double squares = 0.0;
+    for (const PointF& p : used) {
+      const double d = distance_px(*ellipse, {static_cast<double>(p.u), static_cast<double>(p.v)});
+      squares += d * d;
+    }
+    if (squares > kMaxFitRms_px * kMaxFitRms_px * static_cast<double>(count)) return;
+    const double length = one.points() + (other == nullptr ? 0U : other->points());
+    insert({*ellipse, length / perimeter_px(*ellipse)});
+  }
+
+  void insert(const Candidate& candidate) {
+    if (best_.full()) {
+      if (best_.back().rank >= candidate.rank) return;
+      best_.pop_back();
+    }
+    best_.push_back(candidate);
+    for (std::size_t k = best_.size() - 1; k > 0 && best_[k - 1].rank < best_[k].rank; --k)
+      std::swap(best_[k - 1], best_[k]);
+  }
+
+  std::optional<DetectedEllipse> complete(const Ellipse& start, bool bright_inside) {
+    std::optional<RefinedFit> fit = refit(start, bright_inside, kFirstGate_px);
+    if (fit) fit = refit(fit->ellipse, bright_inside, kGate_px);
+    if (!fit || !plausible(fit->ellipse, settings_)) return std::nullopt;
+    collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
+    if (support_.count == 0) return std::nullopt;
+    DetectedEllipse found;
+    found.ellipse = fit->ellipse;
+    found.covariance = fit->covariance;
+    found.score = score_of(fit->ellipse, support_, settings_).value();
+    found.rms_px = std::sqrt(support_.squared_sum_px2 / support_.count);
+    found.coverage = support_.coverage();
+    found.points = static_cast<std::int32_t>(support_.count);
+    found.arcs = static_cast<std::int32_t>(support_.arcs);
+    found.bright_inside = bright_inside;
+    return found;
+  }
+
+  std::optional<RefinedFit> refit(const Ellipse& ellipse, bool bright_inside, double gate_px) {
+    collect_support(ellipse, bright_inside, gate_px, workspace_, support_);
+    const double independent = std::min(1.0, support_.stride / kCorrelation_px);
+    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent);
+  }
+
+  void mark_explained(const DetectedEllipse& e) {
+    for (std::size_t k = 0; k < arcs().size(); ++k) {
+      if (explained_[k]) continue;
+      const std::uint32_t on = points_on(e.ellipse, e.bright_inside, kGate_px, arcs()[k], workspace_);
+      explained_[k] = on >= kExplained * arcs()[k].points();
+    }
+  }
+
+  const EllipseSettings& settings_;
+  EllipseWorkspace& workspace_;
+  Support support_;
+  StaticVector<Candidate, kBestPairs> best_;
+  std::array<std::uint16_t, kMaxArcs> order_{};
+  std::array<bool, kMaxArcs> explained_{};
+};
+
+}  // namespace
+
+void combine_arcs(const EllipseSettings& settings, EllipseWorkspace& workspace) {
+  workspace.found.clear();
+  Combiner(settings, workspace).run();
+  std::sort(workspace.found.begin(), workspace.found.end(),
+            [](const DetectedEllipse& a, const DetectedEllipse& b) { return a.score > b.score; });
+}
+
+}  // namespace pharos::ellipse

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ellipse/direct_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace pharos::ellipse {
+namespace {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+constexpr std::size_t kMinPoints = 6;
+// Keeps the scatter of points that lie exactly on a conic invertible.
+constexpr double kRidge = 1e-11;
+
+struct Frame {
+  double u = 0.0, v = 0.0, scale = 1.0;
+};
+
+Frame frame_of(std::span<const PointF> points) {
+  Frame frame;
+  const double n = static_cast<double>(points.size());
+  for (const PointF& p : points) {
+    frame.u += static_cast<double>(p.u) / n;
+    frame.v += static_cast<double>(p.v) / n;
+  }
+  double squared = 0.0;
+  for (const PointF& p : points) {
+    const double u = static_cast<double>(p.u) - frame.u, v = static_cast<double>(p.v) - frame.v;
+    squared += (u * u + v * v) / n;
+  }
+  frame.scale = std::sqrt(squared);
+  return frame;
+}
+
+// A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is none.
+std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linear) {
+  const double a = quadratic[0], b = quadratic[1], c = quadratic[2], d = linear[0], e = linear[1], f = linear[2];
+  const double discriminant = 4.0 * a * c - b * b;
+  if (!(discriminant > 0.0)) return std::nullopt;
+  Ellipse ellipse;
+  ellipse.cx_px = (b * e - 2.0 * c * d) / discriminant;
+  ellipse.cy_px = (b * d - 2.0 * a * e) / discriminant;
+  const double at_centre = f + 0.5 * (d * ellipse.cx_px + e * ellipse.cy_px);
+  // Axes: eigenvalues of [a b/2; b/2 c].
+  const double mean = 0.5 * (a + c), spread = 0.5 * std::hypot(a - c, b);
+  const double squared_one = -at_centre / (mean - spread), squared_two = -at_centre / (mean + spread);
+  if (!(squared_one > 0.0) || !(squared_two > 0.0)) return std::nullopt;
+  ellipse.a_px = std::sqrt(squared_one);
+  ellipse.b_px = std::sqrt(squared_two);
+  // The direction in which the quadratic part is largest is that of its larger eigenvalue.
+  ellipse.theta_rad = 0.5 * std::atan2(b, a - c);
+  // squared_one belongs to the smaller eigenvalue of the signed form.
+  ellipse.theta_rad += std::acos(-1.0) / 2.0;
+  return normalised(ellipse);
+}
+
+}  // namespace
+
+std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
+  if (points.size() < kMinPoints) return std::nullopt;
+  const Frame frame = frame_of(points);
+  if (!(frame.scale > 0.0)) return std::nullopt;
+  Matrix3 s1 = Matrix3::Zero(), s2 = Matrix3::Zero(), s3 = Matrix3::Zero();
+  for (const PointF& p : points) {
+    const double x = (static_cast<double>(p.u) - frame.u) / frame.scale;
+    const double y = (static_cast<double>(p.v) - frame.v) / frame.scale;
+    const Vector3 quadratic(x * x, x * y, y * y), linear(x, y, 1.0);
+    s1 += quadratic * quadratic.transpose();
+    s2 += quadratic * linear.transpose();
+    s3 += linear * linear.transpose();
+  }
+  const Eigen::LDLT<Matrix3> linear_scatter(s3);
+  if (linear_scatter.vectorD().minCoeff() <= 1e-9 * s3.trace()) return std::nullopt;
+  const Matrix3 eliminate = -linear_scatter.solve(s2.transpose());
+  Matrix3 scatter = s1 + s2 * eliminate;
+  scatter.diagonal().array() += kRidge * s1.trace();
+  // Largest mu of C q = mu S q; C has one positive eigenvalue, and S is positive: it is the ellipse's.
+  const Eigen::LLT<Matrix3> root(scatter);
+  if (root.info() != Eigen::Success) return std::nullopt;
+  Matrix3 constraint;
+  constraint << 0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0;
+  const Matrix3 half = root.matrixL().solve(constraint);
+  const Matrix3 reduced = root.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (reduced + reduced.transpose()));
+  if (eigen.info() != Eigen::Success) return std::nullopt;
+  Vector3 quadratic = root.matrixU().solve(eigen.eigenvectors().col(2).eval());
+  if (quadratic[0] + quadratic[2] < 0.0) quadratic = -quadratic;
+  std::optional<Ellipse> ellipse = ellipse_of(quadratic, eliminate * quadratic);
+  if (!ellipse) return std::nullopt;
+  ellipse->cx_px = frame.u + frame.scale * ellipse->cx_px;
+  ellipse->cy_px = frame.v + frame.scale * ellipse->cy_px;
+  ellipse->a_px *= frame.scale;
+  ellipse->b_px *= frame.scale;
+  if (!std::isfinite(ellipse->a_px) || !std::isfinite(ellipse->cx_px) || !std::isfinite(ellipse->cy_px))
+    return std::nullopt;
+  return ellipse;
+}
+
+}  // namespace pharos::ellipse

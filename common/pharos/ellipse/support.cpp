@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ellipse/support.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace pharos::ellipse {
+namespace {
+
+constexpr float kMinAlignment = 0.906F;  // cos 25 deg
+
+// The contour in single precision, ready for many points.
+class Contact {
+ public:
+  Contact(const Ellipse& e, bool bright_inside, double gate_px)
+      : cx_(static_cast<float>(e.cx_px)),
+        cy_(static_cast<float>(e.cy_px)),
+        cos_(static_cast<float>(std::cos(e.theta_rad))),
+        sin_(static_cast<float>(std::sin(e.theta_rad))),
+        over_a_(static_cast<float>(1.0 / e.a_px)),
+        over_b_(static_cast<float>(1.0 / e.b_px)),
+        sign_(bright_inside ? -1.0F : 1.0F),
+        gate_(static_cast<float>(gate_px)) {}
+
+  // In units of the axes: on the unit circle where the point is on the contour.
+  PointF scaled(PointF p) const {
+    const float u = p.u - cx_, v = p.v - cy_;
+    return {(cos_ * u + sin_ * v) * over_a_, (cos_ * v - sin_ * u) * over_b_};
+  }
+  // Distance to first order, or empty off the gate or where the gradient points elsewhere than the normal.
+  bool touches(PointF p, PointF gradient, float& distance) const {
+    const PointF q = scaled(p);
+    const float x = q.u * over_a_, y = q.v * over_b_;
+    const float slope = 2.0F * std::sqrt(x * x + y * y);
+    const float f = q.u * q.u + q.v * q.v - 1.0F;
+    if (std::abs(f) > gate_ * slope) return false;
+    distance = f / slope;
+    const float gx = cos_ * gradient.u + sin_ * gradient.v, gy = cos_ * gradient.v - sin_ * gradient.u;
+    const float along = sign_ * (gx * x + gy * y);
+    return along > 0.0F && 4.0F * along * along >= kMinAlignment * kMinAlignment * slope * slope * (gx * gx + gy * gy);
+  }
+
+ private:
+  float cx_, cy_, cos_, sin_, over_a_, over_b_, sign_, gate_;
+};
+
+bool may_touch(const Contact& contact, const Arc& arc) {
+  float distance = 0.0F;
+  for (std::size_t k = 0; k < kArcSamples; ++k) {
+    if (contact.touches(arc.samples[k], arc.normals[k], distance)) return true;
+  }
+  return false;
+}
+
+// Calls take(point, distance) for every point of the arc on the contour; answers how many there were.
+template <class Take>
+std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const EllipseWorkspace& workspace, Take&& take) {
+  std::uint32_t count = 0;
+  for (std::uint32_t k = arc.begin; k < arc.end; ++k) {
+    const EdgePoint& p = workspace.ordered[k];
+    const PointF place{p.u_px, p.v_px};
+    float distance = 0.0F;
+    if (!contact.touches(place, {static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)}, distance))
+      continue;
+    take(place, distance);
+    ++count;
+  }
+  return count;
+}
+
+std::uint64_t sector_of(PointF scaled) {
+  constexpr float kPerRad = static_cast<float>(kSectors) / (2.0F * std::numbers::pi_v<float>);
+  const float turn = std::atan2(scaled.v, scaled.u) + std::numbers::pi_v<float>;
+  return std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(turn * kPerRad));
+}
+
+}  // namespace
+
+double Support::coverage() const { return static_cast<double>(std::popcount(sectors)) / kSectors; }
+
+void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
+                     Support& support) {
+  support = {};
+  const Contact contact(ellipse, bright_inside, gate_px);
+  StaticVector<std::uint16_t, kMaxArcs> touching;
+  std::uint32_t possible = 0;
+  for (std::size_t k = 0; k < workspace.arcs.size(); ++k) {
+    if (!may_touch(contact, workspace.arcs[k])) continue;
+    touching.push_back(static_cast<std::uint16_t>(k));
+    possible += workspace.arcs[k].points();
+  }
+  support.stride = 1 + possible / static_cast<std::uint32_t>(kMaxFitPoints);
+  for (const std::uint16_t k : touching) {
+    const Arc& arc = workspace.arcs[k];
+    const std::uint32_t count = for_points_on(contact, arc, workspace, [&](PointF place, float distance) {
+      support.distance_sum_px += std::abs(static_cast<double>(distance));
+      support.squared_sum_px2 += static_cast<double>(distance) * static_cast<double>(distance);
+      if (support.count++ % support.stride != 0) return;
+      support.points.push_back(place);
+      support.sectors |= sector_of(contact.scaled(place));
+    });
+    if (count == 0) continue;
+    ++support.arcs;
+    support.turn_rad += std::abs(static_cast<double>(arc.turn_rad)) * count / arc.points();
+  }
+}
+
+std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,
+                        const EllipseWorkspace& workspace) {
+  return for_points_on(Contact(ellipse, bright_inside, gate_px), arc, workspace, [](PointF, float) {});
+}
+
+}  // namespace pharos::ellipse
