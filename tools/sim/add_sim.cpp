@@ -46,6 +46,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->require_subcommand(1);
   sim->footer("Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output demo");
   add_sim_lighthouse(*sim, exit_code);
+  add_sim_tof(*sim, exit_code);
   add_sim_serial(*sim, exit_code);
   add_sim_capture(*sim, exit_code);
 }

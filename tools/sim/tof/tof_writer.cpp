@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/tof/tof_writer.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "host/cameras/camera_file.hpp"
+#include "host/support/input_error.hpp"
+#include "host/table/row_writer.hpp"
+#include "tools/sim/tof/png16.hpp"
+
+namespace pharos::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path) {
+  throw host::InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
+}
+
+template <typename Bytes>
+void write_bytes(const fs::path& path, const Bytes& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())).flush();
+  if (!out) refuse(path);
+}
+
+// Four digits, more where there are more frames: names sort as the frames follow each other.
+std::string number_of(int frame, int frames) {
+  const std::size_t width = std::max<std::size_t>(4, std::to_string(frames - 1).size());
+  const std::string digits = std::to_string(frame);
+  return std::string(width - digits.size(), '0') + digits;
+}
+
+std::string camera_of(const TofScenario& scenario, const RawCoordinates& raw) {
+  host::CameraFile file;
+  const LensModel& lens = scenario.lens;
+  file.camera.optics.width_px = lens.width_px;
+  file.camera.optics.height_px = lens.height_px;
+  file.camera.optics.fx_px = lens.fx_px;
+  file.camera.optics.fy_px = lens.fy_px;
+  file.camera.optics.cx_px = lens.cx_px;
+  file.camera.optics.cy_px = lens.cy_px;
+  file.camera.optics.distortion = lens.distortion;
+  file.camera.depth_scale_m = scenario.depth.scale_m;
+  file.camera.depth_origin_z_m = scenario.depth.origin_z_m;
+  file.camera.scale_m = raw.scale_m;
+  file.camera.offset_m = raw.offset_m;
+  return host::camera_text(file);
+}
+
+class TruthTable {
+ public:
+  explicit TruthTable(const fs::path& path) : file_(std::fopen(path.c_str(), "w"), &std::fclose) {
+    if (!file_) refuse(path);
+    rows_ = std::make_unique<host::RowWriter>(
+        file_.get(), host::RowFormat::kCsv,
+        std::vector<std::string>{"frame", "time_s", "qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m", "alpha_deg",
+                                 "beta_deg", "gamma_deg"});
+  }
+
+  void add(const std::string& number, const TofTruth& truth) {
+    const Quaternion q = truth.T_camera_target.quaternion();
+    const Vector3& t = truth.T_camera_target.t;
+    rows_->text(number).number(truth.time_s).number(q.w()).number(q.x()).number(q.y()).number(q.z());
+    rows_->number(t.x()).number(t.y()).number(t.z());
+    rows_->number(truth.angles.alpha_deg).number(truth.angles.beta_deg).number(truth.angles.gamma_deg);
+    rows_->end_row();
+  }
+  void finish() { rows_->flush(); }
+
+ private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::unique_ptr<host::RowWriter> rows_;
+};
+
+}  // namespace
+
+void write_tof_frames(TofSimulator& simulator, const fs::path& directory, const std::function<void()>& written) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) {
+    throw host::InputError(directory.string() + ": cannot be made: " + error.message() + "; choose another --output");
+  }
+  const TofScenario& scenario = simulator.scenario();
+  const RawCoordinates raw;
+  write_bytes(directory / "camera.toml", camera_of(scenario, raw));
+  TruthTable truth(directory / "truth.csv");
+  for (int frame = 0; frame < simulator.frames(); ++frame) {
+    const std::string number = number_of(frame, simulator.frames());
+    const TofPixels pixels = simulator.pixels(frame);
+    if (scenario.write_abcy16) {
+      write_bytes(directory / (number + "_abcy16.raw"), abcy16_of(pixels, simulator.lens(), scenario.depth, raw));
+    } else {
+      write_png16(directory / (number + "_intensity.png"), pixels.width_px, pixels.height_px, pixels.intensity);
+      write_png16(directory / (number + "_depth.png"), pixels.width_px, pixels.height_px, pixels.depth);
+    }
+    truth.add(number, simulator.truth(frame));
+    written();
+  }
+  truth.finish();
+}
+
+}  // namespace pharos::sim
