@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/lighthouse/decoder.hpp"
 
+#include <algorithm>
+
 #include "pharos/lighthouse/optical_timing.hpp"
 
 namespace pharos::lighthouse {
@@ -83,11 +85,14 @@ void Decoder::time_moved(std::int64_t newest_before) {
     while (order_.drop_after(newest + TimeBase::kMaxAheadTicks, dropped)) {
       ++(dropped.kind == LightEvent::Kind::kPulse ? counters_.pulses_off_time : counters_.edges_off_time);
     }
-  } else {
-    give_out_until(newest_before);
   }
   std::int64_t oldest = newest;
-  for (const LightEvent& event : time_base_.held()) oldest = event.stamp_ticks < oldest ? event.stamp_ticks : oldest;
+  for (const LightEvent& event : time_base_.held()) oldest = std::min(oldest, event.stamp_ticks);
+  if (newest >= newest_before) {
+    give_out_until(newest_before);
+    // A step back may have left some ahead of its time. They go now: the order holds no two that are minutes apart.
+    while (order_.has_before(std::min(oldest, newest - kHoldTicks))) handle(order_.pop());
+  }
   if (newest_before - newest > TimeBase::kMaxAheadTicks) order_.restart_at(oldest);
   for (const LightEvent& event : time_base_.held()) sort_in(event);
   time_base_.forget_held();

@@ -109,6 +109,26 @@ TEST_F(DecoderFaults, TheCounterWrapsInTheDark) {
   test::expect_balance(counters());
 }
 
+TEST_F(DecoderFaults, WhatAStepBackLeftAheadOfTimeDoesNotWaitForALeap) {
+  // Pulses wait for elders, time is found to be 15 ms earlier, then 60 s later: they keep their time and come out.
+  const auto hits = [](std::int64_t at, int count) {
+    std::vector<Edge> edges;
+    for (int i = 0; i < count; ++i) {
+      edges.push_back({at + 5'000 * i, 0, true});
+      edges.push_back({at + 5'000 * i + 200, 0, false});
+    }
+    return edges;
+  };
+  decoded_.push(hits(kSecond, 3));
+  decoded_.push(hits(kSecond - 750'000, 6));
+  decoded_.push(hits(61 * kSecond, 6));
+  EXPECT_EQ(counters().time_base_changes, 3U);
+  EXPECT_EQ(counters().pulses_in, 3U + 6U + 2U);  // of the last six, four are still held back
+  decoded_.flush();
+  EXPECT_EQ(counters().pulses_in, 15U);
+  EXPECT_EQ(counters().edges_in, edges_accounted(counters()));
+}
+
 TEST_F(DecoderFaults, ATargetThatStartsAnewNeverTurnsTimeBack) {
   decoded_.push(light_.slots(0, 60));
   decoded_.push(SyntheticLight::shifted(light_.slots(60, 160), -light_.flash(0, 60).start_ticks));
