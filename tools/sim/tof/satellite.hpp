@@ -50,9 +50,9 @@ struct PaintedCircle {
 /// Wrinkled thermal foil around the body.
 struct Foil {
   double height_m = 0.004;  // standard deviation of the wrinkles' height
-  double albedo = 0.12;     // its diffuse part
-  double gloss = 0.7;       // broad specular part
-  double glint = 6.0;       // narrow specular part, of facets that look straight at the camera
+  double albedo = 0.10;     // its diffuse part
+  double gloss = 0.25;      // broad specular part
+  double glint = 3.0;       // narrow specular part, of facets that look straight at the camera
 };
 
 /// A boom before the satellite that hides `share` of the ring's circumference.
