@@ -14,6 +14,8 @@ namespace {
 constexpr float kPolygonTolerance_px = 0.7F;
 // T_theta. Sides of the polygon of a circle of radius r turn by sqrt(8 * 0.7 / r): 43 deg at 10 px.
 constexpr float kMaxBend_rad = 1.05F;
+// Nearer vertices may be one corner.
+constexpr float kRoundedCorner_px = 4.5F;
 // A bend the other way below this is a bump of the edge, no turn.
 constexpr float kMinBend_rad = 0.06F;
 // Shorter arcs support nothing, straighter ones neither.
@@ -90,8 +92,8 @@ class ArcCutter {
     float before = 0.0F;
     for (std::size_t k = 1; k + 1 < vertices_.size(); ++k) {
       const std::uint16_t here = vertices_[k];
-      const float bend = angle_between(side(points_, vertices_[k - 1], here), side(points_, here, vertices_[k + 1]));
-      if (std::abs(bend) > kMaxBend_rad) {
+      const float bend = bend_at(k);
+      if (is_corner(k, bend)) {
         keep(arc_begin, here);
         arc_begin = here;
         before = 0.0F;
@@ -110,6 +112,20 @@ class ArcCutter {
   }
 
  private:
+  float bend_at(std::size_t k) const {
+    return angle_between(side(points_, vertices_[k - 1], vertices_[k]), side(points_, vertices_[k], vertices_[k + 1]));
+  }
+  // Blur rounds corners: their bend is then that of two vertices close together.
+  bool is_corner(std::size_t k, float bend) const {
+    if (std::abs(bend) > kMaxBend_rad) return true;
+    const auto rounded = [&](std::size_t other) {
+      if (other == 0 || other + 1 >= vertices_.size()) return false;
+      const PointF between = side(points_, vertices_[k], vertices_[other]);
+      return between.u * between.u + between.v * between.v < kRoundedCorner_px * kRoundedCorner_px &&
+             std::abs(bend + bend_at(other)) > kMaxBend_rad;
+    };
+    return rounded(k - 1) || rounded(k + 1);
+  }
   void keep(std::uint16_t first, std::uint16_t last) {
     const std::uint32_t count = last + 1U - first;
     if (count < kMinPoints) return;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "pharos/ellipse/arc_pair.hpp"
 #include "pharos/ellipse/cluster.hpp"
@@ -22,6 +23,8 @@ constexpr float kMinTurnAlone_rad = 1.75F;
 constexpr float kMinTurnOfPair_rad = 1.0F;
 // A first fit must pass this near to the samples it is made of.
 constexpr double kMaxFitRms_px = 1.0;
+// Samples left out at each end of an arc that does not fit as a whole.
+constexpr std::size_t kTrimmedSamples = 3;
 // Edge points join a first fit from this far, a refined one from nearer.
 constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
@@ -30,6 +33,8 @@ constexpr std::size_t kBestPairs = 3;
 // Neighbouring edge points see the same pixels through the filter: with sigma = 1 px their noise is that of one
 // measurement in 3.5 px (the sum of exp(-d^2/4) over the distances d).
 constexpr double kCorrelation_px = 3.5;
+// A first fit that scores less than this share of what is asked will not get there by refinement.
+constexpr double kHope = 0.7;
 // An arc of which this share lies on an accepted ellipse proposes no other.
 constexpr double kExplained = 0.5;
 
@@ -85,27 +90,31 @@ class Combiner {
     mark_explained(best);
   }
 
-  // The fit to one arc or two, kept among the best.
+  // The fit to one arc or two, kept among the best. An arc may run past its ellipse at its ends (a rounded corner):
+  // where all of it does not fit, its middle is tried.
   void consider(const Arc& one, const Arc* other) {
     ++workspace_.counters.candidates;
-    std::array<PointF, 2 * kArcSamples> points;
-    std::copy(one.samples.begin(), one.samples.end(), points.begin());
-    std::size_t count = kArcSamples;
-    if (other != nullptr) {
-      std::copy(other->samples.begin(), other->samples.end(), points.begin() + kArcSamples);
-      count += kArcSamples;
+    const double length = one.points() + (other == nullptr ? 0U : other->points());
+    for (const std::size_t trim : {std::size_t{0}, kTrimmedSamples}) {
+      StaticVector<PointF, 2 * kArcSamples> points;
+      for (const Arc* arc : {&one, other}) {
+        if (arc == nullptr) continue;
+        for (std::size_t k = trim; k < kArcSamples - trim; ++k) points.push_back(arc->samples[k]);
+      }
+      const std::optional<Ellipse> ellipse = fit_direct({points.data(), points.size()});
+      if (!ellipse || !plausible(*ellipse, settings_) || !passes_near(*ellipse, {points.data(), points.size()}))
+        continue;
+      return insert({*ellipse, length / perimeter_px(*ellipse)});
     }
-    const std::span<const PointF> used(points.data(), count);
-    const std::optional<Ellipse> ellipse = fit_direct(used);
-    if (!ellipse || !plausible(*ellipse, settings_)) return;
+  }
+
+  static bool passes_near(const Ellipse& ellipse, std::span<const PointF> points) {
     double squares = 0.0;
-    for (const PointF& p : used) {
-      const double d = distance_px(*ellipse, {static_cast<double>(p.u), static_cast<double>(p.v)});
+    for (const PointF& p : points) {
+      const double d = distance_px(ellipse, {static_cast<double>(p.u), static_cast<double>(p.v)});
       squares += d * d;
     }
-    if (squares > kMaxFitRms_px * kMaxFitRms_px * static_cast<double>(count)) return;
-    const double length = one.points() + (other == nullptr ? 0U : other->points());
-    insert({*ellipse, length / perimeter_px(*ellipse)});
+    return squares <= kMaxFitRms_px * kMaxFitRms_px * static_cast<double>(points.size());
   }
 
   void insert(const Candidate& candidate) {
@@ -119,25 +128,32 @@ class Combiner {
   }
 
   std::optional<DetectedEllipse> complete(const Ellipse& start, bool bright_inside) {
-    std::optional<RefinedFit> fit = refit(start, bright_inside, kFirstGate_px);
-    if (fit) fit = refit(fit->ellipse, bright_inside, kGate_px);
+    collect_support(start, bright_inside, kFirstGate_px, workspace_, support_);
+    if (score_of(start, support_, settings_).value() < kHope * settings_.min_score) return std::nullopt;
+    std::optional<RefinedFit> fit = refit(start);
+    if (!fit) return std::nullopt;
+    collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
+    if (score_of(fit->ellipse, support_, settings_).value() < kHope * settings_.min_score) return std::nullopt;
+    fit = refit(fit->ellipse);
     if (!fit || !plausible(fit->ellipse, settings_)) return std::nullopt;
     collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
-    if (support_.count == 0) return std::nullopt;
+    if (support_.count == 0 ||
+        support_.squared_sum_px2 > settings_.max_rms_px * settings_.max_rms_px * support_.count) {
+      return std::nullopt;
+    }
     DetectedEllipse found;
     found.ellipse = fit->ellipse;
     found.covariance = fit->covariance;
     found.score = score_of(fit->ellipse, support_, settings_).value();
     found.rms_px = std::sqrt(support_.squared_sum_px2 / support_.count);
-    found.coverage = support_.coverage();
+    found.coverage = support_.length_share;
     found.points = static_cast<std::int32_t>(support_.count);
     found.arcs = static_cast<std::int32_t>(support_.arcs);
     found.bright_inside = bright_inside;
     return found;
   }
 
-  std::optional<RefinedFit> refit(const Ellipse& ellipse, bool bright_inside, double gate_px) {
-    collect_support(ellipse, bright_inside, gate_px, workspace_, support_);
+  std::optional<RefinedFit> refit(const Ellipse& ellipse) {
     const double independent = std::min(1.0, support_.stride / kCorrelation_px);
     return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent);
   }

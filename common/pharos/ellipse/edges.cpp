@@ -35,32 +35,53 @@ Profile profile_of(ImageView<const std::uint16_t> magnitude, std::int32_t u, std
   return profile;
 }
 
+// Most of an image is no edge: blocks of pixels below the threshold are passed over at once.
+constexpr std::int32_t kBlock_px = 16;
+
+bool any_above(const std::uint16_t* values, std::uint16_t low) {
+  std::uint16_t above = 0;
+  for (std::int32_t k = 0; k < kBlock_px; ++k) above = static_cast<std::uint16_t>(above | (values[k] > low ? 1U : 0U));
+  return above != 0;
+}
+
+// The edge point at a pixel whose magnitude is above the threshold, if it is the greatest along its gradient.
+bool edge_at(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::int32_t u,
+             std::int32_t v, EdgePoint& point) {
+  const Gradient gradient = gradient_at(smoothed, u, v);
+  const Profile profile = profile_of(magnitude, u, v, gradient);
+  if (!profile.is_ridge()) return false;
+  const float top = profile.top();
+  point = {static_cast<float>(u) + top * profile.step_u,
+           static_cast<float>(v) + top * profile.step_v,
+           gradient.u,
+           gradient.v,
+           static_cast<std::uint16_t>(u),
+           static_cast<std::uint16_t>(v)};
+  return true;
+}
+
 }  // namespace
 
 void find_edges(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::uint16_t low,
                 ImageView<std::uint16_t> places, EllipseWorkspace& workspace) {
   workspace.edges.clear();
+  const std::int32_t last = magnitude.width_px - 1;
   for (std::int32_t v = 0; v < magnitude.height_px; ++v) {
     std::uint16_t* place = places.row(v);
     std::fill_n(place, magnitude.width_px, std::uint16_t{0});
-    const std::uint16_t* row = magnitude.row(v);
-    for (std::int32_t u = 1; u < magnitude.width_px - 1; ++u) {  // the border rows' magnitude is 0
-      if (row[u] <= low) continue;
-      const Gradient gradient = gradient_at(smoothed, u, v);
-      const Profile profile = profile_of(magnitude, u, v, gradient);
-      if (!profile.is_ridge()) continue;
-      const float top = profile.top();
-      const EdgePoint point{static_cast<float>(u) + top * profile.step_u,
-                            static_cast<float>(v) + top * profile.step_v,
-                            gradient.u,
-                            gradient.v,
-                            static_cast<std::uint16_t>(u),
-                            static_cast<std::uint16_t>(v)};
-      if (!workspace.edges.push_back(point)) {
-        ++workspace.counters.edge_points_dropped;
-        continue;
+    const std::uint16_t* row = magnitude.row(v);  // 0 along the border
+    for (std::int32_t block = 1; block < last; block += kBlock_px) {
+      const std::int32_t end = std::min(block + kBlock_px, last);
+      if (end - block == kBlock_px && !any_above(row + block, low)) continue;
+      for (std::int32_t u = block; u < end; ++u) {
+        EdgePoint point;
+        if (row[u] <= low || !edge_at(smoothed, magnitude, u, v, point)) continue;
+        if (workspace.edges.push_back(point)) {
+          place[u] = static_cast<std::uint16_t>(workspace.edges.size());
+        } else {
+          ++workspace.counters.edge_points_dropped;
+        }
       }
-      place[u] = static_cast<std::uint16_t>(workspace.edges.size());
     }
   }
   workspace.counters.edge_points = static_cast<std::uint32_t>(workspace.edges.size());

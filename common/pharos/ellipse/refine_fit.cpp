@@ -10,43 +10,63 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr int kIterations = 12;
-constexpr double kConverged_px = 1e-4;
+constexpr int kIterations = 10;
+constexpr double kConverged_px = 1e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
 constexpr double kSigmaOfMedian = 1.4826;
 // No edge is known better than this, however few points agree by chance.
 constexpr double kLeastSigma_px = 0.02;
 constexpr double kThetaVariance = std::numbers::pi * std::numbers::pi / 12.0;
 
-// Signed distance of a point and its derivative by (cx, cy, m, e1, e2), m = (a+b)/2, e = (a-b)/2 (cos, sin)(2 theta).
-struct Row {
-  double distance = 0.0;
-  Vector5 slope = Vector5::Zero();
-};
-
 struct Turned {
   double cos = 1.0, sin = 0.0, cos2 = 1.0, sin2 = 0.0;
-  explicit Turned(double theta)
-      : cos(std::cos(theta)), sin(std::sin(theta)), cos2(std::cos(2.0 * theta)), sin2(std::sin(2.0 * theta)) {}
+  explicit Turned(double theta) : cos(std::cos(theta)), sin(std::sin(theta)) {
+    cos2 = cos * cos - sin * sin;
+    sin2 = 2.0 * sin * cos;
+  }
 };
 
-Row row_of(const Ellipse& e, const Turned& turned, PointF point) {
-  const double u = static_cast<double>(point.u) - e.cx_px, v = static_cast<double>(point.v) - e.cy_px;
-  const double x = turned.cos * u + turned.sin * v, y = turned.cos * v - turned.sin * u;
-  const double ka = 1.0 / (e.a_px * e.a_px), kb = 1.0 / (e.b_px * e.b_px);
-  const double f = x * x * ka + y * y * kb - 1.0;
-  const double fx = 2.0 * x * ka, fy = 2.0 * y * kb;
-  const double length = std::max(std::hypot(fx, fy), 1e-9);
-  const double fa = -fx * x / e.a_px, fb = -fy * y / e.b_px;
-  // Derivative by theta over (a - b): finite at the circle.
-  const double ft = -2.0 * x * y * (e.a_px + e.b_px) * ka * kb;
-  Row row;
-  row.distance = f / length;
-  row.slope << -(fx * turned.cos - fy * turned.sin), -(fx * turned.sin + fy * turned.cos), fa + fb,
-      turned.cos2 * (fa - fb) - turned.sin2 * ft, turned.sin2 * (fa - fb) + turned.cos2 * ft;
-  row.slope /= length;
-  return row;
-}
+// Signed distance of a point, and what its derivatives are made of.
+struct Distance {
+  double x = 0.0, y = 0.0;    // in the ellipse's axes
+  double fx = 0.0, fy = 0.0;  // slope of f = (x/a)^2 + (y/b)^2 - 1
+  double per_length = 0.0;    // 1 / |slope|
+  double value = 0.0;
+};
+
+class Contour {
+ public:
+  explicit Contour(const Ellipse& e)
+      : e_(e), turned_(e.theta_rad), ka_(1.0 / (e.a_px * e.a_px)), kb_(1.0 / (e.b_px * e.b_px)) {}
+
+  Distance distance(PointF point) const {
+    const double u = static_cast<double>(point.u) - e_.cx_px, v = static_cast<double>(point.v) - e_.cy_px;
+    Distance d;
+    d.x = turned_.cos * u + turned_.sin * v;
+    d.y = turned_.cos * v - turned_.sin * u;
+    d.fx = 2.0 * d.x * ka_;
+    d.fy = 2.0 * d.y * kb_;
+    d.per_length = 1.0 / std::max(std::sqrt(d.fx * d.fx + d.fy * d.fy), 1e-9);
+    d.value = (0.5 * (d.x * d.fx + d.y * d.fy) - 1.0) * d.per_length;
+    return d;
+  }
+  // Of the distance by (cx, cy, m, e1, e2), m = (a+b)/2, (e1, e2) = (a-b)/2 (cos, sin)(2 theta).
+  Vector5 slope(const Distance& d) const {
+    const double fa = -d.fx * d.x / e_.a_px, fb = -d.fy * d.y / e_.b_px;
+    // Derivative by theta over (a - b): finite at the circle.
+    const double ft = -2.0 * d.x * d.y * (e_.a_px + e_.b_px) * ka_ * kb_;
+    Vector5 slope;
+    slope << -(d.fx * turned_.cos - d.fy * turned_.sin), -(d.fx * turned_.sin + d.fy * turned_.cos), fa + fb,
+        turned_.cos2 * (fa - fb) - turned_.sin2 * ft, turned_.sin2 * (fa - fb) + turned_.cos2 * ft;
+    return slope * d.per_length;
+  }
+  const Turned& turned() const { return turned_; }
+
+ private:
+  const Ellipse& e_;
+  Turned turned_;
+  double ka_, kb_;
+};
 
 std::optional<Ellipse> moved(const Ellipse& e, const Turned& turned, const Vector5& step) {
   const double mean = 0.5 * (e.a_px + e.b_px) + step[2], half = 0.5 * (e.a_px - e.b_px);
@@ -71,20 +91,26 @@ struct Normal {
   double sigma = 0.0;
 };
 
-Normal normal_equations(const Ellipse& e, const Turned& turned, std::span<const PointF> points) {
+// Lower triangles only.
+Normal normal_equations(const Contour& contour, std::span<const PointF> points) {
   Distances distances;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    distances[k] = static_cast<float>(std::abs(row_of(e, turned, points[k]).distance));
+    distances[k] = static_cast<float>(std::abs(contour.distance(points[k]).value));
   }
   Normal normal;
   normal.sigma = scatter_of(distances, points.size());
+  const double per_width = 1.0 / (kTukey * normal.sigma);
   for (const PointF& point : points) {
-    const Row row = row_of(e, turned, point);
-    const double ratio = row.distance / (kTukey * normal.sigma);
+    const Distance d = contour.distance(point);
+    const double ratio = d.value * per_width;
     if (std::abs(ratio) >= 1.0) continue;
     const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    normal.matrix.noalias() += weight * row.slope * row.slope.transpose();
-    normal.gradient.noalias() += weight * row.distance * row.slope;
+    const Vector5 slope = contour.slope(d);
+    for (int row = 0; row < 5; ++row) {
+      const double weighted = weight * slope[row];
+      for (int column = 0; column <= row; ++column) normal.matrix(row, column) += weighted * slope[column];
+      normal.gradient[row] += weighted * d.value;
+    }
   }
   return normal;
 }
@@ -113,20 +139,23 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
   if (points.size() <= 5) return std::nullopt;
   RefinedFit fit{start, Matrix5::Zero(), 0.0};
   for (int k = 0; k < kIterations; ++k) {
-    const Turned turned(fit.ellipse.theta_rad);
-    const Normal normal = normal_equations(fit.ellipse, turned, points);
-    const Eigen::LDLT<Matrix5> solver(normal.matrix);
+    const Contour contour(fit.ellipse);
+    const Normal normal = normal_equations(contour, points);
+    const Eigen::LDLT<Matrix5, Eigen::Lower> solver(normal.matrix);
     if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 1e-12 * normal.matrix.trace()) {
       return std::nullopt;
     }
     const Vector5 step = -solver.solve(normal.gradient);
-    const std::optional<Ellipse> next = moved(fit.ellipse, turned, step);
+    const std::optional<Ellipse> next = moved(fit.ellipse, contour.turned(), step);
     if (!next) return std::nullopt;
-    fit.sigma_px = normal.sigma;
-    fit.covariance =
-        in_axes(normal.sigma * normal.sigma / independent * solver.solve(Matrix5::Identity()), fit.ellipse, turned);
+    const bool done = k + 1 == kIterations || step.cwiseAbs().maxCoeff() < kConverged_px;
+    if (done) {
+      fit.sigma_px = normal.sigma;
+      const Matrix5 covariance = normal.sigma * normal.sigma / independent * solver.solve(Matrix5::Identity());
+      fit.covariance = in_axes(covariance, fit.ellipse, contour.turned());
+    }
     fit.ellipse = *next;
-    if (step.cwiseAbs().maxCoeff() < kConverged_px) break;
+    if (done) break;
   }
   if (!fit.covariance.allFinite()) return std::nullopt;
   return fit;

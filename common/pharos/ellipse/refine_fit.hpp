@@ -11,7 +11,7 @@
 namespace pharos::ellipse {
 
 /// Most points that a refinement takes.
-inline constexpr std::size_t kMaxFitPoints = 512;
+inline constexpr std::size_t kMaxFitPoints = 192;
 
 struct RefinedFit {
   Ellipse ellipse;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pharos::ellipse {
 namespace {
@@ -20,9 +19,9 @@ Score score_of(const Ellipse& ellipse, const Support& support, const EllipseSett
   const double n = support.count;
   score.shape = ellipse.a_px < settings.max_axis_ratio * ellipse.b_px ? 1.0 : 0.0;
   score.accuracy = std::max(0.0, 1.0 - kPerDistance * support.distance_sum_px / n);
-  // Both shares end at 1: double edges must not make up for missing ones.
-  score.fullness =
-      0.5 * std::min(1.0, n / perimeter_px(ellipse)) + 0.5 * std::min(1.0, support.turn_rad / (2.0 * std::numbers::pi));
+  // Where edges lie twice, N would make up for missing ones: no more counts than the sectors that have points.
+  const double length_share = std::min(n / perimeter_px(ellipse), support.length_share);
+  score.fullness = 0.5 * length_share + 0.5 * support.turn_share;
   return score;
 }
 

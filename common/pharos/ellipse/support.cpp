@@ -2,9 +2,7 @@
 #include "pharos/ellipse/support.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
 
 namespace pharos::ellipse {
 namespace {
@@ -70,20 +68,59 @@ std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const Ellips
   return count;
 }
 
-std::uint64_t sector_of(PointF scaled) {
-  constexpr float kPerRad = static_cast<float>(kSectors) / (2.0F * std::numbers::pi_v<float>);
-  const float turn = std::atan2(scaled.v, scaled.u) + std::numbers::pi_v<float>;
-  return std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(turn * kPerRad));
-}
+// The contour cut into sectors of equal steps around the diamond |x| + |y| = 1: no trigonometry, and so the same on
+// every machine.
+class Sectors {
+ public:
+  explicit Sectors(const Ellipse& e) : e_(e) {
+    constexpr double kLength_px = 4.0;
+    quarter_ = std::clamp(static_cast<int>(perimeter_px(e) / (4.0 * kLength_px)), 2, kMaxSectors / 4);
+  }
+
+  // A point in units of the axes.
+  void mark(PointF p) {
+    const float across = std::abs(p.u) + std::abs(p.v);
+    if (!(across > 0.0F)) return;
+    const bool odd = (p.u < 0.0F) != (p.v < 0.0F);  // the step runs from the x axis to the y axis, or back
+    const float share = (odd ? std::abs(p.u) : std::abs(p.v)) / across;
+    const int quadrant = p.v >= 0.0F ? (p.u >= 0.0F ? 0 : 1) : (p.u < 0.0F ? 2 : 3);
+    const int step = std::min(quarter_ - 1, static_cast<int>(share * static_cast<float>(quarter_)));
+    marked_ |= std::uint64_t{1} << (quadrant * quarter_ + step);
+  }
+
+  void shares(Support& support) const {
+    double length = 0.0, turn = 0.0, all_length = 0.0, all_turn = 0.0;
+    for (int k = 0; k < 4 * quarter_; ++k) {
+      const double share = ((k % quarter_) + 0.5) / quarter_;
+      const bool odd = (k / quarter_) % 2 == 1;
+      const double x = odd ? share : 1.0 - share, y = 1.0 - x;  // on the diamond; |x + y| = 1 there
+      const double squared = x * x + y * y;
+      const double anomaly = 1.0 / squared;  // dt a step, but for a factor: dt = (x^2 + y^2)^-1 dshare
+      const double slant = (e_.a_px * e_.a_px * y * y + e_.b_px * e_.b_px * x * x) / squared;
+      const double step_length = std::sqrt(slant) * anomaly, step_turn = anomaly / slant;
+      all_length += step_length;
+      all_turn += step_turn;
+      if ((marked_ >> k & 1U) == 0) continue;
+      length += step_length;
+      turn += step_turn;
+    }
+    support.length_share = length / all_length;
+    support.turn_share = turn / all_turn;
+  }
+
+ private:
+  const Ellipse& e_;
+  int quarter_;
+  std::uint64_t marked_ = 0;
+};
 
 }  // namespace
-
-double Support::coverage() const { return static_cast<double>(std::popcount(sectors)) / kSectors; }
 
 void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
                      Support& support) {
   support = {};
   const Contact contact(ellipse, bright_inside, gate_px);
+  Sectors sectors(ellipse);
   StaticVector<std::uint16_t, kMaxArcs> touching;
   std::uint32_t possible = 0;
   for (std::size_t k = 0; k < workspace.arcs.size(); ++k) {
@@ -99,12 +136,11 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
       support.squared_sum_px2 += static_cast<double>(distance) * static_cast<double>(distance);
       if (support.count++ % support.stride != 0) return;
       support.points.push_back(place);
-      support.sectors |= sector_of(contact.scaled(place));
+      sectors.mark(contact.scaled(place));
     });
-    if (count == 0) continue;
-    ++support.arcs;
-    support.turn_rad += std::abs(static_cast<double>(arc.turn_rad)) * count / arc.points();
+    if (count > 0) ++support.arcs;
   }
+  sectors.shares(support);
 }
 
 std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,

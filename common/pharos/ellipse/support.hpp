@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "pharos/base/static_vector.hpp"
@@ -10,8 +9,8 @@
 
 namespace pharos::ellipse {
 
-/// Sectors of the contour, of equal eccentric anomaly, in which points are looked for.
-inline constexpr int kSectors = 64;
+/// Most sectors of the contour in which points are looked for; small ellipses have fewer, some 4 px long.
+inline constexpr int kMaxSectors = 64;
 
 /// What of the image's arcs lies on one ellipse.
 struct Support {
@@ -21,10 +20,8 @@ struct Support {
   std::uint32_t arcs = 0;                      ///< j of (4): arcs with points on it
   double distance_sum_px = 0.0;                ///< sum of L_i of (3)
   double squared_sum_px2 = 0.0;
-  double turn_rad = 0.0;      ///< sum of theta_i of (4), over the part of each arc that lies on it
-  std::uint64_t sectors = 0;  ///< bit k: sector k has points
-
-  double coverage() const;
+  double length_share = 0.0;  ///< of the contour's length, in sectors that have points
+  double turn_share = 0.0;    ///< of the contour's full turn, in sectors that have points: sum of theta_i of (4) / 2 pi
 };
 
 /// Points of all arcs within `gate_px` of the contour whose gradient is within 25 deg of its normal, on the side told
