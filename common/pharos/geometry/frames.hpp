@@ -16,6 +16,8 @@ struct Camera {};
 struct Rig {};
 /// T: docking ring's target frame.
 struct Target {};
+/// A calibration board: x along its columns, y along its rows, z away from the camera.
+struct Board {};
 /// V: chase vehicle.
 struct Vehicle {};
 
