@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/calibrate/camera/found_board.hpp"
+#include "pharos/camera/pinhole_camera.hpp"
+
+namespace pharos::calibrate {
+
+/// A spot that may be a dot, from the moments of its mask.
+struct Blob {
+  Vector2 centre_px = Vector2::Zero();
+  Matrix2 covariance_px2 = Matrix2::Identity();  // of a filled ellipse: a quarter of its squared semi-axes
+  bool cut = false;                              // touches the image's border
+  double area_px() const;
+};
+
+/// Spots brighter (or darker) than their surroundings within `window_px`: pixels beyond the window's mean by more than
+/// 3/4 of its standard deviation, where that stands out of the noise; connected pixels whose outline is an ellipse's.
+std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/calibrate/camera/board.hpp"
+#include "host/calibrate/camera/found_board.hpp"
+
+namespace pharos::calibrate {
+
+/// An image and what to call it. The pixels are somebody else's.
+struct BoardPicture {
+  std::string name;
+  GreyView image;
+};
+
+/// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's own symmetry
+/// lets anybody tell: a board of dots, and a chessboard of even squares, look the same after half a turn.
+/// Chessboards: OpenCV's findChessboardCornersSB on the grey values stretched to 8 bit.
+BoardSearch find_board(GreyView image, const Board& board);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/camera/find_dots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "host/calibrate/camera/dot_grid.hpp"
+#include "host/calibrate/camera/fit_dot.hpp"
+
+namespace pharos::calibrate {
+namespace {
+
+// Of the image's shorter side: a window must hold a dot with its surround, and should hold little beyond the board.
+constexpr std::array<int, 3> kWindows{6, 12, 24};
+constexpr int kLeastWindow_px = 9;
+// An edge this wide, in minor semi-axes, leaves no plateau to know the dot's brightness from.
+constexpr double kMostBlur = 0.6;
+constexpr double kLeastAxis_px = 1.8;
+// Grey values that scatter so far around the fit, of the contrast, are not those of a dot.
+constexpr double kMostMisfit = 0.15;
+// The fit looks this far towards the next dot, whose own edge starts at 1.
+constexpr double kReachOfGap = 0.5;
+constexpr double kMostReach = 2.2;
+
+std::string decimal(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
+
+std::string dot(const Board& board, std::size_t index) {
+  return "the dot in column " + std::to_string(board.column_of(index) + 1) + ", row " +
+         std::to_string(board.row_of(index) + 1) + " as seen ";
+}
+
+BoardSearch refused(ImageFate fate, std::string detail) { return {fate, std::move(detail), {}}; }
+
+// One attempt at one window and brightness.
+struct Attempt {
+  std::vector<Blob> blobs;
+  DotGrid grid;
+};
+
+Attempt attempt(GreyView image, const Board& board, int window_px, bool bright) {
+  Attempt result;
+  result.blobs = find_blobs(image, window_px, bright);
+  result.grid = find_dot_grid(result.blobs, board, image.width_px, image.height_px);
+  return result;
+}
+
+Attempt best_attempt(GreyView image, const Board& board) {
+  Attempt best;
+  best.grid.detail = "no dots";
+  for (const int share : kWindows) {
+    const int window_px = std::max(std::min(image.width_px, image.height_px) / share, kLeastWindow_px);
+    for (const bool bright : {true, false}) {
+      Attempt now = attempt(image, board, window_px, bright);
+      if (now.grid.fate == ImageFate::kUsed) return now;
+      if (now.grid.found > best.grid.found) best = std::move(now);
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+BoardSearch find_dots(GreyView image, const Board& board) {
+  const Attempt found = best_attempt(image, board);
+  if (found.grid.fate != ImageFate::kUsed) return refused(found.grid.fate, found.grid.detail);
+  const double gap = board.pitch_m / board.radius_m - 2.0;  // between two dots' edges, in radii
+  const double reach = std::min(1.0 + kReachOfGap * gap, kMostReach);
+  BoardSearch search;
+  for (std::size_t i = 0; i < board.size(); ++i) {
+    const auto fit = fit_dot(image, found.blobs[found.grid.blob[i]], reach);
+    if (!fit) return refused(ImageFate::kIncomplete, dot(board, i) + "has no outline of a dot");
+    if (fit->minor_px < kLeastAxis_px) {
+      return refused(ImageFate::kTooSmall, dot(board, i) + "has a radius of " + decimal(fit->minor_px) +
+                                               " px, too few to measure; go nearer");
+    }
+    if (fit->blur_px > kMostBlur * fit->minor_px) {
+      return refused(ImageFate::kBlurred, dot(board, i) + "has edges " + decimal(fit->blur_px) +
+                                              " px wide on a radius of " + decimal(fit->minor_px) + " px");
+    }
+    if (fit->misfit > kMostMisfit) {
+      return refused(ImageFate::kIncomplete, dot(board, i) + "does not look like one (" + decimal(100.0 * fit->misfit) +
+                                                 " % of its contrast off it)");
+    }
+    search.board.points.push_back({fit->centre_px, fit->sigma_px, fit->area_px2});
+  }
+  search.fate = ImageFate::kUsed;
+  return search;
+}
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/camera/fit_dot.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace pharos::calibrate {
+namespace {
+
+constexpr int kUnknowns = 10;
+using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+// The unknowns' order: centre, shape (of the matrix whose unit level is the edge), background, contrast and its
+// gradient, blur.
+enum : Eigen::Index { kU, kV, kUU, kUV, kVV, kBackground, kContrast, kGradientU, kGradientV, kBlur };
+
+constexpr int kMostSteps = 40;
+constexpr double kSmallStep_px = 1e-6;
+constexpr double kLeastBlur_px = 0.15;  // a pixel's own width is 0.29
+constexpr double kMostBlur_px = 50.0;
+
+struct Sample {
+  double u, v, grey;
+};
+
+std::vector<Sample> samples_of(GreyView image, const Blob& blob, double reach) {
+  const Matrix2 shape = (4.0 * blob.covariance_px2).inverse();
+  const double along_u = reach * 2.0 * std::sqrt(blob.covariance_px2(0, 0)) + 1.0;
+  const double along_v = reach * 2.0 * std::sqrt(blob.covariance_px2(1, 1)) + 1.0;
+  const auto first = [](double x) { return static_cast<std::int32_t>(std::ceil(std::max(x, 0.0))); };
+  const auto last = [](double x, std::int32_t size) {
+    return static_cast<std::int32_t>(std::floor(std::min(x, size - 1.0)));
+  };
+  std::vector<Sample> samples;
+  for (std::int32_t v = first(blob.centre_px.y() - along_v); v <= last(blob.centre_px.y() + along_v, image.height_px);
+       ++v) {
+    for (std::int32_t u = first(blob.centre_px.x() - along_u); u <= last(blob.centre_px.x() + along_u, image.width_px);
+         ++u) {
+      const Vector2 d = Vector2(u, v) - blob.centre_px;
+      if (d.dot(shape * d) < reach * reach) samples.push_back({double(u), double(v), double(image.at(u, v))});
+    }
+  }
+  return samples;
+}
+
+// Grey value and its derivatives at a pixel. The distance to the edge is first order: (1 - q) / |grad q| with
+// q^2 = d^T M d.
+double grey_at(const Vector& x, const Sample& sample, Vector& derivative) {
+  const Vector2 d(sample.u - x[kU], sample.v - x[kV]);
+  Matrix2 shape;
+  shape << x[kUU], x[kUV], x[kUV], x[kVV];
+  const Vector2 shape_d = shape * d;
+  const double q = std::sqrt(std::max(d.dot(shape_d), 1e-12));
+  const double slope = std::max(shape_d.norm() / q, 1e-9);  // |grad q|, 1/px
+  const double edge = (1.0 - q) / (slope * x[kBlur]);       // in blurs, inside positive
+  const double inside = 0.5 * std::erfc(-edge / std::numbers::sqrt2);
+  const double density = std::exp(-0.5 * edge * edge) / std::sqrt(2.0 * std::numbers::pi);
+  const double plateau = x[kContrast] + x[kGradientU] * d.x() + x[kGradientV] * d.y();
+  const double by_q = -plateau * density / (slope * x[kBlur]);
+  derivative[kU] = -by_q * shape_d.x() / q - x[kGradientU] * inside;
+  derivative[kV] = -by_q * shape_d.y() / q - x[kGradientV] * inside;
+  derivative[kUU] = by_q * d.x() * d.x() / (2.0 * q);
+  derivative[kUV] = by_q * d.x() * d.y() / q;
+  derivative[kVV] = by_q * d.y() * d.y() / (2.0 * q);
+  derivative[kBackground] = 1.0;
+  derivative[kContrast] = inside;
+  derivative[kGradientU] = inside * d.x();
+  derivative[kGradientV] = inside * d.y();
+  derivative[kBlur] = -plateau * density * edge / x[kBlur];
+  return x[kBackground] + plateau * inside;
+}
+
+struct Normal {
+  Matrix information = Matrix::Zero();
+  Vector gradient = Vector::Zero();
+  double squares = 0.0;
+};
+
+Normal normal_at(const Vector& x, const std::vector<Sample>& samples) {
+  Normal normal;
+  Vector derivative;
+  for (const Sample& sample : samples) {
+    const double residual = sample.grey - grey_at(x, sample, derivative);
+    normal.information.noalias() += derivative * derivative.transpose();
+    normal.gradient += derivative * residual;
+    normal.squares += residual * residual;
+  }
+  return normal;
+}
+
+bool is_sound(const Vector& x) {
+  return x.allFinite() && x[kUU] > 0.0 && x[kUU] * x[kVV] > x[kUV] * x[kUV] && x[kBlur] < kMostBlur_px;
+}
+
+Vector start_of(const Blob& blob, const std::vector<Sample>& samples) {
+  const Matrix2 shape = (4.0 * blob.covariance_px2).inverse();
+  double in = 0.0, out = 0.0, count_in = 0.0, count_out = 0.0;
+  for (const Sample& s : samples) {
+    const Vector2 d = Vector2(s.u, s.v) - blob.centre_px;
+    const bool inside = d.dot(shape * d) < 1.0;
+    (inside ? in : out) += s.grey;
+    (inside ? count_in : count_out) += 1.0;
+  }
+  Vector x = Vector::Zero();
+  x[kU] = blob.centre_px.x();
+  x[kV] = blob.centre_px.y();
+  x[kUU] = shape(0, 0);
+  x[kUV] = shape(0, 1);
+  x[kVV] = shape(1, 1);
+  x[kBackground] = out / std::max(count_out, 1.0);
+  x[kContrast] = in / std::max(count_in, 1.0) - x[kBackground];
+  x[kBlur] = 0.7;
+  return x;
+}
+
+DotFit fit_of(const Vector& x, const Normal& normal, std::size_t samples) {
+  Matrix2 shape;
+  shape << x[kUU], x[kUV], x[kUV], x[kVV];
+  const double largest = Eigen::SelfAdjointEigenSolver<Matrix2>(shape).eigenvalues()[1];
+  const double variance = normal.squares / static_cast<double>(samples - kUnknowns);
+  const Matrix covariance = normal.information.inverse();
+  DotFit fit;
+  fit.centre_px = x.head<2>();
+  fit.sigma_px = std::sqrt(0.5 * variance * (covariance(kU, kU) + covariance(kV, kV)));
+  fit.minor_px = 1.0 / std::sqrt(largest);
+  fit.area_px2 = std::numbers::pi / std::sqrt(shape.determinant());
+  fit.blur_px = x[kBlur];
+  fit.misfit = std::sqrt(variance) / std::abs(x[kContrast]);
+  return fit;
+}
+
+}  // namespace
+
+std::optional<DotFit> fit_dot(GreyView image, const Blob& blob, double reach) {
+  const std::vector<Sample> samples = samples_of(image, blob, reach);
+  if (samples.size() < 3 * kUnknowns) return std::nullopt;
+  Vector x = start_of(blob, samples);
+  if (x[kContrast] == 0.0) return std::nullopt;
+  Normal normal = normal_at(x, samples);
+  double damping = 1e-3;
+  for (int step = 0; step < kMostSteps; ++step) {
+    Matrix damped = normal.information;
+    damped.diagonal() *= 1.0 + damping;
+    const Vector move = damped.ldlt().solve(normal.gradient);
+    Vector moved = x + move;
+    moved[kBlur] = std::max(moved[kBlur], kLeastBlur_px);
+    const bool sound = is_sound(moved);
+    const Normal next = sound ? normal_at(moved, samples) : Normal{};
+    if (sound && next.squares <= normal.squares) {
+      x = moved;
+      normal = next;
+      damping = std::max(damping * 0.1, 1e-9);
+      if (move.head<2>().norm() < kSmallStep_px) break;
+    } else {
+      damping *= 10.0;
+      if (damping > 1e6) break;
+    }
+  }
+  const DotFit fit = fit_of(x, normal, samples.size());
+  const bool near = (fit.centre_px - blob.centre_px).norm() < 2.0 * std::sqrt(blob.covariance_px2.trace());
+  if (!near || !std::isfinite(fit.sigma_px) || fit.sigma_px <= 0.0) return std::nullopt;
+  return fit;
+}
+
+}  // namespace pharos::calibrate
