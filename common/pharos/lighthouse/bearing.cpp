@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/lighthouse/bearing.hpp"
 
+#include "pharos/base/fixed_point.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::lighthouse {
@@ -26,6 +27,30 @@ SweepBearings bearings_of(const Sweep& sweep) {
 
 SweepBearings bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
   return bearings_from(sweep, smoothed.offset_ticks, smoothed.period_ticks);
+}
+
+SweepBearings fixed_bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
+  // Turns are to within 1 % of nominal, or else no integers' business; offsets are some hundred ticks.
+  constexpr double kSlack = 0.01 * kNominalPeriodTicks, kLargestOffset = 1000.0;
+  const double beyond = smoothed.period_ticks - kNominalPeriodTicks;
+  if (!(beyond > -kSlack && beyond < kSlack && smoothed.offset_ticks > -kLargestOffset &&
+        smoothed.offset_ticks < kLargestOffset)) {
+    return bearings_of(sweep, smoothed);
+  }
+  constexpr int kAnglePlaces = 33, kTickPlaces = 16, kPeriodPlaces = 13;
+  // 2 pi rad / turn, so that ticks (2^-16) times it and 2^-30 are radians (2^-33).
+  constexpr auto kWholeTurn = static_cast<std::int64_t>(kTwoPi * static_cast<double>(std::int64_t{1} << 60));
+  static_assert(kAnglePlaces + 30 - kTickPlaces + kPeriodPlaces == 60);
+  const auto rate = static_cast<fixed::Q30>(kWholeTurn / fixed::from_double(smoothed.period_ticks, kPeriodPlaces));
+  const std::int64_t offset = fixed::from_double(smoothed.offset_ticks, kTickPlaces);
+  SweepBearings bearings;
+  for (const Hit& hit : sweep.hits) {
+    const std::int64_t after_flash = std::int64_t{hit.centre_half_ticks} * (1 << (kTickPlaces - 1)) - offset;
+    bearings.push_back({sweep.flash.start_ticks + hit.centre_half_ticks / 2,
+                        fixed::to_double(fixed::times_wide(after_flash, rate), kAnglePlaces), hit.width_ticks,
+                        hit.sensor});
+  }
+  return bearings;
 }
 
 }  // namespace pharos::lighthouse

@@ -2,125 +2,169 @@
 #include "pharos/lighthouse/flash_smoother.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pharos/lighthouse/optical_timing.hpp"
 
 namespace pharos::lighthouse {
 namespace {
 
+using fixed::kOne;
+using fixed::Q30;
+using fixed::times;
+using fixed::times_wide;
+
+constexpr Q16 ticks(double value) { return static_cast<Q16>(value * 65536.0); }
+constexpr Q30 share(double value) { return static_cast<Q30>(value * kOne); }
+
 // Chosen on three recordings of still targets before two pairs of stations, with none kept aside as a check; all of
 // them are flat optima (half or twice the value costs 1-3 % of the noise).
-constexpr double kUsualLengthFlashes = 48;      // over which a code's usual length is averaged
-constexpr double kLargestStepTicks = 32;        // by which one flash may move it
-constexpr double kLargestDeviationTicks = 100;  // beyond, the flash was weak, not late
-constexpr double kShortBeginTicks = 12;         // deviations between here ...
-constexpr double kShortFullTicks = 24;          // ... and here go from the common slope to that of short flashes
-constexpr double kCommonSlopeFlashes = 128;     // over which the slopes are learnt
-constexpr double kShortSlopeFlashes = 16;
-constexpr double kLowestCommonSlope = 0.1;
-constexpr double kHighestSlope = 0.75;
+constexpr std::int32_t kUsualLengthFlashes = 48;  // over which a code's usual length is averaged
+constexpr Q16 kLargestStep = ticks(32);           // by which one flash may move it
+constexpr Q16 kLargestDeviation = ticks(100);     // beyond, the flash was weak, not late
+constexpr Q16 kShortBegin = ticks(12);            // deviations between here ...
+constexpr Q16 kShortFull = ticks(24);             // ... and here go from the common slope to that of short flashes
+constexpr Q30 kCommonWeight = share(1.0 / 128);   // of a flash in the slopes learnt
+constexpr Q30 kShortWeight = share(1.0 / 16);
+constexpr Q30 kLowestCommonSlope = share(0.1);
+constexpr Q30 kHighestSlope = share(0.75);
 
-constexpr double kPeriodGainRatio = 0.7;
-constexpr double kPeriodMemory = 0.85;  // of a turn's departure from the mean, per turn
-constexpr double kMeanPeriodFlashes = 64;
-constexpr double kVarianceFlashes = 64;
-constexpr double kGainStep = 0.01;
-constexpr double kLowestGain = 0.6;
-constexpr double kHighestGain = 1.0;
-constexpr double kAsymmetry = 0.2;            // of what exceeds one standard deviation
-constexpr double kOutlierTicks = 150;         // an innovation beyond starts anew
+constexpr Q30 kPeriodGainRatio = share(0.7);
+constexpr Q30 kPeriodMemory = share(0.85);  // of a turn's departure from the mean, per turn
+constexpr std::int32_t kMeanPeriodFlashes = 64;
+constexpr std::int32_t kVarianceFlashes = 64;
+constexpr Q30 kGainStep = share(0.01);
+constexpr Q30 kLowestGain = share(0.6);
+constexpr Q30 kHighestGain = kOne;
+constexpr Q30 kAsymmetry = share(0.2);        // of what exceeds one standard deviation
+constexpr Q16 kOutlier = ticks(150);          // an innovation beyond starts anew
 constexpr std::int32_t kLongestGapTurns = 8;  // after more the last flash predicts nothing useful
 constexpr int kWarmUp = 8;                    // flashes before anything is learnt
 constexpr int kSettled = 16;
-constexpr double kPeriodSlack = 0.001;  // rotors are held to 60 Hz
+constexpr Q16 kPeriodSlack = ticks(0.001 * kNominalPeriodTicks);  // rotors are held to 60 Hz
+constexpr Q16 kWidestPeriod = ticks(16'000);  // what a sweep may tell of its turn; far beyond all that is believed
+constexpr auto kNominalPeriod = static_cast<std::int64_t>(kNominalPeriodTicks * 65536.0);
 
 std::size_t code_index(const Flash& flash) { return (flash.data ? 1U : 0U) + (flash.skip ? 2U : 0U); }
 
+// How far a deviation is on its way from the common slope to that of short flashes.
+Q30 shortness(Q16 deviation) {
+  constexpr std::int64_t kPerTick = kOne / ((kShortFull - kShortBegin) >> 16);
+  const std::int64_t way = std::int64_t{-deviation} - kShortBegin;
+  return static_cast<Q30>(std::clamp<std::int64_t>((way * kPerTick) >> 16, 0, kOne));
+}
+
+Q16 square(Q16 a, Q16 b) { return static_cast<Q16>(fixed::product(a, b) >> 16); }
+
+// The root of a number of square ticks.
+Q16 root(Q16 square_ticks) {
+  const fixed::Root root = fixed::root_of(std::int64_t{square_ticks} << 28);
+  return root.root >> (root.doublings + 6);
+}
+
+Q30 ratio(std::int64_t a, std::int32_t b) { return static_cast<Q30>(std::clamp<std::int64_t>(a / b, -kOne, kOne)); }
+
 }  // namespace
 
-double FlashLateness::length_deviation(const Flash& flash) {
+Q16 FlashLateness::length_deviation(const Flash& flash) {
   Usual& usual = usual_[code_index(flash)];
-  const double excess =
-      static_cast<double>(flash.length_ticks) - kFlashLengthTicks[flash_code(flash.axis, flash.data, flash.skip)];
+  const std::int32_t excess_ticks =
+      flash.length_ticks - kFlashLengthTicks[flash_code(flash.axis, flash.data, flash.skip)];
+  // A flash is no longer than some thousand ticks: what is not is none.
+  const Q16 excess = std::clamp<std::int32_t>(excess_ticks, -10'000, 10'000) * 65536;
   if (usual.count == 0) {
-    double sum = 0.0;
-    int known = 0;
+    std::int64_t sum = 0;
+    std::int32_t known = 0;
     for (const Usual& other : usual_) {
       if (other.count == 0) continue;
-      sum += other.excess_ticks;
+      sum += other.excess;
       ++known;
     }
-    usual.excess_ticks = known > 0 ? sum / known : excess;
+    usual.excess = known > 0 ? static_cast<Q16>(sum / known) : excess;
   }
-  const double deviation = excess - usual.excess_ticks;
+  const std::int64_t deviation = std::int64_t{excess} - usual.excess;
   if (usual.count < kUsualLengthFlashes) ++usual.count;
-  usual.excess_ticks += std::clamp(deviation, -kLargestStepTicks, kLargestStepTicks) / usual.count;
-  return std::clamp(deviation, -kLargestDeviationTicks, kLargestDeviationTicks);
+  usual.excess += fixed::clamped(deviation, kLargestStep) / usual.count;
+  return fixed::clamped(deviation, kLargestDeviation);
 }
 
-double FlashLateness::Slope::value(double lowest) const { return std::clamp(product / square, lowest, kHighestSlope); }
-
-void FlashLateness::Slope::learn(double deviation_ticks, double lateness_ticks, double weight) {
-  product += (-lateness_ticks * deviation_ticks - product) * weight;
-  square = std::max(1.0, square + (deviation_ticks * deviation_ticks - square) * weight);
+Q30 FlashLateness::Slope::value(Q30 lowest) const {
+  return std::clamp(ratio(std::int64_t{product} * kOne, this->square), lowest, kHighestSlope);
 }
 
-double FlashLateness::correction_ticks(double deviation_ticks) const {
-  const double share =
-      std::clamp((-deviation_ticks - kShortBeginTicks) / (kShortFullTicks - kShortBeginTicks), 0.0, 1.0);
-  const double slope = (1.0 - share) * common_.value(kLowestCommonSlope) + share * short_.value(0.0);
-  return slope * deviation_ticks;
+void FlashLateness::Slope::learn(Q16 deviation, Q16 lateness, Q30 weight) {
+  const auto towards = [weight](Q16& average, Q16 value) {
+    average += static_cast<Q16>(times_wide(std::int64_t{value} - average, weight));
+  };
+  towards(product, lighthouse::square(-lateness, deviation));
+  towards(square, lighthouse::square(deviation, deviation));
+  square = std::max(square, ticks(1));
 }
 
-void FlashLateness::learn(double deviation_ticks, double lateness_ticks) {
-  if (deviation_ticks > -kShortBeginTicks) {
-    common_.learn(deviation_ticks, lateness_ticks, 1.0 / kCommonSlopeFlashes);
+Q16 FlashLateness::correction(Q16 deviation) const {
+  const Q30 to_short = shortness(deviation);
+  Q30 slope = 0;
+  if (to_short != kOne) slope += times(common_.value(kLowestCommonSlope), kOne - to_short);
+  if (to_short != 0) slope += times(short_.value(0), to_short);
+  return times(deviation, slope);
+}
+
+void FlashLateness::learn(Q16 deviation, Q16 lateness) {
+  if (deviation > -kShortBegin) {
+    common_.learn(deviation, lateness, kCommonWeight);
   } else {
-    const double share = std::min(1.0, (-deviation_ticks - kShortBeginTicks) / (kShortFullTicks - kShortBeginTicks));
-    short_.learn(deviation_ticks, lateness_ticks, share / kShortSlopeFlashes);
+    short_.learn(deviation, lateness, times(shortness(deviation), kShortWeight));
   }
 }
 
-void FlashSmoother::restart(const Sweep& sweep, double correction_ticks) {
-  phase_ticks_ = correction_ticks;
+void FlashSmoother::restart(const Sweep& sweep, Q16 correction) {
+  phase_ = correction;
   flashes_ = 1;
-  last_innovation_ticks_ = 0.0;
-  if (sweep.period_sixteenth_ticks > 0) period_ticks_ = static_cast<double>(sweep.period_sixteenth_ticks) / 16.0;
-  mean_period_ticks_ = period_ticks_;
+  last_innovation_ = 0;
+  if (sweep.period_sixteenth_ticks > 0) {
+    const std::int64_t period = std::int64_t{sweep.period_sixteenth_ticks} * 4096 - kNominalPeriod;
+    period_ = fixed::clamped(period, kWidestPeriod);
+  }
+  mean_period_ = period_;
 }
 
-void FlashSmoother::correct(double innovation_ticks) {
-  const double one_over_count = 1.0 / flashes_;
-  double excess = 0.0;
+void FlashSmoother::correct(Q16 innovation) {
+  const Q30 one_over_count = kOne / flashes_;
+  Q16 excess = 0;
   if (flashes_ > kWarmUp) {
-    const double deviation = std::sqrt(innovation_variance_);
-    const double clipped = std::clamp(innovation_ticks, -3.0 * deviation, 3.0 * deviation);
-    innovation_variance_ =
-        std::max(1.0, innovation_variance_ + (clipped * clipped - innovation_variance_) / kVarianceFlashes);
-    gain_ = std::clamp(gain_ + kGainStep * clipped * last_innovation_ticks_ / innovation_variance_, kLowestGain,
-                       kHighestGain);
-    last_innovation_ticks_ = clipped;
+    const Q16 deviation = root(innovation_variance_);
+    const Q16 clipped = std::clamp(innovation, -3 * deviation, 3 * deviation);
+    innovation_variance_ += (square(clipped, clipped) - innovation_variance_) / kVarianceFlashes;
+    innovation_variance_ = std::max(innovation_variance_, ticks(1));
+    // 2^-24: neither exceeds three standard deviations.
+    const std::int64_t likeness = (fixed::product(clipped, last_innovation_) * 256) / innovation_variance_;
+    gain_ += static_cast<Q30>((likeness * kGainStep) >> 24);
+    gain_ = std::clamp(gain_, kLowestGain, kHighestGain);
+    last_innovation_ = clipped;
     if (flashes_ >= kSettled) {
-      excess = kAsymmetry * (std::min(innovation_ticks + deviation, 0.0) - std::max(innovation_ticks - deviation, 0.0));
+      excess = times(std::min<Q16>(innovation + deviation, 0) - std::max<Q16>(innovation - deviation, 0), kAsymmetry);
     }
   }
-  phase_ticks_ += std::max(gain_, one_over_count) * innovation_ticks + excess;
-  period_ticks_ += std::max(kPeriodGainRatio * gain_, flashes_ < kWarmUp ? one_over_count : 0.0) * innovation_ticks;
-  mean_period_ticks_ += (period_ticks_ - mean_period_ticks_) / std::min<double>(flashes_, kMeanPeriodFlashes);
+  phase_ += times(innovation, std::max(gain_, one_over_count)) + excess;
+  const Q30 period_gain = times(kPeriodGainRatio, gain_);
+  period_ += times(innovation, flashes_ < kWarmUp ? std::max(period_gain, one_over_count) : period_gain);
+  mean_period_ += (period_ - mean_period_) / std::min(flashes_, kMeanPeriodFlashes);
 }
 
 SmoothedFlash FlashSmoother::answer(const Sweep& sweep) const {
-  SmoothedFlash smoothed{phase_ticks_, period_ticks_};
-  const bool credible = std::abs(period_ticks_ - kNominalPeriodTicks) < kPeriodSlack * kNominalPeriodTicks;
-  if (flashes_ < 3 || !credible) smoothed.period_ticks = static_cast<double>(sweep.period_sixteenth_ticks) / 16.0;
-  if (!(smoothed.period_ticks > 0.0)) smoothed.period_ticks = kNominalPeriodTicks;
+  SmoothedFlash smoothed{fixed::to_double(phase_, 16), 0.0};
+  if (flashes_ >= 3 && period_ < kPeriodSlack && period_ > -kPeriodSlack) {
+    smoothed.period_ticks = fixed::to_double(kNominalPeriod + period_, 16);
+  } else if (sweep.period_sixteenth_ticks > 0) {
+    smoothed.period_ticks = fixed::to_double(sweep.period_sixteenth_ticks, 4);
+  } else {
+    smoothed.period_ticks = kNominalPeriodTicks;
+  }
   return smoothed;
 }
 
 SmoothedFlash FlashSmoother::push(const Sweep& sweep) {
-  const double deviation = lateness_.length_deviation(sweep.flash);
-  const double correction = lateness_.correction_ticks(deviation);
+  const Q16 deviation = lateness_.length_deviation(sweep.flash);
+  const Q16 correction = lateness_.correction(deviation);
   const std::int64_t elapsed = sweep.flash.start_ticks - last_start_ticks_;
   const bool first = flashes_ == 0;
   last_start_ticks_ = sweep.flash.start_ticks;
@@ -128,19 +172,20 @@ SmoothedFlash FlashSmoother::push(const Sweep& sweep) {
     restart(sweep, correction);
     return answer(sweep);
   }
-  const auto turns = static_cast<std::int32_t>((elapsed + kTurnTicks / 2) / kTurnTicks);
+  const std::int32_t turns = (static_cast<std::int32_t>(elapsed) + kTurnTicks / 2) / kTurnTicks;
   for (std::int32_t turn = 0; turn < turns; ++turn) {
-    period_ticks_ = mean_period_ticks_ + kPeriodMemory * (period_ticks_ - mean_period_ticks_);
+    period_ = mean_period_ + times(period_ - mean_period_, kPeriodMemory);
   }
-  phase_ticks_ += turns * period_ticks_ - static_cast<double>(elapsed);
-  const double innovation = correction - phase_ticks_;
-  if (turns == 0 || std::abs(innovation) > kOutlierTicks) {
+  const std::int64_t phase = phase_ + turns * (kNominalPeriod + period_) - elapsed * 65536;
+  const std::int64_t innovation = correction - phase;
+  if (turns == 0 || innovation > kOutlier || innovation < -kOutlier) {
     restart(sweep, correction);
     return answer(sweep);
   }
-  if (flashes_ > kWarmUp) lateness_.learn(deviation, -phase_ticks_);
-  flashes_ = std::min(flashes_ + 1, 1000);
-  correct(innovation);
+  phase_ = static_cast<Q16>(phase);
+  if (flashes_ > kWarmUp) lateness_.learn(deviation, -phase_);
+  flashes_ = std::min<std::int32_t>(flashes_ + 1, 1000);
+  correct(static_cast<Q16>(innovation));
   return answer(sweep);
 }
 
