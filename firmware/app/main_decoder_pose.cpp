@@ -8,7 +8,8 @@
 
 namespace {
 
-pharos::Target target() {
+// Its memory is free again before the first pose.
+[[gnu::noinline]] pharos::Target target() {
   pharos::Target placements;
   for (const auto& row : pharos::app::target_table()) {
     pharos::SensorPlacement placement;
@@ -20,11 +21,16 @@ pharos::Target target() {
   return placements;
 }
 
+[[gnu::noinline]] pharos::app::PoseTask& start_poses(const pharos::hal::Board& board) {
+  static pharos::app::PoseTask poses(board.system, target());
+  return poses;
+}
+
 }  // namespace
 
 int main() {
   static const pharos::hal::Board board = pharos::hal::start_board();
-  static pharos::app::PoseTask poses(board.system, target());
+  static pharos::app::PoseTask& poses = start_poses(board);
   static pharos::app::Program program(board, &poses);
   pharos::hal::call_every_millisecond([](void* context) { static_cast<pharos::app::Program*>(context)->poll(); },
                                       &program);

@@ -7,7 +7,13 @@ namespace pharos {
 
 /// Most photodiodes on one target: the width of the capture block's input word (32 bits), and what the largest
 /// published Lighthouse 1.0 devices carry (32 on the headset).
+/// A firmware for a board of fewer inputs is built with fewer (PharosCompile.cmake): all that is kept of a sweep or a
+/// cycle is that much smaller.
+#ifdef PHAROS_MAX_SENSORS
+inline constexpr std::size_t kMaxSensors = PHAROS_MAX_SENSORS;
+#else
 inline constexpr std::size_t kMaxSensors = 32;
+#endif
 
 /// Most stations one target tells apart: Lighthouse 1.0 interleaves two.
 inline constexpr std::size_t kMaxStations = 2;

@@ -55,30 +55,33 @@ class Damping {
 /// Levenberg-Marquardt on the left error of the pose. The first step is undamped (Gauss-Newton); damping enters only
 /// where a step fails to lower the cost, so a good start costs about three linearisations.
 ///
-/// `in_known_valley(pose, cost)`: asked after every step that lowered the cost; true ends the descent.
+/// `in_known_valley(pose, cost)`: asked after every step that lowered the cost; true ends the descent. `fit`: where the
+/// descent is followed, whatever it holds.
 template <class System, class InKnownValley>
-Descent<System> descend(const System& system, const typename System::Pose& start, const RefineLimits& limits,
-                        InKnownValley in_known_valley) {
+void descend(const System& system, const typename System::Pose& start, const RefineLimits& limits,
+             InKnownValley in_known_valley, Descent<System>& fit) {
   // A fit is given up only when even thrice the decrease that the linear model predicts would leave it hopeless, and
   // only after this many steps: far from a minimum the model's prediction is worth little.
   constexpr double kOptimism = 3.0;
   constexpr int kStepsBeforeGivingUp = 1;
-  Descent<System> fit;
   fit.pose = start;
   fit.normal = system.linearise(start);
-  if (!(fit.normal.cost < 1e300)) return fit;
+  fit.smallest_pivot_ratio = 1.0;
+  fit.iterations = 0;
+  fit.converged = fit.hopeless = false;
+  if (!(fit.normal.cost < 1e300)) return;
   Damping damping;
   while (fit.iterations < limits.max_iterations) {
     ++fit.iterations;
     const typename System::Step step = system.step(fit.normal, damping.value());
-    if (!step.solved) return fit;
+    if (!step.solved) return;
     fit.smallest_pivot_ratio = step.smallest_pivot_ratio;
     if (damping.none() && step.decrease < limits.tolerance) {
       // The step is worth taking, its linearisation is not worth repeating.
       fit.pose = system.stepped(fit.pose, step);
       fit.normal.cost = std::fmax(0.0, fit.normal.cost - step.decrease);
       fit.converged = true;
-      return fit;
+      return;
     }
     if (!damping.none() && step.decrease < limits.tolerance) {
       damping = {};  // whether this is the minimum, only an undamped step can tell
@@ -86,7 +89,7 @@ Descent<System> descend(const System& system, const typename System::Pose& start
     }
     if (fit.iterations > kStepsBeforeGivingUp && fit.normal.cost - kOptimism * step.decrease > limits.hopeless_cost) {
       fit.hopeless = true;
-      return fit;
+      return;
     }
     const typename System::Pose trial = system.stepped(fit.pose, step);
     const typename System::Normal at_trial = system.linearise(trial);
@@ -96,19 +99,21 @@ Descent<System> descend(const System& system, const typename System::Pose& start
       fit.normal = at_trial;
       if (in_known_valley(fit.pose, fit.normal.cost)) {
         fit.hopeless = true;
-        return fit;
+        return;
       }
     } else if (!damping.failed()) {
       fit.converged = step.decrease < limits.tolerance;
-      return fit;
+      return;
     }
   }
-  return fit;
+  return;
 }
 
 template <class System>
-Descent<System> descend(const System& system, const typename System::Pose& start, const RefineLimits& limits) {
-  return descend(system, start, limits, [](const typename System::Pose&, double) { return false; });
+void descend(const System& system, const typename System::Pose& start, const RefineLimits& limits,
+             Descent<System>& fit) {
+  descend(
+      system, start, limits, [](const typename System::Pose&, double) { return false; }, fit);
 }
 
 }  // namespace pharos::pose

@@ -34,7 +34,7 @@ void find_rival(const System& system, int max_iterations, double variance, Minim
   };
   const RefineLimits limits{max_iterations, System::kConverged * variance,
                             m.best.normal.cost + kAmbiguousDeltaChi2 * variance};
-  m.second = descend(system, system.mirrored(m.best.pose), limits, in_first_valley);
+  descend(system, system.mirrored(m.best.pose), limits, in_first_valley, m.second);
   m.iterations += m.second.iterations;
   m.undecided = m.undecided || m.second.undecided();
   const bool usable = m.second.converged && system.ahead(m.second.pose);
@@ -51,11 +51,11 @@ void find_rival(const System& system, int max_iterations, double variance, Minim
 /// Both minima of the rows that take part, from one start. The second is complete only where it matters: within
 /// kAmbiguousDeltaChi2 of the first. `variance`: of one bearing, rad^2.
 template <class System>
-Minima<System> both_minima(const System& system, const typename System::Pose& start, int max_iterations,
-                           double variance) {
+void both_minima(const System& system, const typename System::Pose& start, int max_iterations, double variance,
+                 Minima<System>& m) {
   constexpr int kRounds = 3;
-  Minima<System> m;
-  m.best = descend(system, start, {max_iterations, System::kConverged * variance, 1e300});
+  descend(system, start, {max_iterations, System::kConverged * variance, 1e300}, m.best);
+  m.has_second = false;
   m.iterations = m.best.iterations;
   m.undecided = m.best.undecided();
   for (int round = 0; round < kRounds; ++round) {
@@ -64,7 +64,6 @@ Minima<System> both_minima(const System& system, const typename System::Pose& st
     // Where the start led to no valley of the pair, the better one's own mirror image is still to be seen.
     if (!(m.best.normal.cost + kAmbiguousDeltaChi2 * variance < cost_before)) break;
   }
-  return m;
 }
 
 }  // namespace pharos::pose

@@ -71,7 +71,9 @@ LighthouseFromBody gauss_newton_step(const Sightings& sightings, const Lighthous
 }
 
 Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual residual, const RefineLimits& limits) {
-  return descend(DoubleSystem(sightings, residual), start, limits);
+  Fit fit;
+  descend(DoubleSystem(sightings, residual), start, limits, fit);
+  return fit;
 }
 
 }  // namespace pharos::pose

@@ -44,12 +44,11 @@ const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& star
 int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
 
 // Both minima of the rows that take part, from one start.
-Minima<DoubleSystem> minima_from(Problem& problem, const LighthouseFromBody& start) {
+void minima_from(Problem& problem, const LighthouseFromBody& start, Minima<DoubleSystem>& minima) {
   const DoubleSystem system(problem.hits.sightings, problem.options.residual);
-  Minima<DoubleSystem> minima = both_minima(system, start, problem.options.max_iterations, problem.variance);
+  both_minima(system, start, problem.options.max_iterations, problem.variance, minima);
   minima.has_second = minima.has_second && problem.options.look_for_second;
   problem.iterations += minima.iterations;
-  return minima;
 }
 
 bool credible(const Problem& problem, const Fit& fit) {
@@ -92,7 +91,8 @@ void mark_used(const Hits& hits, std::bitset<kMaxObservations>& used) {
   }
 }
 
-Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima) {
+// Functions that are not to be inlined: their temporaries would lie on the stack below all that the others call.
+[[gnu::noinline]] Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima) {
   const SolveOptions& options = problem.options;
   const Sightings& sightings = problem.hits.sightings;
   Solution solution;
@@ -117,6 +117,25 @@ Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima)
   return solution;
 }
 
+StartPoses only(const LighthouseFromBody& pose) {
+  StartPoses starts;
+  starts.push_back(pose);
+  return starts;
+}
+
+// Both minima of the hits that belong to the body, or why there are none.
+[[gnu::noinline]] Refusal find_minima(Problem& problem, const LighthouseFromBody* prior, Minima<DoubleSystem>& minima) {
+  StartPoses starts = prior != nullptr ? only(*prior) : start_poses(problem.hits.sightings, problem.options.start);
+  if (!starts.empty() && !problem.hits.several) minima_from(problem, nearest(problem, starts), minima);
+  if (!problem.hits.several && credible(problem, minima.best)) return Refusal::kNone;
+  if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
+  LighthouseFromBody start;
+  if (!fit_rigid_body(problem.hits, starts, problem.options, start)) return Refusal::kNotConverged;
+  if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return Refusal::kPoorFit;
+  minima_from(problem, start, minima);
+  return Refusal::kNone;
+}
+
 }  // namespace
 
 Result<Solution, Refusal> solve(const Target& target, const Observations& observations, const SolveOptions& options,
@@ -124,22 +143,8 @@ Result<Solution, Refusal> solve(const Target& target, const Observations& observ
   Problem problem(options);
   if (!collect_hits(target, observations, problem.hits)) return Refusal::kBadInput;
   if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return refusal;
-
-  StartPoses starts;
-  if (prior != nullptr) {
-    starts.push_back(*prior);
-  } else {
-    starts = start_poses(problem.hits.sightings, options.start);
-  }
   Minima<DoubleSystem> minima;
-  if (!starts.empty() && !problem.hits.several) minima = minima_from(problem, nearest(problem, starts));
-  if (problem.hits.several || !credible(problem, minima.best)) {
-    if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
-    LighthouseFromBody start;
-    if (!fit_rigid_body(problem.hits, starts, options, start)) return Refusal::kNotConverged;
-    if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return Refusal::kPoorFit;
-    minima = minima_from(problem, start);
-  }
+  if (const Refusal refusal = find_minima(problem, prior, minima); refusal != Refusal::kNone) return refusal;
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;
   return solution_of(problem, minima);
 }

@@ -45,7 +45,8 @@ std::optional<Solution> solve_warm(const Target& target, const Observations& obs
   if (sightings.count < kLeastSensors || sightings.rows < kPoseUnknowns) return std::nullopt;
   const double variance = options.sigma_rad * options.sigma_rad;
   const FixedSystem system(sightings);
-  FixedMinima minima = both_minima(system, fixed_pose(sightings, prior), options.max_iterations, variance);
+  FixedMinima minima;
+  both_minima(system, fixed_pose(sightings, prior), options.max_iterations, variance, minima);
   minima.has_second = minima.has_second && options.look_for_second;
   if (minima.undecided || !credible(minima, sightings.rows, variance) || !system.ahead(minima.best.pose)) {
     return std::nullopt;

@@ -33,6 +33,13 @@ class CycleAssembler {
   /// The cycle that this sweep closed, if any.
   std::optional<Cycle> push(std::uint8_t station, Axis axis, std::int64_t flash_ticks, std::uint8_t sweep_flags,
                             const lighthouse::SweepBearings& bearings);
+  /// The same in two steps and without a copy, for who has no memory for one: first what such a sweep would push out,
+  /// which is closed then, else null ...
+  const Cycle* close_before(Axis axis, std::int64_t flash_ticks);
+  /// ... then the sweep itself: the cycle that it completed, which holds until the next sweep, else null.
+  /// `may_complete`: false when close_before() gave one. So the sweep waits for its own partner or for the next one.
+  const Cycle* add(std::uint8_t station, Axis axis, std::int64_t flash_ticks, std::uint8_t sweep_flags,
+                   const lighthouse::SweepBearings& bearings, bool may_complete);
   /// What is still open, if anything.
   std::optional<Cycle> flush();
 

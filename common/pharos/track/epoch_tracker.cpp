@@ -56,27 +56,49 @@ void EpochTracker::forget_stations() {
   newest_flash_ticks_.reset();
 }
 
+[[gnu::noinline]] const Cycle* EpochTracker::take(Station& station, const lighthouse::Sweep& sweep,
+                                                  const lighthouse::SmoothedFlash& smoothed, bool may_complete) {
+  const lighthouse::Flash& flash = sweep.flash;
+  const auto bearings = [&] {
+    if (!options_.smooth_flashes) return lighthouse::bearings_of(sweep);
+    return options_.warm_start ? lighthouse::fixed_bearings_of(sweep, smoothed)
+                               : lighthouse::bearings_of(sweep, smoothed);
+  };
+  return station.assembler.add(flash.station, flash.axis, flash.start_ticks, sweep.flags, bearings(), may_complete);
+}
+
 std::optional<EpochResult> EpochTracker::push(const lighthouse::Sweep& sweep) {
-  if (sweep.flash.station >= kMaxStations) return std::nullopt;
+  const lighthouse::Flash& flash = sweep.flash;
+  if (flash.station >= kMaxStations) return std::nullopt;
   if (after_long_dark(sweep)) forget_stations();
-  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(sweep.flash.start_ticks), sweep.flash.start_ticks);
-  Station& station = stations_[sweep.flash.station];
-  const auto axis = static_cast<std::size_t>(index_of(sweep.flash.axis));
+  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(flash.start_ticks), flash.start_ticks);
+  Station& station = stations_[flash.station];
+  const auto axis = static_cast<std::size_t>(index_of(flash.axis));
   const lighthouse::SmoothedFlash smoothed = station.smoother[axis].push(sweep);
-  if (sweep.flash.skip) return std::nullopt;
-  const lighthouse::SweepBearings bearings =
-      options_.smooth_flashes ? lighthouse::bearings_of(sweep, smoothed) : lighthouse::bearings_of(sweep);
-  const auto cycle =
-      station.assembler.push(sweep.flash.station, sweep.flash.axis, sweep.flash.start_ticks, sweep.flags, bearings);
-  if (!cycle) return std::nullopt;
-  return answer(station, *cycle);
+  if (flash.skip) return std::nullopt;
+  return complete(station, sweep, smoothed);
+}
+
+std::optional<EpochResult> EpochTracker::complete(Station& station, const lighthouse::Sweep& sweep,
+                                                  const lighthouse::SmoothedFlash& smoothed) {
+  // What lies between here and the solver stays off the stack as far as it can: a soft core has little of it.
+  const Cycle* pushed_out = station.assembler.close_before(sweep.flash.axis, sweep.flash.start_ticks);
+  const Cycle* due = pushed_out != nullptr ? pushed_out : take(station, sweep, smoothed, true);
+  std::optional<EpochResult> result;
+  if (due != nullptr) answer(station, *due, result.emplace());
+  if (pushed_out != nullptr) take(station, sweep, smoothed, false);
+  return result;
 }
 
 std::optional<EpochResult> EpochTracker::flush() {
+  std::optional<EpochResult> result;
   for (Station& station : stations_) {
-    if (const auto cycle = station.assembler.flush()) return answer(station, *cycle);
+    const auto cycle = station.assembler.flush();
+    if (!cycle) continue;
+    answer(station, *cycle, result.emplace());
+    break;
   }
-  return std::nullopt;
+  return result;
 }
 
 const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const Cycle& cycle) const {
@@ -85,27 +107,36 @@ const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const
   return age_s >= 0.0 && age_s < options_.prior_max_age_s ? &*station.last_pose : nullptr;
 }
 
-Result<pose::Solution, pose::Refusal> EpochTracker::solve_from(const LighthouseFromBody* prior) const {
-  if (options_.warm_start && prior != nullptr) {
-    if (const auto warm = pose::solve_warm(target_, ideal_.observations, options_.solve, *prior)) return *warm;
-  }
-  return pose::solve(target_, ideal_.observations, options_.solve, prior);
+void EpochTracker::correct(const Station& station, const Cycle& cycle, const LighthouseFromBody* pose) {
+  ideal_observations(cycle, target_, station.calibration ? &*station.calibration : nullptr, options_.form, pose,
+                     options_.warm_start, ideal_);
 }
 
-Result<pose::Solution, pose::Refusal> EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result) {
-  const lighthouse::StationCalibration* calibration = station.calibration ? &*station.calibration : nullptr;
+void EpochTracker::solve_from(const LighthouseFromBody* prior, Answer& answer) const {
+  if (prior != nullptr && solve_warm_from(*prior, answer)) return;
+  answer = pose::solve(target_, ideal_.observations, options_.solve, prior);
+}
+
+[[gnu::noinline]] bool EpochTracker::solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const {
+  if (!options_.warm_start) return false;
+  const auto warm = pose::solve_warm(target_, ideal_.observations, options_.solve, prior);
+  if (warm) answer = *warm;
+  return warm.has_value();
+}
+
+void EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer) {
   const LighthouseFromBody* last = fresh_pose(station, cycle);
-  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, nullptr, options_.warm_start);
-  auto solution = solve_from(options_.warm_start ? last : nullptr);
-  if (!solution && solution.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
-    solution = solve_from(last);
-    if (solution) result.flags |= kEpochPrior;
+  correct(station, cycle, nullptr);
+  solve_from(options_.warm_start ? last : nullptr, answer);
+  if (!answer && answer.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
+    solve_from(last, answer);
+    if (answer) result.flags |= kEpochPrior;
   }
-  if (!solution || !ideal_.guessed) return solution;
+  if (!answer || !ideal_.guessed) return;
   // The first pose tells the angle across, which single hits were corrected without.
-  const LighthouseFromBody first = solution->estimate.pose;
-  ideal_ = ideal_observations(cycle, target_, calibration, options_.form, &first, options_.warm_start);
-  return solve_from(options_.warm_start || (result.flags & kEpochPrior) != 0 ? &first : nullptr);
+  const LighthouseFromBody first = answer->estimate.pose;
+  correct(station, cycle, &first);
+  solve_from(options_.warm_start || (result.flags & kEpochPrior) != 0 ? &first : nullptr, answer);
 }
 
 TrackedBearing EpochTracker::bearing(std::size_t index) const {
@@ -119,35 +150,42 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
   return tracked;
 }
 
-EpochResult EpochTracker::answer(Station& station, const Cycle& cycle) {
-  EpochResult result;
+[[gnu::noinline]] void EpochTracker::accept(Station& station, const Cycle& cycle, const pose::Solution& solution,
+                                            EpochResult& result) {
+  used_ = solution.used;
+  answered_pose_ = solution.estimate.pose;
+  if (used_.count() < ideal_.observations.size()) result.flags |= kEpochOutliers;
+  if (!residual_credible(solution.estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
+  result.observations = solution.estimate.observations;
+  result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
+  // An answer that leant on the pose before it, or has a rival, is nothing for the next one to lean on.
+  if ((result.flags & kEpochPrior) == 0 && !solution.estimate.ambiguous()) {
+    station.last_pose = solution.estimate.pose;
+    station.last_pose_ticks = result.time_ticks;
+  }
+  result.pose = solution.estimate;
+  result.pose->time_ns = ticks_to_nanoseconds(result.time_ticks);
+}
+
+[[gnu::noinline]] void EpochTracker::refuse(const Cycle& cycle, pose::Refusal why, EpochResult& result) const {
+  result.observations = static_cast<int>(ideal_.observations.size());
+  result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [](std::size_t) { return true; });
+  result.pose = why;
+}
+
+void EpochTracker::answer(Station& station, const Cycle& cycle, EpochResult& result) {
   result.station = cycle.station;
   result.flags = flags_of(cycle, station.calibration.has_value());
-  const auto solution = solve(station, cycle, result);
+  Answer solution = pose::Refusal::kNotConverged;
+  solve(station, cycle, result, solution);
   if (ideal_.left_out > 0) result.flags |= kEpochOutliers;
   used_.reset();
   answered_pose_.reset();
-  if (!solution) {
-    result.observations = static_cast<int>(ideal_.observations.size());
-    result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [](std::size_t) { return true; });
-    result.pose = solution.error();
-    return result;
+  if (solution) {
+    accept(station, cycle, *solution, result);
+  } else {
+    refuse(cycle, solution.error(), result);
   }
-  used_ = solution->used;
-  answered_pose_ = solution->estimate.pose;
-  if (used_.count() < ideal_.observations.size()) result.flags |= kEpochOutliers;
-  if (!residual_credible(solution->estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
-  result.observations = solution->estimate.observations;
-  result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
-  LighthousePoseEstimate estimate = solution->estimate;
-  estimate.time_ns = ticks_to_nanoseconds(result.time_ticks);
-  // An answer that leant on the pose before it, or has a rival, is nothing for the next one to lean on.
-  if ((result.flags & kEpochPrior) == 0 && !estimate.ambiguous()) {
-    station.last_pose = estimate.pose;
-    station.last_pose_ticks = result.time_ticks;
-  }
-  result.pose = estimate;
-  return result;
 }
 
 }  // namespace pharos::track

@@ -104,9 +104,21 @@ class EpochTracker {
     std::int64_t last_pose_ticks = 0;
   };
 
-  EpochResult answer(Station& station, const Cycle& cycle);
-  Result<pose::Solution, pose::Refusal> solve_from(const LighthouseFromBody* prior) const;
-  Result<pose::Solution, pose::Refusal> solve(Station& station, const Cycle& cycle, EpochResult& result);
+  using Answer = Result<pose::Solution, pose::Refusal>;
+
+  /// Takes the sweep into its cycle; the cycle if that completed it.
+  const Cycle* take(Station& station, const lighthouse::Sweep& sweep, const lighthouse::SmoothedFlash& smoothed,
+                    bool may_complete);
+  /// The answer of the cycle that this sweep completes or pushes out.
+  std::optional<EpochResult> complete(Station& station, const lighthouse::Sweep& sweep,
+                                      const lighthouse::SmoothedFlash& smoothed);
+  void answer(Station& station, const Cycle& cycle, EpochResult& result);
+  void accept(Station& station, const Cycle& cycle, const pose::Solution& solution, EpochResult& result);
+  void refuse(const Cycle& cycle, pose::Refusal why, EpochResult& result) const;
+  void correct(const Station& station, const Cycle& cycle, const LighthouseFromBody* pose);
+  void solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer);
+  void solve_from(const LighthouseFromBody* prior, Answer& answer) const;
+  bool solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const;
   const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle) const;
 
   Target target_;

@@ -80,12 +80,13 @@ class Corrector {
 
 }  // namespace
 
-IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
-                                     const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
-                                     const LighthouseFromBody* pose, bool integers) {
+void ideal_observations(const Cycle& cycle, const Target& target, const lighthouse::StationCalibration* calibration,
+                        lighthouse::ModelForm form, const LighthouseFromBody* pose, bool integers,
+                        IdealObservations& result) {
   const lighthouse::StationCalibration none;
   Corrector corrector(cycle, target, calibration != nullptr ? *calibration : none, form, pose, integers);
-  IdealObservations result;
+  result.observations.clear();
+  result.left_out = 0;
   for (const Axis axis : {Axis::kX, Axis::kY}) {
     for (const Bearing& bearing : cycle[axis]) {
       const std::optional<double> theta =
@@ -99,7 +100,6 @@ IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
     }
   }
   result.guessed = corrector.guessed();
-  return result;
 }
 
 }  // namespace pharos::track

@@ -26,8 +26,17 @@ struct IdealObservations {
 /// sensor's other sweep, else from the middle of the other sweep. Bearings that no direction ahead can show are left
 /// out. `calibration` null: raw bearings pass as ideal ones. `integers`: for cores without a floating-point unit, to
 /// 2e-8 rad; a sensor with both its bearings then is not corrected again by the pose, which tells nothing more of it.
-IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
-                                     const lighthouse::StationCalibration* calibration, lighthouse::ModelForm form,
-                                     const LighthouseFromBody* pose, bool integers = false);
+void ideal_observations(const Cycle& cycle, const Target& target, const lighthouse::StationCalibration* calibration,
+                        lighthouse::ModelForm form, const LighthouseFromBody* pose, bool integers,
+                        IdealObservations& result);
+
+/// The same in double, as a value.
+inline IdealObservations ideal_observations(const Cycle& cycle, const Target& target,
+                                            const lighthouse::StationCalibration* calibration,
+                                            lighthouse::ModelForm form, const LighthouseFromBody* pose) {
+  IdealObservations result;
+  ideal_observations(cycle, target, calibration, form, pose, false, result);
+  return result;
+}
 
 }  // namespace pharos::track
