@@ -3,6 +3,7 @@
 
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
+#include "host/publish/tof_report.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/status_t.hpp"
@@ -12,6 +13,7 @@ namespace pharos::host {
 // The daemon's values as LCM types: SI, times in microseconds, what does not apply is 0.
 
 pose_t pose_message(const CycleReport& report);
+pose_t pose_message(const TofReport& report);
 bearings_t bearings_message(const CycleReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);
 

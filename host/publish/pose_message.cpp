@@ -18,7 +18,8 @@ std::int32_t saturated_us(std::int64_t ns) {
 
 std::int64_t floor_us(std::int64_t ns) { return ns / kNsPerUs - (ns % kNsPerUs < 0 ? 1 : 0); }
 
-void fill_pose(const LighthouseFromBody& pose, double (&position_m)[3], double (&orientation_wxyz)[4]) {
+template <class Parent, class Child>
+void fill_pose(const Pose<Parent, Child>& pose, double (&position_m)[3], double (&orientation_wxyz)[4]) {
   const Quaternion q = pose.quaternion();
   for (int i = 0; i < 3; ++i) position_m[i] = pose.t[i];
   orientation_wxyz[0] = q.w();
@@ -27,14 +28,14 @@ void fill_pose(const LighthouseFromBody& pose, double (&position_m)[3], double (
   orientation_wxyz[3] = q.z();
 }
 
-void fill_estimate(const LighthousePoseEstimate& estimate, pose_t& message) {
+template <class Parent, class Child>
+void fill_estimate(const PoseEstimate<Parent, Child>& estimate, pose_t& message) {
   fill_pose(estimate.pose, message.position_m, message.orientation_wxyz);
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) message.covariance[6 * row + column] = estimate.covariance(row, column);
   }
   message.sigma_rot_rad = estimate.sigma_rotation_rad();
   message.sigma_pos_m = estimate.sigma_position_m();
-  message.residual_rms_rad = estimate.residual_rms;
   message.iterations = estimate.iterations;
   message.adop_deg_per_rad = estimate.adop_deg_per_rad;
   message.pdop_m_per_rad = estimate.pdop_m_per_rad;
@@ -75,7 +76,31 @@ pose_t pose_message(const CycleReport& report) {
   message.valid = report.pose.ok() ? 1 : 0;
   message.flags = flag_words(report);
   message.observations = report.observations;
-  if (report.pose) fill_estimate(*report.pose, message);
+  if (report.pose) {
+    fill_estimate(*report.pose, message);
+    message.residual_rms_rad = report.pose->residual_rms;
+  }
+  return message;
+}
+
+pose_t pose_message(const TofReport& report) {
+  pose_t message{};
+  message.utime = floor_us(report.utc_ns);
+  message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
+  message.latency_us = saturated_us(report.latency_ns);
+  message.sequence = report.sequence;
+  message.source = report.source;
+  message.station_or_camera = report.camera;
+  message.target = report.target;
+  message.parent_frame = "camera";
+  message.child_frame = "target";
+  const bool refused = !report.refusal.empty();
+  const char* answered = report.pose.ambiguous() ? "ambiguous" : "ok";
+  message.status = refused ? "refused_" + report.refusal : answered;
+  message.valid = refused ? 0 : 1;
+  message.flags = report.flags;
+  message.observations = report.observations;
+  if (!refused) fill_estimate(report.pose, message);  // residuals there are metres: residual_rms_rad stays 0
   return message;
 }
 

@@ -10,6 +10,7 @@ Publisher::Publisher(MessageSink& sink, const std::string& prefix)
       pose_channel_(prefix + "LIGHTHOUSE_POSE"),
       board_pose_channel_(prefix + "LIGHTHOUSE_BOARD_POSE"),
       bearings_channel_(prefix + "LIGHTHOUSE_BEARINGS"),
+      tof_channel_(prefix + "TOF_POSE"),
       status_channel_(prefix + "STATUS") {}
 
 template <class Message>
@@ -33,6 +34,12 @@ bool Publisher::publish_pose(const CycleReport& report) {
 
 bool Publisher::publish_board_pose(const CycleReport& report) {
   const bool sent = send(board_pose_channel_, pose_message(report));
+  counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_pose(const TofReport& report) {
+  const bool sent = send(tof_channel_, pose_message(report));
   counters_.poses += sent ? 1 : 0;
   return sent;
 }

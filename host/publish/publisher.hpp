@@ -8,6 +8,7 @@
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/message_sink.hpp"
+#include "host/publish/tof_report.hpp"
 
 namespace pharos::host {
 
@@ -30,6 +31,8 @@ class Publisher {
   bool publish_pose(const CycleReport& report);
   /// pose_t of a pose that the capture board itself solved, on a channel of its own.
   bool publish_board_pose(const CycleReport& report);
+  /// pose_t of a depth camera; refused frames are told as refused cycles are.
+  bool publish_pose(const TofReport& report);
   /// bearings_t of the same cycle.
   bool publish_bearings(const CycleReport& report);
   /// status_t.
@@ -45,6 +48,7 @@ class Publisher {
   std::string pose_channel_;
   std::string board_pose_channel_;
   std::string bearings_channel_;
+  std::string tof_channel_;
   std::string status_channel_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t status_sequence_ = 0;
