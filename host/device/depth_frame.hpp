@@ -16,6 +16,13 @@ struct CoordinateScale {
   std::array<double, 3> offset_m{};
 };
 
+/// What a frame's time counts from.
+enum class CameraClock : std::uint8_t {
+  kOwn,   // whatever the camera's clock began at
+  kPtp,   // the epoch of 1970, UTC or TAI, as the network's PTP clock has it
+  kHost,  // the epoch of 1970, UTC of this computer
+};
+
 /// One frame of a depth camera: intensity and Cartesian Z of every pixel, and when it was taken.
 struct DepthFrame {
   std::int32_t width_px = 0;
@@ -24,9 +31,9 @@ struct DepthFrame {
   std::vector<std::uint16_t> depth;      // counts; 0 and 65535: none
   /// How often the camera had been opened when it sent this; its clock and its numbers begin anew with every opening.
   std::uint32_t session = 0;
-  /// The camera's own clock, ns since whatever it counts from; with PTP since the epoch of 1970 (TAI or UTC).
+  /// When it was taken, ns on this clock.
   std::int64_t camera_ns = 0;
-  bool camera_follows_ptp = false;
+  CameraClock clock = CameraClock::kOwn;
   /// Depth and intensity were taken one after the other (formats that hold one of them): camera_ns is of the depth.
   bool taken_in_turns = false;
   /// First packet's arrival on this computer's clocks, and the whole frame's.

@@ -170,6 +170,8 @@ void GigeCamera::Parts::start_ptp() {
 
 void GigeCamera::Parts::start_stream() {
   ArvError error;
+  // A packet socket needs CAP_NET_RAW, which the service has not: one way for all.
+  arv_camera_gv_set_stream_options(camera.get(), ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
   stream.reset(arv_camera_create_stream(camera.get(), nullptr, nullptr, error.out()));
   if (!stream) throw CameraError(CameraState::kGone, "the camera gives no stream: " + error.text());
   g_object_set(stream.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size", kSocketBytes,

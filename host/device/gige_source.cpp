@@ -127,7 +127,7 @@ void GigeSource::hand_over(DepthFramePtr frame, const GigeCamera& camera) {
     follows_ptp_ = camera.follows_ptp();
     ptp_asked_ns_ = frame->complete_monotonic_ns;
   }
-  frame->camera_follows_ptp = follows_ptp_;
+  frame->clock = follows_ptp_ ? CameraClock::kPtp : CameraClock::kOwn;
   {
     const std::lock_guard lock(mutex_);
     frame->session = status_.session;

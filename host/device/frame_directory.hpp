@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/device/depth_frame.hpp"
+
+namespace pharos::host {
+
+/// A directory of recorded frames, as `pharos sim tof` writes it: NNNN_intensity.png and NNNN_depth.png (16 bits), or
+/// NNNN_abcy16.raw, in the order of their numbers.
+class FrameDirectory {
+ public:
+  /// Throws InputError where there is no frame, or a half of one.
+  explicit FrameDirectory(const std::string& path);
+
+  std::size_t frames() const { return entries_.size(); }
+  /// The name before `_`, as the file has it.
+  const std::string& name(std::size_t index) const { return entries_[index].name; }
+  /// Reads sizes and pixels of one frame. `width`, `height`: those of the camera; throws InputError for files of
+  /// another size, and for files that cannot be read.
+  void read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const;
+
+ private:
+  struct Entry {
+    std::string name;
+    std::uint64_t number = 0;
+    bool raw = false;
+    bool intensity = false;
+    bool depth = false;
+  };
+  Entry& entry_of(const std::string& name, std::uint64_t number);
+  std::filesystem::path path_of(const Entry& entry, const char* suffix) const;
+
+  std::filesystem::path folder_;
+  std::vector<Entry> entries_;                 // by number
+  std::map<std::string, std::size_t> places_;  // while the directory is read
+};
+
+}  // namespace pharos::host
