@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "host/support/input_error.hpp"
 
@@ -15,7 +15,7 @@ struct NamedInput {
 };
 
 /// Throws InputError where more than one input is `-`: standard input can be read once.
-inline void require_one_standard_input(std::initializer_list<NamedInput> inputs) {
+inline void require_one_standard_input(const std::vector<NamedInput>& inputs) {
   const NamedInput* first = nullptr;
   for (const NamedInput& input : inputs) {
     if (input.path != "-") continue;

@@ -53,6 +53,14 @@ double round_step(double span) {
   return 10.0 * decade;
 }
 
+std::vector<double> multiples_within(double low, double high, double step) {
+  std::vector<double> multiples;
+  const double first = std::ceil(low / step);
+  const auto count = static_cast<int>(std::floor(high / step) - first) + 1;
+  for (int i = 0; i < count; ++i) multiples.push_back((first + i) * step);
+  return multiples;
+}
+
 std::string tick_text(double value, double step) {
   return shown(std::abs(value) < 1e-9 * step ? 0.0 : value, std::chars_format::general, 6);
 }
@@ -108,13 +116,13 @@ void draw_axes(Svg& svg, const Axes& axes, std::string_view title, std::string_v
   const double right = axes.left + axes.width;
   const double bottom = axes.top + axes.height;
   const double x_step = round_step(axes.x_high - axes.x_low);
-  for (double x = std::ceil(axes.x_low / x_step) * x_step; x <= axes.x_high; x += x_step) {
+  for (const double x : multiples_within(axes.x_low, axes.x_high, x_step)) {
     const double at = axes.at(x, axes.y_low).x;
     svg.line({at, axes.top}, {at, bottom}, "#e0e0e0");
     svg.text({at, bottom + 15.0}, tick_text(x, x_step), 11.0, "middle");
   }
   const double y_step = round_step(axes.y_high - axes.y_low);
-  for (double y = std::ceil(axes.y_low / y_step) * y_step; y <= axes.y_high; y += y_step) {
+  for (const double y : multiples_within(axes.y_low, axes.y_high, y_step)) {
     const double at = axes.at(axes.x_low, y).y;
     svg.line({axes.left, at}, {right, at}, "#e0e0e0");
     svg.text({axes.left - 6.0, at + 4.0}, tick_text(y, y_step), 11.0, "end");
