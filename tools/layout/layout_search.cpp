@@ -85,7 +85,7 @@ std::vector<std::size_t> seen_facets(const ConvexBody& body, const std::vector<L
   return seen;
 }
 
-LayoutSearch::LayoutSearch(const ConvexBody& body, std::vector<std::size_t> facets, Rules rules, std::uint64_t seed)
+LayoutSearch::LayoutSearch(const ConvexBody& body, const std::vector<std::size_t>& facets, Rules rules, std::uint64_t seed)
     : body_(body), rules_(rules), seed_(seed), insets_(body.facets.size()) {
   double area = 0.0;
   for (const std::size_t f : facets) {
@@ -159,7 +159,8 @@ double LayoutSearch::exchange(Seats& seats, const Judge& judge, const std::funct
 
 void LayoutSearch::polish(Seats& seats, const Judge& judge, const std::function<void()>& tick) const {
   double best = judge(target_of(body_, seats));
-  for (double step_m = 0.5 * step_m_; step_m >= kLeastStep_m; step_m *= 0.5) {
+  double step_m = 0.5 * step_m_;
+  while (step_m >= kLeastStep_m) {
     for (std::size_t i = 0; i < seats.size(); ++i) {
       for (const Vector2& way : {Vector2(1, 0), Vector2(-1, 0), Vector2(0, 1), Vector2(0, -1)}) {
         const Seat own = seats[i];
@@ -175,6 +176,7 @@ void LayoutSearch::polish(Seats& seats, const Judge& judge, const std::function<
       }
       tick();
     }
+    step_m *= 0.5;
   }
 }
 

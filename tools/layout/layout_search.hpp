@@ -36,7 +36,7 @@ std::vector<std::size_t> seen_facets(const ConvexBody& body, const std::vector<L
 /// The same seed gives the same layout on every machine with the same arithmetic.
 class LayoutSearch {
  public:
-  LayoutSearch(const ConvexBody& body, std::vector<std::size_t> facets, Rules rules, std::uint64_t seed);
+  LayoutSearch(const ConvexBody& body, const std::vector<std::size_t>& facets, Rules rules, std::uint64_t seed);
 
   /// A first layout, spread as far as it goes; none where the sensors have no room.
   std::optional<Seats> spread() const;
