@@ -20,6 +20,9 @@ inline constexpr Q30 kOne = 1 << 30;
 /// A whole product: no bit is lost.
 constexpr std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
 
+/// The upper half of the product, rounded down: one instruction, where 30 bits do.
+constexpr std::int32_t high(std::int32_t a, std::int32_t b) { return static_cast<std::int32_t>(product(a, b) >> 32); }
+
 /// a times b in Q30, rounded; with b of any Q, in that Q.
 constexpr std::int32_t times(std::int32_t a, Q30 b) {
   return static_cast<std::int32_t>((product(a, b) + (std::int64_t{1} << 29)) >> 30);
@@ -42,6 +45,17 @@ constexpr std::int64_t shifted(std::int64_t a, int places) {
 constexpr int places_of(std::int64_t a) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a < 0 ? -a : a)));
 }
+
+/// The most binary places of any of them.
+template <class Range>
+constexpr int most_places_of(const Range& range) {
+  std::uint64_t all = 0;
+  for (const std::int64_t a : range) all |= static_cast<std::uint64_t>(a < 0 ? -a : a);
+  return static_cast<int>(std::bit_width(all));
+}
+
+/// Whether it is a number of 32 bits.
+constexpr bool is_narrow(std::int64_t a) { return a == static_cast<std::int32_t>(a); }
 
 /// a cut to [-limit, limit].
 constexpr std::int32_t clamped(std::int64_t a, std::int32_t limit) {
@@ -86,22 +100,25 @@ constexpr std::int32_t reciprocal(Q30 a) {
 
 /// Square root and its inverse of a positive number.
 struct Root {
-  Q30 root;              // of value times 4^doublings, in [1/2, 1)
-  std::int64_t inverse;  // of that root, Q30, in (1, 2]
+  Q30 root;               // of value times 4^doublings, in [1/2, 1)
+  std::uint32_t inverse;  // of that root, Q30, in (1, 2]
   int doublings;
 };
 
 /// Of a value in units of 2^-60, above 0 and below 1; to 2^-30.
 constexpr Root root_of(std::int64_t value) {
   const int doublings = (60 - places_of(value)) / 2;
-  const std::int64_t x = shifted(value, 2 * doublings) >> 29;    // Q31, [1/4, 1)
-  std::int64_t y = 2'330'000'000 - ((x * 1'310'000'000) >> 31);  // Q30: within 11 % of the inverse root
+  const auto x = static_cast<std::uint32_t>(shifted(value, 2 * doublings) >> 29);  // Q31, [1/4, 1)
+  constexpr auto times_unsigned = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} * b; };
+  // Q30: within 11 % of the inverse root.
+  std::uint32_t y = 2'330'000'000U - static_cast<std::uint32_t>(times_unsigned(x, 1'310'000'000U) >> 31U);
   for (int step = 0; step < 4; ++step) {
-    const std::int64_t square = (y * y) >> 32;     // Q28
-    const std::int64_t unit = (x * square) >> 29;  // Q30: 1 where y is right
-    y = (y * (std::int64_t{3} * kOne - unit)) >> 31;
+    const auto square = static_cast<std::uint32_t>(times_unsigned(y, y) >> 32U);     // Q28
+    const auto unit = static_cast<std::uint32_t>(times_unsigned(x, square) >> 29U);  // Q30: 1 where y is right
+    y = static_cast<std::uint32_t>(times_unsigned(y, 3U * kOne - unit) >> 31U);
   }
-  return {static_cast<Q30>(std::min<std::int64_t>((x * y) >> 31, kOne - 1)), y, doublings};
+  const auto root = static_cast<std::uint32_t>(times_unsigned(x, y) >> 31U);
+  return {static_cast<Q30>(std::min<std::uint32_t>(root, kOne - 1)), y, doublings};
 }
 
 struct SineCosine {
@@ -116,14 +133,18 @@ constexpr SineCosine sine_cosine(Q30 angle) {
   const Q30 square = times(half, half);
   constexpr auto term = [](double value) { return static_cast<Q30>(value * kOne); };
   Q30 s = term(-1.0 / 39916800.0);
-  for (const Q30 next : {term(1.0 / 362880.0), term(-1.0 / 5040.0), term(1.0 / 120.0), term(-1.0 / 6.0), kOne}) {
-    s = next + times(s, square);
+  // What is lost of the last terms shrinks with those that follow.
+  for (const Q30 next : {term(1.0 / 362880.0), term(-1.0 / 5040.0)}) {
+    s = next + 4 * high(s, square) + 2;
   }
+  s = term(1.0 / 120.0) + times(s, square);
+  s = kOne + times(term(-1.0 / 6.0) + times(s, square), square);
   Q30 c = term(1.0 / 479001600.0);
-  for (const Q30 next :
-       {term(-1.0 / 3628800.0), term(1.0 / 40320.0), term(-1.0 / 720.0), term(1.0 / 24.0), -kOne / 2}) {
-    c = next + times(c, square);
+  for (const Q30 next : {term(-1.0 / 3628800.0), term(1.0 / 40320.0)}) {
+    c = next + 4 * high(c, square) + 2;
   }
+  c = term(-1.0 / 720.0) + times(c, square);
+  c = -kOne / 2 + times(term(1.0 / 24.0) + times(c, square), square);
   const Q30 sine_half = times(half, s);
   const Q30 cosine_half = kOne + times(c, square);
   return {static_cast<Q30>(product(sine_half, cosine_half) >> 29),

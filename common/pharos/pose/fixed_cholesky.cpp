@@ -22,7 +22,8 @@ FixedCholesky::FixedCholesky(const FixedMatrix& matrix) {
       for (std::size_t k = 0; k < j; ++k) sum -= fixed::product(l(i, k), l(j, k));
       if (i > j) {
         // No element exceeds the root of the pivot, so the doubled sum stays below one.
-        l(i, j) = static_cast<fixed::Q30>((fixed::shifted(sum, doublings_[j] - 30) * inverse_[j]) >> 30);
+        const auto cut = static_cast<std::int32_t>(fixed::shifted(sum, doublings_[j] - 30));
+        l(i, j) = static_cast<fixed::Q30>((std::int64_t{cut} * inverse_[j]) >> 30);
         continue;
       }
       if (sum < kLeastPivot) {
@@ -71,7 +72,7 @@ bool FixedCholesky::inverse_columns(std::array<std::array<std::int32_t, 6>, 6>& 
       for (std::size_t k = j; k < i; ++k) sum -= fixed::product(columns[j][k], l(i, k));
       const std::int64_t half = fixed::times_wide(sum >> kSpare, static_cast<fixed::Q30>(inverse_[i] / 2));
       const std::int64_t element = fixed::shifted(half, doublings_[i] + 1 - (30 - kSpare));
-      if (fixed::places_of(element) > 31) return false;
+      if (!fixed::is_narrow(element)) return false;
       columns[j][i] = static_cast<std::int32_t>(element);
     }
   }

@@ -37,10 +37,10 @@ class FixedCholesky {
   fixed::Q30& l(std::size_t row, std::size_t column) { return below_[row * (row - 1) / 2 + column]; }
   fixed::Q30 l(std::size_t row, std::size_t column) const { return below_[row * (row - 1) / 2 + column]; }
 
-  std::array<fixed::Q30, 15> below_;     // the diagonal
-  std::array<std::int64_t, 6> inverse_;  // of the diagonal's mantissa, Q30
-  std::array<int, 6> doublings_;         // and its exponent
-  std::array<int, 6> places_;            // of 1/S
+  std::array<fixed::Q30, 15> below_;      // the diagonal
+  std::array<std::uint32_t, 6> inverse_;  // of the diagonal's mantissa, Q30
+  std::array<int, 6> doublings_;          // and its exponent
+  std::array<int, 6> places_;             // of 1/S
   bool good_ = true;
 };
 

@@ -6,6 +6,7 @@
 namespace pharos::pose {
 namespace {
 
+using fixed::high;
 using fixed::product;
 using fixed::Q30;
 using fixed::times;
@@ -28,19 +29,22 @@ struct AxisTerms {
 bool axis_terms(Q30 along, Q30 ahead, Q30 cosine, Q30 sine, AxisTerms& terms) {
   const auto opposite = static_cast<Q30>((product(ahead, cosine) - product(along, sine)) >> 30);
   const std::int64_t adjacent = (product(along, cosine) + product(ahead, sine)) >> 30;
-  if (adjacent < kLeastDepth || adjacent > std::numeric_limits<Q30>::max()) return false;
+  if (adjacent < kLeastDepth || !fixed::is_narrow(adjacent)) return false;
   const std::int32_t inverse = fixed::reciprocal(static_cast<Q30>(adjacent));
   const std::int64_t tangent = product(opposite, inverse) >> 27;
   if (tangent > kLargestTangent || tangent < -kLargestTangent) return false;
   const auto u = static_cast<Q30>(tangent);
-  const Q30 square = times(u, u);
-  const Q30 series = q30(1.0 / 3.0) - times(square, q30(1.0 / 5.0) - times(square, q30(1.0 / 7.0)));
-  terms.residual = u - times(u, times(square, series));
+  const std::int32_t square = high(u * 8, u * 8);  // Q34: below 2^-6
+  // u - u^3 (1/3 - u^2 (1/5 - u^2 / 7)), the inner brackets in Q30.
+  const Q30 fifth = q30(1.0 / 5.0) - high(square, q30(1.0 / 7.0)) / 4;
+  const Q30 third = q30(1.0 / 3.0) - high(square, fifth) / 4;
+  terms.residual = u - high(high(u * 8, square * 4), third * 2) / 8;
   // along^2 + ahead^2 = adjacent^2 (1 + u^2).
-  const auto inverse_square = static_cast<std::int32_t>(product(inverse, inverse) >> 30);  // Q24
-  const std::int32_t scale = times(inverse_square, fixed::kOne - times(square, fixed::kOne - square));
-  terms.by_along = -static_cast<std::int32_t>(product(ahead, scale) >> 29);
-  terms.by_ahead = static_cast<std::int32_t>(product(along, scale) >> 29);
+  const std::int32_t inverse_square = high(inverse, inverse) * 4;  // Q24
+  const std::int32_t shrink = square - high(square, square) / 4;   // Q34
+  const std::int32_t scale = inverse_square - high(inverse_square, shrink) / 4;
+  terms.by_along = high(ahead, scale) * -8;
+  terms.by_ahead = high(along, scale) * 8;
   return true;
 }
 
@@ -72,20 +76,18 @@ bool add_sensor(const FixedSightings& s, const FixedSightings::Sensor& sensor, c
   const int places = s.length_places - s.body_places;
   FixedVector p;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::int64_t sum = std::int64_t{pose.centroid[k]} + (q[k] >> places);
-    if (fixed::places_of(sum) > 31) return false;
-    p[k] = static_cast<std::int32_t>(sum);
+    if (__builtin_add_overflow(pose.centroid[k], q[k] >> places, &p[k])) return false;
   }
+  // q in Q30 times a derivative in Q25 that fills what is free above it: Q25.
+  const auto part = [&q](std::int32_t derivative, std::size_t k) { return high(derivative * 8, q[k]) / 2; };
   AxisTerms t;
   if (sensor.seen[0]) {
     if (!axis_terms(p[0], p[2], sensor.cosine[0], sensor.sine[0], t)) return false;
-    add<3>({times(t.by_ahead, q[1]), times(t.by_along, q[2]) - times(t.by_ahead, q[0]), -times(t.by_along, q[1])}, t, n,
-           square_sum);
+    add<3>({part(t.by_ahead, 1), part(t.by_along, 2) - part(t.by_ahead, 0), -part(t.by_along, 1)}, t, n, square_sum);
   }
   if (sensor.seen[1]) {
     if (!axis_terms(p[1], p[2], sensor.cosine[1], sensor.sine[1], t)) return false;
-    add<4>({times(t.by_ahead, q[1]) - times(t.by_along, q[2]), -times(t.by_ahead, q[0]), times(t.by_along, q[0])}, t, n,
-           square_sum);
+    add<4>({part(t.by_ahead, 1) - part(t.by_along, 2), -part(t.by_ahead, 0), part(t.by_along, 0)}, t, n, square_sum);
   }
   return true;
 }
@@ -135,8 +137,7 @@ FixedStep FixedSystem::step(const FixedNormal& normal, double damping) const {
   const FixedCholesky::Vector full = factor.solved(half);
   step.solved = true;
   // g^T A^-1 g is the square of the half-solved vector.
-  int largest = 0;
-  for (const std::int64_t y : half.element) largest = std::max(largest, fixed::places_of(y));
+  const int largest = fixed::most_places_of(half.element);
   std::int64_t square = 0;
   for (const std::int64_t y : half.element) {
     const std::int64_t cut = fixed::shifted(y, 30 - largest);
@@ -175,29 +176,38 @@ FixedPose FixedSystem::stepped(const FixedPose& pose, const FixedStep& step) con
 
 double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const {
   // Half the sum of the columns' cross products is the turn's axis times its sine.
-  std::array<double, 6> d{};
+  std::array<std::int64_t, 6> d{};
   std::int64_t cosine = 0;
-  std::array<std::int64_t, 3> axis{};
   for (std::size_t c = 0; c < 3; ++c) {
     const FixedVector part = cross(a.column[c], b.column[c]);
     for (std::size_t i = 0; i < 3; ++i) {
-      axis[i] += part[i];
+      d[i] += part[i];
       cosine += product(a.column[c][i], b.column[c][i]) >> 30;
     }
   }
   // 1 + 2 cos: beyond half a radian the two are never the same.
   if (cosine < q30(0.87) + std::int64_t{fixed::kOne} + q30(0.87)) return 1e300;
+  // All in units of 2^-31, the turn in those of the normal equations too.
+  const int unit = sightings_.length_places - sightings_.body_places;
   for (std::size_t i = 0; i < 3; ++i) {
-    d[i] = fixed::to_double(axis[i], 31 + sightings_.length_places - sightings_.body_places);
-    d[i + 3] = fixed::to_double(std::int64_t{b.centroid[i]} - a.centroid[i], 30);
+    d[i] = fixed::shifted(d[i], -std::min(unit, 30));
+    d[i + 3] = (std::int64_t{b.centroid[i]} - a.centroid[i]) * 2;
   }
-  double square = 0.0;
+  // Vector and matrix scaled to 30 places each; so the sum of 36 products of three stays within 64 bits.
+  const int vector_cut = 30 - fixed::most_places_of(d);
+  const int matrix_cut = 30 - fixed::most_places_of(normal.matrix.lower);
+  std::array<std::int32_t, 6> v{};
+  for (std::size_t i = 0; i < 6; ++i) v[i] = static_cast<std::int32_t>(fixed::shifted(d[i], vector_cut));
+  std::int64_t square = 0;
   for (std::size_t i = 0; i < 6; ++i) {
-    double row = 0.5 * fixed::to_double(normal.matrix(i, i), 50) * d[i];
-    for (std::size_t j = 0; j < i; ++j) row += fixed::to_double(normal.matrix(i, j), 50) * d[j];
-    square += 2.0 * d[i] * row;
+    std::int64_t row = 0;
+    for (std::size_t j = 0; j <= i; ++j) {
+      const auto element = static_cast<std::int32_t>(fixed::shifted(normal.matrix(i, j), matrix_cut));
+      row += i == j ? product(element, v[j]) / 2 : product(element, v[j]);
+    }
+    square += fixed::times_wide(row, v[i]);
   }
-  return square;
+  return fixed::to_double(square, 50 + matrix_cut + 2 * (31 + vector_cut) - 30 - 1);
 }
 
 }  // namespace pharos::pose

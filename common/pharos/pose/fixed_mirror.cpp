@@ -13,8 +13,7 @@ using Symmetric = std::array<std::int64_t, 6>;
 
 // Scaled by the power of two that makes the largest element fill 29 places.
 std::array<std::int32_t, 6> normalised(const Symmetric& m) {
-  int largest = 0;
-  for (const std::int64_t x : m) largest = std::max(largest, fixed::places_of(x));
+  const int largest = fixed::most_places_of(m);
   std::array<std::int32_t, 6> out;
   for (std::size_t k = 0; k < 6; ++k) out[k] = static_cast<std::int32_t>(fixed::shifted(m[k], 29 - largest));
   return out;
@@ -35,8 +34,7 @@ Symmetric squared(const std::array<std::int32_t, 6>& m) {
 
 // Unit vector along v, whose elements stay below 2^30.
 FixedVector unit(const FixedVector& v) {
-  int largest = 0;
-  for (const std::int32_t x : v) largest = std::max(largest, fixed::places_of(x));
+  const int largest = fixed::most_places_of(v);
   std::array<std::int64_t, 3> scaled{};
   std::int64_t square = 0;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/pose/fixed_sightings.hpp"
 
+#include <limits>
+
 #include "pharos/base/units.hpp"
 
 namespace pharos::pose {
@@ -21,7 +23,7 @@ WideVector wide(const Vector3& v) {
 
 // The least n for which the vector is shorter than 2^n m.
 int length_places_of(const WideVector& v) {
-  const int largest = std::max({fixed::places_of(v[0]), fixed::places_of(v[1]), fixed::places_of(v[2])});
+  const int largest = fixed::most_places_of(v);
   std::int64_t square = 0;
   for (const std::int64_t x : v) {
     const std::int64_t scaled = fixed::shifted(x, 30 - largest);
@@ -127,21 +129,22 @@ LighthouseFromBody double_pose(const FixedSightings& sightings, const FixedPose&
   // One step of the polar decomposition's iteration, R (3 - R^T R) / 2, on a rotation that is one to 2^-28: what R^T R
   // departs from the unit matrix by is exact in integers, and small.
   LighthouseFromBody out;
-  std::array<std::array<double, 3>, 3> excess{};
+  std::array<std::array<std::int32_t, 3>, 3> excess{};  // 2^-57, half of what is too much
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       std::int64_t sum = i == j ? -(std::int64_t{1} << 60) : 0;
       for (std::size_t k = 0; k < 3; ++k) sum += fixed::product(pose.column[i][k], pose.column[j][k]);
-      excess[i][j] = excess[j][i] = fixed::to_double(sum, 61);
+      excess[i][j] = excess[j][i] = fixed::clamped(sum >> 4, std::numeric_limits<std::int32_t>::max());
     }
   }
   for (int i = 0; i < 3; ++i) {
     const auto r = static_cast<std::size_t>(i);
-    std::array<double, 3> row{};
-    for (std::size_t j = 0; j < 3; ++j) row[j] = fixed::to_double(pose.column[j][r], 30);
     std::int64_t origin = fixed::shifted(pose.centroid[r], sightings.length_places + kMetrePlaces - 30);
     for (std::size_t j = 0; j < 3; ++j) {
-      out.R(i, static_cast<int>(j)) = row[j] - (row[0] * excess[0][j] + row[1] * excess[1][j] + row[2] * excess[2][j]);
+      std::int64_t too_much = 0;  // 2^-87
+      for (std::size_t k = 0; k < 3; ++k) too_much += fixed::product(pose.column[k][r], excess[k][j]);
+      const std::int64_t element = (std::int64_t{pose.column[j][r]} << 30) - (too_much >> 27);
+      out.R(i, static_cast<int>(j)) = fixed::to_double(element, 60);
       origin -= fixed::times_wide(sightings.centre[j], pose.column[j][r]);
     }
     out.t[i] = fixed::to_double(origin, kMetrePlaces);
@@ -152,9 +155,9 @@ LighthouseFromBody double_pose(const FixedSightings& sightings, const FixedPose&
 FixedVector turned(const FixedPose& pose, const FixedVector& body) {
   FixedVector out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t sum = fixed::product(pose.column[0][i], body[0]) + fixed::product(pose.column[1][i], body[1]) +
-                             fixed::product(pose.column[2][i], body[2]);
-    out[i] = static_cast<std::int32_t>((sum + (std::int64_t{1} << 29)) >> 30);
+    out[i] = (fixed::high(pose.column[0][i], body[0]) + fixed::high(pose.column[1][i], body[1]) +
+              fixed::high(pose.column[2][i], body[2])) *
+             4;
   }
   return out;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/pose/warm.hpp"
 
-#include <cmath>
+#include <bit>
 
-#include "pharos/pose/covariance.hpp"
+#include "pharos/base/units.hpp"
 #include "pharos/pose/fixed_covariance.hpp"
 #include "pharos/pose/minima.hpp"
 
@@ -19,15 +19,27 @@ bool credible(const FixedMinima& minima, int rows, double variance) {
   return minima.best.converged && minima.best.normal.cost <= credible_chi2(rows - kPoseUnknowns) * variance;
 }
 
+// The root of a positive number to 2^-30 of it: where a soft one takes 800 instructions.
+double root(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const int exponent = static_cast<int>(bits >> 52U) - 1022;
+  const int half = exponent >= 0 ? (exponent + 1) / 2 : exponent / 2;  // value = 4^half times [1/8, 1)
+  const fixed::Root r = fixed::root_of(fixed::from_double(value, 60 - 2 * half));
+  return fixed::to_double(r.root, 30 + r.doublings - half);
+}
+
 bool fill(const FixedSightings& sightings, const FixedMinima& minima, double variance, LighthousePoseEstimate& e) {
-  Matrix6 unit;
-  if (!fixed_unit_covariance(sightings, minima.best.pose, minima.best.normal, unit)) return false;
+  if (!fixed_unit_covariance(sightings, minima.best.pose, minima.best.normal, e.covariance)) return false;
+  e.adop_deg_per_rad = kDegPerRad * root(e.covariance.topLeftCorner<3, 3>().trace());
+  e.pdop_m_per_rad = root(e.covariance.bottomRightCorner<3, 3>().trace());
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b <= a; ++b) e.covariance(a, b) = e.covariance(b, a) = e.covariance(a, b) * variance;
+  }
   e.pose = double_pose(sightings, minima.best.pose);
-  e.covariance = unit * variance;
-  e.adop_deg_per_rad = adop_of(unit);
-  e.pdop_m_per_rad = pdop_of(unit);
   e.observations = sightings.rows;
-  e.residual_rms = std::sqrt(minima.best.normal.cost / static_cast<double>(sightings.rows));
+  if (minima.best.normal.cost > 0.0) {
+    e.residual_rms = root(minima.best.normal.cost / static_cast<double>(sightings.rows));
+  }
   e.iterations = minima.iterations;
   if (!minima.has_second) return true;
   const double delta = (minima.second.normal.cost - minima.best.normal.cost) / variance;
