@@ -116,13 +116,15 @@ report::Reporter::Bytes Program::next_frame() {
 
 report::Reporter::Bytes Program::next_result() {
   // What the host does not want is taken all the same: the decoder holds only four sweeps, and the solver wants them.
-  while (const auto sweep = decoder_.take_sweep()) {
-    if (desk_ != nullptr) desk_->take(*sweep);
-    if (has_mode(wire::kModeSweeps)) return reporter_.report(*sweep);
+  while (const lighthouse::Sweep* sweep = decoder_.next_sweep()) {
+    const report::Reporter::Bytes frame = told(*sweep);
+    decoder_.drop_sweep();
+    if (has_mode(wire::kModeSweeps)) return frame;
   }
-  while (const auto payload = decoder_.take_ootx()) {
-    if (desk_ != nullptr) desk_->take(*payload);
-    if (has_mode(wire::kModeSweeps)) return reporter_.report(*payload);
+  while (const lighthouse::OotxPayload* payload = decoder_.next_ootx()) {
+    const report::Reporter::Bytes frame = told(*payload);
+    decoder_.drop_ootx();
+    if (has_mode(wire::kModeSweeps)) return frame;
   }
   if (desk_ != nullptr && has_mode(wire::kModePoses)) {
     if (const auto frame = desk_->next_frame(reporter_); !frame.empty()) return frame;
@@ -132,6 +134,12 @@ report::Reporter::Bytes Program::next_result() {
     return reporter_.flush_edges();
   }
   return {};
+}
+
+template <class Result>
+report::Reporter::Bytes Program::told(const Result& result) {
+  if (desk_ != nullptr) desk_->take(result);
+  return has_mode(wire::kModeSweeps) ? reporter_.report(result) : report::Reporter::Bytes{};
 }
 
 report::Reporter::Bytes Program::say(Due what) {
@@ -175,7 +183,7 @@ report::Reporter::Bytes Program::device_counters() {
   counters.edges_lost = board_.capture.edges_lost();
   counters.frames_sent = line_.frames();
   counters.frames_skipped = schedule_.skipped() + decoder_.counters().outputs_overflow;
-  if (desk_ != nullptr) counters.frames_skipped += desk_->sweeps_missed();  // poses that were never made
+  if (desk_ != nullptr) counters.poses_skipped = desk_->sweeps_missed();
   counters.commands = commands_.obeyed();
   counters.commands_refused = commands_.refused();
   counters.receive_errors = board_.line.receive_errors() + commands_.damaged();

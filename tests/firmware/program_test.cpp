@@ -85,11 +85,23 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
   wire::FrameEncoder encoder;
 };
 
+// A solver that comes by and is behind.
+class LateSolver final : public PoseDesk {
+ public:
+  void take(const lighthouse::Sweep&) override {}
+  void take(const lighthouse::OotxPayload&) override {}
+  report::Reporter::Bytes next_frame(report::Reporter&) override { return {}; }
+  std::uint32_t sweeps_missed() override { return 17; }
+  std::uint32_t take_busy_cycles() override { return 0; }
+  bool take_alive() override { return true; }
+};
+
 class ProgramTest : public testing::Test {
  protected:
-  void run(std::int64_t ticks) {
+  void run(std::int64_t ticks) { run(program, ticks); }
+  void run(Program& any, std::int64_t ticks) {
     const std::int64_t end = board.now + ticks;
-    for (; board.now < end; board.now += kTicksPerSecond / 1000) program.poll();
+    for (; board.now < end; board.now += kTicksPerSecond / 1000) any.poll();
   }
   TestBoard board;
   Program program{hal::Board{board, board, board}, nullptr};
@@ -117,6 +129,17 @@ TEST_F(ProgramTest, TellsTimeTenTimesAndCountersOnceASecond) {
   EXPECT_EQ(board.all<wire::Time>().size(), 50u);
   EXPECT_EQ(board.all<report::DeviceReport>().back().counters.stack_free_bytes, 321u);
   EXPECT_EQ(board.host.counters().frames_lost, 0u);
+}
+
+TEST_F(ProgramTest, TellsOfSweepsThatNoPoseWasMadeOf) {
+  run(2 * kTicksPerSecond);
+  EXPECT_EQ(board.all<report::DeviceReport>().back().counters.poses_skipped, 0u);
+  LateSolver solver;
+  Program posing{hal::Board{board, board, board}, &solver};
+  run(posing, 2 * kTicksPerSecond);
+  const auto counters = board.all<report::DeviceReport>().back().counters;
+  EXPECT_EQ(counters.poses_skipped, 17u);
+  EXPECT_EQ(counters.frames_skipped, 0u);
 }
 
 TEST_F(ProgramTest, RestartsOnlyAfterItsAckHasGoneOut) {

@@ -15,7 +15,7 @@ TICKS_PER_MS = 50_000
 HELLO, COUNTERS, TIME, SWEEP = 0x01, 0x02, 0x03, 0x10
 DECODER, DEVICE = 0, 1
 DEVICE_NAMES = ("capture_overflows", "edges_lost", "frames_sent", "frames_skipped", "commands", "commands_refused",
-                "receive_errors", "busy_permille", "stack_free_bytes")
+                "receive_errors", "busy_permille", "stack_free_bytes", "poses_skipped")
 
 
 def record(time, changed, levels, flags=0):
@@ -76,13 +76,13 @@ def device_counters(frames):
     return [dict(zip(DEVICE_NAMES, struct.unpack_from(f"<{payload[9]}I", payload, 10))) for payload in lists]
 
 
-def run(image, tape):
-    """What the image's UART said, as frames; the emulator must have come to the tape's end by itself."""
+def run(image, tape, options=()):
+    """What the image's UART said, as frames; the emulator must have come to the tape's end by itself. `options`: QEMU's."""
     emulator = pathlib.Path(__file__).resolve().parents[2] / "tools" / "lib" / "emulator.sh"
     with tempfile.TemporaryDirectory() as folder:
         line = pathlib.Path(folder) / "line"
-        script = f'. "{emulator}"; emulate "{image}" "{line}"'
-        done = subprocess.run(["bash", "-c", script], input=tape, timeout=300, check=False)
+        script = f'. "{emulator}"; emulate "{image}" "{line}" "$@"'
+        done = subprocess.run(["bash", "-c", script, "emulate", *options], input=tape, timeout=300, check=False)
         assert done.returncode == 0, f"the emulator ended with {done.returncode}"
         return frames_of(line.read_bytes())
 
