@@ -67,7 +67,7 @@ CycleView::Misfit CycleView::set(Axis axis, const HitFits& hits, double own_vari
   double explained = 0.0;
   for (std::size_t i = 0; i < 6; ++i) explained += best[i] * right[i];
   const double square = now.residual_square + before.residual_square - explained;
-  return {square > 0.0 ? square : 0.0, freedom};
+  return {square > 0.0 ? square / own_variance : 0.0, static_cast<double>(freedom)};
 }
 
 void CycleView::shifted(Axis axis, const Vector6& shift) {

@@ -13,14 +13,14 @@ namespace pharos::motion {
 /// how errors that stay with the sensors reach the pose.
 class CycleView {
  public:
-  /// Residual of both sweeps that no pose and no shift common to a sweep explains: sum of squares (rad^2) and its
-  /// degrees of freedom (0: not to be told).
+  /// Residual of both sweeps that no pose and no shift common to a sweep explains: chi-squared and its degrees of
+  /// freedom (0: not to be told).
   struct Misfit {
     double square = 0.0;
-    int freedom = 0;
+    double freedom = 0.0;
   };
 
-  /// Takes a sweep's hits, their residuals against the prediction. `own_variance`: hits noisier than that count less.
+  /// Takes a sweep's hits, their residuals against the prediction. `own_variance`: of a hit; noisier ones count less.
   Misfit set(Axis axis, const HitFits& hits, double own_variance, std::int64_t time_ticks);
   /// The belief was moved by `shift` after that sweep: its residuals are now against the belief moved.
   void shifted(Axis axis, const Vector6& shift);

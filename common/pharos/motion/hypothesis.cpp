@@ -18,6 +18,7 @@ constexpr double kLeastLevel = 0.8, kMostLevel = 1e4;
 constexpr double kLevelFreedom = 200.0, kLevelPrior = 2.0;
 // Up to here the learnt variance may be noise alone: narrow hits, a noisier rotor.
 constexpr double kWhiteLevel = 2.0;
+constexpr double kSurelyResting = 0.9;
 // One sweep moves it by no more than this many times its expectation.
 constexpr double kLargestRatio = 9.0;
 
@@ -93,20 +94,26 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     cost_ += bank_.correct(fit_.information, fit_.pose);
     cycle_view_.shifted(axis, pose_difference(bank_.belief().pose, fit_.pose));
     last_used_ticks_ = time;
-    learn_noise(misfit, own_variance);
+    learn_noise(misfit);
     systematic_ = std::max(0.0, level_ - kWhiteLevel) * own_variance * cycle_view_.unit_covariance();
   }
   belief_ = honest(bank_.belief());
   return fit_;
 }
 
-void Hypothesis::learn_noise(const CycleView::Misfit& misfit, double own_variance) {
-  if (misfit.freedom == 0) return;
+// A sweep of six hits and more shows their noise by itself. Five show it only together with the sweep before, and only
+// while the body rests: what a wrong rate does between two sweeps is not noise, and a filter that took it for noise
+// would grow deaf and its rates worse.
+void Hypothesis::learn_noise(const CycleView::Misfit& cycle) {
+  CycleView::Misfit seen = {fit_.information.misfit,
+                            static_cast<double>(fit_.information.hits - fit_.information.rank)};
   // Each sweep is looked at twice, with the one before and the one after.
-  const double freedom = 0.5 * misfit.freedom;
-  const double ratio = std::min(misfit.square / (misfit.freedom * level_ * own_variance), kLargestRatio);
-  level_freedom_ = std::min(level_freedom_ + freedom, kLevelFreedom);
-  const double gain = freedom / (level_freedom_ + kLevelPrior);
+  if (!(seen.freedom > 0.0) && bank_.probability().front() > kSurelyResting)
+    seen = {0.5 * cycle.square, 0.5 * cycle.freedom};
+  if (!(seen.freedom > 0.0)) return;
+  const double ratio = std::min(seen.square / seen.freedom, kLargestRatio);
+  level_freedom_ = std::min(level_freedom_ + seen.freedom, kLevelFreedom);
+  const double gain = seen.freedom / (level_freedom_ + kLevelPrior);
   level_ = std::clamp(level_ * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
 }
 

@@ -54,7 +54,7 @@ class Hypothesis {
 
  private:
   Hypothesis() = default;
-  void learn_noise(const CycleView::Misfit& misfit, double own_variance);
+  void learn_noise(const CycleView::Misfit& cycle);
   Belief honest(Belief belief) const;
 
   MotionBank bank_;

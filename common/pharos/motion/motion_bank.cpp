@@ -15,7 +15,7 @@ constexpr std::size_t kMoving = MotionBank::kMoving;
 struct Jerk {
   double rotation, translation;
 };
-constexpr std::array<Jerk, kMoving> kJerk{{{0.08, 0.03}, {10.0, 6.0}, {500000.0, 5000.0}}};
+constexpr std::array<Jerk, kMoving> kJerk{{{0.001, 0.0003}, {0.1, 0.03}, {10.0, 6.0}, {500000.0, 5000.0}}};
 // A body at rest creeps (a table that gives, warmth): a random walk of 0.1 mm and 0.006 deg in three hours keeps the
 // belief from growing deaf.
 constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s, m^2/s
@@ -24,15 +24,23 @@ constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s,
 struct Onset {
   double rotation_rate, velocity, rotation_acceleration, acceleration;
 };
-constexpr std::array<Onset, kMoving> kOnset{{{0.05, 0.02, 0.2, 0.05}, {0.3, 0.1, 2.0, 0.5}, {1.0, 0.3, 10.0, 3.0}}};
+constexpr std::array<Onset, kMoving> kOnset{
+    {{0.05, 0.02, 0.1, 0.03}, {0.1, 0.05, 0.3, 0.1}, {0.3, 0.1, 2.0, 0.5}, {1.0, 0.3, 10.0, 3.0}}};
 constexpr std::array<Onset, kMoving> kRoughlyKnown{
-    {{1.0, 0.5, 1.0, 0.5}, {2.0, 1.0, 10.0, 3.0}, {4.0, 1.5, 100.0, 50.0}}};
-constexpr std::array<Onset, kMoving> kUnknown{{{2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 10.0, 3.0}, {15.0, 5.0, 100.0, 50.0}}};
+    {{1.0, 0.5, 0.3, 0.1}, {1.0, 0.5, 1.0, 0.5}, {2.0, 1.0, 10.0, 3.0}, {4.0, 1.5, 100.0, 50.0}}};
+constexpr std::array<Onset, kMoving> kUnknown{
+    {{2.0, 1.0, 0.3, 0.1}, {2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 10.0, 3.0}, {15.0, 5.0, 100.0, 50.0}}};
 
-// Changes per second, from row to column: rest, calm, brisk, wild.
-constexpr double kChange[kModels][kModels] = {
-    {0.0, 0.2, 0.05, 0.01}, {0.2, 0.0, 0.5, 0.02}, {0.02, 1.0, 0.0, 0.2}, {0.02, 0.02, 1.0, 0.0}};
-// A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones.
+// Changes per second, from row to column: rest, even, calm, brisk, wild.
+constexpr double kChange[kModels][kModels] = {{0.0, 0.1, 0.1, 0.05, 0.01},
+                                              {0.1, 0.0, 0.2, 0.05, 0.01},
+                                              {0.1, 0.2, 0.0, 0.5, 0.02},
+                                              {0.01, 0.02, 1.0, 0.0, 0.2},
+                                              {0.01, 0.01, 0.02, 1.0, 0.0}};
+// A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones. So does one
+// that nobody believes and whose rates are these squared sigmas from the next calmer one's: rates of whole turns a
+// sweep show the same poses, and no sweep would ever contradict them.
+constexpr double kAstray = 100.0;
 constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kLongestStep_s = 0.05;
 // Shares below are not worth a blend; beliefs less probable are not corrected, but taken anew from the others.
@@ -96,7 +104,18 @@ void MotionBank::start(const LighthouseFromBody& pose, double sigma_rotation_rad
     moving_[m] = beginning_to_move(resting_, rate != nullptr ? kRoughlyKnown[m] : kUnknown[m]);
     if (rate != nullptr) moving_[m].rate = *rate;
   }
-  probability_ = {0.4, 0.2, 0.2, 0.2};
+  probability_ = {0.3, 0.15, 0.15, 0.2, 0.2};
+}
+
+bool MotionBank::lost(std::size_t m) const {
+  const MovingState& state = moving_[m];
+  if (state.pp.topLeftCorner<3, 3>().trace() > kLostRotation_rad * kLostRotation_rad) return true;
+  if (state.pp.bottomRightCorner<3, 3>().trace() > kLostPosition_m * kLostPosition_m) return true;
+  if (m == 0 || probability_[m + 1] > kNegligible) return false;
+  const MovingState& calmer = moving_[m - 1];
+  const Vector6 apart = (state.rate - calmer.rate).cwiseAbs2();
+  const Vector6 allowed = (state.rr + calmer.rr).diagonal();
+  return (apart.array() > kAstray * allowed.array()).any();
 }
 
 void MotionBank::interact(double dt_s) {
@@ -113,9 +132,7 @@ void MotionBank::interact(double dt_s) {
     for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];
   }
   for (std::size_t m = 0; m < kMoving; ++m) {
-    const bool lost = moving_[m].pp.topLeftCorner<3, 3>().trace() > kLostRotation_rad * kLostRotation_rad ||
-                      moving_[m].pp.bottomRightCorner<3, 3>().trace() > kLostPosition_m * kLostPosition_m;
-    if (!lost) continue;
+    if (!lost(m)) continue;
     if (m == 0) {
       moving_[0] = beginning_to_move(resting_, kOnset[0]);
     } else {
@@ -163,7 +180,7 @@ void MotionBank::startle(double dt_s) {
   set_variances(wildest.aa, unknown.rotation_acceleration, unknown.acceleration);
   wildest.pp += (dt_s * dt_s) * wildest.rr;
   wildest.rp += dt_s * wildest.rr;
-  probability_ = {0.01, 0.01, 0.08, 0.9};
+  probability_ = {0.005, 0.005, 0.01, 0.08, 0.9};
 }
 
 void MotionBank::predict_mean(double dt_s) {

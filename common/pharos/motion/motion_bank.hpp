@@ -18,11 +18,11 @@ struct Belief {
 };
 
 /// Interacting multiple models (Blom and Bar-Shalom, "The interacting multiple model algorithm", 1988): one belief that
-/// the body rests and three that it moves, calmly, briskly, wildly, each with its probability. This is what adapts the
-/// process noise: at once, and without a detector.
+/// the body rests and four that it moves, evenly, calmly, briskly, wildly, each with its probability. This is what
+/// adapts the process noise: at once, and without a detector.
 class MotionBank {
  public:
-  static constexpr std::size_t kMoving = 3;
+  static constexpr std::size_t kMoving = 4;
   static constexpr std::size_t kModels = 1 + kMoving;  // 0 rests
 
   /// Nothing is known but about where: sigmas of rotation (rad) and position (m); and perhaps a rough rate (rad/s,
@@ -43,9 +43,8 @@ class MotionBank {
 
  private:
   using Flow = std::array<std::array<double, kModels>, kModels>;
+  bool lost(std::size_t moving) const;
   void interact(double dt_s);
-  void feed_resting(const Flow& flow, double sum);
-  void feed_moving(std::size_t model, const Flow& flow, double sum, const MovingState& into);
 
   RestingState resting_;
   std::array<MovingState, kMoving> moving_;
