@@ -24,6 +24,7 @@ void add_flash(CLI::App& app, int& exit_code);     // tools/flash
 void add_bench(CLI::App& app, int& exit_code);     // tools/bench
 void add_evaluate(CLI::App& app, int& exit_code);  // tools/evaluate
 void add_layout(CLI::App& app, int& exit_code);    // tools/layout
+void add_ellipses(CLI::App& app, int& exit_code);  // tools/ellipses
 
 inline void add_commands(CLI::App& app, int& exit_code) {
   add_decode(app, exit_code);
@@ -38,6 +39,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_bench(app, exit_code);
   add_evaluate(app, exit_code);
   add_layout(app, exit_code);
+  add_ellipses(app, exit_code);
 }
 
 }  // namespace pharos::tools

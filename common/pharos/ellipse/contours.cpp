@@ -170,10 +170,11 @@ void follow_contours(ImageView<const std::uint16_t> magnitude, std::uint16_t hig
   Follower follower(places, workspace);
   for (std::uint32_t k = 0; k < workspace.edges.size(); ++k) {
     const EdgePoint& p = workspace.edges[k];
-    if (places.at(p.column, p.row) == 0 || magnitude.at(p.column, p.row) < high || lines.full()) continue;
+    if (places.at(p.column, p.row) == 0 || magnitude.at(p.column, p.row) < high) continue;
     const std::uint32_t begin = follower.count();
     follower.follow(k);
-    if (follower.count() > begin) lines.push_back({begin, follower.count()});
+    if (follower.count() == begin) continue;
+    if (!lines.push_back({begin, follower.count()})) ++workspace.counters.contours_dropped;
   }
   for (const EdgePoint& p : workspace.edges) places.at(p.column, p.row) = 0;  // what nobody followed
   Contours joined;

@@ -32,6 +32,7 @@ struct EllipseCounters {
   std::uint32_t edge_points = 0;
   std::uint32_t edge_points_dropped = 0;
   std::uint32_t contours = 0;
+  std::uint32_t contours_dropped = 0;
   std::uint32_t arcs = 0;
   std::uint32_t arcs_dropped = 0;
   std::uint32_t candidates = 0;
