@@ -4,7 +4,7 @@
 set(core ${PROJECT_SOURCE_DIR}/common/pharos)
 set(sources commands.cpp program.cpp main_decoder.cpp)
 list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
-foreach(part decoder edge_pairing flash_grouping ootx_frames rotor_clock slot_search slot_tracker sweep_collector
+foreach(part decoder edge_pairing event_order flash_grouping ootx_frames rotor_clock slot_search slot_tracker sweep_collector
     time_base)
   list(APPEND sources ${core}/lighthouse/${part}.cpp)
 endforeach()

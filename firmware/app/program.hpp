@@ -35,6 +35,8 @@ class Program {
   bool send();
   report::Reporter::Bytes next_frame();
   report::Reporter::Bytes next_result();
+  template <class Result>
+  report::Reporter::Bytes told(const Result& result);
   report::Reporter::Bytes say(Due what);
   report::Reporter::Bytes hello();
   report::Reporter::Bytes device_counters();

@@ -62,18 +62,23 @@ int main() {
     if (k == 0) first_ticks = edge.stamp_ticks;
     last_ticks = edge.stamp_ticks;
     std::uint32_t count = bench::instructions_of([&] { measured.decoder.push(edge); });
-    // As a program takes them: an optional that is assigned to is copied whole, full or not.
+    // As the program takes them (app/program.cpp): where they lie.
     for (bool more = true; more;) {
-      const bench::Count taking;
-      const auto sweep = measured.decoder.take_sweep();
-      count += taking.instructions();
-      more = sweep.has_value();
-      if (more) take(tracker, *sweep);
+      const bench::Count looking;
+      const lighthouse::Sweep* sweep = measured.decoder.next_sweep();
+      count += looking.instructions();
+      more = sweep != nullptr;
+      if (!more) continue;
+      take(tracker, *sweep);
+      count += bench::instructions_of([&] { measured.decoder.drop_sweep(); });
     }
-    const bench::Count taking;
-    const auto payload = measured.decoder.take_ootx();
-    count += taking.instructions();
-    if (payload) ++measured.payloads;
+    const bench::Count looking;
+    const bool payload = measured.decoder.next_ootx() != nullptr;
+    count += looking.instructions();
+    if (payload) {
+      ++measured.payloads;
+      measured.decoder.drop_ootx();
+    }
     measured.edge.add(count);
   }
   bench::say("edge", measured.edge);

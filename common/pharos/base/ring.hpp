@@ -23,9 +23,13 @@ class Ring {
   /// Removes the oldest element; the ring must not be empty.
   constexpr T pop() {
     const T item = items_[head_];
+    drop();
+    return item;
+  }
+  /// The same without looking at it.
+  constexpr void drop() {
     head_ = wrap(head_ + 1);
     --size_;
-    return item;
   }
   /// Element `index` counted from the oldest.
   constexpr const T& operator[](std::size_t index) const { return items_[wrap(head_ + index)]; }

@@ -11,6 +11,10 @@ namespace {
 /// A pulse that falls this long before the newest stamp has no elder still to come.
 constexpr std::int64_t kHoldTicks = TimeBase::kMaxBehindTicks;
 
+LightEvent event_of(const Edge& edge) {
+  return {edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall};
+}
+
 }  // namespace
 
 void Decoder::push(const Edge& edge) {
@@ -19,7 +23,7 @@ void Decoder::push(const Edge& edge) {
     ++counters_.edges_bad_sensor;
     return;
   }
-  admit({edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall});
+  if (!admit_at_once(event_of(edge))) admit_other(edge);
 }
 
 void Decoder::push(const RawPulse& pulse) {
@@ -36,17 +40,26 @@ void Decoder::push(const RawPulse& pulse) {
   } else if (width < kShortestPulseTicks) {
     ++counters_.pulses_glitch;
   } else {
-    admit({pulse.fall_ticks, static_cast<std::uint16_t>(width), pulse.sensor, LightEvent::Kind::kPulse});
+    const LightEvent event{pulse.fall_ticks, static_cast<std::uint16_t>(width), pulse.sensor, LightEvent::Kind::kPulse};
+    if (!admit_at_once(event)) admit(event);
   }
 }
 
+// Nearly all events are on time and behind all that are held: those never leave the processor's registers.
+inline bool Decoder::admit_at_once(LightEvent event) {
+  if (!time_base_.fits_at_once(event) || !order_.append(event)) return false;
+  // One that is not the newest is not behind `quiet_until_ticks_`, for the newest was not.
+  if (event.stamp_ticks > quiet_until_ticks_) give_out_until(event.stamp_ticks - kHoldTicks);
+  return true;
+}
+
+// Called with what push() was called with: so it needs no stack before it.
+[[gnu::noinline]] void Decoder::admit_other(const Edge& edge) { admit(event_of(edge)); }
+
 void Decoder::admit(LightEvent event) {
-  if (time_base_.fits_at_once(event)) {
-    sort_in(event);
-    give_out_until(time_base_.newest_ticks() - kHoldTicks);
-  } else {
-    judge(event);
-  }
+  if (!time_base_.fits_at_once(event)) return judge(event);
+  sort_in(event);
+  give_out_until(time_base_.newest_ticks() - kHoldTicks);
 }
 
 void Decoder::judge(LightEvent event) {
@@ -91,7 +104,8 @@ void Decoder::time_moved(std::int64_t newest_before) {
   if (newest >= newest_before) {
     give_out_until(newest_before);
     // A step back may have left some ahead of its time. They go now: the order holds no two that are minutes apart.
-    while (order_.has_before(std::min(oldest, newest - kHoldTicks))) handle(order_.pop());
+    const std::int64_t left_behind = std::min(oldest, newest - kHoldTicks);
+    give_out(static_cast<std::uint32_t>(std::min(left_behind, newest_before + TimeBase::kMaxAheadTicks)), 0);
   }
   if (newest_before - newest > TimeBase::kMaxAheadTicks) order_.restart_at(oldest);
   for (const LightEvent& event : time_base_.held()) sort_in(event);
@@ -100,7 +114,8 @@ void Decoder::time_moved(std::int64_t newest_before) {
 }
 
 void Decoder::sort_in(const LightEvent& event) {
-  if (order_.full()) handle(order_.pop());
+  if (order_.full()) give_out(order_.oldest_stamp(), EventOrder::kCapacity - 1);
+  quiet_until_ticks_ = INT64_MIN;
   const bool pulse = event.kind == LightEvent::Kind::kPulse;
   switch (order_.insert(event)) {
     case EventOrder::Verdict::kTaken:
@@ -115,46 +130,62 @@ void Decoder::sort_in(const LightEvent& event) {
 }
 
 void Decoder::give_out_until(std::int64_t stamp_ticks) {
-  while (order_.has_before(stamp_ticks)) handle(order_.pop());
-  pass_time(stamp_ticks);
+  give_out(static_cast<std::uint32_t>(stamp_ticks), 0);
+  if (stamp_ticks > deadline_ticks_) pass_time(stamp_ticks);
+  const std::int64_t last_quiet =
+      order_.empty() ? deadline_ticks_ : std::min(deadline_ticks_, order_.oldest_ticks() - 1);
+  quiet_until_ticks_ = std::min(last_quiet, INT64_MAX - kHoldTicks) + kHoldTicks;
 }
 
-void Decoder::handle(const LightEvent& event) {
-  if (event.kind == LightEvent::Kind::kPulse) {
-    handle(Pulse{event.stamp_ticks - event.width_ticks, event.width_ticks, event.sensor});
-    return;
-  }
-  if (const auto pulse = pairing_.push(event, counters_)) {
-    if (pulse->width_ticks < kShortestPulseTicks) {
-      ++counters_.pulses_glitch;
-    } else {
-      handle(*pulse);
+// All that is of `until_stamp` or before, but for the last `keep` of the order.
+void Decoder::give_out(std::uint32_t until_stamp, std::size_t keep) {
+  while (order_.size() > keep && order_.oldest_is_by(until_stamp)) {
+    const LightEvent event = order_.pop();
+    if (event.kind == LightEvent::Kind::kPulse) {
+      handle(Pulse{event.stamp_ticks - event.width_ticks, event.width_ticks, event.sensor}, event.stamp_ticks);
+    } else if (const auto pulse = pairing_.push(event, counters_)) {
+      handle(*pulse, event.stamp_ticks);
     }
   }
 }
 
-void Decoder::handle(const Pulse& pulse) {
-  pass_time(pulse.fall_ticks());
+inline void Decoder::handle(const Pulse& pulse, std::int64_t fall_ticks) {
+  if (pulse.width_ticks < kShortestPulseTicks) {
+    ++counters_.pulses_glitch;
+    return;
+  }
+  if (fall_ticks > deadline_ticks_) pass_time(fall_ticks);
   std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
-  const std::uint32_t bit = std::uint32_t{1} << pulse.sensor;
-  const std::int64_t overlap = last_fall - pulse.rise_ticks;
   // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
-  if ((fell_ & bit) != 0 && overlap > 0 && overlap <= kLongestPulseTicks) {
+  const auto overlap = static_cast<std::uint64_t>(last_fall - pulse.rise_ticks);
+  if (overlap - 1 < kLongestPulseTicks) {
     ++counters_.pulses_doubled;
     return;
   }
-  fell_ |= bit;
-  last_fall = pulse.fall_ticks();
+  last_fall = fall_ticks;
   if (pulse.width_ticks < kShortestFlashPulseTicks) {
     collector_.push(pulse, counters_);
-    return;
+  } else if (!grouping_.join(pulse)) {
+    handle_long(pulse);
   }
-  while (!grouping_.push(pulse)) close(grouping_.first_to_close());
+}
+
+void Decoder::handle_long(const Pulse& pulse) {
+  while (!grouping_.open(pulse)) {
+    close(grouping_.first_to_close());
+    if (grouping_.join(pulse)) break;
+  }
+  refresh_deadline();
 }
 
 void Decoder::pass_time(std::int64_t now_ticks) {
   while (now_ticks > grouping_.deadline_ticks()) close(grouping_.first_to_close());
   if (now_ticks > collector_.deadline_ticks()) collector_.pass_time(now_ticks, counters_);
+  refresh_deadline();
+}
+
+void Decoder::refresh_deadline() {
+  deadline_ticks_ = std::min(grouping_.deadline_ticks(), collector_.deadline_ticks());
 }
 
 void Decoder::close(FlashGroup& group) {
@@ -188,10 +219,11 @@ void Decoder::flush() {
   const std::int64_t newest_before = time_base_.newest_ticks();
   if (time_base_.end(given_up) == TimeBase::Verdict::kMoved) time_moved(newest_before);
   count_given_up(given_up);
-  while (!order_.empty()) handle(order_.pop());
+  give_out(order_.newest_stamp(), 0);
   pairing_.end(counters_);
   pass_time(INT64_MAX - 1);
   collector_.finish_all(counters_);
+  refresh_deadline();
 }
 
 std::optional<Sweep> Decoder::take_sweep() {

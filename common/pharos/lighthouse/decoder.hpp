@@ -40,6 +40,13 @@ class Decoder {
   /// End of the input: gives out what is still held back, as far as the output queue holds it.
   void flush();
 
+  /// The oldest sweep that waits, null when none does. It stands until drop_sweep(): half a kilobyte need not be
+  /// copied.
+  const Sweep* next_sweep() const { return collector_.has_finished() ? &collector_.finished() : nullptr; }
+  void drop_sweep() { collector_.drop_finished(); }
+  const OotxPayload* next_ootx() const { return payloads_.empty() ? nullptr : &payloads_.front(); }
+  void drop_ootx() { payloads_.drop(); }
+  /// The same for a caller that wants copies.
   std::optional<Sweep> take_sweep();
   std::optional<OotxPayload> take_ootx();
   const DecoderCounters& counters() const { return counters_; }
@@ -48,27 +55,41 @@ class Decoder {
 
  private:
   static constexpr std::size_t kHeldPayloads = 2;
+  static constexpr std::int64_t kNever = INT64_MIN / 2;
+  static constexpr std::array<std::int64_t, kMaxSensors> filled_with_never() {
+    std::array<std::int64_t, kMaxSensors> times{};
+    times.fill(kNever);
+    return times;
+  }
 
+  bool admit_at_once(LightEvent event);
+  void admit_other(const Edge& edge);
   void admit(LightEvent event);
   void judge(LightEvent event);
   void count_given_up(const TimeBase::GivenUp& given_up);
   void time_moved(std::int64_t newest_before);
   void sort_in(const LightEvent& event);
   void give_out_until(std::int64_t stamp_ticks);
-  void handle(const LightEvent& event);
-  void handle(const Pulse& pulse);
+  void give_out(std::uint32_t until_stamp, std::size_t keep);
+  void handle(const Pulse& pulse, std::int64_t fall_ticks);
+  void handle_long(const Pulse& pulse);
   void pass_time(std::int64_t now_ticks);
+  void refresh_deadline();
   void close(FlashGroup& group);
   void handle(const TrackedFlash& flash);
   std::int64_t decoded_ticks() const;
 
+  // Small things that every edge touches first: a load reaches 2 KiB from the object's start.
   DecoderCounters counters_;
+  /// When the next thing is to be done but for new light: the earliest deadline of grouping and collector.
+  std::int64_t deadline_ticks_ = INT64_MAX;
+  /// Nothing leaves the order and no deadline passes until the newest stamp lies behind this.
+  std::int64_t quiet_until_ticks_ = INT64_MIN;
   TimeBase time_base_;
-  EventOrder order_;
-  EdgePairing pairing_;
-  std::array<std::int64_t, kMaxSensors> last_fall_ticks_{};
-  std::uint32_t fell_ = 0;  // bit per sensor: last_fall_ticks_ holds something
   FlashGrouping grouping_;
+  EdgePairing pairing_;
+  std::array<std::int64_t, kMaxSensors> last_fall_ticks_ = filled_with_never();
+  EventOrder order_;
   SlotTracker tracker_;
   SweepCollector collector_;
   std::array<OotxFrames, kMaxStations> ootx_;

@@ -22,29 +22,38 @@ class EventOrder {
   enum class Verdict : std::uint8_t { kTaken, kDoubled, kLate };
   static constexpr std::size_t kCapacity = 128;
 
-  /// Must not be called when full().
-  Verdict insert(const LightEvent& event) {
-    if (event.stamp_ticks < given_out_ticks_) return Verdict::kLate;
-    const Held held{static_cast<std::uint32_t>(event.stamp_ticks), event.width_ticks, event.sensor, event.kind};
-    std::size_t place = size_;
-    while (place > 0 && ticks_difference(at(place - 1).stamp, held.stamp) > 0) --place;
-    for (std::size_t i = place; i > 0 && at(i - 1).stamp == held.stamp; --i) {
-      if (at(i - 1).sensor == held.sensor && at(i - 1).kind == held.kind) return Verdict::kDoubled;
-    }
-    for (std::size_t i = size_; i > place; --i) at(i) = at(i - 1);
-    at(place) = held;
-    ++size_;
+  /// Takes an event that comes behind all that are held, which most do; false, and nothing done, for any other.
+  bool append(const LightEvent& event) {
+    const Held held = held_of(event);
+    const std::int32_t after = ticks_difference(held.stamp, newest_.stamp);
+    // Edges of one tick mostly come by rising sensor: each further on than the last is none that came before.
+    const bool further = after > 0 || (after == 0 && held.what > newest_.what && held.what >= kFirstEdge);
+    if (!further || size_ - 1 >= kCapacity - 1) return false;  // none held, or full
+    newest_.stamp = held.stamp;
+    newest_.what = held.what;
     reference_ticks_ = event.stamp_ticks;
-    return Verdict::kTaken;
+    Held& place = at(size_++);
+    place.stamp = held.stamp;
+    place.what = held.what;
+    return true;
   }
-  bool has_before(std::int64_t stamp_ticks) const { return size_ > 0 && whole_stamp(at(0)) <= stamp_ticks; }
+  /// Takes any event. Must not be called when full().
+  Verdict insert(const LightEvent& event);
+
+  /// The oldest event's stamp; there must be one.
+  std::int64_t oldest_ticks() const { return whole_stamp(events_[head_].stamp); }
+  /// Whether the oldest event is of `stamp` (the low word of a time within seconds of all that are held) or before.
+  bool oldest_is_by(std::uint32_t stamp) const { return ticks_difference(stamp, events_[head_].stamp) >= 0; }
+  std::uint32_t oldest_stamp() const { return events_[head_].stamp; }
+  std::uint32_t newest_stamp() const { return newest_.stamp; }
   LightEvent pop() {
-    const LightEvent event = whole(at(0));
+    const LightEvent event = whole(events_[head_]);
     head_ = (head_ + 1) % kCapacity;
     --size_;
     given_out_ticks_ = event.stamp_ticks;
     return event;
   }
+  std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == kCapacity; }
 
@@ -53,32 +62,35 @@ class EventOrder {
     if (ticks < given_out_ticks_) given_out_ticks_ = ticks;
   }
   /// Removes the newest event if it lies behind `ticks`.
-  bool drop_after(std::int64_t ticks, LightEvent& dropped) {
-    if (size_ == 0 || whole_stamp(at(size_ - 1)) <= ticks) return false;
-    dropped = whole(at(--size_));
-    return true;
-  }
+  bool drop_after(std::int64_t ticks, LightEvent& dropped);
 
  private:
   struct Held {
     std::uint32_t stamp = 0;
-    std::uint16_t width_ticks = 0;
-    std::uint8_t sensor = 0;
-    LightEvent::Kind kind = LightEvent::Kind::kPulse;
+    std::uint32_t what = 0;  // kind, sensor, width from the top: 8, 8, 16 bits
   };
+  static constexpr std::uint32_t kFirstEdge = std::uint32_t{1} << 24U;
 
-  std::int64_t whole_stamp(const Held& held) const {
-    return reference_ticks_ + ticks_difference(held.stamp, static_cast<std::uint32_t>(reference_ticks_));
+  static Held held_of(const LightEvent& event) {
+    return {static_cast<std::uint32_t>(event.stamp_ticks),
+            static_cast<std::uint32_t>(event.kind) << 24U | std::uint32_t{event.sensor} << 16U | event.width_ticks};
   }
-  LightEvent whole(const Held& held) const { return {whole_stamp(held), held.width_ticks, held.sensor, held.kind}; }
+  std::int64_t whole_stamp(std::uint32_t stamp) const {
+    return reference_ticks_ + ticks_difference(stamp, static_cast<std::uint32_t>(reference_ticks_));
+  }
+  LightEvent whole(const Held& held) const {
+    return {whole_stamp(held.stamp), static_cast<std::uint16_t>(held.what), static_cast<std::uint8_t>(held.what >> 16U),
+            static_cast<LightEvent::Kind>(held.what >> 24U)};
+  }
   Held& at(std::size_t index) { return events_[(head_ + index) % kCapacity]; }
   const Held& at(std::size_t index) const { return events_[(head_ + index) % kCapacity]; }
 
-  std::array<Held, kCapacity> events_{};
   std::size_t head_ = 0;
   std::size_t size_ = 0;
-  std::int64_t given_out_ticks_ = INT64_MIN;
+  Held newest_;  // while any is held: the newest stamp, and the largest `what` of those that share it
   std::int64_t reference_ticks_ = 0;  // of the event last taken in
+  std::int64_t given_out_ticks_ = INT64_MIN;
+  std::array<Held, kCapacity> events_{};
 };
 
 }  // namespace pharos::lighthouse

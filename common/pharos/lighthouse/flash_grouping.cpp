@@ -6,29 +6,22 @@
 namespace pharos::lighthouse {
 
 FlashCandidate candidate_of(const FlashGroup& group) {
-  FlashCandidate candidate;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const Pulse pulse = group[k];
-    if (pulse.width_ticks > candidate.length_ticks) {
-      candidate.length_ticks = pulse.width_ticks;
-      candidate.start_ticks = pulse.rise_ticks;
-    }
-  }
-  candidate.sensors = static_cast<std::uint8_t>(group.size());
-  return candidate;
+  const Pulse longest = group[group.longest()];
+  return {longest.rise_ticks, longest.width_ticks, static_cast<std::uint8_t>(group.size())};
 }
 
-bool FlashGrouping::push(const Pulse& pulse) {
-  FlashGroup* free = nullptr;
-  for (FlashGroup& group : groups_) {
-    if (group.empty()) {
-      free = &group;
-      continue;
-    }
-    if (group.rises_with(pulse) && group.push(pulse)) return true;
+std::size_t FlashGroup::longest() const {
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < size_; ++k) {
+    if (width_ticks_[k] > width_ticks_[longest]) longest = k;
   }
-  if (free == nullptr) return false;
-  free->push(pulse);
+  return longest;
+}
+
+bool FlashGrouping::open(const Pulse& pulse) {
+  FlashGroup& group = groups_[1].empty() ? groups_[1] : groups_[0];
+  if (!group.empty()) return false;
+  group.push(pulse);
   refresh_deadline();
   return true;
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "pharos/base/capacity.hpp"
-#include "pharos/base/static_vector.hpp"
 #include "pharos/lighthouse/optical_timing.hpp"
 #include "pharos/lighthouse/pulse.hpp"
 
@@ -14,34 +13,39 @@ namespace pharos::lighthouse {
 /// Long pulses of several sensors that rise together: one flash, or something that looks like it.
 class FlashGroup {
  public:
-  bool empty() const { return pulses_.empty(); }
-  std::size_t size() const { return pulses_.size(); }
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
   Pulse operator[](std::size_t k) const {
-    return {first_rise_ticks_ + pulses_[k].rise_after_first, pulses_[k].width_ticks, pulses_[k].sensor};
+    return {first_rise_ticks_ + rise_after_first_[k], width_ticks_[k], sensor_[k]};
   }
+  /// Of the longest pulse, the first of several; there must be one.
+  std::size_t longest() const;
   /// Whether it rises with the others; the first of a group always does.
   bool rises_with(const Pulse& pulse) const {
-    const std::int64_t apart = pulse.rise_ticks - first_rise_ticks_;
-    return apart <= kFlashRiseSpreadTicks && apart >= -kFlashRiseSpreadTicks;
+    constexpr auto kSpread = static_cast<std::uint64_t>(kFlashRiseSpreadTicks);
+    return static_cast<std::uint64_t>(pulse.rise_ticks - first_rise_ticks_) + kSpread <= 2 * kSpread;
   }
   /// `pulse` rises with the others, or is the first; false when full.
   bool push(const Pulse& pulse) {
     if (empty()) first_rise_ticks_ = pulse.rise_ticks;
-    return pulses_.push_back({static_cast<std::int16_t>(pulse.rise_ticks - first_rise_ticks_),
-                              static_cast<std::uint16_t>(pulse.width_ticks), pulse.sensor});
+    if (size_ == kMaxSensors) return false;
+    rise_after_first_[size_] = static_cast<std::int16_t>(pulse.rise_ticks - first_rise_ticks_);
+    width_ticks_[size_] = static_cast<std::uint16_t>(pulse.width_ticks);
+    sensor_[size_] = pulse.sensor;
+    ++size_;
+    return true;
   }
-  void clear() { pulses_.clear(); }
+  void clear() { size_ = 0; }
   /// No pulse of this group can fall later.
   std::int64_t deadline_ticks() const { return first_rise_ticks_ + kFlashRiseSpreadTicks + kLongestPulseTicks; }
 
  private:
-  struct LongPulse {
-    std::int16_t rise_after_first = 0;  // within +-kFlashRiseSpreadTicks
-    std::uint16_t width_ticks = 0;
-    std::uint8_t sensor = 0;
-  };
-  StaticVector<LongPulse, kMaxSensors> pulses_;
   std::int64_t first_rise_ticks_ = 0;
+  std::size_t size_ = 0;
+  // Of each pulse; apart, for a whole one has five bytes.
+  std::array<std::int16_t, kMaxSensors> rise_after_first_{};  // within +-kFlashRiseSpreadTicks
+  std::array<std::uint16_t, kMaxSensors> width_ticks_{};
+  std::array<std::uint8_t, kMaxSensors> sensor_{};
 };
 
 /// What a group says as a whole.
@@ -59,9 +63,16 @@ class FlashGrouping {
  public:
   static constexpr std::size_t kOpenGroups = 2;
 
-  /// True when `pulse` found a place; false when both groups are of other times: close the one that first_to_close()
-  /// names, then push again.
-  bool push(const Pulse& pulse);
+  /// True when `pulse` rises with a group that is open and has room.
+  bool join(const Pulse& pulse) {
+    for (FlashGroup& group : groups_) {
+      if (!group.empty() && group.rises_with(pulse) && group.push(pulse)) return true;
+    }
+    return false;
+  }
+  /// `pulse`, which joined none, opens a group; false when none is free: close the one that first_to_close() names, and
+  /// begin again.
+  bool open(const Pulse& pulse);
   FlashGroup& first_to_close();
   /// Earliest time at which a group is complete; INT64_MAX when none is open.
   std::int64_t deadline_ticks() const { return deadline_; }

@@ -10,56 +10,68 @@ namespace {
 // for every turn not seen.
 constexpr std::int32_t kToleranceTicks = 120;
 constexpr std::int32_t kToleranceGrowthTicks = 40;
-/// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %).
-constexpr std::int64_t kPeriodSlackTicks = 833;
+/// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %). In 1/256 tick.
+constexpr std::int32_t kPeriodSlackUnits = 833 * 256;
 /// Longest gap over which extrapolate() answers.
 constexpr std::int64_t kLongestExtrapolationTicks = 300 * kTicksPerSecond;
-/// Up to here a turn may be off nominal by all its slack and still be counted right but for one.
-constexpr std::int64_t kShortTicks = 64 * std::int64_t{kTurnTicks};
+/// That many turns, and a power of two.
+constexpr std::int32_t kLongestExtrapolationDigit = 1 << 14;
+static_assert(kLongestExtrapolationTicks / kTurnTicks < kLongestExtrapolationDigit * 2 - 40);
 
 }  // namespace
-
-// Whole turns nearest to a time.
-std::int64_t RotorClock::turns_in(std::int64_t elapsed) const {
-  const std::int64_t period = period_;
-  if (elapsed < 0 || elapsed > kShortTicks) {
-    const std::int64_t half = elapsed < 0 ? -period / 2 : period / 2;
-    return (elapsed * kUnits + half) / period;
-  }
-  // The same without a 64-bit division, which a 32-bit core takes hundreds of instructions for: a guess by the nominal
-  // turn is off by one at the most.
-  std::int64_t turns = static_cast<std::uint32_t>(elapsed) / static_cast<std::uint32_t>(kTurnTicks);
-  std::int64_t rest = elapsed * kUnits + period / 2 - turns * period;
-  for (; rest < 0; rest += period) --turns;
-  for (; rest >= period; rest -= period) ++turns;
-  return turns;
-}
 
 RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   const std::int64_t elapsed = start_ticks - last_ticks_;
   if (!known() || elapsed < -kLongestExtrapolationTicks || elapsed > kLongestExtrapolationTicks) return {};
-  const std::int64_t turns = turns_in(elapsed);
-  const std::int64_t period = period_;
-  const std::int64_t residual = elapsed - (turns * period + kUnits / 2) / kUnits;
-  return {static_cast<std::int32_t>(turns), static_cast<std::int32_t>(residual), 0, true};
+  // Whole turns nearest to it. Digit by digit: a 64-bit division is a kilobyte of code on a 32-bit core.
+  const std::uint64_t period = period_;
+  std::uint64_t rest = static_cast<std::uint64_t>(elapsed < 0 ? -elapsed : elapsed) * kUnits + period / 2;
+  std::int32_t turns = 0;
+  for (std::int32_t digit = kLongestExtrapolationDigit; digit != 0; digit /= 2) {
+    if (rest < period * static_cast<std::uint32_t>(digit)) continue;
+    rest -= period * static_cast<std::uint32_t>(digit);
+    turns += digit;
+  }
+  if (elapsed < 0) turns = -turns;
+  const std::int64_t whole = static_cast<std::int64_t>(period) * turns;
+  return {turns, static_cast<std::int32_t>(elapsed - (whole + kUnits / 2) / kUnits), 0, true};
 }
 
 RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
-  if (start_ticks - last_ticks_ > std::int64_t{kLongestGapTurns + 1} * kTurnTicks) return {};
-  Fit fit = extrapolate(start_ticks);
-  if (fit.turns < 1 || fit.turns > kLongestGapTurns) return {};
-  fit.tolerance_ticks = kToleranceTicks + kToleranceGrowthTicks * fit.turns;
+  const auto elapsed = static_cast<std::uint64_t>(start_ticks - last_ticks_);
+  if (!known() || elapsed > std::uint64_t{kLongestGapTurns + 1} * kTurnTicks) return {};  // or negative
+  const auto ticks = static_cast<std::uint32_t>(elapsed);
+  // The nominal turn, from which none is off by more than 0.1 %, gives the turns but for one. What is left over is so
+  // far from 32 bits that the products may lose what is above them.
+  std::int32_t turns = static_cast<std::int32_t>((ticks + kTurnTicks / 2) / kTurnTicks);
+  auto rest = static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(turns) * period_);
+  const auto half = static_cast<std::int32_t>(period_ / 2);
+  if (rest < -half) {
+    --turns;
+    rest += static_cast<std::int32_t>(period_);
+  } else if (rest >= static_cast<std::int32_t>(period_) - half) {
+    ++turns;
+    rest -= static_cast<std::int32_t>(period_);
+  }
+  if (turns < 1 || turns > kLongestGapTurns) return {};
+  Fit fit;
+  fit.turns = turns;
+  fit.residual_ticks = -((static_cast<std::int32_t>(kUnits) / 2 - rest) >> kUnitBits);
+  fit.tolerance_ticks = kToleranceTicks + kToleranceGrowthTicks * turns;
   fit.within = fit.residual_ticks <= fit.tolerance_ticks && fit.residual_ticks >= -fit.tolerance_ticks;
   return fit;
 }
 
 void RotorClock::update(std::int64_t start_ticks, std::uint32_t slot) {
-  const Fit since = extrapolate(start_ticks);
-  if (known() && since.turns > 0 && since.turns <= kLongestGapTurns) {
-    const std::int64_t units = (start_ticks - last_ticks_) * kUnits;
-    const std::int64_t turn = since.turns == 1 ? units : units / since.turns;
-    const std::int64_t off_nominal = turn - kNominalPeriod;
-    if (off_nominal < kPeriodSlackTicks * kUnits && off_nominal > -kPeriodSlackTicks * kUnits) {
+  const Fit since = fit(start_ticks);
+  if (since.turns > 0) {
+    // How far off nominal: of all turns, in 32 bits as in fit(); of one, rounded down.
+    const auto ticks = static_cast<std::uint32_t>(start_ticks - last_ticks_);
+    const auto off_nominal =
+        static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(since.turns) * kNominalPeriod);
+    const std::int32_t off_a_turn = (off_nominal - (off_nominal < 0 ? since.turns - 1 : 0)) / since.turns;
+    if (off_a_turn < kPeriodSlackUnits && off_a_turn > -kPeriodSlackUnits) {
+      const auto turn = kNominalPeriod + static_cast<std::uint32_t>(off_a_turn);
       const auto weight = static_cast<std::int32_t>(std::min(count_, kAveragedTurns));
       period_ += static_cast<std::uint32_t>(static_cast<std::int32_t>(turn - period_) / weight);
       ++count_;

@@ -42,10 +42,9 @@ class RotorClock {
  private:
   // Turns are noisy by 10 ticks and far steadier than that: 16 of them are averaged.
   static constexpr std::uint32_t kAveragedTurns = 16;
-  static constexpr std::uint32_t kUnits = 256;  // of a tick, in period_
+  static constexpr int kUnitBits = 8;
+  static constexpr std::uint32_t kUnits = 1U << kUnitBits;  // of a tick, in period_
   static constexpr std::uint32_t kNominalPeriod = 213'333'333;
-
-  std::int64_t turns_in(std::int64_t elapsed) const;
 
   std::int64_t last_ticks_ = 0;
   std::uint32_t period_ = kNominalPeriod;

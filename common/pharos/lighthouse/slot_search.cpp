@@ -7,14 +7,14 @@ namespace pharos::lighthouse {
 namespace {
 
 /// Flashes of one station's two rotors are within 470 ticks of half a turn apart (99 %), and drift on over a few turns.
-constexpr std::int64_t kTrainToleranceTicks = 1000;
+constexpr std::int32_t kTrainToleranceTicks = 1000;
 /// Extremes of the second station's lag are within 700 of the median; the rotors' own spread comes on top.
-constexpr std::int64_t kCompanionToleranceTicks = 1700;
+constexpr std::int32_t kCompanionToleranceTicks = 1700;
 /// Real lengths are off nominal by -47..+78 on a strong sensor, less on a weak one; half a step of axis is 260.
 constexpr std::int32_t kLengthToleranceTicks = 259;
 constexpr std::uint32_t kRecent = 12;
 /// Groups older than this say nothing: rotors drift out of the tolerances above.
-constexpr std::int64_t kOldestSlots = 24;
+constexpr std::int32_t kOldestSlots = 24;
 
 bool length_fits(std::int32_t length, Axis axis, bool skip) {
   for (const bool data : {false, true}) {
@@ -29,8 +29,6 @@ std::uint32_t nearest_code(std::int32_t length) {
   while (code < 7 && length > (kFlashLengthTicks[code] + kFlashLengthTicks[code + 1]) / 2) ++code;
   return code;
 }
-
-std::int64_t distance(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
 
 }  // namespace
 
@@ -57,9 +55,12 @@ std::optional<SlotPlace> SlotSearch::place(std::size_t age, const SlotPattern& p
     if (companion && pattern.kind != SlotPattern::Kind::kBoth) continue;
     const std::int64_t lag = std::int64_t{position - pattern.newest.position} * kSecondFlashTicks;
     const std::int64_t whole = before + lag;
-    const std::int64_t slots = (whole + kSlotTicks / 2) / kSlotTicks;
-    const std::int64_t tolerance = companion ? kCompanionToleranceTicks : kTrainToleranceTicks;
-    if (slots >= 0 && slots <= kOldestSlots && distance(whole, slots * kSlotTicks) <= tolerance) {
+    const std::int32_t tolerance = companion ? kCompanionToleranceTicks : kTrainToleranceTicks;
+    if (whole < -tolerance || whole > kOldestSlots * kSlotTicks + tolerance) continue;
+    const auto ticks = static_cast<std::int32_t>(whole);
+    const std::int32_t slots = (ticks + kSlotTicks / 2) / kSlotTicks;
+    const std::int32_t off = ticks - slots * kSlotTicks;
+    if (off <= tolerance && off >= -tolerance) {
       return SlotPlace{position, pattern.newest.slot - static_cast<std::uint32_t>(slots)};
     }
   }

@@ -14,9 +14,9 @@ constexpr std::int32_t kLengthMarginTicks = 350;
 /// A station's usual length is off nominal by -47..+78 (measured).
 constexpr std::int32_t kLargestExcessTicks = 150;
 /// Half a turn after the station's other rotor: 470 ticks cover 99 %; drift over some turns comes on top.
-constexpr std::int64_t kOtherRotorToleranceTicks = 1000;
+constexpr std::int32_t kOtherRotorToleranceTicks = 1000;
 /// The other station's lag varies by 700 around its median.
-constexpr std::int64_t kOtherStationToleranceTicks = 1700;
+constexpr std::int32_t kOtherStationToleranceTicks = 1700;
 /// A pattern must explain this many more groups than the present lock did before it replaces it.
 constexpr std::uint32_t kSupersedesBy = 3;
 constexpr std::uint32_t kSuspiciousRejections = 5;
@@ -74,12 +74,13 @@ SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const
     for (std::uint8_t other = 0; other < kMaxStations; ++other) {
       if (other != position && kind_ != SlotPattern::Kind::kBoth) continue;
       const std::int64_t lag = std::int64_t{position - other} * kSecondFlashTicks;
-      const std::int64_t tolerance = other == position ? kOtherRotorToleranceTicks : kOtherStationToleranceTicks;
+      const std::int32_t tolerance = other == position ? kOtherRotorToleranceTicks : kOtherStationToleranceTicks;
       for (const RotorClock& sibling : station_[other].rotor) {
         const std::int64_t elapsed = start_ticks - sibling.last_ticks() - lag;
         if (!sibling.known() || elapsed < -kSlotTicks / 2 || elapsed > kLongestGap) continue;
-        const std::int64_t slots = (elapsed + kSlotTicks / 2) / kSlotTicks;
-        const std::int64_t residual = elapsed - slots * kSlotTicks;
+        const auto ticks = static_cast<std::int32_t>(elapsed);
+        const std::int32_t slots = (ticks + kSlotTicks / 2) / kSlotTicks;
+        const std::int32_t residual = ticks - slots * kSlotTicks;
         if (residual > tolerance || residual < -tolerance) continue;
         const std::uint32_t slot = sibling.last_slot() + static_cast<std::uint32_t>(slots);
         const Station& station = station_[position];

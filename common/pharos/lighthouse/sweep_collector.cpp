@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kSweepDoneTicks =
     std::int64_t{kSweepWindowEndTicks} + kFlashRiseSpreadTicks + 2 * kLongestPulseTicks;
 /// Before the next slot's hits can begin, a stray pulse is not for want of a flash.
-constexpr std::int64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
+constexpr std::uint64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
 
 }  // namespace
 
@@ -35,13 +35,14 @@ void SweepCollector::push(const Pulse& hit, DecoderCounters& counters) {
   bool flash_seen = false;
   for (Open& open : open_) {
     if (!open.ever || open.flash.skip) continue;
-    const std::int64_t after_flash = hit.rise_ticks - open.flash.start_ticks;
-    flash_seen = flash_seen || (after_flash >= 0 && after_flash < kNextWindowTicks);
+    const auto after_flash = static_cast<std::uint64_t>(hit.rise_ticks - open.flash.start_ticks);
+    if (after_flash >= kNextWindowTicks) continue;  // or before it
+    flash_seen = true;
     if (!open.open) continue;
-    const std::int64_t centre_half_ticks = 2 * after_flash + hit.width_ticks;
+    const std::int32_t centre_half_ticks = 2 * static_cast<std::int32_t>(after_flash) + hit.width_ticks;
     if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
     const bool kept = places_[open.place].hits.push_back(
-        {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), static_cast<std::int32_t>(centre_half_ticks)});
+        {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), centre_half_ticks});
     ++(kept ? counters.hits : counters.hits_overflow);
     return;
   }

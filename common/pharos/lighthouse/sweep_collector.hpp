@@ -46,14 +46,14 @@ class SweepCollector {
   void finish_until(std::int64_t start_ticks, DecoderCounters& counters);
   void finish(Open& open, DecoderCounters& counters);
 
-  std::array<Open, kMaxStations> open_;  // by station number
   std::int64_t deadline_ = INT64_MAX;
+  std::array<Open, kMaxStations> open_;  // by station number
   // A sweep is half a kilobyte: it is filled where it stays until it is taken. There is a place for every one that
   // waits or is open.
   static constexpr std::size_t kPlaces = kHeld + kMaxStations;
-  std::array<Sweep, kPlaces> places_;
   std::uint32_t free_ = (1U << kPlaces) - 1U;  // bit per place
   Ring<std::uint8_t, kHeld> finished_;         // places, oldest sweep first
+  std::array<Sweep, kPlaces> places_;
 };
 
 }  // namespace pharos::lighthouse

@@ -9,16 +9,15 @@ namespace {
 constexpr std::size_t kAgreeing = 4;
 constexpr std::int64_t kAgreeingSpanTicks = 1'000'000;   // 20 ms
 constexpr std::int64_t kShortStepBackTicks = 2'500'000;  // 50 ms
-constexpr std::int64_t kCounterSpanTicks = std::int64_t{1} << 32;
 /// Stamps beyond are no clock (91 years of ticks); sums of a few of them still fit 64 bits.
 constexpr std::int64_t kAbsurdTicks = std::int64_t{1} << 57;
 /// Only nonsense makes the offset grow so far; it stays there rather than overflow.
-constexpr std::int64_t kLargestOffsetTicks = std::int64_t{1} << 60;
+constexpr std::uint32_t kLargestOffsetSpans = std::uint32_t{1} << 28U;
 
 }  // namespace
 
 bool TimeBase::fits(std::int64_t stamp) const {
-  const std::int64_t ahead = stamp - raw_newest_;
+  const std::int64_t ahead = stamp - raw_newest();
   return started_ && ahead <= kMaxAheadTicks && ahead >= -kMaxBehindTicks;
 }
 
@@ -29,34 +28,34 @@ bool TimeBase::agrees_with_held(std::int64_t stamp) const {
 
 bool TimeBase::confirmed(std::int64_t decoded_ticks) const {
   if (held_.size() < kAgreeing) return false;
-  const std::int64_t step = held_newest_ - raw_newest_;
+  const std::int64_t step = held_newest_ - raw_newest();
   const bool short_step_back = step < 0 && step > -kShortStepBackTicks;
   if (!started_ || decoded_ticks == kNothingDecoded || short_step_back) return true;
   return held_.full() || held_newest_ - held_oldest_ >= kAgreeingSpanTicks;
 }
 
 void TimeBase::move_to_held(std::int64_t decoded_ticks) {
-  const std::int64_t step = held_newest_ - raw_newest_;
+  const std::int64_t step = held_newest_ - raw_newest();
   const bool short_step_back = started_ && step < 0 && step > -kShortStepBackTicks;
   if (decoded_ticks != kNothingDecoded && !short_step_back) {
-    const std::int64_t missing = decoded_ticks - (held_oldest_ + offset_);
-    if (missing > 0 && offset_ < kLargestOffsetTicks)
-      offset_ += (missing + kCounterSpanTicks - 1) / kCounterSpanTicks * kCounterSpanTicks;
+    const std::int64_t missing = decoded_ticks - (held_oldest_ + offset_ticks());
+    if (missing > 0 && offset_counter_spans_ < kLargestOffsetSpans)
+      offset_counter_spans_ += static_cast<std::uint32_t>((missing + INT64_C(0xFFFFFFFF)) >> 32U);
   }
-  raw_newest_ = held_newest_;
+  newest_ = held_newest_ + offset_ticks();
   started_ = true;
-  for (LightEvent& event : held_) event.stamp_ticks += offset_;
+  for (LightEvent& event : held_) event.stamp_ticks += offset_ticks();
 }
 
 void TimeBase::give_up(GivenUp& given_up) {
   for (const LightEvent& event : held_) {
-    const std::int64_t behind = raw_newest_ - event.stamp_ticks;
+    const std::int64_t behind = raw_newest() - event.stamp_ticks;
     const bool late = behind > 0 && behind < kShortStepBackTicks;
     const bool pulse = event.kind == LightEvent::Kind::kPulse;
     ++(late ? (pulse ? given_up.late_pulses : given_up.late_edges)
             : (pulse ? given_up.off_time_pulses : given_up.off_time_edges));
   }
-  held_.clear();
+  forget_held();
 }
 
 TimeBase::Verdict TimeBase::judge(LightEvent& event, std::int64_t decoded_ticks, GivenUp& given_up) {
@@ -64,8 +63,8 @@ TimeBase::Verdict TimeBase::judge(LightEvent& event, std::int64_t decoded_ticks,
   if (stamp > kAbsurdTicks || stamp < -kAbsurdTicks) return Verdict::kAbsurd;
   if (fits(stamp)) {
     give_up(given_up);
-    raw_newest_ = std::max(raw_newest_, stamp);
-    event.stamp_ticks += offset_;
+    event.stamp_ticks += offset_ticks();
+    newest_ = std::max(newest_, event.stamp_ticks);
     return Verdict::kFits;
   }
   if (!held_.empty() && !agrees_with_held(stamp)) give_up(given_up);
@@ -73,6 +72,7 @@ TimeBase::Verdict TimeBase::judge(LightEvent& event, std::int64_t decoded_ticks,
   held_newest_ = std::max(held_newest_, stamp);
   held_oldest_ = std::min(held_oldest_, stamp);
   held_.push_back(event);
+  steady_ = false;
   if (!confirmed(decoded_ticks)) return Verdict::kHeld;
   move_to_held(decoded_ticks);
   return Verdict::kMoved;
@@ -89,8 +89,8 @@ TimeBase::Verdict TimeBase::end(GivenUp& given_up) {
 }
 
 void TimeBase::advance(std::int64_t now_ticks) {
-  const std::int64_t ahead = difference(now_ticks, raw_newest_);
-  if (started_ && held_.empty() && ahead > 0 && ahead <= kMaxAheadTicks) raw_newest_ = now_ticks;
+  LightEvent now{now_ticks, 0, 0, LightEvent::Kind::kPulse};
+  fits_at_once(now);
 }
 
 }  // namespace pharos::lighthouse

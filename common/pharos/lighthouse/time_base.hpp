@@ -36,10 +36,14 @@ class TimeBase {
 
   /// Most stamps end here: on the base and nothing held. Puts `event` on unwrapped time.
   bool fits_at_once(LightEvent& event) {
-    const std::int64_t ahead = difference(event.stamp_ticks, raw_newest_);
-    if (!held_.empty() || !started_ || ahead > kMaxAheadTicks || ahead < -kMaxBehindTicks) return false;
-    if (ahead > 0) raw_newest_ = event.stamp_ticks;
-    event.stamp_ticks += offset_;
+    // As unsigned: no overflow, whatever the stamps.
+    const std::uint64_t stamp =
+        static_cast<std::uint64_t>(event.stamp_ticks) + (std::uint64_t{offset_counter_spans_} << 32U);
+    const std::uint64_t ahead = stamp - static_cast<std::uint64_t>(newest_);
+    constexpr auto kBehind = static_cast<std::uint64_t>(kMaxBehindTicks);
+    if (!steady_ || ahead + kBehind > kBehind + static_cast<std::uint64_t>(kMaxAheadTicks)) return false;
+    event.stamp_ticks = static_cast<std::int64_t>(stamp);
+    if (static_cast<std::int32_t>(ahead) > 0) newest_ = event.stamp_ticks;
     return true;
   }
   /// Everything else. `decoded_ticks`: time of the last thing decoded, or kNothingDecoded.
@@ -48,14 +52,17 @@ class TimeBase {
   Verdict end(GivenUp& given_up);
 
   const StaticVector<LightEvent, kMaxHeld>& held() const { return held_; }
-  void forget_held() { held_.clear(); }
+  void forget_held() {
+    held_.clear();
+    steady_ = started_;
+  }
   /// The caller's clock says that time has come this far.
   void advance(std::int64_t now_ticks);
 
-  bool started() const { return started_; }
-  std::int64_t newest_ticks() const { return raw_newest_ + offset_; }
+  /// On unwrapped time, as all that is passed on.
+  std::int64_t newest_ticks() const { return newest_; }
   /// What is added to the caller's stamps: a multiple of 2^32.
-  std::int64_t offset_ticks() const { return offset_; }
+  std::int64_t offset_ticks() const { return std::int64_t{offset_counter_spans_} << 32U; }
 
   static constexpr std::int64_t kNothingDecoded = INT64_MIN;
   static constexpr std::int64_t kMaxAheadTicks = 1'250'000;  // 25 ms: three slots
@@ -63,21 +70,19 @@ class TimeBase {
   static constexpr std::int64_t kMaxBehindTicks = kReorderTicks + kLongestPulseTicks;
 
  private:
-  /// As unsigned: no overflow, whatever the stamps.
-  static std::int64_t difference(std::int64_t later, std::int64_t earlier) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
-  }
+  std::int64_t raw_newest() const { return newest_ - offset_ticks(); }
   bool fits(std::int64_t stamp) const;
   bool agrees_with_held(std::int64_t stamp) const;
   bool confirmed(std::int64_t decoded_ticks) const;
   void move_to_held(std::int64_t decoded_ticks);
   void give_up(GivenUp& given_up);
 
-  std::int64_t raw_newest_ = 0;
-  std::int64_t offset_ = 0;
-  std::int64_t held_newest_ = 0;
-  std::int64_t held_oldest_ = 0;
+  std::int64_t newest_ = 0;
+  std::uint32_t offset_counter_spans_ = 0;  // 2^32 ticks each
   bool started_ = false;
+  bool steady_ = false;           // started and nothing held
+  std::int64_t held_newest_ = 0;  // as it came
+  std::int64_t held_oldest_ = 0;
   StaticVector<LightEvent, kMaxHeld> held_;
 };
 
