@@ -18,8 +18,8 @@ constexpr Q30 q30(double value) { return static_cast<Q30>(value * kOne); }
 constexpr double kLargestPhase_rad = 0.125, kLargestTilt_rad = 0.03125, kLargestOther_rad = 0.03125;
 /// Where the cosine of a bearing from straight ahead falls below 1/8.
 constexpr Q30 kWidest = q30(1.44);
-/// Rounding alone moves an answer by a few units.
-constexpr Q30 kConverged = 4;
+/// The step after one this small would be a thirtieth of it at the most: 8e-9 rad.
+constexpr Q30 kConverged = 256;
 constexpr int kMaxSteps = 12;
 constexpr std::int64_t kQuarterTurn = static_cast<std::int64_t>(kPi / 2 * kOne);
 
