@@ -85,7 +85,8 @@ std::vector<std::size_t> seen_facets(const ConvexBody& body, const std::vector<L
   return seen;
 }
 
-LayoutSearch::LayoutSearch(const ConvexBody& body, const std::vector<std::size_t>& facets, Rules rules, std::uint64_t seed)
+LayoutSearch::LayoutSearch(const ConvexBody& body, const std::vector<std::size_t>& facets, Rules rules,
+                           std::uint64_t seed)
     : body_(body), rules_(rules), seed_(seed), insets_(body.facets.size()) {
   double area = 0.0;
   for (const std::size_t f : facets) {
