@@ -27,6 +27,7 @@ struct Version {
   std::uint8_t minor;
   std::uint8_t patch;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison's zero for a pointer.
   auto operator<=>(const Version&) const = default;
 };
 
