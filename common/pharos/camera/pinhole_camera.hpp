@@ -23,6 +23,8 @@ struct PinholeCamera {
   double cy_px = 0.0;
   /// k1, k2, p1, p2, k3.
   std::array<double, 5> distortion{};
+
+  friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
 };
 
 /// Sizes and focal lengths positive, everything finite.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/bit_image.hpp"
+
+#include <algorithm>
+
+namespace pharos::tof {
+
+void BitImage::reset(std::int32_t width_px, std::int32_t height_px) {
+  width_ = std::clamp(width_px, 0, kMaxWidth_px);
+  height_ = std::clamp(height_px, 0, kMaxHeight_px);
+  std::fill_n(words_.begin(), static_cast<std::size_t>(height_ * kWords), std::uint64_t{0});
+}
+
+template <class Join>
+void BitImage::with_neighbours(BitImage& out, Join join) const {
+  out.reset(width_, height_);
+  const std::int32_t words = (width_ + 63) / 64;
+  const std::uint64_t last = width_ % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (width_ % 64)) - 1;
+  // Three rows joined; nothing beyond the image.
+  const auto column = [&](std::int32_t k, std::int32_t v) -> std::uint64_t {
+    if (k < 0 || k >= words) return 0;
+    const std::uint64_t above = v > 0 ? words_[static_cast<std::size_t>((v - 1) * kWords + k)] : 0;
+    const std::uint64_t below = v + 1 < height_ ? words_[static_cast<std::size_t>((v + 1) * kWords + k)] : 0;
+    return join(join(above, words_[static_cast<std::size_t>(v * kWords + k)]), below);
+  };
+  for (std::int32_t v = 0; v < height_; ++v) {
+    for (std::int32_t k = 0; k < words; ++k) {
+      const std::uint64_t here = column(k, v);
+      const std::uint64_t left = (here << 1U) | (column(k - 1, v) >> 63U);
+      const std::uint64_t right = (here >> 1U) | (column(k + 1, v) << 63U);
+      out.words_[static_cast<std::size_t>(v * kWords + k)] =
+          join(join(left, here), right) & (k + 1 < words ? ~std::uint64_t{0} : last);
+    }
+  }
+}
+
+void BitImage::erode(BitImage& out) const {
+  with_neighbours(out, [](std::uint64_t a, std::uint64_t b) { return a & b; });
+}
+
+void BitImage::dilate(BitImage& out) const {
+  with_neighbours(out, [](std::uint64_t a, std::uint64_t b) { return a | b; });
+}
+
+void open_and_close(BitImage& mask, BitImage& scratch) {
+  mask.erode(scratch);
+  scratch.dilate(mask);
+  mask.dilate(scratch);
+  scratch.erode(mask);
+}
+
+}  // namespace pharos::tof

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pharos/tof/tof_frame.hpp"
+
+namespace pharos::tof {
+
+/// A mask of one bit a pixel, 64 pixels a word: morphology costs a few instructions a word.
+class BitImage {
+ public:
+  /// All clear; the size is cut at kMaxWidth_px x kMaxHeight_px.
+  void reset(std::int32_t width_px, std::int32_t height_px);
+
+  std::int32_t width_px() const { return width_; }
+  std::int32_t height_px() const { return height_; }
+  bool at(std::int32_t u, std::int32_t v) const { return ((word(u, v) >> bit(u)) & 1U) != 0; }
+  bool contains(std::int32_t u, std::int32_t v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
+  void set(std::int32_t u, std::int32_t v) { word(u, v) |= std::uint64_t{1} << bit(u); }
+  void clear(std::int32_t u, std::int32_t v) { word(u, v) &= ~(std::uint64_t{1} << bit(u)); }
+
+  // With a square of 3 x 3 pixels; beyond the border nothing is set. `out` becomes the result.
+  void erode(BitImage& out) const;
+  void dilate(BitImage& out) const;
+
+ private:
+  static constexpr std::int32_t kWords = kMaxWidth_px / 64;
+  static_assert(kWords * 64 == kMaxWidth_px);
+
+  static unsigned bit(std::int32_t u) { return static_cast<unsigned>(u) & 63U; }
+  std::uint64_t& word(std::int32_t u, std::int32_t v) { return words_[static_cast<std::size_t>(v * kWords + u / 64)]; }
+  const std::uint64_t& word(std::int32_t u, std::int32_t v) const {
+    return words_[static_cast<std::size_t>(v * kWords + u / 64)];
+  }
+  template <class Join>
+  void with_neighbours(BitImage& out, Join join) const;
+
+  std::int32_t width_ = 0;
+  std::int32_t height_ = 0;
+  std::array<std::uint64_t, static_cast<std::size_t>(kWords* kMaxHeight_px)> words_{};
+};
+
+/// Opens, so that burrs and isolated points narrower than three pixels go (paper 000, 2.2.2), then closes holes and
+/// gaps of up to two pixels. In place. The other way round speckle would grow together before it could go.
+void open_and_close(BitImage& mask, BitImage& scratch);
+
+}  // namespace pharos::tof

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/tof/height_image.hpp"
+#include "pharos/tof/local_threshold.hpp"
+#include "pharos/tof/regions.hpp"
+#include "pharos/tof/ring_fit.hpp"
+
+namespace pharos::tof {
+
+/// Why a region of the depth image is no connector; in the order in which they are asked.
+enum class RegionVerdict : std::uint8_t { kConnector, kArea, kPlace, kAspect, kFill, kNotProud };
+
+/// A rectangle in a plane parallel to the ring's, in the axes of axes_of(normal) about the ring's centre.
+struct PlanarRectangle {
+  Vector2 centre_m = Vector2::Zero();
+  double angle_rad = 0.0;  ///< of its first side, from the first axis
+  Vector2 half_sides_m = Vector2::Zero();
+};
+
+/// A region that the local threshold found and what the filters said.
+struct RegionReport {
+  RegionVerdict verdict = RegionVerdict::kArea;
+  std::int32_t area_px = 0;
+  std::int32_t left = 0, top = 0, right = 0, bottom = 0;  ///< bounds in the frame, included
+  double aspect = 0.0;
+  double fill = 0.0;
+  double height_m = 0.0;      ///< of its face over the ring's plane
+  double step_m = 0.0;        ///< of its face over the median of its surroundings
+  double distance_m = 0.0;    ///< of its centre from the ring's
+  PlanarRectangle rectangle;  ///< least rectangle around it
+};
+
+/// Regions reported of one frame, the first met; beyond that only connectors are kept.
+inline constexpr std::size_t kMostRegions = 48;
+/// Connectors compared of one frame; satellites have two to four.
+inline constexpr std::size_t kMostConnectors = 8;
+
+struct ConnectorWorkspace {
+  std::array<std::uint16_t, static_cast<std::size_t>(kMaxPixels)> heights;
+  ThresholdWorkspace threshold;
+  BitImage mask;  ///< after morphology, of `rect`
+  BitImage scratch;
+  RegionWorkspace growing;
+  Region region;
+  PixelRect rect;  ///< of the frame that was searched
+  StaticVector<RegionReport, kMostRegions> regions;
+  StaticVector<RegionReport, kMostConnectors> connectors;
+};
+
+/// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,
+/// local threshold (5), morphology, region growing, filters by area, aspect ratio and fill in the ring's plane (so
+/// that tilt does not change them). Patches of noise pass all these: what is left must also stand over the median of
+/// its surroundings by more than noise can explain, and its outline be a step down. Results in the workspace,
+/// connectors nearest first.
+void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
+                     const ConnectorSettings& settings, ConnectorWorkspace& workspace);
+
+}  // namespace pharos::tof

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/connector_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+#include "pharos/tof/positive_inverse.hpp"
+
+namespace pharos::tof {
+namespace {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+constexpr int kSides = 4;
+constexpr int kPointsPerSide = 24;
+// Corners are round in the image: the part of a side between them.
+constexpr double kUsedShare = 0.75;
+constexpr int kSearch_px = 4;
+constexpr int kRounds = 3;
+constexpr double kGate = 3.0;
+constexpr double kMedianToSigma = 1.4826;
+constexpr double kLeastStrength = 0.3;
+constexpr int kLeastPerSide = 4;
+// Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
+constexpr double kCorrelation = 2.0;
+// What a region's centroid is good for, px: used where its edges are not seen.
+constexpr double kCentroidSigma_px = 0.3;
+
+struct SidePoint {
+  int side = 0;
+  Vector2 planar_m = Vector2::Zero();
+  double strength = 0.0;
+};
+using SidePoints = StaticVector<SidePoint, static_cast<std::size_t>(kSides* kPointsPerSide)>;
+
+Vector2 outward(const PlanarRectangle& rectangle, int side) {
+  const double angle = rectangle.angle_rad + 0.5 * kPi * side;
+  return {std::cos(angle), std::sin(angle)};
+}
+double half_side(const PlanarRectangle& rectangle, int side) { return rectangle.half_sides_m[side % 2]; }
+
+class FaceFitter {
+ public:
+  FaceFitter(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& ring)
+      : frame_(frame), camera_(camera), rays_(rays), ring_(ring), axes_(axes_of(ring.normal)), plane_(ring.plane()) {}
+
+  ConnectorFace fit(const RegionReport& region) {
+    ConnectorFace face;
+    face.rectangle = region.rectangle;
+    measure_heights(region, face);
+    metres_per_px_ = ring_.centre_m.z() / camera_.optics.fx_px;
+    const double coarse = kCentroidSigma_px * metres_per_px_;
+    face.covariance = coarse * coarse * Matrix2::Identity();
+    ConnectorFace refined = face;
+    for (int round = 0; round < kRounds; ++round) {
+      find_points(refined);
+      if (!improve(refined)) return face;
+    }
+    // A rectangle that ran away from its region followed something else's edges.
+    const Vector2 moved = refined.rectangle.centre_m - face.rectangle.centre_m;
+    if (moved.norm() > 2.0 * metres_per_px_ + 0.25 * face.rectangle.half_sides_m.maxCoeff()) return face;
+    return refined;
+  }
+
+ private:
+  Vector3 point(const Vector2& planar, double height) const {
+    return ring_.centre_m + planar.x() * axes_.first + planar.y() * axes_.second + height * ring_.normal;
+  }
+  Vector2 planar(const Vector2& pixel, double height) const {
+    const Vector2 ray = rays_.at(pixel.x(), pixel.y());
+    const double z = (1.0 - height * plane_.q.norm()) * plane_.z_m(ray);
+    const Vector3 arm = z * Vector3(ray.x(), ray.y(), 1.0) - ring_.centre_m;
+    return {axes_.first.dot(arm), axes_.second.dot(arm)};
+  }
+  // Height of the pixel at a plan position, NaN-free: false where it has none.
+  bool height_at(const Vector2& plan, double height, double& result) const {
+    const auto pixel = project(camera_.optics, point(plan, height));
+    if (!pixel) return false;
+    const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
+    const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
+    if (!frame_.depth.contains(u, v) || !has_depth(frame_.depth.at(u, v))) return false;
+    result = plane_.height_m(rays_.at(u, v), depth_z_m(camera_, frame_.depth.at(u, v)));
+    return true;
+  }
+
+  // The face's height from its inside, the foot's from a frame around it (median: a neighbour may stand there).
+  void measure_heights(const RegionReport& region, ConnectorFace& face) {
+    face.height_m = region.height_m;
+    constexpr int kGrid = 9;
+    std::array<double, kGrid * kGrid> heights{};
+    std::size_t count = 0;
+    const PlanarRectangle& r = region.rectangle;
+    for (int i = 0; i < kGrid; ++i) {
+      for (int j = 0; j < kGrid; ++j) {
+        const double s = 0.6 * (2.0 * i / (kGrid - 1) - 1.0) * r.half_sides_m.x();
+        const double t = 0.6 * (2.0 * j / (kGrid - 1) - 1.0) * r.half_sides_m.y();
+        double height = 0.0;
+        if (height_at(r.centre_m + s * outward(r, 0) + t * outward(r, 1), region.height_m, height)) {
+          heights[count++] = height;
+        }
+      }
+    }
+    if (count > 8) {
+      face.height_m = median(heights.data(), count);
+      double spread = 0.0;
+      for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - face.height_m);
+      spread = kMedianToSigma * median(heights.data(), count);
+      // Samples are as near as noise is correlated: a seventh of them count.
+      face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
+    } else {
+      face.sigma_height_m = 0.25 * kMostHeight_m;
+    }
+    constexpr int kAround = 64;
+    std::array<double, kAround> feet{};
+    std::size_t found = 0;
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = kTwoPi * k / kAround;
+      const Vector2 place = r.centre_m + 1.9 * r.half_sides_m.maxCoeff() * Vector2(std::cos(angle), std::sin(angle));
+      double height = 0.0;
+      if (height_at(place, 2.0 * region.height_m, height) && height < face.height_m) feet[found++] = height;
+    }
+    foot_m_ = found > 4 ? median(feet.data(), found) : face.height_m;
+  }
+
+  static double median(double* values, std::size_t count) {
+    double* middle = values + count / 2;
+    std::nth_element(values, middle, values + count);
+    return *middle;
+  }
+
+  void find_points(const ConnectorFace& face) {
+    points_.clear();
+    for (int side = 0; side < kSides; ++side) find_side(face, side);
+    if (points_.empty()) return;
+    std::array<double, kSides * kPointsPerSide> strengths{};
+    for (std::size_t i = 0; i < points_.size(); ++i) strengths[i] = points_[i].strength;
+    const double least = kLeastStrength * median(strengths.data(), points_.size());
+    std::size_t kept = 0;
+    for (const SidePoint& p : points_) {
+      if (p.strength >= least) points_[kept++] = p;
+    }
+    points_.resize(kept);
+  }
+
+  void find_side(const ConnectorFace& face, int side) {
+    const PlanarRectangle& r = face.rectangle;
+    const Vector2 normal = outward(r, side);
+    const Vector2 along(-normal.y(), normal.x());
+    const Vector2 middle = r.centre_m + half_side(r, side) * normal;
+    // The wall below this side is in sight where the side faces the camera: the silhouette is then the wall's foot.
+    const Vector3 normal_3d = normal.x() * axes_.first + normal.y() * axes_.second;
+    const bool wall_in_sight = normal_3d.dot(point(middle, face.height_m)) < 0.0;
+    const double height = wall_in_sight ? foot_m_ : face.height_m;
+    for (int k = 0; k < kPointsPerSide; ++k) {
+      const double t = kUsedShare * half_side(r, side + 1) * (2.0 * (k + 0.5) / kPointsPerSide - 1.0);
+      const Vector3 p = point(middle + t * along, height);
+      const auto pixel = project(camera_.optics, p);
+      if (!pixel) continue;
+      const Vector2 step = project_jacobian(camera_.optics, p) * normal_3d;
+      const Vector2 direction = step.normalized();
+      const ProfileEdge edge = steepest_on_profile(frame_.intensity, *pixel, direction, kSearch_px, -1.0);
+      if (!(edge.strength > 0.0)) continue;
+      points_.push_back({side, planar(*pixel + edge.offset_px * direction, height), edge.strength});
+    }
+  }
+
+  static Vector5 row_of(const PlanarRectangle& r, const SidePoint& p) {
+    const Vector2 normal = outward(r, p.side);
+    const Vector2 arm = p.planar_m - r.centre_m;
+    Vector5 row = Vector5::Zero();
+    row[0] = normal.x();
+    row[1] = normal.y();
+    row[2] = -Vector2(-normal.y(), normal.x()).dot(arm);
+    row[3 + p.side % 2] = 1.0;
+    return row;
+  }
+  static double residual(const PlanarRectangle& r, const SidePoint& p) {
+    return outward(r, p.side).dot(p.planar_m - r.centre_m) - half_side(r, p.side);
+  }
+
+  bool improve(ConnectorFace& face) const {
+    const std::size_t count = points_.size();
+    std::array<double, kSides * kPointsPerSide> sizes{};
+    // Each side has a place of its own yet: deviations about the sides' medians.
+    std::array<int, kSides> per_side{};
+    Vector5 change = Vector5::Zero();
+    double gate = 2.5 * metres_per_px_;
+    for (int pass = 0; pass < 4; ++pass) {
+      Matrix5 normal = Matrix5::Zero();
+      Vector5 right = Vector5::Zero();
+      double squares = 0.0;
+      per_side.fill(0);
+      int used = 0;
+      for (const SidePoint& p : points_) {
+        const Vector5 row = row_of(face.rectangle, p);
+        const double left = residual(face.rectangle, p) - row.dot(change);
+        if (!(std::fabs(left) < gate)) continue;
+        add_outer<5>(normal, row, 1.0);
+        right += row * residual(face.rectangle, p);
+        squares += left * left;
+        ++used;
+        ++per_side[static_cast<std::size_t>(p.side)];
+      }
+      for (const int n : per_side) {
+        if (n < kLeastPerSide) return false;
+      }
+      const auto inverse = positive_inverse<5>(normal);
+      if (!inverse) return false;
+      change = *inverse * right;
+      if (!change.allFinite()) return false;
+      if (pass == 3) {
+        const double variance = squares / std::max(1, used - 5);
+        face.covariance = kCorrelation * variance * inverse->topLeftCorner<2, 2>();
+        face.edge_rms_px = std::sqrt(variance) / metres_per_px_;
+        face.edge_points = used;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        sizes[i] = std::fabs(residual(face.rectangle, points_[i]) - row_of(face.rectangle, points_[i]).dot(change));
+      }
+      gate = std::max(0.1 * metres_per_px_, kGate * kMedianToSigma * median(sizes.data(), count));
+    }
+    face.rectangle.centre_m += change.head<2>();
+    face.rectangle.angle_rad += change[2];
+    face.rectangle.half_sides_m += change.tail<2>();
+    return face.rectangle.half_sides_m.minCoeff() > 0.0 && std::fabs(change[2]) < 0.5;
+  }
+
+  const TofFrame& frame_;
+  const DepthCamera& camera_;
+  const RayGrid& rays_;
+  const RingModel& ring_;
+  PlaneAxes axes_;
+  DepthPlane plane_;
+  double foot_m_ = 0.0;
+  double metres_per_px_ = 0.0;
+  SidePoints points_;
+};
+
+}  // namespace
+
+ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& ring,
+                       const RegionReport& region) {
+  return FaceFitter(frame, camera, rays, ring).fit(region);
+}
+
+}  // namespace pharos::tof

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "pharos/camera/depth_camera.hpp"
+#include "pharos/tof/ellipse_rows.hpp"
+#include "pharos/tof/ray_grid.hpp"
+#include "pharos/tof/tof_frame.hpp"
+
+namespace pharos::tof {
+
+/// A plane q . P = 1 in frame C: every ray r = (x/z, y/z, 1) meets it at 1/z = q . r. q in 1/m points away from the
+/// camera.
+///
+/// Inverse depth is linear in q and its noise does not grow with range (sigma_z does with the range's square), so that
+/// a plane is a linear least-squares problem in it.
+struct DepthPlane {
+  Vector3 q = Vector3::UnitZ();
+
+  double z_m(const Vector2& ray) const { return 1.0 / (q.x() * ray.x() + q.y() * ray.y() + q.z()); }
+  /// How far a point at depth z along the ray stands over the plane, towards the camera, m.
+  double height_m(const Vector2& ray, double z) const {
+    return (1.0 - z * (q.x() * ray.x() + q.y() * ray.y() + q.z())) / q.norm();
+  }
+  /// Unit normal towards the camera.
+  Vector3 normal() const { return -q.normalized(); }
+};
+
+/// A plane through depth pixels and how well they lie on it.
+struct PlaneFit {
+  DepthPlane plane;
+  /// Inverse covariance of q, m^2, from the scatter on the frame itself; neighbouring pixels' common noise is counted.
+  Matrix3 information = Matrix3::Zero();
+  double rms_m = 0.0;         ///< of depths along z
+  double inlier_share = 0.0;  ///< of the pixels between the ellipses that should have lain on it
+  double amplitude = 0.0;     ///< median of its pixels', counts
+  double correlation = 1.0;   ///< by what factor neighbours' common noise widens the covariance
+  std::int32_t pixels = 0;    ///< that the plane rests on
+};
+
+/// The region between two ellipses, shrunk by the margin that mixed (flying) pixels need.
+struct RingRegion {
+  EllipseRows inner;
+  EllipseRows outer;
+};
+RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& outer);
+
+/// Plane through the region's depths: least median of squares over triples, then least squares over what lies within
+/// three deviations, weighted by squared amplitude (sigma_z goes with 1 / amplitude). Nothing where fewer than
+/// kLeastPlanePixels have depth or they leave the plane open. Cost: some 0.3 ms for 4000 pixels.
+std::optional<PlaneFit> fit_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                  const RingRegion& region);
+
+/// Three unknowns; with fewer pixels than this the scatter itself is not known to a fifth.
+inline constexpr std::int32_t kLeastPlanePixels = 60;
+
+}  // namespace pharos::tof

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/frame_check.hpp"
+
+namespace pharos::tof {
+namespace {
+
+// A ring of a few thousand pixels is all that is needed, but so few in a whole frame are noise.
+constexpr std::int32_t kLeastDepthShare = 200;  // one pixel in this many
+constexpr std::uint16_t kFullScale = 65535;
+// Rows without anything in them, or rows that agree by chance, are fewer.
+constexpr std::int32_t kLeastStaleRows = 8;
+
+struct RowContent {
+  std::uint64_t hash = 0;
+  std::int32_t with_depth = 0;
+  std::int32_t saturated = 0;
+};
+
+// Multiplied and mixed pixel by pixel; 0 where no pixel has depth.
+RowContent read_row(const TofFrame& frame, std::int32_t v) {
+  constexpr std::uint64_t kPrime = 0x100000001b3U;
+  RowContent content;
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const std::uint16_t* depth = frame.depth.row(v);
+  const std::uint16_t* intensity = frame.intensity.row(v);
+  for (std::int32_t u = 0; u < frame.depth.width_px; ++u) {
+    hash = (hash ^ (static_cast<std::uint64_t>(depth[u]) << 16U | intensity[u])) * kPrime;
+    content.with_depth += has_depth(depth[u]) ? 1 : 0;
+    content.saturated += intensity[u] == kFullScale ? 1 : 0;
+  }
+  content.hash = content.with_depth > 0 ? hash | 1U : 0;
+  return content;
+}
+
+bool depth_scale_is_usable(const DepthCamera& camera) {
+  return camera.depth_scale_m > 0.0 && camera.depth_scale_m < 1.0 && camera.depth_origin_z_m > -10.0 &&
+         camera.depth_origin_z_m < 10.0;
+}
+
+}  // namespace
+
+std::optional<TofFailure> FrameCheck::check(const TofFrame& frame, const DepthCamera& camera) {
+  if (frame.intensity.empty() || frame.depth.empty() || !frame.intensity.same_size(frame.depth) ||
+      frame.depth.width_px > kMaxWidth_px || frame.depth.height_px > kMaxHeight_px) {
+    return TofFailure::kFrameSize;
+  }
+  if (camera.optics.width_px != frame.depth.width_px || camera.optics.height_px != frame.depth.height_px) {
+    return TofFailure::kCameraSize;
+  }
+  if (!is_usable(camera.optics) || !depth_scale_is_usable(camera)) return TofFailure::kCameraUnusable;
+  const bool comparable = height_px_ == frame.depth.height_px;
+  height_px_ = frame.depth.height_px;
+  std::int32_t with_depth = 0;
+  std::int32_t saturated = 0;
+  std::int32_t rows = 0;
+  std::int32_t repeated = 0;
+  for (std::int32_t v = 0; v < frame.depth.height_px; ++v) {
+    const RowContent content = read_row(frame, v);
+    std::uint64_t& before = rows_[static_cast<std::size_t>(v)];
+    with_depth += content.with_depth;
+    saturated += content.saturated;
+    rows += content.hash != 0 ? 1 : 0;
+    repeated += content.hash != 0 && content.hash == before ? 1 : 0;
+    before = content.hash;
+  }
+  const auto pixels = static_cast<std::int32_t>(frame.depth.pixels());
+  if (2 * saturated > pixels) return TofFailure::kSaturated;
+  if (with_depth < pixels / kLeastDepthShare) return TofFailure::kNoDepth;
+  // A frame that repeats as a whole is old, but true.
+  if (comparable && repeated >= kLeastStaleRows && repeated < rows) return TofFailure::kStaleRows;
+  return std::nullopt;
+}
+
+}  // namespace pharos::tof

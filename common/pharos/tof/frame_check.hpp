@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pharos/camera/depth_camera.hpp"
+#include "pharos/tof/tof_failure.hpp"
+#include "pharos/tof/tof_frame.hpp"
+
+namespace pharos::tof {
+
+/// Tells frames that cannot be worked with before any work is done. It remembers the last frame's rows: a buffer of
+/// which only a part was written shows rows that are equal to the last bit, which noise never gives.
+class FrameCheck {
+ public:
+  /// The first thing that is wrong, if any.
+  std::optional<TofFailure> check(const TofFrame& frame, const DepthCamera& camera);
+
+ private:
+  std::array<std::uint64_t, static_cast<std::size_t>(kMaxHeight_px)> rows_{};  // 0: empty row
+  std::int32_t height_px_ = 0;
+};
+
+}  // namespace pharos::tof

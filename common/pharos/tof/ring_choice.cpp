@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/ring_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+#include "pharos/tof/ring_extent.hpp"
+
+namespace pharos::tof {
+namespace {
+
+using ellipse::DetectedEllipse;
+using ellipse::Ellipse;
+
+// Narrower rings leave no pixel between their mixed edges.
+constexpr double kLeastWidth_px = 2.5;
+// Two circles of one plane have images of one shape but for perspective, a few per cent at these distances.
+constexpr double kMostShapeDifference = 0.12;
+// Pairs looked at and pairs measured: nested ellipses are few, and the right pair has the most pixels.
+constexpr std::size_t kMostPairs = 24;
+constexpr std::size_t kMostMeasured = 3;
+// Ellipses whose partner is looked for by depth where no pair was the ring.
+constexpr std::size_t kMostSingles = 12;
+// Share of the pixels between the ellipses that must lie on the plane: less than what is seen of the ring, as a boom
+// hides pixels of both.
+constexpr double kLeastInliers = 0.35;
+// Scatter about the plane over what the camera's noise would give at that range: beyond it is no plane.
+constexpr double kMostScatter = 3.0;
+// On the plane: distance of the circles' centres, in outer radii.
+constexpr double kMostEccentricity = 0.03;
+constexpr double kLeastStepShare = 0.6;
+constexpr double kMostEdgeRms_px = 1.0;
+// Chi-squared of three degrees of freedom that chance exceeds once in a million.
+constexpr double kMostDisagreement = 31.0;
+
+struct Pair {
+  const DetectedEllipse* outer = nullptr;
+  const DetectedEllipse* inner = nullptr;
+};
+
+struct Candidate {
+  std::array<Ellipse, 2> shape;  // by RingEdge
+  std::array<bool, 2> bright_inside{};
+  PlaneFit plane;
+  RingModel model;
+  double merit = 0.0;
+};
+
+bool nested(const Ellipse& outer, const Ellipse& inner, const RingSettings& settings) {
+  if (outer.b_px - inner.b_px < kLeastWidth_px || outer.a_px - inner.a_px < kLeastWidth_px) return false;
+  const double ratio = inner.a_px / outer.a_px;
+  if (ratio < settings.least_radius_ratio - 0.05 || ratio > settings.most_radius_ratio + 0.02) return false;
+  if (std::fabs(inner.b_px / inner.a_px - outer.b_px / outer.a_px) > kMostShapeDifference) return false;
+  const double apart = std::hypot(outer.cx_px - inner.cx_px, outer.cy_px - inner.cy_px);
+  return apart < outer.b_px - inner.b_px;
+}
+
+double expected_sigma_m(const DepthNoise& noise, double z) {
+  const double ratio = z / noise.range_m;
+  return noise.sigma_m * ratio * ratio;
+}
+
+// How many places beside the ring lie behind its plane, of those that tell.
+double step_share(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
+                  double radius_m, double least_step_m) {
+  constexpr int kPlaces = 72;
+  const PlaneAxes axes = axes_of(model.normal);
+  const DepthPlane plane = model.plane();
+  int behind = 0;
+  int level = 0;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double angle = kTwoPi * k / kPlaces;
+    const Vector3 place = model.centre_m + radius_m * (std::cos(angle) * axes.first + std::sin(angle) * axes.second);
+    const auto pixel = project(camera.optics, place);
+    if (!pixel) continue;
+    const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
+    const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
+    if (!frame.depth.contains(u, v)) continue;
+    const std::uint16_t counts = frame.depth.at(u, v);
+    if (!has_depth(counts)) {
+      ++behind;  // nothing there
+      continue;
+    }
+    const double height = plane.height_m(rays.at(u, v), depth_z_m(camera, counts));
+    if (height < -least_step_m) ++behind;
+    if (std::fabs(height) <= least_step_m) ++level;  // what stands before the ring tells nothing
+  }
+  return behind + level > 0 ? static_cast<double>(behind) / (behind + level) : 0.0;
+}
+
+bool inside_image(const PinholeCamera& camera, const RingModel& model) {
+  constexpr int kPlaces = 36;
+  const PlaneAxes axes = axes_of(model.normal);
+  for (int k = 0; k < kPlaces; ++k) {
+    const double angle = kTwoPi * k / kPlaces;
+    const auto pixel = project(
+        camera, model.centre_m + model.radius_m[0] * (std::cos(angle) * axes.first + std::sin(angle) * axes.second));
+    if (!pixel || pixel->x() < 0.0 || pixel->y() < 0.0 || pixel->x() > camera.width_px - 1.0 ||
+        pixel->y() > camera.height_px - 1.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+class Chooser {
+ public:
+  Chooser(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingSettings& settings,
+          const DepthNoise& noise, RingFitWorkspace& workspace)
+      : frame_(frame), camera_(camera), rays_(rays), settings_(settings), noise_(noise), workspace_(workspace) {}
+
+  Result<RingChoice, TofFailure> choose(std::span<const DetectedEllipse> ellipses) {
+    if (ellipses.empty()) return TofFailure::kNoEllipses;
+    find_pairs(ellipses);
+    for (const Pair& pair : pairs_) {
+      examine({pair.outer->ellipse, pair.inner->ellipse}, {pair.outer->bright_inside, pair.inner->bright_inside});
+    }
+    RingChoice choice;
+    if (measure_best(choice)) return choice;
+    candidates_.clear();
+    examine_singles(ellipses);
+    if (measure_best(choice)) return choice;
+    return farthest_;
+  }
+
+ private:
+  // Larger ones first, as far as there is room: the ring is the largest of what is round on a satellite's face.
+  void find_pairs(std::span<const DetectedEllipse> ellipses) {
+    for (const DetectedEllipse& outer : ellipses) {
+      for (const DetectedEllipse& inner : ellipses) {
+        if (!nested(outer.ellipse, inner.ellipse, settings_)) continue;
+        if (pairs_.full()) {
+          if (pairs_.back().outer->ellipse.a_px >= outer.ellipse.a_px) continue;
+          pairs_.pop_back();
+        }
+        pairs_.push_back({&outer, &inner});
+        for (std::size_t i = pairs_.size() - 1;
+             i > 0 && pairs_[i].outer->ellipse.a_px > pairs_[i - 1].outer->ellipse.a_px; --i) {
+          std::swap(pairs_[i], pairs_[i - 1]);
+        }
+      }
+    }
+  }
+
+  void failed(TofFailure why) { farthest_ = std::max(farthest_, why); }
+
+  // Plane, size and step of the ring between two ellipses.
+  void examine(const std::array<Ellipse, 2>& shape, const std::array<bool, 2>& bright_inside) {
+    const Ellipse& outer = shape[index_of(RingEdge::kOuter)];
+    const Ellipse& inner = shape[index_of(RingEdge::kInner)];
+    const auto plane = fit_plane(frame_, camera_, rays_, ring_region(inner, outer));
+    if (!plane || plane->inlier_share < kLeastInliers) return failed(TofFailure::kNoRingPlane);
+    const auto model = ring_on_plane(plane->plane, rays_, outer, inner);
+    if (!model) return failed(TofFailure::kNoRingPlane);
+    if (plane->rms_m > kMostScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
+      return failed(TofFailure::kNoRingPlane);
+    }
+    if (!right_size(*model)) return failed(TofFailure::kRingSize);
+    if (!stands_out(*model, *plane)) return failed(TofFailure::kNoStep);
+    candidates_.push_back({shape, bright_inside, *plane, *model, plane->pixels * plane->inlier_share});
+  }
+
+  // Each of the largest ellipses as either of the ring's edges. A ring is brighter (or darker) than both its sides, so
+  // the edge that is missing falls the other way.
+  void examine_singles(std::span<const DetectedEllipse> ellipses) {
+    StaticVector<const DetectedEllipse*, kMostSingles> singles;
+    for (const DetectedEllipse& one : ellipses) {
+      if (singles.full()) {
+        if (singles.back()->ellipse.b_px >= one.ellipse.b_px) continue;
+        singles.pop_back();
+      }
+      singles.push_back(&one);
+      for (std::size_t i = singles.size() - 1; i > 0 && singles[i]->ellipse.b_px > singles[i - 1]->ellipse.b_px; --i) {
+        std::swap(singles[i], singles[i - 1]);
+      }
+    }
+    for (const DetectedEllipse* one : singles) {
+      for (const RingEdge known : kRingEdges) examine_single(*one, known);
+    }
+  }
+
+  void examine_single(const DetectedEllipse& one, RingEdge known) {
+    const auto model = ring_from_one_edge(frame_, camera_, rays_, one.ellipse, known, settings_.least_radius_ratio);
+    if (!model) return failed(TofFailure::kNoRingPlane);
+    if (!right_size(*model)) return failed(TofFailure::kRingSize);
+    const auto outer = image_of(*model, RingEdge::kOuter, camera_.optics);
+    const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
+    if (!outer || !inner) return failed(TofFailure::kRingLeavesImage);
+    const bool is_outer = known == RingEdge::kOuter;
+    examine({*outer, *inner}, {is_outer == one.bright_inside, is_outer != one.bright_inside});
+  }
+
+  bool right_size(const RingModel& model) const {
+    const double outer = model.radius_m[0];
+    const double ratio = model.radius_m[1] / outer;
+    return outer >= settings_.least_outer_radius_m && outer <= settings_.most_outer_radius_m &&
+           ratio >= settings_.least_radius_ratio && ratio <= settings_.most_radius_ratio;
+  }
+
+  bool stands_out(const RingModel& model, const PlaneFit& plane) const {
+    // Far enough from the edges that no pixel there is mixed with the ring's own.
+    const double beside = 3.5 * model.centre_m.z() / camera_.optics.fx_px / std::max(0.3, -model.normal.z());
+    const double step = std::max(settings_.least_step_m, 3.0 * plane.rms_m);
+    return step_share(frame_, camera_, rays_, model, model.radius_m[0] + beside, step) >= kLeastStepShare &&
+           step_share(frame_, camera_, rays_, model, model.radius_m[1] - beside, step) >= kLeastStepShare;
+  }
+
+  bool measure_best(RingChoice& choice) {
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+    for (std::size_t i = 0; i < candidates_.size() && i < kMostMeasured; ++i) {
+      if (measure(candidates_[i], choice)) return true;
+    }
+    return false;
+  }
+
+  bool measure(const Candidate& candidate, RingChoice& choice) {
+    if (!inside_image(camera_.optics, candidate.model)) {
+      failed(TofFailure::kRingLeavesImage);
+      return false;
+    }
+    const auto fit =
+        fit_ring(frame_, camera_, candidate.plane, candidate.model, candidate.bright_inside, noise_, workspace_);
+    if (!fit || fit->edge_rms_px > kMostEdgeRms_px) {
+      failed(TofFailure::kRingNotCircles);
+      return false;
+    }
+    if (fit->seen < settings_.least_seen) {
+      failed(TofFailure::kRingHidden);
+      return false;
+    }
+    if (!right_size(fit->model)) {
+      failed(TofFailure::kRingSize);
+      return false;
+    }
+    if (fit->disagreement > kMostDisagreement) {
+      failed(TofFailure::kRingInconsistent);
+      return false;
+    }
+    choice = {candidate.shape[0], candidate.shape[1], *fit};
+    return true;
+  }
+
+  const TofFrame& frame_;
+  const DepthCamera& camera_;
+  const RayGrid& rays_;
+  const RingSettings& settings_;
+  const DepthNoise& noise_;
+  RingFitWorkspace& workspace_;
+  StaticVector<Pair, kMostPairs> pairs_;
+  StaticVector<Candidate, kMostPairs> candidates_;
+  TofFailure farthest_ = TofFailure::kNoNestedPair;
+};
+
+}  // namespace
+
+Result<RingChoice, TofFailure> choose_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                           std::span<const DetectedEllipse> ellipses, const RingSettings& settings,
+                                           const DepthNoise& noise, RingFitWorkspace& workspace) {
+  return Chooser(frame, camera, rays, settings, noise, workspace).choose(ellipses);
+}
+
+}  // namespace pharos::tof

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/ring_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+#include "pharos/geometry/rotation.hpp"
+#include "pharos/tof/positive_inverse.hpp"
+#include "pharos/tof/sector_sums.hpp"
+
+namespace pharos::tof {
+namespace {
+
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+using Matrix37 = Eigen::Matrix<double, 3, 7>;
+
+constexpr int kRounds = 3;
+// The ellipses' own edges are a pixel off at worst; after the first round half of that is left.
+constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
+constexpr int kSteps = 3;  // of reweighting in each round
+constexpr double kGate = 3.0;
+constexpr double kMedianToSigma = 1.4826;
+constexpr double kLeastEdgeSigma_px = 0.02;
+constexpr std::size_t kLeastEdgePoints = 24;
+
+// d q / d unknowns of the plane that a model lies in: q = n / (n . c).
+Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
+  const double distance = model.normal.dot(model.centre_m);
+  Matrix37 jacobian = Matrix37::Zero();
+  const std::array<Vector3, 2> turned = {axes.first.cross(model.normal), axes.second.cross(model.normal)};
+  for (int k = 0; k < 2; ++k) {
+    const Vector3& dn = turned[static_cast<std::size_t>(k)];
+    jacobian.col(k) = dn / distance - model.normal * (dn.dot(model.centre_m) / (distance * distance));
+  }
+  for (int k = 0; k < 3; ++k) jacobian.col(2 + k) = -model.normal * (model.normal[k] / (distance * distance));
+  return jacobian;
+}
+
+// How an edge's place along its normal moves with the unknowns, px.
+Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const RingEdgePoint& point,
+                 RingEdge edge) {
+  const Vector3 by_point = project_jacobian(camera.optics, point.point_m).transpose() * point.normal_px;
+  const Vector3 arm = point.point_m - model.centre_m;
+  Vector7 row = Vector7::Zero();
+  row[0] = by_point.dot(axes.first.cross(arm));
+  row[1] = by_point.dot(axes.second.cross(arm));
+  row.segment<3>(2) = by_point;
+  row[5 + static_cast<int>(edge)] = by_point.dot(arm) / model.radius(edge);
+  return row;
+}
+
+RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by) {
+  RingModel result = model;
+  result.normal = (rotation_exp(by[0] * axes.first + by[1] * axes.second) * model.normal).normalized();
+  result.centre_m += by.segment<3>(2);
+  result.radius_m[0] += by[5];
+  result.radius_m[1] += by[6];
+  return result;
+}
+
+// Robust deviation of offsets about what `step` explains.
+double deviation(const RingEdgePoints& points, const std::array<double, kMostEdgePoints>& residuals) {
+  std::array<double, kMostEdgePoints> sizes{};
+  for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(points.size()));
+  return std::max(kLeastEdgeSigma_px, kMedianToSigma * *middle);
+}
+
+// One circle's share of the normal equations, linear in the unknowns about the model.
+struct EdgeSums {
+  Matrix7 normal = Matrix7::Zero();
+  Vector7 right = Vector7::Zero();
+  SectorSums residuals;
+};
+
+EdgeSums edge_sums(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes,
+                   const RingEdgePoints& points, RingEdge edge, const Vector7& step) {
+  std::array<double, kMostEdgePoints> residuals{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    residuals[i] = points[i].offset_px - edge_row(camera, model, axes, points[i], edge).dot(step);
+  }
+  const double gate = kGate * deviation(points, residuals);
+  EdgeSums sums;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(std::fabs(residuals[i]) < gate)) continue;
+    const Vector7 row = edge_row(camera, model, axes, points[i], edge);
+    add_outer<7>(sums.normal, row, 1.0);
+    sums.right += row * points[i].offset_px;
+    sums.residuals.add(points[i].direction.x(), points[i].direction.y(), 1.0, residuals[i]);
+  }
+  return sums;
+}
+
+struct Solved {
+  Vector7 step = Vector7::Zero();
+  Matrix7 covariance = Matrix7::Zero();
+  double edge_squares = 0.0;
+  std::int32_t edge_points = 0;
+  double disagreement = 0.0;
+};
+
+// Both circles' edges and the depths' plane, reweighted from what they leave.
+std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& model, const PlaneFit& plane,
+                                  const std::array<RingEdgePoints, 2>& points) {
+  const PlaneAxes axes = axes_of(model.normal);
+  const Matrix37 by_plane = plane_jacobian(model, axes);
+  const Vector3 plane_offset = plane.plane.q - model.plane().q;
+  Solved solved;
+  for (int k = 0; k < kSteps; ++k) {
+    Matrix7 normal = by_plane.transpose() * plane.information * by_plane;
+    Vector7 right = by_plane.transpose() * (plane.information * plane_offset);
+    solved.edge_squares = 0.0;
+    solved.edge_points = 0;
+    for (const RingEdge edge : kRingEdges) {
+      const EdgeSums sums = edge_sums(camera, model, axes, points[index_of(edge)], edge, solved.step);
+      if (sums.residuals.count() < static_cast<int>(kLeastEdgePoints)) return std::nullopt;
+      const double variance =
+          std::max(kLeastEdgeSigma_px * kLeastEdgeSigma_px, sums.residuals.variance()) * sums.residuals.correlation(4);
+      normal += sums.normal / variance;
+      right += sums.right / variance;
+      solved.edge_squares += sums.residuals.variance() * sums.residuals.count();
+      solved.edge_points += sums.residuals.count();
+    }
+    const auto covariance = positive_inverse<7>(normal);
+    if (!covariance) return std::nullopt;
+    solved.covariance = *covariance;
+    solved.step = solved.covariance * right;
+    if (!solved.step.allFinite()) return std::nullopt;
+  }
+  const Vector3 left = plane_offset - by_plane * solved.step;
+  solved.disagreement = left.dot(plane.information * left);
+  return solved;
+}
+
+// What a common error of all depths does: the plane moves along z, the centre and the radii along their rays.
+Matrix7 common_noise(const RingModel& model, double sigma_m) {
+  Vector7 moves = Vector7::Zero();
+  moves.segment<3>(2) = model.centre_m / model.centre_m.z();
+  moves[5] = model.radius_m[0] / model.centre_m.z();
+  moves[6] = model.radius_m[1] / model.centre_m.z();
+  return sigma_m * sigma_m * moves * moves.transpose();
+}
+
+bool is_sane(const RingModel& model) {
+  return model.centre_m.allFinite() && model.normal.allFinite() && model.centre_m.z() > 0.0 &&
+         model.radius_m[1] > 0.0 && model.radius_m[1] < model.radius_m[0] && model.normal.dot(model.centre_m) < 0.0;
+}
+
+// Points of an ellipse's contour on a plane, and the circle through them.
+struct PlanarCircle {
+  Vector3 centre_m;
+  double radius_m;
+};
+
+constexpr int kContourPoints = 32;
+
+std::optional<PlanarCircle> circle_on_plane(const DepthPlane& plane, const RayGrid& rays,
+                                            const ellipse::Ellipse& shape) {
+  const PlaneAxes axes = axes_of(plane.normal());
+  std::array<Vector3, kContourPoints> contour;
+  Vector3 mean = Vector3::Zero();
+  for (int k = 0; k < kContourPoints; ++k) {
+    const ellipse::PointPx pixel = ellipse::point_at(shape, kTwoPi * k / kContourPoints);
+    const Vector2 ray = rays.at(pixel.u, pixel.v);
+    const double z = plane.z_m(ray);
+    if (!(z > 0.0)) return std::nullopt;
+    contour[static_cast<std::size_t>(k)] = z * Vector3(ray.x(), ray.y(), 1.0);
+    mean += contour[static_cast<std::size_t>(k)] / kContourPoints;
+  }
+  // x^2 + y^2 = 2 a x + 2 b y + c about the mean: exact for points on a circle, which these nearly are.
+  Matrix3 normal = Matrix3::Zero();
+  Vector3 right = Vector3::Zero();
+  for (const Vector3& point : contour) {
+    const Vector3 row(2.0 * axes.first.dot(point - mean), 2.0 * axes.second.dot(point - mean), 1.0);
+    normal += row * row.transpose();
+    right += row * (point - mean).squaredNorm();
+  }
+  const auto inverse = positive_inverse<3>(normal);
+  if (!inverse) return std::nullopt;
+  const Vector3 circle = *inverse * right;
+  const double square = circle.z() + circle.x() * circle.x() + circle.y() * circle.y();
+  if (!circle.allFinite() || !(square > 0.0)) return std::nullopt;
+  return PlanarCircle{mean + circle.x() * axes.first + circle.y() * axes.second, std::sqrt(square)};
+}
+
+}  // namespace
+
+std::optional<RingModel> ring_on_plane(const DepthPlane& plane, const RayGrid& rays, const ellipse::Ellipse& outer,
+                                       const ellipse::Ellipse& inner) {
+  const auto wide = circle_on_plane(plane, rays, outer);
+  const auto narrow = circle_on_plane(plane, rays, inner);
+  if (!wide || !narrow) return std::nullopt;
+  return RingModel{0.5 * (wide->centre_m + narrow->centre_m), plane.normal(), {wide->radius_m, narrow->radius_m}};
+}
+
+std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const PlaneFit& plane,
+                                const RingModel& start, const std::array<bool, 2>& bright_inside,
+                                const DepthNoise& noise, RingFitWorkspace& workspace) {
+  RingFit fit;
+  fit.model = start;
+  for (const double search_px : kSearch_px) {
+    for (const RingEdge edge : kRingEdges) {
+      fit.seen = find_ring_edges(frame, camera, fit.model, edge, bright_inside[index_of(edge)], search_px,
+                                 4.0 * plane.rms_m, workspace.points[index_of(edge)]);
+    }
+    const auto solved = solve_round(camera, fit.model, plane, workspace.points);
+    if (!solved) return std::nullopt;
+    fit.model = moved(fit.model, axes_of(fit.model.normal), solved->step);
+    if (!is_sane(fit.model)) return std::nullopt;
+    fit.covariance = solved->covariance;
+    fit.edge_points = solved->edge_points;
+    fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
+    fit.disagreement = solved->disagreement;
+  }
+  fit.covariance += common_noise(fit.model, noise.common_sigma_m);
+  fit.plane_rms_m = plane.rms_m;
+  fit.amplitude = plane.amplitude;
+  fit.plane_pixels = plane.pixels;
+  return fit;
+}
+
+}  // namespace pharos::tof

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace pharos::tof {
+
+/// By how much neighbours' common noise widens what is averaged around a ring.
+///
+/// Residuals are summed by sector, longer than noise is correlated; the variance of these sums, each with its
+/// neighbours' share, is compared with what independent residuals would give (the sandwich estimate of a clustered
+/// sample, one number for all unknowns). Sixty-four sectors tell it to some 20 %, and need no model of the correlation.
+class SectorSums {
+ public:
+  /// A weighted residual in the direction (du, dv) from the ring's middle.
+  void add(double du, double dv, double weight, double residual) {
+    const std::size_t k = sector_of(du, dv);
+    sum_[k] += weight * residual;
+    weights_ += weight;
+    squares_ += weight * residual * residual;
+    ++count_;
+  }
+  int count() const { return count_; }
+  /// Variance of a residual of unit weight, its neighbours disregarded.
+  double variance() const { return count_ > 0 ? squares_ / count_ : 0.0; }
+  /// At least 1: what the variance of an average is, over what it would be of independent residuals. `unknowns` were
+  /// fitted.
+  double correlation(int unknowns) const {
+    double own = 0.0;
+    double across = 0.0;
+    for (std::size_t k = 0; k < kSectors; ++k) {
+      own += sum_[k] * sum_[k];
+      across += sum_[k] * sum_[(k + 1) % kSectors];
+    }
+    const double independent = variance() * weights_;
+    if (!(independent > 0.0)) return 1.0;
+    const double lost = static_cast<double>(kSectors) / (static_cast<int>(kSectors) - unknowns);
+    return std::max(1.0, lost * (own + 2.0 * std::max(0.0, across)) / independent);
+  }
+
+ private:
+  static constexpr std::size_t kSectors = 64;
+
+  // Grows with the angle of (du, dv); a diamond's perimeter stands for the circle's.
+  static std::size_t sector_of(double du, double dv) {
+    const double size = std::fabs(du) + std::fabs(dv);
+    if (!(size > 0.0)) return 0;
+    const double diamond = dv >= 0.0 ? 1.0 - du / size : 3.0 + du / size;  // 0 to 4
+    return std::min(kSectors - 1, static_cast<std::size_t>(diamond * (kSectors / 4.0)));
+  }
+
+  std::array<double, kSectors> sum_{};
+  double weights_ = 0.0;
+  double squares_ = 0.0;
+  int count_ = 0;
+};
+
+}  // namespace pharos::tof

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pharos/base/flag_word.hpp"
+#include "pharos/base/result.hpp"
+#include "pharos/ellipse/workspace.hpp"
+#include "pharos/tof/frame_check.hpp"
+#include "pharos/tof/ring_choice.hpp"
+#include "pharos/tof/target_frame.hpp"
+#include "pharos/tof/tof_settings.hpp"
+
+namespace pharos::tof {
+
+/// What a pose's reader should know beside its covariance.
+enum TofFlag : std::uint8_t {
+  /// No connector: the turn about Z' is unknown. Five degrees of freedom; the covariance about Z' is that of any turn.
+  kFlagNoConnector = 1U << 0U,
+  /// A tenth of the ring or more is hidden or has no depth.
+  kFlagRingPartlyHidden = 1U << 1U,
+  /// Only one connector was seen while something hides a part of the target: a nearer one may stand there.
+  kFlagLoneConnector = 1U << 2U,
+  /// The connector's edges were not found: its place is that of its region.
+  kFlagCoarseConnector = 1U << 3U,
+};
+inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},
+                                                           {kFlagRingPartlyHidden, "ring_partly_hidden"},
+                                                           {kFlagLoneConnector, "lone_connector"},
+                                                           {kFlagCoarseConnector, "coarse_connector"}}};
+
+/// The measured pose of one frame, T_camera_target, with everything that it rests on.
+struct TofPose {
+  TargetPose target;
+  /// Where two connectors are equally near: the pose by the other one.
+  std::optional<TargetPose> second;
+  RingChoice ring;
+  ConnectorFace connector;  ///< unless kFlagNoConnector
+  std::uint8_t flags = 0;
+
+  bool ambiguous() const { return second.has_value(); }
+  bool has_turn() const { return (flags & kFlagNoConnector) == 0; }
+};
+
+/// All memory of the path beside the stack, which needs some 60 KiB. Holds the last frame's rows and the lens' rays, so
+/// one workspace belongs to one camera. After measure_tof_pose it holds what was seen, for pictures: ellipse.found,
+/// ellipse.arcs, connector.regions, edges.
+struct TofWorkspace {
+  TofWorkspace() : ellipse(planes) {}
+  TofWorkspace(const TofWorkspace&) = delete;
+  TofWorkspace& operator=(const TofWorkspace&) = delete;
+
+  std::array<std::uint16_t, ellipse::kPlanes* static_cast<std::size_t>(kMaxPixels)> planes{};
+  ellipse::EllipseWorkspace ellipse;
+  FrameCheck frames;
+  RayGrid rays;
+  RingFitWorkspace edges;
+  ConnectorWorkspace connector;
+};
+static_assert(sizeof(TofWorkspace) <= 8U * 1024U * 1024U, "fits the board's external memory");
+
+/// The whole path (paper 000): ellipses in the intensity image, the docking ring by depth, connectors, target frame.
+///
+/// The error names what was missing; stage_of tells the stage. Every pose that comes back is finite, with a positive
+/// definite covariance. Costs are in the README.
+Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthCamera& camera,
+                                             const TofSettings& settings, TofWorkspace& workspace);
+
+}  // namespace pharos::tof

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/ellipse/settings.hpp"
+
+namespace pharos::tof {
+
+/// What is known of the docking ring beforehand. Limits, not values: the ring is measured, not assumed.
+struct RingSettings {
+  /// Rings between 0.6 and 1.2 m across are in use; a nozzle's rim is smaller. Metres.
+  double least_outer_radius_m = 0.25;
+  double most_outer_radius_m = 0.75;
+  /// Inner over outer radius.
+  double least_radius_ratio = 0.6;
+  double most_radius_ratio = 0.97;
+  /// Share of the ring's circumference that must be seen with depth on its plane.
+  double least_seen = 0.5;
+  /// How far the surroundings must lie behind the ring's plane, inside and outside: a painted circle has no step.
+  /// Metres.
+  double least_step_m = 0.015;
+};
+
+/// Noise of the depth camera, only for gates: what is reported is measured on the frame itself.
+struct DepthNoise {
+  /// Standard deviation of one pixel at `range_m`; grows with the range's square.
+  double sigma_m = 0.004;
+  double range_m = 3.16;
+  /// Common to all pixels of a frame: no number of pixels averages it away, so it is added to the covariance.
+  double common_sigma_m = 0.0003;
+};
+
+/// Local threshold (5): by the window's pixel count (Niblack's own form), or divided by its mean as printed.
+enum class ThresholdForm : std::uint8_t { kPixelCount, kAsPrinted };
+
+/// Limits of paper 000, section 2.2.2.
+struct ConnectorSettings {
+  ThresholdForm form = ThresholdForm::kPixelCount;
+  /// Half the window's width, w of (5), is the larger of the paper's 4 and this share of the outer ellipse's semi-axis:
+  /// where the window does not reach beyond the connector, half of its flat face lies below its own mean.
+  std::int32_t least_half_window_px = 4;
+  double window_share = 0.2;
+  double least_area_px = 20.0;
+  /// Largest area over that of the outer ellipse.
+  double most_area_share = 0.1;
+  double least_aspect = 0.7;
+  double most_aspect = 1.5;
+  double least_fill = 0.7;
+  /// How far from the ring's centre connectors are looked for, in outer radii.
+  double reach = 1.7;
+  /// How far its face must stand over its surroundings, m.
+  double least_height_m = 0.015;
+  /// Two whose distances differ by less are equally near: neither may be chosen. Metres.
+  double least_difference_m = 0.008;
+};
+
+struct TofSettings {
+  ellipse::EllipseSettings ellipse;
+  RingSettings ring;
+  DepthNoise noise;
+  ConnectorSettings connector;
+};
+
+}  // namespace pharos::tof
