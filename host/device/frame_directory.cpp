@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "host/device/pixel_format.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -38,6 +39,17 @@ void read_raw(const fs::path& path, std::int32_t width_px, std::int32_t height_p
   }
   frame.resize(width_px, height_px);
   unpack_abcy16(bytes, frame.depth, frame.intensity);
+}
+
+void read_image(const fs::path& path, std::int32_t width_px, std::int32_t height_px,
+                std::vector<std::uint16_t>& pixels) {
+  GreyImage image = read_grey_image(path.string());
+  if (image.width_px != width_px || image.height_px != height_px || image.bits != 16) {
+    throw InputError(path.string() + ": has " + std::to_string(image.width_px) + " x " +
+                     std::to_string(image.height_px) + " pixels of " + std::to_string(image.bits) + " bits, not " +
+                     std::to_string(width_px) + " x " + std::to_string(height_px) + " of 16; is it of this camera?");
+  }
+  pixels = std::move(image.pixels);
 }
 
 }  // namespace
@@ -83,7 +95,9 @@ fs::path FrameDirectory::path_of(const Entry& entry, const char* suffix) const {
 void FrameDirectory::read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const {
   const Entry& entry = entries_[index];
   if (entry.raw) return read_raw(path_of(entry, kRaw), width_px, height_px, frame);
-  throw InputError(path_of(entry, kIntensity).string() + ": PNG not yet");
+  frame.resize(width_px, height_px);
+  read_image(path_of(entry, kIntensity), width_px, height_px, frame.intensity);
+  read_image(path_of(entry, kDepth), width_px, height_px, frame.depth);
 }
 
 }  // namespace pharos::host

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "host/device/recorded_source.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -55,6 +56,19 @@ TEST_F(FrameDirectoryTest, ReadsFramesInTheOrderOfTheirNumbers) {
   frames.read(1, 2, 1, frame);
   EXPECT_EQ(frame.depth, (std::vector<std::uint16_t>{0x0303, 0x0303}));
   EXPECT_EQ(frame.width_px, 2);
+}
+
+TEST_F(FrameDirectoryTest, ReadsPairsOfImagesAndRefusesThoseOfAnotherSize) {
+  const std::vector<std::uint16_t> bright{1, 65'535, 300, 4};
+  const std::vector<std::uint16_t> far{0, 12'000, 40'000, 65'535};
+  write_grey_png((folder_ / "0000_intensity.png").string(), {bright.data(), 2, 2});
+  write_grey_png((folder_ / "0000_depth.png").string(), {far.data(), 2, 2});
+  const FrameDirectory frames(folder_.string());
+  DepthFrame frame;
+  frames.read(0, 2, 2, frame);
+  EXPECT_EQ(frame.intensity, bright);
+  EXPECT_EQ(frame.depth, far);
+  EXPECT_THAT(refusal([&] { frames.read(0, 4, 1, frame); }), HasSubstr("has 2 x 2 pixels of 16 bits, not 4 x 1 of 16"));
 }
 
 TEST_F(FrameDirectoryTest, SaysWhatIsWrong) {
