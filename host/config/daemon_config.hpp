@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "host/device/camera_settings.hpp"
+#include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/tof/tof_settings.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
@@ -35,10 +38,29 @@ struct TargetConfig {
   static constexpr const char* kReplayPrefix = "replay:";
 };
 
+/// One depth camera and the docking ring before it.
+struct CameraConfig {
+  /// Told in every message, as `tof/NAME`: letters, digits, `-` and `_`; no two cameras share one.
+  std::string name;
+  /// Of what it looks at; told in every message.
+  std::string target;
+  std::filesystem::path camera_file;
+  DepthCamera camera;
+  /// The camera on the network; its size is that of the camera file.
+  CameraSettings device;
+  /// Recorded frames (a directory as `pharos sim tof` writes it) in place of a camera on the network; empty: none.
+  std::filesystem::path frames;
+  tof::TofSettings tof;
+  /// A message tells the mean of this many frames; 1: every frame's pose.
+  int average_frames = 1;
+
+  bool is_recorded() const { return !frames.empty(); }
+};
+
 struct LcmConfig {
   /// Default: multicast that never leaves this computer (ttl 0).
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
-  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, STATUS.
+  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, STATUS.
   std::string channel_prefix = "PHAROS_";
 };
 
@@ -77,6 +99,7 @@ struct DaemonConfig {
   std::optional<RecordingConfig> recording;
   LogConfig log;
   std::vector<TargetConfig> targets;
+  std::vector<CameraConfig> cameras;
 };
 
 }  // namespace pharos::host

@@ -50,20 +50,45 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
       << '\n';
 }
 
+void describe_camera(std::ostream& out, const CameraConfig& camera) {
+  const CameraSettings& device = camera.device;
+  out << "camera " << camera.name << " (target " << camera.target << "):\n  ";
+  if (camera.is_recorded()) {
+    out << "frames: " << camera.frames.string();
+  } else {
+    out << "device:" << (device.serial.empty() ? "" : " serial number " + device.serial)
+        << (device.address.empty() ? "" : " at " + device.address) << ", "
+        << (device.mode.empty() ? "mode as the camera has it" : device.mode) << ", packets of " << device.packet_size
+        << ", follows PTP: " << yes_no(device.ptp);
+  }
+  if (device.frame_rate_hz > 0.0) out << ", " << device.frame_rate_hz << " frames/s";
+  out << "\n  lens: " << camera.camera.optics.width_px << " x " << camera.camera.optics.height_px << " pixels from "
+      << camera.camera_file.string() << "\n  ring: outer radius " << camera.tof.ring.least_outer_radius_m << " to "
+      << camera.tof.ring.most_outer_radius_m << " m\n  poses: "
+      << (camera.average_frames == 1 ? "of every frame"
+                                     : "means of " + std::to_string(camera.average_frames) + " frames")
+      << '\n';
+}
+
 }  // namespace
 
 std::string describe(const DaemonConfig& config) {
   std::ostringstream out;
-  out << "source: " << config.source << "\nlcm: " << config.lcm.url << ", channels " << config.lcm.channel_prefix
-      << "LIGHTHOUSE_POSE" << (config.publish.bearings ? ", " + config.lcm.channel_prefix + "LIGHTHOUSE_BEARINGS" : "")
-      << ", " << config.lcm.channel_prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s
-      << " s, status every " << config.publish.status_period_s << " s\nstate directory: "
+  const std::string& prefix = config.lcm.channel_prefix;
+  out << "source: " << config.source << "\nlcm: " << config.lcm.url << ", channels ";
+  if (!config.targets.empty()) {
+    out << prefix << "LIGHTHOUSE_POSE, " << (config.publish.bearings ? prefix + "LIGHTHOUSE_BEARINGS, " : "");
+  }
+  if (!config.cameras.empty()) out << prefix << "TOF_POSE, ";
+  out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
+      << config.publish.status_period_s << " s\nstate directory: "
       << (config.state_directory.empty() ? "none: calibrations are forgotten at a restart"
                                          : config.state_directory.string())
       << '\n';
   describe_recording(out, config.recording);
   describe_log(out, config.log);
   for (const TargetConfig& target : config.targets) describe_target(out, target);
+  for (const CameraConfig& camera : config.cameras) describe_camera(out, camera);
   return out.str();
 }
 

@@ -2,12 +2,13 @@
 #include "host/config/load_config.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "host/config/config_parts.hpp"
 #include "host/config/lcm_url.hpp"
+#include "host/config/load_camera.hpp"
 #include "host/config/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 
@@ -16,31 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxName = 32;    // so that a name fits log lines and file names
 constexpr std::size_t kMaxPrefix = 40;  // leaves 23 of LCM's 63 characters for the channel's own name
 constexpr double kMebibyte = 1 << 20;
 constexpr double kSecondsPerMinute = 60.0;
-
-bool all_of_set(const std::string& text, const char* punctuation) {
-  return std::all_of(text.begin(), text.end(), [&](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           (c != '\0' && std::string_view(punctuation).find(c) != std::string_view::npos);
-  });
-}
-
-std::string read_name(const TomlTable& table, std::string_view key, const std::string& name) {
-  if (name.empty() || name.size() > kMaxName || !all_of_set(name, "-_")) {
-    table.fail(key, "must be 1 to " + std::to_string(kMaxName) + " letters, digits, - or _");
-  }
-  return name;
-}
-
-fs::path read_path(const TomlTable& table, std::string_view key, const fs::path& folder) {
-  const std::string text = table.text(key);
-  if (text.empty()) table.fail(key, "is empty; give a path");
-  if (text.find('\0') != std::string::npos) table.fail(key, "holds a zero character; give a path");
-  return fs::path(text).is_absolute() ? fs::path(text) : folder / text;
-}
 
 LcmConfig read_lcm(const TomlTable& table) {
   LcmConfig lcm;
@@ -167,7 +146,6 @@ std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& fo
                              (taken->second == target.port ? "" : ", as \"" + taken->second + "\""));
     }
   }
-  if (targets.empty()) root.fail("target", "is missing; add a [[target]] with name, port and target_file");
   return targets;
 }
 
@@ -180,6 +158,12 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surr
   if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
   config.log = read_log(root.table_or_empty("log"), folder);
   config.targets = read_targets(root, folder, surroundings);
+  config.cameras = read_cameras(root, folder, surroundings);
+  if (config.targets.empty() && config.cameras.empty()) {
+    root.fail("target",
+              "is missing; add a [[target]] with name, port and target_file, or a [[camera]] with name, target, "
+              "camera_file and serial");
+  }
   root.reject_unknown();
   return config;
 }

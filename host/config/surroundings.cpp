@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "host/device/frame_directory.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"
@@ -26,6 +27,8 @@ void check_recording(const fs::path& file) {
   }
   const StreamReader reads_the_head{ByteSource(file.string())};
 }
+
+void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }
 
 std::string identity(const std::string& path) {
   struct stat about {};
@@ -60,9 +63,15 @@ void add_trouble(std::vector<std::string>& troubles, const char* key, const fs::
 
 }  // namespace
 
-Surroundings this_computer() { return {read_target, check_recording, identity, calibrate::read_calibration_file}; }
+Surroundings this_computer() {
+  return {read_target, check_recording, identity, calibrate::read_calibration_file, read_camera_file, check_frames};
+}
 
 calibrate::CalibrationFile Surroundings::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+CameraFile Surroundings::no_camera(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 

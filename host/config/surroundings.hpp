@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "host/cameras/camera_file.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/table/target_file.hpp"
 
@@ -23,7 +24,13 @@ struct Surroundings {
   /// How a calibration file becomes a calibration; throws InputError. Unless given, there is none.
   std::function<calibrate::CalibrationFile(const std::string& path)> read_calibration = no_calibration;
 
+  /// How a camera file becomes a camera; throws InputError. Unless given, there is none.
+  std::function<CameraFile(const std::string& path)> read_camera = no_camera;
+  /// Throws InputError unless there are recorded frames in the directory. Unless given, there are.
+  std::function<void(const std::filesystem::path& directory)> check_frames = [](const std::filesystem::path&) {};
+
   static calibrate::CalibrationFile no_calibration(const std::string& path);
+  static CameraFile no_camera(const std::string& path);
 };
 
 /// This computer's files and devices.

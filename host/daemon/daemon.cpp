@@ -21,6 +21,10 @@ namespace {
 constexpr std::chrono::milliseconds kAttendPeriod{100};
 constexpr std::int64_t kLogPeriodNs = 10'000'000'000;
 
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
 std::string host_name() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
@@ -45,6 +49,7 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
       started_ns_(monotonic_now_ns()) {
   load_memory();
   for (const TargetConfig& target : config_.targets) add_channel(target, replay_speed);
+  for (const CameraConfig& camera : config_.cameras) add_camera(camera, replay_speed);
   loop_.watch(signals_.fd(), [this] { on_signal(); });
   loop_.watch(attend_timer_.fd(), [this] { attend(); });
   loop_.watch(status_timer_.fd(), [this] { publish_health(); });
@@ -76,6 +81,21 @@ void Daemon::add_channel(const TargetConfig& target, ReplaySpeed replay_speed) {
   channel.line = std::make_unique<TargetLine>(target, config_.publish, source, publisher_, memory_, baud);
 }
 
+void Daemon::add_camera(const CameraConfig& camera, ReplaySpeed replay_speed) {
+  cameras_.push_back(std::make_unique<CameraFeed>(loop_, camera, config_.publish, publisher_,
+                                                  replay_speed == ReplaySpeed::kFastest,
+                                                  [this] { stop_when_all_ended(); }));
+}
+
+void Daemon::stop_when_all_ended() {
+  const auto ended = [](const auto& any) { return any->finished(); };
+  const auto replayed = [](const auto& any) { return any->feed->finished(); };
+  if (std::all_of(channels_.begin(), channels_.end(), replayed) &&
+      std::all_of(cameras_.begin(), cameras_.end(), ended)) {
+    loop_.stop();
+  }
+}
+
 std::unique_ptr<LineFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
   LineFeedEvents events;
   // Poses first: they are what somebody waits for.
@@ -86,9 +106,7 @@ std::unique_ptr<LineFeed> Daemon::make_feed(const TargetConfig& target, ReplaySp
   events.lost = [&channel] { channel.line->line_lost(); };
   events.finished = [this, &channel] {
     channel.line->end_of_input();
-    if (std::all_of(channels_.begin(), channels_.end(), [](const auto& any) { return any->feed->finished(); })) {
-      loop_.stop();
-    }
+    stop_when_all_ended();
   };
   if (target.is_replay()) {
     return std::make_unique<ReplayFeed>(loop_, target.name, target.replay_file().string(), replay_speed,
@@ -101,7 +119,8 @@ void Daemon::run() {
   attend_timer_.start({}, kAttendPeriod);
   status_timer_.start_every(std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(config_.publish.status_period_s)));
-  spdlog::info("pharosd {} started, {} target{}", PHAROS_VERSION, channels_.size(), channels_.size() == 1 ? "" : "s");
+  const std::string cameras = cameras_.empty() ? "" : ", " + counted(cameras_.size(), "camera");
+  spdlog::info("pharosd {} started, {}{}", PHAROS_VERSION, counted(channels_.size(), "target"), cameras);
   loop_.run();
   memory_.save_at_last();
   message_ = "stopped";
@@ -113,6 +132,7 @@ void Daemon::attend() {
   attend_timer_.take_expiries();
   const std::int64_t now_ns = monotonic_now_ns();
   for (const auto& channel : channels_) channel->feed->attend(now_ns);
+  for (const auto& camera : cameras_) camera->attend(now_ns);
   // Poses first, files when no bytes are in hand.
   memory_.save(now_ns);
   warn("calibrations", memory_.trouble(), now_ns);
@@ -148,6 +168,10 @@ std::string Daemon::trouble() const {
     const std::string notice = channel->line->clock_notice(channel->feed->monotonic_now());
     if (!notice.empty()) return channel->name + ": " + notice;
   }
+  for (const auto& camera : cameras_) {
+    const std::string notice = camera->clock_notice(monotonic_now_ns());
+    if (!notice.empty()) return camera->name() + ": " + notice;
+  }
   const std::string recording = recording_trouble();
   return recording.empty() ? memory_.trouble() : recording;
 }
@@ -174,6 +198,7 @@ void Daemon::publish_health() {
     counts.push_back({"recording.files", static_cast<std::int64_t>(recorded.files)});
     counts.push_back({"recording.failures", static_cast<std::int64_t>(recorded.failures)});
   }
+  for (const auto& camera : cameras_) health.sources.push_back(camera->health(monotonic_now_ns()));
   publisher_.publish_health(health);
 }
 

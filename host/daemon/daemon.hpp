@@ -8,6 +8,7 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/camera_feed.hpp"
 #include "host/daemon/event_loop.hpp"
 #include "host/daemon/line_feed.hpp"
 #include "host/daemon/log_limit.hpp"
@@ -20,7 +21,8 @@
 
 namespace pharos::host {
 
-/// All targets of a configuration in one poll loop: feed -> recorder and line -> publisher, status beside it.
+/// All targets and cameras of a configuration in one poll loop: feed -> recorder and line -> publisher, status beside
+/// it.
 class Daemon {
  public:
   /// Throws InputError for a replay that is no recording. `sink` must outlive this. `signals` end run().
@@ -35,6 +37,8 @@ class Daemon {
 
   void add_channel(const TargetConfig& target, ReplaySpeed replay_speed);
   std::unique_ptr<LineFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
+  void add_camera(const CameraConfig& camera, ReplaySpeed replay_speed);
+  void stop_when_all_ended();
   void load_memory();
   void attend();
   void on_signal();
@@ -53,6 +57,7 @@ class Daemon {
   CalibrationMemory memory_;
   LogLimit log_limit_;
   std::vector<std::unique_ptr<Channel>> channels_;
+  std::vector<std::unique_ptr<CameraFeed>> cameras_;
   std::int64_t started_ns_ = 0;
   std::int64_t failed_told_ = 0;
   std::string message_;

@@ -41,6 +41,7 @@ void replay_instead(host::DaemonConfig& config, const std::string& file) {
   host::TargetConfig target = *chosen;
   target.port = host::TargetConfig::kReplayPrefix + file;
   config.targets = {target};
+  config.cameras.clear();
 }
 
 int run(const Options& options) {

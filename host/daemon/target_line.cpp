@@ -19,9 +19,6 @@ namespace {
 // A target's clock that goes back by more than any reordering on the line was started anew.
 constexpr std::int64_t kRestartTicks = kTicksPerSecond;
 
-// So long poses say why their times may have gone back, and the status why.
-constexpr std::int64_t kHostJumpToldNs = 60'000'000'000;
-
 std::string version_text(const wire::Hello& hello) {
   return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
          std::to_string(hello.firmware_patch);
@@ -90,24 +87,9 @@ void TargetLine::watch_clock(const report::LinkEvent& event) {
     newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
     any_ticks_ = true;
   }
-  if (clock_.counters().host_jumps != host_jumps_) tell_host_jump();
-}
-
-void TargetLine::tell_host_jump() {
-  host_jumps_ = clock_.counters().host_jumps;
-  host_jump_ns_ = arrival_.monotonic_ns;
-  log_.warn("host clock", clock_notice(host_jump_ns_), host_jump_ns_);
-}
-
-std::string TargetLine::clock_notice(std::int64_t monotonic_ns) const {
-  if (host_jump_ns_ < 0 || monotonic_ns - host_jump_ns_ >= kHostJumpToldNs) return "";
-  const double jump_s = static_cast<double>(clock_.last_jump_ns()) * 1e-9;
-  std::array<char, 160> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "this computer's clock was set %s by %.1f s; utime of poses went with it, they carry the flag clock_set",
-      jump_s < 0.0 ? "back" : "forward", std::abs(jump_s));
-  return text.data();
+  if (host_jump_.look(clock_, arrival_.monotonic_ns)) {
+    log_.warn("host clock", host_jump_.notice(arrival_.monotonic_ns), arrival_.monotonic_ns);
+  }
 }
 
 // What the old time base and the old slot numbers told means nothing any more.
@@ -237,7 +219,7 @@ std::optional<CycleReport> TargetLine::timed_report(std::uint8_t station, std::i
     ++counters_.cycles_stale;
     return std::nullopt;
   }
-  report.clock_was_set = !clock_notice(arrival_.monotonic_ns).empty();
+  report.clock_was_set = !host_jump_.notice(arrival_.monotonic_ns).empty();
   report.source = source_;
   report.target = config_.name;
   report.station = station;

@@ -10,6 +10,7 @@
 #include "host/clock/clock_map.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/host_jump.hpp"
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_counters.hpp"
@@ -48,7 +49,7 @@ class TargetLine {
                       std::int64_t monotonic_ns);
 
   /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
-  std::string clock_notice(std::int64_t monotonic_ns) const;
+  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
 
   const LineCounters& counters() const { return counters_; }
   /// From the last byte of a cycle read to its pose on LCM.
@@ -77,7 +78,6 @@ class TargetLine {
 
   const lighthouse::StationCalibration& believed(const lighthouse::StationCalibration& sent) const;
   void watch_clock(const report::LinkEvent& event);
-  void tell_host_jump();
   void restart(const char* why);
   void answer(const track::EpochResult& result);
   std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
@@ -108,8 +108,7 @@ class TargetLine {
   std::int64_t last_flash_ticks_ = 0;
   std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
-  std::uint64_t host_jumps_ = 0;    // of the clock map, as far as told
-  std::int64_t host_jump_ns_ = -1;  // monotonic, of the last one
+  HostJump host_jump_;
 
   LineCounters counters_;
   Told told_;

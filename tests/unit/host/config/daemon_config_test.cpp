@@ -37,6 +37,16 @@ Surroundings made_up() {
             calibrate::CalibrationFile file;
             file.name = path;
             return file;
+          },
+          [](const std::string& path) {
+            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+            CameraFile file;
+            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
+            file.camera.optics.height_px = 480;
+            return file;
+          },
+          [](const std::filesystem::path& directory) {
+            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
           }};
 }
 
@@ -157,7 +167,7 @@ TEST(DaemonConfig, NamesFileLineAndKeyOfAnUnknownKeyAndTheOneMeant) {
               AllOf(StartsWith("p.toml:5: target[0].bauds:"), HasSubstr("baud\"?")));
   EXPECT_THAT(error_of(std::string("[lcm]\ncolour = 1\n") + kOneTarget),
               StartsWith("p.toml:2: lcm.colour: unknown key"));
-  EXPECT_THAT(error_of(std::string("[camera]\n") + kOneTarget), StartsWith("p.toml:1: camera: unknown key"));
+  EXPECT_THAT(error_of(std::string("[stereo]\n") + kOneTarget), StartsWith("p.toml:1: stereo: unknown key"));
 }
 
 struct BadLine {

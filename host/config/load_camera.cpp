@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/load_camera.hpp"
+
+#include <arpa/inet.h>
+
+#include <map>
+#include <set>
+
+#include "host/config/config_parts.hpp"
+#include "pharos/tof/tof_frame.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostAveraged = 1000;         // half a minute at 30 frames/s
+constexpr std::int64_t kLeastPacket = 576;  // what every IPv4 network passes
+constexpr std::int64_t kMostPacket = 65'000;
+constexpr std::size_t kMostSerial = 16;  // of GigE Vision
+
+bool is_address(const std::string& text) {
+  in_addr parsed{};
+  return ::inet_pton(AF_INET, text.c_str(), &parsed) == 1;
+}
+
+DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const Surroundings& surroundings) {
+  DepthCamera camera;
+  try {
+    camera = surroundings.read_camera(file.string()).camera;
+  } catch (const InputError& error) {
+    table.fail("camera_file", error.what());
+  }
+  const PinholeCamera& optics = camera.optics;
+  if (optics.width_px > tof::kMaxWidth_px || optics.height_px > tof::kMaxHeight_px) {
+    table.fail("camera_file", file.string() + ": " + std::to_string(optics.width_px) + " x " +
+                                  std::to_string(optics.height_px) + " pixels are more than " +
+                                  std::to_string(tof::kMaxWidth_px) + " x " + std::to_string(tof::kMaxHeight_px));
+  }
+  return camera;
+}
+
+void read_frames(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
+                 CameraConfig& camera) {
+  for (const char* key : {"serial", "address", "mode", "packet_size", "ptp"}) {
+    if (table.has(key)) table.fail(key, "is of a camera on the network; remove it, or remove frames");
+  }
+  camera.frames = read_path(table, "frames", folder);
+  try {
+    surroundings.check_frames(camera.frames);
+  } catch (const InputError& error) {
+    table.fail("frames", error.what());
+  }
+}
+
+void read_device(const TomlTable& table, CameraSettings& device) {
+  device.serial = table.text_or("serial", "");
+  device.address = table.text_or("address", "");
+  if (table.has("serial") &&
+      (device.serial.size() > kMostSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
+    table.fail("serial", "must be 1 to " + std::to_string(kMostSerial) + " letters, digits, - or _");
+  }
+  if (table.has("address") && !is_address(device.address)) {
+    table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
+  }
+  if (device.serial.empty() && device.address.empty()) {
+    table.fail("serial", "is missing; give serial or address of a camera, or frames = \"DIRECTORY\"");
+  }
+  device.mode = table.text_or("mode", "");
+  if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
+    table.fail("mode", "must be a word of the camera's Scan3dOperatingMode, as Distance5000mmMultiFreq");
+  }
+  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kLeastPacket, kMostPacket));
+  device.ptp = table.boolean_or("ptp", device.ptp);
+}
+
+tof::RingSettings read_ring(const TomlTable& table) {
+  tof::RingSettings ring;
+  constexpr Range kRadius_m{0.02, 10.0};
+  ring.least_outer_radius_m = table.number_or("least_outer_radius_m", ring.least_outer_radius_m, kRadius_m);
+  ring.most_outer_radius_m = table.number_or("most_outer_radius_m", ring.most_outer_radius_m, kRadius_m);
+  if (ring.most_outer_radius_m <= ring.least_outer_radius_m) {
+    table.fail(table.has("most_outer_radius_m") ? "most_outer_radius_m" : "least_outer_radius_m",
+               "the most must be more than the least");
+  }
+  return ring;
+}
+
+CameraConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings) {
+  CameraConfig camera;
+  camera.name = read_name(table, "name", table.text("name"));
+  camera.target = read_name(table, "target", table.text("target"));
+  camera.camera_file = read_path(table, "camera_file", folder);
+  camera.camera = read_camera_of(table, camera.camera_file, surroundings);
+  if (table.has("frames")) {
+    read_frames(table, folder, surroundings, camera);
+  } else {
+    read_device(table, camera.device);
+  }
+  camera.device.frame_rate_hz = table.number_or("frame_rate_hz", camera.device.frame_rate_hz, {0.1, 100.0});
+  camera.device.width_px = camera.camera.optics.width_px;
+  camera.device.height_px = camera.camera.optics.height_px;
+  camera.average_frames = static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMostAveraged));
+  camera.tof.ring = read_ring(table.table_or_empty("ring"));
+  return camera;
+}
+
+}  // namespace
+
+std::vector<CameraConfig> read_cameras(const TomlTable& root, const fs::path& folder,
+                                       const Surroundings& surroundings) {
+  std::vector<CameraConfig> cameras;
+  std::set<std::string> names;
+  std::set<std::string> devices;
+  for (const TomlTable& table : root.tables("camera")) {
+    cameras.push_back(read_camera_table(table, folder, surroundings));
+    const CameraConfig& camera = cameras.back();
+    if (!names.insert(camera.name).second) table.fail("name", "\"" + camera.name + "\" is taken by another camera");
+    for (const char* key : {"serial", "address"}) {
+      const std::string& device = key[0] == 's' ? camera.device.serial : camera.device.address;
+      if (!device.empty() && !devices.insert(key + device).second) {
+        table.fail(key, "\"" + device + "\" is taken by another camera");
+      }
+    }
+  }
+  return cameras;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/camera_feed.hpp"
+
+#include <utility>
+
+#include "host/daemon/now.hpp"
+#include "host/device/gige_source.hpp"
+#include "host/device/recorded_source.hpp"
+
+namespace pharos::host {
+namespace {
+
+// Of the camera that `pharos sim tof` simulates, and the Helios' own greatest.
+constexpr double kUsualRate_hz = 30.0;
+
+std::unique_ptr<FrameSource> source_of(const CameraConfig& config, bool fastest) {
+  if (!config.is_recorded()) return std::make_unique<GigeSource>(config.device);
+  const double asked_hz = config.device.frame_rate_hz;
+  const double rate_hz = asked_hz > 0.0 ? asked_hz : kUsualRate_hz;
+  return std::make_unique<RecordedSource>(config.frames.string(), config.device.width_px, config.device.height_px,
+                                          fastest ? 0.0 : rate_hz);
+}
+
+}  // namespace
+
+CameraFeed::CameraFeed(EventLoop& loop, const CameraConfig& config, const PublishConfig& publish, Publisher& publisher,
+                       bool fastest, std::function<void()> finished)
+    : loop_(loop),
+      name_(config.name),
+      recorded_(config.is_recorded()),
+      log_(config.name),
+      source_(source_of(config, fastest)),
+      estimator_(config.camera, config.tof),
+      line_(config, publish, "tof/" + config.name, publisher,
+            [this](const DepthFrame& frame) { return estimator_.measure(frame); }),
+      finished_(std::move(finished)) {
+  loop_.watch(source_->fd(), [this] { on_readable(); });
+}
+
+CameraFeed::~CameraFeed() { loop_.forget(source_->fd()); }
+
+// One frame, then whoever else waits in the loop: the lighthouse's cycles must not wait for two.
+void CameraFeed::on_readable() {
+  if (DepthFramePtr frame = source_->take()) {
+    line_.take(*frame);
+    source_->give_back(std::move(frame));
+  } else if (!finished_told_ && source_->status().finished) {
+    finished_told_ = true;
+    finished_();
+  }
+}
+
+void CameraFeed::attend(std::int64_t monotonic_ns) {
+  const FrameSourceStatus status = source_->status();
+  if (status.session != session_told_) {
+    session_told_ = status.session;
+    log_.info("open", source_->device() + " is open: " + status.identity, monotonic_ns);
+  }
+  if (status.trouble == told_) return;
+  told_ = status.trouble;
+  if (!told_.empty()) log_.warn("not open", told_, monotonic_ns);
+}
+
+}  // namespace pharos::host

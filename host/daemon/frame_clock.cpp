@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/frame_clock.hpp"
+
+#include <cstdlib>
+
+#include "pharos/base/ticks.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+std::int64_t nearest_second_ns(std::int64_t ns) {
+  const std::int64_t half = ns < 0 ? -kNsPerSecond / 2 : kNsPerSecond / 2;
+  return (ns + half) / kNsPerSecond * kNsPerSecond;
+}
+
+}  // namespace
+
+std::optional<MappedTime> FrameClock::time_of(const DepthFrame& frame) {
+  by_ptp_ = false;
+  if (frame.clock == CameraClock::kHost) return MappedTime{frame.camera_ns, frame.arrival_monotonic_ns, 0};
+  if (session_ && *session_ != frame.session) map_.restart();
+  session_ = frame.session;
+  const std::int64_t ticks = frame.camera_ns / kNanosecondsPerTick;
+  if (!map_.add(ticks, frame.arrival_utc_ns, frame.arrival_monotonic_ns)) return std::nullopt;
+  std::optional<MappedTime> mapped = map_.map(ticks);
+  if (!mapped || frame.clock != CameraClock::kPtp) return mapped;
+  const std::int64_t ahead_ns = frame.camera_ns - mapped->utc_ns;
+  const std::int64_t early_ns = ahead_ns - nearest_second_ns(ahead_ns);  // negative: before what the arrival says
+  if (std::abs(early_ns) > kLargestPtpDoubtNs) {
+    ++ptp_doubted_;
+    return mapped;
+  }
+  by_ptp_ = true;
+  return MappedTime{mapped->utc_ns + early_ns, mapped->monotonic_ns + early_ns, kPtpSigmaNs};
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/tof_estimator.hpp"
+
+#include "host/support/flag_text.hpp"
+#include "pharos/tof/tof_pose.hpp"
+
+namespace pharos::host {
+
+TofEstimator::TofEstimator(const DepthCamera& camera, const tof::TofSettings& settings)
+    : camera_(camera), settings_(settings), workspace_(std::make_unique<tof::TofWorkspace>()) {}
+
+TofEstimator::~TofEstimator() = default;
+
+DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file) {
+  DepthCamera camera = by_file;
+  if (!frame.scale) return camera;
+  constexpr std::size_t kZ = 2;
+  camera.scale_m = frame.scale->scale_m;
+  camera.offset_m = frame.scale->offset_m;
+  camera.depth_scale_m = frame.scale->scale_m[kZ];
+  camera.depth_origin_z_m += frame.scale->offset_m[kZ];
+  return camera;
+}
+
+TofAnswer TofEstimator::measure(const DepthFrame& frame) {
+  TofAnswer answer;
+  const auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_),
+                                          settings_, *workspace_);
+  if (!pose) {
+    answer.refusal = tof::name_of(pose.error());
+    answer.advice = tof::describe(pose.error());
+    return answer;
+  }
+  answer.flags = joined_flags(pose->flags, tof::kTofFlagWords);
+  answer.observations = pose->ring.fit.edge_points + pose->ring.fit.plane_pixels;
+  answer.estimate.pose = pose->target.pose;
+  answer.estimate.covariance = pose->target.covariance;
+  answer.estimate.observations = answer.observations;
+  // Both connectors are as near as can be told: neither fits the frame worse.
+  if (pose->second) answer.estimate.second = {pose->second->pose, 0.0};
+  return answer;
+}
+
+}  // namespace pharos::host

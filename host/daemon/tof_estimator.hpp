@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/device/depth_frame.hpp"
+#include "host/publish/tof_report.hpp"
+#include "pharos/camera/depth_camera.hpp"
+#include "pharos/tof/tof_settings.hpp"
+
+namespace pharos::tof {
+struct TofWorkspace;
+}
+
+namespace pharos::host {
+
+/// What became of one frame.
+struct TofAnswer {
+  std::string refusal;  // tof::name_of(TofFailure); empty where there is a pose
+  std::string advice;   // the same for people, with what to do
+  TofPoseEstimate estimate;
+  int observations = 0;  // depth pixels and edge points that it rests on
+  std::string flags;
+};
+
+/// A frame to a pose: the core's measure_tof_pose with a workspace of its own.
+class TofEstimator {
+ public:
+  TofEstimator(const DepthCamera& camera, const tof::TofSettings& settings);
+  ~TofEstimator();
+
+  /// Scale and offset of the frame go before those of the camera file.
+  TofAnswer measure(const DepthFrame& frame);
+
+ private:
+  DepthCamera camera_;
+  tof::TofSettings settings_;
+  std::unique_ptr<tof::TofWorkspace> workspace_;
+};
+
+/// The camera as it counts in this frame.
+DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file);
+
+}  // namespace pharos::host

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of TofLine that tells how it fares.
+#include "host/daemon/tof_line.hpp"
+
+namespace pharos::host {
+namespace {
+
+// Thirty times a second, or three in turns: as long without any is silence.
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr std::int64_t kNsPerUs = 1000;
+constexpr double kNsPerSecond = 1e9;
+
+SourceState state_of(CameraState camera) {
+  switch (camera) {
+    case CameraState::kOpen:
+      return SourceState::kOk;
+    case CameraState::kSilent:
+      return SourceState::kStale;
+    case CameraState::kGone:
+      return SourceState::kGone;
+    case CameraState::kTaken:
+    case CameraState::kWrong:
+      return SourceState::kError;
+  }
+  return SourceState::kError;
+}
+
+void add_times(NamedCounts& counts, const std::string& stage, const LatencyHistogram& times) {
+  counts.push_back({stage + "_p50_us", times.quantile_ns(0.5) / kNsPerUs});
+  counts.push_back({stage + "_p99_us", times.quantile_ns(0.99) / kNsPerUs});
+  counts.push_back({stage + "_max_us", times.max_ns() / kNsPerUs});
+}
+
+}  // namespace
+
+SourceHealth TofLine::health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns) {
+  SourceHealth health;
+  health.source = source_;
+  health.target = config_.target;
+  health.device = device;
+  health.identity = camera.identity;
+  health.data_age_ns = last_frame_ns_ < 0 ? -1 : monotonic_ns - last_frame_ns_;
+  health.pose_age_ns = last_pose_ns_ < 0 ? -1 : monotonic_ns - last_pose_ns_;
+  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
+    health.pose_rate_hz = static_cast<double>(poses_ - poses_at_last_health_) * kNsPerSecond /
+                          static_cast<double>(monotonic_ns - last_health_ns_);
+  }
+  poses_at_last_health_ = poses_;
+  last_health_ns_ = monotonic_ns;
+  const ClockMap& map = clock_.map();
+  health.clock_sigma_ns = map.synchronised() ? static_cast<double>(map.sigma_ns()) : 0.0;
+  if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigmaNs);
+  health.clock_drift_ppm = map.drift_ppm();
+  health.counters = named_counts(camera);
+  judge(health, camera, monotonic_ns);
+  return health;
+}
+
+// From the camera upwards: the lowest thing that is wrong is the one to tell.
+void TofLine::judge(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t now_ns) const {
+  const std::int64_t pose_wait_ns = kSilenceNs + config_.average_frames * kSilenceNs / 10;
+  health.state = state_of(camera.state);
+  health.message = camera.trouble;
+  if (health.state != SourceState::kOk) return;
+  if (last_pose_ns_ >= 0 && now_ns - last_pose_ns_ < pose_wait_ns) return;
+  health.state = SourceState::kWaiting;
+  const FrameSourceCounters& counters = camera.counters;
+  if (last_frame_ns_ < 0 || now_ns - last_frame_ns_ >= kSilenceNs) {
+    health.message = counters.frames_incomplete > 0
+                         ? "only incomplete frames come: is packet_size more than the network passes?"
+                         : "no frame came yet";
+  } else {
+    health.message = last_refusal_.empty() ? "no frame was answered yet" : "no pose: " + last_refusal_;
+  }
+}
+
+NamedCounts TofLine::named_counts(const FrameSourceStatus& camera) const {
+  NamedCounts counts;
+  for_each_counter(counters_, [&](const char* name, std::int64_t value) { counts.push_back({name, value}); });
+  for (const auto& [reason, count] : counters_.refused) counts.push_back({"refused." + reason, count});
+  for_each_counter(camera.counters, [&](const char* name, std::int64_t value) {
+    counts.push_back({std::string("device.") + name, value});
+  });
+  counts.push_back({"frames_in_broken_means", average_.given_up()});
+  add_times(counts, "transport", transport_);
+  add_times(counts, "waiting", waiting_);
+  add_times(counts, "estimator", estimator_);
+  add_times(counts, "latency", latency_);
+  const ClockCounters& clock = clock_.map().counters();
+  counts.push_back({"clock.pairs", static_cast<std::int64_t>(clock.pairs)});
+  counts.push_back({"clock.pairs_ignored", static_cast<std::int64_t>(clock.pairs_ignored)});
+  counts.push_back({"clock.resynchronised", static_cast<std::int64_t>(clock.resynchronised)});
+  counts.push_back({"clock.host_steps", static_cast<std::int64_t>(clock.host_steps)});
+  counts.push_back({"clock.host_jumps", static_cast<std::int64_t>(clock.host_jumps)});
+  counts.push_back({"clock.by_ptp", clock_.by_ptp() ? 1 : 0});
+  counts.push_back({"clock.ptp_doubted", clock_.ptp_doubted()});
+  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
+  return counts;
+}
+
+}  // namespace pharos::host

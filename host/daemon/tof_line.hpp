@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/frame_clock.hpp"
+#include "host/daemon/host_jump.hpp"
+#include "host/daemon/latency_histogram.hpp"
+#include "host/daemon/limited_log.hpp"
+#include "host/daemon/pose_average.hpp"
+#include "host/daemon/tof_counters.hpp"
+#include "host/daemon/tof_estimator.hpp"
+#include "host/device/frame_source.hpp"
+#include "host/publish/publisher.hpp"
+
+namespace pharos::host {
+
+/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> publisher. Knows no camera and no file.
+class TofLine {
+ public:
+  using Measure = std::function<TofAnswer(const DepthFrame&)>;
+
+  /// `publisher` must outlive this. `source` is told in every message. `measure`: TofEstimator::measure, or a test's.
+  TofLine(const CameraConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
+          Measure measure);
+
+  /// A whole frame, just taken. What it gives is published before this returns.
+  void take(const DepthFrame& frame);
+
+  SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
+  const TofCounters& counters() const { return counters_; }
+  /// That this computer's clock was set a moment ago, for people; empty when it was not.
+  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
+
+ private:
+  std::optional<MappedTime> time_of(const DepthFrame& frame);
+  void answer(const TofAnswer& answer, const MappedTime& time);
+  void count(const TofAnswer& answer);
+  TofReport report(const MappedTime& time) const;
+  void publish(TofReport& report);
+  void judge(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t monotonic_ns) const;
+  NamedCounts named_counts(const FrameSourceStatus& camera) const;
+
+  CameraConfig config_;
+  std::string source_;
+  Publisher& publisher_;
+  Measure measure_;
+  std::int64_t max_age_ns_;
+  LimitedLog log_;
+  FrameClock clock_;
+  PoseAverage average_;
+  TofCounters counters_;
+  std::int64_t sequence_ = 0;
+  std::string last_refusal_;  // with what to do
+  std::int64_t last_utc_ns_ = 0;
+  HostJump host_jump_;
+  std::int64_t last_frame_ns_ = -1;
+  std::int64_t last_pose_ns_ = -1;
+  std::int64_t poses_ = 0;
+  std::int64_t poses_at_last_health_ = 0;
+  std::int64_t last_health_ns_ = -1;
+  // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
+  LatencyHistogram transport_;
+  LatencyHistogram waiting_;
+  LatencyHistogram estimator_;
+  LatencyHistogram latency_;
+};
+
+}  // namespace pharos::host

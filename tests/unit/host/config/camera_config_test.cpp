@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "host/config/load_config.hpp"
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* kCamera =
+    "[[camera]]\nname = 'helios'\ntarget = 'client'\ncamera_file = 'helios.toml'\nserial = '233300001'\n";
+
+// No disk: every camera file is of 640 x 480 pixels, of 1280 where its name holds "large"; what is called gone is not.
+Surroundings made_up() {
+  return {[](const std::string&) { return TargetFile{}; },
+          [](const std::filesystem::path&) {},
+          [](const std::string& path) { return path; },
+          Surroundings::no_calibration,
+          [](const std::string& path) {
+            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+            CameraFile file;
+            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
+            file.camera.optics.height_px = 480;
+            return file;
+          },
+          [](const std::filesystem::path& directory) {
+            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
+          }};
+}
+
+DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up()); }
+
+std::string error_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CameraConfig, OfOneCameraSufficesForADaemon) {
+  const DaemonConfig config = parse(kCamera);
+  EXPECT_TRUE(config.targets.empty());
+  ASSERT_EQ(config.cameras.size(), 1u);
+  const CameraConfig& camera = config.cameras[0];
+  EXPECT_EQ(camera.name, "helios");
+  EXPECT_EQ(camera.target, "client");
+  EXPECT_EQ(camera.camera_file, "/etc/pharos/helios.toml");
+  EXPECT_EQ(camera.device.serial, "233300001");
+  EXPECT_EQ(camera.device.width_px, 640) << "of the camera file";
+  EXPECT_EQ(camera.device.packet_size, 1400) << "passes every network";
+  EXPECT_EQ(camera.average_frames, 1);
+  EXPECT_FALSE(camera.is_recorded());
+}
+
+TEST(CameraConfig, TakesEveryKey) {
+  const CameraConfig camera = parse(std::string(kCamera) +
+                                    "address = '169.254.1.2'\nmode = 'Distance5000mmMultiFreq'\npacket_size = 9000\n"
+                                    "frame_rate_hz = 15\nptp = false\naverage_frames = 100\n[camera.ring]\n"
+                                    "least_outer_radius_m = 0.5\nmost_outer_radius_m = 0.6\n")
+                                  .cameras.at(0);
+  EXPECT_EQ(camera.device.address, "169.254.1.2");
+  EXPECT_EQ(camera.device.mode, "Distance5000mmMultiFreq");
+  EXPECT_EQ(camera.device.packet_size, 9000);
+  EXPECT_EQ(camera.device.frame_rate_hz, 15.0);
+  EXPECT_FALSE(camera.device.ptp);
+  EXPECT_EQ(camera.average_frames, 100);
+  EXPECT_EQ(camera.tof.ring.least_outer_radius_m, 0.5);
+  EXPECT_EQ(camera.tof.ring.most_outer_radius_m, 0.6);
+}
+
+TEST(CameraConfig, TakesRecordedFramesInPlaceOfACamera) {
+  const CameraConfig camera =
+      parse("[[camera]]\nname = 'a'\ntarget = 'b'\ncamera_file = 'c.toml'\nframes = 'here'\n").cameras.at(0);
+  EXPECT_TRUE(camera.is_recorded());
+  EXPECT_EQ(camera.frames, "/etc/pharos/here");
+}
+
+TEST(CameraConfig, IsTold) {
+  const std::string text = describe(parse(std::string(kCamera) + "average_frames = 100\n"));
+  for (const char* words :
+       {"camera helios (target client)", "serial number 233300001", "packets of 1400",
+        "640 x 480 pixels from /etc/pharos/helios.toml", "means of 100 frames", "PHAROS_TOF_POSE"}) {
+    EXPECT_THAT(text, HasSubstr(words));
+  }
+}
+
+struct BadCamera {
+  const char* name;
+  const char* text;  // after kCamera
+  const char* expected;
+};
+
+class CameraConfigRefuses : public ::testing::TestWithParam<BadCamera> {};
+
+TEST_P(CameraConfigRefuses, WithFileLineAndKey) {
+  const std::string message = error_of(std::string(kCamera) + GetParam().text);
+  EXPECT_THAT(message, StartsWith(GetParam().expected));
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, CameraConfigRefuses,
+    ::testing::Values(
+        BadCamera{"UnknownKey", "packets = 9000\n", "p.toml:6: camera[0].packets: unknown key"},
+        BadCamera{"UnknownRingKey", "[camera.ring]\nradius_m = 1\n", "p.toml:7: camera[0].ring.radius_m: unknown key"},
+        BadCamera{"PacketTooLarge", "packet_size = 70000\n", "p.toml:6: camera[0].packet_size: must lie in"},
+        BadCamera{"NoAddress", "address = 'helios.local'\n",
+                  "p.toml:6: camera[0].address: \"helios.local\" is no IPv4"},
+        BadCamera{"ModeWithBlank", "mode = 'far away'\n", "p.toml:6: camera[0].mode: must be a word"},
+        BadCamera{"NoAverage", "average_frames = 0\n", "p.toml:6: camera[0].average_frames: must lie in"},
+        BadCamera{"NoRate", "frame_rate_hz = 0\n", "p.toml:6: camera[0].frame_rate_hz: must"},
+        BadCamera{"RingUpsideDown", "[camera.ring]\nleast_outer_radius_m = 0.9\nmost_outer_radius_m = 0.4\n",
+                  "p.toml:8: camera[0].ring.most_outer_radius_m: the most must be more"},
+        BadCamera{"FramesAndSerial", "frames = 'here'\n", "p.toml:5: camera[0].serial: is of a camera on the network"},
+        BadCamera{"SameName", "[[camera]]\nname = 'helios'\ntarget = 'x'\ncamera_file = 'h.toml'\nserial = '2'\n",
+                  "p.toml:7: camera[1].name: \"helios\" is taken"},
+        BadCamera{"SameSerial", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'h.toml'\nserial = '233300001'\n",
+                  "p.toml:10: camera[1].serial: \"233300001\" is taken"},
+        BadCamera{"NothingToFind", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'h.toml'\n",
+                  "p.toml:6: camera[1].serial: is missing"},
+        BadCamera{"CameraFileGone", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'gone.toml'\nserial = '2'\n",
+                  "p.toml:9: camera[1].camera_file: /etc/pharos/gone.toml: cannot be opened"},
+        BadCamera{"CameraTooLarge", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'large.toml'\nserial = '2'\n",
+                  "p.toml:9: camera[1].camera_file: /etc/pharos/large.toml: 1280 x 480 pixels are more than"},
+        BadCamera{"FramesGone", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'h.toml'\nframes = 'gone'\n",
+                  "p.toml:10: camera[1].frames: /etc/pharos/gone: holds no frames"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(CameraConfig, NeitherTargetNorCameraIsAnError) {
+  EXPECT_THAT(error_of("source = 'x'\n"), HasSubstr("or a [[camera]]"));
+}
+
+}  // namespace
+}  // namespace pharos::host
