@@ -34,6 +34,7 @@ DaemonUnderTest::DaemonUnderTest()
   target_clock_zero_ns_ = monotonic_now_ns() - ticks_to_nanoseconds(kFirstTicks);
   if (!lcm_->good()) return;  // start() says so
   lcm_->subscribe("PHAROS_LIGHTHOUSE_POSE", &DaemonUnderTest::on_pose, this);
+  lcm_->subscribe("PHAROS_TOF_POSE", &DaemonUnderTest::on_pose, this);
   lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
   listen(1);
 }

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera on the network as it is: GigE Vision over loopback, served by the simulated Helios.
+#include "host/device/gige_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <functional>
+
+#include "host/daemon/now.hpp"
+#include "integration/camera/own_network.hpp"
+#include "tools/sim/camera/fake_helios.hpp"
+
+namespace pharos::host {
+namespace {
+
+using ::testing::HasSubstr;
+
+const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new OwnNetwork);
+
+constexpr std::int32_t kWidth = 64;
+constexpr std::int32_t kHeight = 48;
+constexpr double kRange_m = 3.0;
+constexpr std::int64_t kPatienceNs = 20'000'000'000;
+
+class GigeSourceTest : public ::testing::Test {
+ protected:
+  GigeSourceTest() {
+    reel.width_px = kWidth;
+    reel.height_px = kHeight;
+    for (std::uint16_t i = 0; i < 3; ++i) {
+      const std::size_t pixels = kWidth * kHeight;
+      reel.frames.push_back({std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(1000 + i)),
+                             std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(kRange_m / 0.00025)),
+                             std::nullopt});
+    }
+    settings.address = "127.0.0.1";
+    settings.packet_size = 9000;
+    settings.width_px = kWidth;
+    settings.height_px = kHeight;
+  }
+
+  void serve() { camera.emplace(reel, play, nullptr, monotonic_now_ns()); }
+
+  /// Takes frames until `done`; false after a long time.
+  bool run(GigeSource& source, const std::function<bool()>& done) {
+    const std::int64_t until_ns = monotonic_now_ns() + kPatienceNs;
+    while (!done()) {
+      if (monotonic_now_ns() > until_ns) return false;
+      pollfd waiting{source.fd(), POLLIN, 0};
+      ::poll(&waiting, 1, 20);
+      if (DepthFramePtr frame = source.take()) {
+        ++taken;
+        last = *frame;
+        bad_pixels += std::count_if(frame->intensity.begin(), frame->intensity.end(),
+                                    [](std::uint16_t value) { return value < 1000 || value > 1002; });
+        source.give_back(std::move(frame));
+      }
+    }
+    return true;
+  }
+  bool frames_come(GigeSource& source, int count) {
+    const int wanted = taken + count;
+    return run(source, [&] { return taken >= wanted; });
+  }
+  bool trouble_comes(GigeSource& source, const std::string& words) {
+    return run(source, [&] { return source.status().trouble.find(words) != std::string::npos; });
+  }
+
+  sim::FrameReel reel;
+  sim::CameraPlay play;
+  CameraSettings settings;
+  std::optional<sim::FakeHelios> camera;
+  int taken = 0;
+  std::ptrdiff_t bad_pixels = 0;
+  DepthFrame last;
+};
+
+TEST_F(GigeSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
+  serve();
+  settings.mode = "Distance3000mmSingleFreq";  // the camera begins in another, of another scale
+  GigeSource source(settings);
+  ASSERT_TRUE(frames_come(source, 5)) << source.status().trouble;
+  ASSERT_TRUE(last.scale);
+  EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2] + last.scale->offset_m[2], kRange_m, 1e-4);
+  EXPECT_NEAR(last.scale->scale_m[2], play.fine_scale_m, 1e-12);
+  EXPECT_LT(last.scale->offset_m[0], 0.0);
+  EXPECT_FALSE(last.taken_in_turns);
+  EXPECT_EQ(bad_pixels, 0);
+  const FrameSourceStatus status = source.status();
+  EXPECT_EQ(status.state, CameraState::kOpen);
+  EXPECT_THAT(status.identity, HasSubstr("Distance3000mmSingleFreq, Coord3D_ABCY16, packets of 9000"));
+  EXPECT_EQ(status.counters.frames_incomplete, 0);
+}
+
+TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
+  play.depth_and_intensity_apart = true;
+  serve();
+  GigeSource source(settings);
+  ASSERT_TRUE(frames_come(source, 3)) << source.status().trouble;
+  EXPECT_TRUE(last.taken_in_turns);
+  EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2], kRange_m, 1e-3);
+  EXPECT_EQ(bad_pixels, 0);
+  EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
+}
+
+TEST_F(GigeSourceTest, FindsACameraByItsSerialNumberOrSaysWhichThereAre) {
+  serve();
+  settings.address.clear();
+  settings.serial = "1234";
+  {
+    GigeSource other(settings);
+    EXPECT_TRUE(trouble_comes(other, "no camera with serial number 1234 answers; these do: " + play.serial));
+    EXPECT_EQ(other.status().state, CameraState::kGone);
+  }
+  settings.serial = play.serial;
+  GigeSource source(settings);
+  EXPECT_TRUE(frames_come(source, 2)) << source.status().trouble;
+}
+
+TEST_F(GigeSourceTest, SaysWhatIsWrongWithACameraThatIsNotAsConfigured) {
+  serve();
+  const auto trouble_of = [&](const CameraSettings& wrong, const std::string& words) {
+    GigeSource source(wrong);
+    const bool came = trouble_comes(source, words);
+    EXPECT_TRUE(came) << source.status().trouble;
+    EXPECT_EQ(source.status().state, CameraState::kWrong);
+  };
+  CameraSettings wrong = settings;
+  wrong.mode = "Distance9999mm";
+  trouble_of(wrong, "does not take mode \"Distance9999mm\"; it knows Distance1250mmSingleFreq, ");
+  wrong = settings;
+  wrong.serial = "77";
+  trouble_of(wrong, "has serial number " + play.serial + ", not 77");
+  wrong = settings;
+  wrong.width_px = 640;
+  trouble_of(wrong, "gives 64 x 48 pixels, its camera file is for 640 x 48");
+}
+
+TEST_F(GigeSourceTest, WaitsForACameraThatAnotherProgramHolds) {
+  serve();
+  std::optional<GigeCamera> other(std::in_place, settings);
+  GigeSource source(settings);
+  ASSERT_TRUE(trouble_comes(source, "another program controls the camera"));
+  EXPECT_EQ(source.status().state, CameraState::kTaken);
+  EXPECT_EQ(taken, 0);
+  other.reset();
+  EXPECT_TRUE(frames_come(source, 2)) << source.status().trouble;
+}
+
+TEST_F(GigeSourceTest, ComesBackWithTheCameraInANewSession) {
+  serve();
+  GigeSource source(settings);
+  ASSERT_TRUE(frames_come(source, 2));
+  const std::uint32_t session = last.session;
+  camera.reset();
+  ASSERT_TRUE(run(source, [&] { return source.status().state != CameraState::kOpen; }));
+  serve();
+  ASSERT_TRUE(frames_come(source, 2)) << source.status().trouble;
+  EXPECT_EQ(last.session, session + 1);
+  EXPECT_EQ(bad_pixels, 0);
+  const FrameSourceCounters counters = source.status().counters;
+  EXPECT_EQ(counters.camera_lost + counters.camera_silences, 1);
+}
+
+TEST_F(GigeSourceTest, OpensASilentCameraAnew) {
+  play.stalls.push_back({0.0, 1e6});
+  serve();
+  GigeSource source(settings);
+  ASSERT_TRUE(trouble_comes(source, "no frame comes"));
+  EXPECT_EQ(source.status().state, CameraState::kSilent);
+  EXPECT_TRUE(run(source, [&] { return source.status().counters.camera_opened >= 2; }));
+  EXPECT_EQ(taken, 0);
+}
+
+// Two packets of a hundred are lost and nothing is asked for again in vain: what comes through is right.
+TEST_F(GigeSourceTest, CountsFramesWithLostPacketsAndGivesTheOthersUnharmed) {
+  play.loss = 0.02;
+  play.frame_rate_hz = 100.0;
+  serve();
+  settings.packet_size = 1400;
+  GigeSource source(settings);
+  ASSERT_TRUE(run(source, [&] { return taken >= 30 && source.status().counters.frames_incomplete >= 5; }));
+  EXPECT_EQ(bad_pixels, 0);
+}
+
+TEST_F(GigeSourceTest, FollowsPtpWhereTheCameraDoes) {
+  play.ptp = true;
+  serve();
+  GigeSource source(settings);
+  ASSERT_TRUE(run(source, [&] { return taken > 0 && last.clock == CameraClock::kPtp; }));
+  EXPECT_NEAR(static_cast<double>(last.camera_ns), static_cast<double>(last.arrival_utc_ns), 1e9);
+}
+
+}  // namespace
+}  // namespace pharos::host

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharosd as it is, with the simulated Helios before the simulated satellite.
+#include <csignal>
+
+#include "integration/camera/pharosd_camera_fixture.hpp"
+
+namespace pharos::host {
+namespace {
+
+const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new OwnNetwork);
+
+class StillCameraTest : public PharosdCameraTest {
+ protected:
+  StillCameraTest() {
+    render("tof_still.toml", 3);
+    play.frame_rate_hz = 5.0;
+  }
+};
+
+TEST_F(StillCameraTest, MeasuresWhatTheCameraSees) {
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(poses_come(5)) << daemon.process().text();
+  expect_true_poses();
+  const pose_t& pose = daemon.poses().back();
+  EXPECT_EQ(pose.source, "tof/helios");
+  EXPECT_EQ(pose.station_or_camera, "helios");
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("frames_ok", "client") > 0; }, kPatience_s));
+  EXPECT_GT(daemon.counter("estimator_p50_us", "client"), 0);
+  EXPECT_EQ(daemon.source("client")->state, "ok");
+}
+
+TEST_F(StillCameraTest, GoesOnWhenTheCameraComesBack) {
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  camera.reset();
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state != "ok"; }, kPatience_s));
+  EXPECT_FALSE(daemon.source("client")->message.empty());
+  serve();
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  expect_true_poses();
+}
+
+TEST_F(StillCameraTest, PublishesNoWrongPoseWhilePacketsAreLost) {
+  play.loss = 0.001;
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(daemon.wait(
+      [&] { return daemon.valid_poses("client") >= 5 && daemon.counter("device.frames_incomplete", "client") >= 2; },
+      kPatience_s))
+      << daemon.process().text();
+  expect_true_poses();
+}
+
+TEST_F(StillCameraTest, StopsCleanlyWhileItLooksForACamera) {
+  start("address = '127.0.0.1'\n");
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state == "gone"; }, kPatience_s));
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+}  // namespace
+}  // namespace pharos::host
