@@ -12,6 +12,7 @@ void add_sim(CLI::App& app, int& exit_code);
 void add_sim_lighthouse(CLI::App& sim, int& exit_code);
 void add_sim_tof(CLI::App& sim, int& exit_code);
 void add_sim_serial(CLI::App& sim, int& exit_code);
+void add_sim_camera(CLI::App& sim, int& exit_code);
 void add_sim_capture(CLI::App& sim, int& exit_code);
 
 }  // namespace pharos::tools

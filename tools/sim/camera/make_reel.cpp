@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/camera/make_reel.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "host/cameras/camera_file.hpp"
+#include "host/device/frame_directory.hpp"
+#include "host/support/input_error.hpp"
+#include "tools/sim/tof/tof_simulator.hpp"
+
+namespace pharos::sim {
+namespace {
+
+std::vector<std::array<float, 2>> rays_of(const LensModel& model) {
+  const Lens lens(model);
+  std::vector<std::array<float, 2>> rays;
+  for (int v = 0; v < model.height_px; ++v) {
+    for (int u = 0; u < model.width_px; ++u) {
+      const Vector2& ray = lens.ray(u, v);
+      rays.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y())});
+    }
+  }
+  return rays;
+}
+
+PinholeCamera optics_of(const LensModel& lens) {
+  return {lens.width_px, lens.height_px, lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px, lens.distortion};
+}
+
+LensModel lens_of(const PinholeCamera& optics) {
+  return {optics.width_px, optics.height_px, optics.fx_px, optics.fy_px, optics.cx_px, optics.cy_px, optics.distortion};
+}
+
+}  // namespace
+
+FrameReel reel_of_scenario(const std::string& scenario, std::uint64_t seed, std::size_t most,
+                           const std::filesystem::path& camera_file, const std::function<void()>& made) {
+  TofSimulator simulator(read_tof_scenario(scenario, seed), seed);
+  const TofScenario& about = simulator.scenario();
+  FrameReel reel{about.lens.width_px, about.lens.height_px, about.depth.scale_m, rays_of(about.lens), {}};
+  if (!camera_file.empty()) {
+    host::CameraFile file;
+    file.camera.optics = optics_of(about.lens);
+    file.camera.depth_scale_m = about.depth.scale_m;
+    file.camera.depth_origin_z_m = about.depth.origin_z_m;
+    std::ofstream out(camera_file);
+    if (!(out << host::camera_text(file) << std::flush)) {
+      throw host::InputError(camera_file.string() + ": cannot be written; choose another --camera-file");
+    }
+  }
+  const std::size_t count = std::min(most, static_cast<std::size_t>(simulator.frames()));
+  for (std::size_t i = 0; i < count; ++i) {
+    TofPixels pixels = simulator.pixels(static_cast<int>(i));
+    reel.frames.push_back(
+        {std::move(pixels.intensity), std::move(pixels.depth), simulator.truth(static_cast<int>(i)).T_camera_target});
+    made();
+  }
+  return reel;
+}
+
+FrameReel reel_of_directory(const std::string& directory, std::size_t most) {
+  const DepthCamera camera = host::read_camera_file(directory + "/camera.toml").camera;
+  const host::FrameDirectory files(directory);
+  FrameReel reel{
+      camera.optics.width_px, camera.optics.height_px, camera.depth_scale_m, rays_of(lens_of(camera.optics)), {}};
+  for (std::size_t i = 0; i < std::min(most, files.frames()); ++i) {
+    host::DepthFrame frame;
+    files.read(i, reel.width_px, reel.height_px, frame);
+    reel.frames.push_back({std::move(frame.intensity), std::move(frame.depth), std::nullopt});
+  }
+  return reel;
+}
+
+}  // namespace pharos::sim

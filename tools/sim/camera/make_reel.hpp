@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "tools/sim/camera/frame_reel.hpp"
+
+namespace pharos::sim {
+
+/// Renders the first `most` frames of a scenario of `pharos sim tof`, and writes the camera's file to `camera_file`
+/// unless that is empty. `made` is called after each frame. Throws host::InputError.
+FrameReel reel_of_scenario(const std::string& scenario, std::uint64_t seed, std::size_t most,
+                           const std::filesystem::path& camera_file, const std::function<void()>& made);
+
+/// The first `most` frames of a directory as `pharos sim tof` writes it, with its camera.toml; true poses are not read.
+/// Throws host::InputError.
+FrameReel reel_of_directory(const std::string& directory, std::size_t most);
+
+}  // namespace pharos::sim
