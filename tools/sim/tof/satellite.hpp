@@ -50,7 +50,7 @@ struct PaintedCircle {
 /// Wrinkled thermal foil around the body.
 struct Foil {
   double height_m = 0.004;  // standard deviation of the wrinkles' height
-  double albedo = 0.10;     // its diffuse part
+  double albedo = 0.20;     // its diffuse part
   double gloss = 0.25;      // broad specular part
   double glint = 3.0;       // narrow specular part, of facets that look straight at the camera
 };
