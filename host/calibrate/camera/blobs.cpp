@@ -15,7 +15,7 @@ namespace {
 constexpr double kThresholdDeviations = 0.75;
 // A window that holds part of a board deviates by far more than noise.
 constexpr double kLeastContrast = 4.0;
-constexpr double kLeastArea_px = 12.0;
+constexpr double kLeastArea_px = 6.0;
 constexpr double kLargestShare = 0.02;  // of the image
 // Area over that of the ellipse with the same moments; 1 for an ellipse, a square has 0.95, a cross of dots 0.6.
 constexpr double kLeastFill = 0.85;

@@ -17,7 +17,7 @@ struct BoardPicture {
 
 /// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's own symmetry
 /// lets anybody tell: a board of dots, and a chessboard of even squares, look the same after half a turn.
-/// Chessboards: OpenCV's findChessboardCornersSB on the grey values stretched to 8 bit.
+/// Chessboards: OpenCV's corners on the grey values stretched to 8 bit.
 BoardSearch find_board(GreyView image, const Board& board);
 
 }  // namespace pharos::calibrate

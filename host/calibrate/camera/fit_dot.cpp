@@ -49,29 +49,30 @@ std::vector<Sample> samples_of(GreyView image, const Blob& blob, double reach) {
 }
 
 // Grey value and its derivatives at a pixel. The distance to the edge is first order: (1 - q) / |grad q| with
-// q^2 = d^T M d.
+// q^2 = d^T M d and grad q = M d / q.
 double grey_at(const Vector& x, const Sample& sample, Vector& derivative) {
   const Vector2 d(sample.u - x[kU], sample.v - x[kV]);
   Matrix2 shape;
   shape << x[kUU], x[kUV], x[kUV], x[kVV];
-  const Vector2 shape_d = shape * d;
-  const double q = std::sqrt(std::max(d.dot(shape_d), 1e-12));
-  const double slope = std::max(shape_d.norm() / q, 1e-9);  // |grad q|, 1/px
-  const double edge = (1.0 - q) / (slope * x[kBlur]);       // in blurs, inside positive
+  const Vector2 w = shape * d;
+  const double q = std::sqrt(std::max(d.dot(w), 1e-12)), length = std::max(w.norm(), 1e-9);
+  const double edge = (1.0 - q) * q / (length * x[kBlur]);  // in blurs, inside positive
   const double inside = 0.5 * std::erfc(-edge / std::numbers::sqrt2);
   const double density = std::exp(-0.5 * edge * edge) / std::sqrt(2.0 * std::numbers::pi);
   const double plateau = x[kContrast] + x[kGradientU] * d.x() + x[kGradientV] * d.y();
-  const double by_q = -plateau * density / (slope * x[kBlur]);
-  derivative[kU] = -by_q * shape_d.x() / q - x[kGradientU] * inside;
-  derivative[kV] = -by_q * shape_d.y() / q - x[kGradientV] * inside;
-  derivative[kUU] = by_q * d.x() * d.x() / (2.0 * q);
-  derivative[kUV] = by_q * d.x() * d.y() / q;
-  derivative[kVV] = by_q * d.y() * d.y() / (2.0 * q);
+  const double by_edge = plateau * density;
+  const double by_q = by_edge * (1.0 - 2.0 * q) / (length * x[kBlur]), by_length = -by_edge * edge / length;
+  const Vector2 by_d = by_q / q * w + by_length / length * (shape * w);
+  derivative[kU] = -by_d.x() - x[kGradientU] * inside;
+  derivative[kV] = -by_d.y() - x[kGradientV] * inside;
+  derivative[kUU] = by_q * d.x() * d.x() / (2.0 * q) + by_length * w.x() * d.x() / length;
+  derivative[kUV] = by_q * d.x() * d.y() / q + by_length * (w.x() * d.y() + w.y() * d.x()) / length;
+  derivative[kVV] = by_q * d.y() * d.y() / (2.0 * q) + by_length * w.y() * d.y() / length;
   derivative[kBackground] = 1.0;
   derivative[kContrast] = inside;
   derivative[kGradientU] = inside * d.x();
   derivative[kGradientV] = inside * d.y();
-  derivative[kBlur] = -plateau * density * edge / x[kBlur];
+  derivative[kBlur] = -by_edge * edge / x[kBlur];
   return x[kBackground] + plateau * inside;
 }
 

@@ -3,7 +3,7 @@
 #include "host/calibrate/camera/opencv_module.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -14,7 +14,8 @@ namespace {
 using Pixels = std::vector<cv::Point2f>;
 using Points = std::vector<cv::Point3f>;
 
-// Half of the window that a corner is told from, in squares: its neighbours stay outside.
+// Half of the window that a corner is told from, of the shortest side: along the diagonal too its neighbours stay
+// outside.
 constexpr double kWindow = 0.35;
 constexpr int kMostSteps = 100;
 constexpr double kSmallestStep = 1e-12;
@@ -66,24 +67,31 @@ bool tried(Work work) {
   }
 }
 
+// A window that reaches a neighbour's edges would be pulled by them.
+double shortest_side(const std::vector<cv::Point2f>& corners, int columns) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto across = static_cast<std::size_t>(columns);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if ((i + 1) % across != 0) shortest = std::min(shortest, cv::norm(corners[i + 1] - corners[i]));
+    if (i + across < corners.size()) shortest = std::min(shortest, cv::norm(corners[i + across] - corners[i]));
+  }
+  return shortest;
+}
+
 bool find_corners(const std::uint8_t* image, int width_px, int height_px, int columns, int rows, double* pixels,
                   double* edge_px) {
   return tried([&] {
     const cv::Mat grey(height_px, width_px, CV_8U, const_cast<std::uint8_t*>(image));
     const cv::Size size(columns, rows);
-    cv::Mat corners;
-    if (!cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY)) {
+    std::vector<cv::Point2f> corners;
+    if (!cv::findChessboardCorners(grey, size, corners) &&
+        !cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY)) {
       return false;
     }
-    // The finder's own corners pull the lens terms by five sigma on boards rendered without noise; these do not.
-    const cv::Point2f across = corners.at<cv::Point2f>(columns * rows - 1) - corners.at<cv::Point2f>(0);
-    const double side =
-        std::hypot(static_cast<double>(across.x), static_cast<double>(across.y)) / std::hypot(columns - 1, rows - 1);
-    const int window = std::clamp(static_cast<int>(kWindow * side), 2, 15);
+    const int window = std::clamp(static_cast<int>(kWindow * shortest_side(corners, columns)), 2, 11);
     cv::cornerSubPix(grey, corners, {window, window}, {-1, -1}, kUntilStill);
     *edge_px = cv::estimateChessboardSharpness(grey, size, corners)[0];
-    for (int i = 0; i < columns * rows; ++i) {
-      const cv::Point2f corner = corners.at<cv::Point2f>(i);
+    for (const cv::Point2f& corner : corners) {
       *pixels++ = static_cast<double>(corner.x);
       *pixels++ = static_cast<double>(corner.y);
     }

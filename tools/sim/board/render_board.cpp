@@ -38,14 +38,16 @@ double place_of_share(double share, double blur_px) {
 }
 
 // Where in a pixel, from its middle, rays of the same weight pass: an even sequence (Roberts' R2) rather than a grid,
-// which would jump where an edge runs along it.
+// which would jump where an edge runs along it, and its mirror image, so that nothing is moved.
 std::vector<std::array<double, 2>> aperture(double blur_px) {
   constexpr double kPlastic = 1.32471795724474602596;
   std::vector<std::array<double, 2>> rays;
-  for (int i = 1; i <= kRays; ++i) {
+  for (int i = 1; i <= kRays / 2; ++i) {
     const auto share = [&](double step) { return std::fmod(0.5 + step * i, 1.0); };
-    rays.push_back(
-        {place_of_share(share(1.0 / kPlastic), blur_px), place_of_share(share(1.0 / (kPlastic * kPlastic)), blur_px)});
+    const double s = place_of_share(share(1.0 / kPlastic), blur_px);
+    const double t = place_of_share(share(1.0 / (kPlastic * kPlastic)), blur_px);
+    rays.push_back({s, t});
+    rays.push_back({-s, -t});
   }
   return rays;
 }
@@ -92,6 +94,8 @@ class Plane {
 
 enum class Surface { kDark, kBright, kSurround };
 
+int nearest(double place, int count) { return std::clamp(static_cast<int>(place + 0.5), 0, count - 1); }
+
 Surface surface_at(const BoardSheet& sheet, const std::array<double, 2>& point_m) {
   const double x = point_m[0] / sheet.pitch_m, y = point_m[1] / sheet.pitch_m;
   // A dots' sheet ends one pitch beyond its dots, a chessboard's white margin half a square beyond its squares.
@@ -101,14 +105,13 @@ Surface surface_at(const BoardSheet& sheet, const std::array<double, 2>& point_m
   }
   if (!sheet.dots) {
     if (x < -1.0 || y < -1.0 || x > sheet.columns || y > sheet.rows) return Surface::kBright;
-    const auto square = static_cast<int>(std::floor(x) + std::floor(y));
+    const auto square = static_cast<int>(x + 1.0) + static_cast<int>(y + 1.0);
     return square % 2 == 0 ? Surface::kDark : Surface::kBright;
   }
-  const double column = std::clamp(std::round(x), 0.0, sheet.columns - 1.0);
-  const double row = std::clamp(std::round(y), 0.0, sheet.rows - 1.0);
-  if (static_cast<int>(row) * sheet.columns + static_cast<int>(column) == sheet.missing) return Surface::kDark;
-  const bool inside = std::hypot(x - column, y - row) * sheet.pitch_m < sheet.radius_m;
-  return inside ? Surface::kBright : Surface::kDark;
+  const int column = nearest(x, sheet.columns), row = nearest(y, sheet.rows);
+  if (row * sheet.columns + column == sheet.missing) return Surface::kDark;
+  const double dx = (x - column) * sheet.pitch_m, dy = (y - row) * sheet.pitch_m;
+  return dx * dx + dy * dy < sheet.radius_m * sheet.radius_m ? Surface::kBright : Surface::kDark;
 }
 
 // What a pixel sees. Its rays lie between (and, for blur, a little beyond) its four corners' bilinearly: the lens bends

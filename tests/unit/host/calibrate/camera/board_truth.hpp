@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/calibrate/camera/camera_calibration.hpp"
+#include "tools/sim/board/board_poses.hpp"
+
+namespace pharos::calibrate {
+
+/// Where a disk's image has its centroid, summed over many small pieces through the simulator's own lens.
+Vector2 true_centroid(const sim::Lens& lens, const CameraFromBoard& T_camera_board, const Board& board,
+                      std::size_t index);
+
+/// A board as a perfect finder would give it, with noise of `sigma_px` in each coordinate.
+FoundBoard observed(const sim::Lens& lens, const CameraFromBoard& T_camera_board, const Board& board, double sigma_px,
+                    std::uint64_t seed);
+ImageOutcome image_of(const FoundBoard& found);
+
+/// fx, fy, cx, cy, k1, k2, p1, p2 and, unless held, k3.
+std::vector<double> values_of(const PinholeCamera& camera, bool hold_k3);
+std::vector<double> values_of(const sim::Lens& lens, bool hold_k3);
+PinholeCamera camera_of(const sim::Lens& lens);
+
+/// Of the errors of `outcome`'s camera, in sigmas, the largest; and e^T C^-1 e over its degrees of freedom.
+struct Errors {
+  double largest = 0.0;
+  double nees = 0.0;
+};
+Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool hold_k3);
+
+inline GreyView view_of(const sim::BoardImage& image) { return {image.pixels.data(), image.width_px, image.height_px}; }
+
+}  // namespace pharos::calibrate
