@@ -7,5 +7,7 @@ namespace pharos::tools {
 
 // Every kind of calibration adds itself below `calibrate`, as subcommands do below the program.
 void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code);
+void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
+void add_calibrate_stereo(CLI::App& calibrate, int& exit_code);
 
 }  // namespace pharos::tools

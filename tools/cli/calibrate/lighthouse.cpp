@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos calibrate lighthouse: recordings of a target at rest in many poses to sensor positions and rotor parameters.
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 #include <set>
 
 #include "host/calibrate/calibration_file.hpp"
@@ -16,6 +11,7 @@
 #include "tools/cli/calibrate/length_option.hpp"
 #include "tools/cli/calibrate/reports.hpp"
 #include "tools/cli/calibrate/residual_picture.hpp"
+#include "tools/cli/calibrate/text_file.hpp"
 #include "tools/cli/calibration_file.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/number_option.hpp"
@@ -114,26 +110,12 @@ calibrate::LighthouseMaterial material_of(const Options& options) {
   return material;
 }
 
-// Written beside its place and put there when it is whole.
-void write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::cout << text << std::flush;
-    return;
-  }
-  const std::string aside = path + ".new";
-  std::ofstream out(aside, std::ios::binary);
-  out << text << std::flush;
-  if (!out || std::rename(aside.c_str(), path.c_str()) != 0) {
-    throw host::InputError(path + ": cannot be written: " + std::strerror(errno) + "; choose another file");
-  }
-}
-
 int run(const Options& options) {
   check_files(options);
   calibrate::LighthouseMaterial material = material_of(options);
   const Target nominal = material.target;
   const calibrate::LighthouseCalibration calibration = calibrate::calibrate_lighthouse(std::move(material));
-  write_text(options.output, calibrate::calibration_text(calibration, nominal));
+  write_text_file(options.output, calibrate::calibration_text(calibration, nominal));
   if (options.output != "-") write_parameters(calibration, {options.json, "-"});
   if (!options.residuals.empty()) write_residuals(calibration, {options.json, options.residuals});
   if (!options.picture.empty()) write_residual_picture(calibration, options.picture);
