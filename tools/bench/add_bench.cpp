@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tools/bench/bench_decode.hpp"
+#include "tools/bench/bench_ellipses.hpp"
 #include "tools/bench/bench_motion.hpp"
 #include "tools/bench/bench_pose.hpp"
 #include "tools/bench/bench_target.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::optional<int> problems;
   std::string images;
   bool by_sensors = false;
+  bool sweep = false;
   bool csv = false;
   bool json = false;
 };
@@ -44,8 +46,20 @@ int run_target(const Options& options) {
   return kExitAnswered;
 }
 
+constexpr int kImages = 100;
+
+std::vector<BenchRow> run_ellipses(const Options& options) {
+  const EdgeDrawingFunction peer = load_edge_drawing();
+  if (peer == nullptr) std::fprintf(stderr, "pharos bench: %s has no EdgeDrawing: no peer\n", kPeerModuleName);
+  return bench_ellipses(options.problems.value_or(kImages), peer);
+}
+
 int run(const Options& options) {
   constexpr int kProblems = 2000;
+  if (options.sweep) {
+    write_threshold_sweep(options.problems.value_or(kImages), form_of(options));
+    return kExitAnswered;
+  }
   if (options.what == "target") return run_target(options);
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
@@ -58,6 +72,7 @@ int run(const Options& options) {
     }
     append(bench_pose(options.problems.value_or(kProblems), peers));
   }
+  if (wanted("ellipses")) append(run_ellipses(options));
   if (wanted("decode")) append(bench_decode(options.edges));
   if (wanted("motion")) append(bench_motion());
   write_rows(rows, form_of(options));
@@ -69,13 +84,16 @@ int run(const Options& options) {
 void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Speed and accuracy, ours and peers', as ratios in one run");
   const auto options = std::make_shared<Options>();
-  command->add_option("what", options->what, "pose, decode, motion, all of these (default), or target: the soft core")
-      ->check(CLI::IsMember({"all", "pose", "decode", "motion", "target"}));
+  command
+      ->add_option("what", options->what,
+                   "pose, ellipses, decode, motion, all of these (default), or target: the soft core")
+      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
-  command->add_option("--problems", options->problems, "Pose problems (2000; target 200)")
+  command->add_option("--problems", options->problems, "Pose problems (2000; target 200), images a set (100)")
       ->check(CLI::Range(10, 1'000'000));
   command->add_option("--images", options->images, "target: folder of the images (the build's, or the installed one)");
   command->add_flag("--sensors", options->by_sensors, "target: how the figures grow from 4 to 32 sensors");
+  command->add_flag("--sweep", options->sweep, "ellipses: recall and precision over thresholds of the score (CSV)");
   auto* csv = command->add_flag("--csv", options->csv, "what,ours,peer,ratio,unit instead of aligned columns");
   command->add_flag("--json", options->json, "One JSON object a line")->excludes(csv);
   command->footer(kExample);

@@ -7,14 +7,23 @@
 
 namespace pharos::tools {
 
-PeerFunction load_peers() {
+namespace {
+
+void* function_named(const char* name) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return nullptr;
   // Never closed: the function is used until the program ends.
   void* module = dlopen((program.parent_path() / kPeerModuleName).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (module == nullptr) return nullptr;
-  return reinterpret_cast<PeerFunction>(dlsym(module, kPeerFunctionName));
+  return module == nullptr ? nullptr : dlsym(module, name);
+}
+
+}  // namespace
+
+PeerFunction load_peers() { return reinterpret_cast<PeerFunction>(function_named(kPeerFunctionName)); }
+
+EdgeDrawingFunction load_edge_drawing() {
+  return reinterpret_cast<EdgeDrawingFunction>(function_named(kEdgeDrawingName));
 }
 
 }  // namespace pharos::tools

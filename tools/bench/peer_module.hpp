@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tools/bench/edge_drawing.hpp"
 #include "tools/bench/peer_solver.hpp"
 
 namespace pharos::tools {
 
 /// The peers' function from the module beside this program, or null where it was not built (no OpenCV).
 PeerFunction load_peers();
+/// The same for ellipses.
+EdgeDrawingFunction load_edge_drawing();
 
 }  // namespace pharos::tools

@@ -48,8 +48,8 @@ struct Disc {
   TrueEllipse outline(const PaintedCamera& camera) const {
     const double k = dot(normal, centre_m);
     std::array<Vec3, 3> q{};  // d^T q d = 0
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
         q[i][j] = (i == j ? k * k : 0.0) - k * (centre_m[i] * normal[j] + centre_m[j] * normal[i]) +
                   (dot(centre_m, centre_m) - radius_m * radius_m) * normal[i] * normal[j];
       }
