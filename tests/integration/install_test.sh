@@ -12,7 +12,7 @@ DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" || { c
 for file in bin/pharosd bin/pharos bin/pharos-example-subscriber lib/systemd/system/pharosd.service \
   lib/udev/rules.d/70-pharos.rules share/doc/pharos/README.md share/doc/pharos/subscribers.md \
   share/doc/pharos/examples/pharosd.toml share/doc/pharos/examples/target12.csv share/doc/pharos/examples/subscriber.cpp \
-  share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp; do
+  lib/pharos/libpharos_opencv_boards.so share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp; do
   [ -s "$root/usr/$file" ] || fail "/usr/$file is missing or empty"
 done
 [ ! -e "$root/etc" ] || fail "an installation must not touch /etc"
