@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos track: a recording and a target to poses of the target in each station's frame.
+#include <algorithm>
 #include <array>
 
 #include "host/support/input_error.hpp"
@@ -51,10 +52,15 @@ struct Options {
     options.smooth_flashes = !raw_flashes;
     return options;
   }
-  motion::MotionOptions motion() const {
+  // What is known to be wrong with target and station is in every covariance.
+  motion::MotionOptions motion(bool target_calibrated) const {
     const track::TrackOptions same = track();
-    motion::MotionOptions options{same.solve, same.form, same.smooth_flashes};
+    motion::MotionOptions options;
+    options.solve = same.solve;
+    options.form = same.form;
+    options.smooth_flashes = same.smooth_flashes;
     if (solver.noise.rho > 0.0) options.rho = solver.noise.rho;
+    options.systematic = target_calibrated ? motion::kCalibratedErrors : motion::kUncalibratedErrors;
     return options;
   }
 };
@@ -194,6 +200,12 @@ int run_with(const Options& options, CalibrationChoice calibration, Tracker trac
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }
 
+// A calibration of `pharos calibrate lighthouse` moves the sensors.
+bool same_positions(const Target& a, const Target& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const SensorPlacement& p, const SensorPlacement& q) { return p.position_m == q.position_m; });
+}
+
 int run(const Options& options) {
   check_files(options);
   const host::TargetFile target = host::read_target(options.target);
@@ -203,7 +215,8 @@ int run(const Options& options) {
   if (options.method == "epoch") {
     return run_with(options, std::move(calibration), track::EpochTracker(believed, options.track()));
   }
-  return run_with(options, std::move(calibration), motion::MotionTracker(believed, options.motion()));
+  const bool calibrated = !same_positions(believed, target.target);
+  return run_with(options, std::move(calibration), motion::MotionTracker(believed, options.motion(calibrated)));
 }
 
 }  // namespace

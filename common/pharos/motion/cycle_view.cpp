@@ -77,9 +77,9 @@ void CycleView::shifted(Axis axis, const Vector6& shift) {
   sweep.by_residual -= moved;
 }
 
-Matrix6 CycleView::unit_covariance(double rho) const {
-  Matrix6 middle = (1.0 - rho) * (sweep_[0].square + sweep_[1].square);
-  for (const Sweep& sweep : sweep_) middle += rho * sweep.sum.lazyProduct(sweep.sum.transpose());
+Matrix6 CycleView::covariance_of(double own, double common) const {
+  Matrix6 middle = own * (sweep_[0].square + sweep_[1].square);
+  for (const Sweep& sweep : sweep_) middle += common * sweep.sum.lazyProduct(sweep.sum.transpose());
   return unit_.lazyProduct(Matrix6(middle.lazyProduct(unit_)));
 }
 

@@ -27,11 +27,10 @@ class CycleView {
 
   /// The two sweeps leave no direction open and are no older than a turn and a half.
   bool known() const { return known_; }
-  /// Covariance of a pose solved from both sweeps, per unit variance of errors that each hit has of its own. The last
-  /// one known, zero before.
-  const Matrix6& unit_covariance() const { return unit_; }
-  /// The same for errors correlated by rho within a sweep, (18) and (19).
-  Matrix6 unit_covariance(double rho) const;
+  /// Covariance of a pose solved from both sweeps by plain least squares, (17): for errors that each hit has of its own
+  /// with variance `own`, and one with variance `common` that all hits of a sweep share. The last one known, zero
+  /// before.
+  Matrix6 covariance_of(double own, double common) const;
 
  private:
   struct Sweep {

@@ -95,7 +95,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     cycle_view_.shifted(axis, pose_difference(bank_.belief().pose, fit_.pose));
     last_used_ticks_ = time;
     learn_noise(misfit);
-    systematic_ = std::max(0.0, level_ - kWhiteLevel) * own_variance * cycle_view_.unit_covariance();
+    systematic_ = systematic_covariance(noise);
   }
   belief_ = honest(bank_.belief());
   return fit_;
@@ -115,6 +115,15 @@ void Hypothesis::learn_noise(const CycleView::Misfit& cycle) {
   level_freedom_ = std::min(level_freedom_ + seen.freedom, kLevelFreedom);
   const double gain = seen.freedom / (level_freedom_ + kLevelPrior);
   level_ = std::clamp(level_ * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
+}
+
+Matrix6 Hypothesis::systematic_covariance(const AssumedNoise& noise) const {
+  const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
+  const double range_m = bank_.belief().pose.t.norm();
+  const double sensor_rad = noise.systematic.sensor_position_m / range_m;
+  // What the residuals show of the sensors is not counted twice.
+  const double of_sensors = std::max((level_ - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
+  return cycle_view_.covariance_of(std::max(0.0, of_sensors), noise.systematic.rotor_rad * noise.systematic.rotor_rad);
 }
 
 // What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the

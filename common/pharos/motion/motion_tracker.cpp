@@ -12,8 +12,6 @@ namespace {
 
 // Beyond these an answer is none: a body seen so badly is as good as lost.
 constexpr double kLargestRotation_rad = 0.35, kLargestPosition_m = 0.3;
-// Own noise that is this many times what was assumed is said aloud.
-constexpr double kNoisy = 3.0;
 
 std::uint8_t flags_of(const lighthouse::Sweep& sweep, bool calibrated) {
   std::uint8_t flags = 0;
@@ -134,7 +132,7 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   e.iterations = 1;
   e.residual_rms = residual_rms(fit.used, pose_difference(leader.belief().pose, fit.pose));
   if (leader.cycle_view().known()) {
-    const Matrix6 unit = leader.cycle_view().unit_covariance(options_.solve.rho);
+    const Matrix6 unit = leader.cycle_view().covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
     e.adop_deg_per_rad = pose::adop_of(unit);
     e.pdop_m_per_rad = pose::pdop_of(unit);
   } else {

@@ -17,6 +17,8 @@ struct MotionOptions {
   /// Share of a bearing's variance that rotor and flash give to all sensors of one sweep alike: 0.87 in the paper, 0.96
   /// to 0.99 in recordings.
   double rho = kPaperRho;
+  /// What is known to be wrong with target and stations, for every answer's covariance.
+  SystematicErrors systematic;
 };
 
 /// What the last sweep said of the tracker's own honesty.
@@ -65,7 +67,7 @@ class MotionTracker {
   };
 
   StationView view_of(const Station& station) const;
-  AssumedNoise noise() const { return {options_.solve.sigma_rad, options_.rho}; }
+  AssumedNoise noise() const { return {options_.solve.sigma_rad, options_.rho, options_.systematic}; }
   track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,
                             const lighthouse::SweepBearings& bearings);
   Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station,

@@ -13,7 +13,10 @@ namespace pharos::motion {
 namespace {
 
 constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a leader that does well
-constexpr int kDoubts = 2;        // sweeps in a row that contradict a leader; one makes a check due at once
+// While a leader is young or its hits are noisier than assumed (kNoisy), it may have started from a false hit.
+constexpr int kUneasyCycles = 2;
+constexpr int kYoungSweeps = 32;
+constexpr int kDoubts = 2;  // sweeps in a row that contradict a leader; one makes a check due at once
 // Chi-squared by which one of two must be better to be the only one: e^9 to one.
 constexpr double kDecided = 18.0;
 // Sweeps that a rival from mid-flight needs to learn its rates before it is compared.
@@ -88,7 +91,10 @@ void StationTrack::decide() {
 
 bool StationTrack::due() const {
   if (!leader_) return true;
-  return leader_->doubts() >= kDoubts || (!rival_ && (leader_->doubts() > 0 || cycles_unchecked_ >= kCheckCycles));
+  if (leader_->doubts() >= kDoubts) return true;
+  if (rival_) return false;
+  const bool uneasy = leader_->sweeps() < kYoungSweeps || leader_->own_scale() > kNoisy;
+  return leader_->doubts() > 0 || cycles_unchecked_ >= (uneasy ? kUneasyCycles : kCheckCycles);
 }
 
 bool StationTrack::agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const {

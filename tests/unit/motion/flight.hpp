@@ -58,16 +58,23 @@ struct FlightAnswer {
   double nees() const { return nees_of(truth, result->pose.value()); }
 };
 
-/// Flies a scenario through decoder and tracker. `spoil` may change each sweep before the tracker sees it.
+/// Options of a flight: the simulated flash has no memory, so there is nothing to smooth.
+inline motion::MotionOptions flight_options() {
+  motion::MotionOptions options;
+  options.smooth_flashes = false;
+  return options;
+}
+
+/// Flies a scenario of ideal stations through decoder and tracker; an answer's truth is in its station's frame. `spoil`
+/// may change each sweep before the tracker sees it.
 inline void fly(
     const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightAnswer&)>& take,
-    const std::function<void(lighthouse::Sweep&)>& spoil = [](lighthouse::Sweep&) {}) {
+    const std::function<void(lighthouse::Sweep&)>& spoil = [](lighthouse::Sweep&) {},
+    const motion::MotionOptions& options = flight_options()) {
   sim::LighthouseSimulator simulator(scenario, seed);
   const auto decoder = std::make_unique<lighthouse::Decoder>();
-  motion::MotionOptions options;
-  options.smooth_flashes = false;  // the simulated flash has no memory: nothing to smooth
   const auto tracker = std::make_unique<motion::MotionTracker>(scenario.target, options);
-  tracker->set_calibration(0, {});
+  for (std::uint8_t station = 0; station < scenario.stations.size(); ++station) tracker->set_calibration(station, {});
   const auto give = [&] {
     while (decoder->take_ootx()) {
     }
@@ -75,7 +82,7 @@ inline void fly(
       spoil(*sweep);
       if (const auto result = tracker->push(*sweep)) {
         const double time_s = ticks_to_seconds(result->time_ticks);
-        take({time_s, &*result, simulator.truth(0, time_s)});
+        take({time_s, &*result, simulator.truth(result->station, time_s)});
       }
     }
   };

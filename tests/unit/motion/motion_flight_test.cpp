@@ -126,6 +126,79 @@ TEST(MotionFlight, GoesOnWhenHalfOfTheSensorsDie) {
   EXPECT_LT(all.position_max_mm, 20.0);
 }
 
+// The station is gone for a second and a half and comes back with its rotors elsewhere.
+TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
+  sim::LighthouseScenario scenario = test::manoeuvre(9.0, 0.5, 60.0, 6);
+  scenario.faults.restarts = {{0, 4.0, 1.5}};
+  FlightScore all;
+  double last_before_s = 0.0, first_after_s = 0.0;
+  test::fly(scenario, 6, [&](const FlightAnswer& answer) {
+    all.add(answer);
+    const double time_s = answer.time_s - 1.0;  // the counter starts at one second
+    if (!answer.result->pose) return;
+    if (time_s < 4.0) last_before_s = time_s;
+    if (time_s > 5.5 && first_after_s == 0.0) first_after_s = time_s;
+  });
+  EXPECT_GT(last_before_s, 3.9);
+  EXPECT_GT(first_after_s, 5.5);
+  EXPECT_LT(first_after_s, 6.5);
+  EXPECT_GT(all.answers, 750);
+  EXPECT_LT(all.position_max_mm, 60.0);
+  EXPECT_LT(all.nees_per_freedom(), 1.5);
+}
+
+// Beyond four minutes of darkness another station may stand in the slot: what was known of it no longer holds.
+TEST(MotionFlight, ALongDarkForgetsTheCalibration) {
+  sim::LighthouseScenario scenario = test::still(246.0, 2.0, 7);
+  scenario.faults.blackouts = {{1.0, 244.0}};
+  int before = 0, after = 0;
+  test::fly(scenario, 7, [&](const FlightAnswer& answer) {
+    const bool uncalibrated = (answer.result->flags & track::kEpochUncalibrated) != 0;
+    if (!answer.result->pose) return;
+    EXPECT_EQ(uncalibrated, answer.time_s > 200.0);
+    EXPECT_LT(answer.position_mm(), 50.0);
+    ++(uncalibrated ? after : before);
+  });
+  EXPECT_GT(before, 50);
+  EXPECT_GT(after, 50);
+}
+
+// Stations are told apart by their slot: one identity twice costs neither its pose.
+TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
+  sim::LighthouseScenario scenario = test::still(4.0, 2.0, 11, 8);
+  scenario.stations.resize(2);
+  scenario.stations[0].mode = sim::StationMode::kB;
+  scenario.stations[1].mode = sim::StationMode::kC;
+  scenario.stations[1].id = scenario.stations[0].id;
+  scenario.stations[1].pose.t = {0.4, 0.1, 0.1};
+  std::array<int, kMaxStations> good{};
+  test::fly(scenario, 11, [&](const FlightAnswer& answer) {
+    if (answer.time_s < 2.0 || !answer.result->pose || answer.result->pose->ambiguous()) return;
+    EXPECT_LT(answer.position_mm(), 10.0) << "station " << int{answer.result->station};
+    ++good[answer.result->station];
+  });
+  EXPECT_GT(good[0], 100);
+  EXPECT_GT(good[1], 100);
+}
+
+// Sensors and rotors off by the workshop's errors, and no calibration: what is known to be wrong is in the covariance.
+TEST(MotionFlight, CovarianceOwnsUpToSystematicErrorsItIsToldOf) {
+  MotionOptions told = test::flight_options();
+  told.systematic = kUncalibratedErrors;
+  FlightScore silent, honest;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    sim::LighthouseScenario scenario = test::manoeuvre(6.0, 0.5, 60.0, seed);
+    scenario.errors = sim::ErrorScenario::workshop();
+    const auto none = [](lighthouse::Sweep&) {};
+    test::fly(
+        scenario, seed, [&](const FlightAnswer& answer) { silent.add(answer); }, none);
+    test::fly(
+        scenario, seed, [&](const FlightAnswer& answer) { honest.add(answer); }, none, told);
+  }
+  EXPECT_GT(silent.nees_per_freedom(), 4.0);
+  EXPECT_LT(honest.nees_per_freedom(), 2.0);  // six draws of the errors
+}
+
 TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
   const Target target = test::frustum_target();
   MotionTracker tracker(target, {});
