@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "p.toml:9: camera[1].camera_file: /etc/pharos/large.toml: 1280 x 480 pixels are more than"},
         BadCamera{"FramesGone", "[[camera]]\nname = 'b'\ntarget = 'x'\ncamera_file = 'h.toml'\nframes = 'gone'\n",
                   "p.toml:10: camera[1].frames: /etc/pharos/gone: holds no frames"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(CameraConfig, NeitherTargetNorCameraIsAnError) {
   EXPECT_THAT(error_of("source = 'x'\n"), HasSubstr("or a [[camera]]"));
