@@ -109,7 +109,8 @@ void add_listen(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL")->capture_default_str();
   command->add_option("--truth", options->truth,
-                      "File with the true poses (utime,qw,...,tz_m), as `pharos sim serial --truth` writes it");
+                      "File with the true poses (utime,qw,...,tz_m), as `pharos sim serial --truth` and `pharos sim "
+                      "camera --truth` write it");
   command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
       ->check(number_from(kShortest_s, kLongest_s));
   command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::Range(0, INT_MAX));
@@ -118,6 +119,7 @@ void add_listen(CLI::App& app, int& exit_code) {
   command->add_flag("--summary", options->summary, "Only the summary at the end, on standard output");
   command->footer(
       "Example: pharos listen --duration 10 --summary --truth truth.csv\n"
+      "         pharos listen PHAROS_TOF_POSE\n"
       "         pharos listen PHAROS_STATUS --json\n"
       "Ends with 0 when at least one pose or status message was received, with 1 when none was.");
   command->callback([options, &exit_code] { exit_code = listen(*options); });

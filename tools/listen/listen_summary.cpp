@@ -50,6 +50,7 @@ double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
   summary.channel = pose.channel;
   summary.target = pose.target;
   summary.station = pose.station;
+  if (pose.of_camera) summary.camera = pose.station_id;
   const auto [last, first] = last_sequence_.try_emplace({pose.channel, pose.source + '/' + pose.target}, pose.sequence);
   if (!first && pose.sequence > last->second) summary.lost += pose.sequence - last->second - 1;
   last->second = pose.sequence;
@@ -82,9 +83,10 @@ std::vector<SourceSummary> ListenSummary::sources() const {
 std::string summary_text(const std::vector<SourceSummary>& sources) {
   std::string out;
   for (const SourceSummary& source : sources) {
-    out += fmt::format("{}, target {}, station {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost\n",
-                       source.channel, source.target, source.station, source.poses, source.seconds, source.rate_hz(),
-                       source.refused, source.lost);
+    const std::string by =
+        source.camera.empty() ? fmt::format("station {}", source.station) : "camera " + source.camera;
+    out += fmt::format("{}, target {}, {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost\n", source.channel,
+                       source.target, by, source.poses, source.seconds, source.rate_hz(), source.refused, source.lost);
     if (source.poses > 0) {
       const auto age_ms = [&](double q) { return static_cast<double>(source.age.quantile_ns(q)) * kMsPerNs; };
       out += fmt::format("  age on arrival: {:.1f} ms median, {:.1f} ms 99 %, {:.1f} ms largest\n", age_ms(0.5),

@@ -31,6 +31,7 @@ struct SourceSummary {
   std::string channel;
   std::string target;
   int station = 0;
+  std::string camera;  // empty: a station's
   std::int64_t poses = 0;
   std::int64_t refused = 0;
   std::int64_t lost = 0;  // gaps in the sequence numbers, of all stations of the target

@@ -30,6 +30,7 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.station_id = message.station_or_camera;
   pose.station = static_cast<std::uint8_t>(message.station);
   pose.status = message.status;
+  pose.of_camera = message.child_frame == "target";
   pose.flags = message.flags;
   pose.sigma_rot_rad = message.sigma_rot_rad;
   pose.sigma_pos_m = message.sigma_pos_m;

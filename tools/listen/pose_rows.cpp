@@ -7,6 +7,7 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/tof/target_frame.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -21,6 +22,16 @@ std::string clock_text(std::int64_t utime_us) {
   return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec, utime_us % kUsPerSecond / 1000);
 }
 
+std::string attitude_text(const ReceivedPose& pose) {
+  if (pose.of_camera) {
+    const tof::TargetAngles angles = tof::angles_of(pose.pose->R);
+    return fmt::format("alpha {:.2f} beta {:.2f} gamma {:.2f} deg", angles.alpha_rad * kDegPerRad,
+                       angles.beta_rad * kDegPerRad, angles.gamma_rad * kDegPerRad);
+  }
+  const Vector3 r_deg = rotation_log(pose.pose->R) * kDegPerRad;
+  return fmt::format("r {:.3f} {:.3f} {:.3f} deg", r_deg.x(), r_deg.y(), r_deg.z());
+}
+
 }  // namespace
 
 std::string pose_line(const ReceivedPose& pose) {
@@ -28,9 +39,7 @@ std::string pose_line(const ReceivedPose& pose) {
                                 pose.station_id.empty() ? "--------" : pose.station_id, pose.status);
   if (pose.pose) {
     const Vector3 t_mm = pose.pose->t * kMmPerM;
-    const Vector3 r_deg = rotation_log(pose.pose->R) * kDegPerRad;
-    out += fmt::format("  t {:.2f} {:.2f} {:.2f} mm  r {:.3f} {:.3f} {:.3f} deg", t_mm.x(), t_mm.y(), t_mm.z(),
-                       r_deg.x(), r_deg.y(), r_deg.z());
+    out += fmt::format("  t {:.2f} {:.2f} {:.2f} mm  ", t_mm.x(), t_mm.y(), t_mm.z()) + attitude_text(pose);
     out += fmt::format("  sigma {:.2f} mm {:.3f} deg  {:.0f}/s", pose.sigma_pos_m * kMmPerM,
                        pose.sigma_rot_rad * kDegPerRad, pose.rate_hz);
   }

@@ -9,7 +9,8 @@
 
 namespace pharos::tools {
 
-/// One line for people: UTC, target, station, position in mm, rotation vector in degrees, sigmas, rate, age, error.
+/// One line for people: UTC, target, station, position in mm, rotation vector in degrees (of cameras: the
+/// angles of paper 000), sigmas, rate, age, error.
 std::string pose_line(const ReceivedPose& pose);
 
 /// Columns of the tables (CSV, JSON), and one row of them.

@@ -31,8 +31,9 @@ struct ReceivedPose {
   std::optional<LighthouseFromBody> pose;  // empty when the cycle was refused
   double sigma_rot_rad = 0.0;
   double sigma_pos_m = 0.0;
-  double age_s = 0.0;    // on arrival, after the measurement
-  double rate_hz = 0.0;  // of its kind over the last second
+  bool of_camera = false;  // T_camera_target: people know the angles of paper 000
+  double age_s = 0.0;      // on arrival, after the measurement
+  double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;
 };
 
