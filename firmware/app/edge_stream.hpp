@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "firmware/hal/edge_capture.hpp"
+#include "pharos/base/lowest_bit.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/pulse.hpp"
 
@@ -25,7 +25,7 @@ class EdgeStream {
     last_ticks_ += ticks_difference(record.time_ticks, static_cast<std::uint32_t>(last_ticks_));
     if (record.gap) unknown_rise_ = record.levels ^ record.changed;
     for (std::uint32_t left = record.changed; left != 0; left &= left - 1) {
-      const auto input = static_cast<std::uint8_t>(std::countr_zero(left));
+      const auto input = lowest_bit(left);
       const std::uint32_t bit = left & (0 - left);
       if ((unknown_rise_ & bit) != 0) {
         unknown_rise_ &= ~bit;

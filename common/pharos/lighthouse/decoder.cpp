@@ -59,7 +59,7 @@ inline bool Decoder::admit_at_once(LightEvent event) {
 void Decoder::admit(LightEvent event) {
   if (!time_base_.fits_at_once(event)) return judge(event);
   sort_in(event);
-  give_out_until(time_base_.newest_ticks() - kHoldTicks);
+  if (time_base_.newest_ticks() > quiet_until_ticks_) give_out_until(time_base_.newest_ticks() - kHoldTicks);
 }
 
 void Decoder::judge(LightEvent event) {
@@ -115,7 +115,6 @@ void Decoder::time_moved(std::int64_t newest_before) {
 
 void Decoder::sort_in(const LightEvent& event) {
   if (order_.full()) give_out(order_.oldest_stamp(), EventOrder::kCapacity - 1);
-  quiet_until_ticks_ = INT64_MIN;
   const bool pulse = event.kind == LightEvent::Kind::kPulse;
   switch (order_.insert(event)) {
     case EventOrder::Verdict::kTaken:
@@ -127,14 +126,19 @@ void Decoder::sort_in(const LightEvent& event) {
       ++(pulse ? counters_.pulses_late : counters_.edges_late);
       break;
   }
+  refresh_quiet();
 }
 
 void Decoder::give_out_until(std::int64_t stamp_ticks) {
   give_out(static_cast<std::uint32_t>(stamp_ticks), 0);
   if (stamp_ticks > deadline_ticks_) pass_time(stamp_ticks);
-  const std::int64_t last_quiet =
-      order_.empty() ? deadline_ticks_ : std::min(deadline_ticks_, order_.oldest_ticks() - 1);
-  quiet_until_ticks_ = std::min(last_quiet, INT64_MAX - kHoldTicks) + kHoldTicks;
+  refresh_quiet();
+}
+
+void Decoder::refresh_quiet() {
+  quiet_until_ticks_ = deadline_ticks_;
+  if (!order_.empty()) quiet_until_ticks_ = std::min(quiet_until_ticks_, order_.oldest_ticks() - 1);
+  if (quiet_until_ticks_ <= INT64_MAX - kHoldTicks) quiet_until_ticks_ += kHoldTicks;
 }
 
 // All that is of `until_stamp` or before, but for the last `keep` of the order.

@@ -75,6 +75,7 @@ class Decoder {
   void handle_long(const Pulse& pulse);
   void pass_time(std::int64_t now_ticks);
   void refresh_deadline();
+  void refresh_quiet();
   void close(FlashGroup& group);
   void handle(const TrackedFlash& flash);
   std::int64_t decoded_ticks() const;

@@ -7,7 +7,7 @@ namespace pharos::lighthouse {
 
 FlashCandidate candidate_of(const FlashGroup& group) {
   const Pulse longest = group[group.longest()];
-  return {longest.rise_ticks, longest.width_ticks, static_cast<std::uint8_t>(group.size())};
+  return {longest.rise_ticks, longest.width_ticks, static_cast<std::uint32_t>(group.size())};
 }
 
 std::size_t FlashGroup::longest() const {

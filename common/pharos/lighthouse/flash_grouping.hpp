@@ -52,7 +52,7 @@ class FlashGroup {
 struct FlashCandidate {
   std::int64_t start_ticks = 0;   // rise on the strongest sensor
   std::int32_t length_ticks = 0;  // longest pulse
-  std::uint8_t sensors = 0;
+  std::uint32_t sensors = 0;
 };
 
 FlashCandidate candidate_of(const FlashGroup& group);

@@ -6,10 +6,6 @@
 namespace pharos::lighthouse {
 namespace {
 
-// Measured: 99 % of same-rotor flashes within 40 ticks of the prediction after one turn. Three times that, and 40 more
-// for every turn not seen.
-constexpr std::int32_t kToleranceTicks = 120;
-constexpr std::int32_t kToleranceGrowthTicks = 40;
 /// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %). In 1/256 tick.
 constexpr std::int32_t kPeriodSlackUnits = 833 * 256;
 /// Longest gap over which extrapolate() answers.
@@ -34,32 +30,7 @@ RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   }
   if (elapsed < 0) turns = -turns;
   const std::int64_t whole = static_cast<std::int64_t>(period) * turns;
-  return {turns, static_cast<std::int32_t>(elapsed - (whole + kUnits / 2) / kUnits), 0, true};
-}
-
-RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
-  const auto elapsed = static_cast<std::uint64_t>(start_ticks - last_ticks_);
-  if (!known() || elapsed > std::uint64_t{kLongestGapTurns + 1} * kTurnTicks) return {};  // or negative
-  const auto ticks = static_cast<std::uint32_t>(elapsed);
-  // The nominal turn, from which none is off by more than 0.1 %, gives the turns but for one. What is left over is so
-  // far from 32 bits that the products may lose what is above them.
-  std::int32_t turns = static_cast<std::int32_t>((ticks + kTurnTicks / 2) / kTurnTicks);
-  auto rest = static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(turns) * period_);
-  const auto half = static_cast<std::int32_t>(period_ / 2);
-  if (rest < -half) {
-    --turns;
-    rest += static_cast<std::int32_t>(period_);
-  } else if (rest >= static_cast<std::int32_t>(period_) - half) {
-    ++turns;
-    rest -= static_cast<std::int32_t>(period_);
-  }
-  if (turns < 1 || turns > kLongestGapTurns) return {};
-  Fit fit;
-  fit.turns = turns;
-  fit.residual_ticks = -((static_cast<std::int32_t>(kUnits) / 2 - rest) >> kUnitBits);
-  fit.tolerance_ticks = kToleranceTicks + kToleranceGrowthTicks * turns;
-  fit.within = fit.residual_ticks <= fit.tolerance_ticks && fit.residual_ticks >= -fit.tolerance_ticks;
-  return fit;
+  return {turns, static_cast<std::int32_t>(elapsed - (whole + kUnits / 2) / kUnits), true};
 }
 
 void RotorClock::update(std::int64_t start_ticks, std::uint32_t slot) {

@@ -18,10 +18,9 @@ class RotorClock {
   static constexpr std::int32_t kLongestGapTurns = 30;
 
   struct Fit {
-    std::int32_t turns = 0;            // since the last flash
-    std::int32_t residual_ticks = 0;   // flash minus prediction
-    std::int32_t tolerance_ticks = 0;  // what a rotor may drift in so many turns
-    bool within = false;               // |residual| <= tolerance
+    std::int32_t turns = 0;           // since the last flash
+    std::int32_t residual_ticks = 0;  // flash minus prediction
+    bool within = false;              // the residual is no more than what a rotor drifts in so many turns
   };
 
   bool known() const { return count_ > 0; }
@@ -40,6 +39,10 @@ class RotorClock {
   void update(std::int64_t start_ticks, std::uint32_t slot);
 
  private:
+  // Measured: 99 % of same-rotor flashes within 40 ticks of the prediction after one turn. Three times that, and 40
+  // more for every turn not seen.
+  static constexpr std::int32_t kToleranceTicks = 120;
+  static constexpr std::int32_t kToleranceGrowthTicks = 40;
   // Turns are noisy by 10 ticks and far steadier than that: 16 of them are averaged.
   static constexpr std::uint32_t kAveragedTurns = 16;
   static constexpr int kUnitBits = 8;
@@ -51,5 +54,30 @@ class RotorClock {
   std::uint32_t last_slot_ = 0;
   std::uint32_t count_ = 0;
 };
+
+inline RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
+  const auto elapsed = static_cast<std::uint64_t>(start_ticks - last_ticks_);
+  if (!known() || elapsed > std::uint64_t{kLongestGapTurns + 1} * kTurnTicks) return {};  // or negative
+  const auto ticks = static_cast<std::uint32_t>(elapsed);
+  // The nominal turn, from which none is off by more than 0.1 %, gives the turns but for one. What is left over is so
+  // far from 32 bits that the products may lose what is above them.
+  std::int32_t turns = static_cast<std::int32_t>((ticks + kTurnTicks / 2) / kTurnTicks);
+  auto rest = static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(turns) * period_);
+  const auto half = static_cast<std::int32_t>(period_ / 2);
+  if (rest < -half) {
+    --turns;
+    rest += static_cast<std::int32_t>(period_);
+  } else if (rest >= static_cast<std::int32_t>(period_) - half) {
+    ++turns;
+    rest -= static_cast<std::int32_t>(period_);
+  }
+  if (turns < 1 || turns > kLongestGapTurns) return {};
+  Fit fit;
+  fit.turns = turns;
+  fit.residual_ticks = -((static_cast<std::int32_t>(kUnits) / 2 - rest) >> kUnitBits);
+  const std::int32_t tolerance = kToleranceTicks + kToleranceGrowthTicks * turns;
+  fit.within = fit.residual_ticks <= tolerance && fit.residual_ticks >= -tolerance;
+  return fit;
+}
 
 }  // namespace pharos::lighthouse

@@ -124,7 +124,7 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& w
   flash.axis = axis_of_slot(place.slot);
   flash.skip = skips(place);
   flash.data = reading.data;
-  flash.sensors = candidate.sensors;
+  flash.sensors = static_cast<std::uint8_t>(candidate.sensors);
   if (reading.missing_ticks > kWeakTicks) {
     tracked.flags |= kSweepFlashWeak;
     const std::int32_t least = reading.missing_ticks * kLeastLatenessPercent / 100;
@@ -197,16 +197,17 @@ std::optional<TrackedFlash> SlotTracker::adopt(SlotPattern pattern, DecoderCount
   kind_ = pattern.kind;
   for (Station& station : station_) station = {};
   std::optional<TrackedFlash> newest;
-  DecoderCounters unused;  // the groups of the search were counted when they came
+  const std::uint32_t missed = counters.flashes_missed;  // the groups of the search were counted when they came
   for (std::size_t age = search_.size(); age-- > 0;) {
     const auto place = search_.place(age, pattern);
     if (!place) continue;
     const Place where{*place, 0, false, true};
     const Reading reading = read_length(search_.candidate(age).length_ticks, where);
     if (!reading.credible) continue;
-    const TrackedFlash flash = accept(search_.candidate(age), where, reading, unused);
+    const TrackedFlash flash = accept(search_.candidate(age), where, reading, counters);
     if (age == 0) newest = flash;
   }
+  counters.flashes_missed = missed;
   locked_ = true;
   ++counters.locks;
   return newest;

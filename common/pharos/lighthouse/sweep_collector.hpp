@@ -6,6 +6,7 @@
 
 #include "pharos/base/ring.hpp"
 #include "pharos/lighthouse/decoder_counters.hpp"
+#include "pharos/lighthouse/optical_timing.hpp"
 #include "pharos/lighthouse/pulse.hpp"
 #include "pharos/lighthouse/slot_tracker.hpp"
 #include "pharos/lighthouse/sweep.hpp"
@@ -23,7 +24,23 @@ class SweepCollector {
   static constexpr std::size_t kHeld = 4;
 
   void push(const TrackedFlash& flash, DecoderCounters& counters);
-  void push(const Pulse& hit, DecoderCounters& counters);
+  void push(const Pulse& hit, DecoderCounters& counters) {
+    bool flash_seen = false;
+    for (Open& open : open_) {
+      if (!open.ever || open.skip) continue;
+      const auto after_flash = static_cast<std::uint64_t>(hit.rise_ticks - open.start_ticks);
+      if (after_flash >= kNextWindowTicks) continue;  // or before it
+      flash_seen = true;
+      if (!open.open) continue;
+      const std::int32_t centre_half_ticks = 2 * static_cast<std::int32_t>(after_flash) + hit.width_ticks;
+      if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
+      const bool kept = places_[open.place].hits.push_back(
+          {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), centre_half_ticks});
+      ++(kept ? counters.hits : counters.hits_overflow);
+      return;
+    }
+    ++(flash_seen ? counters.hits_out_of_window : counters.hits_no_flash);
+  }
   /// No pulse before `now_ticks` will come any more.
   void pass_time(std::int64_t now_ticks, DecoderCounters& counters);
   void finish_all(DecoderCounters& counters);
@@ -36,11 +53,16 @@ class SweepCollector {
   void drop_finished() { free_ |= 1U << finished_.pop(); }
 
  private:
+  /// Before the next slot's hits can begin, a stray pulse is not for want of a flash.
+  static constexpr std::uint64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
+
+  /// A station's last sweep, open or not.
   struct Open {
-    Flash flash;             // of the station's last sweep, open or not
-    std::uint8_t place = 0;  // of its sweep while it is open
+    std::int64_t start_ticks = 0;  // of its flash
+    std::uint8_t place = 0;        // of the sweep while it is open
     bool open = false;
     bool ever = false;
+    bool skip = false;
   };
   /// Finishes what began at `start_ticks` or earlier, first flash first.
   void finish_until(std::int64_t start_ticks, DecoderCounters& counters);
