@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the room's README claims, over several hundred rendered frames.
+#include <gtest/gtest.h>
+
+#include "tests/unit/ellipse/ring_frames.hpp"
+
+namespace pharos::ellipse {
+namespace {
+
+constexpr int kImages = 150;
+
+TEST(EllipseCampaign, RingsInFullView) {
+  const test::RingScore score = score_on({}, kImages, 21);
+  EXPECT_GE(score.recall(), 0.998);
+  EXPECT_GE(score.f(), 0.96);
+  EXPECT_LT(middle_of(score.axis_errors_px), 0.02);
+}
+
+TEST(EllipseCampaign, NoiseOfAPoorCamera) {
+  test::RingSet set;
+  set.noise = 3.0;
+  const test::RingScore score = score_on(set, kImages, 22);
+  EXPECT_GE(score.recall(), 0.995);
+  EXPECT_GE(score.f(), 0.96);
+}
+
+TEST(EllipseCampaign, AThirdHidden) {
+  test::RingSet set;
+  set.most_hidden = 1.0 / 3.0;
+  const test::RingScore score = score_on(set, kImages, 23);
+  EXPECT_GE(score.recall(), 0.98);
+  EXPECT_GE(score.f(), 0.96);
+}
+
+}  // namespace
+}  // namespace pharos::ellipse
