@@ -82,7 +82,7 @@ struct Reader {
 };
 
 bool read_header(Reader& reader, Header& header) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;  // NOLINT(cert-err52-cpp)
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_read_info(reader.png, reader.info);
   png_get_IHDR(reader.png, reader.info, &header.width, &header.height, &header.bits, &header.colour, nullptr, nullptr,
                nullptr);
@@ -90,7 +90,7 @@ bool read_header(Reader& reader, Header& header) {
 }
 
 bool read_rows(Reader& reader, png_bytep* rows, bool swap) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;  // NOLINT(cert-err52-cpp)
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_expand_gray_1_2_4_to_8(reader.png);
   if (swap) png_set_swap(reader.png);
   png_set_interlace_handling(reader.png);
@@ -134,8 +134,8 @@ struct Writer {
 
 bool write_all(Writer& writer, std::FILE* file, png_uint_32 width, png_uint_32 height, PngPixels pixels,
                png_const_bytep rows, std::size_t stride) {
-  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;  // NOLINT(cert-err52-cpp)
-  constexpr int kQuick = 1;                               // overlays and frames are looked at, not archived
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  constexpr int kQuick = 1;  // overlays and frames are looked at, not archived
   png_init_io(writer.png, file);
   png_set_compression_level(writer.png, kQuick);
   png_set_IHDR(writer.png, writer.info, width, height, pixels == PngPixels::kGrey16 ? 16 : 8,

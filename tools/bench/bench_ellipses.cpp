@@ -52,7 +52,8 @@ class OurDetector {
     const ImageView<const std::uint16_t> view(image.pixels.data(), set.camera.width_px, set.camera.height_px);
     seconds = processor_seconds_of([&] { ellipse::detect_ellipses(view, settings, *workspace_); });
     std::vector<TrueEllipse> found;
-    for (const auto& [e, covariance, score, rms_px, coverage, points, arcs, bright] : workspace_->found) {
+    for (const ellipse::DetectedEllipse& one : workspace_->found) {
+      const ellipse::Ellipse& e = one.ellipse;
       found.push_back({e.cx_px, e.cy_px, e.a_px, e.b_px, e.theta_rad});
     }
     return found;
@@ -95,7 +96,8 @@ std::vector<TrueEllipse> peer_ellipses(EdgeDrawingFunction peer, const RingImage
 
 std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
   std::vector<BenchRow> rows;
-  for (const auto& [name, set] : sets()) {
+  for (const NamedSet& named : sets()) {
+    const RingSet& set = named.set;
     Record ours, theirs;
     OurDetector detector(set);
     test::RingGenerator generator(set, kSeed);
@@ -107,7 +109,7 @@ std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
     }
     const auto add = [&](const char* what, double our_value, double their_value, const char* unit, bool less) {
       const std::optional<double> value = peer == nullptr ? std::nullopt : std::optional<double>(their_value);
-      rows.push_back({std::string("rings ") + name + ": " + what, our_value, value, unit, less});
+      rows.push_back({std::string("rings ") + named.name + ": " + what, our_value, value, unit, less});
     };
     add("recall", ours.score.recall(), theirs.score.recall(), "", false);
     add("F", ours.score.f(), theirs.score.f(), "", false);
@@ -121,7 +123,8 @@ std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
 void write_threshold_sweep(int images, BenchForm form) {
   constexpr std::array<double, 11> kThresholds = {0.40, 0.50, 0.55, 0.60, 0.64, 0.68, 0.72, 0.76, 0.80, 0.85, 0.90};
   std::array<RingScore, kThresholds.size()> scores;
-  for (const auto& [name, set] : sets()) {
+  for (const NamedSet& named : sets()) {
+    const RingSet& set = named.set;
     OurDetector detector(set);
     test::RingGenerator generator(set, kSeed + 1);
     for (int k = 0; k < images; ++k) {
