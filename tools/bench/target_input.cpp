@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "firmware/bench/input.hpp"
 #include "host/support/input_error.hpp"
@@ -36,13 +37,16 @@ void append_target(std::vector<char>& bytes, const Target& target) {
   }
 }
 
-// Both edges of every pulse, in order within each stretch of time.
+// Both edges of every pulse, in order within each stretch of time, those of one tick by sensor: as the capture block
+// gives them.
 std::vector<lighthouse::Edge> edges_of(const std::vector<lighthouse::RawPulse>& pulses) {
   std::vector<lighthouse::Edge> edges;
   std::size_t stretch = 0;
   const auto sort_stretch = [&] {
     std::stable_sort(edges.begin() + static_cast<std::ptrdiff_t>(stretch), edges.end(),
-                     [](const auto& a, const auto& b) { return a.stamp_ticks < b.stamp_ticks; });
+                     [](const auto& a, const auto& b) {
+                       return std::pair(a.stamp_ticks, a.sensor) < std::pair(b.stamp_ticks, b.sensor);
+                     });
     stretch = edges.size();
   };
   for (const lighthouse::RawPulse& pulse : pulses) {
