@@ -142,7 +142,8 @@ report::Reporter::Bytes Program::told(const Result& result) {
   return has_mode(wire::kModeSweeps) ? reporter_.report(result) : report::Reporter::Bytes{};
 }
 
-report::Reporter::Bytes Program::say(Due what) {
+// Never inlined: the decoder's path must not carry the messages on its stack.
+[[gnu::noinline]] report::Reporter::Bytes Program::say(Due what) {
   switch (what) {
     case Due::kHello:
       return hello();

@@ -2,8 +2,11 @@
 #include "pharos/report/convert.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/optical_timing.hpp"
@@ -24,15 +27,35 @@ static_assert(wire::kMaxPeriodSixteenthTicks > 16 * lighthouse::kTurnTicks);
 /// Unit length is lost by nothing but a broken sender: doubles keep it to 1e-15.
 constexpr double kUnitTolerance = 1e-6;
 
-// Sums of counters grow by one list entry each: the message's capacity bounds both lists.
+// Counters as the list of numbers that they are: a line of code each would be half a kilobyte of it on the target.
+template <class Counters>
+using Values = std::array<std::uint32_t, sizeof(Counters) / sizeof(std::uint32_t)>;
+
 template <class Counters>
 wire::Counters counters_to_wire(wire::CounterGroup group, std::int64_t time_ticks, const Counters& counters) {
+  static_assert(std::tuple_size_v<Values<Counters>> <= wire::Counters::kMaxValues);
   wire::Counters message;
   message.time_ticks = time_ticks;
   message.group = group;
-  for_each_counter(counters, [&](const char*, std::uint32_t value, const char*) { message.values.push_back(value); });
+  for (const std::uint32_t value : std::bit_cast<Values<Counters>>(counters)) message.values.push_back(value);
   return message;
 }
+
+wire::SweepHead head_of(const lighthouse::Sweep& sweep) {
+  wire::SweepHead head;
+  head.flash_start_ticks = sweep.flash.start_ticks;
+  head.flash_length_ticks = sweep.flash.length_ticks;
+  head.period_sixteenth_ticks = sweep.period_sixteenth_ticks;
+  head.flash_sensors = sweep.flash.sensors;
+  head.flags = sweep.flags;
+  head.station = sweep.flash.station;
+  head.axis = sweep.flash.axis;
+  head.data = sweep.flash.data;
+  head.skip = sweep.flash.skip;
+  return head;
+}
+
+wire::SweepHit to_wire(const lighthouse::Hit& hit) { return {hit.sensor, hit.width_ticks, hit.centre_half_ticks}; }
 
 wire::PoseFields fields_of(const LighthouseFromBody& pose) {
   const Quaternion q = pose.quaternion();
@@ -94,20 +117,14 @@ std::optional<LighthousePoseEstimate> estimate_of(const wire::PoseAnswer& answer
 }  // namespace
 
 wire::Sweep to_wire(const lighthouse::Sweep& sweep) {
-  wire::Sweep message;
-  message.flash_start_ticks = sweep.flash.start_ticks;
-  message.flash_length_ticks = sweep.flash.length_ticks;
-  message.period_sixteenth_ticks = sweep.period_sixteenth_ticks;
-  message.flash_sensors = sweep.flash.sensors;
-  message.flags = sweep.flags;
-  message.station = sweep.flash.station;
-  message.axis = sweep.flash.axis;
-  message.data = sweep.flash.data;
-  message.skip = sweep.flash.skip;
-  for (const lighthouse::Hit& hit : sweep.hits) {
-    message.hits.push_back({hit.sensor, hit.width_ticks, hit.centre_half_ticks});
-  }
+  wire::Sweep message{head_of(sweep), {}};
+  for (const lighthouse::Hit& hit : sweep.hits) message.hits.push_back(to_wire(hit));
   return message;
+}
+
+void write(const SweepInPlace& message, wire::ByteWriter& out) {
+  write(head_of(message.sweep), message.sweep.hits.size(), out);
+  for (const lighthouse::Hit& hit : message.sweep.hits) write(to_wire(hit), out);
 }
 
 lighthouse::Sweep from_wire(const wire::Sweep& message) {

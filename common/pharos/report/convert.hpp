@@ -18,6 +18,13 @@ namespace pharos::report {
 // covariance, residual and precision factors are rounded to float (1e-7), rotation to the double's quaternion (1e-16).
 
 wire::Sweep to_wire(const lighthouse::Sweep& sweep);
+/// The same message, written from where the sweep lies: on a small stack its copy is half a kilobyte.
+struct SweepInPlace {
+  static constexpr wire::MessageType kType = wire::Sweep::kType;
+  static constexpr std::size_t kMaxBytes = wire::Sweep::kMaxBytes;
+  const lighthouse::Sweep& sweep;
+};
+void write(const SweepInPlace& message, wire::ByteWriter& out);
 lighthouse::Sweep from_wire(const wire::Sweep& message);
 
 wire::Ootx to_wire(const lighthouse::OotxPayload& payload);

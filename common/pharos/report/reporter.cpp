@@ -17,7 +17,7 @@ Reporter::Bytes Reporter::frame(wire::MessageType type, Bytes payload) {
   return std::span(line_).first(size);
 }
 
-Reporter::Bytes Reporter::report(const lighthouse::Sweep& sweep) { return send(to_wire(sweep)); }
+Reporter::Bytes Reporter::report(const lighthouse::Sweep& sweep) { return send(SweepInPlace{sweep}); }
 Reporter::Bytes Reporter::report(const lighthouse::OotxPayload& payload) { return send(to_wire(payload)); }
 Reporter::Bytes Reporter::report(const PoseReport& pose) { return send(to_wire(pose)); }
 Reporter::Bytes Reporter::report(const DecoderReport& counters) { return send(to_wire(counters)); }

@@ -34,8 +34,7 @@ class ByteWriter {
     } else {
       static_assert(std::is_integral_v<T> && !std::is_same_v<T, bool>);
       const auto bits = static_cast<std::uint64_t>(value);
-      if (!reserve(sizeof(T))) return;
-      for (std::size_t i = 0; i < sizeof(T); ++i) out_[size_++] = static_cast<std::uint8_t>(bits >> (8 * i));
+      put_bits(static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32), sizeof(T));
     }
   }
   void put_bytes(std::span<const std::uint8_t> bytes) {
@@ -61,6 +60,14 @@ class ByteWriter {
   std::size_t room() const { return failed_ ? 0 : out_.size() - size_; }
 
  private:
+  // One routine for every width, in 32 bits: the target's code is small and its shifts are short.
+  void put_bits(std::uint32_t low, std::uint32_t high, std::size_t bytes) {
+    if (!reserve(bytes)) return;
+    for (std::size_t i = 0; i < bytes; ++i, low >>= 8) {
+      if (i == sizeof(low)) low = high;
+      out_[size_++] = static_cast<std::uint8_t>(low);
+    }
+  }
   bool reserve(std::size_t bytes) {
     if (failed_ || out_.size() - size_ < bytes) failed_ = true;
     return !failed_;
@@ -88,9 +95,12 @@ class ByteReader {
     } else {
       static_assert(std::is_integral_v<T> && !std::is_same_v<T, bool>);
       if (!have(sizeof(T))) return T{};
-      std::uint64_t bits = 0;
-      for (std::size_t i = 0; i < sizeof(T); ++i) bits |= static_cast<std::uint64_t>(in_[at_++]) << (8 * i);
-      return static_cast<T>(bits);
+      if constexpr (sizeof(T) <= sizeof(std::uint32_t)) {
+        return static_cast<T>(get_bits(sizeof(T)));
+      } else {
+        const std::uint32_t low = get_bits(sizeof(std::uint32_t));
+        return static_cast<T>(std::uint64_t{get_bits(sizeof(T) - sizeof(low))} << 32 | low);
+      }
     }
   }
   /// A number that must be finite: NaN and infinity are refused and read as 0.
@@ -136,6 +146,13 @@ class ByteReader {
   std::size_t remaining() const { return in_.size() - at_; }
 
  private:
+  // So many bytes, four at most, that are there.
+  std::uint32_t get_bits(std::size_t bytes) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = bytes; i > 0; --i) bits = bits << 8 | in_[at_ + i - 1];
+    at_ += bytes;
+    return bits;
+  }
   bool have(std::size_t bytes) {
     if (ran_short_ || remaining() < bytes) ran_short_ = true;
     return !ran_short_;

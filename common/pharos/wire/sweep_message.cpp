@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/wire/sweep_message.hpp"
 
-#include <algorithm>
-
 namespace pharos::wire {
 namespace {
 
@@ -24,30 +22,36 @@ bool is_possible(const SweepHit& hit) {
          within<std::int32_t>(hit.centre_half_ticks, 0, kMaxCentreHalfTicks);
 }
 
-bool is_possible(const Sweep& message) {
-  return message.station < kMaxStations && message.flash_sensors <= kMaxSensors &&
-         within(message.flash_length_ticks, kMinFlashTicks, kMaxPulseTicks) &&
-         within(message.period_sixteenth_ticks, kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks) &&
-         std::all_of(message.hits.begin(), message.hits.end(), [](const SweepHit& hit) { return is_possible(hit); });
+bool is_possible(const SweepHead& head) {
+  return head.station < kMaxStations && head.flash_sensors <= kMaxSensors &&
+         within(head.flash_length_ticks, kMinFlashTicks, kMaxPulseTicks) &&
+         within(head.period_sixteenth_ticks, kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks);
 }
 
 }  // namespace
 
+void write(const SweepHead& head, std::size_t hits, ByteWriter& out) {
+  if (!is_possible(head)) out.fail();
+  out.put_ticks(head.flash_start_ticks);
+  out.put(head.flash_length_ticks);
+  out.put(head.period_sixteenth_ticks);
+  out.put(head.flash_sensors);
+  out.put(head.flags);
+  out.put(static_cast<std::uint8_t>(head.station << kStationBit | index_of(head.axis) << kAxisBit |
+                                    head.data << kDataBit | head.skip << kSkipBit));
+  out.put(static_cast<std::uint8_t>(hits));
+}
+
+void write(const SweepHit& hit, ByteWriter& out) {
+  if (!is_possible(hit)) out.fail();
+  out.put(hit.sensor);
+  out.put(hit.width_ticks);
+  out.put(hit.centre_half_ticks);
+}
+
 void write(const Sweep& message, ByteWriter& out) {
-  if (!is_possible(message)) out.fail();
-  out.put_ticks(message.flash_start_ticks);
-  out.put(message.flash_length_ticks);
-  out.put(message.period_sixteenth_ticks);
-  out.put(message.flash_sensors);
-  out.put(message.flags);
-  out.put(static_cast<std::uint8_t>(message.station << kStationBit | index_of(message.axis) << kAxisBit |
-                                    message.data << kDataBit | message.skip << kSkipBit));
-  out.put(static_cast<std::uint8_t>(message.hits.size()));
-  for (const SweepHit& hit : message.hits) {
-    out.put(hit.sensor);
-    out.put(hit.width_ticks);
-    out.put(hit.centre_half_ticks);
-  }
+  write(message, message.hits.size(), out);
+  for (const SweepHit& hit : message.hits) write(hit, out);
 }
 
 void read(ByteReader& in, Sweep& message) {
@@ -70,6 +74,7 @@ void read(ByteReader& in, Sweep& message) {
     hit.sensor = in.get<std::uint8_t>();
     hit.width_ticks = in.get<std::uint16_t>();
     hit.centre_half_ticks = in.get<std::int32_t>();
+    in.refuse_if(!is_possible(hit));
     message.hits.push_back(hit);
   }
   in.refuse_if(!is_possible(message));

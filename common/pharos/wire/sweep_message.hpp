@@ -34,15 +34,8 @@ struct SweepHit {
   bool operator==(const SweepHit&) const = default;
 };
 
-/// One rotor's sweep with its flash and every candidate hit; all that lighthouse::Sweep says, bit by bit.
-///
-/// 20 bytes and 7 a hit: 12 sensors hit once at 120 sweeps/s are 13.8 kB/s on the line, 30 % of 460,800 baud.
-struct Sweep {
-  static constexpr MessageType kType = MessageType::kSweep;
-  static constexpr std::size_t kHeadBytes = 20;
-  static constexpr std::size_t kHitBytes = 7;
-  static constexpr std::size_t kMaxBytes = kHeadBytes + kHitBytes * kMaxHitsPerSweep;
-
+/// All of a sweep but its hits.
+struct SweepHead {
   std::int64_t flash_start_ticks = 0;        // 64 bits unwrapped
   std::int32_t flash_length_ticks = 0;       // kMinFlashTicks..kMaxPulseTicks
   std::uint32_t period_sixteenth_ticks = 0;  // kMinPeriodSixteenthTicks..kMaxPeriodSixteenthTicks
@@ -52,10 +45,24 @@ struct Sweep {
   Axis axis = Axis::kX;
   bool data = false;
   bool skip = false;
+};
+
+/// One rotor's sweep with its flash and every candidate hit; all that lighthouse::Sweep says, bit by bit.
+///
+/// 20 bytes and 7 a hit: 12 sensors hit once at 120 sweeps/s are 13.8 kB/s on the line, 30 % of 460,800 baud.
+struct Sweep : SweepHead {
+  static constexpr MessageType kType = MessageType::kSweep;
+  static constexpr std::size_t kHeadBytes = 20;
+  static constexpr std::size_t kHitBytes = 7;
+  static constexpr std::size_t kMaxBytes = kHeadBytes + kHitBytes * kMaxHitsPerSweep;
+
   StaticVector<SweepHit, kMaxHitsPerSweep> hits;
 };
 
 void write(const Sweep& message, ByteWriter& out);
+/// The same in pieces, for who has the hits elsewhere: the head, then each hit.
+void write(const SweepHead& head, std::size_t hits, ByteWriter& out);
+void write(const SweepHit& hit, ByteWriter& out);
 void read(ByteReader& in, Sweep& message);
 
 }  // namespace pharos::wire
