@@ -86,6 +86,9 @@ class RegionJudge {
     report.height_m = mean_height(region);
     measure_shape(region, report);
     report.verdict = verdict(region, report);
+    if (report.verdict == RegionVerdict::kAspect || report.verdict == RegionVerdict::kFill) {
+      report.doubtful = std::fabs(report.height_m) <= 0.9 * kMostHeight_m && stands_out(region, report);
+    }
     return report;
   }
 
@@ -213,6 +216,8 @@ class RegionJudge {
     map.col(0) = planar(region.u_px + 1.0, region.v_px, report.height_m) - middle;
     map.col(1) = planar(region.u_px, region.v_px + 1.0, report.height_m) - middle;
     report.distance_m = middle.norm();
+    report.centroid_m = middle;
+    report.area_m2 = region.area_px * std::fabs(map.determinant());
     double least = -1.0;
     for (int k = 0; k < kTurns; ++k) {
       const double angle = 0.5 * kPi * k / kTurns;
@@ -261,8 +266,17 @@ class RegionJudge {
   double most_area_px_;
 };
 
-void keep_nearest_first(ConnectorWorkspace& workspace, const RegionReport& report) {
-  auto& list = workspace.connectors;
+// Depth noise goes with the inverse of amplitude: what is dark beside the ring has no part in a connector.
+void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double least_amplitude, BitImage& mask) {
+  for (std::int32_t v = 0; v < rect.height_px; ++v) {
+    const std::uint16_t* row = frame.intensity.row(rect.v + v) + rect.u;
+    for (std::int32_t u = 0; u < rect.width_px; ++u) {
+      if (row[u] < least_amplitude) mask.clear(u, v);
+    }
+  }
+}
+
+void keep_nearest_first(StaticVector<RegionReport, kMostConnectors>& list, const RegionReport& report) {
   if (list.full()) {
     if (list.back().distance_m <= report.distance_m) return;
     list.pop_back();
@@ -279,6 +293,7 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
                      const ConnectorSettings& settings, ConnectorWorkspace& workspace) {
   workspace.regions.clear();
   workspace.connectors.clear();
+  workspace.doubtful.clear();
   const RingModel& ring = fit.model;
   workspace.rect = search_rect(camera, ring, settings.reach);
   const PixelRect& rect = workspace.rect;
@@ -288,6 +303,7 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   const auto half_window =
       std::max(settings.least_half_window_px, static_cast<std::int32_t>(settings.window_share * radius_px + 0.5));
   local_threshold(heights, half_window, settings.form, workspace.threshold, workspace.mask);
+  drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.mask);
   open_and_close(workspace.mask, workspace.scratch);
   workspace.scratch = workspace.mask;  // growing takes regions out of it
   const RegionJudge judge(frame, camera, rays, fit, settings, workspace);
@@ -297,7 +313,8 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
       if (!grow_region(workspace.scratch, u, v, workspace.growing, workspace.region)) continue;
       const RegionReport report = judge.report(workspace.region);
       if (report.verdict != RegionVerdict::kArea) workspace.regions.push_back(report);
-      if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace, report);
+      if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace.connectors, report);
+      if (report.doubtful) keep_nearest_first(workspace.doubtful, report);
     }
   }
 }

@@ -25,14 +25,17 @@ struct PlanarRectangle {
 /// A region that the local threshold found and what the filters said.
 struct RegionReport {
   RegionVerdict verdict = RegionVerdict::kArea;
+  bool doubtful = false;  ///< stands out like a connector, but has another shape
   std::int32_t area_px = 0;
   std::int32_t left = 0, top = 0, right = 0, bottom = 0;  ///< bounds in the frame, included
   double aspect = 0.0;
   double fill = 0.0;
-  double height_m = 0.0;      ///< of its face over the ring's plane
-  double step_m = 0.0;        ///< of its face over the median of its surroundings
-  double distance_m = 0.0;    ///< of its centre from the ring's
-  PlanarRectangle rectangle;  ///< least rectangle around it
+  double height_m = 0.0;                 ///< of its face over the ring's plane
+  double step_m = 0.0;                   ///< of its face over the median of its surroundings
+  double distance_m = 0.0;               ///< of its centre from the ring's
+  PlanarRectangle rectangle;             ///< least rectangle around it
+  Vector2 centroid_m = Vector2::Zero();  ///< in the rectangle's axes
+  double area_m2 = 0.0;
 };
 
 /// Regions reported of one frame, the first met; beyond that only connectors are kept.
@@ -50,6 +53,8 @@ struct ConnectorWorkspace {
   PixelRect rect;  ///< of the frame that was searched
   StaticVector<RegionReport, kMostRegions> regions;
   StaticVector<RegionReport, kMostConnectors> connectors;
+  /// Regions that stand out like a connector, but whose shape is not one's: burrs may have grown on to it.
+  StaticVector<RegionReport, kMostConnectors> doubtful;
 };
 
 /// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,

@@ -23,10 +23,15 @@ constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kLeastStrength = 0.3;
 constexpr int kLeastPerSide = 4;
+// A box' face is square to within this; what is not is no rectangle that was found.
+constexpr double kMostSlender = 1.6;
 // Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
 constexpr double kCorrelation = 2.0;
+// Walls half in sight, foil that glints beside a side and rounded corners move the rectangle as a whole: no number of
+// points averages that away. Root mean square over the simulated classes.
+constexpr double kSilhouetteSigma_px = 0.7;
 // What a region's centroid is good for, px: used where its edges are not seen.
-constexpr double kCentroidSigma_px = 0.3;
+constexpr double kCentroidSigma_px = 0.8;
 
 struct SidePoint {
   int side = 0;
@@ -48,7 +53,9 @@ class FaceFitter {
 
   ConnectorFace fit(const RegionReport& region) {
     ConnectorFace face;
-    face.rectangle = region.rectangle;
+    // A square of the region's area about its centroid: burrs move the least rectangle more than these.
+    const double half = 0.5 * std::sqrt(region.area_m2);
+    face.rectangle = {region.centroid_m, region.rectangle.angle_rad, Vector2(half, half)};
     measure_heights(region, face);
     metres_per_px_ = ring_.centre_m.z() / camera_.optics.fx_px;
     const double coarse = kCentroidSigma_px * metres_per_px_;
@@ -61,6 +68,8 @@ class FaceFitter {
     // A rectangle that ran away from its region followed something else's edges.
     const Vector2 moved = refined.rectangle.centre_m - face.rectangle.centre_m;
     if (moved.norm() > 2.0 * metres_per_px_ + 0.25 * face.rectangle.half_sides_m.maxCoeff()) return face;
+    const Vector2& sides = refined.rectangle.half_sides_m;
+    if (sides.maxCoeff() > kMostSlender * sides.minCoeff() || refined.edge_rms_px > 1.0) return face;
     return refined;
   }
 
@@ -91,7 +100,7 @@ class FaceFitter {
     constexpr int kGrid = 9;
     std::array<double, kGrid * kGrid> heights{};
     std::size_t count = 0;
-    const PlanarRectangle& r = region.rectangle;
+    const PlanarRectangle& r = face.rectangle;
     for (int i = 0; i < kGrid; ++i) {
       for (int j = 0; j < kGrid; ++j) {
         const double s = 0.6 * (2.0 * i / (kGrid - 1) - 1.0) * r.half_sides_m.x();
@@ -186,7 +195,7 @@ class FaceFitter {
     // Each side has a place of its own yet: deviations about the sides' medians.
     std::array<int, kSides> per_side{};
     Vector5 change = Vector5::Zero();
-    double gate = 2.5 * metres_per_px_;
+    double gate = 4.0 * metres_per_px_;
     for (int pass = 0; pass < 4; ++pass) {
       Matrix5 normal = Matrix5::Zero();
       Vector5 right = Vector5::Zero();
@@ -212,7 +221,9 @@ class FaceFitter {
       if (!change.allFinite()) return false;
       if (pass == 3) {
         const double variance = squares / std::max(1, used - 5);
-        face.covariance = kCorrelation * variance * inverse->topLeftCorner<2, 2>();
+        const double common = kSilhouetteSigma_px * metres_per_px_;
+        face.covariance =
+            kCorrelation * variance * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
         face.edge_rms_px = std::sqrt(variance) / metres_per_px_;
         face.edge_points = used;
       }

@@ -49,7 +49,10 @@ ProfileEdge steepest_on_profile(const ImageView<const std::uint16_t>& image, con
   const double right = slope[static_cast<std::size_t>(best + 1)];
   const double bend = left - 2.0 * top + right;
   if (!(bend < 0.0) || !(top > 0.0)) return {};
-  return {best - search + 0.5 * (left - right) / bend, top};
+  const auto middle_index = static_cast<std::size_t>(best + kReach);
+  return {best - search + 0.5 * (left - right) / bend, top,
+          0.5 * (profile[middle_index - 2] + profile[middle_index - 3]),
+          0.5 * (profile[middle_index + 2] + profile[middle_index + 3])};
 }
 
 }  // namespace pharos::tof

@@ -13,6 +13,8 @@ namespace pharos::tof {
 struct ProfileEdge {
   double offset_px = 0.0;  ///< from the profile's middle, along its direction
   double strength = 0.0;   ///< grey values per px; 0: none
+  double before = 0.0;     ///< grey values two to three px before the edge and beyond it
+  double beyond = 0.0;
 };
 
 /// Farthest that a profile is searched to either side.

@@ -12,6 +12,9 @@ namespace {
 
 // A change weaker than this share of the median is noise, or the rim of something else.
 constexpr double kLeastStrength = 0.3;
+// Edges of less contrast are used only where there are not this many better ones.
+constexpr double kGoodContrast = 0.5;
+constexpr std::size_t kEnoughPoints = 96;
 
 // Whether two of three depths around a point of the model's plane lie on it.
 bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m) {
@@ -35,9 +38,12 @@ void drop_weak(RingEdgePoints& points) {
   const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(strengths.begin(), middle, strengths.begin() + static_cast<std::ptrdiff_t>(points.size()));
   const double least = kLeastStrength * *middle;
+  std::size_t good = 0;
+  for (const RingEdgePoint& point : points) good += point.contrast >= kGoodContrast && !point.wall_in_sight ? 1 : 0;
+  const double least_contrast = good >= kEnoughPoints ? kGoodContrast : 0.0;
   std::size_t kept = 0;
   for (const RingEdgePoint& point : points) {
-    if (point.strength >= least) points[kept++] = point;
+    if (point.strength >= least && (point.contrast >= least_contrast || point.wall_in_sight)) points[kept++] = point;
   }
   points.resize(kept);
 }
@@ -76,7 +82,12 @@ double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const R
     Vector2 normal = Vector2(tangent.y(), -tangent.x()).normalized();
     if (normal.dot(slope * radial) < 0.0) normal = -normal;
     const ProfileEdge found = steepest_on_profile(frame.intensity, *pixel, normal, search, sign);
-    if (found.strength > 0.0) points.push_back({point, normal, found.offset_px, found.strength, here});
+    // The outer wall looks away from the axis, the inner one towards it; the eye is at the origin.
+    const bool wall_in_sight = edge == RingEdge::kOuter ? point.dot(radial) < 0.0 : point.dot(radial) > 0.0;
+    if (!(found.strength > 0.0)) continue;
+    const double brighter = std::max({1.0, found.before, found.beyond});
+    const double contrast = 1.0 - std::min(found.before, found.beyond) / brighter;
+    points.push_back({point, normal, found.offset_px, found.strength, contrast, wall_in_sight, here});
   }
   drop_weak(points);
   return static_cast<double>(seen) / count;

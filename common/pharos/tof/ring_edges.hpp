@@ -16,6 +16,8 @@ struct RingEdgePoint {
   Vector2 normal_px = Vector2::Zero();  ///< unit, across the contour, away from the ring's middle
   double offset_px = 0.0;               ///< of the edge found, along the normal
   double strength = 0.0;                ///< of the change there, grey values per px
+  double contrast = 0.0;                ///< 1 - darker over brighter side: foil as bright as the ring moves its edge
+  bool wall_in_sight = false;           ///< the ring's own wall lies beyond the edge: its shade moves it
   Vector2 direction = Vector2::Zero();  ///< from the middle, in the ring's plane, unit
 };
 using RingEdgePoints = StaticVector<RingEdgePoint, kMostEdgePoints>;

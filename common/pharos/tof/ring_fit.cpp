@@ -23,6 +23,9 @@ constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kLeastEdgeSigma_px = 0.02;
 constexpr std::size_t kLeastEdgePoints = 24;
+// Where the ring's wall is in sight beyond an edge, wall and what lies behind it move the edge by up to a third of a
+// pixel, all along alike: hundreds of such points are worth hardly more than one.
+constexpr double kWallSigma_px = 3.0;
 
 // d q / d unknowns of the plane that a model lies in: q = n / (n . c).
 Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
@@ -59,12 +62,16 @@ RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by
   return result;
 }
 
-// Robust deviation of offsets about what `step` explains.
+// Robust deviation: of what the model leaves where the edge is a silhouette.
 double deviation(const RingEdgePoints& points, const std::array<double, kMostEdgePoints>& residuals) {
   std::array<double, kMostEdgePoints> sizes{};
-  for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(points.size()));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].wall_in_sight) sizes[count++] = std::fabs(residuals[i]);
+  }
+  if (count < kLeastEdgePoints) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
   return std::max(kLeastEdgeSigma_px, kMedianToSigma * *middle);
 }
 
@@ -72,23 +79,36 @@ double deviation(const RingEdgePoints& points, const std::array<double, kMostEdg
 struct EdgeSums {
   Matrix7 normal = Matrix7::Zero();
   Vector7 right = Vector7::Zero();
-  SectorSums residuals;
+  SectorSums residuals;  // of silhouettes
+
+  void add(const Vector7& row, double offset_px, double weight) {
+    add_outer<7>(normal, row, weight);
+    right += (weight * offset_px) * row;
+  }
 };
 
 EdgeSums edge_sums(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes,
                    const RingEdgePoints& points, RingEdge edge, const Vector7& step) {
+  std::array<Vector7, kMostEdgePoints> rows;
   std::array<double, kMostEdgePoints> residuals{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    residuals[i] = points[i].offset_px - edge_row(camera, model, axes, points[i], edge).dot(step);
+    rows[i] = edge_row(camera, model, axes, points[i], edge);
+    residuals[i] = points[i].offset_px - rows[i].dot(step);
   }
   const double gate = kGate * deviation(points, residuals);
   EdgeSums sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(std::fabs(residuals[i]) < gate)) continue;
-    const Vector7 row = edge_row(camera, model, axes, points[i], edge);
-    add_outer<7>(sums.normal, row, 1.0);
-    sums.right += row * points[i].offset_px;
+    if (points[i].wall_in_sight || !(std::fabs(residuals[i]) < gate)) continue;
     sums.residuals.add(points[i].direction.x(), points[i].direction.y(), 1.0, residuals[i]);
+  }
+  const double variance =
+      std::max(kLeastEdgeSigma_px * kLeastEdgeSigma_px, sums.residuals.variance()) * sums.residuals.correlation(4);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].wall_in_sight) {
+      sums.add(rows[i], points[i].offset_px, 1.0 / (kWallSigma_px * kWallSigma_px));
+    } else if (std::fabs(residuals[i]) < gate) {
+      sums.add(rows[i], points[i].offset_px, 1.0 / variance);
+    }
   }
   return sums;
 }
@@ -115,14 +135,12 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
     solved.edge_points = 0;
     for (const RingEdge edge : kRingEdges) {
       const EdgeSums sums = edge_sums(camera, model, axes, points[index_of(edge)], edge, solved.step);
-      if (sums.residuals.count() < static_cast<int>(kLeastEdgePoints)) return std::nullopt;
-      const double variance =
-          std::max(kLeastEdgeSigma_px * kLeastEdgeSigma_px, sums.residuals.variance()) * sums.residuals.correlation(4);
-      normal += sums.normal / variance;
-      right += sums.right / variance;
+      normal += sums.normal;
+      right += sums.right;
       solved.edge_squares += sums.residuals.variance() * sums.residuals.count();
       solved.edge_points += sums.residuals.count();
     }
+    if (solved.edge_points < static_cast<std::int32_t>(kLeastEdgePoints)) return std::nullopt;
     const auto covariance = positive_inverse<7>(normal);
     if (!covariance) return std::nullopt;
     solved.covariance = *covariance;

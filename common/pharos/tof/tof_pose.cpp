@@ -2,6 +2,7 @@
 #include "pharos/tof/tof_pose.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "pharos/ellipse/detect.hpp"
 
@@ -15,35 +16,81 @@ bool is_good(const TargetPose& target) {
   return (target.covariance.diagonal().array() > 0.0).all();
 }
 
+// A face and where it came from.
+struct Choice {
+  ConnectorFace face;
+  bool sure = false;  // its edges were found
+
+  double distance_m() const { return face.rectangle.centre_m.norm(); }
+};
+
+// Like in height and size: it may be the other connector of a satellite's.
+bool alike(const RegionReport& a, const RegionReport& b) {
+  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && a.area_m2 > 0.3 * b.area_m2 &&
+         a.area_m2 < 3.0 * b.area_m2;
+}
+
+class ConnectorChoice {
+ public:
+  ConnectorChoice(const TofFrame& frame, const DepthCamera& camera, const TofWorkspace& workspace, const RingFit& ring)
+      : frame_(frame), camera_(camera), workspace_(workspace), ring_(ring) {}
+
+  // Nearest first. False where a region that may be a nearer connector could not be told: then none may be chosen.
+  bool choose(double least_difference_m) {
+    const auto& found = workspace_.connector.connectors;
+    for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
+    for (const RegionReport& doubt : workspace_.connector.doubtful) {
+      if (!found.empty() && !alike(doubt, found[0])) continue;
+      const Choice choice = choice_of(doubt);
+      if (choice.sure) {
+        insert(choice);
+      } else if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + least_difference_m) {
+        return false;
+      }
+    }
+    return !choices_.empty();
+  }
+  const StaticVector<Choice, 8>& choices() const { return choices_; }
+
+ private:
+  Choice choice_of(const RegionReport& region) const {
+    const ConnectorFace face = fit_face(frame_, camera_, workspace_.rays, ring_.model, region);
+    return {face, face.edge_points > 0};
+  }
+  void add(const RegionReport& region) { insert(choice_of(region)); }
+  void insert(const Choice& choice) {
+    if (!choices_.push_back(choice)) return;
+    for (std::size_t i = choices_.size() - 1; i > 0 && choices_[i].distance_m() < choices_[i - 1].distance_m(); --i) {
+      std::swap(choices_[i], choices_[i - 1]);
+    }
+  }
+
+  const TofFrame& frame_;
+  const DepthCamera& camera_;
+  const TofWorkspace& workspace_;
+  const RingFit& ring_;
+  StaticVector<Choice, 8> choices_;
+};
+
 void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
                    TofWorkspace& workspace, TofPose& result) {
   const RingFit& ring = result.ring.fit;
   find_connectors(frame, camera, workspace.rays, ring, settings.connector, workspace.connector);
-  const auto& connectors = workspace.connector.connectors;
-  if (connectors.empty()) {
+  ConnectorChoice choice(frame, camera, workspace, ring);
+  const bool told = choice.choose(settings.connector.least_difference_m);
+  const bool few = static_cast<std::int32_t>(choice.choices().size()) < settings.connector.expected;
+  if (!told || few) {
     result.flags |= kFlagNoConnector;
+    if (few && !choice.choices().empty()) result.flags |= kFlagFewConnectors;
     result.target = target_pose_without_turn(ring);
     return;
   }
-  const auto face_of = [&](const RegionReport& region) {
-    return fit_face(frame, camera, workspace.rays, ring.model, region);
-  };
-  result.connector = face_of(connectors[0]);
+  const auto& choices = choice.choices();
+  result.connector = choices[0].face;
   result.target = target_pose(ring, result.connector);
-  if (result.connector.edge_points == 0) result.flags |= kFlagCoarseConnector;
-  if (connectors.size() == 1) {
-    if ((result.flags & kFlagRingPartlyHidden) != 0) result.flags |= kFlagLoneConnector;
-    return;
-  }
-  const ConnectorFace other = face_of(connectors[1]);
-  const double nearest = result.connector.rectangle.centre_m.norm();
-  const double next = other.rectangle.centre_m.norm();
-  if (std::fabs(next - nearest) < settings.connector.least_difference_m) {
-    result.second = target_pose(ring, other);
-  } else if (next < nearest) {
-    // Regions said otherwise than edges do.
-    result.connector = other;
-    result.target = target_pose(ring, other);
+  if (!choices[0].sure) result.flags |= kFlagCoarseConnector;
+  if (choices.size() > 1 && choices[1].distance_m() - choices[0].distance_m() < settings.connector.least_difference_m) {
+    result.second = target_pose(ring, choices[1].face);
   }
 }
 

@@ -16,18 +16,20 @@ namespace pharos::tof {
 
 /// What a pose's reader should know beside its covariance.
 enum TofFlag : std::uint8_t {
-  /// No connector: the turn about Z' is unknown. Five degrees of freedom; the covariance about Z' is that of any turn.
+  /// No connector that can be relied on: the turn about Z' is unknown. Five degrees of freedom; the covariance about Z'
+  /// is that of any turn.
   kFlagNoConnector = 1U << 0U,
   /// A tenth of the ring or more is hidden or has no depth.
   kFlagRingPartlyHidden = 1U << 1U,
-  /// Only one connector was seen while something hides a part of the target: a nearer one may stand there.
-  kFlagLoneConnector = 1U << 2U,
+  /// Fewer connectors than the target carries (ConnectorSettings::expected): the nearest may be missing. With
+  /// kFlagNoConnector.
+  kFlagFewConnectors = 1U << 2U,
   /// The connector's edges were not found: its place is that of its region.
   kFlagCoarseConnector = 1U << 3U,
 };
 inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},
                                                            {kFlagRingPartlyHidden, "ring_partly_hidden"},
-                                                           {kFlagLoneConnector, "lone_connector"},
+                                                           {kFlagFewConnectors, "few_connectors"},
                                                            {kFlagCoarseConnector, "coarse_connector"}}};
 
 /// The measured pose of one frame, T_camera_target, with everything that it rests on.

@@ -41,6 +41,8 @@ struct ConnectorSettings {
   /// where the window does not reach beyond the connector, half of its flat face lies below its own mean.
   std::int32_t least_half_window_px = 4;
   double window_share = 0.2;
+  /// Only pixels grow that are as bright as this share of the ring: dark foil's depths are noise.
+  double least_amplitude = 0.4;
   double least_area_px = 20.0;
   /// Largest area over that of the outer ellipse.
   double most_area_share = 0.1;
@@ -51,6 +53,9 @@ struct ConnectorSettings {
   double reach = 1.7;
   /// How far its face must stand over its surroundings, m.
   double least_height_m = 0.015;
+  /// How many the target is known to carry; the paper's has two. Where fewer are seen the nearest may be the one that
+  /// is missing, and the turn about Z' is not given.
+  std::int32_t expected = 2;
   /// Two whose distances differ by less are equally near: neither may be chosen. Metres.
   double least_difference_m = 0.008;
 };
