@@ -7,6 +7,7 @@
 #include "tools/cli/reproduce/dynamic_runs.hpp"
 #include "tools/cli/reproduce/recordings.hpp"
 #include "tools/cli/reproduce/static_sets.hpp"
+#include "tools/cli/reproduce/tof/add_reproduce_tof.hpp"
 #include "tools/cli/seed_option.hpp"
 
 namespace pharos::tools {
@@ -92,6 +93,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     options->real = recordings->count() > 0;
     exit_code = run(*options);
   });
+  add_reproduce_tof(*reproduce, exit_code);
 }
 
 }  // namespace pharos::tools

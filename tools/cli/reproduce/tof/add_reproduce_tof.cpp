@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/reproduce/tof/add_reproduce_tof.hpp"
+
+#include <memory>
+
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/reproduce/tof/four_tests.hpp"
+#include "tools/cli/reproduce/tof/success_campaign.hpp"
+#include "tools/cli/seed_option.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Frames are rendered and go through the whole path: ellipses, ring, connector, pose.\n\n"
+    "Example:\n"
+    "  pharos reproduce tof --markdown\n"
+    "  pharos reproduce tof --frames 10\n"
+    "  pharos reproduce tof --success 1000";
+
+struct Options {
+  int frames = 100;
+  int success = 0;
+  std::uint64_t seed = 1;
+  bool markdown = false;
+  OutputOptions output;
+};
+
+int run(const Options& options) {
+  require_writable(options.output.path);
+  const std::vector<ComparisonRow> rows = options.success > 0 ? reproduce_success(options.success, options.seed)
+                                                              : reproduce_four_tests({options.frames, options.seed});
+  if (options.markdown) {
+    write_markdown(rows, options.output.path);
+  } else {
+    write_rows(rows, options.output);
+  }
+  return kExitAnswered;
+}
+
+}  // namespace
+
+void add_reproduce_tof(CLI::App& reproduce, int& exit_code) {
+  CLI::App* command = reproduce.add_subcommand("tof", "Paper 000: tables 2 and 3; or how many frames have a pose");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--frames", options->frames, "Of each of the four tests")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command
+      ->add_option("--success", options->success,
+                   "Instead: this many random poses of either ring, a third of it hidden")
+      ->check(CLI::Range(1, 1'000'000));
+  add_seed_option(*command, options->seed, "Of foil, poses and noise");
+  command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "pharos/tof/tof_pose.hpp"
+#include "tools/sim/tof/sensor.hpp"
+
+namespace pharos::tools {
+
+/// The frame with its depth as paper 000 kept it: normalised into 256 grey values, here over kGreySpan_m around the
+/// middle of the frame's depths. "One grey value costs some millimetres": 3.9.
+sim::TofPixels eight_bit_depth(const sim::TofPixels& pixels, const sim::DepthScale& scale);
+inline constexpr double kGreySpan_m = 1.0;
+
+/// A pose as paper 000, 2.2.1 and 2.3 describe it: the mean of the ring's two ellipses, its centre taken for the
+/// circle's centre, a plane through the depths of kRingPoints pixels on it, the connector's middle by its region.
+///
+/// How many points on the ring the paper takes it does not say; eight reproduce its figures. Nothing where a point has
+/// no depth or the frame no connector. `seen` is the measurement of `pixels`: it tells ellipses and connector.
+std::optional<tof::CameraFromTarget> paper_pose(const sim::TofPixels& pixels, const DepthCamera& camera,
+                                                const tof::TofPose& seen, const tof::ConnectorWorkspace& regions);
+inline constexpr int kRingPoints = 8;
+
+}  // namespace pharos::tools
