@@ -10,9 +10,9 @@
 #include <string>
 
 #include "host/cameras/camera_file.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/row_writer.hpp"
-#include "tools/sim/tof/png16.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -97,8 +97,10 @@ void write_tof_frames(TofSimulator& simulator, const fs::path& directory, const 
     if (scenario.write_abcy16) {
       write_bytes(directory / (number + "_abcy16.raw"), abcy16_of(pixels, simulator.lens(), scenario.depth, raw));
     } else {
-      write_png16(directory / (number + "_intensity.png"), pixels.width_px, pixels.height_px, pixels.intensity);
-      write_png16(directory / (number + "_depth.png"), pixels.width_px, pixels.height_px, pixels.depth);
+      host::write_grey_png(directory / (number + "_intensity.png"),
+                           {pixels.intensity.data(), pixels.width_px, pixels.height_px});
+      host::write_grey_png(directory / (number + "_depth.png"),
+                           {pixels.depth.data(), pixels.width_px, pixels.height_px});
     }
     truth.add(number, simulator.truth(frame));
     written();
