@@ -19,6 +19,8 @@ constexpr double kLevelFreedom = 200.0, kLevelPrior = 2.0;
 // Up to here the learnt variance may be noise alone: narrow hits, a noisier rotor.
 constexpr double kWhiteLevel = 2.0;
 constexpr double kSurelyResting = 0.9;
+// Most that errors which stay may put on an answer.
+constexpr double kCarriedRotation_rad = 0.2, kCarriedPosition_m = 0.2;
 // One sweep moves it by no more than this many times its expectation.
 constexpr double kLargestRatio = 9.0;
 
@@ -123,7 +125,13 @@ Matrix6 Hypothesis::systematic_covariance(const AssumedNoise& noise) const {
   const double sensor_rad = noise.systematic.sensor_position_m / range_m;
   // What the residuals show of the sensors is not counted twice.
   const double of_sensors = std::max((level_ - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
-  return cycle_view_.covariance_of(std::max(0.0, of_sensors), noise.systematic.rotor_rad * noise.systematic.rotor_rad);
+  const double of_rotors = noise.systematic.rotor_rad * noise.systematic.rotor_rad;
+  Matrix6 carried = cycle_view_.covariance_of(std::max(0.0, of_sensors), of_rotors);
+  // Two sweeps that hardly tell the pose hardly move the belief either.
+  const double rotation = carried.topLeftCorner<3, 3>().trace() / (kCarriedRotation_rad * kCarriedRotation_rad);
+  const double position = carried.bottomRightCorner<3, 3>().trace() / (kCarriedPosition_m * kCarriedPosition_m);
+  carried *= 1.0 / std::max({1.0, rotation, position});
+  return carried;
 }
 
 // What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the
