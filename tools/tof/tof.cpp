@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos tof: frames of a depth camera to poses of the docking ring (paper 000).
+#include <filesystem>
+#include <memory>
+
+#include "host/cameras/camera_file.hpp"
+#include "host/device/frame_directory.hpp"
+#include "host/support/input_error.hpp"
+#include "pharos/tof/tof_pose.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/tof/overlay.hpp"
+#include "tools/tof/quantise.hpp"
+#include "tools/tof/tof_rows.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos tof recording --camera camera.toml --overlay pictures > poses.csv\n"
+    "The folder holds NNNN_intensity.png with NNNN_depth.png (16 bits) or NNNN_abcy16.raw. Poses are T_camera_target: "
+    "the\n"
+    "ring's centre, and (8) of the paper for the angles. Without a connector (flag no_connector) gamma and the\n"
+    "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.";
+
+struct Options {
+  std::string folder;
+  std::string camera;
+  std::string overlay;
+  bool summary = false;
+  int window = 1;
+  int depth_bits = 16;
+  tof::TofSettings settings;
+  double least_diameter_mm = 0.0;
+  double most_diameter_mm = 0.0;
+  OutputOptions output;
+};
+
+// What became of one frame: a pose, or the word after refused_.
+struct Outcome {
+  std::optional<tof::TofPose> pose;
+  std::string reason;
+};
+
+class Measurer {
+ public:
+  explicit Measurer(const Options& options)
+      : options_(options),
+        camera_(host::read_camera_file(options.camera).camera),
+        frames_(options.folder),
+        workspace_(std::make_unique<tof::TofWorkspace>()) {}
+
+  std::size_t frames() const { return frames_.frames(); }
+  const std::string& name(std::size_t index) const { return frames_.name(index); }
+
+  Outcome measure(std::size_t index) {
+    host::DepthFrame frame;
+    try {
+      frames_.read(index, camera_.optics.width_px, camera_.optics.height_px, frame);
+    } catch (const host::InputError& error) {
+      note(error.what());
+      return {std::nullopt, "unreadable"};
+    }
+    if (options_.depth_bits < 16) quantise_depth(frame.depth, options_.depth_bits);
+    const tof::TofFrame view{frame.intensity_view(), frame.depth_view()};
+    const auto pose = tof::measure_tof_pose(view, camera_, options_.settings, *workspace_);
+    if (!options_.overlay.empty()) {
+      const std::filesystem::path picture = std::filesystem::path(options_.overlay) / (name(index) + "_tof.png");
+      write_overlay(picture.string(), view, camera_, pose, *workspace_);
+    }
+    if (!pose) return {std::nullopt, tof::name_of(pose.error())};
+    return {*pose, ""};
+  }
+
+ private:
+  const Options& options_;
+  DepthCamera camera_;
+  host::FrameDirectory frames_;
+  std::unique_ptr<tof::TofWorkspace> workspace_;
+};
+
+// Rows of single frames, or of windows of frames: a window's row is that of its last frame.
+class Rows {
+ public:
+  Rows(const Options& options, host::RowWriter& rows) : options_(options), rows_(rows) {}
+
+  void add(const std::string& frame, const Outcome& outcome, bool last) {
+    if (outcome.pose) summary_.add(outcome.pose->target, outcome.pose->has_turn());
+    if (options_.summary) return;
+    if (options_.window == 1) {
+      if (outcome.pose) {
+        write_frame(rows_, frame, *outcome.pose);
+      } else {
+        write_refusal(rows_, frame, outcome.reason);
+      }
+      return;
+    }
+    if (outcome.pose && !outcome.pose->ambiguous()) window_.add(*outcome.pose);
+    if (++in_window_ < options_.window && !last) return;
+    if (window_.frames() > 0) {
+      write_window(rows_, frame, window_);
+    } else {
+      write_refusal(rows_, frame, outcome.reason.empty() ? "ambiguous_window" : outcome.reason);
+    }
+    window_ = WindowMean();
+    in_window_ = 0;
+  }
+
+  const PoseSummary& summary() const { return summary_; }
+
+ private:
+  const Options& options_;
+  host::RowWriter& rows_;
+  PoseSummary summary_;
+  WindowMean window_;
+  int in_window_ = 0;
+};
+
+int run(Options options) {
+  if (options.least_diameter_mm > 0.0) options.settings.ring.least_outer_radius_m = 0.0005 * options.least_diameter_mm;
+  if (options.most_diameter_mm > 0.0) options.settings.ring.most_outer_radius_m = 0.0005 * options.most_diameter_mm;
+  Measurer measurer(options);
+  if (!options.overlay.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.overlay, error);
+    if (error) throw host::InputError(options.overlay + ": cannot be made: " + error.message());
+  }
+  Output output(options.output, options.summary ? summary_columns() : tof_columns());
+  Rows rows(options, output.rows());
+  Progress progress("tof", "frames", measurer.frames());
+  std::string reason;
+  for (std::size_t k = 0; k < measurer.frames(); ++k) {
+    const Outcome outcome = measurer.measure(k);
+    if (!outcome.pose) reason = outcome.reason;
+    rows.add(measurer.name(k), outcome, k + 1 == measurer.frames());
+    progress.step();
+  }
+  if (options.summary && rows.summary().frames() > 0) write_summary(output.rows(), rows.summary());
+  output.finish();
+  if (rows.summary().frames() > 0) return kExitAnswered;
+  note(options.folder + ": no frame has a pose; the last one was refused_" + reason);
+  return kExitNoAnswer;
+}
+
+}  // namespace
+
+void add_tof(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("tof", "Frames of a depth camera to poses of the docking ring");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Folder of frames")->required();
+  command->add_option("--camera", options->camera, "Camera file (TOML)")->required();
+  command->add_flag("--summary", options->summary, "Mean and standard deviation of all frames, as the paper's table 2");
+  command->add_option("--overlay", options->overlay, "Folder for pictures of what was found");
+  command->add_option("--window", options->window, "Mean of so many frames, with its covariance")
+      ->check(CLI::Range(1, 100'000));
+  command->add_option("--depth-bits", options->depth_bits, "Round depths to 2^N grey values first, as the paper (8)")
+      ->check(CLI::Range(4, 16));
+  command->add_option("--least-diameter-mm", options->least_diameter_mm, "No ring is smaller (default 500)")
+      ->check(CLI::Range(50.0, 5000.0));
+  command->add_option("--most-diameter-mm", options->most_diameter_mm, "No ring is larger (default 1500)")
+      ->check(CLI::Range(50.0, 5000.0));
+  command
+      ->add_option("--connectors", options->settings.connector.expected,
+                   "How many connectors the target carries (default 2); with fewer in sight gamma is not given")
+      ->check(CLI::Range(1, 8));
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
