@@ -19,20 +19,13 @@ bool aligned(const void* a, const void* b) {
 extern "C" {
 
 // The compiler must not see a copy in the loop and call this very function.
-__attribute__((optimize("O2", "no-tree-loop-distribute-patterns"))) void* memcpy(void* to, const void* from,
+__attribute__((optimize("Os", "no-tree-loop-distribute-patterns"))) void* memcpy(void* to, const void* from,
                                                                                  std::size_t size) {
   auto* byte_to = static_cast<unsigned char*>(to);
   const auto* byte_from = static_cast<const unsigned char*>(from);
   if (aligned(to, from)) {
     auto* word_to = static_cast<Word*>(to);
     const auto* word_from = static_cast<const Word*>(from);
-    for (; size >= 4 * kWord; size -= 4 * kWord, word_to += 4, word_from += 4) {
-      const Word a = word_from[0], b = word_from[1], c = word_from[2], d = word_from[3];
-      word_to[0] = a;
-      word_to[1] = b;
-      word_to[2] = c;
-      word_to[3] = d;
-    }
     for (; size >= kWord; size -= kWord) *word_to++ = *word_from++;
     byte_to = reinterpret_cast<unsigned char*>(word_to);
     byte_from = reinterpret_cast<const unsigned char*>(word_from);
@@ -41,18 +34,12 @@ __attribute__((optimize("O2", "no-tree-loop-distribute-patterns"))) void* memcpy
   return to;
 }
 
-__attribute__((optimize("O2", "no-tree-loop-distribute-patterns"))) void* memset(void* to, int value,
+__attribute__((optimize("Os", "no-tree-loop-distribute-patterns"))) void* memset(void* to, int value,
                                                                                  std::size_t size) {
   auto* byte = static_cast<unsigned char*>(to);
   if (aligned(to, to)) {
     auto* word = static_cast<Word*>(to);
     const Word four = static_cast<unsigned char>(value) * 0x01010101U;
-    for (; size >= 4 * kWord; size -= 4 * kWord, word += 4) {
-      word[0] = four;
-      word[1] = four;
-      word[2] = four;
-      word[3] = four;
-    }
     for (; size >= kWord; size -= kWord) *word++ = four;
     byte = reinterpret_cast<unsigned char*>(word);
   }
