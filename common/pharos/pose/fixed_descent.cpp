@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "pharos/base/hot.hpp"
+
 namespace pharos::pose {
 namespace {
 
@@ -26,7 +28,7 @@ struct AxisTerms {
   std::int32_t by_along, by_ahead;
 };
 
-bool axis_terms(Q30 along, Q30 ahead, Q30 cosine, Q30 sine, AxisTerms& terms) {
+PHAROS_HOT bool axis_terms(Q30 along, Q30 ahead, Q30 cosine, Q30 sine, AxisTerms& terms) {
   const auto opposite = static_cast<Q30>((product(ahead, cosine) - product(along, sine)) >> 30);
   const std::int64_t adjacent = (product(along, cosine) + product(ahead, sine)) >> 30;
   if (adjacent < kLeastDepth || !fixed::is_narrow(adjacent)) return false;
@@ -114,7 +116,7 @@ bool damp(FixedMatrix& matrix, double damping) {
 
 }  // namespace
 
-FixedNormal FixedSystem::linearise(const FixedPose& pose) const {
+PHAROS_HOT FixedNormal FixedSystem::linearise(const FixedPose& pose) const {
   FixedNormal normal;
   std::int64_t square_sum = 0;
   for (int i = 0; i < sightings_.count; ++i) {
