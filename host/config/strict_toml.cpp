@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -91,6 +92,14 @@ std::string resembling(std::string_view key, const std::set<std::string, std::le
   return best;
 }
 
+/// The parser quotes what it did not expect, line breaks too.
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return line;
+}
+
 }  // namespace
 
 TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) {
@@ -99,7 +108,7 @@ TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) 
     state->root = std::make_shared<const toml::table>(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
     throw InputError(name + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + std::string(error.description()));
+                     ": not valid TOML: " + on_one_line(error.description()));
   }
   state->table = state->root.get();
   state->file = name;
