@@ -24,7 +24,15 @@ void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) 
   open.ever = true;
   free_ &= free_ - 1U;
   Sweep& sweep = places_[open.place];
-  sweep.flash = flash.flash;
+  // Field by field: 17 bytes as one are a call of memcpy on the soft core.
+  const Flash& f = flash.flash;
+  sweep.flash.start_ticks = f.start_ticks;
+  sweep.flash.length_ticks = f.length_ticks;
+  sweep.flash.station = f.station;
+  sweep.flash.axis = f.axis;
+  sweep.flash.data = f.data;
+  sweep.flash.skip = f.skip;
+  sweep.flash.sensors = f.sensors;
   sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
   sweep.flags = flash.flags;
   sweep.hits.clear();
