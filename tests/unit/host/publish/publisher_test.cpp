@@ -33,7 +33,7 @@ TEST(Publisher, CountsWhatCouldNotBeSent) {
   MessageList list;
   list.broken = true;
   Publisher publisher(list, "");
-  EXPECT_FALSE(publisher.publish_pose({}));
+  EXPECT_FALSE(publisher.publish_pose(CycleReport{}));
   EXPECT_EQ(publisher.counters().failed, 1);
   EXPECT_EQ(publisher.counters().poses, 0);
   EXPECT_EQ(publisher.counters().bytes, 0);
@@ -51,7 +51,7 @@ TEST(Publisher, StatusMessagesAreNumbered) {
 
 TEST(LcmSink, SendsInsideOneProcess) {
   LcmSink sink("memq://");
-  EXPECT_TRUE(Publisher(sink, "PHAROS_").publish_pose({}));
+  EXPECT_TRUE(Publisher(sink, "PHAROS_").publish_pose(CycleReport{}));
 }
 
 TEST(LcmSink, SaysWhatToDoWhenLcmCannotBeSetUp) {
