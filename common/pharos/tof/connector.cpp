@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "pharos/tof/surroundings.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -17,9 +18,10 @@ constexpr double kLeastProud = 0.6;
 constexpr double kLeastSignificance = 6.0;
 // Pixels that share one value of noise: it is correlated over some 1.5 px.
 constexpr double kCommonPixels = 7.0;
-// How many pixels of the surroundings are looked at, at most.
-constexpr std::size_t kMostSurroundings = 512;
-constexpr double kMedianToSigma = 1.4826;
+// A median is noisier than a mean by this factor.
+constexpr double kMedianNoise = 1.25;
+// The ring's image and its blur: how far beyond its circles pixels are still taken for its own.
+constexpr double kRingMargin_px = 1.5;
 // The least rectangle is looked for by turning in these steps.
 constexpr int kTurns = 45;
 // Nearer to the ring's centre than this share of its outer radius no direction is worth the name, and the nozzle is
@@ -71,9 +73,11 @@ class RegionJudge {
         settings_(settings),
         rect_(workspace.rect),
         heights_(workspace.heights.data(), workspace.rect.width_px, workspace.rect.height_px),
+        least_area_px_(
+            std::max(settings.least_area_px, settings.least_area_share * ellipse_area_px(fit.model, camera))),
         most_area_px_(settings.most_area_share * ellipse_area_px(fit.model, camera)) {}
 
-  bool has_size(std::int32_t area_px) const { return area_px >= settings_.least_area_px && area_px <= most_area_px_; }
+  bool has_size(std::int32_t area_px) const { return area_px >= least_area_px_ && area_px <= most_area_px_; }
 
   RegionReport report(const Region& region) const {
     RegionReport report;
@@ -124,34 +128,16 @@ class RegionJudge {
 
   // Whether the face stands over the median of a frame around it, as wide as itself, by more than noise.
   bool stands_out(const Region& region, RegionReport& report) const {
-    const std::int32_t reach = std::max({6, region.rows(), region.columns()});
-    const std::int32_t stride = 1 + reach / 16;
-    std::array<double, kMostSurroundings> heights{};
-    std::size_t count = 0;
-    for (std::int32_t v = region.top - reach; v <= region.bottom + reach; v += stride) {
-      for (std::int32_t u = region.left - reach; u <= region.right + reach; u += stride) {
-        const bool own = v >= region.top - 1 && v <= region.bottom + 1 && u >= region.left - 1 && u <= region.right + 1;
-        if (own || count == heights.size() || !heights_.contains(u, v) || heights_.at(u, v) == kNoHeight) continue;
-        heights[count++] = height_of(heights_.at(u, v));
-      }
-    }
-    if (count < 8) return true;  // alone before space
-    const double foot = median(heights, count);
-    for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - foot);
-    const double foot_sigma = 1.25 * kMedianToSigma * median(heights, count);
-    report.step_m = report.height_m - foot;
+    const Surroundings around = surroundings_of(heights_, region);
+    if (around.samples < kLeastSurroundings) return true;  // alone before space
+    report.step_m = report.height_m - around.foot_m;
     const double face_sigma = pixel_sigma_m(region);
-    const double squares =
-        face_sigma * face_sigma * kCommonPixels / region.area_px +
-        foot_sigma * foot_sigma * kCommonPixels / (static_cast<double>(count) * std::min(stride * stride, 7));
+    const double foot_sigma = kMedianNoise * around.sigma_m;
+    const double squares = face_sigma * face_sigma * kCommonPixels / region.area_px +
+                           foot_sigma * foot_sigma * kCommonPixels /
+                               (static_cast<double>(around.samples) * std::min(around.stride_px * around.stride_px, 7));
     return report.step_m >= settings_.least_height_m &&
            report.step_m * report.step_m >= kLeastSignificance * kLeastSignificance * squares;
-  }
-
-  static double median(std::array<double, kMostSurroundings>& values, std::size_t count) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-    return *middle;
   }
 
   // Of the region's inside: its rim is mixed with what lies below.
@@ -263,8 +249,26 @@ class RegionJudge {
   const ConnectorSettings& settings_;
   PixelRect rect_;
   ImageView<const std::uint16_t> heights_;
+  double least_area_px_;
   double most_area_px_;
 };
+
+// The ring stands higher than what surrounds it and would lift the local mean beside the connector: it has no part in
+// any window.
+void drop_ring(const RayGrid& rays, const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
+               ImageView<std::uint16_t> heights) {
+  const DepthPlane plane = ring.plane();
+  const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
+  const double least = ring.radius_m[1] - margin_m;
+  const double most = ring.radius_m[0] + margin_m;
+  for (std::int32_t v = 0; v < rect.height_px; ++v) {
+    for (std::int32_t u = 0; u < rect.width_px; ++u) {
+      const Vector2 ray = rays.at(rect.u + u, rect.v + v);
+      const double squared = (plane.z_m(ray) * Vector3(ray.x(), ray.y(), 1.0) - ring.centre_m).squaredNorm();
+      if (squared > least * least && squared < most * most) heights.at(u, v) = kNoHeight;
+    }
+  }
+}
 
 // Depth noise goes with the inverse of amplitude: what is dark beside the ring has no part in a connector.
 void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double least_amplitude, BitImage& mask) {
@@ -287,7 +291,37 @@ void keep_nearest_first(StaticVector<RegionReport, kMostConnectors>& list, const
   }
 }
 
+// A satellite's connectors are of one kind: what is much smaller or lower than the most prominent is none of them.
+void keep_alike(StaticVector<RegionReport, kMostConnectors>& list) {
+  const auto prominence = [](const RegionReport& report) { return report.step_m * report.area_m2; };
+  const RegionReport* first = nullptr;
+  for (const RegionReport& report : list) {
+    if (first == nullptr || prominence(report) > prominence(*first)) first = &report;
+  }
+  if (first == nullptr) return;
+  const RegionReport reference = *first;
+  std::size_t kept = 0;
+  for (const RegionReport& report : list) {
+    if (are_alike(report, reference)) list[kept++] = report;
+  }
+  list.resize(kept);
+}
+
+template <class Visit>
+void for_each_region(ConnectorWorkspace& workspace, BitImage& mask, Visit visit) {
+  for (std::int32_t v = 0; v < mask.height_px(); ++v) {
+    for (std::int32_t u = 0; u < mask.width_px(); ++u) {
+      if (mask.at(u, v) && grow_region(mask, u, v, workspace.growing, workspace.region)) visit(workspace.region);
+    }
+  }
+}
+
 }  // namespace
+
+bool are_alike(const RegionReport& a, const RegionReport& b) {
+  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && a.area_m2 > 0.3 * b.area_m2 &&
+         a.area_m2 < 3.0 * b.area_m2;
+}
 
 void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,
                      const ConnectorSettings& settings, ConnectorWorkspace& workspace) {
@@ -299,24 +333,30 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   const PixelRect& rect = workspace.rect;
   const ImageView<std::uint16_t> heights(workspace.heights.data(), rect.width_px, rect.height_px);
   make_heights(frame, camera, rays, ring.plane(), rect, heights);
+  drop_ring(rays, camera, ring, rect, heights);
   const double radius_px = ring.radius_m[0] * camera.optics.fx_px / ring.centre_m.z();
   const auto half_window =
       std::max(settings.least_half_window_px, static_cast<std::int32_t>(settings.window_share * radius_px + 0.5));
   local_threshold(heights, half_window, settings.form, workspace.threshold, workspace.mask);
   drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.mask);
   open_and_close(workspace.mask, workspace.scratch);
-  workspace.scratch = workspace.mask;  // growing takes regions out of it
-  const RegionJudge judge(frame, camera, rays, fit, settings, workspace);
-  for (std::int32_t v = 0; v < rect.height_px; ++v) {
-    for (std::int32_t u = 0; u < rect.width_px; ++u) {
-      if (!workspace.scratch.at(u, v)) continue;
-      if (!grow_region(workspace.scratch, u, v, workspace.growing, workspace.region)) continue;
-      const RegionReport report = judge.report(workspace.region);
-      if (report.verdict != RegionVerdict::kArea) workspace.regions.push_back(report);
-      if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace.connectors, report);
-      if (report.doubtful) keep_nearest_first(workspace.doubtful, report);
+  // The regions' own faces, halfway up their steps; growing takes regions out of the mask.
+  workspace.faces.reset(rect.width_px, rect.height_px);
+  for_each_region(workspace, workspace.mask, [&](const Region& region) {
+    if (region.area_px >= settings.least_area_px) {
+      mark_face(heights, region, settings.least_height_m, workspace.faces);
     }
-  }
+  });
+  drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.faces);
+  open_and_close(workspace.faces, workspace.scratch);
+  const RegionJudge judge(frame, camera, rays, fit, settings, workspace);
+  for_each_region(workspace, workspace.faces, [&](const Region& region) {
+    const RegionReport report = judge.report(region);
+    if (report.verdict != RegionVerdict::kArea) workspace.regions.push_back(report);
+    if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace.connectors, report);
+    if (report.doubtful) keep_nearest_first(workspace.doubtful, report);
+  });
+  keep_alike(workspace.connectors);
 }
 
 }  // namespace pharos::tof

@@ -46,7 +46,8 @@ inline constexpr std::size_t kMostConnectors = 8;
 struct ConnectorWorkspace {
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxPixels)> heights;
   ThresholdWorkspace threshold;
-  BitImage mask;  ///< after morphology, of `rect`
+  BitImage mask;   ///< of `rect`: what grows by (5)
+  BitImage faces;  ///< what stands halfway up the steps of its regions
   BitImage scratch;
   RegionWorkspace growing;
   Region region;
@@ -57,11 +58,14 @@ struct ConnectorWorkspace {
   StaticVector<RegionReport, kMostConnectors> doubtful;
 };
 
+/// Like in height and size: they may be two connectors of one satellite.
+bool are_alike(const RegionReport& a, const RegionReport& b);
+
 /// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,
-/// local threshold (5), morphology, region growing, filters by area, aspect ratio and fill in the ring's plane (so
-/// that tilt does not change them). Patches of noise pass all these: what is left must also stand over the median of
-/// its surroundings by more than noise can explain, and its outline be a step down. Results in the workspace,
-/// connectors nearest first.
+/// local threshold (5), morphology, region growing, each region's mask set anew halfway up its step, filters by area,
+/// aspect ratio and fill in the ring's plane (so that tilt does not change them). Patches of noise pass all these: what
+/// is left must also stand over the median of its surroundings by more than noise can explain, and its outline be a
+/// step down. Results in the workspace, connectors nearest first, all alike.
 void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                      const ConnectorSettings& settings, ConnectorWorkspace& workspace);
 

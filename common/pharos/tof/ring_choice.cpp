@@ -30,7 +30,8 @@ constexpr double kMostScatter = 3.0;
 // On the plane: distance of the circles' centres, in outer radii.
 constexpr double kMostEccentricity = 0.03;
 constexpr double kLeastStepShare = 0.6;
-constexpr double kMostEdgeRms_px = 1.0;
+// A ring's edges leave 0.05 to 0.35 px; where the foot of the inner wall is taken for the inner edge, 0.8 and more.
+constexpr double kMostEdgeRms_px = 0.6;
 // Chi-squared of three degrees of freedom that chance exceeds once in a million.
 constexpr double kMostDisagreement = 31.0;
 

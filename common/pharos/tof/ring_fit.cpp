@@ -218,10 +218,13 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
                                 const DepthNoise& noise, RingFitWorkspace& workspace) {
   RingFit fit;
   fit.model = start;
+  // A plane that is smoother than the camera's noise still has pixels that are mixed with its surroundings.
+  const double ratio = start.centre_m.z() / noise.range_m;
+  const double depth_gate_m = 4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio);
   for (const double search_px : kSearch_px) {
     for (const RingEdge edge : kRingEdges) {
-      fit.seen = find_ring_edges(frame, camera, fit.model, edge, bright_inside[index_of(edge)], search_px,
-                                 4.0 * plane.rms_m, workspace.points[index_of(edge)]);
+      fit.seen = find_ring_edges(frame, camera, fit.model, edge, bright_inside[index_of(edge)], search_px, depth_gate_m,
+                                 workspace.points[index_of(edge)]);
     }
     const auto solved = solve_round(camera, fit.model, plane, workspace.points);
     if (!solved) return std::nullopt;

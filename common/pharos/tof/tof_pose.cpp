@@ -24,23 +24,19 @@ struct Choice {
   double distance_m() const { return face.rectangle.centre_m.norm(); }
 };
 
-// Like in height and size: it may be the other connector of a satellite's.
-bool alike(const RegionReport& a, const RegionReport& b) {
-  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && a.area_m2 > 0.3 * b.area_m2 &&
-         a.area_m2 < 3.0 * b.area_m2;
-}
-
 class ConnectorChoice {
  public:
   ConnectorChoice(const TofFrame& frame, const DepthCamera& camera, const TofWorkspace& workspace, const RingFit& ring)
       : frame_(frame), camera_(camera), workspace_(workspace), ring_(ring) {}
 
   // Nearest first. False where a region that may be a nearer connector could not be told: then none may be chosen.
-  bool choose(double least_difference_m) {
+  // Doubtful regions are only asked where connectors are missing.
+  bool choose(std::int32_t expected, double least_difference_m) {
     const auto& found = workspace_.connector.connectors;
     for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
+    if (static_cast<std::int32_t>(found.size()) >= expected) return true;
     for (const RegionReport& doubt : workspace_.connector.doubtful) {
-      if (!found.empty() && !alike(doubt, found[0])) continue;
+      if (!found.empty() && !are_alike(doubt, found[0])) continue;
       const Choice choice = choice_of(doubt);
       if (choice.sure) {
         insert(choice);
@@ -77,7 +73,7 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
   const RingFit& ring = result.ring.fit;
   find_connectors(frame, camera, workspace.rays, ring, settings.connector, workspace.connector);
   ConnectorChoice choice(frame, camera, workspace, ring);
-  const bool told = choice.choose(settings.connector.least_difference_m);
+  const bool told = choice.choose(settings.connector.expected, settings.connector.least_difference_m);
   const bool few = static_cast<std::int32_t>(choice.choices().size()) < settings.connector.expected;
   if (!told || few) {
     result.flags |= kFlagNoConnector;

@@ -44,7 +44,8 @@ struct ConnectorSettings {
   /// Only pixels grow that are as bright as this share of the ring: dark foil's depths are noise.
   double least_amplitude = 0.4;
   double least_area_px = 20.0;
-  /// Largest area over that of the outer ellipse.
+  /// Least and largest area over that of the outer ellipse: patches of noise reach a third of the least.
+  double least_area_share = 0.005;
   double most_area_share = 0.1;
   double least_aspect = 0.7;
   double most_aspect = 1.5;
