@@ -17,7 +17,8 @@ inline void* module_function(const std::string& library, const char* function) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   std::string why;
-  for (const std::filesystem::path& place : {folder, folder.parent_path() / "lib" / "pharos", folder.parent_path() / "bin"}) {
+  for (const std::filesystem::path& place :
+       {folder, folder.parent_path() / "lib" / "pharos", folder.parent_path() / "bin"}) {
     void* module = dlopen((place / library).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module != nullptr) {
       void* found = dlsym(module, function);
@@ -25,7 +26,8 @@ inline void* module_function(const std::string& library, const char* function) {
     }
     if (why.empty() || std::filesystem::exists(place / library, error)) why = dlerror();
   }
-  throw InputError(library + " cannot be loaded (" + why + "); install or build Pharos with OpenCV");
+  throw InputError(library + " cannot be loaded (" + why +
+                   "); build or install all of Pharos, and what `tools/install-dependencies build` names");
 }
 
 }  // namespace pharos::host
