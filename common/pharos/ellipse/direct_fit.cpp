@@ -75,7 +75,9 @@ std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   }
   const Eigen::LDLT<Matrix3> linear_scatter(s3);
   if (linear_scatter.vectorD().minCoeff() <= 1e-9 * s3.trace()) return std::nullopt;
-  const Matrix3 eliminate = -linear_scatter.solve(s2.transpose());
+  // Column by column: Eigen solves for a matrix by a kernel that keeps the caches' sizes in a static.
+  Matrix3 eliminate;
+  for (int k = 0; k < 3; ++k) eliminate.col(k) = -linear_scatter.solve(s2.row(k).transpose());
   Matrix3 scatter = s1 + s2 * eliminate;
   scatter.diagonal().array() += kRidge * s1.trace();
   // Largest mu of C q = mu S q; C has one positive eigenvalue, and S is positive: it is the ellipse's.
@@ -83,8 +85,9 @@ std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   if (root.info() != Eigen::Success) return std::nullopt;
   Matrix3 constraint;
   constraint << 0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0;
-  const Matrix3 half = root.matrixL().solve(constraint);
-  const Matrix3 reduced = root.matrixL().solve(half.transpose());
+  Matrix3 half, reduced;
+  for (int k = 0; k < 3; ++k) half.col(k) = root.matrixL().solve(constraint.col(k));
+  for (int k = 0; k < 3; ++k) reduced.col(k) = root.matrixL().solve(half.row(k).transpose());
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (reduced + reduced.transpose()));
   if (eigen.info() != Eigen::Success) return std::nullopt;
   Vector3 quadratic = root.matrixU().solve(eigen.eigenvectors().col(2).eval());

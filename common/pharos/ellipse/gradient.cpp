@@ -78,10 +78,11 @@ EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std
     for (std::int32_t u = 1; u < magnitude.width_px - 1; ++u) ++histogram[class_of(row[u])];
     counted += static_cast<std::uint32_t>(magnitude.width_px - 2);
   }
-  const float sigma = kSigmaOfMedian * static_cast<float>(exceeded_by(histogram, std::max(1U, counted / 2)));
-  const auto strong = static_cast<float>(exceeded_by(histogram, std::max(1U, counted / kStrongest)));
-  const auto crowded = static_cast<float>(
-      exceeded_by(histogram, std::max(1U, kPixelsPerPoint * most_points / static_cast<std::uint32_t>(kRowStep))));
+  const float sigma =
+      kSigmaOfMedian * static_cast<float>(exceeded_by(histogram, std::max<std::uint32_t>(1, counted / 2)));
+  const auto strong = static_cast<float>(exceeded_by(histogram, std::max<std::uint32_t>(1, counted / kStrongest)));
+  const auto crowded = static_cast<float>(exceeded_by(
+      histogram, std::max<std::uint32_t>(1, kPixelsPerPoint * most_points / static_cast<std::uint32_t>(kRowStep))));
   const float low = std::max({kLowSigmas * sigma, kLowShare * strong, crowded, 1.0F});
   const float high = std::max({kHighSigmas * sigma, kHighShare * strong, low + 1.0F});
   const auto limited = [](float value) { return static_cast<std::uint16_t>(std::min(value, 65535.0F)); };

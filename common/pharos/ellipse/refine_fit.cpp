@@ -156,7 +156,10 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
     const bool done = k + 1 == kIterations || step.cwiseAbs().maxCoeff() < kConverged_px;
     if (done) {
       fit.sigma_px = normal.sigma;
-      const Matrix5 covariance = normal.sigma * normal.sigma / independent * solver.solve(Matrix5::Identity());
+      // Column by column: Eigen solves for a matrix by a kernel that keeps the caches' sizes in a static.
+      Matrix5 inverse;
+      for (int i = 0; i < 5; ++i) inverse.col(i) = solver.solve(Vector5::Unit(i));
+      const Matrix5 covariance = normal.sigma * normal.sigma / independent * inverse;
       fit.covariance = in_axes(covariance, fit.ellipse, contour.turned());
     }
     fit.ellipse = *next;

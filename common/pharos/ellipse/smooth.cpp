@@ -31,16 +31,18 @@ int free_bits(ImageView<const Value> image) {
 }
 
 void smooth_row(const Value* in, Value* out, std::int32_t width, int shift) {
-  const auto at = [&](std::int32_t u) { return static_cast<Value>(in[std::clamp(u, 0, width - 1)] << shift); };
+  const auto at = [&](std::int32_t u) {
+    return static_cast<Value>(in[std::clamp<std::int32_t>(u, 0, width - 1)] << shift);
+  };
   const auto inside = [&](std::int32_t u) { return static_cast<Value>(in[u] << shift); };
   const auto near_border = [&](std::int32_t u) {
     out[u] = binomial(at(u - 2), at(u - 1), at(u), at(u + 1), at(u + 2));
   };
-  for (std::int32_t u = 0; u < std::min(2, width); ++u) near_border(u);
+  for (std::int32_t u = 0; u < std::min<std::int32_t>(2, width); ++u) near_border(u);
   for (std::int32_t u = 2; u < width - 2; ++u) {
     out[u] = binomial(inside(u - 2), inside(u - 1), inside(u), inside(u + 1), inside(u + 2));
   }
-  for (std::int32_t u = std::max(2, width - 2); u < width; ++u) near_border(u);
+  for (std::int32_t u = std::max<std::int32_t>(2, width - 2); u < width; ++u) near_border(u);
 }
 
 }  // namespace

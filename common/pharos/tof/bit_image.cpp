@@ -6,8 +6,8 @@
 namespace pharos::tof {
 
 void BitImage::reset(std::int32_t width_px, std::int32_t height_px) {
-  width_ = std::clamp(width_px, 0, kMaxWidth_px);
-  height_ = std::clamp(height_px, 0, kMaxHeight_px);
+  width_ = std::clamp<std::int32_t>(width_px, 0, kMaxWidth_px);
+  height_ = std::clamp<std::int32_t>(height_px, 0, kMaxHeight_px);
   std::fill_n(words_.begin(), static_cast<std::size_t>(height_ * kWords), std::uint64_t{0});
 }
 

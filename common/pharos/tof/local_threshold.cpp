@@ -59,7 +59,7 @@ bool grows(std::uint16_t grey, const ColumnSums& window, ThresholdForm form) {
 void local_threshold(ImageView<const std::uint16_t> grey, std::int32_t half_window_px, ThresholdForm form,
                      ThresholdWorkspace& workspace, BitImage& above) {
   above.reset(grey.width_px, grey.height_px);
-  const std::int32_t w = std::clamp(half_window_px, 1, kMostHalfWindow_px);
+  const std::int32_t w = std::clamp<std::int32_t>(half_window_px, 1, kMostHalfWindow_px);
   ColumnSums* columns = workspace.columns.data();
   std::fill_n(columns, grey.width_px, ColumnSums{});
   for (std::int32_t k = -w; k <= w; ++k) add_row(columns, grey.row(mirrored(k, grey.height_px)), grey.width_px, 1);

@@ -100,7 +100,9 @@ TargetPose target_pose(const RingFit& ring, const ConnectorFace& face) {
   covariance.topLeftCorner<5, 5>() = ring.covariance.topLeftCorner<5, 5>();
   covariance.block<2, 2>(5, 5) = ray_by_plan * face.covariance * ray_by_plan.transpose();
   covariance(7, 7) = face.sigma_height_m * face.sigma_height_m;
-  result.covariance = jacobian * covariance * jacobian.transpose();
+  // Lazily: for eight rows Eigen's other product takes blocks from the heap.
+  const Matrix68 half = jacobian.lazyProduct(covariance);
+  result.covariance = half.lazyProduct(jacobian.transpose());
   return result;
 }
 
