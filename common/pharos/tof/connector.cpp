@@ -20,6 +20,8 @@ constexpr double kLeastSignificance = 6.0;
 constexpr double kCommonPixels = 7.0;
 // A median is noisier than a mean by this factor.
 constexpr double kMedianNoise = 1.25;
+// Faces of one kind differ in area by a third; patches beside the nozzle reach a third of a face.
+constexpr double kAlikeArea = 2.0;
 // The ring's image and its blur: how far beyond its circles pixels are still taken for its own.
 constexpr double kRingMargin_px = 1.5;
 // The least rectangle is looked for by turning in these steps.
@@ -302,7 +304,7 @@ void keep_alike(StaticVector<RegionReport, kMostConnectors>& list) {
   const RegionReport reference = *first;
   std::size_t kept = 0;
   for (const RegionReport& report : list) {
-    if (are_alike(report, reference)) list[kept++] = report;
+    if (are_alike(report, reference, kAlikeArea)) list[kept++] = report;
   }
   list.resize(kept);
 }
@@ -318,9 +320,9 @@ void for_each_region(ConnectorWorkspace& workspace, BitImage& mask, Visit visit)
 
 }  // namespace
 
-bool are_alike(const RegionReport& a, const RegionReport& b) {
-  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && a.area_m2 > 0.3 * b.area_m2 &&
-         a.area_m2 < 3.0 * b.area_m2;
+bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor) {
+  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && area_factor * a.area_m2 > b.area_m2 &&
+         a.area_m2 < area_factor * b.area_m2;
 }
 
 void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,

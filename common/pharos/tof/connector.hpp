@@ -58,8 +58,8 @@ struct ConnectorWorkspace {
   StaticVector<RegionReport, kMostConnectors> doubtful;
 };
 
-/// Like in height and size: they may be two connectors of one satellite.
-bool are_alike(const RegionReport& a, const RegionReport& b);
+/// Like in height, and in area by this factor: they may be two connectors of one satellite.
+bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor);
 
 /// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,
 /// local threshold (5), morphology, region growing, each region's mask set anew halfway up its step, filters by area,

@@ -10,6 +10,8 @@ namespace pharos::tof {
 namespace {
 
 constexpr double kPartlyHidden = 0.9;
+// Burrs and missing corners included.
+constexpr double kDoubtfulArea = 3.0;
 
 bool is_good(const TargetPose& target) {
   if (!target.pose.is_finite() || !target.covariance.allFinite()) return false;
@@ -36,7 +38,7 @@ class ConnectorChoice {
     for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
     if (static_cast<std::int32_t>(found.size()) >= expected) return true;
     for (const RegionReport& doubt : workspace_.connector.doubtful) {
-      if (!found.empty() && !are_alike(doubt, found[0])) continue;
+      if (!found.empty() && !are_alike(doubt, found[0], kDoubtfulArea)) continue;
       const Choice choice = choice_of(doubt);
       if (choice.sure) {
         insert(choice);
