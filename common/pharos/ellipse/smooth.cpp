@@ -51,7 +51,7 @@ int smooth(ImageView<const Value> image, ImageView<Value> scratch, ImageView<Val
   const int shift = free_bits(image);
   for (std::int32_t v = 0; v < image.height_px; ++v) smooth_row(image.row(v), scratch.row(v), image.width_px, shift);
   for (std::int32_t v = 0; v < image.height_px; ++v) {
-    const auto row = [&](std::int32_t w) { return scratch.row(std::clamp(w, 0, image.height_px - 1)); };
+    const auto row = [&](std::int32_t w) { return scratch.row(std::clamp<std::int32_t>(w, 0, image.height_px - 1)); };
     const Value *r0 = row(v - 2), *r1 = row(v - 1), *r2 = row(v), *r3 = row(v + 1), *r4 = row(v + 2);
     Value* out = smoothed.row(v);
     for (std::int32_t u = 0; u < image.width_px; ++u) out[u] = binomial(r0[u], r1[u], r2[u], r3[u], r4[u]);
