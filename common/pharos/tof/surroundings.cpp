@@ -46,7 +46,7 @@ Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) 
 }  // namespace
 
 Surroundings surroundings_of(ImageView<const std::uint16_t> heights, const Region& region) {
-  const std::int32_t reach = std::max({6, region.rows(), region.columns()});
+  const std::int32_t reach = std::max<std::int32_t>({6, region.rows(), region.columns()});
   Surroundings around;
   around.stride_px = 1 + reach / 16;
   Samples samples;
