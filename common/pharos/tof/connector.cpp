@@ -135,9 +135,10 @@ class RegionJudge {
     report.step_m = report.height_m - around.foot_m;
     const double face_sigma = pixel_sigma_m(region);
     const double foot_sigma = kMedianNoise * around.sigma_m;
-    const double squares = face_sigma * face_sigma * kCommonPixels / region.area_px +
-                           foot_sigma * foot_sigma * kCommonPixels /
-                               (static_cast<double>(around.samples) * std::min(around.stride_px * around.stride_px, 7));
+    const double squares =
+        face_sigma * face_sigma * kCommonPixels / region.area_px +
+        foot_sigma * foot_sigma * kCommonPixels /
+            (static_cast<double>(around.samples) * std::min<std::int32_t>(around.stride_px * around.stride_px, 7));
     return report.step_m >= settings_.least_height_m &&
            report.step_m * report.step_m >= kLeastSignificance * kLeastSignificance * squares;
   }
