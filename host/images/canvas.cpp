@@ -12,7 +12,7 @@ namespace pharos::host {
 namespace {
 
 constexpr double kBrightest = 200.0;  // of the grey ground
-constexpr double kAway = 30000.0;     // farther places are cut before they are drawn
+constexpr double kAway = 30000.0;     // nothing is drawn from or to farther places
 
 // The value that `share` of the pixels stay below.
 std::uint16_t percentile(const std::vector<std::uint16_t>& sorted, double share) {
@@ -97,7 +97,9 @@ void Canvas::stroke(Spot a, Spot b, Colour colour, double width) {
 void Canvas::line(Place from, Place to, Colour colour, double width) {
   // In pieces: the box around a slanted piece stays small.
   const Spot a = spot(from), b = spot(to);
-  const int pieces = std::clamp(static_cast<int>(std::hypot(b.x - a.x, b.y - a.y) / 16.0), 1, 4000);
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (!(length < 2.0 * kAway)) return;
+  const int pieces = std::max(1, static_cast<int>(length / 16.0));
   for (int k = 0; k < pieces; ++k) {
     const double p = static_cast<double>(k) / pieces, q = static_cast<double>(k + 1) / pieces;
     stroke({a.x + p * (b.x - a.x), a.y + p * (b.y - a.y)}, {a.x + q * (b.x - a.x), a.y + q * (b.y - a.y)}, colour,
@@ -111,7 +113,8 @@ void Canvas::polyline(std::span<const Place> places, Colour colour, double width
 
 void Canvas::ellipse(Place centre, double a_px, double b_px, double theta_rad, Colour colour, double width,
                      bool dashed) {
-  const int pieces = 2 * std::clamp(static_cast<int>(a_px * zoom_ / 4.0), 24, 1000);
+  if (!std::isfinite(a_px)) return;
+  const int pieces = 2 * static_cast<int>(std::clamp(a_px * zoom_ / 4.0, 24.0, 1000.0));
   const double c = std::cos(theta_rad), s = std::sin(theta_rad);
   const auto place = [&](int k) {
     const double t = 2.0 * std::numbers::pi * k / pieces, x = a_px * std::cos(t), y = b_px * std::sin(t);
