@@ -30,7 +30,8 @@ using Histogram = std::array<std::uint32_t, kClasses>;
 std::size_t class_of(std::uint16_t magnitude) {
   const int octave = static_cast<int>(std::bit_width(static_cast<unsigned>(magnitude))) - 1;
   if (octave < kFraction) return magnitude;
-  return (static_cast<std::size_t>(octave) << kFraction) | ((magnitude >> (octave - kFraction)) & 7U);
+  return (static_cast<std::size_t>(octave) << kFraction) |
+         (static_cast<unsigned>(magnitude) >> (octave - kFraction) & 7U);
 }
 
 std::uint16_t lower_end(std::size_t index) {
