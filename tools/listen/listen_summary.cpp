@@ -28,9 +28,12 @@ std::string error_text(const char* what, const ErrorSums& error) {
 
 }  // namespace
 
-PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth) {
+PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth, bool has_turn) {
   const Vector6 delta = pose_difference(measured, truth);
-  return {delta.head<3>().norm(), delta.tail<3>().norm()};
+  if (has_turn) return {delta.head<3>().norm(), delta.tail<3>().norm()};
+  const Vector3 z = measured.R.col(2);
+  const Vector3 true_z = truth.R.col(2);
+  return {std::atan2(z.cross(true_z).norm(), z.dot(true_z)), delta.tail<3>().norm()};
 }
 
 void ErrorSums::add(const PoseError& error) {

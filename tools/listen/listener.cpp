@@ -2,6 +2,7 @@
 #include "tools/listen/listener.hpp"
 
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "pharos/pose_t.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 // Poses without a truth yet that are kept for the end: ten minutes at 60 Hz.
 constexpr std::size_t kMostNotCompared = 36'000;
+// A pose waits this long for its truth, which a simulator writes up to a frame later; then it is printed without.
+constexpr std::int64_t kLongestWaitNs = 500'000'000;
 
 template <class Message>
 bool decode(Message& message, const void* data, int size) {
@@ -32,6 +35,7 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.status = message.status;
   pose.of_camera = message.child_frame == "target";
   pose.flags = message.flags;
+  pose.has_turn = pose.flags.find("no_connector") == std::string::npos;
   pose.sigma_rot_rad = message.sigma_rot_rad;
   pose.sigma_pos_m = message.sigma_pos_m;
   pose.age_s = static_cast<double>(utc_ns) * 1e-9 - static_cast<double>(message.utime) * 1e-6;
@@ -62,6 +66,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   if (decode(pose, data, size)) {
     take_pose(channel, pose, utc_ns, monotonic_ns);
   } else if (decode(status, data, size)) {
+    print_those_known(monotonic_ns);
     take_status(status);
   } else {
     ++foreign_;
@@ -72,21 +77,33 @@ void Listener::take_pose(const std::string& channel, const pose_t& message, std:
                          std::int64_t monotonic_ns) {
   ReceivedPose pose = received(channel, message, utc_ns);
   pose.rate_hz = summary_.add(pose, monotonic_ns);
-  if (pose.pose && truth_) compare(pose);
-  print(pose);
+  waiting_.push_back({std::move(pose), monotonic_ns});
+  print_those_known(monotonic_ns);
 }
 
-void Listener::compare(ReceivedPose& pose) {
-  if (const auto truth = truth_->at(pose.station, pose.utime_us)) {
-    pose.error = pose_error(*pose.pose, *truth);
-    summary_.add_error(pose, *pose.error);
-  } else if (not_compared_.size() < kMostNotCompared) {
-    not_compared_.push_back(pose);
+void Listener::print_those_known(std::int64_t monotonic_ns) {
+  for (; !waiting_.empty(); waiting_.pop_front()) {
+    auto& [pose, arrival_ns] = waiting_.front();
+    if (truth_ && pose.pose && !compare(pose)) {
+      if (monotonic_ns - arrival_ns < kLongestWaitNs) return;
+      if (not_compared_.size() < kMostNotCompared) not_compared_.push_back(pose);
+    }
+    print(pose);
   }
 }
 
+bool Listener::compare(ReceivedPose& pose) {
+  const auto truth = truth_->at(pose.station, pose.utime_us);
+  if (!truth) return false;
+  pose.error = pose_error(*pose.pose, *truth, pose.has_turn);
+  summary_.add_error(pose, *pose.error);
+  return true;
+}
+
 void Listener::finish() {
-  for (ReceivedPose& pose : std::exchange(not_compared_, {})) compare(pose);
+  print_those_known(std::numeric_limits<std::int64_t>::max());
+  for (ReceivedPose& pose : not_compared_) compare(pose);
+  not_compared_.clear();
 }
 
 void Listener::print(const ReceivedPose& pose) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ class Listener {
   /// Any message of a channel listened to: pose_t and status_t are printed (a status not as CSV: it
   /// is no row), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
-  /// Compares poses whose truth had not been written yet when they came.
+  /// Prints the poses that still wait for their truth, and compares those that were printed before it was written.
   void finish();
 
   const ListenSummary& summary() const { return summary_; }
@@ -43,13 +44,21 @@ class Listener {
  private:
   void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
   void take_status(const status_t& message);
-  void compare(ReceivedPose& pose);
+  /// In their order: a pose waits for its truth, and others behind it.
+  void print_those_known(std::int64_t monotonic_ns);
+  /// False: its truth is not there (yet).
+  bool compare(ReceivedPose& pose);
   void print(const ReceivedPose& pose);
 
   ListenFormat format_;
   std::optional<TruthFile> truth_;
-  std::vector<ReceivedPose> not_compared_;
-  std::unique_ptr<host::RowWriter> rows_;  // of CSV and JSON
+  struct Waiting {
+    ReceivedPose pose;
+    std::int64_t arrival_ns;
+  };
+  std::deque<Waiting> waiting_;
+  std::vector<ReceivedPose> not_compared_;  // printed without an error
+  std::unique_ptr<host::RowWriter> rows_;   // of CSV and JSON
   ListenSummary summary_;
   std::int64_t foreign_ = 0;
   std::int64_t status_messages_ = 0;

@@ -25,8 +25,9 @@ std::string clock_text(std::int64_t utime_us) {
 std::string attitude_text(const ReceivedPose& pose) {
   if (pose.of_camera) {
     const tof::TargetAngles angles = tof::angles_of(pose.pose->R);
-    return fmt::format("alpha {:.2f} beta {:.2f} gamma {:.2f} deg", angles.alpha_rad * kDegPerRad,
-                       angles.beta_rad * kDegPerRad, angles.gamma_rad * kDegPerRad);
+    const std::string gamma = pose.has_turn ? fmt::format("{:.2f}", angles.gamma_rad * kDegPerRad) : "-";
+    return fmt::format("alpha {:.2f} beta {:.2f} gamma {} deg", angles.alpha_rad * kDegPerRad,
+                       angles.beta_rad * kDegPerRad, gamma);
   }
   const Vector3 r_deg = rotation_log(pose.pose->R) * kDegPerRad;
   return fmt::format("r {:.3f} {:.3f} {:.3f} deg", r_deg.x(), r_deg.y(), r_deg.z());

@@ -9,13 +9,14 @@
 
 namespace pharos::tools {
 
-/// Error of a pose against the truth: angle of the relative rotation (paper 002, 23) and distance (25).
+/// Error of a pose against the truth: angle of the relative rotation (paper 002, 23) and distance (25). Of a pose whose
+/// turn about its own Z axis is not known, the angle between the Z axes.
 struct PoseError {
   double rotation_rad = 0.0;
   double position_m = 0.0;
 };
 
-PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth);
+PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth, bool has_turn = true);
 
 /// A pose_t as it arrived.
 struct ReceivedPose {
@@ -32,6 +33,7 @@ struct ReceivedPose {
   double sigma_rot_rad = 0.0;
   double sigma_pos_m = 0.0;
   bool of_camera = false;  // T_camera_target: people know the angles of paper 000
+  bool has_turn = true;    // the turn about the target's Z axis is measured, not made up
   double age_s = 0.0;      // on arrival, after the measurement
   double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;

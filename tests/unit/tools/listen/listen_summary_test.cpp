@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "pharos/pose_t.hpp"
 #include "tools/listen/listener.hpp"
@@ -82,6 +86,14 @@ TEST(PoseError, IsTheAngleBetweenAndTheDistance) {
   EXPECT_NEAR(pose_error(measured, truth).position_m, 0.005, 1e-12);
 }
 
+TEST(PoseError, OfAPoseWithoutTurnIsItsTilt) {
+  const LighthouseFromBody truth{rotation_exp(Vector3(3.0, 0.1, 0)), Vector3(0, 0, 4)};
+  const Matrix3 turned = rotation_exp(Vector3(0, 0.02, 0)) * truth.R * rotation_exp(Vector3(0, 0, 1.3));
+  const LighthouseFromBody measured{turned, truth.t};
+  EXPECT_NEAR(pose_error(measured, truth, false).rotation_rad, 0.02, 1e-3);
+  EXPECT_GT(pose_error(measured, truth, true).rotation_rad, 1.2);
+}
+
 TEST(PoseLine, ShowsMillimetresAndDegrees) {
   ReceivedPose received = pose(50);
   received.pose->t = Vector3(0.0015, -0.25, 3.0);
@@ -89,6 +101,74 @@ TEST(PoseLine, ShowsMillimetresAndDegrees) {
   const std::string line = pose_line(received);
   EXPECT_THAT(line, HasSubstr("00:00:01.000 dock -------- ok  t 1.50 -250.00 3000.00 mm"));
   EXPECT_THAT(line, HasSubstr("age 4.0 ms  error 2.00 mm 0.573 deg"));
+}
+
+TEST(PoseLine, ShowsNoTurnThatWasNotMeasured) {
+  ReceivedPose received = pose(50);
+  received.of_camera = true;
+  received.pose->R = rotation_exp(Vector3(M_PI, 0, 0)) * rotation_exp(Vector3(0, 0, 0.5));
+  EXPECT_THAT(pose_line(received), HasSubstr("gamma 28.65 deg"));
+  received.has_turn = false;
+  EXPECT_THAT(pose_line(received), HasSubstr("gamma - deg"));
+}
+
+/// A message of the Listener tests: a valid pose at a time.
+std::vector<std::uint8_t> message_at(std::int64_t utime_us) {
+  pose_t message{};
+  message.valid = 1;
+  message.orientation_wxyz[0] = 1.0;
+  message.utime = utime_us;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+/// The file of true poses: the target rests at 1 m until `until_us`.
+void write_truth(const std::filesystem::path& path, std::int64_t until_us) {
+  std::ofstream(path) << "utime,qw,qx,qy,qz,tx_m,ty_m,tz_m\n0,1,0,0,0,0,0,1\n" << until_us << ",1,0,0,0,0,0,1\n";
+}
+
+class ListenerWithTruth : public ::testing::Test {
+ protected:
+  void SetUp() override { write_truth(path_, 1'000); }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  /// What is printed when one pose at `utime_us` comes and, `later_ns` after it, one whose truth is known.
+  std::string lines_of(std::int64_t utime_us, std::int64_t later_ns, std::int64_t truth_until_us) {
+    Listener listener(ListenFormat::kLines, TruthFile(path_.string()));
+    ::testing::internal::CaptureStdout();
+    const auto take = [&](std::int64_t at_us, std::int64_t monotonic_ns) {
+      const auto bytes = message_at(at_us);
+      listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, monotonic_ns);
+    };
+    take(utime_us, 0);
+    if (truth_until_us > 0) write_truth_row(truth_until_us);
+    take(500, later_ns);
+    std::string lines = ::testing::internal::GetCapturedStdout();
+    ::testing::internal::CaptureStdout();
+    listener.finish();
+    ::testing::internal::GetCapturedStdout();
+    compared_ = listener.summary().sources().at(0).error.count;
+    return lines;
+  }
+  void write_truth_row(std::int64_t at_us) { std::ofstream(path_, std::ios::app) << at_us << ",1,0,0,0,0,0,1\n"; }
+
+  const std::filesystem::path path_ =
+      std::filesystem::path(::testing::TempDir()) / ("listen_truth_" + std::to_string(::getpid()) + ".csv");
+  std::int64_t compared_ = 0;
+};
+
+TEST_F(ListenerWithTruth, APoseWaitsForItsTruthAndKeepsItsPlace) {
+  const std::string lines = lines_of(2'000, 100'000'000, 3'000);
+  EXPECT_THAT(lines, ::testing::ContainsRegex("00.002 .*error 1000.00 mm 0.000 deg\n.*00.000 .*error 1000.00 mm"));
+  EXPECT_EQ(compared_, 2);
+}
+
+TEST_F(ListenerWithTruth, APoseWhoseTruthNeverComesHoldsUpNobodyForLong) {
+  EXPECT_EQ(lines_of(2'000, 100'000'000, 0), "");
+  const std::string lines = lines_of(2'000, 600'000'000, 0);
+  EXPECT_THAT(lines, ::testing::ContainsRegex("00.002 [^\n]*/s  age [^\n]* ms\n.*00.000 .*error"));
+  EXPECT_EQ(compared_, 1);
 }
 
 TEST(Listener, PassesOverWhatItDoesNotKnow) {
@@ -100,12 +180,7 @@ TEST(Listener, PassesOverWhatItDoesNotKnow) {
 }
 
 TEST(Listener, TakesAgeFromTheMeasurement) {
-  pose_t message{};
-  message.valid = 1;
-  message.orientation_wxyz[0] = 1.0;
-  message.utime = 1'000'000;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const std::vector<std::uint8_t> bytes = message_at(1'000'000);
   Listener listener(ListenFormat::kNone, std::nullopt);
   listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 1'002'500'000, 0);
   ASSERT_EQ(listener.summary().poses(), 1);
