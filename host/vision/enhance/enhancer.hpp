@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "host/vision/enhance/float_image.hpp"
+#include "pharos/base/image_view.hpp"
+
+namespace pharos::enhance {
+
+/// The weights W of (4): 1 everywhere (I), 1 / |gradient of the start| (II), or (6), gradients gathered in a window
+/// (III).
+enum class WeightStrategy { kUniform, kGradient, kWindow };
+
+/// What makes R_d of R: nothing (R_d = R), thresholds on overlapping blocks (a twentieth of BM3D's time), or BM3D.
+enum class Denoiser { kNone, kFast, kBm3d };
+
+struct EnhanceSettings {
+  WeightStrategy strategy = WeightStrategy::kWindow;
+  double alpha = 0.15;    ///< weight of smoothness in (4)
+  double sigma_px = 2.0;  ///< of the Gaussian window in (6)
+  double gamma = 0.8;     ///< exponent of (7)
+  Denoiser denoiser = Denoiser::kBm3d;
+  /// Standard deviation of the noise in the reflectance's luma, 1 = white; empty: estimated from each frame.
+  std::optional<double> noise_sigma;
+  int threads = 2;  ///< the answer is the same, bit by bit, with any number
+};
+
+/// Every step of one frame. L is the illumination after (7), the one that (3) and (8) use.
+struct Enhanced {
+  FloatImage start;          ///< max-RGB (2); one plane
+  FloatImage refined;        ///< solution of (5); one plane
+  FloatImage illumination;   ///< L = refined^gamma (7); one plane
+  FloatImage reflectance;    ///< R = S / (L + eps) (3), unbounded; planes as the frame's
+  FloatImage denoised;       ///< R_d: R within 0 ... 1, its luma denoised
+  FloatImage result;         ///< R L + R_d (1 - L) (8), R within 0 ... 1
+  double noise_sigma = 0.0;  ///< used for R_d; 0 without a denoiser
+  int iterations = 0;        ///< of the solver of (5)
+};
+
+/// Low-light enhancement of single frames or of a video, after paper 004, section 1 (LIME, with BM3D).
+///
+/// Keeps its buffers, and the illumination of the frame before as the start for the next: one Enhancer a camera. Frames
+/// may change size; the next one then starts cold. 640x480: illumination some 20 ms of one core, BM3D some 300 ms, the
+/// fast denoiser some 15 ms. Not for two threads at once; two Enhancers are.
+class Enhancer {
+ public:
+  explicit Enhancer(const EnhanceSettings& settings = {});
+  Enhancer(Enhancer&&) noexcept;
+  Enhancer& operator=(Enhancer&&) noexcept;
+  ~Enhancer();
+
+  /// All steps of a grey frame; holds until the next call. Empty for an empty view.
+  const Enhanced& enhance(ImageView<const std::uint8_t> frame);
+  const Enhanced& enhance(ImageView<const std::uint16_t> frame);
+  /// The same of one or three planes, 0 ... 1.
+  const Enhanced& enhance(const FloatImage& frame);
+
+  /// The next frame starts cold: after a cut, or where frames must not depend on those before.
+  void forget();
+
+  const EnhanceSettings& settings() const { return settings_; }
+
+ private:
+  struct Buffers;
+  EnhanceSettings settings_;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+}  // namespace pharos::enhance
