@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
-#include "pharos/tof/positive_inverse.hpp"
+#include "pharos/geometry/positive_inverse.hpp"
 
 namespace pharos::tof {
 namespace {

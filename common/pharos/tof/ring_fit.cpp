@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/geometry/rotation.hpp"
-#include "pharos/tof/positive_inverse.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
 namespace pharos::tof {

@@ -6,7 +6,7 @@
 
 #include "pharos/geometry/types.hpp"
 
-namespace pharos::tof {
+namespace pharos {
 
 /// Inverse of a symmetric positive definite matrix, by its Cholesky factor; nothing where it is none. Plain loops:
 /// Eigen's own unrolls to seconds of compile time at these sizes.
@@ -54,4 +54,4 @@ void add_outer(Eigen::Matrix<double, N, N>& matrix, const Eigen::Matrix<double, 
   }
 }
 
-}  // namespace pharos::tof
+}  // namespace pharos
