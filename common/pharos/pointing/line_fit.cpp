@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/pointing/line_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::pointing {
+namespace {
+
+constexpr int kRounds = 6;
+constexpr std::size_t kMostLags = 64;
+// Mean absolute deviation to standard deviation, of a normal distribution.
+constexpr double kSigmaPerMeanDeviation = 1.2533141373155003;
+
+struct Straight {
+  Vector2 centre = Vector2::Zero();
+  Vector2 along = Vector2::UnitX();
+  double weight = 0.0;  // sum of the points' weights
+  double spread = 0.0;  // weighted sum of squares along the line
+
+  Vector2 across() const { return {-along.y(), along.x()}; }
+  double offset(const Vector2& place) const { return across().dot(place - centre); }
+};
+
+double weight_of(const EdgePoint& point) { return 1.0 / (point.sigma_px * point.sigma_px); }
+
+// Through the points within `limit` (in units of a point's sigma) of `before`.
+template <class Used>
+Straight straight_through(std::span<const EdgePoint> points, Used used) {
+  Straight result;
+  for (const EdgePoint& point : points) {
+    if (!used(point)) continue;
+    result.centre += weight_of(point) * point.place_px;
+    result.weight += weight_of(point);
+  }
+  if (result.weight <= 0.0) return result;
+  result.centre /= result.weight;
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+  for (const EdgePoint& point : points) {
+    if (!used(point)) continue;
+    const Vector2 d = point.place_px - result.centre;
+    xx += weight_of(point) * d.x() * d.x();
+    yy += weight_of(point) * d.y() * d.y();
+    xy += weight_of(point) * d.x() * d.y();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  result.along = {std::cos(angle), std::sin(angle)};
+  result.spread = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  return result;
+}
+
+// Integrated correlation of the residuals along the line, up to the first lag that does not stand out of chance.
+template <class Used>
+double correlated_points(std::span<const EdgePoint> points, const Straight& straight, Used used) {
+  const auto residual = [&](const EdgePoint& p) { return used(p) ? straight.offset(p.place_px) / p.sigma_px : 0.0; };
+  double square = 0.0;
+  std::size_t count = 0;
+  for (const EdgePoint& point : points) {
+    const double e = residual(point);
+    square += e * e;
+    count += used(point) ? 1U : 0U;
+  }
+  if (square <= 0.0) return 1.0;
+  const double chance = 2.0 / std::sqrt(static_cast<double>(count));
+  double sum = 1.0;
+  for (std::size_t lag = 1; lag <= std::min(kMostLags, points.size() / 4); ++lag) {
+    double product = 0.0;
+    for (std::size_t i = lag; i < points.size(); ++i) product += residual(points[i]) * residual(points[i - lag]);
+    if (product < chance * square) break;
+    sum += 2.0 * product / square;
+  }
+  return sum;
+}
+
+LineFit fit_of(const Straight& straight, double variance) {
+  LineFit fit;
+  const Vector2 across = straight.across();
+  fit.line.coefficients << across, -across.dot(straight.centre);
+  // The line turns by d_theta about the centroid and shifts by d_offset, independently of each other.
+  Vector3 by_turn, by_shift;
+  by_turn << -straight.along, straight.along.dot(straight.centre);
+  by_shift << 0.0, 0.0, -1.0;
+  fit.line.covariance = variance / straight.spread * by_turn * by_turn.transpose() +
+                        variance / straight.weight * by_shift * by_shift.transpose();
+  return fit;
+}
+
+}  // namespace
+
+const char* name_of(LineFailure failure) {
+  switch (failure) {
+    case LineFailure::kTooFewPoints:
+      return "too_few_points";
+    case LineFailure::kNotALine:
+      return "not_a_line";
+  }
+  return "";
+}
+
+bool undo_distortion(std::span<EdgePoint> points, const PinholeCamera& camera) {
+  if (std::all_of(camera.distortion.begin(), camera.distortion.end(), [](double k) { return k == 0.0; })) return true;
+  for (EdgePoint& point : points) {
+    const auto ray = undistort(camera, point.place_px);
+    if (!ray) return false;
+    point.place_px = {camera.fx_px * ray->x() + camera.cx_px, camera.fy_px * ray->y() + camera.cy_px};
+  }
+  return true;
+}
+
+Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
+  if (points.size() < kLeastEdgePoints) return LineFailure::kTooFewPoints;
+  Straight straight = straight_through(points, [](const EdgePoint&) { return true; });
+  double limit = 0.0, scale = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Straight before = straight;
+    double deviation = 0.0;
+    std::size_t used = 0;
+    for (const EdgePoint& point : points) {
+      const double e = std::abs(before.offset(point.place_px)) / point.sigma_px;
+      if (round > 0 && e > limit) continue;
+      deviation += e;
+      ++used;
+    }
+    if (used < kLeastEdgePoints) return LineFailure::kNotALine;
+    scale = kSigmaPerMeanDeviation * deviation / static_cast<double>(used);
+    limit = std::max(kOutlierSigmas * scale, kLeastSigma_px / points.front().sigma_px);
+    straight = straight_through(
+        points, [&](const EdgePoint& p) { return std::abs(before.offset(p.place_px)) <= limit * p.sigma_px; });
+    if (straight.weight <= 0.0) return LineFailure::kNotALine;
+  }
+  const auto used = [&](const EdgePoint& p) { return std::abs(straight.offset(p.place_px)) <= limit * p.sigma_px; };
+  double square = 0.0, square_px = 0.0, least = 0.0, most = 0.0;
+  std::size_t count = 0;
+  for (const EdgePoint& point : points) {
+    if (!used(point)) continue;
+    const double e = straight.offset(point.place_px);
+    square += e * e * weight_of(point);
+    square_px += e * e;
+    const double x = straight.along.dot(point.place_px - straight.centre);
+    least = std::min(least, x);
+    most = std::max(most, x);
+    ++count;
+  }
+  const auto n = static_cast<double>(count);
+  if (count < kLeastEdgePoints || n < (1.0 - kMostLeftOut) * static_cast<double>(points.size()) ||
+      !(straight.spread > 0.0)) {
+    return LineFailure::kNotALine;
+  }
+  const double floor = kLeastSigma_px * kLeastSigma_px * straight.weight / n;
+  const double correlated = correlated_points(points, straight, used);
+  LineFit fit = fit_of(straight, std::max(square / (n - 2.0), floor) * correlated);
+  fit.rms_px = std::sqrt(square_px / n);
+  fit.correlated_points = correlated;
+  fit.points = count;
+  fit.begin_px = straight.centre + least * straight.along;
+  fit.end_px = straight.centre + most * straight.along;
+  return fit;
+}
+
+}  // namespace pharos::pointing

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/pointing/spin.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/static_vector.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/geometry/rotation.hpp"
+#include "pharos/pointing/tangent.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+constexpr int kSpinDirections = 500;       // of half the sphere: some 6 deg apart
+constexpr std::size_t kSearchPlanes = 64;  // the search looks at so many planes, spread over the pass
+constexpr std::size_t kStarts = 24;        // best of the search, each refined
+constexpr int kSteps = 40;
+constexpr double kSmallStep = 1e-10;
+// What is left of one parameter's information once all others are free too: below it nothing is known of it.
+constexpr double kLeastCondition = 1e-14;
+constexpr double kSameAxis = 5.0;  // sigmas
+
+struct Start {
+  Spin spin;
+  double cost = 0.0;
+};
+using Starts = StaticVector<Start, kStarts>;
+
+double variance_of(const AxisPlane& plane, const Vector3& d) { return std::max(1e-30, d.dot(plane.covariance * d)); }
+
+// Keeps the best; starts come in order of directions, so one of each direction is enough.
+void keep(Starts& starts, const Start& start) {
+  if (starts.push_back(start)) return;
+  Start* worst =
+      std::max_element(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  if (start.cost < worst->cost) *worst = start;
+}
+
+struct Material {
+  std::span<const AxisPlane> planes;
+  std::span<const double> seconds;
+};
+
+// For a given motion the axis is the direction that all planes, turned back, have in common.
+Start best_axis(const Material& material, const Vector3& spin, double rate) {
+  const std::size_t count = material.planes.size(), stride = (count + kSearchPlanes - 1) / kSearchPlanes;
+  Matrix3 sum = Matrix3::Zero();
+  for (std::size_t i = 0; i < count; i += stride) {
+    const double angle = -rate * material.seconds[i], c = std::cos(angle), s = std::sin(angle);
+    const Vector3& n = material.planes[i].normal;
+    const Vector3 back = c * n + s * spin.cross(n) + (1.0 - c) * spin.dot(n) * spin;
+    sum += back * back.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(sum);
+  return {{eigen.eigenvectors().col(0), spin, rate}, eigen.eigenvalues()[0]};
+}
+
+Starts search(const Material& material, double most_rate) {
+  const auto [first, last] = std::minmax_element(material.seconds.begin(), material.seconds.end());
+  const double duration = std::max(1e-9, *last - *first);
+  const int rates = std::max(1, static_cast<int>(std::ceil(most_rate * duration)));
+  Starts starts;
+  for (int k = 0; k < kSpinDirections; ++k) {
+    // Points of equal area along a spiral over the upper half of the sphere.
+    const double z = (k + 0.5) / kSpinDirections, turn = k * kPi * (3.0 - std::sqrt(5.0));
+    const double out = std::sqrt(1.0 - z * z);
+    const Vector3 spin(out * std::cos(turn), out * std::sin(turn), z);
+    Start best;
+    for (int r = -rates; r <= rates; ++r) {
+      const Start start = best_axis(material, spin, most_rate * r / rates);
+      if (r == -rates || start.cost < best.cost) best = start;
+    }
+    keep(starts, best);
+  }
+  return starts;
+}
+
+struct Normal {
+  Matrix5 information = Matrix5::Zero();
+  Eigen::Matrix<double, 5, 1> gradient = Eigen::Matrix<double, 5, 1>::Zero();
+  double chi2 = 0.0;
+};
+
+Normal normal_equations(const Material& material, const Spin& spin) {
+  Normal normal;
+  for (std::size_t i = 0; i < material.planes.size(); ++i) {
+    const AxisPlane& plane = material.planes[i];
+    const Vector3 d = spin.at(material.seconds[i]);
+    const double weight = 1.0 / variance_of(plane, d), residual = plane.normal.dot(d);
+    const Row5 J = spin_jacobian(spin, plane.normal, material.seconds[i]);
+    normal.information += weight * J.transpose() * J;
+    normal.gradient += weight * residual * J.transpose();
+    normal.chi2 += weight * residual * residual;
+  }
+  return normal;
+}
+
+// Levenberg-Marquardt; parameters scaled by the information's own diagonal.
+Start refined(const Material& material, Spin spin) {
+  double damping = 1e-3;
+  Normal normal = normal_equations(material, spin);
+  for (int step = 0; step < kSteps && damping < 1e10; ++step) {
+    Matrix5 damped = normal.information;
+    damped.diagonal() *= 1.0 + damping;
+    damped.diagonal().array() += 1e-12 * normal.information.trace();
+    const Eigen::Matrix<double, 5, 1> delta = -damped.ldlt().solve(normal.gradient);
+    const Spin moved = spin.moved_by(delta);
+    const Normal after = normal_equations(material, moved);
+    if (!(after.chi2 < normal.chi2)) {
+      damping *= 10.0;
+      continue;
+    }
+    const bool still = normal.chi2 - after.chi2 < kSmallStep * normal.chi2;
+    spin = moved;
+    normal = after;
+    damping = std::max(1e-12, 0.1 * damping);
+    if (still) break;
+  }
+  return {spin, normal.chi2};
+}
+
+// Scaled to a diagonal of ones, so that what is known in rad and in rad/s counts alike.
+bool is_inverse_sound(const Matrix5& information, Matrix5& covariance) {
+  const Eigen::Matrix<double, 5, 1> scale = information.diagonal().cwiseMax(0.0).cwiseSqrt();
+  if (!(scale.minCoeff() > 0.0)) return false;
+  const Matrix5 scales = scale * scale.transpose();
+  const Eigen::LDLT<Matrix5> factors(information.cwiseQuotient(scales));
+  if (!(factors.vectorD().minCoeff() > kLeastCondition)) return false;
+  // Column by column: Eigen's solver for matrices keeps a static of cache sizes.
+  for (Eigen::Index k = 0; k < 5; ++k) {
+    const Eigen::Matrix<double, 5, 1> unit = Eigen::Matrix<double, 5, 1>::Unit(k);
+    covariance.col(k) = factors.solve(unit).cwiseQuotient(scales.col(k));
+  }
+  return covariance.allFinite();
+}
+
+}  // namespace
+
+Vector3 Spin::at(double seconds) const { return rotation_exp(spin * (rate_rad_s * seconds)) * axis; }
+
+Spin Spin::moved_by(const Eigen::Matrix<double, 5, 1>& delta) const {
+  const Tangent of_axis = tangent_of(axis), of_spin = tangent_of(spin);
+  return {(axis + delta[0] * of_axis.first + delta[1] * of_axis.second).normalized(),
+          (spin + delta[2] * of_spin.first + delta[3] * of_spin.second).normalized(), rate_rad_s + delta[4]};
+}
+
+Row5 spin_jacobian(const Spin& spin, const Vector3& normal, double seconds) {
+  const double angle = spin.rate_rad_s * seconds, c = std::cos(angle), s = std::sin(angle);
+  const Tangent of_axis = tangent_of(spin.axis), of_spin = tangent_of(spin.spin);
+  const Vector3& w = spin.spin;
+  // d = c a + s w x a + (1 - c) (w . a) w
+  const auto by_axis = [&](const Vector3& a) {
+    return normal.dot(Vector3(c * a + s * w.cross(a) + (1.0 - c) * w.dot(a) * w));
+  };
+  const auto by_spin = [&](const Vector3& u) {
+    return normal.dot(Vector3(s * u.cross(spin.axis) + (1.0 - c) * (u.dot(spin.axis) * w + w.dot(spin.axis) * u)));
+  };
+  const Vector3 d = spin.at(seconds);
+  Row5 J;
+  J << by_axis(of_axis.first), by_axis(of_axis.second), by_spin(of_spin.first), by_spin(of_spin.second),
+      seconds * normal.dot(w.cross(d));
+  return J;
+}
+
+Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, std::span<const double> seconds,
+                                           double most_rate_rad_s) {
+  if (planes.size() < kLeastSpinPlanes || seconds.size() != planes.size()) return SpinFailure::kTooFewPlanes;
+  const Material material{planes, seconds};
+  Starts starts = search(material, most_rate_rad_s);
+  Start best;
+  best.cost = -1.0;
+  for (Start& start : starts) {
+    start = refined(material, start.spin);
+    if (best.cost < 0.0 || start.cost < best.cost) best = start;
+  }
+  SpinEstimate estimate;
+  estimate.spin = best.spin;
+  estimate.chi2 = best.cost;
+  estimate.degrees_of_freedom = static_cast<int>(planes.size()) - 5;
+  if (!is_inverse_sound(normal_equations(material, best.spin).information, estimate.covariance)) {
+    return SpinFailure::kNotSeen;
+  }
+  const Tangent tangent = tangent_of(best.spin.axis);
+  Eigen::Matrix<double, 3, 2> J;
+  J << tangent.first, tangent.second;
+  estimate.axis_covariance = J * estimate.covariance.topLeftCorner<2, 2>() * J.transpose();
+  const double sigma = std::sqrt(estimate.axis_covariance.trace());
+  for (const Start& start : starts) {
+    const double delta = start.cost - best.cost;
+    const double apart = start.spin.axis.cross(best.spin.axis).norm();
+    if (delta >= kAmbiguousDeltaChi2 || apart < kSameAxis * sigma) continue;
+    if (estimate.second && delta >= estimate.second_delta_chi2) continue;
+    estimate.second = start.spin;
+    estimate.second_delta_chi2 = delta;
+  }
+  return estimate;
+}
+
+}  // namespace pharos::pointing
