@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/vision/enhance/bm3d.hpp"
 #include "host/vision/enhance/float_image.hpp"
 #include "pharos/base/image_view.hpp"
 
@@ -14,7 +15,7 @@ namespace pharos::enhance {
 /// (III).
 enum class WeightStrategy { kUniform, kGradient, kWindow };
 
-/// What makes R_d of R: nothing (R_d = R), thresholds on overlapping blocks (a twentieth of BM3D's time), or BM3D.
+/// What makes R_d of R: nothing (R_d = R), thresholds on single blocks (1 to 2 dB short of BM3D), or BM3D.
 enum class Denoiser { kNone, kFast, kBm3d };
 
 struct EnhanceSettings {
@@ -23,6 +24,7 @@ struct EnhanceSettings {
   double sigma_px = 2.0;  ///< of the Gaussian window in (6)
   double gamma = 0.8;     ///< exponent of (7)
   Denoiser denoiser = Denoiser::kBm3d;
+  Bm3dSettings bm3d;  ///< kVideoBm3d for frames in a stream
   /// Standard deviation of the noise in the reflectance's luma, 1 = white; empty: estimated from each frame.
   std::optional<double> noise_sigma;
   int threads = 2;  ///< the answer is the same, bit by bit, with any number
@@ -43,8 +45,8 @@ struct Enhanced {
 /// Low-light enhancement of single frames or of a video, after paper 004, section 1 (LIME, with BM3D).
 ///
 /// Keeps its buffers, and the illumination of the frame before as the start for the next: one Enhancer a camera. Frames
-/// may change size; the next one then starts cold. 640x480: illumination some 20 ms of one core, BM3D some 300 ms, the
-/// fast denoiser some 15 ms. Not for two threads at once; two Enhancers are.
+/// may change size; the next one then starts cold. What denoising costs: BlockDenoiser. Not for two threads at once;
+/// two Enhancers are.
 class Enhancer {
  public:
   explicit Enhancer(const EnhanceSettings& settings = {});

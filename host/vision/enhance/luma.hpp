@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/vision/enhance/bm3d.hpp"
 #include "host/vision/enhance/enhancer.hpp"
 
 namespace pharos::enhance {
 
-/// R_d of R: cut to 0 ... 1, and its luma denoised (colour differences Cb and Cr stay as they are, so that every
-/// channel moves by what the luma moves). Keeps its memory.
+/// Y of YCbCr (ITU-R BT.601, full range); of a grey image its only plane.
+void luma_of(const FloatImage& image, FloatImage& luma);
+
+/// An image cut to 0 ... 1, and its luma denoised; Cb and Cr stay. Keeps its memory.
 class LumaDenoiser {
  public:
-  /// Returns the standard deviation of the noise that it worked with; 0 without a denoiser.
+  /// Returns the standard deviation of the noise that it worked with, given or estimated; 0 without a denoiser.
   double denoise(const FloatImage& reflectance, const EnhanceSettings& settings, FloatImage& denoised);
 
  private:
+  BlockDenoiser blocks_;
   FloatImage luma_, quiet_;
 };
 
