@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/add_sim.hpp"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -47,6 +48,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->footer("Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output demo");
   add_sim_lighthouse(*sim, exit_code);
   add_sim_tof(*sim, exit_code);
+  add_sim_line(*sim, exit_code);
   add_sim_serial(*sim, exit_code);
   add_sim_capture(*sim, exit_code);
   add_sim_camera(*sim, exit_code);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace pharos::tools {
 
@@ -11,6 +13,7 @@ void add_sim(CLI::App& app, int& exit_code);
 // Its parts.
 void add_sim_lighthouse(CLI::App& sim, int& exit_code);
 void add_sim_tof(CLI::App& sim, int& exit_code);
+void add_sim_line(CLI::App& sim, int& exit_code);
 void add_sim_serial(CLI::App& sim, int& exit_code);
 void add_sim_camera(CLI::App& sim, int& exit_code);
 void add_sim_capture(CLI::App& sim, int& exit_code);
