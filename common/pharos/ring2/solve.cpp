@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ring2/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/geometry/positive_inverse.hpp"
+#include "pharos/ring2/face_on.hpp"
+
+namespace pharos::ring2 {
+namespace {
+
+// Beyond this much more than the best, two steps from its own start, no rival comes within kAmbiguousDeltaChi2.
+constexpr double kHopelessMore = 1000.0;
+// Two answers nearer than this are one, converged from two sides: a ten-thousandth of a degree.
+constexpr double kSameNormal_rad = 2e-6;
+// As a share of the tilt's deviation: nearer minima are one.
+constexpr double kSameMinimum = 0.1;
+// Ellipses of one rig disagree by noise and by what the calibration leaves; half a pixel and five sigma are neither.
+constexpr double kMostRms_px = 0.5;
+constexpr double kMostChi2PerFreedom = 25.0;
+// From here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve): stated sigmas grow with it.
+constexpr double kChancePerFreedom = 3.5;
+
+// Which circle the problem's first and second are.
+struct Roles {
+  Feature first = Feature::kRing;
+  std::uint8_t untold = 0;
+};
+
+bool has(const ContourSet& contours, Feature feature) {
+  const auto f = static_cast<std::size_t>(feature);
+  return contours[0][f].has_value() || contours[1][f].has_value();
+}
+
+Roles roles_of(const ContourSet& contours) {
+  Roles roles;
+  const bool left = contours[0][0] || contours[0][1];
+  const bool right = contours[1][0] || contours[1][1];
+  if (!(left && right)) roles.untold |= kUntoldScale;
+  if (!has(contours, Feature::kRing)) {
+    roles.first = Feature::kNozzle;
+    roles.untold |= kUntoldRing;
+  }
+  if (!has(contours, Feature::kNozzle)) roles.untold |= kUntoldNozzle;
+  return roles;
+}
+
+CircleProblem problem_of(const Rig& rig, const ContourSet& contours, const Roles& roles) {
+  CircleProblem problem;
+  problem.rig = rig;
+  const auto first = static_cast<std::size_t>(roles.first);
+  for (std::size_t v = 0; v < kViews; ++v) {
+    problem.contours[v][0] = contours[v][first];
+    if (roles.first == Feature::kRing) problem.contours[v][1] = contours[v][1];
+  }
+  problem.free.fill(true);
+  problem.free[kRadius] = (roles.untold & kUntoldScale) == 0;
+  problem.free[kDistance] = problem.free[kSecondRadius] = (roles.untold & (kUntoldRing | kUntoldNozzle)) == 0;
+  return problem;
+}
+
+std::optional<CirclesFailure> refusal_of(const Rig& rig, const ContourSet& contours) {
+  switch (fault_of(rig)) {
+    case RigFault::kNone:
+      break;
+    case RigFault::kOptics:
+      return CirclesFailure::kRigOptics;
+    case RigFault::kRotation:
+      return CirclesFailure::kRigRotation;
+    case RigFault::kCamerasCoincide:
+      return CirclesFailure::kCamerasCoincide;
+  }
+  int count = 0;
+  for (const auto& view : contours) {
+    for (const auto& contour : view) {
+      if (!contour) continue;
+      ++count;
+      const bool informed = contour->information.allFinite() && contour->information.diagonal().minCoeff() > 0.0;
+      if (!is_usable(contour->ellipse) || !informed) return CirclesFailure::kBadEllipse;
+    }
+  }
+  if (count < 2) return CirclesFailure::kTooFewEllipses;
+  return std::nullopt;
+}
+
+struct Minima {
+  RefinedCircles best;
+  std::optional<RefinedCircles> rival;
+};
+
+double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+// Keeps the best of what was found, and another minimum beside it.
+void take(const RefinedCircles& found, Minima& minima) {
+  if (angle_between(found.model.normal, minima.best.model.normal) < kSameNormal_rad) return;
+  const bool better = found.sums.chi2 < minima.best.sums.chi2;
+  const RefinedCircles other = better ? minima.best : found;
+  if (better) minima.best = found;
+  if (!minima.rival || other.sums.chi2 < minima.rival->sums.chi2) minima.rival = other;
+}
+
+std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& cones) {
+  std::optional<Minima> minima;
+  for (const Vector3& normal : candidate_normals(problem, cones)) {
+    const std::optional<CircleModel> start = model_along(problem, cones, normal);
+    if (!start) continue;
+    const double hopeless = minima ? minima->best.sums.chi2 + kHopelessMore : std::numeric_limits<double>::infinity();
+    const std::optional<RefinedCircles> found = refine(problem, *start, hopeless);
+    if (!found) continue;
+    if (minima) {
+      take(*found, *minima);
+    } else {
+      minima = Minima{*found, std::nullopt};
+    }
+  }
+  return minima;
+}
+
+bool disagrees(const NormalEquations& sums, int freedom) {
+  return sums.largest_rms_px > kMostRms_px && sums.chi2 > kMostChi2PerFreedom * std::max(1, freedom);
+}
+
+// Whether the ellipses of the left view belong to the right and the other way round.
+bool fits_exchanged(const Rig& rig, const ContourSet& contours, const Roles& roles) {
+  const CircleProblem problem = problem_of(rig, {contours[1], contours[0]}, roles);
+  const std::optional<ConeSet> cones = cones_of(problem);
+  if (!cones) return false;
+  const std::optional<Minima> minima = minima_of(problem, *cones);
+  return minima && !disagrees(minima->best.sums, problem.degrees_of_freedom());
+}
+
+CirclesEstimate estimate_of(const CircleProblem& problem, const Roles& roles, const RefinedCircles& found,
+                            const Matrix8& inverse) {
+  CirclesEstimate estimate;
+  const CircleModel& model = found.model;
+  estimate.normal = model.normal;
+  estimate.tilt_axes = tilt_axes(model.normal);
+  estimate.untold = roles.untold;
+  estimate.distance_m = model.distance_m;
+  const bool ring = roles.first == Feature::kRing;
+  (ring ? estimate.ring_centre_m : estimate.nozzle_centre_m) = model.centre_m;
+  (ring ? estimate.ring_radius_m : estimate.nozzle_radius_m) = model.radius_m;
+  if (ring) {
+    estimate.nozzle_centre_m = model.centre_m + model.distance_m * model.normal;
+    estimate.nozzle_radius_m = model.second_radius_m;
+  }
+  estimate.chi2 = found.sums.chi2;
+  estimate.degrees_of_freedom = problem.degrees_of_freedom();
+  estimate.rms_px = found.sums.largest_rms_px;
+  estimate.ellipses = problem.ellipses();
+  estimate.iterations = found.iterations;
+  const double per_freedom = estimate.chi2 / std::max(1, estimate.degrees_of_freedom);
+  estimate.covariance = (per_freedom > kChancePerFreedom ? per_freedom : 1.0) * inverse;
+  for (int i = 0; i < kUnknowns; ++i) {
+    if (problem.free[static_cast<std::size_t>(i)]) continue;
+    for (int j = 0; j < kUnknowns; ++j) estimate.covariance(i, j) = estimate.covariance(j, i) = 0.0;
+  }
+  return estimate;
+}
+
+void add_rival(const Minima& minima, CirclesEstimate& estimate) {
+  const double delta_chi2 = minima.rival->sums.chi2 - minima.best.sums.chi2;
+  if (!(delta_chi2 < kAmbiguousDeltaChi2)) return;
+  // Where the cost is flat, one minimum reached from two sides.
+  const double apart = angle_between(minima.rival->model.normal, estimate.normal);
+  if (apart < kSameMinimum * estimate.sigma_normal_rad()) return;
+  estimate.second = {minima.rival->model.normal, minima.rival->model.centre_m, delta_chi2};
+}
+
+// The mirrored minimum of circles that face the cameras: their ellipses' own pairs of normals are too noisy to start
+// from.
+void look_at_mirror(const CircleProblem& problem, const ConeSet& cones, Minima& minima) {
+  const Vector3 sight = sight_of(problem, minima.best.model);
+  const Vector3& normal = minima.best.model.normal;
+  const std::optional<CircleModel> start =
+      model_along(problem, cones, (2.0 * normal.dot(sight) * sight - normal).normalized());
+  if (!start) return;
+  const std::optional<RefinedCircles> found = refine(problem, *start, std::numeric_limits<double>::infinity());
+  if (found) take(*found, minima);
+}
+
+// Where the cost is no parabola, what all tilts together say; never less than what the parabola does.
+void widen(const CircleProblem& problem, const ConeSet& cones, CirclesEstimate& estimate, const CircleModel& model) {
+  const double sigma_rad = estimate.sigma_normal_rad();
+  const std::optional<Matrix2> spread = tilt_spread(problem, cones, model, estimate.chi2, sigma_rad);
+  if (!spread || !(spread->trace() > sigma_rad * sigma_rad)) return;
+  for (int i = 0; i < kUnknowns; ++i) {
+    for (int j = 0; j < 2; ++j) estimate.covariance(i, j) = estimate.covariance(j, i) = 0.0;
+  }
+  estimate.covariance.topLeftCorner<2, 2>() = *spread;
+}
+
+}  // namespace
+
+const char* name_of(CirclesFailure failure) {
+  switch (failure) {
+    case CirclesFailure::kRigOptics:
+      return "rig_optics";
+    case CirclesFailure::kRigRotation:
+      return "rig_rotation";
+    case CirclesFailure::kCamerasCoincide:
+      return "cameras_coincide";
+    case CirclesFailure::kTooFewEllipses:
+      return "too_few_ellipses";
+    case CirclesFailure::kBadEllipse:
+      return "bad_ellipse";
+    case CirclesFailure::kInconsistent:
+      return "inconsistent";
+    case CirclesFailure::kExchanged:
+      return "left_right_exchanged";
+    case CirclesFailure::kUndetermined:
+      return "undetermined";
+  }
+  return "unknown";
+}
+
+Attitude attitude_of(const Vector3& normal) {
+  return {std::atan2(normal.y(), -normal.z()), std::asin(std::clamp(-normal.x(), -1.0, 1.0))};
+}
+
+Vector3 normal_of(const Attitude& attitude) {
+  const double facing = std::cos(attitude.gamma_rad);
+  return {-std::sin(attitude.gamma_rad), std::sin(attitude.theta_rad) * facing, -std::cos(attitude.theta_rad) * facing};
+}
+
+double CirclesEstimate::sigma_normal_rad() const { return std::sqrt(covariance(0, 0) + covariance(1, 1)); }
+
+Result<CirclesEstimate, CirclesFailure> solve_circles(const Rig& rig, const ContourSet& contours) {
+  if (const std::optional<CirclesFailure> refusal = refusal_of(rig, contours)) return *refusal;
+  const Roles roles = roles_of(contours);
+  const CircleProblem problem = problem_of(rig, contours, roles);
+  if (problem.degrees_of_freedom() < 0) return CirclesFailure::kTooFewEllipses;
+  const std::optional<ConeSet> cones = cones_of(problem);
+  if (!cones) return CirclesFailure::kBadEllipse;
+  std::optional<Minima> minima = minima_of(problem, *cones);
+  if (!minima || disagrees(minima->best.sums, problem.degrees_of_freedom())) {
+    return fits_exchanged(rig, contours, roles) ? CirclesFailure::kExchanged : CirclesFailure::kInconsistent;
+  }
+  auto inverse = positive_inverse<kUnknowns>(minima->best.sums.matrix);
+  if (!inverse) return CirclesFailure::kUndetermined;
+  CirclesEstimate estimate = estimate_of(problem, roles, minima->best, *inverse);
+  if (is_face_on(problem, minima->best.model, estimate.sigma_normal_rad())) {
+    look_at_mirror(problem, *cones, *minima);
+    inverse = positive_inverse<kUnknowns>(minima->best.sums.matrix);
+    if (!inverse) return CirclesFailure::kUndetermined;
+    estimate = estimate_of(problem, roles, minima->best, *inverse);
+    widen(problem, *cones, estimate, minima->best.model);
+  }
+  if (minima->rival) add_rival(*minima, estimate);
+  return estimate;
+}
+
+}  // namespace pharos::ring2
