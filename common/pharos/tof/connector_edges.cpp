@@ -6,6 +6,7 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
+#include "pharos/tof/layer_light.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -22,14 +23,16 @@ constexpr int kRounds = 3;
 constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kLeastStrength = 0.3;
+// A pixel darker than this share of the ring and without depth is dark background.
+constexpr double kDarkShare = 0.3;
 constexpr int kLeastPerSide = 4;
 // A box' face is square to within this; what is not is no rectangle that was found.
 constexpr double kMostSlender = 1.6;
 // Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
 constexpr double kCorrelation = 2.0;
-// Walls half in sight, foil that glints beside a side and rounded corners move the rectangle as a whole: no number of
-// points averages that away. Root mean square over the simulated classes.
-constexpr double kSilhouetteSigma_px = 0.7;
+// Walls that are not as dark as the cosine says, foil of uneven height and rounded corners move the rectangle as a
+// whole: no number of points averages that away. Root mean square over the simulated classes.
+constexpr double kSilhouetteSigma_px = 0.2;
 // What a region's centroid is good for, px: used where its edges are not seen.
 constexpr double kCentroidSigma_px = 0.8;
 
@@ -48,8 +51,14 @@ double half_side(const PlanarRectangle& rectangle, int side) { return rectangle.
 
 class FaceFitter {
  public:
-  FaceFitter(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& ring)
-      : frame_(frame), camera_(camera), rays_(rays), ring_(ring), axes_(axes_of(ring.normal)), plane_(ring.plane()) {}
+  FaceFitter(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring)
+      : frame_(frame),
+        camera_(camera),
+        rays_(rays),
+        ring_(ring.model),
+        axes_(axes_of(ring.model.normal)),
+        plane_(ring.model.plane()),
+        dark_counts_(kDarkShare * ring.amplitude) {}
 
   ConnectorFace fit(const RegionReport& region) {
     ConnectorFace face;
@@ -158,20 +167,24 @@ class FaceFitter {
     const Vector2 normal = outward(r, side);
     const Vector2 along(-normal.y(), normal.x());
     const Vector2 middle = r.centre_m + half_side(r, side) * normal;
-    // The wall below this side is in sight where the side faces the camera: the silhouette is then the wall's foot.
     const Vector3 normal_3d = normal.x() * axes_.first + normal.y() * axes_.second;
-    const bool wall_in_sight = normal_3d.dot(point(middle, face.height_m)) < 0.0;
-    const double height = wall_in_sight ? foot_m_ : face.height_m;
     for (int k = 0; k < kPointsPerSide; ++k) {
       const double t = kUsedShare * half_side(r, side + 1) * (2.0 * (k + 0.5) / kPointsPerSide - 1.0);
-      const Vector3 p = point(middle + t * along, height);
+      const Vector3 p = point(middle + t * along, face.height_m);
       const auto pixel = project(camera_.optics, p);
       if (!pixel) continue;
-      const Vector2 step = project_jacobian(camera_.optics, p) * normal_3d;
-      const Vector2 direction = step.normalized();
-      const ProfileEdge edge = steepest_on_profile(frame_.intensity, *pixel, direction, kSearch_px, -1.0);
+      const Matrix23 slope = project_jacobian(camera_.optics, p);
+      const Vector2 direction = (slope * normal_3d).normalized();
+      LightProfile light;
+      if (!sample_light(frame_, camera_, rays_, plane_, *pixel, direction, kSearch_px, dark_counts_, light)) continue;
+      const ProfileEdge edge =
+          steepest_of_samples(light_of_layer(light, kSearch_px, face.height_m, foot_m_), kSearch_px, -1.0);
       if (!(edge.strength > 0.0)) continue;
-      points_.push_back({side, planar(*pixel + edge.offset_px * direction, height), edge.strength});
+      // Positive where the wall below this side is in sight.
+      const double wall_share = p.dot(normal_3d) / p.dot(ring_.normal);
+      const Vector2 wall_px = slope * ((foot_m_ - face.height_m) * ring_.normal);
+      const double shift = wall_shift_px(std::min(wall_share, kBrightWall), std::fabs(wall_px.dot(direction)));
+      points_.push_back({side, planar(*pixel + (edge.offset_px - shift) * direction, face.height_m), edge.strength});
     }
   }
 
@@ -192,7 +205,6 @@ class FaceFitter {
   bool improve(ConnectorFace& face) const {
     const std::size_t count = points_.size();
     std::array<double, kSides * kPointsPerSide> sizes{};
-    // Each side has a place of its own yet: deviations about the sides' medians.
     std::array<int, kSides> per_side{};
     Vector5 change = Vector5::Zero();
     double gate = 4.0 * metres_per_px_;
@@ -244,6 +256,7 @@ class FaceFitter {
   const RingModel& ring_;
   PlaneAxes axes_;
   DepthPlane plane_;
+  double dark_counts_;
   double foot_m_ = 0.0;
   double metres_per_px_ = 0.0;
   SidePoints points_;
@@ -251,7 +264,7 @@ class FaceFitter {
 
 }  // namespace
 
-ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& ring,
+ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                        const RegionReport& region) {
   return FaceFitter(frame, camera, rays, ring).fit(region);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tof/height_image.hpp"
 
-#include <algorithm>
-
 namespace pharos::tof {
 
 void make_heights(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthPlane& plane,
@@ -18,7 +16,8 @@ void make_heights(const TofFrame& frame, const DepthCamera& camera, const RayGri
       }
       const double height =
           plane.height_m(rays.at(rect.u + u, rect.v + v), depth_z_m(camera, depth[u])) * (1.0 / kHeightUnit_m);
-      out[u] = static_cast<std::uint16_t>(kHeightZero + static_cast<std::int32_t>(std::clamp(height, -kMost, kMost)));
+      const bool near = height > -kMost && height < kMost;
+      out[u] = near ? static_cast<std::uint16_t>(kHeightZero + static_cast<std::int32_t>(height)) : kNoHeight;
     }
   }
 }

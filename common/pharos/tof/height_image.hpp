@@ -17,10 +17,10 @@ struct PixelRect {
 inline constexpr double kHeightUnit_m = 0.00025;
 /// Count of a point on the plane.
 inline constexpr std::int32_t kHeightZero = 32768;
-/// Heights are cut at this distance from the plane: what stands farther off (the boom before the ring, space behind it)
-/// has no part in a connector, but would move the local mean.
+/// What stands farther from the plane (the boom before the ring, space behind it) has no part in a connector, and no
+/// height: it would move the local mean.
 inline constexpr double kMostHeight_m = 0.25;
-/// Count of a pixel without depth.
+/// Count of a pixel without depth, or too far from the plane.
 inline constexpr std::uint16_t kNoHeight = 0;
 
 inline double height_of(std::uint16_t counts) { return (counts - kHeightZero) * kHeightUnit_m; }

@@ -30,6 +30,8 @@ constexpr double kMostScatter = 3.0;
 // On the plane: distance of the circles' centres, in outer radii.
 constexpr double kMostEccentricity = 0.03;
 constexpr double kLeastStepShare = 0.6;
+// Multipath in the ring and its walls' roundness, beyond noise.
+constexpr double kPlaneMargin_m = 0.004;
 // A ring's edges leave 0.05 to 0.35 px; where the foot of the inner wall is taken for the inner edge, 0.8 and more.
 constexpr double kMostEdgeRms_px = 0.6;
 // Chi-squared of three degrees of freedom that chance exceeds once in a million.
@@ -42,7 +44,6 @@ struct Pair {
 
 struct Candidate {
   std::array<Ellipse, 2> shape;  // by RingEdge
-  std::array<bool, 2> bright_inside{};
   PlaneFit plane;
   RingModel model;
   double merit = 0.0;
@@ -115,7 +116,7 @@ class Chooser {
     if (ellipses.empty()) return TofFailure::kNoEllipses;
     find_pairs(ellipses);
     for (const Pair& pair : pairs_) {
-      examine({pair.outer->ellipse, pair.inner->ellipse}, {pair.outer->bright_inside, pair.inner->bright_inside});
+      examine({pair.outer->ellipse, pair.inner->ellipse});
     }
     RingChoice choice;
     if (measure_best(choice)) return choice;
@@ -147,7 +148,7 @@ class Chooser {
   void failed(TofFailure why) { farthest_ = std::max(farthest_, why); }
 
   // Plane, size and step of the ring between two ellipses.
-  void examine(const std::array<Ellipse, 2>& shape, const std::array<bool, 2>& bright_inside) {
+  void examine(const std::array<Ellipse, 2>& shape) {
     const Ellipse& outer = shape[index_of(RingEdge::kOuter)];
     const Ellipse& inner = shape[index_of(RingEdge::kInner)];
     const auto plane = fit_plane(frame_, camera_, rays_, ring_region(inner, outer));
@@ -159,11 +160,10 @@ class Chooser {
     }
     if (!right_size(*model)) return failed(TofFailure::kRingSize);
     if (!stands_out(*model, *plane)) return failed(TofFailure::kNoStep);
-    candidates_.push_back({shape, bright_inside, *plane, *model, plane->pixels * plane->inlier_share});
+    candidates_.push_back({shape, *plane, *model, plane->pixels * plane->inlier_share});
   }
 
-  // Each of the largest ellipses as either of the ring's edges. A ring is brighter (or darker) than both its sides, so
-  // the edge that is missing falls the other way.
+  // Each of the largest ellipses as either of the ring's edges.
   void examine_singles(std::span<const DetectedEllipse> ellipses) {
     StaticVector<const DetectedEllipse*, kMostSingles> singles;
     for (const DetectedEllipse& one : ellipses) {
@@ -188,8 +188,7 @@ class Chooser {
     const auto outer = image_of(*model, RingEdge::kOuter, camera_.optics);
     const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
     if (!outer || !inner) return failed(TofFailure::kRingLeavesImage);
-    const bool is_outer = known == RingEdge::kOuter;
-    examine({*outer, *inner}, {is_outer == one.bright_inside, is_outer != one.bright_inside});
+    examine({*outer, *inner});
   }
 
   bool right_size(const RingModel& model) const {
@@ -221,8 +220,7 @@ class Chooser {
       failed(TofFailure::kRingLeavesImage);
       return false;
     }
-    const auto fit =
-        fit_ring(frame_, camera_, candidate.plane, candidate.model, candidate.bright_inside, noise_, workspace_);
+    const auto fit = fit_from(candidate);
     if (!fit || fit->edge_rms_px > kMostEdgeRms_px) {
       failed(TofFailure::kRingNotCircles);
       return false;
@@ -241,6 +239,20 @@ class Chooser {
     }
     choice = {candidate.shape[0], candidate.shape[1], *fit};
     return true;
+  }
+
+  // The ellipses may be those of a wall's foot or of foil beside the ring: depths tell where its face ends, and the
+  // plane is that of the face alone.
+  std::optional<RingFit> fit_from(const Candidate& candidate) {
+    const auto model =
+        ring_to_its_ends(frame_, camera_, rays_, candidate.model, 3.0 * candidate.plane.rms_m + kPlaneMargin_m);
+    if (!model) return std::nullopt;
+    const auto outer = image_of(*model, RingEdge::kOuter, camera_.optics);
+    const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
+    if (!outer || !inner) return std::nullopt;
+    const auto plane = fit_plane(frame_, camera_, rays_, ring_region(*inner, *outer));
+    if (!plane) return std::nullopt;
+    return fit_ring(frame_, camera_, rays_, *plane, *model, settings_.least_step_m, noise_, workspace_);
   }
 
   const TofFrame& frame_;

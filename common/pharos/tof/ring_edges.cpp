@@ -3,18 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pharos/base/units.hpp"
-#include "pharos/tof/image_profile.hpp"
+#include "pharos/tof/layer_light.hpp"
 
 namespace pharos::tof {
 namespace {
 
 // A change weaker than this share of the median is noise, or the rim of something else.
 constexpr double kLeastStrength = 0.3;
-// Edges of less contrast are used only where there are not this many better ones.
-constexpr double kGoodContrast = 0.5;
-constexpr std::size_t kEnoughPoints = 96;
+// A pixel darker than this share of the ring and without depth is dark background; a brighter one lost its depth.
+constexpr double kDarkShare = 0.3;
+// Directions looked at for the depth of the surroundings, and which quantile of their depths is taken: walls and
+// connectors are nearer, little is farther.
+constexpr int kFootDirections = 64;
+constexpr double kFootQuantile = 0.7;
 
 // Whether two of three depths around a point of the model's plane lie on it.
 bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m) {
@@ -38,59 +42,147 @@ void drop_weak(RingEdgePoints& points) {
   const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(strengths.begin(), middle, strengths.begin() + static_cast<std::ptrdiff_t>(points.size()));
   const double least = kLeastStrength * *middle;
-  std::size_t good = 0;
-  for (const RingEdgePoint& point : points) good += point.contrast >= kGoodContrast && !point.wall_in_sight ? 1 : 0;
-  const double least_contrast = good >= kEnoughPoints ? kGoodContrast : 0.0;
   std::size_t kept = 0;
   for (const RingEdgePoint& point : points) {
-    if (point.strength >= least && (point.contrast >= least_contrast || point.wall_in_sight)) points[kept++] = point;
+    if (point.strength >= least) points[kept++] = point;
   }
   points.resize(kept);
 }
 
+class EdgeFinder {
+ public:
+  EdgeFinder(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
+             RingEdge edge, double search_px, const RingLook& look)
+      : frame_(frame),
+        camera_(camera),
+        rays_(rays),
+        model_(model),
+        plane_(model.plane()),
+        axes_(axes_of(model.normal)),
+        edge_(edge),
+        search_(std::clamp(static_cast<int>(std::ceil(search_px)), 1, kMostSearch_px)),
+        away_(edge == RingEdge::kOuter ? 1.0 : -1.0),
+        look_(look) {}
+
+  double find(RingEdgePoints& points) {
+    points.clear();
+    const double radius = model_.radius(edge_);
+    const double middle_radius = 0.5 * (model_.radius_m[0] + model_.radius_m[1]);
+    const double circumference_px = kTwoPi * radius * camera_.optics.fx_px / model_.centre_m.z();
+    if (!(circumference_px > 8.0)) return 0.0;
+    const int count = std::min(static_cast<int>(kMostEdgePoints), static_cast<int>(circumference_px));
+    foot_m_ = usual_foot();
+    // The direction turns by the same angle each time: no sine or cosine in the loop.
+    const double cosine_step = std::cos(kTwoPi / count);
+    const double sine_step = std::sin(kTwoPi / count);
+    Vector2 direction(1.0, 0.0);
+    int seen = 0;
+    for (int k = 0; k < count; ++k) {
+      if (on_plane(frame_, camera_, model_.centre_m + middle_radius * radial(direction), look_.depth_gate_m)) {
+        ++seen;
+        if (const auto point = point_in(direction)) points.push_back(*point);
+      }
+      direction = Vector2(cosine_step * direction.x() - sine_step * direction.y(),
+                          sine_step * direction.x() + cosine_step * direction.y());
+    }
+    drop_weak(points);
+    return static_cast<double>(seen) / count;
+  }
+
+ private:
+  Vector3 radial(const Vector2& direction) const { return direction.x() * axes_.first + direction.y() * axes_.second; }
+
+  // How deep the surroundings lie beyond this edge where its wall does not cover them; negative, 0 where not seen.
+  double usual_foot() const {
+    std::array<double, kFootDirections> depths{};
+    std::size_t count = 0;
+    for (int k = 0; k < kFootDirections; ++k) {
+      const double angle = kTwoPi * k / kFootDirections;
+      const auto across = profile_in({std::cos(angle), std::sin(angle)});
+      if (!across) continue;
+      const double foot = foot_of(across->light);
+      if (foot < -look_.least_step_m) depths[count++] = -foot;
+    }
+    if (count == 0) return 0.0;
+    const auto place = depths.begin() + static_cast<std::ptrdiff_t>(kFootQuantile * static_cast<double>(count - 1));
+    std::nth_element(depths.begin(), place, depths.begin() + static_cast<std::ptrdiff_t>(count));
+    return -*place;
+  }
+
+  struct Across {
+    Vector3 point_m;
+    Vector2 normal_px;  // away from the ring's middle
+    LightProfile light;
+  };
+
+  std::optional<Across> profile_in(const Vector2& direction) const {
+    const Vector3 outwards = radial(direction);
+    Across across;
+    across.point_m = model_.centre_m + model_.radius(edge_) * outwards;
+    const auto pixel = project(camera_.optics, across.point_m);
+    if (!pixel) return std::nullopt;
+    const Matrix23 slope = project_jacobian(camera_.optics, across.point_m);
+    const Vector2 tangent = slope * (-direction.y() * axes_.first + direction.x() * axes_.second);
+    across.normal_px = Vector2(tangent.y(), -tangent.x()).normalized();
+    if (across.normal_px.dot(slope * outwards) < 0.0) across.normal_px = -across.normal_px;
+    if (!sample_light(frame_, camera_, rays_, plane_, *pixel, across.normal_px, search_, kDarkShare * look_.amplitude,
+                      across.light)) {
+      return std::nullopt;
+    }
+    return across;
+  }
+
+  // Height of what is seen farthest beyond the edge; 0 where that is dark.
+  double foot_of(const LightProfile& light) const {
+    const std::size_t last = 2U * static_cast<std::size_t>(search_ + kProfileReach_px);
+    double amplitude = 0.0;
+    double moment = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = edge_ == RingEdge::kOuter ? last - i : i;
+      amplitude += light.amplitude[k];
+      moment += light.moment[k];
+    }
+    return amplitude > 0.0 ? moment / amplitude : 0.0;
+  }
+
+  std::optional<RingEdgePoint> point_in(const Vector2& direction) const {
+    const auto across = profile_in(direction);
+    if (!across) return std::nullopt;
+    const Vector3& point = across->point_m;
+    const Vector3 outwards = radial(direction);
+    // The outer wall looks away from the axis, the inner one towards it; the eye is at the origin.
+    const double wall_cosine = -away_ * point.dot(outwards) / point.norm();
+    const double wall_share = wall_cosine / (-point.dot(model_.normal) / point.norm());
+    if (wall_share > kBrightWall) return std::nullopt;
+    double foot = foot_of(across->light);
+    // Where the wall covers the profile's end, the ring's depth is that seen elsewhere.
+    if (wall_share > 0.0 || foot == 0.0) foot = std::min(foot, foot_m_);
+    if (!(foot < -look_.least_step_m)) return std::nullopt;
+    const ProfileEdge found = steepest_of_samples(light_of_layer(across->light, search_, 0.0, foot), search_, -away_);
+    if (!(found.strength > 0.0)) return std::nullopt;
+    const Vector2 wall_px = project_jacobian(camera_.optics, point) * (foot * model_.normal);
+    const double shift = away_ * wall_shift_px(wall_share, std::fabs(wall_px.dot(across->normal_px)));
+    return RingEdgePoint{point, across->normal_px, found.offset_px - shift, found.strength, shift, direction};
+  }
+
+  const TofFrame& frame_;
+  const DepthCamera& camera_;
+  const RayGrid& rays_;
+  const RingModel& model_;
+  DepthPlane plane_;
+  PlaneAxes axes_;
+  RingEdge edge_;
+  int search_;
+  double away_;
+  const RingLook& look_;
+  double foot_m_ = 0.0;
+};
+
 }  // namespace
 
-double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RingModel& model, RingEdge edge,
-                       bool bright_inside, double search_px, double depth_gate_m, RingEdgePoints& points) {
-  points.clear();
-  const int search = std::clamp(static_cast<int>(std::ceil(search_px)), 1, kMostSearch_px);
-  const PlaneAxes axes = axes_of(model.normal);
-  const double radius = model.radius(edge);
-  const double middle_radius = 0.5 * (model.radius_m[0] + model.radius_m[1]);
-  const double circumference_px = kTwoPi * radius * camera.optics.fx_px / model.centre_m.z();
-  if (!(circumference_px > 8.0)) return 0.0;
-  const int count = std::min(static_cast<int>(kMostEdgePoints), static_cast<int>(circumference_px));
-  // The direction turns by the same angle each time: no sine or cosine in the loop.
-  const double cosine_step = std::cos(kTwoPi / count);
-  const double sine_step = std::sin(kTwoPi / count);
-  Vector2 direction(1.0, 0.0);
-  const double sign = bright_inside ? -1.0 : 1.0;
-  int seen = 0;
-  for (int k = 0; k < count; ++k) {
-    const Vector3 radial = direction.x() * axes.first + direction.y() * axes.second;
-    const Vector3 along = -direction.y() * axes.first + direction.x() * axes.second;
-    const Vector2 here = direction;
-    direction = Vector2(cosine_step * direction.x() - sine_step * direction.y(),
-                        sine_step * direction.x() + cosine_step * direction.y());
-    if (!on_plane(frame, camera, model.centre_m + middle_radius * radial, depth_gate_m)) continue;
-    ++seen;
-    const Vector3 point = model.centre_m + radius * radial;
-    const auto pixel = project(camera.optics, point);
-    if (!pixel) continue;
-    const Matrix23 slope = project_jacobian(camera.optics, point);
-    const Vector2 tangent = slope * along;
-    Vector2 normal = Vector2(tangent.y(), -tangent.x()).normalized();
-    if (normal.dot(slope * radial) < 0.0) normal = -normal;
-    const ProfileEdge found = steepest_on_profile(frame.intensity, *pixel, normal, search, sign);
-    // The outer wall looks away from the axis, the inner one towards it; the eye is at the origin.
-    const bool wall_in_sight = edge == RingEdge::kOuter ? point.dot(radial) < 0.0 : point.dot(radial) > 0.0;
-    if (!(found.strength > 0.0)) continue;
-    const double brighter = std::max({1.0, found.before, found.beyond});
-    const double contrast = 1.0 - std::min(found.before, found.beyond) / brighter;
-    points.push_back({point, normal, found.offset_px, found.strength, contrast, wall_in_sight, here});
-  }
-  drop_weak(points);
-  return static_cast<double>(seen) / count;
+double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
+                       RingEdge edge, double search_px, const RingLook& look, RingEdgePoints& points) {
+  return EdgeFinder(frame, camera, rays, model, edge, search_px, look).find(points);
 }
 
 }  // namespace pharos::tof

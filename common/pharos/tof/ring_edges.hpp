@@ -10,26 +10,32 @@ namespace pharos::tof {
 /// tells nearly as much as every one.
 inline constexpr std::size_t kMostEdgePoints = 768;
 
-/// Where the image's edge was found near a circle's expected image.
+/// Where the ring's own light ends near a circle's expected image.
 struct RingEdgePoint {
   Vector3 point_m = Vector3::Zero();    ///< of the model's circle, frame C
   Vector2 normal_px = Vector2::Zero();  ///< unit, across the contour, away from the ring's middle
-  double offset_px = 0.0;               ///< of the edge found, along the normal
+  double offset_px = 0.0;               ///< of the edge found, along the normal, the wall's share taken out
   double strength = 0.0;                ///< of the change there, grey values per px
-  double contrast = 0.0;                ///< 1 - darker over brighter side: foil as bright as the ring moves its edge
-  bool wall_in_sight = false;           ///< the ring's own wall lies beyond the edge: its shade moves it
+  double wall_shift_px = 0.0;           ///< what was taken out because the ring's own wall is in sight beyond the edge
   Vector2 direction = Vector2::Zero();  ///< from the middle, in the ring's plane, unit
 };
 using RingEdgePoints = StaticVector<RingEdgePoint, kMostEdgePoints>;
 
-/// Edges of the intensity image along profiles across the image of one of the ring's circles, `search_px` to either
-/// side.
+/// What is known of the ring before its edges are looked for.
+struct RingLook {
+  double depth_gate_m = 0.0;  ///< distance from the plane within which a pixel is the ring's
+  double amplitude = 0.0;     ///< median of the ring's pixels, counts
+  double least_step_m = 0.0;  ///< how far behind the plane the surroundings must lie
+};
+
+/// Ends of the ring's light (layer_light.hpp) across the image of one of its circles, `search_px` to either side.
 ///
-/// The steepest place of the profile (smoothed by a Gaussian of 1 px) of the wanted sign, to a fraction of a pixel by a
-/// parabola. `bright_inside`: the image falls outwards. Directions where the ring's middle line has no depth on the
-/// plane within `depth_gate_m` are left out: something stands before it there. The share of directions that were seen
-/// is returned; 0 where the ring's image cannot be computed.
-double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RingModel& model, RingEdge edge,
-                       bool bright_inside, double search_px, double depth_gate_m, RingEdgePoints& points);
+/// The steepest place of each profile (smoothed by a Gaussian of 1 px), to a fraction of a pixel by a parabola, moved
+/// by what an upright wall in sight beyond the edge does to it (light falls with the cosine, and with the wall's
+/// depth). Left out are directions where the ring's middle line has no depth on the plane (something stands before it
+/// there), where there is no step down beyond the edge, and where the wall is half as bright as the ring. The share of
+/// directions that were seen is returned; 0 where the ring's image cannot be computed.
+double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
+                       RingEdge edge, double search_px, const RingLook& look, RingEdgePoints& points);
 
 }  // namespace pharos::tof

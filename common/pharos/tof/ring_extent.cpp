@@ -99,6 +99,18 @@ std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCa
   return model;
 }
 
+std::optional<RingModel> ring_to_its_ends(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                          const RingModel& model, double gate_m) {
+  const PlaneScan scan(frame, camera, rays, model, gate_m);
+  const double middle = 0.5 * (model.radius_m[0] + model.radius_m[1]);
+  const double step = kScanStep_px * model.centre_m.z() / camera.optics.fx_px;
+  RingModel result = model;
+  result.radius_m = {end_of_plane(scan, middle, step, 2.0 * middle, 0.0),
+                     end_of_plane(scan, middle, -step, 0.5 * middle, 0.0)};
+  if (result.radius_m[0] == 0.0 || result.radius_m[1] == 0.0) return std::nullopt;
+  return result;
+}
+
 std::optional<ellipse::Ellipse> image_of(const RingModel& model, RingEdge edge, const PinholeCamera& camera) {
   constexpr int kPoints = 24;
   std::array<Vector2, kPoints> contour;

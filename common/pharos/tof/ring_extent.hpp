@@ -16,6 +16,11 @@ namespace pharos::tof {
 std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                             const ellipse::Ellipse& shape, RingEdge known, double least_ratio);
 
+/// Both radii anew, from where the depths leave the plane in most directions, going out and in from the middle of the
+/// ring: whatever edges it came from. Good to a pixel. Nothing where the plane does not begin or does not end.
+std::optional<RingModel> ring_to_its_ends(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                          const RingModel& model, double gate_m);
+
 /// The image of one of the ring's circles: the ellipse through 24 of its points, which a lens without distortion shows
 /// exactly. Nothing where they do not all have a pixel.
 std::optional<ellipse::Ellipse> image_of(const RingModel& model, RingEdge edge, const PinholeCamera& camera);

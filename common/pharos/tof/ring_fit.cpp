@@ -23,9 +23,8 @@ constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kLeastEdgeSigma_px = 0.02;
 constexpr std::size_t kLeastEdgePoints = 24;
-// Where the ring's wall is in sight beyond an edge, wall and what lies behind it move the edge by up to a third of a
-// pixel, all along alike: hundreds of such points are worth hardly more than one.
-constexpr double kWallSigma_px = 3.0;
+// How well the wall's share in an edge is known, of itself: its light need not go with the cosine.
+constexpr double kWallSigma = 0.3;
 
 // d q / d unknowns of the plane that a model lies in: q = n / (n . c).
 Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
@@ -62,16 +61,12 @@ RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by
   return result;
 }
 
-// Robust deviation: of what the model leaves where the edge is a silhouette.
+// Robust deviation of what the model leaves.
 double deviation(const RingEdgePoints& points, const std::array<double, kMostEdgePoints>& residuals) {
   std::array<double, kMostEdgePoints> sizes{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].wall_in_sight) sizes[count++] = std::fabs(residuals[i]);
-  }
-  if (count < kLeastEdgePoints) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(points.size()));
   return std::max(kLeastEdgeSigma_px, kMedianToSigma * *middle);
 }
 
@@ -79,16 +74,25 @@ double deviation(const RingEdgePoints& points, const std::array<double, kMostEdg
 struct EdgeSums {
   Matrix7 normal = Matrix7::Zero();
   Vector7 right = Vector7::Zero();
-  SectorSums residuals;  // of silhouettes
+  SectorSums residuals;
+  // The error of the walls' share, common to all points.
+  Vector7 with_wall = Vector7::Zero();
+  double wall = 0.0;
+  double wall_right = 0.0;
 
-  void add(const Vector7& row, double offset_px, double weight) {
+  void add(const Vector7& row, const RingEdgePoint& point, double weight) {
     add_outer<7>(normal, row, weight);
-    right += (weight * offset_px) * row;
+    right += (weight * point.offset_px) * row;
+    with_wall += (weight * point.wall_shift_px) * row;
+    wall += weight * point.wall_shift_px * point.wall_shift_px;
+    wall_right += weight * point.wall_shift_px * point.offset_px;
   }
 };
 
 EdgeSums edge_sums(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes,
                    const RingEdgePoints& points, RingEdge edge, const Vector7& step) {
+  EdgeSums sums;
+  if (points.size() < kLeastEdgePoints) return sums;
   std::array<Vector7, kMostEdgePoints> rows;
   std::array<double, kMostEdgePoints> residuals{};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,19 +100,14 @@ EdgeSums edge_sums(const DepthCamera& camera, const RingModel& model, const Plan
     residuals[i] = points[i].offset_px - rows[i].dot(step);
   }
   const double gate = kGate * deviation(points, residuals);
-  EdgeSums sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].wall_in_sight || !(std::fabs(residuals[i]) < gate)) continue;
+    if (!(std::fabs(residuals[i]) < gate)) continue;
     sums.residuals.add(points[i].direction.x(), points[i].direction.y(), 1.0, residuals[i]);
   }
   const double variance =
       std::max(kLeastEdgeSigma_px * kLeastEdgeSigma_px, sums.residuals.variance()) * sums.residuals.correlation(4);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].wall_in_sight) {
-      sums.add(rows[i], points[i].offset_px, 1.0 / (kWallSigma_px * kWallSigma_px));
-    } else if (std::fabs(residuals[i]) < gate) {
-      sums.add(rows[i], points[i].offset_px, 1.0 / variance);
-    }
+    if (std::fabs(residuals[i]) < gate) sums.add(rows[i], points[i], 1.0 / variance);
   }
   return sums;
 }
@@ -133,14 +132,22 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
     Vector7 right = by_plane.transpose() * (plane.information * plane_offset);
     solved.edge_squares = 0.0;
     solved.edge_points = 0;
+    EdgeSums both;
     for (const RingEdge edge : kRingEdges) {
       const EdgeSums sums = edge_sums(camera, model, axes, points[index_of(edge)], edge, solved.step);
       normal += sums.normal;
       right += sums.right;
+      both.with_wall += sums.with_wall;
+      both.wall += sums.wall;
+      both.wall_right += sums.wall_right;
       solved.edge_squares += sums.residuals.variance() * sums.residuals.count();
       solved.edge_points += sums.residuals.count();
     }
     if (solved.edge_points < static_cast<std::int32_t>(kLeastEdgePoints)) return std::nullopt;
+    // The walls' error is one more unknown, known to be near zero; eliminated.
+    const double wall = both.wall + 1.0 / (kWallSigma * kWallSigma);
+    add_outer<7>(normal, both.with_wall, -1.0 / wall);
+    right -= (both.wall_right / wall) * both.with_wall;
     const auto covariance = positive_inverse<7>(normal);
     if (!covariance) return std::nullopt;
     solved.covariance = *covariance;
@@ -213,18 +220,18 @@ std::optional<RingModel> ring_on_plane(const DepthPlane& plane, const RayGrid& r
   return RingModel{0.5 * (wide->centre_m + narrow->centre_m), plane.normal(), {wide->radius_m, narrow->radius_m}};
 }
 
-std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const PlaneFit& plane,
-                                const RingModel& start, const std::array<bool, 2>& bright_inside,
+std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                const PlaneFit& plane, const RingModel& start, double least_step_m,
                                 const DepthNoise& noise, RingFitWorkspace& workspace) {
   RingFit fit;
   fit.model = start;
   // A plane that is smoother than the camera's noise still has pixels that are mixed with its surroundings.
   const double ratio = start.centre_m.z() / noise.range_m;
-  const double depth_gate_m = 4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio);
+  const RingLook look{4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio), plane.amplitude, least_step_m};
   for (const double search_px : kSearch_px) {
     for (const RingEdge edge : kRingEdges) {
-      fit.seen = find_ring_edges(frame, camera, fit.model, edge, bright_inside[index_of(edge)], search_px, depth_gate_m,
-                                 workspace.points[index_of(edge)]);
+      fit.seen =
+          find_ring_edges(frame, camera, rays, fit.model, edge, search_px, look, workspace.points[index_of(edge)]);
     }
     const auto solved = solve_round(camera, fit.model, plane, workspace.points);
     if (!solved) return std::nullopt;

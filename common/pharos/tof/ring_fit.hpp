@@ -36,8 +36,8 @@ struct RingFitWorkspace {
 /// information) and the offsets of the image's edges from the circles' exact images, lens distortion included, so that
 /// a circle's centre is never taken for its image's centre. Three rounds, in each of which edges are looked for again
 /// beside the circles' new images. Nothing where edges are too few or the fit does not settle.
-std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const PlaneFit& plane,
-                                const RingModel& start, const std::array<bool, 2>& bright_inside,
+std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                const PlaneFit& plane, const RingModel& start, double least_step_m,
                                 const DepthNoise& noise, RingFitWorkspace& workspace);
 
 /// Concentric circles in `plane` through the images of two ellipses: what fit_ring starts from. Nothing where the

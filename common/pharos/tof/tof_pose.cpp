@@ -26,6 +26,17 @@ struct Choice {
   double distance_m() const { return face.rectangle.centre_m.norm(); }
 };
 
+// Connectors are of one kind: their fitted sides agree to within this factor.
+constexpr double kAlikeSides = 1.25;
+
+bool of_one_size(const ConnectorFace& one, const ConnectorFace& other) {
+  const auto area = [](const ConnectorFace& face) {
+    return face.rectangle.half_sides_m.x() * face.rectangle.half_sides_m.y();
+  };
+  const double ratio = area(one) / area(other);
+  return ratio < kAlikeSides * kAlikeSides && ratio * kAlikeSides * kAlikeSides > 1.0;
+}
+
 class ConnectorChoice {
  public:
   ConnectorChoice(const TofFrame& frame, const DepthCamera& camera, const TofWorkspace& workspace, const RingFit& ring)
@@ -40,7 +51,7 @@ class ConnectorChoice {
     for (const RegionReport& doubt : workspace_.connector.doubtful) {
       if (!found.empty() && !are_alike(doubt, found[0], kDoubtfulArea)) continue;
       const Choice choice = choice_of(doubt);
-      if (choice.sure) {
+      if (choice.sure && (choices_.empty() || of_one_size(choice.face, choices_[0].face))) {
         insert(choice);
       } else if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + least_difference_m) {
         return false;
@@ -52,7 +63,7 @@ class ConnectorChoice {
 
  private:
   Choice choice_of(const RegionReport& region) const {
-    const ConnectorFace face = fit_face(frame_, camera_, workspace_.rays, ring_.model, region);
+    const ConnectorFace face = fit_face(frame_, camera_, workspace_.rays, ring_, region);
     return {face, face.edge_points > 0};
   }
   void add(const RegionReport& region) { insert(choice_of(region)); }
