@@ -19,7 +19,7 @@ struct AveragedFrame {
 };
 
 /// The mean of a window of frames, and how far to believe it.
-struct MeanPose {
+struct WindowMean {
   TofPoseEstimate estimate;
   std::int64_t utc_ns = 0;  // mean of the frames'
   int observations = 0;
@@ -29,16 +29,14 @@ struct MeanPose {
 
 /// Means of N frames in a row (paper 000 takes 100 of a target at rest), one after another, no frame in two of them.
 ///
-/// The pose that makes the sum of squared differences least: the mean of positions, and of rotations as small
-/// rotations about it. Its covariance is sum(C_i) / N^2, widened by the reduced chi-squared of the frames about it
-/// where that is more than 1. Frames of different flags (without a connector one angle is missing) are not mixed, and a
-/// window is not continued over a gap: it begins anew.
+/// The mean and its covariance are those of mean_of_poses. Frames of different flags (without a connector one angle is
+/// missing) are not mixed, and a window is not continued over a gap: it begins anew.
 class PoseAverage {
  public:
   explicit PoseAverage(int frames) : frames_(static_cast<std::size_t>(frames)) {}
 
   /// The mean, when this frame fills the window.
-  std::optional<MeanPose> push(const AveragedFrame& frame);
+  std::optional<WindowMean> push(const AveragedFrame& frame);
   /// Frames that were in a window that was given up.
   std::int64_t given_up() const { return given_up_; }
 
@@ -47,7 +45,7 @@ class PoseAverage {
   static constexpr double kMovingChi2 = 4.0;
 
  private:
-  MeanPose mean() const;
+  WindowMean mean() const;
 
   std::size_t frames_;
   std::vector<AveragedFrame> window_;

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/tof/window_mean.hpp"
 
+#include "pharos/geometry/mean_pose.hpp"
+
 namespace pharos::tools {
 
 void WindowMean::add(const tof::TofPose& pose) {
   if (has_turn_ && !pose.has_turn()) return;
-  if (count_ > 0 && !has_turn_ && pose.has_turn()) *this = WindowMean();
-  if (count_ == 0) {
-    first_ = pose.target;
-    has_turn_ = pose.has_turn();
-  }
-  sum_ += pose_difference(pose.target.pose, first_.pose);
-  covariances_ += pose.target.covariance;
+  if (!has_turn_ && pose.has_turn()) *this = WindowMean();
+  has_turn_ = pose.has_turn();
   flags_ |= pose.flags;
-  ++count_;
+  poses_.push_back(pose.target);
 }
 
 std::optional<tof::TargetPose> WindowMean::mean() const {
-  if (count_ == 0) return std::nullopt;
-  const auto count = static_cast<double>(count_);
-  return tof::TargetPose{first_.pose.moved_by(sum_ / count), covariances_ / (count * count)};
+  if (poses_.empty()) return std::nullopt;
+  const auto mean = mean_of_poses(poses_);
+  return tof::TargetPose{mean.pose, mean.covariance};
 }
 
 }  // namespace pharos::tools

@@ -62,7 +62,7 @@ TEST(PoseAverage, IsAsGoodAsItSays) {
   double sum = 0.0;
   constexpr int kMeans = 200;
   for (int i = 0; i < kMeans; ++i) {
-    std::optional<MeanPose> mean;
+    std::optional<WindowMean> mean;
     while (!mean) mean = average.push(frames.next());
     const Vector6 error = pose_difference(mean->estimate.pose, near_half_turn());
     sum += error.dot(mean->estimate.covariance.ldlt().solve(error));
@@ -73,7 +73,7 @@ TEST(PoseAverage, IsAsGoodAsItSays) {
 TEST(PoseAverage, WidensAndSaysMovingWhereFramesScatterMoreThanTheyClaim) {
   Frames frames(3);
   PoseAverage average(50);
-  std::optional<MeanPose> mean;
+  std::optional<WindowMean> mean;
   while (!mean) mean = average.push(frames.next(3.0));
   EXPECT_TRUE(mean->moving);
   const double ratio = mean->estimate.covariance.trace() / (covariance().trace() / 50.0);
