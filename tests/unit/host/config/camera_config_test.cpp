@@ -2,11 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
-#include "host/config/load_config.hpp"
-#include "host/support/input_error.hpp"
+#include "tests/unit/host/config/made_up.hpp"
 
 namespace pharos::host {
 namespace {
@@ -16,35 +14,6 @@ using ::testing::StartsWith;
 
 constexpr const char* kCamera =
     "[[camera]]\nname = 'helios'\ntarget = 'client'\ncamera_file = 'helios.toml'\nserial = '233300001'\n";
-
-// No disk: every camera file is of 640 x 480 pixels, of 1280 where its name holds "large"; what is called gone is not.
-Surroundings made_up() {
-  return {[](const std::string&) { return TargetFile{}; },
-          [](const std::filesystem::path&) {},
-          [](const std::string& path) { return path; },
-          Surroundings::no_calibration,
-          [](const std::string& path) {
-            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
-            CameraFile file;
-            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
-            file.camera.optics.height_px = 480;
-            return file;
-          },
-          [](const std::filesystem::path& directory) {
-            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
-          }};
-}
-
-DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up()); }
-
-std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(CameraConfig, OfOneCameraSufficesForADaemon) {
   const DaemonConfig config = parse(kCamera);

@@ -6,9 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "host/config/load_config.hpp"
-#include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
+#include "tests/unit/host/config/made_up.hpp"
 
 namespace pharos::host {
 namespace {
@@ -19,47 +18,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr const char* kOneTarget = "[[target]]\nname = 'dock'\nport = '/dev/ttyUSB0'\ntarget_file = 'dock.csv'\n";
-
-TargetFile any_target(const std::string&) {
-  TargetFile file;
-  file.shape.sensors = 12;
-  return file;
-}
-
-// No disk: every file is a recording but those called gone, and /dev/left and /dev/right are one device.
-Surroundings made_up() {
-  return {any_target,
-          [](const std::filesystem::path& file) {
-            if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
-          },
-          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
-          [](const std::string& path) {
-            calibrate::CalibrationFile file;
-            file.name = path;
-            return file;
-          },
-          [](const std::string& path) {
-            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
-            CameraFile file;
-            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
-            file.camera.optics.height_px = 480;
-            return file;
-          },
-          [](const std::filesystem::path& directory) {
-            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
-          }};
-}
-
-DaemonConfig parse(const std::string& text) { return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up()); }
-
-std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // One sensor, calibrated to stand elsewhere, and one station.
 calibrate::CalibrationFile calibrated(const std::string& path) {

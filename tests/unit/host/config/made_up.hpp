@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/config/load_config.hpp"
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+
+inline TargetFile any_target(const std::string&) {
+  TargetFile file;
+  file.shape.sensors = 12;
+  return file;
+}
+
+/// No disk: what is called gone is not there, all other files are; /dev/left and /dev/right are one device. A camera
+/// file is of 640 x 480 pixels, of 1280 x 480 where its name holds "large".
+inline Surroundings made_up() {
+  return {any_target,
+          [](const std::filesystem::path& file) {
+            if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
+          },
+          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
+          [](const std::string& path) {
+            calibrate::CalibrationFile file;
+            file.name = path;
+            return file;
+          },
+          [](const std::string& path) {
+            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+            CameraFile file;
+            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
+            file.camera.optics.height_px = 480;
+            return file;
+          },
+          [](const std::filesystem::path& directory) {
+            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
+          }};
+}
+
+inline DaemonConfig parse(const std::string& text) {
+  return parse_daemon_config(text, "p.toml", "/etc/pharos", made_up());
+}
+
+inline std::string error_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace pharos::host
