@@ -36,6 +36,7 @@ function(pharos_core_library name)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
     add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARGN})
     target_compile_definitions(${name}_12 PUBLIC PHAROS_MAX_SENSORS=12 PHAROS_HOT_ON_CHIP)
+    target_compile_options(${name}_12 PRIVATE -O2)  # its code is in external memory, where there is room
     list(APPEND libraries ${name}_12)
   endif()
   foreach(library IN LISTS libraries)
@@ -46,8 +47,25 @@ function(pharos_core_library name)
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 
+# pharos_module(NAME SOURCES...): what only few commands need (OpenCV, Aravis, Ceres), loaded when one of them runs
+# (host/support/module_function.hpp); beside the programs in the build tree, installed in lib/pharos.
+function(pharos_module name)
+  add_library(${name} MODULE ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE pharos_warnings)
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  install(FILES $<TARGET_FILE:${name}> DESTINATION lib/pharos)
+endfunction()
+
 # pharos_host_library(NAME SOURCES...): a room of the host or of the tools.
 function(pharos_host_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PRIVATE pharos_warnings)
+endfunction()
+
+# pharos_command_library(NAME SOURCES...): a subcommand's options and the order of its work. CLI11's templates cost more to
+# optimise than ever to run; what computes lives in the rooms it calls.
+function(pharos_command_library name)
+  pharos_host_library(${name} ${ARGN})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

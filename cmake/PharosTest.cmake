@@ -15,6 +15,13 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang
   target_precompile_headers(pharos_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>)
 endif()
 
+# A test's own code runs once and is compiled each time: optimising it fully costs more than it saves. What is tested
+# keeps its flags.
+set(PHAROS_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(TARGET pharos_test_headers)
+  target_compile_options(pharos_test_headers PRIVATE ${PHAROS_TEST_OPTIONS})
+endif()
+
 # pharos_test(NAME [LABEL label] SOURCES files... LIBS libraries...): one GoogleTest program, each case known to ctest.
 # LABEL is unit (default), property, integration, fault, data or long; `long` runs only in `tools/test --full`, and there
 # in the release tree alone.
@@ -37,6 +44,7 @@ function(pharos_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE ${PHAROS_TEST_OPTIONS})
   if(TARGET pharos_test_headers)
     target_precompile_headers(${name} REUSE_FROM pharos_test_headers)
   endif()

@@ -10,23 +10,32 @@
 
 namespace pharos::host {
 
-/// A function of a library that only few commands need, loaded when one of them runs: from beside the program, from
-/// ../lib/pharos where it is installed, or from ../bin for the tests of a build tree. Throws InputError saying what is
-/// missing. Never unloaded.
-inline void* module_function(const std::string& library, const char* function) {
+struct ModuleFunction {
+  void* function = nullptr;
+  std::string why_not;  // set when there is none
+};
+
+/// Looks for a function of a library that only few commands need (cmake: pharos_module): beside the program, in
+/// ../lib/pharos where it is installed, or in ../bin for the tests of a build tree. Never unloaded.
+inline ModuleFunction find_module_function(const std::string& library, const char* function) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  std::string why;
+  ModuleFunction result;
   for (const std::filesystem::path& place :
        {folder, folder.parent_path() / "lib" / "pharos", folder.parent_path() / "bin"}) {
     void* module = dlopen((place / library).c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (module != nullptr) {
-      void* found = dlsym(module, function);
-      if (found != nullptr) return found;
-    }
-    if (why.empty() || std::filesystem::exists(place / library, error)) why = dlerror();
+    if (module != nullptr) result.function = dlsym(module, function);
+    if (result.function != nullptr) return result;
+    if (result.why_not.empty() || std::filesystem::exists(place / library, error)) result.why_not = dlerror();
   }
-  throw InputError(library + " cannot be loaded (" + why +
+  return result;
+}
+
+/// The same where the command cannot do without. Throws InputError saying what is missing.
+inline void* module_function(const std::string& library, const char* function) {
+  const ModuleFunction found = find_module_function(library, function);
+  if (found.function != nullptr) return found.function;
+  throw InputError(library + " cannot be loaded (" + found.why_not +
                    "); build or install all of Pharos, and what `tools/install-dependencies build` names");
 }
 

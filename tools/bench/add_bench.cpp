@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos bench: speed and accuracy beside peers, in one run.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos decode: light pulses to bearings, or to what the stations say of themselves.
+#include <CLI/CLI.hpp>
 #include <array>
 #include <bitset>
 

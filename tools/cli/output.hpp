@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "host/table/row_writer.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace pharos::tools {
 

@@ -2,6 +2,8 @@
 // pharos precision: what a target is worth at given poses, before anything is measured (002, section 3.3).
 #include "pharos/pose/precision.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "host/table/pose_table.hpp"
 #include "host/table/target_file.hpp"
 #include "tools/cli/commands.hpp"

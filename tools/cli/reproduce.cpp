@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos reproduce: the papers' tables and figures, published and ours side by side.
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
 

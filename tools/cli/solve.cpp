@@ -2,6 +2,7 @@
 // pharos solve: tables of bearings to poses, without any recording.
 #include "pharos/pose/solve.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/solver_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <map>
 
 #include "tools/cli/number_option.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos track: a recording and a target to poses of the target in each station's frame.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 

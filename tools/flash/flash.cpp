@@ -2,6 +2,7 @@
 // pharos flash: a decoder image into a target's flash, verified and started.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>

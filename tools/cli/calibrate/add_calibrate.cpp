@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/calibrate/add_calibrate.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "tools/cli/commands.hpp"
 
 namespace pharos::tools {

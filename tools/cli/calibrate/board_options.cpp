@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/calibrate/board_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/cli/number_option.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos calibrate camera: images of a board to a camera file.
+#include <CLI/CLI.hpp>
+
 #include "host/calibrate/camera/camera_calibration.hpp"
 #include "host/cameras/camera_file.hpp"
 #include "tools/cli/calibrate/add_calibrate.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos calibrate lighthouse: recordings of a target at rest in many poses to sensor positions and rotor parameters.
+#include <CLI/CLI.hpp>
 #include <set>
 
 #include "host/calibrate/calibration_file.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos calibrate stereo: pairs of images of a board to a rig file.
+#include <CLI/CLI.hpp>
+
 #include "host/calibrate/camera/rig_calibration.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/reproduce/tof/add_reproduce_tof.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "tools/cli/commands.hpp"
