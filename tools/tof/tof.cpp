@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos tof: frames of a depth camera to poses of the docking ring (paper 000).
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
