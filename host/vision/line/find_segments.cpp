@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "host/support/input_error.hpp"
+#include "host/support/module_function.hpp"
+#include "host/vision/line/lsd_module.hpp"
+#include "host/vision/line/segment.hpp"
+
+namespace pharos::line {
+namespace {
+
+// A satellite's outline has some dozens.
+constexpr int kMostSegments = 4096;
+
+LsdFunction detector() {
+  static const auto function = reinterpret_cast<LsdFunction>(host::module_function(kLsdModuleName, kLsdModuleFunction));
+  return function;
+}
+
+}  // namespace
+
+std::vector<Segment> find_segments(ImageView<const std::uint8_t> image) {
+  std::vector<float> numbers(std::size_t{4} * kMostSegments);
+  const int count = detector()(image.data, image.width_px, image.height_px, numbers.data(), kMostSegments);
+  if (count < 0)
+    throw host::InputError("OpenCV's line segment detector failed on an image of " + std::to_string(image.width_px) +
+                           " x " + std::to_string(image.height_px));
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < 4U * static_cast<std::size_t>(count); i += 4) {
+    const auto at = [&](std::size_t k) { return static_cast<double>(numbers[i + k]); };
+    segments.push_back({{at(0), at(1)}, {at(2), at(3)}});
+  }
+  return segments;
+}
+
+}  // namespace pharos::line

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/line/target_mask.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::line {
+namespace {
+
+constexpr double kSaturatedValue = 65535.0 * 0.998;
+constexpr double kMostSaturated = 0.25;   // share of the target's pixels
+constexpr double kStandsOut = 6.0;        // sigmas of the sky
+constexpr double kBlack = 10.0;           // sigmas between the sky and the brightest thousandth of a percent
+constexpr std::size_t kLeastPixels = 40;  // of a target: a panel of 20 x 2
+constexpr double kLeastShare = 0.05;      // of the largest piece: another panel, not a star
+constexpr std::int32_t kMargin_px = 14;
+constexpr int kBins = 256;
+constexpr double kMadSigma = 1.4826;
+
+struct Piece {
+  std::size_t pixels = 0;
+  std::int32_t left = 0, right = 0, top = 0, bottom = 0;
+  double brightest = 0.0;
+  double sum = 0.0;
+};
+
+// Pixels above the level in connected pieces (eight neighbours), numbered from 1.
+std::vector<Piece> pieces_above(ImageView<const std::uint16_t> image, double level, std::vector<std::int32_t>& labels) {
+  labels.assign(image.pixels(), 0);
+  const auto index = [&](std::int32_t u, std::int32_t v) {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(u);
+  };
+  std::vector<Piece> pieces;
+  std::vector<std::pair<std::int32_t, std::int32_t>> stack;
+  for (std::int32_t v = 0; v < image.height_px; ++v) {
+    const std::uint16_t* row = image.row(v);
+    for (std::int32_t u = 0; u < image.width_px; ++u) {
+      if (row[u] <= level || labels[index(u, v)] != 0) continue;
+      const auto label = static_cast<std::int32_t>(pieces.size()) + 1;
+      Piece piece{0, u, u, v, v, 0.0, 0.0};
+      stack.assign(1, {u, v});
+      labels[index(u, v)] = label;
+      while (!stack.empty()) {
+        const auto [x, y] = stack.back();
+        stack.pop_back();
+        const double value = image.at(x, y);
+        ++piece.pixels;
+        piece.sum += value;
+        piece.brightest = std::max(piece.brightest, value);
+        piece.left = std::min(piece.left, x);
+        piece.right = std::max(piece.right, x);
+        piece.top = std::min(piece.top, y);
+        piece.bottom = std::max(piece.bottom, y);
+        for (std::int32_t dy = -1; dy <= 1; ++dy) {
+          for (std::int32_t dx = -1; dx <= 1; ++dx) {
+            const std::int32_t nx = x + dx, ny = y + dy;
+            if (!image.contains(nx, ny) || image.at(nx, ny) <= level || labels[index(nx, ny)] != 0) continue;
+            labels[index(nx, ny)] = label;
+            stack.emplace_back(nx, ny);
+          }
+        }
+      }
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+// Median and scatter (by the median deviation) of the whole image, most of which is sky; from its histogram.
+struct Sky {
+  double median = 0.0, sigma = 0.0, brightest = 0.0;
+};
+
+std::size_t rank_in(const std::vector<std::uint32_t>& histogram, std::size_t rank) {
+  std::size_t below = 0, value = 0;
+  while (value + 1 < histogram.size() && below + histogram[value] <= rank) below += histogram[value++];
+  return value;
+}
+
+Sky sky_of(ImageView<const std::uint16_t> image) {
+  std::vector<std::uint32_t> histogram(65536);
+  for (std::int32_t v = 0; v < image.height_px; ++v) {
+    for (std::int32_t u = 0; u < image.width_px; ++u) ++histogram[image.at(u, v)];
+  }
+  const std::size_t median = rank_in(histogram, image.pixels() / 2);
+  std::vector<std::uint32_t> deviations(65536);
+  std::size_t step = 65536;  // between values that occur: of 8 bits 257
+  std::size_t last = 65536;
+  for (std::size_t value = 0; value < histogram.size(); ++value) {
+    if (histogram[value] == 0) continue;
+    if (last != 65536) step = std::min(step, value - last);
+    last = value;
+    deviations[value > median ? value - median : median - value] += histogram[value];
+  }
+  const double spread = kMadSigma * static_cast<double>(rank_in(deviations, image.pixels() / 2));
+  const double rounding = 0.3 * static_cast<double>(step == 65536 ? 1 : step);
+  return {static_cast<double>(median), std::max(spread, rounding),
+          static_cast<double>(rank_in(histogram, image.pixels() - 1 - image.pixels() / 100'000))};
+}
+
+// Square roots above the sky, in kBins steps up to the brightest.
+double otsu_threshold(ImageView<const std::uint16_t> image, const Box& box, double sky, double brightest,
+                      const std::vector<std::uint8_t>& stars) {
+  const double scale = (kBins - 1) / std::sqrt(std::max(1.0, brightest - sky));
+  std::vector<std::uint32_t> histogram(kBins);
+  std::size_t i = 0;
+  for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
+    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
+      if (stars[i] != 0) continue;
+      const double root = scale * std::sqrt(std::max(0.0, image.at(u, v) - sky));
+      ++histogram[static_cast<std::size_t>(std::min<double>(kBins - 1, root))];
+    }
+  }
+  const double root = (otsu(histogram) + 1) / scale;
+  return sky + root * root;
+}
+
+bool belongs(const Piece& piece, const Piece& main) {
+  if (&piece == &main) return true;
+  const std::int32_t reach = std::max(main.right - main.left, main.bottom - main.top) / 2;
+  return static_cast<double>(piece.pixels) >= kLeastShare * static_cast<double>(main.pixels) &&
+         piece.left <= main.right + reach && piece.right >= main.left - reach && piece.top <= main.bottom + reach &&
+         piece.bottom >= main.top - reach;
+}
+
+Box box_around(const std::vector<Piece>& pieces, const Piece& main, ImageView<const std::uint16_t> image) {
+  std::int32_t left = main.left, right = main.right, top = main.top, bottom = main.bottom;
+  for (const Piece& piece : pieces) {
+    if (!belongs(piece, main)) continue;
+    left = std::min(left, piece.left);
+    right = std::max(right, piece.right);
+    top = std::min(top, piece.top);
+    bottom = std::max(bottom, piece.bottom);
+  }
+  Box box;
+  box.left = std::max(0, left - kMargin_px);
+  box.top = std::max(0, top - kMargin_px);
+  box.width = std::min(image.width_px, right + kMargin_px + 1) - box.left;
+  box.height = std::min(image.height_px, bottom + kMargin_px + 1) - box.top;
+  return box;
+}
+
+}  // namespace
+
+int otsu(const std::vector<std::uint32_t>& histogram) {
+  double total = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < histogram.size(); ++i) {
+    total += histogram[i];
+    moment += static_cast<double>(i) * histogram[i];
+  }
+  double below = 0.0, moment_below = 0.0, best = -1.0;
+  int threshold = 0;
+  for (std::size_t i = 0; i + 1 < histogram.size(); ++i) {
+    below += histogram[i];
+    moment_below += static_cast<double>(i) * histogram[i];
+    const double above = total - below;
+    if (below <= 0.0 || above <= 0.0) continue;
+    const double apart = moment_below / below - (moment - moment_below) / above;
+    const double between = below * above * apart * apart;
+    if (between <= best) continue;
+    best = between;
+    threshold = static_cast<int>(i);
+  }
+  return threshold;
+}
+
+Result<TargetMask, LineRefusal> find_target(ImageView<const std::uint16_t> image) {
+  const Sky sky = sky_of(image);
+  if (sky.median >= kSaturatedValue) return LineRefusal::kSaturated;
+  if (sky.brightest - sky.median < kBlack * sky.sigma) return LineRefusal::kBlack;
+  std::vector<std::int32_t> labels;
+  const std::vector<Piece> pieces = pieces_above(image, sky.median + kStandsOut * sky.sigma, labels);
+  if (pieces.empty()) return LineRefusal::kBlack;
+  const Piece& main = *std::max_element(pieces.begin(), pieces.end(),
+                                        [](const Piece& a, const Piece& b) { return a.pixels < b.pixels; });
+  if (main.pixels < kLeastPixels) return LineRefusal::kStarsOnly;
+  TargetMask target;
+  target.sky = sky.median;
+  target.noise = sky.sigma;
+  target.box = box_around(pieces, main, image);
+  const double mean = main.sum / static_cast<double>(main.pixels);
+  const Box& box = target.box;
+  std::vector<std::uint8_t> stars(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
+  double brightest = 0.0;
+  for (const Piece& piece : pieces) {
+    if (belongs(piece, main)) {
+      brightest = std::max(brightest, piece.brightest);
+    } else if (piece.brightest > mean) {
+      target.outshone = true;
+    }
+  }
+  target.mask.resize(stars.size());
+  std::size_t i = 0, of_target = 0, saturated = 0;
+  const auto label_at = [&](std::int32_t u, std::int32_t v) {
+    return labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(u)];
+  };
+  for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
+    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
+      const std::int32_t label = label_at(u, v);
+      stars[i] = label != 0 && !belongs(pieces[static_cast<std::size_t>(label - 1)], main) ? 1 : 0;
+    }
+  }
+  target.threshold = otsu_threshold(image, box, sky.median, brightest, stars);
+  i = 0;
+  for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
+    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
+      const bool inside = stars[i] == 0 && image.at(u, v) > target.threshold;
+      target.mask[i] = inside ? 1 : 0;
+      of_target += inside ? 1U : 0U;
+      saturated += inside && image.at(u, v) >= kSaturatedValue ? 1U : 0U;
+    }
+  }
+  if (of_target < kLeastPixels) return target.outshone ? LineRefusal::kStarsBrighter : LineRefusal::kStarsOnly;
+  if (static_cast<double>(saturated) > kMostSaturated * static_cast<double>(of_target)) return LineRefusal::kSaturated;
+  return target;
+}
+
+}  // namespace pharos::line
