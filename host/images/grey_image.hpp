@@ -7,14 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "host/images/picture.hpp"
 #include "pharos/base/image_view.hpp"
 
 namespace pharos::host {
-
-/// Largest side and most pixels of an image that is read or written: what 16-bit columns can name, and 64 MiB. A few
-/// bytes of PNG can claim gigabytes.
-inline constexpr std::int32_t kMaxImageSide_px = 32767;
-inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 25;
 
 /// A grey image in memory, row by row without gaps. Files of 8 bits come as 16 (value * 257: white is 65535 either
 /// way).
@@ -28,15 +24,15 @@ struct GreyImage {
   ImageView<std::uint16_t> view() { return {pixels.data(), width_px, height_px}; }
 };
 
-/// Reads a grey PNG or binary PGM, told by content; `-` is standard input. Throws InputError for what is missing, no
-/// such image, in colour, too large, damaged, or has less or more data than its header says.
+/// Reads a grey PNG, JPEG or binary PGM, told by content; `-` is standard input. Throws InputError for what is missing,
+/// no such image, in colour, too large, damaged, or has less or more data than its header says.
 GreyImage read_grey_image(const std::string& path);
 
 /// The same from a file's bytes; `name` is for messages.
 GreyImage decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name);
 
-/// Writes a PNG of `bits` (8 or 16) a value; of 8 the upper half of each value is kept. Throws InputError where it
-/// cannot be written.
+/// Writes a PNG of `bits` (8 or 16) a value, `-` being standard output; of 8 the upper half of each value is kept.
+/// Throws InputError where it cannot be written.
 void write_grey_png(const std::string& path, ImageView<const std::uint16_t> image, int bits = 16);
 
 }  // namespace pharos::host

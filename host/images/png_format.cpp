@@ -92,6 +92,7 @@ bool read_header(Reader& reader, Header& header) {
 bool read_rows(Reader& reader, png_bytep* rows, bool swap) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_expand_gray_1_2_4_to_8(reader.png);
+  png_set_palette_to_rgb(reader.png);
   if (swap) png_set_swap(reader.png);
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);
@@ -100,19 +101,11 @@ bool read_rows(Reader& reader, png_bytep* rows, bool swap) {
   return true;
 }
 
-void check(const Header& header, const std::string& name) {
-  if (header.colour != PNG_COLOR_TYPE_GRAY) {
-    const bool grey = header.colour == PNG_COLOR_TYPE_GRAY_ALPHA;
-    throw InputError(name + ": " + (grey ? "has transparency" : "is in colour") +
-                     "; a plain grey image is needed (convert IN -alpha off -colorspace Gray OUT)");
+void check(const Header& header, bool transparent_colour, const std::string& name) {
+  if ((header.colour & PNG_COLOR_MASK_ALPHA) != 0 || transparent_colour) {
+    throw InputError(name + ": has transparency; an image without is needed (convert IN -alpha off OUT)");
   }
-  const std::size_t pixels = static_cast<std::size_t>(header.width) * header.height;
-  if (header.width > static_cast<png_uint_32>(kMaxImageSide_px) ||
-      header.height > static_cast<png_uint_32>(kMaxImageSide_px) || pixels > kMaxImagePixels) {
-    throw InputError(name + ": claims " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                     " pixels; at most " + std::to_string(kMaxImagePixels) + " and " +
-                     std::to_string(kMaxImageSide_px) + " a side are read");
-  }
+  require_readable_size(header.width, header.height, name);
 }
 
 [[noreturn]] void damaged(const std::string& name, const char* why) {
@@ -138,9 +131,10 @@ bool write_all(Writer& writer, std::FILE* file, png_uint_32 width, png_uint_32 h
   constexpr int kQuick = 1;  // overlays and frames are looked at, not archived
   png_init_io(writer.png, file);
   png_set_compression_level(writer.png, kQuick);
-  png_set_IHDR(writer.png, writer.info, width, height, pixels == PngPixels::kGrey16 ? 16 : 8,
-               pixels == PngPixels::kRgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  const bool wide = pixels == PngPixels::kGrey16 || pixels == PngPixels::kRgb16;
+  const bool colour = pixels == PngPixels::kRgb8 || pixels == PngPixels::kRgb16;
+  png_set_IHDR(writer.png, writer.info, width, height, wide ? 16 : 8, colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(writer.png, writer.info);
   for (png_uint_32 v = 0; v < height; ++v) png_write_row(writer.png, rows + v * stride);
   png_write_end(writer.png, writer.info);
@@ -153,39 +147,45 @@ bool is_png(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kSignature && png_sig_cmp(bytes.data(), 0, kSignature) == 0;
 }
 
-GreyImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
+Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
   Reader reader(bytes);
   if (reader.info == nullptr) throw InputError(name + ": no memory to read it");
   Header header;
   if (!read_header(reader, header)) damaged(name, reader.trouble.text.data());
-  check(header, name);
+  check(header, png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0, name);
   const std::size_t pixels = static_cast<std::size_t>(header.width) * header.height;
+  const bool palette = header.colour == PNG_COLOR_TYPE_PALETTE;
+  const std::size_t file_channels = header.colour == PNG_COLOR_TYPE_RGB ? 3 : 1;
   // No row of deflated data shrinks to less than a thousandth: a claim beyond is told before memory is taken.
   constexpr std::size_t kMostDeflation = 1100;
-  if (pixels * static_cast<std::size_t>(header.bits) / 8 > kMostDeflation * bytes.size()) {
+  if (pixels * file_channels * static_cast<std::size_t>(header.bits) / 8 > kMostDeflation * bytes.size()) {
     damaged(name, "less data than its header says");
   }
-  GreyImage image;
-  image.width_px = static_cast<std::int32_t>(header.width);
-  image.height_px = static_cast<std::int32_t>(header.height);
-  image.bits = header.bits == 16 ? 16 : 8;
-  image.pixels.resize(pixels);
+  Picture picture;
+  picture.width_px = static_cast<std::int32_t>(header.width);
+  picture.height_px = static_cast<std::int32_t>(header.height);
+  picture.channels = file_channels == 3 || palette ? 3 : 1;
+  picture.bits = header.bits == 16 ? 16 : 8;
+  const std::size_t channels = static_cast<std::size_t>(picture.channels);
+  picture.values.resize(pixels * channels);
   const std::size_t value_bytes = header.bits == 16 ? 2 : 1;
-  auto* all = reinterpret_cast<png_bytep>(image.pixels.data());
+  auto* all = reinterpret_cast<png_bytep>(picture.values.data());
   std::vector<png_bytep> rows(header.height);
-  for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = all + v * header.width * value_bytes;
+  for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = all + v * header.width * channels * value_bytes;
   if (!read_rows(reader, rows.data(), header.bits == 16)) damaged(name, reader.trouble.text.data());
   if (reader.trouble.too_much_data) damaged(name, "more data than its header says");
   if (value_bytes == 1) {  // widened in place, from the end
-    for (std::size_t k = pixels; k-- > 0;) image.pixels[k] = static_cast<std::uint16_t>(all[k] * 257);
+    for (std::size_t k = picture.values.size(); k-- > 0;) picture.values[k] = static_cast<std::uint16_t>(all[k] * 257);
   }
-  return image;
+  return picture;
 }
 
 void write_png(const std::string& path, std::int32_t width_px, std::int32_t height_px, PngPixels pixels,
                std::span<const std::uint8_t> rows) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const auto refuse = [&](const std::string& why) { throw InputError(path + ": cannot be written: " + why); };
+  std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
+  const auto refuse = [&](const std::string& why) {
+    throw InputError((path == "-" ? "standard output" : path) + ": cannot be written: " + why);
+  };
   if (file == nullptr) refuse(std::strerror(errno));
   Trouble trouble;
   bool written = false;
@@ -195,7 +195,7 @@ void write_png(const std::string& path, std::int32_t width_px, std::int32_t heig
     written = writer.info != nullptr && write_all(writer, file, static_cast<png_uint_32>(width_px),
                                                   static_cast<png_uint_32>(height_px), pixels, rows.data(), stride);
   }
-  const bool closed = std::fclose(file) == 0;
+  const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
   if (!written) refuse(trouble.text.data());
   if (!closed) refuse(std::strerror(errno));
 }

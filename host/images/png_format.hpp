@@ -5,20 +5,21 @@
 #include <span>
 #include <string>
 
-#include "host/images/grey_image.hpp"
+#include "host/images/picture.hpp"
 
 namespace pharos::host {
 
 /// Whether the bytes begin as a PNG does.
 bool is_png(std::span<const std::uint8_t> bytes);
 
-/// See decode_grey_image.
-GreyImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
+/// See decode_picture.
+Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
 /// What a PNG's rows hold.
-enum class PngPixels { kGrey8, kGrey16, kRgb8 };
+enum class PngPixels { kGrey8, kGrey16, kRgb8, kRgb16 };
 
-/// Writes rows of bytes (16 bits: high byte first) as they stand. Throws InputError where the file cannot be written.
+/// Writes rows of bytes (16 bits: high byte first) as they stand; `-` is standard output. Throws InputError where the
+/// file cannot be written.
 void write_png(const std::string& path, std::int32_t width_px, std::int32_t height_px, PngPixels pixels,
                std::span<const std::uint8_t> rows);
 
