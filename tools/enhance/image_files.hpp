@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pharos::tools {
+
+struct ImageFile {
+  std::string path;
+  std::string png_name;  ///< its own name, ending in .png
+};
+
+/// The images of a folder (PNG, JPEG, PGM, PPM by their names), sorted. Throws InputError for a folder that cannot be
+/// read, without images, or with two that would have one name as PNG.
+std::vector<ImageFile> image_files(const std::string& folder);
+
+/// Throws InputError where there is none and none can be made.
+void make_folder(const std::string& folder);
+
+}  // namespace pharos::tools

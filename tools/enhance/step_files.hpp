@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/images/picture.hpp"
+#include "host/vision/enhance/enhancer.hpp"
+
+namespace pharos::tools {
+
+/// Light of a picture, 0 ... 1.
+enhance::FloatImage light_of(const host::Picture& picture);
+
+/// The picture of `light`, cut to 0 ... 1, with `bits` a value.
+host::Picture picture_of(const enhance::FloatImage& light, int bits);
+
+/// Which of the steps of an enhancement go to which file; empty: not written.
+struct StepFiles {
+  std::string start, refined, illumination, reflectance, denoised;
+
+  bool any() const { return !names().empty(); }
+  /// Those that are given.
+  std::vector<std::string> names() const;
+  /// 16 bits each, whatever the frame's. Throws InputError where one cannot be written.
+  void write(const enhance::Enhanced& steps) const;
+  /// The same files inside folders named so, for frame `name`.
+  StepFiles inside(const std::string& name) const;
+};
+
+}  // namespace pharos::tools
