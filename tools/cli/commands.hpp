@@ -27,6 +27,7 @@ void add_bench(CLI::App& app, int& exit_code);     // tools/bench
 void add_evaluate(CLI::App& app, int& exit_code);  // tools/evaluate
 void add_layout(CLI::App& app, int& exit_code);    // tools/layout
 void add_ellipses(CLI::App& app, int& exit_code);  // tools/ellipses
+void add_circles(CLI::App& app, int& exit_code);   // tools/ring2
 void add_enhance(CLI::App& app, int& exit_code);   // tools/enhance
 void add_tof(CLI::App& app, int& exit_code);       // tools/tof
 void add_line(CLI::App& app, int& exit_code);      // tools/line
@@ -45,6 +46,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_evaluate(app, exit_code);
   add_layout(app, exit_code);
   add_ellipses(app, exit_code);
+  add_circles(app, exit_code);
   add_enhance(app, exit_code);
   add_tof(app, exit_code);
   add_line(app, exit_code);

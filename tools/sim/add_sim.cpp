@@ -49,6 +49,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   add_sim_lighthouse(*sim, exit_code);
   add_sim_tof(*sim, exit_code);
   add_sim_line(*sim, exit_code);
+  add_sim_stereo(*sim, exit_code);
   add_sim_serial(*sim, exit_code);
   add_sim_capture(*sim, exit_code);
   add_sim_camera(*sim, exit_code);

@@ -14,6 +14,7 @@ void add_sim(CLI::App& app, int& exit_code);
 void add_sim_lighthouse(CLI::App& sim, int& exit_code);
 void add_sim_tof(CLI::App& sim, int& exit_code);
 void add_sim_line(CLI::App& sim, int& exit_code);
+void add_sim_stereo(CLI::App& sim, int& exit_code);
 void add_sim_serial(CLI::App& sim, int& exit_code);
 void add_sim_camera(CLI::App& sim, int& exit_code);
 void add_sim_capture(CLI::App& sim, int& exit_code);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pharos/base/image_view.hpp"
+#include "pharos/ellipse/settings.hpp"
+#include "pharos/ring2/solve.hpp"
+
+namespace pharos::host {
+
+/// What is looked for in a pair of images.
+struct StereoSettings {
+  ellipse::EllipseSettings ellipses{.min_minor_px = 8.0};
+  /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
+  double systematic_px = 0.05;
+};
+
+using StereoImages = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
+
+/// A pair's answer: circles, or the word for why there are none.
+struct StereoCircles {
+  std::optional<ring2::CirclesEstimate> estimate;
+  std::string refusal;  ///< left_black, right_saturated, left_no_ellipse, no_common_circle, left_right_exchanged, ...
+  ring2::ContourSet contours;                                              ///< the ellipses that the answer rests on
+  std::array<std::vector<ellipse::DetectedEllipse>, ring2::kViews> found;  ///< all that were detected
+};
+
+/// Ring and nozzle in a pair of images.
+///
+/// Ellipses of both images are matched by what they would be in space: a pair that is one circle before this rig, told
+/// by its own fit. The ring is the largest of the circles that have a smaller one on their axis; the nozzle is that
+/// one: of several (rims have two edges) the nearest to the cameras, and of these the largest. An ellipse that only one
+/// image has is taken where it fits the other three. The two images are searched on two threads.
+class StereoCircleFinder {
+ public:
+  /// Throws InputError for a rig that cannot measure.
+  StereoCircleFinder(const ring2::Rig& rig, const StereoSettings& settings);
+
+  /// Throws InputError where an image has not its camera's size.
+  StereoCircles find(const StereoImages& images);
+
+  const ring2::Rig& rig() const { return rig_; }
+
+ private:
+  ring2::Rig rig_;
+  StereoSettings settings_;
+};
+
+/// The same from ellipses that were detected elsewhere.
+StereoCircles circles_among(const ring2::Rig& rig, const StereoSettings& settings,
+                            std::array<std::vector<ellipse::DetectedEllipse>, ring2::kViews> found);
+
+}  // namespace pharos::host

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/table/row_writer.hpp"
+#include "pharos/ring2/solve.hpp"
+
+namespace pharos::tools {
+
+/// The columns of `pharos circles`; with `problem` where the input has one.
+std::vector<std::string> circle_columns(bool with_problem);
+
+/// One answer's row. `by_paper`: no covariance, so no sigmas.
+void write_circles(const ring2::CirclesEstimate& estimate, bool by_paper, host::RowWriter& rows);
+/// A refusal's row: everything empty but the status, refused_<reason>.
+void write_refusal(const std::string& reason, host::RowWriter& rows);
+
+/// What the ellipses could not tell, as words joined by |.
+std::string untold_words(std::uint8_t untold);
+
+}  // namespace pharos::tools
