@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "pharos/tof/connector_heights.hpp"
 #include "pharos/tof/surroundings.hpp"
 
 namespace pharos::tof {
@@ -22,12 +23,8 @@ constexpr double kCommonPixels = 7.0;
 constexpr double kMedianNoise = 1.25;
 // Faces of one kind differ in area by a third; patches beside the nozzle reach a third of a face.
 constexpr double kAlikeArea = 2.0;
-// The ring's image and its blur: how far beyond its circles pixels are still taken for its own.
-constexpr double kRingMargin_px = 1.5;
 // The least rectangle is looked for by turning in these steps.
 constexpr int kTurns = 45;
-// What lies deeper than this many times the face around the ring is not that face.
-constexpr double kLowest = 1.5;
 // A region's centre lies this share of its side clear of the ring.
 constexpr double kClearOfRing = 0.4;
 // Nearer to the ring's centre than this share of its outer radius no direction is worth the name, and the nozzle is
@@ -264,53 +261,6 @@ class RegionJudge {
   double most_area_px_;
 };
 
-// How deep the face that carries the ring lies below the ring's plane: the median around the ring; negative.
-double usual_foot(const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
-                  ImageView<const std::uint16_t> heights) {
-  constexpr int kDirections = 72;
-  constexpr std::array<double, 3> kRadii = {1.1, 1.25, 1.4};
-  const PlaneAxes axes = axes_of(ring.normal);
-  std::array<double, kDirections * kRadii.size()> found{};
-  std::size_t count = 0;
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = kTwoPi * k / kDirections;
-    const Vector3 radial = std::cos(angle) * axes.first + std::sin(angle) * axes.second;
-    for (const double radius : kRadii) {
-      const auto pixel = project(camera.optics, ring.centre_m + radius * ring.radius_m[0] * radial);
-      if (!pixel) continue;
-      const auto u = static_cast<std::int32_t>(std::lround(pixel->x())) - rect.u;
-      const auto v = static_cast<std::int32_t>(std::lround(pixel->y())) - rect.v;
-      if (heights.contains(u, v) && heights.at(u, v) != kNoHeight) found[count++] = height_of(heights.at(u, v));
-    }
-  }
-  if (count == 0) return -kMostHeight_m;
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
-}
-
-// The ring stands higher than what surrounds it and would lift the local mean beside the connector; the body's sides,
-// behind `lowest_m`, would lower it beside the face's rim. Neither has a part in any window.
-void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
-                         double lowest_m, ImageView<std::uint16_t> heights) {
-  const std::int32_t lowest = kHeightZero + static_cast<std::int32_t>(lowest_m / kHeightUnit_m);
-  const DepthPlane plane = ring.plane();
-  const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
-  const double least = ring.radius_m[1] - margin_m;
-  const double most = ring.radius_m[0] + margin_m;
-  for (std::int32_t v = 0; v < rect.height_px; ++v) {
-    for (std::int32_t u = 0; u < rect.width_px; ++u) {
-      if (heights.at(u, v) < lowest) {
-        heights.at(u, v) = kNoHeight;
-        continue;
-      }
-      const Vector2 ray = rays.at(rect.u + u, rect.v + v);
-      const double squared = (plane.z_m(ray) * Vector3(ray.x(), ray.y(), 1.0) - ring.centre_m).squaredNorm();
-      if (squared > least * least && squared < most * most) heights.at(u, v) = kNoHeight;
-    }
-  }
-}
-
 // Depth noise goes with the inverse of amplitude: what is dark beside the ring has no part in a connector.
 void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double least_amplitude, BitImage& mask) {
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
@@ -373,9 +323,7 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   workspace.rect = search_rect(camera, ring, settings.reach);
   const PixelRect& rect = workspace.rect;
   const ImageView<std::uint16_t> heights(workspace.heights.data(), rect.width_px, rect.height_px);
-  make_heights(frame, camera, rays, ring.plane(), rect, heights);
-  drop_ring_and_sides(rays, camera, ring, rect, kLowest * std::min(0.0, usual_foot(camera, ring, rect, heights)),
-                      heights);
+  make_connector_heights(frame, camera, rays, ring, rect, heights);
   const double radius_px = ring.radius_m[0] * camera.optics.fx_px / ring.centre_m.z();
   const auto half_window =
       std::max(settings.least_half_window_px, static_cast<std::int32_t>(settings.window_share * radius_px + 0.5));

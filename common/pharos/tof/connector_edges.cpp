@@ -32,7 +32,7 @@ constexpr double kMostSlender = 1.6;
 constexpr double kCorrelation = 2.0;
 // Walls that are not as dark as the cosine says, foil of uneven height and rounded corners move the rectangle as a
 // whole: no number of points averages that away. Root mean square over the simulated classes.
-constexpr double kSilhouetteSigma_px = 0.2;
+constexpr double kSilhouetteSigma_px = 0.1;
 // What a region's centroid is good for, px: used where its edges are not seen.
 constexpr double kCentroidSigma_px = 0.8;
 
@@ -80,6 +80,31 @@ class FaceFitter {
     const Vector2& sides = refined.rectangle.half_sides_m;
     if (sides.maxCoeff() > kMostSlender * sides.minCoeff() || refined.edge_rms_px > 1.0) return face;
     return refined;
+  }
+
+  // Where the square of half side `half`, its sides along the axes, stands highest on average.
+  Vector2 highest_place(const RegionReport& region, double half) const {
+    constexpr int kSteps = 8;  // to either side
+    constexpr int kGrid = 5;
+    const double reach = std::max(half, region.rectangle.half_sides_m.maxCoeff());
+    Vector2 best = region.centroid_m;
+    double best_height = -kMostHeight_m;
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      for (int j = -kSteps; j <= kSteps; ++j) {
+        const Vector2 place = region.rectangle.centre_m + reach / kSteps * Vector2(i, j);
+        double sum = 0.0;
+        for (int k = 0; k < kGrid * kGrid; ++k) {
+          const Vector2 off(k % kGrid - kGrid / 2, k / kGrid - kGrid / 2);
+          double height = 0.0;
+          const bool seen = height_at(place + 0.4 * half * off, region.height_m, height);
+          sum += seen ? std::clamp(height, -kMostHeight_m, 0.0) : -kMostHeight_m;
+        }
+        if (sum <= best_height * kGrid * kGrid) continue;
+        best_height = sum / (kGrid * kGrid);
+        best = place;
+      }
+    }
+    return best;
   }
 
  private:
@@ -267,6 +292,24 @@ class FaceFitter {
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                        const RegionReport& region) {
   return FaceFitter(frame, camera, rays, ring).fit(region);
+}
+
+ConnectorFace fit_face_within(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                              const RingFit& ring, const RegionReport& region, const ConnectorFace& like) {
+  FaceFitter fitter(frame, camera, rays, ring);
+  const double half = std::sqrt(like.rectangle.half_sides_m.x() * like.rectangle.half_sides_m.y());
+  RegionReport square = region;
+  square.centroid_m = fitter.highest_place(region, half);
+  square.area_m2 = 4.0 * half * half;
+  square.height_m = like.height_m;
+  ConnectorFace face;
+  constexpr int kTurns = 4;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    square.rectangle.angle_rad = 0.5 * kPi * turn / kTurns;
+    face = fitter.fit(square);
+    if (face.edge_points > 0) break;
+  }
+  return face;
 }
 
 }  // namespace pharos::tof

@@ -26,4 +26,9 @@ struct ConnectorFace {
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                        const RegionReport& region);
 
+/// The same for a region whose outline is not a connector's, because noise or foil has grown on to it: the square of
+/// `like`'s size that stands highest within the region is fitted instead, turned by steps until its edges are found.
+ConnectorFace fit_face_within(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                              const RingFit& ring, const RegionReport& region, const ConnectorFace& like);
+
 }  // namespace pharos::tof

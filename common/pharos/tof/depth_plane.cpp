@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pharos/base/static_vector.hpp"
+#include "pharos/tof/lottery.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
 namespace pharos::tof {
@@ -38,18 +39,6 @@ struct Sums {
   Vector3 right = Vector3::Zero();
   double weights = 0.0;
   SectorSums residuals;
-};
-
-// The repeatable choice of triples: a plain linear congruence is random enough to pick pixels with.
-class Lottery {
- public:
-  std::size_t below(std::size_t count) {
-    state_ = state_ * 1664525U + 1013904223U;
-    return static_cast<std::size_t>((static_cast<std::uint64_t>(state_) * count) >> 32U);
-  }
-
- private:
-  std::uint32_t state_ = 1;
 };
 
 class Fitter {
@@ -201,8 +190,8 @@ class Fitter {
 };
 
 // Pixels that the lens' blur mixes with what lies beyond an edge, and the part of a narrow ring that must remain.
-constexpr double kMixed_px = 1.5;
-constexpr double kMostMargin = 0.25;
+constexpr double kMixed_px = 2.2;
+constexpr double kMostMargin = 0.3;
 
 }  // namespace
 

@@ -25,6 +25,8 @@ constexpr double kLeastEdgeSigma_px = 0.02;
 constexpr std::size_t kLeastEdgePoints = 24;
 // How well the wall's share in an edge is known, of itself: its light need not go with the cosine.
 constexpr double kWallSigma = 0.3;
+// Of the common place of all edges; what the simulated classes show beyond the residuals' share.
+constexpr double kCommonEdge_px = 0.012;
 
 // d q / d unknowns of the plane that a model lies in: q = n / (n . c).
 Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
@@ -168,6 +170,14 @@ Matrix7 common_noise(const RingModel& model, double sigma_m) {
   return sigma_m * sigma_m * moves * moves.transpose();
 }
 
+// Foil of uneven depth beside an edge and walls move it along whole sides of the ring: the circles' common place.
+Matrix7 common_place(const DepthCamera& camera, const RingModel& model) {
+  const double sigma_m = kCommonEdge_px * model.centre_m.z() / camera.optics.fx_px;
+  Matrix7 covariance = Matrix7::Zero();
+  covariance(2, 2) = covariance(3, 3) = sigma_m * sigma_m;
+  return covariance;
+}
+
 bool is_sane(const RingModel& model) {
   return model.centre_m.allFinite() && model.normal.allFinite() && model.centre_m.z() > 0.0 &&
          model.radius_m[1] > 0.0 && model.radius_m[1] < model.radius_m[0] && model.normal.dot(model.centre_m) < 0.0;
@@ -242,7 +252,7 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
     fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
     fit.disagreement = solved->disagreement;
   }
-  fit.covariance += common_noise(fit.model, noise.common_sigma_m);
+  fit.covariance += common_noise(fit.model, noise.common_sigma_m) + common_place(camera, fit.model);
   fit.plane_rms_m = plane.rms_m;
   fit.amplitude = plane.amplitude;
   fit.plane_pixels = plane.pixels;

@@ -31,18 +31,26 @@ class SectorSums {
   double correlation(int unknowns) const {
     double own = 0.0;
     double across = 0.0;
+    int used = 0;
     for (std::size_t k = 0; k < kSectors; ++k) {
+      used += sum_[k] != 0.0 ? 1 : 0;
       own += sum_[k] * sum_[k];
       across += sum_[k] * sum_[(k + 1) % kSectors];
     }
     const double independent = variance() * weights_;
     if (!(independent > 0.0)) return 1.0;
-    const double lost = static_cast<double>(kSectors) / (static_cast<int>(kSectors) - unknowns);
-    return std::max(1.0, lost * (own + 2.0 * std::max(0.0, across)) / independent);
+    if (used - unknowns < kLeastUsed) return std::max(1.0, weights_ > 0.0 ? static_cast<double>(count_) : 1.0);
+    const double lost = static_cast<double>(used) / (used - unknowns);
+    return std::max(1.0, (1.0 + kUncertain / used) * lost * (own + 2.0 * std::max(0.0, across)) / independent);
   }
 
  private:
   static constexpr std::size_t kSectors = 64;
+  // So few sums tell the variance to a third, and what is divided by an uncertain variance has longer tails: the mean
+  // of its inverse, to second order in the six-over-n variance of own squares and neighbours' products.
+  static constexpr double kUncertain = 8.0;
+  // Where hardly a sector is seen, all residuals may be one.
+  static constexpr int kLeastUsed = 8;
 
   // Grows with the angle of (du, dv); a diamond's perimeter stands for the circle's.
   static std::size_t sector_of(double du, double dv) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pharos/ellipse/detect.hpp"
+#include "pharos/tof/standing_light.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -50,21 +51,45 @@ class ConnectorChoice {
     if (static_cast<std::int32_t>(found.size()) >= expected) return true;
     for (const RegionReport& doubt : workspace_.connector.doubtful) {
       if (!found.empty() && !are_alike(doubt, found[0], kDoubtfulArea)) continue;
-      const Choice choice = choice_of(doubt);
-      if (choice.sure && (choices_.empty() || of_one_size(choice.face, choices_[0].face))) {
-        insert(choice);
-      } else if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + least_difference_m) {
-        return false;
-      }
+      if (add_doubtful(doubt, least_difference_m)) continue;
+      if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + least_difference_m) return false;
     }
     return !choices_.empty();
   }
   const StaticVector<Choice, 8>& choices() const { return choices_; }
 
  private:
+  // By the edges around the region; else by those of a square like the nearest connector's, which may show another
+  // connector but never a nearer one: burrs shift it.
+  bool add_doubtful(const RegionReport& doubt, double least_difference_m) {
+    const Choice own = choice_of(doubt);
+    if (own.sure && is_another(own)) {
+      insert(own);
+      return true;
+    }
+    if (choices_.empty() || !choices_[0].sure) return false;
+    const Choice like = choice_like(doubt);
+    if (!like.sure || !is_another(like)) return false;
+    if (like.distance_m() < choices_[0].distance_m() + least_difference_m) return false;
+    insert(like);
+    return true;
+  }
   Choice choice_of(const RegionReport& region) const {
     const ConnectorFace face = fit_face(frame_, camera_, workspace_.rays, ring_, region);
     return {face, face.edge_points > 0};
+  }
+  Choice choice_like(const RegionReport& region) const {
+    const ConnectorFace face = fit_face_within(frame_, camera_, workspace_.rays, ring_, region, choices_[0].face);
+    return {face, face.edge_points > 0};
+  }
+  // Of the same kind, and not one of those that are known.
+  bool is_another(const Choice& choice) const {
+    const double side = 2.0 * choice.face.rectangle.half_sides_m.minCoeff();
+    for (const Choice& known : choices_) {
+      const Vector2 apart = choice.face.rectangle.centre_m - known.face.rectangle.centre_m;
+      if (!of_one_size(choice.face, known.face) || apart.norm() < side) return false;
+    }
+    return true;
   }
   void add(const RegionReport& region) { insert(choice_of(region)); }
   void insert(const Choice& choice) {
@@ -103,6 +128,26 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
   }
 }
 
+// By the intensity image; where that does not show the ring (foil as bright beside it), by what stands over the face.
+// The failure is the first one's.
+Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
+                                         TofWorkspace& workspace) {
+  const auto ring_in = [&](ImageView<const std::uint16_t> image) {
+    const auto ellipses = ellipse::detect_ellipses(image, settings.ellipse, workspace.ellipse);
+    return choose_ring(frame, camera, workspace.rays, ellipses, settings.ring, settings.noise, workspace.edges);
+  };
+  const auto ring = ring_in(frame.intensity);
+  if (ring) return ring;
+  const auto face = face_plane(frame, camera, workspace.rays, settings.noise);
+  if (!face) return ring;
+  // Connectors are looked for later: their heights' memory is free.
+  const ImageView<std::uint16_t> standing(workspace.connector.heights.data(), frame.depth.width_px,
+                                          frame.depth.height_px);
+  make_standing_light(frame, camera, workspace.rays, *face, standing);
+  const auto by_height = ring_in(standing);
+  return by_height ? by_height : ring;
+}
+
 }  // namespace
 
 Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthCamera& camera,
@@ -114,9 +159,7 @@ Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthC
   for (RingEdgePoints& points : workspace.edges.points) points.clear();
   if (const auto failure = workspace.frames.check(frame, camera)) return *failure;
   if (!workspace.rays.prepare(camera.optics)) return TofFailure::kCameraUnusable;
-  const auto ellipses = ellipse::detect_ellipses(frame.intensity, settings.ellipse, workspace.ellipse);
-  const auto ring =
-      choose_ring(frame, camera, workspace.rays, ellipses, settings.ring, settings.noise, workspace.edges);
+  const auto ring = find_ring(frame, camera, settings, workspace);
   if (!ring) return ring.error();
   TofPose result;
   result.ring = *ring;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/connector_heights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+
+namespace pharos::tof {
+namespace {
+
+// The ring's image and its blur: how far beyond its circles pixels are still taken for its own.
+constexpr double kRingMargin_px = 1.5;
+// What lies deeper than this many times the face around the ring is not that face.
+constexpr double kLowest = 1.5;
+
+// How deep the face that carries the ring lies below the ring's plane: the median around the ring; negative.
+double usual_foot(const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
+                  ImageView<const std::uint16_t> heights) {
+  constexpr int kDirections = 72;
+  constexpr std::array<double, 3> kRadii = {1.1, 1.25, 1.4};
+  const PlaneAxes axes = axes_of(ring.normal);
+  std::array<double, kDirections * kRadii.size()> found{};
+  std::size_t count = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = kTwoPi * k / kDirections;
+    const Vector3 radial = std::cos(angle) * axes.first + std::sin(angle) * axes.second;
+    for (const double radius : kRadii) {
+      const auto pixel = project(camera.optics, ring.centre_m + radius * ring.radius_m[0] * radial);
+      if (!pixel) continue;
+      const auto u = static_cast<std::int32_t>(std::lround(pixel->x())) - rect.u;
+      const auto v = static_cast<std::int32_t>(std::lround(pixel->y())) - rect.v;
+      if (heights.contains(u, v) && heights.at(u, v) != kNoHeight) found[count++] = height_of(heights.at(u, v));
+    }
+  }
+  if (count == 0) return -kMostHeight_m;
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
+                         double lowest_m, ImageView<std::uint16_t> heights) {
+  const std::int32_t lowest = kHeightZero + static_cast<std::int32_t>(lowest_m / kHeightUnit_m);
+  const DepthPlane plane = ring.plane();
+  const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
+  const double least = ring.radius_m[1] - margin_m;
+  const double most = ring.radius_m[0] + margin_m;
+  for (std::int32_t v = 0; v < rect.height_px; ++v) {
+    for (std::int32_t u = 0; u < rect.width_px; ++u) {
+      if (heights.at(u, v) < lowest) {
+        heights.at(u, v) = kNoHeight;
+        continue;
+      }
+      const Vector2 ray = rays.at(rect.u + u, rect.v + v);
+      const double squared = (plane.z_m(ray) * Vector3(ray.x(), ray.y(), 1.0) - ring.centre_m).squaredNorm();
+      if (squared > least * least && squared < most * most) heights.at(u, v) = kNoHeight;
+    }
+  }
+}
+
+}  // namespace
+
+void make_connector_heights(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                            const RingModel& ring, const PixelRect& rect, ImageView<std::uint16_t> heights) {
+  make_heights(frame, camera, rays, ring.plane(), rect, heights);
+  const double lowest_m = kLowest * std::min(0.0, usual_foot(camera, ring, rect, heights));
+  drop_ring_and_sides(rays, camera, ring, rect, lowest_m, heights);
+}
+
+}  // namespace pharos::tof
