@@ -21,6 +21,11 @@ constexpr double kWhiteLevel = 2.0;
 constexpr double kSurelyResting = 0.9;
 // Most that errors which stay may put on an answer.
 constexpr double kCarriedRotation_rad = 0.2, kCarriedPosition_m = 0.2;
+// A second station's pose that was learnt is forgotten within this time, as far as the sensors' errors go: the body has
+// then gone on to where they show otherwise.
+constexpr double kLinkForgets_s = 1.0;
+// A station that saw the body this recently still speaks for it.
+constexpr double kFresh_s = 0.1;
 // One sweep moves it by no more than this many times its expectation.
 constexpr double kLargestRatio = 9.0;
 
@@ -58,7 +63,7 @@ Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose
   for (int round = 0; round < 2; ++round) {
     *this = Hypothesis();
     bank_.start(start, kStartRotation_rad, kStartPosition_m, rate);
-    level_ = std::clamp(own_scale * own_scale, kLeastLevel, kMostLevel);
+    eyes_[0].level = std::clamp(own_scale * own_scale, kLeastLevel, kMostLevel);
     std::int64_t begun_ticks = INT64_MIN;
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       const std::int64_t last = last_hit_ticks(cycle[axis], *view.target);
@@ -70,20 +75,30 @@ Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose
   }
 }
 
+void Hypothesis::link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed) {
+  bank_.link(T_second_reference, covariance);
+  surveyed_ = surveyed;
+  eyes_[1] = {};
+}
+
 const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                                 const AssumedNoise& noise) {
+                                 const AssumedNoise& noise, Observer observer) {
   const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
   const double since_s = ticks_to_seconds(time - time_ticks_);
   predict(bank_, since_s);
+  if (bank_.linked() && !surveyed_) doubt_link(since_s);
   time_ticks_ = time;
+  observer_ = observer;
   ++sweeps_;
-  const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * level_), noise.sigma_rad * std::sqrt(noise.rho)};
-  Belief prediction = honest(bank_.belief());
+  Eye& eye = this->eye(observer);
+  const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * eye.level),
+                       noise.sigma_rad * std::sqrt(noise.rho)};
+  Belief prediction = honest(bank_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   startled_ = fit_.sensors >= kEnoughToStartle && surprises(fit_, prediction);
   if (startled_) {
     bank_.startle(since_s);
-    prediction = honest(bank_.belief());
+    prediction = honest(bank_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
   surprise_ = innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2;
@@ -92,21 +107,22 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   cost_ += fit_.log_density;
   if (used > 0) {
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
-    const CycleView::Misfit misfit = cycle_view_.set(axis, fit_.used, level_ * own_variance, time);
-    cost_ += bank_.correct(fit_.information, fit_.pose);
-    cycle_view_.shifted(axis, pose_difference(bank_.belief().pose, fit_.pose));
-    last_used_ticks_ = time;
-    learn_noise(misfit);
-    systematic_ = systematic_covariance(noise);
+    const CycleView::Misfit misfit = eye.view.set(axis, fit_.used, eye.level * own_variance, time);
+    cost_ += bank_.correct(fit_.information, fit_.pose, observer);
+    const LighthouseFromBody corrected = bank_.belief(observer).pose;
+    eye.view.shifted(axis, pose_difference(corrected, fit_.pose));
+    eye.seen_ticks = last_used_ticks_ = time;
+    learn_noise(eye, misfit);
+    eye.systematic = systematic_covariance(eye, corrected.t.norm(), noise);
   }
-  belief_ = honest(bank_.belief());
+  belief_ = honest(bank_, observer);
   return fit_;
 }
 
 // A sweep of six hits and more shows their noise by itself. Five show it only together with the sweep before, and only
 // while the body rests: what a wrong rate does between two sweeps is not noise, and a filter that took it for noise
 // would grow deaf and its rates worse.
-void Hypothesis::learn_noise(const CycleView::Misfit& cycle) {
+void Hypothesis::learn_noise(Eye& eye, const CycleView::Misfit& cycle) const {
   CycleView::Misfit seen = {fit_.information.misfit,
                             static_cast<double>(fit_.information.hits - fit_.information.rank)};
   // Each sweep is looked at twice, with the one before and the one after.
@@ -114,19 +130,18 @@ void Hypothesis::learn_noise(const CycleView::Misfit& cycle) {
     seen = {0.5 * cycle.square, 0.5 * cycle.freedom};
   if (!(seen.freedom > 0.0)) return;
   const double ratio = std::min(seen.square / seen.freedom, kLargestRatio);
-  level_freedom_ = std::min(level_freedom_ + seen.freedom, kLevelFreedom);
-  const double gain = seen.freedom / (level_freedom_ + kLevelPrior);
-  level_ = std::clamp(level_ * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
+  eye.level_freedom = std::min(eye.level_freedom + seen.freedom, kLevelFreedom);
+  const double gain = seen.freedom / (eye.level_freedom + kLevelPrior);
+  eye.level = std::clamp(eye.level * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
 }
 
-Matrix6 Hypothesis::systematic_covariance(const AssumedNoise& noise) const {
+Matrix6 Hypothesis::systematic_covariance(const Eye& eye, double range_m, const AssumedNoise& noise) const {
   const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
-  const double range_m = bank_.belief().pose.t.norm();
   const double sensor_rad = noise.systematic.sensor_position_m / range_m;
   // What the residuals show of the sensors is not counted twice.
-  const double of_sensors = std::max((level_ - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
+  const double of_sensors = std::max((eye.level - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
   const double of_rotors = noise.systematic.rotor_rad * noise.systematic.rotor_rad;
-  Matrix6 carried = cycle_view_.covariance_of(std::max(0.0, of_sensors), of_rotors);
+  Matrix6 carried = eye.view.covariance_of(std::max(0.0, of_sensors), of_rotors);
   // Two sweeps that hardly tell the pose hardly move the belief either.
   const double rotation = carried.topLeftCorner<3, 3>().trace() / (kCarriedRotation_rad * kCarriedRotation_rad);
   const double position = carried.bottomRightCorner<3, 3>().trace() / (kCarriedPosition_m * kCarriedPosition_m);
@@ -134,26 +149,56 @@ Matrix6 Hypothesis::systematic_covariance(const AssumedNoise& noise) const {
   return carried;
 }
 
+// What two stations see wrong of a body differs with the body's place: where it was learnt from one another, the second
+// station's pose is no better than that, and grows as uncertain again while the body goes on.
+void Hypothesis::doubt_link(double dt_s) {
+  const SecondStation& second = bank_.second();
+  const SecondView view(bank_.belief().pose, second.pose);
+  const Matrix6 seen = eyes_[1].systematic +
+                       view.by_body.lazyProduct(Matrix6(eyes_[0].systematic.lazyProduct(view.by_body.transpose())));
+  Matrix6 back = view.by_second;
+  back.bottomLeftCorner<3, 3>() *= -1.0;  // its inverse
+  bank_.doubt_link((dt_s / kLinkForgets_s) * back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))));
+}
+
+// Where both stations see the body, the errors that stay are no larger than those before the better one alone.
+Matrix6 Hypothesis::systematic_of(Observer observer) const {
+  const Matrix6& own = eye(observer).systematic;
+  if (!bank_.linked()) return own;
+  const Eye& other = eye(observer == Observer::kReference ? Observer::kSecond : Observer::kReference);
+  if (other.seen_ticks == INT64_MIN || ticks_to_seconds(time_ticks_ - other.seen_ticks) > kFresh_s) return own;
+  const bool own_fresh = ticks_to_seconds(time_ticks_ - eye(observer).seen_ticks) <= kFresh_s;
+  const Matrix3 turn = bank_.second().pose.R;
+  Matrix6 by = Matrix6::Zero();
+  by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() =
+      observer == Observer::kSecond ? turn : Matrix3(turn.transpose());
+  const Matrix6 mapped = by.lazyProduct(Matrix6(other.systematic.lazyProduct(by.transpose())));
+  const bool own_known = own_fresh && !own.isZero(0.0);
+  return own_known && own.trace() <= mapped.trace() ? own : mapped;
+}
+
 // What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the
 // same in every sweep of a view, so no averaging removes it: it is added to what the sweeps say together.
-Belief Hypothesis::honest(Belief belief) const {
-  belief.covariance += systematic_;
-  belief.widest += systematic_;
+Belief Hypothesis::honest(const MotionBank& bank, Observer observer) const {
+  Belief belief = bank.belief(observer);
+  const Matrix6 systematic = systematic_of(observer);
+  belief.covariance += systematic;
+  belief.widest += systematic;
   return belief;
 }
 
-double Hypothesis::own_scale() const { return std::sqrt(level_); }
+double Hypothesis::own_scale(Observer observer) const { return std::sqrt(eye(observer).level); }
 
-Belief Hypothesis::predicted(std::int64_t time_ticks) const {
+Belief Hypothesis::predicted(std::int64_t time_ticks, Observer observer) const {
   const double dt_s = ticks_to_seconds(time_ticks - time_ticks_);
-  if (dt_s == 0.0) return belief_;
+  if (dt_s == 0.0) return observer == observer_ ? belief_ : honest(bank_, observer);
   MotionBank bank = bank_;
   if (dt_s < 0.0) {
     bank.predict_mean(dt_s);
   } else {
     predict(bank, dt_s);
   }
-  return honest(bank.belief());
+  return honest(bank, observer);
 }
 
 }  // namespace pharos::motion

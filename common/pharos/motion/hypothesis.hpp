@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "pharos/lighthouse/bearing.hpp"
@@ -44,16 +45,23 @@ class Hypothesis {
   Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double own_scale,
              const StationView& view, const AssumedNoise& noise);
 
-  /// Moves on to the sweep and adds it. A sweep none of whose hits fits changes nothing but the time.
+  /// Moves on to the sweep and adds it. A sweep none of whose hits fits changes nothing but the time. `observer`: whose
+  /// sweep; the second station's only once linked.
   const SweepFit& push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                       const AssumedNoise& noise);
+                       const AssumedNoise& noise, Observer observer = Observer::kReference);
+  /// From here on sweeps of a second station count too (MotionBank::link). `surveyed`: where it stands was measured,
+  /// and is no better or worse known as the body goes on.
+  void link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed);
 
   const MotionBank& bank() const { return bank_; }
-  /// The belief after the last sweep, at time_ticks(); what stays wrong with the sensors included.
+  /// Whose the last sweep was.
+  Observer observer() const { return observer_; }
+  /// The belief after the last sweep, at time_ticks(), in the frame of that sweep's station; what stays wrong with the
+  /// sensors included.
   const Belief& belief() const { return belief_; }
-  const CycleView& cycle_view() const { return cycle_view_; }
+  const CycleView& cycle_view(Observer observer = Observer::kReference) const { return eye(observer).view; }
   /// What is believed of any time, from what is known now; up to kLost_s ahead.
-  Belief predicted(std::int64_t time_ticks) const;
+  Belief predicted(std::int64_t time_ticks, Observer observer = Observer::kReference) const;
   std::int64_t time_ticks() const { return time_ticks_; }
   std::int64_t last_used_ticks() const { return last_used_ticks_; }
   const SweepFit& last_fit() const { return fit_; }
@@ -66,25 +74,37 @@ class Hypothesis {
   /// Sweeps in a row that mostly contradicted it.
   int doubts() const { return doubts_; }
   /// Own noise over the assumed one, as learnt.
-  double own_scale() const;
+  double own_scale(Observer observer = Observer::kReference) const;
 
  private:
+  // What one station's sweeps show beyond the body's motion.
+  struct Eye {
+    CycleView view;
+    Matrix6 systematic = Matrix6::Zero();  // of the pose it sees, from errors that do not average out
+    std::int64_t seen_ticks = INT64_MIN;
+    double level = 1.0;          // own variance over the assumed one
+    double level_freedom = 0.0;  // degrees of freedom that it was learnt from
+  };
+
   Hypothesis() = default;
-  Matrix6 systematic_covariance(const AssumedNoise& noise) const;
-  void learn_noise(const CycleView::Misfit& cycle);
-  Belief honest(Belief belief) const;
+  Eye& eye(Observer observer) { return eyes_[static_cast<std::size_t>(observer)]; }
+  const Eye& eye(Observer observer) const { return eyes_[static_cast<std::size_t>(observer)]; }
+  Matrix6 systematic_covariance(const Eye& eye, double range_m, const AssumedNoise& noise) const;
+  void learn_noise(Eye& eye, const CycleView::Misfit& cycle) const;
+  void doubt_link(double dt_s);
+  Matrix6 systematic_of(Observer observer) const;
+  Belief honest(const MotionBank& bank, Observer observer) const;
 
   MotionBank bank_;
   Belief belief_;
+  Observer observer_ = Observer::kReference;  // of the last sweep
   SweepFit fit_;
-  CycleView cycle_view_;
-  Matrix6 systematic_ = Matrix6::Zero();  // of the pose, from errors that do not average out
+  std::array<Eye, 2> eyes_;
+  bool surveyed_ = false;
   std::int64_t time_ticks_ = 0;
   std::int64_t last_used_ticks_ = 0;
   double cost_ = 0.0;
   double surprise_ = 0.0;
-  double level_ = 1.0;          // own variance over the assumed one
-  double level_freedom_ = 0.0;  // degrees of freedom that it was learnt from
   int sweeps_ = 0;
   int doubts_ = 0;
   bool startled_ = false;

@@ -6,9 +6,9 @@
 namespace pharos::motion {
 namespace {
 
-// side C^-T for side = (rows of P belonging to the pose) L: what multiplies the whitened innovation.
-Matrix6 gain_side(const Matrix6& covariance_with_pose, const SweepInformation& sweep, const Innovation& innovation) {
-  Matrix6 T = covariance_with_pose.lazyProduct(sweep.factor);
+// side C^-T for side = (covariance with the pose seen) L: what multiplies the whitened innovation.
+Matrix6 gain_side(const Matrix6& covariance_with_seen, const SweepInformation& sweep, const Innovation& innovation) {
+  Matrix6 T = covariance_with_seen.lazyProduct(sweep.factor);
   for (int j = 0; j < 6; ++j) {
     for (int k = 0; k < j; ++k) T.col(j) -= innovation.factor(j, k) * T.col(k);
     T.col(j) *= 1.0 / innovation.factor(j, j);
@@ -17,6 +17,18 @@ Matrix6 gain_side(const Matrix6& covariance_with_pose, const SweepInformation& s
 }
 
 void subtract_product(Matrix6& from, const Matrix6& a, const Matrix6& b) { from -= a.lazyProduct(b.transpose()); }
+
+// Covariance of some part of the state with the pose that the second station sees.
+Matrix6 with_seen(const SecondView& view, const Matrix6& with_body, const Matrix6& with_second) {
+  return with_body.lazyProduct(view.by_body.transpose()) + with_second.lazyProduct(view.by_second.transpose());
+}
+
+// `Ts`, `Tp`: gains of the station's and of the body's pose.
+void correct_station(SecondStation& second, const Matrix6& Ts, const Matrix6& Tp, const Innovation& innovation) {
+  subtract_product(second.ss, Ts, Ts);
+  subtract_product(second.sp, Ts, Tp);
+  second.pose = second.pose.moved_by(Ts * innovation.whitened);
+}
 
 void add_diagonal(Matrix6& matrix, double rotation, double translation) {
   for (int k = 0; k < 3; ++k) {
@@ -61,8 +73,33 @@ Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, con
   return gain_side(covariance, sweep, innovation) * innovation.whitened;
 }
 
-void RestingState::correct(const SweepInformation& sweep, const Innovation& innovation) {
+SecondView::SecondView(const LighthouseFromBody& body, const StationFromStation& second) : pose(second * body) {
+  const Vector3 q = second.R * body.t;
+  by_body.setZero();
+  by_body.topLeftCorner<3, 3>() = second.R;
+  by_body.bottomRightCorner<3, 3>() = second.R;
+  by_second.setIdentity();
+  by_second.bottomLeftCorner<3, 3>() = -skew(q);
+}
+
+Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second) {
+  const Matrix6 with_pose =
+      pp.lazyProduct(view.by_body.transpose()) + second.sp.transpose().lazyProduct(view.by_second.transpose());
+  const Matrix6 with_second =
+      second.sp.lazyProduct(view.by_body.transpose()) + second.ss.lazyProduct(view.by_second.transpose());
+  return view.by_body.lazyProduct(with_pose) + view.by_second.lazyProduct(with_second);
+}
+
+void RestingState::correct(const SweepInformation& sweep, const Innovation& innovation, bool linked) {
   const Matrix6 T = gain_side(covariance, sweep, innovation);
+  if (linked) correct_station(second, gain_side(second.sp, sweep, innovation), T, innovation);
+  subtract_product(covariance, T, T);
+  pose = pose.moved_by(T * innovation.whitened);
+}
+
+void RestingState::correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view) {
+  const Matrix6 T = gain_side(with_seen(view, covariance, second.sp.transpose()), sweep, innovation);
+  correct_station(second, gain_side(with_seen(view, second.sp, second.ss), sweep, innovation), T, innovation);
   subtract_product(covariance, T, T);
   pose = pose.moved_by(T * innovation.whitened);
 }
@@ -101,19 +138,47 @@ void MovingState::predict(double dt_s, double jerk_rotation, double jerk_transla
   predict_mean(t);
 }
 
-void MovingState::correct(const SweepInformation& sweep, const Innovation& innovation) {
-  const Matrix6 Tp = gain_side(pp, sweep, innovation);
-  const Matrix6 Tr = gain_side(rp, sweep, innovation);
-  const Matrix6 Ta = gain_side(ap, sweep, innovation);
+void MovingState::predict_second(double dt_s) {
+  const Matrix3 E = rotation_exp(rate.head<3>() * dt_s + acceleration.head<3>() * (0.5 * dt_s * dt_s));
+  second.sp.leftCols<3>() = second.sp.leftCols<3>().lazyProduct(E.transpose()).eval();
+  second.sp += dt_s * second.sr + (0.5 * dt_s * dt_s) * second.sa;
+  second.sr += dt_s * second.sa;
+}
+
+void MovingState::apply(const Matrix6& Tp, const Matrix6& Tr, const Matrix6& Ta, const Vector6& whitened) {
   subtract_product(pp, Tp, Tp);
   subtract_product(rp, Tr, Tp);
   subtract_product(rr, Tr, Tr);
   subtract_product(ap, Ta, Tp);
   subtract_product(ar, Ta, Tr);
   subtract_product(aa, Ta, Ta);
-  pose = pose.moved_by(Tp * innovation.whitened);
-  rate += Tr * innovation.whitened;
-  acceleration += Ta * innovation.whitened;
+  pose = pose.moved_by(Tp * whitened);
+  rate += Tr * whitened;
+  acceleration += Ta * whitened;
+}
+
+void MovingState::correct(const SweepInformation& sweep, const Innovation& innovation, bool linked) {
+  const Matrix6 Tp = gain_side(pp, sweep, innovation);
+  const Matrix6 Tr = gain_side(rp, sweep, innovation);
+  const Matrix6 Ta = gain_side(ap, sweep, innovation);
+  if (linked) {
+    const Matrix6 Ts = gain_side(second.sp, sweep, innovation);
+    subtract_product(second.sr, Ts, Tr);
+    subtract_product(second.sa, Ts, Ta);
+    correct_station(second, Ts, Tp, innovation);
+  }
+  apply(Tp, Tr, Ta, innovation.whitened);
+}
+
+void MovingState::correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view) {
+  const Matrix6 Tp = gain_side(with_seen(view, pp, second.sp.transpose()), sweep, innovation);
+  const Matrix6 Tr = gain_side(with_seen(view, rp, second.sr.transpose()), sweep, innovation);
+  const Matrix6 Ta = gain_side(with_seen(view, ap, second.sa.transpose()), sweep, innovation);
+  const Matrix6 Ts = gain_side(with_seen(view, second.sp, second.ss), sweep, innovation);
+  subtract_product(second.sr, Ts, Tr);
+  subtract_product(second.sa, Ts, Ta);
+  correct_station(second, Ts, Tp, innovation);
+  apply(Tp, Tr, Ta, innovation.whitened);
 }
 
 }  // namespace pharos::motion

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "pharos/geometry/pose.hpp"
 #include "pharos/motion/sweep_information.hpp"
 
@@ -22,12 +24,39 @@ Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_cova
 /// What the innovation makes of a pose with this error covariance.
 Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
 
+/// T_to_from between the frames of two stations.
+using StationFromStation = Pose<frame::Lighthouse, frame::Lighthouse>;
+
+/// Whose sweep it is: that of the station in whose frame the belief is kept, or that of a second one.
+enum class Observer : std::uint8_t { kReference, kSecond };
+
+/// What a belief knows of a second station: T_second_reference, and the covariance of its error (s, Pose::moved_by)
+/// with itself and with the errors of pose, rate and acceleration; sp = E[s error x pose error^T].
+struct SecondStation {
+  StationFromStation pose;
+  Matrix6 ss = Matrix6::Zero(), sp = Matrix6::Zero(), sr = Matrix6::Zero(), sa = Matrix6::Zero();
+};
+
+/// Derivatives of the error of the pose that the second station sees, T_second_body, by the errors of T_reference_body
+/// and of T_second_reference.
+struct SecondView {
+  SecondView(const LighthouseFromBody& body, const StationFromStation& second);
+  LighthouseFromBody pose;  // T_second_body
+  Matrix6 by_body, by_second;
+};
+
+/// Covariance of the pose seen from the second station.
+Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second);
+
 /// Belief that the body rests: a pose and the covariance of its error (Pose::moved_by).
 struct RestingState {
   LighthouseFromBody pose;
   Matrix6 covariance = Matrix6::Zero();
+  SecondStation second;  // sr and sa stay zero
 
-  void correct(const SweepInformation& sweep, const Innovation& innovation);
+  void correct(const SweepInformation& sweep, const Innovation& innovation, bool linked);
+  /// A sweep of the second station.
+  void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
 };
 
 /// Gaussian belief about pose, rate and acceleration.
@@ -41,13 +70,22 @@ struct MovingState {
   Vector6 acceleration = Vector6::Zero();
   Matrix6 pp = Matrix6::Zero(), rp = Matrix6::Zero(), rr = Matrix6::Zero();
   Matrix6 ap = Matrix6::Zero(), ar = Matrix6::Zero(), aa = Matrix6::Zero();
+  SecondStation second;
 
   /// Moves the belief on by dt_s under white jerk of spectral density `jerk_rotation` (rad/s^3)^2 s and
   /// `jerk_translation` (m/s^3)^2 s. Exact but for the coupling of rates across one step: keep |angular velocity| dt
   /// below 0.1 rad.
   void predict(double dt_s, double jerk_rotation, double jerk_translation);
+  /// What predict() does to the covariance with a second station.
+  void predict_second(double dt_s);
   void predict_mean(double dt_s);
-  void correct(const SweepInformation& sweep, const Innovation& innovation);
+  /// A sweep of the reference station; `linked`: a second station is known, and learns from it too.
+  void correct(const SweepInformation& sweep, const Innovation& innovation, bool linked);
+  void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
+
+ private:
+  void apply(const Matrix6& pose_gain, const Matrix6& rate_gain, const Matrix6& acceleration_gain,
+             const Vector6& whitened);
 };
 
 }  // namespace pharos::motion

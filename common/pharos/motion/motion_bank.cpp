@@ -46,7 +46,8 @@ constexpr double kLongestStep_s = 0.05;
 // Shares below are not worth a blend; beliefs less probable are not corrected, but taken anew from the others.
 constexpr double kNegligible = 1e-3;
 
-Vector6 small_difference(const LighthouseFromBody& to, const LighthouseFromBody& from) {
+template <class Parent, class Child>
+Vector6 small_difference(const Pose<Parent, Child>& to, const Pose<Parent, Child>& from) {
   const Matrix3 turn = to.R.lazyProduct(from.R.transpose());
   Vector6 delta;
   delta << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)), 0.5 * (turn(1, 0) - turn(0, 1)),
@@ -64,6 +65,7 @@ MovingState beginning_to_move(const RestingState& resting, const Onset& onset) {
   MovingState state;
   state.pose = resting.pose;
   state.pp = resting.covariance;
+  state.second = resting.second;
   set_variances(state.rr, onset.rotation_rate, onset.velocity);
   set_variances(state.aa, onset.rotation_acceleration, onset.acceleration);
   return state;
@@ -73,14 +75,24 @@ void blend_block(Matrix6& into, const Matrix6& other, double weight, const Vecto
   into += weight * (other - into) + (weight * (1.0 - weight) * left).lazyProduct(right.transpose());
 }
 
+// What the moments of the second station's pose become; `p`: how far apart the poses are.
+Vector6 blend_station(SecondStation& into, const SecondStation& other, double weight, const Vector6& p) {
+  const Vector6 s = small_difference(other.pose, into.pose);
+  blend_block(into.ss, other.ss, weight, s, s);
+  blend_block(into.sp, other.sp, weight, s, p);
+  into.pose = into.pose.moved_by(weight * s);
+  return s;
+}
+
 // Moments of two beliefs, the second with the share `weight`.
-void blend(RestingState& into, const LighthouseFromBody& pose, const Matrix6& covariance, double weight) {
-  const Vector6 p = small_difference(pose, into.pose);
-  blend_block(into.covariance, covariance, weight, p, p);
+void blend(RestingState& into, const MovingState& other, double weight, bool linked) {
+  const Vector6 p = small_difference(other.pose, into.pose);
+  blend_block(into.covariance, other.pp, weight, p, p);
+  if (linked) blend_station(into.second, other.second, weight, p);
   into.pose = into.pose.moved_by(weight * p);
 }
 
-void blend(MovingState& into, const MovingState& other, double weight) {
+void blend(MovingState& into, const MovingState& other, double weight, bool linked) {
   const Vector6 p = small_difference(other.pose, into.pose);
   const Vector6 r = other.rate - into.rate, a = other.acceleration - into.acceleration;
   blend_block(into.pp, other.pp, weight, p, p);
@@ -89,6 +101,11 @@ void blend(MovingState& into, const MovingState& other, double weight) {
   blend_block(into.ap, other.ap, weight, a, p);
   blend_block(into.ar, other.ar, weight, a, r);
   blend_block(into.aa, other.aa, weight, a, a);
+  if (linked) {
+    const Vector6 s = blend_station(into.second, other.second, weight, p);
+    blend_block(into.second.sr, other.second.sr, weight, s, r);
+    blend_block(into.second.sa, other.second.sa, weight, s, a);
+  }
   into.pose = into.pose.moved_by(weight * p);
   into.rate += weight * r;
   into.acceleration += weight * a;
@@ -144,14 +161,14 @@ void MotionBank::interact(double dt_s) {
   for (std::size_t i = 1; i < kModels; ++i) {
     if (flow[i][0] <= kNegligible * next[0]) continue;
     sum += flow[i][0];
-    blend(resting_, moving_[i - 1].pose, moving_[i - 1].pp, flow[i][0] / sum);
+    blend(resting_, moving_[i - 1], flow[i][0] / sum, linked_);
   }
   for (std::size_t j = 1; j < kModels; ++j) {
     sum = flow[j][j];
     for (std::size_t i = j + 1; i < kModels; ++i) {
       if (flow[i][j] <= kNegligible * next[j]) continue;
       sum += flow[i][j];
-      blend(moving_[j - 1], moving_[i - 1], flow[i][j] / sum);
+      blend(moving_[j - 1], moving_[i - 1], flow[i][j] / sum, linked_);
     }
   }
   probability_ = next;
@@ -163,7 +180,10 @@ void MotionBank::predict(double dt_s) {
     resting_.covariance(k, k) += kCreepRotation * dt_s;
     resting_.covariance(k + 3, k + 3) += kCreepTranslation * dt_s;
   }
-  for (std::size_t m = 0; m < kMoving; ++m) moving_[m].predict(dt_s, kJerk[m].rotation, kJerk[m].translation);
+  for (std::size_t m = 0; m < kMoving; ++m) {
+    if (linked_) moving_[m].predict_second(dt_s);
+    moving_[m].predict(dt_s, kJerk[m].rotation, kJerk[m].translation);
+  }
 }
 
 void MotionBank::startle(double dt_s) {
@@ -175,6 +195,9 @@ void MotionBank::startle(double dt_s) {
   wildest.rp.setZero();
   wildest.ap.setZero();
   wildest.ar.setZero();
+  wildest.second.sp.setZero();
+  wildest.second.sr.setZero();
+  wildest.second.sa.setZero();
   constexpr Onset unknown = {8.0, 2.5, 100.0, 50.0};
   set_variances(wildest.rr, unknown.rotation_rate, unknown.velocity);
   set_variances(wildest.aa, unknown.rotation_acceleration, unknown.acceleration);
@@ -187,44 +210,88 @@ void MotionBank::predict_mean(double dt_s) {
   for (MovingState& m : moving_) m.predict_mean(dt_s);
 }
 
-Belief MotionBank::belief() const {
+void MotionBank::link(const StationFromStation& T_second_reference, const Matrix6& covariance) {
+  linked_ = true;
+  resting_.second = {T_second_reference, covariance};
+  for (MovingState& m : moving_) m.second = resting_.second;
+}
+
+void MotionBank::doubt_link(const Matrix6& covariance) {
+  resting_.second.ss += covariance;
+  for (MovingState& m : moving_) m.second.ss += covariance;
+}
+
+std::size_t MotionBank::most_probable() const {
+  return static_cast<std::size_t>(std::max_element(probability_.begin(), probability_.end()) - probability_.begin());
+}
+
+const SecondStation& MotionBank::second() const {
+  const std::size_t top = most_probable();
+  return top == 0 ? resting_.second : moving_[top - 1].second;
+}
+
+MotionBank::Seen MotionBank::seen(std::size_t i, Observer observer) const {
+  const LighthouseFromBody& pose = i == 0 ? resting_.pose : moving_[i - 1].pose;
+  const Matrix6& covariance = i == 0 ? resting_.covariance : moving_[i - 1].pp;
+  if (observer == Observer::kReference) return {pose, covariance};
+  const SecondStation& second = i == 0 ? resting_.second : moving_[i - 1].second;
+  const SecondView view(pose, second.pose);
+  return {view.pose, seen_covariance(view, covariance, second)};
+}
+
+Belief MotionBank::belief(Observer observer) const {
   Belief b;
-  const auto pose_of = [&](std::size_t i) -> const LighthouseFromBody& {
-    return i == 0 ? resting_.pose : moving_[i - 1].pose;
-  };
-  const auto top =
-      static_cast<std::size_t>(std::max_element(probability_.begin(), probability_.end()) - probability_.begin());
+  const std::size_t top = most_probable();
+  std::array<Seen, kModels> of;
   Vector6 mean = Vector6::Zero();
   std::array<Vector6, kModels> away;
+  // The wildest one is looked at however improbable.
+  for (std::size_t i = 0; i < kModels; ++i) {
+    if (probability_[i] >= 1e-9 || i == kMoving) of[i] = seen(i, observer);
+  }
   for (std::size_t i = 0; i < kModels; ++i) {
     if (probability_[i] < 1e-9) continue;
-    away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(pose_of(i), pose_of(top));
+    away[i] = i == top ? Vector6(Vector6::Zero()) : small_difference(of[i].pose, of[top].pose);
     mean += probability_[i] * away[i];
     if (i > 0) b.rate += probability_[i] * moving_[i - 1].rate;
   }
-  b.pose = pose_of(top).moved_by(mean);
+  b.pose = of[top].pose.moved_by(mean);
   for (std::size_t i = 0; i < kModels; ++i) {
     if (probability_[i] < 1e-9) continue;
     const Vector6 e = away[i] - mean;
-    b.covariance +=
-        probability_[i] * ((i == 0 ? resting_.covariance : moving_[i - 1].pp) + e.lazyProduct(e.transpose()));
+    b.covariance += probability_[i] * (of[i].covariance + e.lazyProduct(e.transpose()));
     Vector6 variance = b.rate.cwiseAbs2();
     if (i > 0) variance = (moving_[i - 1].rate - b.rate).cwiseAbs2() + moving_[i - 1].rr.diagonal();
     b.rotation_rate_variance += probability_[i] * variance.head<3>().sum() / 3.0;
     b.velocity_variance += probability_[i] * variance.tail<3>().sum() / 3.0;
   }
-  const MovingState& wildest = moving_.back();
+  const Seen& wildest = of[kMoving];
   const Vector6 apart = small_difference(wildest.pose, b.pose);
-  b.widest = b.covariance + wildest.pp + apart.lazyProduct(apart.transpose());
+  b.widest = b.covariance + wildest.covariance + apart.lazyProduct(apart.transpose());
+  if (observer == Observer::kSecond) {
+    const Matrix3& turn = second().pose.R;
+    b.rate.head<3>() = turn * b.rate.head<3>().eval();
+    b.rate.tail<3>() = turn * b.rate.tail<3>().eval();
+  }
   return b;
 }
 
-double MotionBank::correct(const SweepInformation& sweep, const LighthouseFromBody& pose) {
+template <class State>
+void MotionBank::correct_one(State& state, const SweepInformation& sweep, const Innovation& innovation,
+                             Observer observer) {
+  if (observer == Observer::kReference) {
+    state.correct(sweep, innovation, linked_);
+  } else {
+    state.correct_second(sweep, innovation, SecondView(state.pose, state.second.pose));
+  }
+}
+
+double MotionBank::correct(const SweepInformation& sweep, const LighthouseFromBody& pose, Observer observer) {
   std::array<Innovation, kModels> innovation;
   double least = 1e300;
   for (std::size_t i = 0; i < kModels; ++i) {
-    const LighthouseFromBody& own = i == 0 ? resting_.pose : moving_[i - 1].pose;
-    innovation[i] = innovation_of(sweep, i == 0 ? resting_.covariance : moving_[i - 1].pp, small_difference(own, pose));
+    const Seen own = seen(i, observer);
+    innovation[i] = innovation_of(sweep, own.covariance, small_difference(own.pose, pose));
     least = std::min(least, innovation[i].chi2 + innovation[i].log_det);
   }
   double sum = 0.0;
@@ -236,9 +303,9 @@ double MotionBank::correct(const SweepInformation& sweep, const LighthouseFromBo
     probability_[i] /= sum;
     probability_[i] = std::max(probability_[i], 1e-9);
     if (i == 0) {
-      resting_.correct(sweep, innovation[i]);
+      correct_one(resting_, sweep, innovation[i], observer);
     } else {
-      moving_[i - 1].correct(sweep, innovation[i]);
+      correct_one(moving_[i - 1], sweep, innovation[i], observer);
     }
   }
   return sweep.misfit + least - 2.0 * std::log(sum);

@@ -39,16 +39,29 @@ double residual_rms(const HitFits& used, const Vector6& shift) {
 
 }  // namespace
 
+MotionOptions motion_options(const track::TrackOptions& same, bool target_calibrated) {
+  MotionOptions options;
+  options.solve = same.solve;
+  options.form = same.form;
+  options.smooth_flashes = same.smooth_flashes;
+  if (same.solve.rho > 0.0) options.rho = same.solve.rho;
+  options.systematic = target_calibrated ? kCalibratedErrors : kUncalibratedErrors;
+  return options;
+}
+
 MotionTracker::MotionTracker(const Target& target, const MotionOptions& options) : target_(target), options_(options) {}
 
 void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
   if (station >= kMaxStations) return;
   Station& s = stations_[station];
+  if (s.calibration == calibration) return;
   // Another calibration moves every angle: what was believed is another body's place.
-  if (s.calibration && *s.calibration != calibration) s.track.lose();
-  if (!s.calibration) s.track.lose();
+  s.track.lose();
+  pair_.forget_learnt();
   s.calibration = calibration;
 }
+
+void MotionTracker::set_relative(const std::optional<StationRelative>& relative) { pair_.survey(relative); }
 
 bool MotionTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
   return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > track::kLongestDarkTicks;
@@ -56,6 +69,7 @@ bool MotionTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
 
 void MotionTracker::forget_stations() {
   stations_ = {};
+  pair_ = {};
   newest_flash_ticks_.reset();
 }
 
@@ -79,13 +93,33 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
     station.track.lose();
   }
   const bool lit = last_hit_ticks(bearings, target_) != INT64_MIN;
-  if (lit) station.track.push(bearings, axis, view_of(station), noise());
+  if (lit) {
+    station.track.push(bearings, axis, view_of(station), noise());
+    pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise());
+  }
   if (const auto cycle =
           station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
     station.track.check(*cycle, view_of(station), noise(), options_.solve);
   }
-  if (!lit) return std::nullopt;
+  if (bearings.empty()) return std::nullopt;
   return answer(station, sweep, bearings);
+}
+
+// Of the station's own track and of what both stations say together that which took the sweep and knows more.
+const Hypothesis* MotionTracker::better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const {
+  const Hypothesis* own = station.track.leader();
+  const Hypothesis* joint = pair_.joint();
+  // A leader that has just begun from an older cycle has nothing to say of this sweep.
+  if (own != nullptr && own->time_ticks() < time_ticks) own = nullptr;
+  if (joint == nullptr || joint->time_ticks() < time_ticks || joint->last_fit().used.empty() ||
+      joint->observer() != observer_of(slot)) {
+    return own;
+  }
+  if (own == nullptr || own->last_fit().used.empty()) return joint;
+  const Matrix6 &of_own = own->belief().covariance, &of_joint = joint->belief().covariance;
+  const bool knows_more = of_joint.topLeftCorner<3, 3>().trace() <= of_own.topLeftCorner<3, 3>().trace() &&
+                          of_joint.bottomRightCorner<3, 3>().trace() <= of_own.bottomRightCorner<3, 3>().trace();
+  return knows_more ? joint : own;
 }
 
 track::EpochResult MotionTracker::answer(Station& station, const lighthouse::Sweep& sweep,
@@ -96,33 +130,39 @@ track::EpochResult MotionTracker::answer(Station& station, const lighthouse::Swe
   result.time_ticks = last_hit_ticks(bearings, target_);
   result.observations = static_cast<int>(bearings.size());
   innovation_ = {};
-  // A leader that has just begun from an older cycle has nothing to say of this sweep.
-  const Hypothesis* leader = station.track.leader();
-  const bool took_part = leader != nullptr && leader->time_ticks() >= result.time_ticks;
-  keep_bearings(bearings, sweep.flash.axis, took_part ? &leader->last_fit() : nullptr);
-  if (!took_part) {
+  if (result.time_ticks == INT64_MIN) {
+    for (const lighthouse::Bearing& bearing : bearings)
+      result.time_ticks = std::max(result.time_ticks, bearing.time_ticks);
+    result.pose = pose::Refusal::kUnknownSensors;
+    keep_bearings(bearings, sweep.flash.axis, nullptr);
+    return result;
+  }
+  const Hypothesis* leader = better_of(station, result.station, result.time_ticks);
+  keep_bearings(bearings, sweep.flash.axis, leader != nullptr ? &leader->last_fit() : nullptr);
+  if (leader == nullptr) {
     result.pose = station.track.last_refusal() == pose::Refusal::kNone ? pose::Refusal::kTooFewSensors
                                                                        : station.track.last_refusal();
     return result;
   }
+  if (leader == pair_.joint()) result.flags |= track::kEpochFused;
   const SweepInformation& information = leader->last_fit().information;
   innovation_ = {leader->last_surprise(), information.rank, information.misfit, information.hits - information.rank};
-  result.pose = estimate(station, bearings, result);
+  result.pose = estimate(station, *leader, bearings, result);
   return result;
 }
 
-Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Station& station,
+Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Station& station, const Hypothesis& leader,
                                                                       const lighthouse::SweepBearings& bearings,
                                                                       track::EpochResult& result) const {
-  const Hypothesis& leader = *station.track.leader();
   const SweepFit& fit = leader.last_fit();
+  const Observer observer = leader.observer();
   if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
-  if (leader.own_scale() > kNoisy) result.flags |= track::kEpochResidualHigh;
+  if (leader.own_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
   if (fit.used.empty()) return pose::Refusal::kPoorFit;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 
-  const Belief belief = leader.predicted(result.time_ticks);
+  const Belief belief = leader.predicted(result.time_ticks, observer);
   LighthousePoseEstimate e;
   e.time_ns = ticks_to_nanoseconds(result.time_ticks);
   e.pose = belief.pose;
@@ -131,8 +171,8 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   e.observations = result.observations;
   e.iterations = 1;
   e.residual_rms = residual_rms(fit.used, pose_difference(leader.belief().pose, fit.pose));
-  if (leader.cycle_view().known()) {
-    const Matrix6 unit = leader.cycle_view().covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
+  if (leader.cycle_view(observer).known()) {
+    const Matrix6 unit = leader.cycle_view(observer).covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
     e.adop_deg_per_rad = pose::adop_of(unit);
     e.pdop_m_per_rad = pose::pdop_of(unit);
   } else {
@@ -142,7 +182,7 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
     return pose::Refusal::kTooFewSensors;
   }
   if (!e.pose.is_finite() || !e.covariance.allFinite()) return pose::Refusal::kNotConverged;
-  if (const Hypothesis* rival = station.track.rival()) {
+  if (const Hypothesis* rival = station.track.rival(); rival != nullptr && &leader != pair_.joint()) {
     const double delta = station.track.delta_chi2();
     if (delta < kAmbiguousDeltaChi2) e.second = {rival->belief().pose, std::max(0.0, delta)};
   }
@@ -164,9 +204,12 @@ void MotionTracker::keep_bearings(const lighthouse::SweepBearings& bearings, Axi
 
 std::optional<Belief> MotionTracker::predicted(std::uint8_t station, std::int64_t time_ticks) const {
   if (station >= kMaxStations) return std::nullopt;
+  const auto alive = [&](const Hypothesis* h) {
+    return h != nullptr && ticks_to_seconds(time_ticks - h->last_used_ticks()) <= kLost_s;
+  };
+  if (const Hypothesis* joint = pair_.joint(); alive(joint)) return joint->predicted(time_ticks, observer_of(station));
   const Hypothesis* leader = stations_[station].track.leader();
-  if (leader == nullptr || ticks_to_seconds(time_ticks - leader->last_used_ticks()) > kLost_s) return std::nullopt;
-  return leader->predicted(time_ticks);
+  return alive(leader) ? std::optional(leader->predicted(time_ticks)) : std::nullopt;
 }
 
 }  // namespace pharos::motion

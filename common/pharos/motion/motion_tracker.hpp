@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "pharos/motion/station_track.hpp"
+#include "pharos/motion/station_pair.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::motion {
@@ -21,6 +21,10 @@ struct MotionOptions {
   SystematicErrors systematic;
 };
 
+/// The noise and station model of a tracker of single cycles; a rho of 0 there was not told, and is the paper's here.
+/// `target_calibrated`: target and stations come from a calibration.
+MotionOptions motion_options(const track::TrackOptions& same, bool target_calibrated);
+
 /// What the last sweep said of the tracker's own honesty.
 struct InnovationStatistics {
   double surprise = 0.0;  // chi-squared of what it said to the prediction
@@ -30,15 +34,20 @@ struct InnovationStatistics {
 };
 
 /// Sweeps of one target in, a pose after every sweep out: motion-aware, each hit taken at its own instant. Up to two
-/// stations side by side, each in its own frame.
+/// stations; where both see the body, one belief takes the hits of both (StationPair).
 ///
-/// One answer a sweep that hit the target; its time is that of the last hit used. Answers have the form of
-/// EpochTracker's; `prior` then means that the body was seen too little of late to be solved alone. State: some 60 KiB.
-/// Cost: README.
+/// One answer a sweep that hit the target, in the frame of that sweep's station; its time is that of the last hit used.
+/// Answers have the form of EpochTracker's; `prior` then means that this station saw the body too little of late to
+/// solve it alone, `fused` that the pose rests on both stations. State: some 100 KiB. Cost: README.
 class MotionTracker {
  public:
   MotionTracker(const Target& target, const MotionOptions& options);
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
+  /// Where slot 1's station stands, as measured; empty: learnt from what both stations see. What is known stays until
+  /// the next call or forget_stations().
+  void set_relative(const std::optional<StationRelative>& relative);
+  /// What became of it, and what is known now.
+  const StationPair& pair() const { return pair_; }
   /// As EpochTracker's.
   bool after_long_dark(const lighthouse::Sweep& sweep) const;
   void forget_stations();
@@ -68,9 +77,11 @@ class MotionTracker {
 
   StationView view_of(const Station& station) const;
   AssumedNoise noise() const { return {options_.solve.sigma_rad, options_.rho, options_.systematic}; }
+  StationPair::Tracks tracks() const { return {&stations_[0].track, &stations_[1].track}; }
+  const Hypothesis* better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const;
   track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,
                             const lighthouse::SweepBearings& bearings);
-  Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station,
+  Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station, const Hypothesis& leader,
                                                          const lighthouse::SweepBearings& bearings,
                                                          track::EpochResult& result) const;
   void keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit);
@@ -78,6 +89,7 @@ class MotionTracker {
   Target target_;
   MotionOptions options_;
   std::array<Station, kMaxStations> stations_;
+  StationPair pair_;
   std::optional<std::int64_t> newest_flash_ticks_;
   // The sweep last answered.
   StaticVector<track::TrackedBearing, kMaxHitsPerSweep> bearings_;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pharos/base/ticks.hpp"
-#include "pharos/pose/packed_symmetric.hpp"
+#include "pharos/motion/disagreement.hpp"
 #include "pharos/track/ideal_observations.hpp"
 
 namespace pharos::motion {
@@ -105,17 +105,7 @@ bool StationTrack::agrees(const LighthouseFromBody& pose, const Matrix6& covaria
     allowed(k, k) += turned * turned;
     allowed(k + 3, k + 3) += moved * moved;
   }
-  pose::PackedSymmetric<6> packed;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) packed(i, j) = allowed(static_cast<int>(i), static_cast<int>(j));
-  }
-  const Vector6 d = pose_difference(pose, belief.pose);
-  std::array<double, 6> right;
-  for (std::size_t i = 0; i < 6; ++i) right[i] = d[static_cast<int>(i)];
-  const std::array<double, 6> solved = pose::Factorisation<6>(packed).solve(right);
-  double square = 0.0;
-  for (std::size_t i = 0; i < 6; ++i) square += right[i] * solved[i];
-  return square < kContradiction;
+  return disagreement(pose, belief.pose, allowed) < kContradiction;
 }
 
 void StationTrack::check(const track::Cycle& cycle, const StationView& view, const AssumedNoise& noise,

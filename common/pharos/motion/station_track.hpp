@@ -27,6 +27,7 @@ class StationTrack {
   const Hypothesis* leader() const { return leader_ ? &*leader_ : nullptr; }
   /// The rival once it may be compared with the leader, else null; its chi-squared minus the leader's.
   const Hypothesis* rival() const { return rival_ && rival_settled_ ? &*rival_ : nullptr; }
+  bool has_rival() const { return rival_.has_value(); }
   double delta_chi2() const { return rival_->cost() - leader_->cost(); }
   pose::Refusal last_refusal() const { return refusal_; }
 

@@ -43,8 +43,9 @@ enum EpochFlag : std::uint8_t {
   kEpochPrior = 16,         // could only be solved with the last pose as prior
   kEpochLockPoor = 32,      // as in Sweep
   kEpochResidualHigh = 64,  // the residual is beyond what the assumed noise explains: sigmas and ambiguity are too kind
+  kEpochFused = 128,        // rests on both stations' hits (motion)
 };
-inline constexpr std::array<FlagWord, 7> kEpochFlagWords{{
+inline constexpr std::array<FlagWord, 8> kEpochFlagWords{{
     {kEpochUncalibrated, "uncalibrated"},
     {kEpochFlashWeak, "flash_weak"},
     {kEpochPeriodNominal, "period_nominal"},
@@ -52,6 +53,7 @@ inline constexpr std::array<FlagWord, 7> kEpochFlagWords{{
     {kEpochPrior, "prior"},
     {kEpochLockPoor, "lock_poor"},
     {kEpochResidualHigh, "residual_high"},
+    {kEpochFused, "fused"},
 }};
 
 /// One cycle of one station (its x and its y sweep): a pose, or why there is none.

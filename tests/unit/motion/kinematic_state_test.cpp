@@ -107,13 +107,126 @@ TEST(MovingState, ACorrectionIsKalmans) {
 
   const MovingState before = s;
   const Innovation innovation = innovation_of(information, s.pp, Vector6::Zero());
-  s.correct(information, innovation);
+  s.correct(information, innovation, false);
   EXPECT_LT((whole(s) - expected).norm(), 1e-9 * P.norm());
   EXPECT_LT((pose_difference(s.pose, before.pose) - shift.head<6>()).norm(), 1e-9);
   EXPECT_LT((s.rate - before.rate - shift.segment<6>(6)).norm(), 1e-9);
   EXPECT_LT((s.acceleration - before.acceleration - shift.tail<6>()).norm(), 1e-9);
   EXPECT_NEAR(innovation.chi2 + information.misfit, r.dot(S.inverse() * r), 1e-6);
   EXPECT_NEAR(innovation.log_det, std::log(S.determinant() / R.determinant()), 1e-8);
+}
+
+using Matrix24 = Eigen::Matrix<double, 24, 24>;
+using Vector24 = Eigen::Matrix<double, 24, 1>;
+
+Matrix24 whole_with_second(const MovingState& s) {
+  Matrix24 P;
+  P.topLeftCorner<18, 18>() = whole(s);
+  P.bottomLeftCorner<6, 18>() << s.second.sp, s.second.sr, s.second.sa;
+  P.topRightCorner<18, 6>() = P.bottomLeftCorner<6, 18>().transpose();
+  P.bottomRightCorner<6, 6>() = s.second.ss;
+  return P;
+}
+
+MovingState some_linked_state(unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  Matrix24 root;
+  for (int i = 0; i < 24; ++i) {
+    for (int j = 0; j < 24; ++j) root(i, j) = 0.01 * normal(engine);
+  }
+  const Matrix24 P = root * root.transpose();
+  MovingState s = some_state(seed);
+  s.pp = P.block<6, 6>(0, 0);
+  s.rp = P.block<6, 6>(6, 0);
+  s.rr = P.block<6, 6>(6, 6);
+  s.ap = P.block<6, 6>(12, 0);
+  s.ar = P.block<6, 6>(12, 6);
+  s.aa = P.block<6, 6>(12, 12);
+  s.second.pose = {rotation_exp({0.1, 0.8, -0.2}), {1.5, 0.2, -0.4}};
+  s.second.sp = P.block<6, 6>(18, 0);
+  s.second.sr = P.block<6, 6>(18, 6);
+  s.second.sa = P.block<6, 6>(18, 12);
+  s.second.ss = P.block<6, 6>(18, 18);
+  return s;
+}
+
+// By small differences: what the second station sees of the body when the body and when that station is moved.
+TEST(SecondView, KnowsHowErrorsOfBodyAndStationLookFromTheSecondStation) {
+  constexpr double kSmall = 1e-6;
+  const MovingState s = some_linked_state(3);
+  const SecondView view(s.pose, s.second.pose);
+  for (int k = 0; k < 6; ++k) {
+    Vector6 error = Vector6::Zero();
+    error[k] = kSmall;
+    const Vector6 by_body = pose_difference(s.second.pose * s.pose.moved_by(error), view.pose) / kSmall;
+    const Vector6 by_second = pose_difference(s.second.pose.moved_by(error) * s.pose, view.pose) / kSmall;
+    EXPECT_LT((by_body - view.by_body.col(k)).norm(), 1e-5) << k;
+    EXPECT_LT((by_second - view.by_second.col(k)).norm(), 1e-5) << k;
+  }
+}
+
+TEST(SecondView, TimeCarriesItsShareOfTheCovariance) {
+  constexpr double kStep_s = 0.008, kSmall = 1e-6;
+  const MovingState s = some_linked_state(4);
+  MovingState end = s;
+  end.predict_mean(kStep_s);
+  Matrix24 F = Matrix24::Identity();
+  for (int k = 0; k < 18; ++k) {
+    Eigen::Matrix<double, 18, 1> error = Eigen::Matrix<double, 18, 1>::Zero();
+    error[k] = kSmall;
+    MovingState other = moved(s, error);
+    other.predict_mean(kStep_s);
+    F.col(k).head<18>() << pose_difference(other.pose, end.pose), other.rate - end.rate,
+        other.acceleration - end.acceleration;
+    F.col(k).head<18>() /= kSmall;
+  }
+  MovingState predicted = s;
+  predicted.predict_second(kStep_s);
+  predicted.predict(kStep_s, 0.0, 0.0);
+  const Matrix24 expected = F * whole_with_second(s) * F.transpose();
+  EXPECT_LT((whole_with_second(predicted) - expected).norm(), 1e-3 * expected.norm());
+}
+
+// Hits of either station move the body and the second station as Kalman's gain says.
+TEST(SecondView, ACorrectionOfEitherStationIsKalmans) {
+  for (const bool second : {false, true}) {
+    MovingState s = some_linked_state(5);
+    std::mt19937_64 engine(9);
+    std::normal_distribution<double> normal;
+    const SecondView view(s.pose, s.second.pose);
+    Eigen::Matrix<double, 6, 24> by_state = Eigen::Matrix<double, 6, 24>::Zero();
+    by_state.leftCols<6>() = second ? view.by_body : Matrix6(Matrix6::Identity());
+    if (second) by_state.rightCols<6>() = view.by_second;
+    InformationSums sums;
+    Eigen::Matrix<double, 7, 24> H;
+    Eigen::Matrix<double, 7, 1> r;
+    constexpr double kOwn = 1e-4, kCommon = 9e-4;
+    Eigen::Matrix<double, 7, 7> R = Eigen::Matrix<double, 7, 7>::Constant(kCommon);
+    for (int i = 0; i < 7; ++i) {
+      Vector6 h;
+      for (int j = 0; j < 6; ++j) h[j] = normal(engine);
+      H.row(i) = h.transpose() * by_state;
+      r[i] = 0.01 * normal(engine);
+      R(i, i) += kOwn;
+      sums.add(h, r[i], 1.0 / kOwn);
+    }
+    const SweepInformation information = sums.close(kCommon);
+    const Matrix24 P = whole_with_second(s);
+    const Eigen::Matrix<double, 24, 7> K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
+    const Vector24 shift = K * r;
+    const MovingState before = s;
+    if (second) {
+      const Matrix6 seen = seen_covariance(view, s.pp, s.second);
+      s.correct_second(information, innovation_of(information, seen, Vector6::Zero()), view);
+    } else {
+      s.correct(information, innovation_of(information, s.pp, Vector6::Zero()), true);
+    }
+    EXPECT_LT((whole_with_second(s) - (P - K * H * P)).norm(), 1e-9 * P.norm());
+    EXPECT_LT((pose_difference(s.pose, before.pose) - shift.head<6>()).norm(), 1e-9);
+    EXPECT_LT((s.rate - before.rate - shift.segment<6>(6)).norm(), 1e-9);
+    EXPECT_LT((pose_difference(s.second.pose, before.second.pose) - shift.tail<6>()).norm(), 1e-9);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/motion/station_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pharos/base/ticks.hpp"
+#include "pharos/motion/disagreement.hpp"
+
+namespace pharos::motion {
+namespace {
+
+// Half a second of sweeps and a pose this good before a track tells where the other station stands.
+constexpr int kSettledSweeps = 60;
+constexpr double kSettledRotation_rad = 0.035, kSettledPosition_m = 0.03;
+// What the second station's sweeps may correct of a relative pose that two tracks told: as at a start from one cycle.
+constexpr double kLooseRotation_rad = 0.06, kLoosePosition_m = 0.1;
+// A track that saw the body this recently knows where it is.
+constexpr double kFresh_s = 0.03;
+// Squared distance (6 degrees of freedom) from which two poses contradict each other, and sweeps in a row that it
+// takes.
+constexpr double kContradiction = 40.0;
+constexpr int kContradictions = 30;
+// A joint hypothesis that knows less than this of the pose is none.
+constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
+constexpr double kLost_s = 0.5;
+
+double rotation_variance(const Matrix6& covariance) { return covariance.topLeftCorner<3, 3>().trace(); }
+double position_variance(const Matrix6& covariance) { return covariance.bottomRightCorner<3, 3>().trace(); }
+
+bool settled(const StationTrack& track) {
+  const Hypothesis* leader = track.leader();
+  if (leader == nullptr || track.has_rival() || leader->sweeps() < kSettledSweeps || leader->doubts() > 0) return false;
+  const Matrix6& covariance = leader->belief().covariance;
+  return rotation_variance(covariance) < kSettledRotation_rad * kSettledRotation_rad &&
+         position_variance(covariance) < kSettledPosition_m * kSettledPosition_m;
+}
+
+bool settled_together(const StationPair::Tracks& tracks) {
+  if (!settled(*tracks[0]) || !settled(*tracks[1])) return false;
+  const std::int64_t apart = tracks[0]->leader()->last_used_ticks() - tracks[1]->leader()->last_used_ticks();
+  return std::abs(ticks_to_seconds(apart)) < kFresh_s;
+}
+
+std::int64_t now_of(const StationPair::Tracks& tracks) {
+  return std::max(tracks[0]->leader()->time_ticks(), tracks[1]->leader()->time_ticks());
+}
+
+}  // namespace
+
+StationRelative StationRelative::seen_from_the_other() const {
+  Matrix6 by = Matrix6::Zero();
+  by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = -T_0_1.R.transpose();
+  by.bottomLeftCorner<3, 3>() = -T_0_1.R.transpose() * skew(T_0_1.t);
+  return {T_0_1.inverse(), by.lazyProduct(Matrix6(covariance.lazyProduct(by.transpose())))};
+}
+
+void StationPair::survey(const std::optional<StationRelative>& relative) {
+  lose();
+  learnt_.reset();
+  surveyed_.reset();
+  survey_refused_ = false;
+  if (!relative) return;
+  const StationRelative other = relative->seen_from_the_other();
+  surveyed_ = {other.T_0_1, other.covariance};
+}
+
+void StationPair::lose() {
+  joint_.reset();
+  contradictions_ = {};
+}
+
+void StationPair::forget_learnt() {
+  lose();
+  learnt_.reset();
+}
+
+std::optional<StationRelative> StationPair::relative() const {
+  if (!joint_) return std::nullopt;
+  const SecondStation& second = joint_->bank().second();
+  return StationRelative{second.pose, second.ss}.seen_from_the_other();
+}
+
+void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std::uint8_t station, const Tracks& tracks,
+                       const StationView& view, const AssumedNoise& noise) {
+  if (!joint_) {
+    start(tracks);
+    return;
+  }
+  const std::int64_t now = last_hit_ticks(bearings, *view.target);
+  if (ticks_to_seconds(now - joint_->last_used_ticks()) > kLost_s) {
+    remember();
+    lose();
+    return;
+  }
+  joint_->push(bearings, axis, view, noise, observer_of(station));
+  const Matrix6& covariance = joint_->belief().covariance;
+  if (!(rotation_variance(covariance) < kLostRotation_rad * kLostRotation_rad) ||
+      !(position_variance(covariance) < kLostPosition_m * kLostPosition_m)) {
+    remember();
+    lose();
+    return;
+  }
+  watch(station, tracks);
+}
+
+// The relative pose against what both tracks say now.
+bool StationPair::fits(const Known& known, const Tracks& tracks) const {
+  const std::int64_t now = now_of(tracks);
+  const Belief first = tracks[0]->leader()->predicted(now), second = tracks[1]->leader()->predicted(now);
+  const SecondView view(first.pose, known.T_1_0);
+  const Matrix6 allowed = seen_covariance(view, first.covariance, {known.T_1_0, known.covariance}) + second.covariance;
+  return disagreement(second.pose, view.pose, allowed) < kContradiction;
+}
+
+const StationPair::Known* StationPair::known() const {
+  if (surveyed_ && !survey_refused_) return &*surveyed_;
+  return learnt_ ? &*learnt_ : nullptr;
+}
+
+void StationPair::start(const Tracks& tracks) {
+  const bool together = settled_together(tracks);
+  if (const Known* there = known(); there != nullptr && together && !fits(*there, tracks)) {
+    if (++contradictions_[0] < kContradictions) return;
+    contradictions_ = {};
+    ++refusals_;
+    if (there == &*surveyed_) survey_refused_ = true;
+    learnt_.reset();
+  }
+  if (const Known* there = known(); there != nullptr) {
+    if (!settled(*tracks[0])) return;
+    joint_ = *tracks[0]->leader();
+    joint_->link(there->T_1_0, there->covariance, surveyed_ && there == &*surveyed_);
+  } else if (together) {
+    start_from_both(tracks);
+  }
+  contradictions_ = {};
+}
+
+void StationPair::start_from_both(const Tracks& tracks) {
+  const std::int64_t now = now_of(tracks);
+  const LighthouseFromBody first = tracks[0]->leader()->predicted(now).pose;
+  const LighthouseFromBody second = tracks[1]->leader()->predicted(now).pose;
+  const StationFromStation T_1_0 = second * first.inverse();
+  // As loose in what the second station sees of the body.
+  Matrix6 seen = Matrix6::Zero();
+  seen.diagonal().head<3>().setConstant(kLooseRotation_rad * kLooseRotation_rad);
+  seen.diagonal().tail<3>().setConstant(kLoosePosition_m * kLoosePosition_m);
+  Matrix6 back = SecondView(first, T_1_0).by_second;
+  back.bottomLeftCorner<3, 3>() *= -1.0;  // its inverse
+  joint_ = *tracks[0]->leader();
+  joint_->link(T_1_0, back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))), false);
+}
+
+// A station's own track against the joint hypothesis. Which of them is wrong, and whether the relative pose is, shows
+// when the next joint hypothesis is to begin.
+void StationPair::watch(std::uint8_t station, const Tracks& tracks) {
+  int& contradictions = contradictions_[station];
+  bool apart = false;
+  if (settled(*tracks[station])) {
+    const Belief own = tracks[station]->leader()->predicted(joint_->time_ticks());
+    const Belief& belief = joint_->belief();
+    apart = disagreement(own.pose, belief.pose, belief.covariance + own.covariance) > kContradiction;
+  }
+  contradictions = apart ? contradictions + 1 : 0;
+  if (contradictions < kContradictions) return;
+  remember();
+  lose();
+}
+
+void StationPair::remember() {
+  const SecondStation& second = joint_->bank().second();
+  learnt_ = {second.pose, second.ss};
+}
+
+}  // namespace pharos::motion

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two stations before one body: both in one belief, beside each of them alone on the same sweeps.
+#include <gtest/gtest.h>
+
+#include "tests/unit/motion/flight.hpp"
+
+namespace pharos::motion {
+namespace {
+
+using test::FlightScore;
+
+// Two metres apart, turned towards the volume between them.
+sim::LighthouseScenario before_two_stations(double duration_s, std::uint64_t seed) {
+  sim::LighthouseScenario scenario = test::manoeuvre(duration_s, 0.5, 60.0, seed);
+  scenario.stations.resize(2);
+  scenario.stations[0].mode = sim::StationMode::kB;
+  scenario.stations[1].mode = sim::StationMode::kC;
+  scenario.stations[1].id = 2;
+  scenario.stations[0].pose = {rotation_exp({0.0, 0.3, 0.0}), {-1.0, 0.0, 0.0}};
+  scenario.stations[1].pose = {rotation_exp({0.0, -0.3, 0.0}), {1.0, 0.0, 0.0}};
+  return scenario;
+}
+
+StationFromStation relative_of(const sim::LighthouseScenario& scenario) {
+  return scenario.stations[0].pose.inverse() * scenario.stations[1].pose;
+}
+
+Matrix6 sigmas(double rotation_rad, double position_m) {
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.diagonal().head<3>().setConstant(rotation_rad * rotation_rad);
+  covariance.diagonal().tail<3>().setConstant(position_m * position_m);
+  return covariance;
+}
+
+struct PairScore {
+  std::array<FlightScore, kMaxStations> fused, alone;
+  std::array<int, kMaxStations> rows_fused{};
+};
+
+class PairFlight {
+ public:
+  explicit PairFlight(const sim::LighthouseScenario& scenario, const MotionOptions& options = test::flight_options())
+      : scenario_(scenario), options_(options) {}
+  std::optional<StationRelative> relative;
+  double settled_s = 2.0;  // answers before are not scored
+
+  void run(std::uint64_t seed, PairScore& score) {
+    sim::LighthouseSimulator simulator(scenario_, seed);
+    const auto decoder = std::make_unique<lighthouse::Decoder>();
+    std::array<std::unique_ptr<MotionTracker>, kMaxStations> alone;
+    fused = std::make_unique<MotionTracker>(scenario_.target, options_);
+    for (auto& tracker : alone) tracker = std::make_unique<MotionTracker>(scenario_.target, options_);
+    for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+      fused->set_calibration(station, {});
+      alone[station]->set_calibration(station, {});
+    }
+    fused->set_relative(relative);
+    const auto take = [&](const std::optional<track::EpochResult>& result, auto& scores) {
+      if (!result) return;
+      const double time_s = ticks_to_seconds(result->time_ticks);
+      if (time_s < 1.0 + settled_s) return;  // the counter starts at one second
+      scores[result->station].add({time_s, &*result, simulator.truth(result->station, time_s)});
+      score.rows_fused[result->station] += (result->flags & track::kEpochFused) != 0 ? 1 : 0;
+    };
+    const auto give = [&] {
+      while (decoder->take_ootx()) {
+      }
+      while (const auto sweep = decoder->take_sweep()) {
+        take(fused->push(*sweep), score.fused);
+        take(alone[sweep->flash.station]->push(*sweep), score.alone);
+      }
+    };
+    while (const auto pulse = simulator.next()) {
+      decoder->push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+      give();
+    }
+    decoder->flush();
+    give();
+  }
+
+  std::unique_ptr<MotionTracker> fused;
+
+ private:
+  const sim::LighthouseScenario& scenario_;
+  MotionOptions options_;
+};
+
+void print(const char* what, const PairScore& score) {
+  for (std::size_t station = 0; station < kMaxStations; ++station) {
+    for (const auto& [name, s] :
+         {std::pair{"fused", &score.fused[station]}, std::pair{"alone", &score.alone[station]}}) {
+      std::printf(
+          "%s, station %zu %s: %.4f deg %.3f mm RMS, %.2f deg %.1f mm at most, NEES %.3f, %d answers (%d fused)\n",
+          what, station, name, s->rotation_rms_deg(), s->position_rms_mm(), s->rotation_max_deg, s->position_max_mm,
+          s->nees_per_freedom(), s->answers, score.rows_fused[station]);
+    }
+  }
+}
+
+TEST(MotionPair, WithAKnownRelativePoseBothAreBetterThanEitherAlone) {
+  PairScore score;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const sim::LighthouseScenario scenario = before_two_stations(8.0, seed);
+    PairFlight flight(scenario);
+    // As good as a calibration knows it, and off by one draw of that.
+    constexpr double kTurn_rad = 0.2e-3, kPlace_m = 0.3e-3;
+    sim::RandomStream random(seed, "relative pose");
+    Vector6 error;
+    for (int k = 0; k < 6; ++k) error[k] = (k < 3 ? kTurn_rad : kPlace_m) * random.normal();
+    flight.relative = {relative_of(scenario).moved_by(error), sigmas(kTurn_rad, kPlace_m)};
+    flight.run(seed, score);
+    EXPECT_FALSE(flight.fused->pair().survey_refused());
+  }
+  print("known", score);
+  for (std::size_t station = 0; station < kMaxStations; ++station) {
+    EXPECT_GT(score.fused[station].answers, 2500);
+    EXPECT_LT(score.fused[station].rotation_rms_deg(), 0.9 * score.alone[station].rotation_rms_deg());
+    EXPECT_LT(score.fused[station].position_rms_mm(), 0.9 * score.alone[station].position_rms_mm());
+  }
+}
+
+TEST(MotionPair, LearnsWhereTheSecondStationStands) {
+  PairScore score;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const sim::LighthouseScenario scenario = before_two_stations(8.0, seed);
+    PairFlight flight(scenario);
+    flight.run(seed, score);
+    const auto relative = flight.fused->pair().relative();
+    ASSERT_TRUE(relative.has_value()) << seed;
+    const Vector6 error = pose_difference(relative_of(scenario), relative->T_0_1);
+    EXPECT_LT(error.dot(relative->covariance.ldlt().solve(error)), 30.0) << seed;  // six degrees of freedom
+    EXPECT_LT(error.tail<3>().norm(), 0.02) << seed;
+    EXPECT_LT(error.head<3>().norm(), 0.005) << seed;
+  }
+  print("learnt", score);
+}
+
+// A relative pose that somebody mistyped, or a station that was knocked since the calibration.
+TEST(MotionPair, AWrongRelativePoseIsRefusedToldAndCostsNothing) {
+  PairScore score;
+  for (const double wrong_m : {0.02, 0.3}) {
+    const sim::LighthouseScenario scenario = before_two_stations(8.0, 3);
+    PairFlight flight(scenario);
+    Vector6 error = Vector6::Zero();
+    error[3] = wrong_m;
+    flight.relative = {relative_of(scenario).moved_by(error), sigmas(0.2e-3, 0.3e-3)};
+    flight.settled_s = 3.0;
+    flight.run(3, score);
+    EXPECT_TRUE(flight.fused->pair().survey_refused()) << wrong_m;
+    EXPECT_GE(flight.fused->pair().refusals(), 1);
+    // It is then learnt as if nothing had been said.
+    const auto relative = flight.fused->pair().relative();
+    ASSERT_TRUE(relative.has_value());
+    EXPECT_LT((relative->T_0_1.t - relative_of(scenario).t).norm(), 0.02);
+  }
+  print("wrong", score);
+  for (std::size_t station = 0; station < kMaxStations; ++station) {
+    EXPECT_LT(score.fused[station].position_rms_mm(), score.alone[station].position_rms_mm());
+    EXPECT_LT(score.fused[station].position_max_mm, 10.0);
+  }
+}
+
+// One station is dark for two seconds, then the other: the body is never lost, and what was learnt of them stays.
+TEST(MotionPair, GoesOnWithEitherStationAlone) {
+  sim::LighthouseScenario scenario = before_two_stations(12.0, 5);
+  scenario.faults.restarts = {{1, 4.0, 1.5}, {0, 8.0, 1.5}};
+  PairScore score;
+  PairFlight flight(scenario);
+  flight.run(5, score);
+  print("one dark", score);
+  EXPECT_NE(flight.fused->pair().joint(), nullptr);
+  EXPECT_EQ(flight.fused->pair().refusals(), 0);
+  for (std::size_t station = 0; station < kMaxStations; ++station) {
+    EXPECT_GT(score.fused[station].answers, 400);
+    EXPECT_LT(score.fused[station].position_rms_mm(), score.alone[station].position_rms_mm());
+    EXPECT_LT(score.fused[station].nees_per_freedom(), 1.6);
+  }
+}
+
+// Three sensors before one station are too few to begin with; what the other one sees makes them enough.
+TEST(MotionPair, AStationThatSeesTooLittleAloneIsHelpedByTheOther) {
+  const sim::LighthouseScenario scenario = before_two_stations(6.0, 7);
+  sim::LighthouseSimulator simulator(scenario, 7);
+  const auto decoder = std::make_unique<lighthouse::Decoder>();
+  const auto fused = std::make_unique<MotionTracker>(scenario.target, test::flight_options());
+  const auto alone = std::make_unique<MotionTracker>(scenario.target, test::flight_options());
+  for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+    fused->set_calibration(station, {});
+    alone->set_calibration(station, {});
+  }
+  fused->set_relative(StationRelative{relative_of(scenario), sigmas(0.2e-3, 0.3e-3)});
+  int answered = 0, answered_alone = 0, asked = 0;
+  double worst_mm = 0.0;
+  while (const auto pulse = simulator.next()) {
+    decoder->push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+    while (decoder->take_ootx()) {
+    }
+    while (auto sweep = decoder->take_sweep()) {
+      if (sweep->flash.station == 1) {
+        while (sweep->hits.size() > 2) sweep->hits.pop_back();
+      }
+      const auto together = fused->push(*sweep), single = alone->push(*sweep);
+      const double time_s = ticks_to_seconds(sweep->flash.start_ticks);
+      if (sweep->flash.station != 1 || time_s < 3.0 || !together) continue;
+      ++asked;
+      if (single && single->pose) ++answered_alone;
+      if (!together->pose) continue;
+      ++answered;
+      const auto truth = simulator.truth(1, ticks_to_seconds(together->time_ticks));
+      worst_mm = std::max(worst_mm, (together->pose->pose.t - truth.t).norm() * kMmPerM);
+    }
+  }
+  EXPECT_GT(asked, 150);
+  EXPECT_EQ(answered_alone, 0);
+  EXPECT_GT(answered, asked * 99 / 100);
+  EXPECT_LT(worst_mm, 15.0);
+}
+
+}  // namespace
+}  // namespace pharos::motion
