@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/stereo_tumbling/tumbling_options.hpp"
+
+#include <memory>
+
+#include "tools/cli/progress.hpp"
+#include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
+
+namespace pharos::tools {
+namespace {
+
+struct Options {
+  std::string scene, renderer = "povray", light = "good";
+  sim::TumblingScenario scenario;
+};
+
+bool write_scene(Options options, std::uint64_t seed, const std::string& directory) {
+  if (options.scene.empty()) return false;
+  options.scenario.povray = options.renderer == "povray";
+  options.scenario.good_light = options.light == "good";
+  const auto pairs = static_cast<std::size_t>(options.scenario.turn_deg / options.scenario.step_deg) + 1;
+  Progress progress("rendered", "pairs", pairs);
+  sim::write_tumbling(options.scenario, seed, directory, [&progress] { progress.step(); });
+  return true;
+}
+
+}  // namespace
+
+std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("--scene", options->scene, "tumbling: a satellite that turns (paper 004), instead of a scenario")
+      ->check(CLI::IsMember({"tumbling"}));
+  command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling: the whole turn (default 360)")
+      ->check(CLI::Range(0.0, 7200.0));
+  command.add_option("--step-deg", options->scenario.step_deg, "tumbling: a frame (default 0.5)")
+      ->check(CLI::Range(0.01, 30.0));
+  command.add_option("--light", options->light, "tumbling: good (a lamp and ambient 0.1) or low (ambient alone)")
+      ->check(CLI::IsMember({"good", "low"}));
+  command.add_option("--ambient", options->scenario.ambient, "tumbling: ambient light (default 0.1)")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--renderer", options->renderer, "tumbling: povray, or rays: without gloss, in a third of the time")
+      ->check(CLI::IsMember({"povray", "rays"}));
+  return [options](std::uint64_t seed, const std::string& directory) { return write_scene(*options, seed, directory); };
+}
+
+}  // namespace pharos::tools

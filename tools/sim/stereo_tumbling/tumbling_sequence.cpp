@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "host/support/exact_number.hpp"
+#include "host/support/input_error.hpp"
+#include "tools/sim/povray/render_scene.hpp"
+#include "tools/sim/povray/scene_text.hpp"
+#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/stereo_tumbling/cast_panels.hpp"
+#include "tools/sim/stereo_tumbling/povray_panels.hpp"
+#include "tools/sim/stereo_tumbling/satellite_scene.hpp"
+
+namespace pharos::sim {
+namespace {
+
+constexpr int kRaysPerSide = 2;
+constexpr double kAntialias = 0.02;
+constexpr double kBlur_px = 0.6;  // of the optics
+constexpr double kGloss = 0.15;
+constexpr double kPeak_e = 8000.0;
+const Vector3 kLamp_m(0.5, -1.0, -1.0);
+
+// The satellite's z axis, about which it turns, leans towards the cameras and aside: four of its faces pass by and one
+// stays in view.
+Matrix3 start_attitude() {
+  return rotation_exp(Vector3(0.35, 0.0, 0.0)) * rotation_exp(Vector3(0.0, 0.0, 0.2)) *
+         rotation_exp(Vector3(0.5 * std::numbers::pi, 0.0, 0.0));
+}
+
+std::string frame_name(int frame) {
+  const std::string digits = std::to_string(frame);
+  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits + ".png";
+}
+
+class TextureFolder {
+ public:
+  TextureFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "pharos-textures-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw host::InputError(pattern + ": cannot be made; set TMPDIR");
+    path_ = pattern;
+  }
+  TextureFolder(const TextureFolder&) = delete;
+  TextureFolder& operator=(const TextureFolder&) = delete;
+  ~TextureFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+struct TumblingSequence::Work {
+  PanelScene satellite;
+  std::vector<Star> stars;
+  std::array<PinholeCamera, 2> cameras;
+  std::array<Pose<frame::Rig, frame::Camera>, 2> T_rig_camera;
+  std::vector<Vector2> rays;
+  TextureFolder textures;
+  ImageSensor sensor;
+  int rendered_frame = -1, rendered_side = -1;
+  LinearImage rendered;
+
+  LinearImage render(const PanelScene& scene, const Lighting& lighting, std::size_t side, bool povray) const {
+    const PinholeCamera& camera = cameras[side];
+    if (!povray) return cast_panels(scene, lighting, camera, rays, kRaysPerSide, T_rig_camera[side]);
+    const PovrayView view{camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
+    return render_scene(povray_preamble() + povray_camera(view, T_rig_camera[side].R, T_rig_camera[side].t) +
+                            povray_panels(scene, lighting, textures.path(), kGloss),
+                        {camera.width_px, camera.height_px, kRaysPerSide, kAntialias, 1});
+  }
+};
+
+TumblingSequence::TumblingSequence(const TumblingScenario& scenario, std::uint64_t seed)
+    : scenario_(scenario), seed_(seed), work_(std::make_unique<Work>()) {
+  Work& work = *work_;
+  work.satellite = satellite_scene(seed);
+  work.stars = star_field(scenario.stars, seed);
+  const double focal = scenario.focal_px * scenario.width_px / 640.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    work.cameras[side] = {scenario.width_px,
+                          scenario.height_px,
+                          focal,
+                          focal,
+                          0.5 * (scenario.width_px - 1),
+                          0.5 * (scenario.height_px - 1),
+                          {}};
+    work.T_rig_camera[side].t.x() = (side == 0 ? -0.5 : 0.5) * scenario.baseline_m;
+  }
+  if (scenario.povray) {
+    write_texture_files(work.satellite, work.textures.path());
+  } else {
+    work.rays = pixel_rays(work.cameras[0], kRaysPerSide);
+  }
+  // The gain that lets good light peak at 80 % of the well, for low light too.
+  const auto start = pose(0);
+  const LinearImage good =
+      work.render(moved(work.satellite, start.R, start.t), {0.1, 0.9, kLamp_m}, 0, scenario.povray);
+  work.sensor.electrons_per_light = kPeak_e / peak_light(good);
+}
+
+TumblingSequence::~TumblingSequence() = default;
+
+int TumblingSequence::frames() const {
+  return static_cast<int>(std::lround(scenario_.turn_deg / scenario_.step_deg)) + 1;
+}
+
+host::RigFile TumblingSequence::rig() const {
+  host::RigFile rig;
+  rig.left.optics = work_->cameras[0];
+  rig.right.optics = work_->cameras[1];
+  rig.left.position_m = {work_->T_rig_camera[0].t.x(), 0.0, 0.0};
+  rig.right.position_m = {work_->T_rig_camera[1].t.x(), 0.0, 0.0};
+  return rig;
+}
+
+Pose<frame::Rig, frame::Target> TumblingSequence::pose(int frame) const {
+  const double turned = frame * scenario_.step_deg * std::numbers::pi / 180.0;
+  return {start_attitude() * rotation_exp(Vector3(0.0, 0.0, turned)), Vector3(0.0, 0.0, scenario_.distance_m)};
+}
+
+Pose<frame::Camera, frame::Target> TumblingSequence::truth(int frame) const {
+  const auto T_left_rig = work_->T_rig_camera[0].inverse();
+  const auto now = T_left_rig * pose(frame), first = T_left_rig * pose(0);
+  // The target's frame is the left camera's own at frame 0: T_now = [now] [first]^-1.
+  return {now.R * first.R.transpose(), now.t - now.R * first.R.transpose() * first.t};
+}
+
+host::GreyImage TumblingSequence::image(int frame, int side) {
+  Work& work = *work_;
+  const auto k = static_cast<std::size_t>(side);
+  if (work.rendered_frame != frame || work.rendered_side != side) {
+    const auto here = pose(frame);
+    const Lighting light{scenario_.ambient, scenario_.good_light ? 0.9 : 0.0, kLamp_m};
+    work.rendered = work.render(moved(work.satellite, here.R, here.t), light, k, scenario_.povray);
+    draw_stars(work.rendered, work.stars, work.cameras[k], work.T_rig_camera[k]);
+    work.rendered = blurred(work.rendered, kBlur_px);
+    work.rendered_frame = frame;
+    work.rendered_side = side;
+  }
+  RandomStream random(seed_, (side == 0 ? "left " : "right ") + std::to_string(frame));
+  return expose(work.rendered, work.sensor, random);
+}
+
+void write_tumbling(const TumblingScenario& scenario, std::uint64_t seed, const std::string& directory,
+                    const std::function<void()>& step) {
+  TumblingSequence sequence(scenario, seed);
+  const std::filesystem::path root(directory);
+  for (const char* side : {"left", "right"}) {
+    std::error_code error;
+    std::filesystem::create_directories(root / side, error);
+    if (error) throw host::InputError((root / side).string() + ": cannot be made: " + error.message());
+  }
+  std::ofstream(root / "rig.toml") << host::rig_text(sequence.rig());
+  std::ofstream truth(root / "truth.tum");
+  for (int frame = 0; frame < sequence.frames(); ++frame) {
+    for (int side = 0; side < 2; ++side) {
+      const host::GreyImage image = sequence.image(frame, side);
+      host::write_grey_png((root / (side == 0 ? "left" : "right") / frame_name(frame)).string(), image.view(), 8);
+    }
+    const auto pose = sequence.truth(frame);
+    const Quaternion q = pose.quaternion();
+    truth << host::exact_number(frame / scenario.rate_hz);
+    for (const double value : {pose.t.x(), pose.t.y(), pose.t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      truth << ' ' << host::exact_number(value);
+    }
+    truth << '\n';
+    step();
+  }
+  if (!truth.flush()) throw host::InputError((root / "truth.tum").string() + ": cannot be written");
+}
+
+}  // namespace pharos::sim
