@@ -33,7 +33,10 @@ fixed::SineCosine any_sine_cosine(double angle_rad) {
   return fixed::sine_cosine(static_cast<Q30>(fixed::from_double(folded, 30)));
 }
 
-bool wide(Q30 angle) { return angle > kWidest || angle < -kWidest; }
+// From straight ahead.
+std::int64_t from_ahead(double theta_rad) { return fixed::from_double(theta_rad, 30) - kQuarterTurn; }
+
+bool wide(std::int64_t angle) { return angle > kWidest || angle < -kWidest; }
 
 }  // namespace
 
@@ -82,9 +85,8 @@ Q30 FixedStationModel::raw_of(const Rotor& rotor, const Angle& swept, const Angl
 }
 
 std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw) {
-  const std::int64_t wide_x = fixed::from_double(raw.x_rad, 30) - kQuarterTurn;
-  const std::int64_t wide_y = fixed::from_double(raw.y_rad, 30) - kQuarterTurn;
-  if (!usable_ || wide_x > kWidest || wide_x < -kWidest || wide_y > kWidest || wide_y < -kWidest) {
+  const std::int64_t wide_x = from_ahead(raw.x_rad), wide_y = from_ahead(raw.y_rad);
+  if (!usable_ || wide(wide_x) || wide(wide_y)) {
     return lighthouse::ideal_from_raw(station_, form_, raw);
   }
   const auto raw_x = static_cast<Q30>(wide_x), raw_y = static_cast<Q30>(wide_y);
@@ -102,6 +104,22 @@ std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw)
     }
   }
   return lighthouse::ideal_from_raw(station_, form_, raw);
+}
+
+std::optional<double> FixedStationModel::ideal_from_raw(Axis axis, double raw_rad, double across_ideal_rad) const {
+  const std::int64_t wide_raw = from_ahead(raw_rad), wide_across = from_ahead(across_ideal_rad);
+  if (usable_ && !wide(wide_raw) && !wide(wide_across)) {
+    const auto raw = static_cast<Q30>(wide_raw), other = static_cast<Q30>(wide_across);
+    const Angle across{other, fixed::sine_cosine(other)};
+    Q30 swept = raw + (axis == Axis::kX ? last_x_ : last_y_);
+    for (int step = 0; step < kMaxSteps && !wide(swept); ++step) {
+      const Q30 correction = raw - raw_of(rotor_[static_cast<std::size_t>(index_of(axis))],
+                                          {swept, fixed::sine_cosine(swept)}, across, axis == Axis::kX ? 1 : -1);
+      swept += correction;
+      if (correction <= kConverged && correction >= -kConverged) return fixed::to_double(swept + kQuarterTurn, 30);
+    }
+  }
+  return lighthouse::ideal_from_raw(station_, form_, axis, raw_rad, across_ideal_rad);
 }
 
 }  // namespace pharos::lighthouse

@@ -20,6 +20,8 @@ class FixedStationModel {
 
   /// Starts from the last answer's correction: the next sensor's is nearly the same.
   std::optional<ThetaPair> ideal_from_raw(const ThetaPair& raw);
+  /// One axis, where the ideal angle across is known.
+  std::optional<double> ideal_from_raw(Axis axis, double raw_rad, double across_ideal_rad) const;
 
  private:
   struct Rotor {

@@ -29,6 +29,8 @@ class TrimmedSearch {
   bool found() const { return best_cost_ < 1e300; }
   /// All places agree on the best pose: there is nothing to reject, and no reason to look further.
   bool complete() const { return complete_; }
+  /// No more starts may be followed.
+  bool cut_short() const { return starts_ >= options_.max_search_starts; }
 
  private:
   void consider_triplet(const Triplet& sensors);
@@ -41,6 +43,7 @@ class TrimmedSearch {
   LighthouseFromBody best_;
   double best_cost_ = 1e300;
   bool complete_ = false;
+  int starts_ = 0;
 };
 
 bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals) {
@@ -59,6 +62,8 @@ bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals) {
 }
 
 void TrimmedSearch::consider(const LighthouseFromBody& start) {
+  if (cut_short()) return;
+  ++starts_;
   PlaceResiduals residuals;
   LighthouseFromBody pose = start;
   for (int step = 0; !complete_; ++step) {
@@ -98,7 +103,7 @@ bool TrimmedSearch::next_combination(const Triplet& sensors, std::array<std::int
 void TrimmedSearch::consider_triplet(const Triplet& sensors) {
   std::array<std::int16_t, 6> hit;
   for (std::size_t k = 0; k < 6; ++k) hit[k] = hits_.at(sensors[k / 2], static_cast<Axis>(k % 2)).first;
-  for (int combination = 0; combination < kMaxHitsPerTriplet && !complete_; ++combination) {
+  for (int combination = 0; combination < kMaxHitsPerTriplet && !complete_ && !cut_short(); ++combination) {
     for (const LighthouseFromBody& start : p3p(rays_of_hits(sensors, hit), {0, 1, 2})) consider(start);
     if (!next_combination(sensors, hit)) return;
   }
@@ -116,7 +121,7 @@ void TrimmedSearch::consider_triplets() {
   std::size_t number = 0;
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = a + 1; b < n; ++b) {
-      for (std::size_t c = b + 1; c < n && !complete_; ++c) {
+      for (std::size_t c = b + 1; c < n && !complete_ && !cut_short(); ++c) {
         if (number++ % stride == 0) consider_triplet({full[a], full[b], full[c]});
       }
     }
@@ -125,14 +130,15 @@ void TrimmedSearch::consider_triplets() {
 
 }  // namespace
 
-bool fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose) {
+Search fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose) {
   TrimmedSearch search(hits, options);
   for (const LighthouseFromBody& start : starts) search.consider(start);
   search.consider_triplets();
-  if (!search.found()) return false;
+  if (!search.found()) return search.cut_short() ? Search::kCutShort : Search::kNoStart;
   pose = search.best();
-  if (!search.complete()) readmit(hits, options, pose);
-  return true;
+  if (search.complete()) return Search::kDone;
+  readmit(hits, options, pose);
+  return search.cut_short() ? Search::kCutShort : Search::kDone;
 }
 
 }  // namespace pharos::pose

@@ -15,7 +15,6 @@
 namespace pharos::pose {
 namespace {
 
-constexpr int kLeastSensors = 4;
 constexpr int kLeastSensorsWithPrior = 3;
 
 struct Problem {
@@ -52,14 +51,26 @@ void minima_from(Problem& problem, const LighthouseFromBody& start, Minima<Doubl
 }
 
 bool credible(const Problem& problem, const Fit& fit) {
-  return fit.converged && fit.normal.cost <= credible_chi2(freedom_of(problem)) * problem.variance;
+  return fit.converged &&
+         fit.normal.cost <= problem.options.credible_slack * credible_chi2(freedom_of(problem)) * problem.variance;
 }
 
 Refusal too_few(const Problem& problem, bool prior) {
   const int sensors = problem.hits.sightings.sensors();
   const int rows = problem.hits.sightings.rows();
-  if (sensors >= (prior ? kLeastSensorsWithPrior : kLeastSensors) && rows >= kPoseUnknowns) return Refusal::kNone;
+  if (sensors >= (prior ? kLeastSensorsWithPrior : kLeastSensorsAlone) && rows >= kPoseUnknowns) return Refusal::kNone;
   return problem.hits.strangers ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
+}
+
+// One rotor's angles leave a shift along its axis open, whatever the search would try.
+bool one_axis(const Sightings& sightings) {
+  bool x = false;
+  bool y = false;
+  for (int i = 0; i < sightings.count; ++i) {
+    x = x || sightings.seen(i, Axis::kX);
+    y = y || sightings.seen(i, Axis::kY);
+  }
+  return !(x && y);
 }
 
 // Whether enough hits confirm a pose that contradicts some: with one or two hits more than unknowns, some wrong choice
@@ -130,9 +141,12 @@ StartPoses only(const LighthouseFromBody& pose) {
   if (!problem.hits.several && credible(problem, minima.best)) return Refusal::kNone;
   if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
   LighthouseFromBody start;
-  if (!fit_rigid_body(problem.hits, starts, problem.options, start)) return Refusal::kNotConverged;
-  if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return Refusal::kPoorFit;
+  const Search search = fit_rigid_body(problem.hits, starts, problem.options, start);
+  if (search == Search::kNoStart) return Refusal::kNotConverged;
+  const Refusal short_of = search == Search::kCutShort ? Refusal::kSearchLimit : Refusal::kPoorFit;
+  if (too_few(problem, prior != nullptr) != Refusal::kNone || !confirmed(problem)) return short_of;
   minima_from(problem, start, minima);
+  if (search == Search::kCutShort && !credible(problem, minima.best)) return Refusal::kSearchLimit;
   return Refusal::kNone;
 }
 
@@ -143,6 +157,7 @@ Result<Solution, Refusal> solve(const Target& target, const Observations& observ
   Problem problem(options);
   if (!collect_hits(target, observations, problem.hits)) return Refusal::kBadInput;
   if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return refusal;
+  if (one_axis(problem.hits.sightings)) return Refusal::kDegenerate;
   Minima<DoubleSystem> minima;
   if (const Refusal refusal = find_minima(problem, prior, minima); refusal != Refusal::kNone) return refusal;
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;
@@ -167,6 +182,8 @@ const char* name_of(Refusal refusal) {
       return "behind_station";
     case Refusal::kBadInput:
       return "bad_input";
+    case Refusal::kSearchLimit:
+      return "search_limit";
   }
   return "unknown";
 }

@@ -28,6 +28,12 @@ struct SolveOptions {
   /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped
   /// first.
   double max_reduced_chi2 = 1e4;
+  /// For slow cores: a fit to all hits whose chi-squared is this many times what is credible is an answer (which its
+  /// residual tells) and no reason to search among them.
+  double credible_slack = 1.0;
+  /// Start poses that the search among hits may follow, where hits compete or contradict; none within it on which all
+  /// agree: kSearchLimit. A soft core spends some two million instructions on each.
+  int max_search_starts = 1'000'000;
 };
 
 /// Why no pose can be had.
@@ -40,7 +46,11 @@ enum class Refusal : std::uint8_t {
   kPoorFit,        // nothing rigid fits the bearings, or too few of them confirm what does
   kBehindStation,  // the only fit lies behind the station
   kBadInput,       // a bearing outside (0, pi) or not finite
+  kSearchLimit,    // hits compete or contradict, and what may be spent on the search found no pose that they agree on
 };
+inline constexpr Refusal kLastRefusal = Refusal::kSearchLimit;
+/// Sensors that a pose takes without a prior.
+inline constexpr int kLeastSensorsAlone = 4;
 
 /// A pose and which observations it used (index as given).
 struct Solution {

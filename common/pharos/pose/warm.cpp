@@ -12,9 +12,6 @@ namespace {
 
 using FixedMinima = Minima<FixedSystem>;
 
-// With three sensors the prior decides between minima, and the words for what is missing are those of solve().
-constexpr int kLeastSensors = 4;
-
 bool credible(const FixedMinima& minima, int rows, double variance) {
   return minima.best.converged && minima.best.normal.cost <= credible_chi2(rows - kPoseUnknowns) * variance;
 }
@@ -54,13 +51,15 @@ std::optional<Solution> solve_warm(const Target& target, const Observations& obs
   if (options.residual != Residual::kAngle || options.rho != 0.0) return std::nullopt;
   FixedSightings sightings;
   if (!collect_fixed(target, observations, prior, sightings)) return std::nullopt;
-  if (sightings.count < kLeastSensors || sightings.rows < kPoseUnknowns) return std::nullopt;
+  // With three sensors the prior decides between minima, and the words for what is missing are those of solve().
+  if (sightings.count < kLeastSensorsAlone || sightings.rows < kPoseUnknowns) return std::nullopt;
   const double variance = options.sigma_rad * options.sigma_rad;
   const FixedSystem system(sightings);
   FixedMinima minima;
   both_minima(system, fixed_pose(sightings, prior), options.max_iterations, variance, minima);
   minima.has_second = minima.has_second && options.look_for_second;
-  if (minima.undecided || !credible(minima, sightings.rows, variance) || !system.ahead(minima.best.pose)) {
+  if (minima.undecided || !credible(minima, sightings.rows, options.credible_slack * variance) ||
+      !system.ahead(minima.best.pose)) {
     return std::nullopt;
   }
   std::optional<Solution> solution(std::in_place);

@@ -207,7 +207,7 @@ wire::Pose to_wire(const PoseReport& report) {
 }
 
 std::optional<PoseReport> from_wire(const wire::Pose& message) {
-  if (message.refusal > static_cast<std::uint8_t>(pose::Refusal::kBadInput)) return std::nullopt;
+  if (message.refusal > static_cast<std::uint8_t>(pose::kLastRefusal)) return std::nullopt;
   PoseReport report;
   report.station = message.station;
   report.flags = message.flags;

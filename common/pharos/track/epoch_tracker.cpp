@@ -33,6 +33,15 @@ std::int64_t mean_ticks(const IdealObservations& ideal, std::int64_t fallback_ti
   return count == 0 ? fallback_ticks : fallback_ticks + sum / count;
 }
 
+// In sigmas: a bearing that was corrected by less would move the pose by a third of it at the most.
+constexpr double kSameBearing = 0.2;
+
+// Refusals that are not seen at once.
+bool took_search(pose::Refusal refusal) {
+  return refusal == pose::Refusal::kNotConverged || refusal == pose::Refusal::kPoorFit ||
+         refusal == pose::Refusal::kBehindStation || refusal == pose::Refusal::kSearchLimit;
+}
+
 bool residual_credible(const LighthousePoseEstimate& estimate, double sigma_rad) {
   const double ratio = estimate.residual_rms / sigma_rad;
   const int freedom = estimate.observations - pose::kPoseUnknowns;
@@ -101,10 +110,10 @@ std::optional<EpochResult> EpochTracker::flush() {
   return result;
 }
 
-const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const Cycle& cycle) const {
+const LighthouseFromBody* EpochTracker::fresh_pose(const Station& station, const Cycle& cycle, double max_age_s) {
   if (!station.last_pose) return nullptr;
   const double age_s = ticks_to_seconds(cycle.last_flash_ticks - station.last_pose_ticks);
-  return age_s >= 0.0 && age_s < options_.prior_max_age_s ? &*station.last_pose : nullptr;
+  return age_s >= 0.0 && age_s < max_age_s ? &*station.last_pose : nullptr;
 }
 
 void EpochTracker::correct(const Station& station, const Cycle& cycle, const LighthouseFromBody* pose) {
@@ -112,31 +121,56 @@ void EpochTracker::correct(const Station& station, const Cycle& cycle, const Lig
                      options_.warm_start, ideal_);
 }
 
-void EpochTracker::solve_from(const LighthouseFromBody* prior, Answer& answer) const {
-  if (prior != nullptr && solve_warm_from(*prior, answer)) return;
+// Sensors of the target among the cycle's bearings.
+int EpochTracker::sensors_seen() const {
+  std::bitset<kMaxSensors> seen;
+  for (const pose::Observation& o : ideal_.observations) {
+    if (o.sensor < kMaxSensors && find_sensor(target_, o.sensor) != nullptr) seen[o.sensor] = true;
+  }
+  return static_cast<int>(seen.count());
+}
+
+void EpochTracker::solve_from(const LighthouseFromBody* prior, Station& station, const Cycle& cycle,
+                              Answer& answer) const {
+  if (options_.warm_start && sensors_seen() >= pose::kLeastSensorsAlone) {
+    if (prior != nullptr && solve_warm_from(*prior, answer)) return;
+    if (cycle.last_flash_ticks < station.rests_until_ticks) {
+      answer = pose::Refusal::kSearchLimit;
+      return;
+    }
+  }
   answer = pose::solve(target_, ideal_.observations, options_.solve, prior);
+  if (!answer && took_search(answer.error())) {
+    station.rests_until_ticks = cycle.last_flash_ticks + options_.search_rest_ticks;
+  }
 }
 
 [[gnu::noinline]] bool EpochTracker::solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const {
-  if (!options_.warm_start) return false;
   const auto warm = pose::solve_warm(target_, ideal_.observations, options_.solve, prior);
   if (warm) answer = *warm;
   return warm.has_value();
 }
 
 void EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer) {
-  const LighthouseFromBody* last = fresh_pose(station, cycle);
-  correct(station, cycle, nullptr);
-  solve_from(options_.warm_start ? last : nullptr, answer);
+  const LighthouseFromBody* last = fresh_pose(station, cycle, options_.prior_max_age_s);
+  const LighthouseFromBody* warm = options_.warm_start ? fresh_pose(station, cycle, options_.warm_max_age_s) : nullptr;
+  correct(station, cycle, warm);
+  const bool enough = sensors_seen() >= pose::kLeastSensorsAlone;
+  solve_from(enough ? warm : nullptr, station, cycle, answer);
   if (!answer && answer.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
-    solve_from(last, answer);
+    solve_from(last, station, cycle, answer);
     if (answer) result.flags |= kEpochPrior;
   }
   if (!answer || !ideal_.guessed) return;
-  // The first pose tells the angle across, which single hits were corrected without.
+  // The first pose tells the angle across, which single hits were corrected without, or by an older one.
   const LighthouseFromBody first = answer->estimate.pose;
-  correct(station, cycle, &first);
-  solve_from(options_.warm_start || (result.flags & kEpochPrior) != 0 ? &first : nullptr, answer);
+  if (options_.warm_start) {
+    const double change_rad = correct_guessed(cycle, target_, *station.calibration, options_.form, first, ideal_);
+    if (change_rad < kSameBearing * options_.solve.sigma_rad) return;
+  } else {
+    correct(station, cycle, &first);
+  }
+  solve_from(options_.warm_start || (result.flags & kEpochPrior) != 0 ? &first : nullptr, station, cycle, answer);
 }
 
 TrackedBearing EpochTracker::bearing(std::size_t index) const {
@@ -176,8 +210,14 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
 void EpochTracker::answer(Station& station, const Cycle& cycle, EpochResult& result) {
   result.station = cycle.station;
   result.flags = flags_of(cycle, station.calibration.has_value());
-  Answer solution = pose::Refusal::kNotConverged;
-  solve(station, cycle, result, solution);
+  // Of one axis alone nothing comes, and on a slow core the corrections without a partner cost more than a pose.
+  const bool hopeless = options_.warm_start && (cycle[Axis::kX].empty() || cycle[Axis::kY].empty());
+  Answer solution = hopeless ? pose::Refusal::kDegenerate : pose::Refusal::kNotConverged;
+  if (hopeless) {
+    ideal_observations(cycle, target_, nullptr, options_.form, nullptr, true, ideal_);  // what was offered
+  } else {
+    solve(station, cycle, result, solution);
+  }
   if (ideal_.left_out > 0) result.flags |= kEpochOutliers;
   used_.reset();
   answered_pose_.reset();

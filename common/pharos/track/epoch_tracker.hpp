@@ -25,9 +25,15 @@ struct TrackOptions {
   /// With three sensors only, the last pose of the same station serves as prior when it is younger than this: at 2 m/s
   /// and 180 deg/s a target moves 0.2 m and 18 deg in it. 0 = never.
   double prior_max_age_s = 0.1;
-  /// For cores without a floating-point unit: start every cycle from a last pose that young, and work in integers
-  /// wherever they tell the same (pose::solve_warm).
+  /// For cores without a floating-point unit: start every cycle from the last pose, and work in integers wherever they
+  /// tell the same (pose::solve_warm).
   bool warm_start = false;
+  /// A last pose that serves as such a start: where it is too far, the integers say so. Two stations' first poses from
+  /// nothing take a soft core of 50 MHz 0.4 s.
+  double warm_max_age_s = 1.0;
+  /// What the integers refuse goes through the search in double (solve.max_search_starts). After one that found nothing
+  /// the station's next ones are refused for this long (kSearchLimit), or a bad view would take all of a slow core.
+  std::int64_t search_rest_ticks = 0;
 };
 
 /// Without a flash for this long a station may come back under another's number (decoders extrapolate rotors for 300
@@ -104,6 +110,7 @@ class EpochTracker {
     CycleAssembler assembler;
     std::optional<LighthouseFromBody> last_pose;
     std::int64_t last_pose_ticks = 0;
+    std::int64_t rests_until_ticks = 0;  // no search before
   };
 
   using Answer = Result<pose::Solution, pose::Refusal>;
@@ -119,9 +126,10 @@ class EpochTracker {
   void refuse(const Cycle& cycle, pose::Refusal why, EpochResult& result) const;
   void correct(const Station& station, const Cycle& cycle, const LighthouseFromBody* pose);
   void solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer);
-  void solve_from(const LighthouseFromBody* prior, Answer& answer) const;
+  void solve_from(const LighthouseFromBody* prior, Station& station, const Cycle& cycle, Answer& answer) const;
   bool solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const;
-  const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle) const;
+  int sensors_seen() const;
+  static const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle, double max_age_s);
 
   Target target_;
   TrackOptions options_;

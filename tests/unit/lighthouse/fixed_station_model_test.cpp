@@ -53,6 +53,23 @@ TEST_P(FixedStationModelTest, EqualsItWhereIntegersDoNotReach) {
   expect_equal(far, 60.0 * kRadPerDeg, 2e-8);
 }
 
+TEST_P(FixedStationModelTest, EqualsItForOneAxisWithTheAngleAcrossKnown) {
+  for (const double half_field_rad : {65.0 * kRadPerDeg, 89.0 * kRadPerDeg}) {
+    const StationCalibration s = station(1.0);
+    const FixedStationModel fixed(s, GetParam());
+    for (int k = 0; k < 400; ++k) {
+      const Axis axis = k % 2 == 0 ? Axis::kX : Axis::kY;
+      const double raw = kPi / 2 + uniform(-half_field_rad, half_field_rad);
+      const double across = kPi / 2 + uniform(-half_field_rad, half_field_rad);
+      const auto expected = ideal_from_raw(s, GetParam(), axis, raw, across);
+      const auto answer = fixed.ideal_from_raw(axis, raw, across);
+      ASSERT_EQ(answer.has_value(), expected.has_value());
+      if (!expected) continue;
+      ASSERT_NEAR(*answer, *expected, 2e-8);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Forms, FixedStationModelTest, ::testing::Values(ModelForm::kForm1, ModelForm::kForm2));
 
 }  // namespace

@@ -56,6 +56,25 @@ TEST_F(Refusals, TooFewSensorsBelowSixAngles) {
   EXPECT_EQ(solve(target_, five, {}, &problem_.truth).error(), Refusal::kTooFewSensors);
 }
 
+TEST_F(Refusals, DegenerateWhereOnlyOneRotorWasSeen) {
+  Observations one_rotor;
+  for (const Observation& o : problem_.observations) {
+    if (o.axis == Axis::kX) one_rotor.push_back(o);
+  }
+  EXPECT_EQ(solve(target_, one_rotor, {}).error(), Refusal::kDegenerate);
+  EXPECT_EQ(solve(target_, one_rotor, {}, &problem_.truth).error(), Refusal::kDegenerate);
+}
+
+TEST_F(Refusals, SearchLimitWhereTheSearchMayNotGoOn) {
+  Observations contradicting = problem_.observations;
+  contradicting[0].theta_rad += 0.01;
+  EXPECT_TRUE(solve(target_, contradicting, {}).ok());
+  SolveOptions limited;
+  limited.max_search_starts = 0;
+  EXPECT_EQ(solve(target_, contradicting, limited).error(), Refusal::kSearchLimit);
+  EXPECT_TRUE(solve(target_, problem_.observations, limited).ok());
+}
+
 TEST_F(Refusals, UnknownSensorsWhereTheKnownOnesAreTooFew) {
   Observations strangers = problem_.observations;
   for (std::size_t k = 6; k < strangers.size(); ++k) strangers[k].sensor = 200;

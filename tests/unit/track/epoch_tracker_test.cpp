@@ -223,5 +223,77 @@ TEST(EpochTracker, WarmStartChangesNoAnswer) {
   }
 }
 
+TEST(EpochTracker, WarmStartUsesSensorsThatWereHitOnOneAxisOnly) {
+  const Target target = cube_target();
+  TrackOptions options;
+  options.warm_start = true;
+  options.solve.max_search_starts = 0;  // integers alone
+  EpochTracker tracker(target, options);
+  tracker.set_calibration(0, some_calibration());
+  for (int i = 0; i < 50; ++i) {
+    Vector6 moved;
+    moved << 0.01 * i, 0, 0.02 * i, 0.002 * i, 0, -0.003 * i;
+    const LighthouseFromBody truth = some_pose().moved_by(moved);
+    const std::int64_t start = 2 * i * kHalfTurn;
+    Sweep x = make_sweep(target, truth, some_calibration(), Axis::kX, start);
+    if (i > 0) {
+      x.hits.erase_unordered(0);
+      x.hits.erase_unordered(3);
+    }
+    tracker.push(x);
+    const auto result = tracker.push(make_sweep(target, truth, some_calibration(), Axis::kY, start + kHalfTurn));
+    ASSERT_TRUE(result);
+    expect_pose(*result, truth);
+    EXPECT_EQ(result->observations, i > 0 ? 14 : 16);
+  }
+}
+
+class SearchLimit : public ::testing::Test {
+ protected:
+  SearchLimit() { tracker_.set_calibration(0, some_calibration()); }
+  static TrackOptions options() {
+    TrackOptions options;
+    options.warm_start = true;
+    options.solve.max_search_starts = 2;
+    options.search_rest_ticks = kTicksPerSecond;
+    return options;
+  }
+  // The answer of the cycle that begins so many turns after the start; `torn`: no rigid body shows such hits.
+  pose::Refusal refusal(std::int64_t turns, bool torn, bool with_y = true) {
+    Sweep x = make_sweep(target_, some_pose(), some_calibration(), Axis::kX, 2 * turns * kHalfTurn);
+    Sweep y = make_sweep(target_, some_pose(), some_calibration(), Axis::kY, (2 * turns + 1) * kHalfTurn);
+    std::int32_t i = 0;
+    for (lighthouse::Hit& hit : x.hits) {
+      if (torn) hit.centre_half_ticks += 4000 * (i * i % 7);
+      ++i;
+    }
+    auto result = tracker_.push(x);
+    if (with_y) result = tracker_.push(y);
+    return !result || result->pose.ok() ? pose::Refusal::kNone : result->pose.error();
+  }
+
+  const Target target_ = cube_target();
+  EpochTracker tracker_{target_, options()};
+};
+
+TEST_F(SearchLimit, EndsASearchAndRestsBehindIt) {
+  EXPECT_EQ(refusal(0, true), pose::Refusal::kSearchLimit);
+  EXPECT_EQ(refusal(1, false), pose::Refusal::kSearchLimit);  // it could be solved, but only by a search
+  EXPECT_EQ(refusal(59, false), pose::Refusal::kSearchLimit);
+  EXPECT_EQ(refusal(61, false), pose::Refusal::kNone);
+}
+
+TEST_F(SearchLimit, AnswersFromTheLastPoseWhileItRests) {
+  EXPECT_EQ(refusal(0, false), pose::Refusal::kNone);
+  EXPECT_EQ(refusal(1, true), pose::Refusal::kSearchLimit);
+  EXPECT_EQ(refusal(2, false), pose::Refusal::kNone);
+}
+
+TEST_F(SearchLimit, RefusesOneAxisAloneAndDoesNotRestForIt) {
+  EXPECT_EQ(refusal(0, false, false), pose::Refusal::kNone);  // not complete yet
+  EXPECT_EQ(refusal(4, false, false), pose::Refusal::kDegenerate);
+  EXPECT_EQ(refusal(8, false), pose::Refusal::kNone);
+}
+
 }  // namespace
 }  // namespace pharos::track
