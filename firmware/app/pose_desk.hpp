@@ -17,10 +17,12 @@ class PoseDesk {
   virtual void take(const lighthouse::OotxPayload& payload) = 0;
   /// The frame of the oldest answer that waits; empty when none does.
   virtual report::Reporter::Bytes next_frame(report::Reporter& reporter) = 0;
-  /// Sweeps that came while there was no room, so that their cycle was not answered; since start.
+  /// Sweeps of stations not calibrated and sweeps that gave way, so that their cycle was not answered; since start.
   virtual std::uint32_t sweeps_missed() = 0;
-  /// Processor clocks spent since last asked.
+  /// Processor clocks spent since last asked, those of interrupts that came between among them.
   virtual std::uint32_t take_busy_cycles() = 0;
+  /// Whether the caller interrupts a solve, whose clocks are counted there.
+  virtual bool solving() = 0;
   /// Whether the solver has come by since last asked: one solve may take a quarter of a second.
   virtual bool take_alive() = 0;
 

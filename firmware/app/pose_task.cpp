@@ -4,13 +4,24 @@
 #include <optional>
 
 #include "firmware/hal/board.hpp"
+#include "pharos/base/ticks.hpp"
 
 namespace pharos::app {
 namespace {
 
+/// Three times the noise's chi-squared has one cycle in some hundred, for the flash's jitter is common to all sensors.
+constexpr double kCredibleSlack = 4.0;
+/// A search in double takes this core a tenth of a second for each start that it follows. In a second of rest behind
+/// one that found nothing the other station's cycles are answered.
+constexpr int kSearchStarts = 4;
+constexpr std::int64_t kSearchRest_ticks = kTicksPerSecond;
+
 track::TrackOptions warm() {
   track::TrackOptions options;
   options.warm_start = true;
+  options.solve.credible_slack = kCredibleSlack;
+  options.solve.max_search_starts = kSearchStarts;
+  options.search_rest_ticks = kSearchRest_ticks;
   return options;
 }
 
@@ -27,7 +38,12 @@ std::optional<T> take_oldest(Ring<T, N>& ring) {
 PoseTask::PoseTask(hal::System& system, const Target& target) : system_(system), tracker_(target, warm()) {}
 
 void PoseTask::take(const lighthouse::Sweep& sweep) {
-  if (!sweeps_.push(sweep)) ++missed_;
+  if (sweeps_.full()) {
+    // All of them: one at a time would leave halves of cycles, that nothing can be made of.
+    missed_ += static_cast<std::uint32_t>(sweeps_.size());
+    sweeps_.clear();
+  }
+  sweeps_.push(sweep);
 }
 
 void PoseTask::take(const lighthouse::OotxPayload& payload) {
@@ -53,7 +69,6 @@ bool PoseTask::take_alive() {
 
 bool PoseTask::solve() {
   alive_ = true;
-  const std::uint32_t begin = system_.cycles();
   if (const auto payload = take_oldest(payloads_)) {
     calibrations_.push(*payload);
     if (const auto* calibration = calibrations_.in_use(payload->station)) {
@@ -63,10 +78,25 @@ bool PoseTask::solve() {
   }
   const auto sweep = take_oldest(sweeps_);
   if (!sweep) return false;
-  if (const auto result = tracker_.push(*sweep)) answer(*result);
+  solving_ = true;
+  const std::uint32_t begin = system_.cycles();
+  const bool calibrated = solve(*sweep);
   const std::uint32_t spent = system_.cycles() - begin;
   const hal::NoInterrupts guard;
+  solving_ = false;
+  if (!calibrated) ++missed_;
   busy_cycles_ += spent;
+  return true;
+}
+
+// False where the station is not calibrated.
+bool PoseTask::solve(const lighthouse::Sweep& sweep) {
+  if (tracker_.after_long_dark(sweep)) {
+    calibrations_.forget_stations();
+    tracker_.forget_stations();
+  }
+  if (calibrations_.in_use(sweep.flash.station) == nullptr) return false;
+  if (const auto result = tracker_.push(sweep)) answer(*result);
   return true;
 }
 

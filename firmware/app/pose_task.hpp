@@ -14,6 +14,10 @@ namespace pharos::app {
 /// Solves cycles on board, each warm-started from the last pose, while the program decodes from the timer's interrupt:
 /// one solve from nothing takes longer than the capture block's FIFO lasts.
 ///
+/// A station's cycles are solved once its calibration is known: without it every angle is 1 mrad off, and to search
+/// such a cycle for reflections takes this core seconds. Where the solver is behind, the oldest sweeps give way. Both
+/// are counted.
+///
 /// take() and next_frame() run in the interrupt, solve() in the main loop; what passes between them is copied with
 /// interrupts off.
 class PoseTask final : public PoseDesk {
@@ -25,23 +29,29 @@ class PoseTask final : public PoseDesk {
   report::Reporter::Bytes next_frame(report::Reporter& reporter) override;
   std::uint32_t sweeps_missed() override { return missed_; }
   std::uint32_t take_busy_cycles() override;
+  bool solving() override { return solving_; }
   bool take_alive() override;
 
   /// Main loop: takes one sweep or payload further. False when none waits.
   bool solve();
 
  private:
+  bool solve(const lighthouse::Sweep& sweep);
   void answer(const track::EpochResult& result);
 
   hal::System& system_;
   track::EpochTracker tracker_;
   lighthouse::CalibrationStore calibrations_;
-  Ring<lighthouse::Sweep, 2> sweeps_;
+  /// Sweeps, dark ones among them, that come while a cycle is solved: four in two slots, and one.
+  static constexpr std::size_t kWaiting = 5;
+
+  Ring<lighthouse::Sweep, kWaiting> sweeps_;
   Ring<lighthouse::OotxPayload, 1> payloads_;
   Ring<report::PoseReport, 1> answers_;
   std::uint32_t missed_ = 0;
   std::uint32_t busy_cycles_ = 0;
   volatile bool alive_ = false;
+  volatile bool solving_ = false;
 };
 
 }  // namespace pharos::app

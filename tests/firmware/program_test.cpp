@@ -93,6 +93,7 @@ class LateSolver final : public PoseDesk {
   report::Reporter::Bytes next_frame(report::Reporter&) override { return {}; }
   std::uint32_t sweeps_missed() override { return 17; }
   std::uint32_t take_busy_cycles() override { return 0; }
+  bool solving() override { return false; }
   bool take_alive() override { return true; }
 };
 

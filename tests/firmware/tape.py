@@ -73,7 +73,8 @@ def frames_of(line):
 
 def device_counters(frames):
     lists = [payload for kind, payload in frames if kind == COUNTERS and payload[8] == DEVICE]
-    return [dict(zip(DEVICE_NAMES, struct.unpack_from(f"<{payload[9]}I", payload, 10))) for payload in lists]
+    return [dict(zip(DEVICE_NAMES, struct.unpack_from(f"<{payload[9]}I", payload, 10)), time=struct.unpack_from("<q", payload)[0])
+            for payload in lists]
 
 
 def run(image, tape, options=()):
@@ -82,7 +83,7 @@ def run(image, tape, options=()):
     with tempfile.TemporaryDirectory() as folder:
         line = pathlib.Path(folder) / "line"
         script = f'. "{emulator}"; emulate "{image}" "{line}" "$@"'
-        done = subprocess.run(["bash", "-c", script, "emulate", *options], input=tape, timeout=300, check=False)
+        done = subprocess.run(["bash", "-c", script, "emulate", *options], input=tape, timeout=1800, check=False)
         assert done.returncode == 0, f"the emulator ended with {done.returncode}"
         return frames_of(line.read_bytes())
 

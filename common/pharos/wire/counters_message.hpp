@@ -28,7 +28,7 @@ enum class CounterGroup : std::uint8_t {
   X(receive_errors, "bytes from the host lost or with a framing error")                 \
   X(busy_permille, "share of the processor's time in use over the last second, 1/1000") \
   X(stack_free_bytes, "stack never touched since start")                                \
-  X(poses_skipped, "sweeps that no pose was made of: the solver or the line was behind")
+  X(poses_skipped, "sweeps that no pose was made of: not calibrated, or solver or line behind")
 
 struct DeviceCounters {
 #define PHAROS_X(name, text) std::uint32_t name = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/hal/board.hpp"
 
+#include <algorithm>
+
 #include "firmware/board/qemu_virt/capture_tape.hpp"
 #include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/common_system.hpp"
@@ -24,21 +26,28 @@ constexpr std::int64_t kMillisecond = kTicksPerSecond / 1000;
 /// than the board's, because a busy computer may stop the emulator for a second.
 constexpr std::int64_t kWatchdogLook = kTicksPerSecond / 10;
 constexpr int kWatchdogLooks = 100;
+/// Of the machine's time, where the emulator counts instructions (-icount shift=0).
+constexpr std::int64_t kInstruction_ns = 1;
 /// What an instruction costs on a soft core of this class, for `cycles`.
 constexpr std::uint32_t kCyclesPerInstruction = 3;
 
 CaptureTape tape;
 
+// Instructions but for those that a board does not spend.
+std::uint32_t core_instructions() { return instructions_retired_low() - tape.instructions(); }
+
 class Line final : public hal::SerialLine {
  public:
   void start() { uart_.start(0); }
   std::size_t write(std::span<const std::uint8_t> bytes) override {
-    const std::int64_t now = tape.now_ticks();
-    if (busy_until_ < now) busy_until_ = now;
-    const std::int64_t room = kLineHolds - (busy_until_ - now + kByteTicks - 1) / kByteTicks;
+    const std::int64_t room = room_for();
     if (room <= 0 && !tape.ended()) return 0;
     const auto most = tape.ended() ? bytes.size() : static_cast<std::size_t>(room);  // at the end nothing is cut off
-    const std::size_t taken = uart_.write(bytes.first(bytes.size() < most ? bytes.size() : most));
+    // QEMU's UART holds 16 bytes and takes the next at once.
+    std::size_t taken = 0;
+    for (std::size_t more = 1; more != 0 && taken < std::min(bytes.size(), most); taken += more) {
+      more = uart_.write(bytes.subspan(taken, std::min(bytes.size(), most) - taken));
+    }
     busy_until_ += static_cast<std::int64_t>(taken) * kByteTicks;
     wrote_ = wrote_ || taken != 0;
     return taken;
@@ -61,6 +70,13 @@ class Line final : public hal::SerialLine {
   }
 
  private:
+  std::int64_t room_for() {
+    const std::int64_t now = tape.now_ticks();
+    const CaptureTape::Aside aside(tape);
+    if (busy_until_ < now) busy_until_ = now;
+    return kLineHolds - (busy_until_ - now + kByteTicks - 1) / kByteTicks;
+  }
+
   Uart16550 uart_{kUart, 1, kUartFifo};
   std::int64_t busy_until_ = 0;
   std::int64_t looked_ticks_ = 0;
@@ -88,11 +104,15 @@ void look_after_watchdog(std::int64_t now) {
 
 class System final : public CommonSystem {
  public:
-  std::uint32_t cycles() override { return static_cast<std::uint32_t>(instructions_retired()) * kCyclesPerInstruction; }
+  std::uint32_t cycles() override { return core_instructions() * kCyclesPerInstruction; }
   void feed_watchdog() override { fed = true; }
   std::string_view board_name() override { return "qemu_virt"; }
 };
 System system;
+
+/// Behind the tape's end, in a row: the interrupt that writes may not have come between two of them.
+constexpr int kQuietRests = 4;
+int quiet_rests = 0;
 
 /// The loader notes why the machine was reset; where an image is started without one, nobody has.
 void note_reset_without_loader() {
@@ -105,8 +125,20 @@ void note_reset_without_loader() {
 void on_timer_interrupt() {
   const std::int64_t now = machine_ticks();
   look_after_watchdog(now);
-  if (millisecond_handler != nullptr) millisecond_handler(millisecond_context);
-  set_timer(millisecond_handler != nullptr ? now + kMillisecond : next_look);
+  if (millisecond_handler == nullptr) {
+    set_timer(next_look);
+    return;
+  }
+  const std::uint32_t begin = core_instructions();
+  millisecond_handler(millisecond_context);
+  const CaptureTape::Aside aside(tape);
+  if (tape.instructions_a_millisecond() == 0) {
+    set_timer(now + kMillisecond);
+  } else {
+    // A core of the tape's speed is called as often by its own time, in which reading the tape takes none.
+    const std::int64_t left = std::int64_t{tape.instructions_a_millisecond()} - (core_instructions() - begin);
+    set_timer(machine_ticks() + std::max<std::int64_t>(left, 1) * kInstruction_ns / kNanosecondsPerTick);
+  }
 }
 
 }  // namespace pharos::board
@@ -127,7 +159,12 @@ Board start_board() {
 }
 
 void rest() {
-  if (tape.ended() && !line.take_wrote()) exit_emulator(0);
+  if (tape.ended()) {
+    quiet_rests = line.take_wrote() ? 0 : quiet_rests + 1;
+    if (quiet_rests == kQuietRests) exit_emulator(0);
+  } else if (tape.instructions_a_millisecond() != 0) {
+    return;  // the core's time does not move in its sleep
+  }
   const bool interrupt_reads = millisecond_handler != nullptr;
   // A look at the clock is no record, but more may follow at once.
   if (!interrupt_reads && (tape.ended() || !tape.waiting())) return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/board/qemu_virt/capture_tape.hpp"
 
+#include <algorithm>
+
 #include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/processor.hpp"
 #include "firmware/rtl/capture_registers.h"
@@ -9,6 +11,7 @@
 namespace pharos::board {
 namespace {
 
+constexpr std::uint32_t kSpeed = 0xFFFFFFFE;
 constexpr std::uint32_t kEnd = 0xFFFFFFFF;
 
 std::uint32_t word(const std::array<std::uint8_t, 16>& bytes, std::size_t index) {
@@ -27,38 +30,83 @@ void CaptureTape::start() {
   }
 }
 
+CaptureTape::Aside::Aside(CaptureTape& tape) : tape_(tape), begin_(instructions_retired_low()) {}
+CaptureTape::Aside::~Aside() { tape_.instructions_ += instructions_retired_low() - begin_; }
+
 bool CaptureTape::next() {
-  const auto before = static_cast<std::uint32_t>(instructions_retired());
-  const bool any = take_words();
-  instructions_ += static_cast<std::uint32_t>(instructions_retired()) - before;
-  return any;
+  const Aside aside(*this);
+  return take_words(aside.begin() - instructions_);
 }
 
-// Takes the next words, if they have come whole. True when they were.
-bool CaptureTape::take_words() {
+// Has the next words, if they have come whole. True when it does.
+bool CaptureTape::fetch() {
   while (count_ < bytes_.size()) {
     const auto come = console_.read(bytes_.size() - count_);
     waiting_ = come.empty();
     if (waiting_) return false;
     for (const volatile std::uint8_t& byte : come) bytes_[count_++] = byte;
+    if (count_ < bytes_.size()) continue;
+    const std::uint32_t status = word(bytes_, 0);
+    if (status == kSpeed) {
+      speed_ = word(bytes_, 1);
+      millisecond_ = kTicksPerSecond / 1000 * 1024 / speed_;
+      count_ = 0;
+    } else if (status == kEnd) {
+      due_ticks_ = now_ticks_;
+    } else if ((status & PHAROS_CAPTURE_STATUS_COUNT_MASK) != 0) {
+      due_ticks_ = now_ticks_ + ticks_difference(word(bytes_, 1), static_cast<std::uint32_t>(now_ticks_));
+    } else {
+      due_ticks_ = static_cast<std::int64_t>(std::uint64_t{word(bytes_, 2)} << 32 | word(bytes_, 1));
+    }
   }
+  return true;
+}
+
+// Uses the words.
+void CaptureTape::use() {
   count_ = 0;
+  now_ticks_ = due_ticks_;
   const std::uint32_t status = word(bytes_, 0);
   if (status == kEnd) {
     ended_ = true;
-    return true;
+    return;
   }
   const bool overflow = (status & PHAROS_CAPTURE_STATUS_OVERFLOW) != 0;
   new_overflow_ = new_overflow_ || (overflow && !overflow_);
   overflow_ = overflow;
   held_ = (status & PHAROS_CAPTURE_STATUS_COUNT_MASK) != 0;
-  if (held_) {
-    now_ticks_ += ticks_difference(word(bytes_, 1), static_cast<std::uint32_t>(now_ticks_));
-  } else {
-    now_ticks_ = static_cast<std::int64_t>(std::uint64_t{word(bytes_, 2)} << 32 | word(bytes_, 1));
-    lost_ = word(bytes_, 3);
+  if (!held_) lost_ = word(bytes_, 3);
+}
+
+// Takes the next words, where there are any and their time has come. True when it did.
+bool CaptureTape::take_words(std::uint32_t instructions) {
+  const bool first = now_ticks_ == 0;
+  const bool come = fetch();
+  if (come && speed_ != 0 && !first && due_ticks_ > core_ticks(instructions)) return false;
+  if (come) use();
+  if (first || !come) {  // where nothing has come, it is not the core that is late
+    core_ticks_ = now_ticks_;
+    core_begin_ = instructions;
   }
-  return true;
+  return come;
+}
+
+// The core's own time: it moves with the instructions.
+std::int64_t CaptureTape::core_ticks(std::uint32_t instructions) {
+  const std::uint64_t moved = std::uint64_t{instructions - core_begin_} * speed_ + core_fraction_;
+  core_begin_ = instructions;
+  core_fraction_ = static_cast<std::uint32_t>(moved % 1024);
+  core_ticks_ += static_cast<std::int64_t>(moved / 1024);
+  return core_ticks_;
+}
+
+std::int64_t CaptureTape::now_ticks() {
+  // Never beyond what is known to come: until then nothing else does.
+  if (speed_ != 0 && !held_ && count_ == bytes_.size()) {
+    const Aside aside(*this);
+    now_ticks_ = std::max(now_ticks_, std::min(core_ticks(aside.begin() - instructions_), due_ticks_));
+  }
+  return now_ticks_;
 }
 
 bool CaptureTape::read(hal::CaptureRecord& record) {
