@@ -8,7 +8,8 @@ namespace pharos::pointing {
 namespace {
 
 constexpr int kRounds = 6;
-constexpr std::size_t kMostLags = 64;
+constexpr std::size_t kMostLags = 24;
+constexpr std::size_t kPointsPerLag = 10;
 // Mean absolute deviation to standard deviation, of a normal distribution.
 constexpr double kSigmaPerMeanDeviation = 1.2533141373155003;
 
@@ -49,27 +50,22 @@ Straight straight_through(std::span<const EdgePoint> points, Used used) {
   return result;
 }
 
-// Integrated correlation of the residuals along the line, up to the first lag that does not stand out of chance.
+// Integrated correlation of the residuals along the line, lags weighted down to the longest (Bartlett): negative ones
+// count too, for errors that swing to and fro along an edge average out.
 template <class Used>
 double correlated_points(std::span<const EdgePoint> points, const Straight& straight, Used used) {
   const auto residual = [&](const EdgePoint& p) { return used(p) ? straight.offset(p.place_px) / p.sigma_px : 0.0; };
   double square = 0.0;
-  std::size_t count = 0;
-  for (const EdgePoint& point : points) {
-    const double e = residual(point);
-    square += e * e;
-    count += used(point) ? 1U : 0U;
-  }
+  for (const EdgePoint& point : points) square += residual(point) * residual(point);
   if (square <= 0.0) return 1.0;
-  const double chance = 2.0 / std::sqrt(static_cast<double>(count));
+  const std::size_t lags = std::min(kMostLags, points.size() / kPointsPerLag);
   double sum = 1.0;
-  for (std::size_t lag = 1; lag <= std::min(kMostLags, points.size() / 4); ++lag) {
+  for (std::size_t lag = 1; lag <= lags; ++lag) {
     double product = 0.0;
     for (std::size_t i = lag; i < points.size(); ++i) product += residual(points[i]) * residual(points[i - lag]);
-    if (product < chance * square) break;
-    sum += 2.0 * product / square;
+    sum += 2.0 * (1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1)) * product / square;
   }
-  return sum;
+  return std::max(1.0, sum);
 }
 
 LineFit fit_of(const Straight& straight, double variance) {

@@ -15,10 +15,12 @@ constexpr double kMostReach_px = 14.0;
 constexpr double kFirstBlur_px = 1.2;
 constexpr double kLeastBlur_px = 0.35;
 constexpr double kMostBlur_px = 4.0;
-constexpr double kMostOff_px = 2.5;     // from the guess, or from the line so far
-constexpr double kLeastContrast = 0.5;  // of the edge's median
-constexpr double kDarkness = 0.25;      // of the contrast: the dark side must be sky to that
-constexpr int kMostMisses = 5;          // in a row, where an edge ends
+constexpr double kMostOff_px = 2.5;      // from LSD's guess
+constexpr double kMostOffLine_px = 0.8;  // from the edge's own line: what goes on beside it is another edge
+constexpr double kLeastContrast = 0.5;   // of the edge's median
+constexpr double kMostContrast = 1.6;
+constexpr double kDarkness = 0.25;  // of the contrast: the dark side must be sky to that
+constexpr int kMostMisses = 3;      // in a row, where an edge ends
 constexpr double kCornerSigmas = 3.0;
 constexpr double kBorder_px = 3.0;
 constexpr int kSteps = 8;
@@ -180,15 +182,17 @@ struct Look {
   double blur = kFirstBlur_px;
   double contrast = 0.0;  // 0: not known yet
   double reach_px = 6.0;
+  double most_off_px = kMostOff_px;
 };
 
 std::optional<Sample> sample(const Walk& walk, const TargetMask& target, int index, const Look& look) {
   const auto profile = walk.profile(index, look.reach_px);
   if (!profile || profile->size < 5) return std::nullopt;
   const auto rise = fit_rise(*profile, look.blur, 0.0);
-  if (!rise || std::abs(rise->place) > std::min(kMostOff_px, look.reach_px - 1.0)) return std::nullopt;
+  if (!rise || std::abs(rise->place) > std::min(look.most_off_px, look.reach_px - 1.0)) return std::nullopt;
   const double contrast = rise->bright - rise->dark;
   const double least = look.contrast > 0.0 ? kLeastContrast * look.contrast : 0.5 * (target.threshold - target.sky);
+  if (look.contrast > 0.0 && contrast > kMostContrast * look.contrast) return std::nullopt;
   if (contrast < least || std::abs(rise->dark - target.sky) > kDarkness * contrast + 3.0 * target.noise) {
     return std::nullopt;
   }
@@ -302,6 +306,7 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
     if (!better) return edge;
     line = *better;
   }
+  look.most_off_px = kMostOffLine_px;
   const Walk walk(image, line);
   const int step = walk.direction();
   const int first = followed(walk, target, walk.index_at(0.0), -step, look);

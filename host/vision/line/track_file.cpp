@@ -46,8 +46,8 @@ bool is_same(const pointing::Geodetic& a, const pointing::Geodetic& b) {
 
 }  // namespace
 
-TrackFile read_track(host::ByteSource source) {
-  host::TableReader table(std::move(source), {"image", "time_s", "azimuth_deg", "elevation_deg"});
+TrackFile read_track(host::ByteSource source, host::LastLine last_line) {
+  host::TableReader table(std::move(source), {"image", "time_s", "azimuth_deg", "elevation_deg"}, last_line);
   const Optional range(table, "range_m", 1.0, 1e12), latitude(table, "latitude_deg", -90.0, 90.0),
       longitude(table, "longitude_deg", -180.0, 360.0), height(table, "height_m", -500.0, 9000.0);
   TrackFile track;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/table/byte_source.hpp"
+#include "host/table/line_reader.hpp"
 #include "pharos/pointing/orbit.hpp"
 
 namespace pharos::line {
@@ -32,8 +32,8 @@ inline constexpr double kLeastElevation_deg = 0.0, kMostElevation_deg = 90.0;
 
 /// Reads `image,time_s,azimuth_deg,elevation_deg` and, where they are there, `range_m` (m, above 0) and `latitude_deg`,
 /// `longitude_deg`, `height_m` (the station's, the same in every row). Throws host::InputError naming file, line and
-/// column for what is no table, times that do not grow, two stations.
-TrackFile read_track(host::ByteSource source);
+/// column for what is no table, times that do not grow, two stations. `last_line`: of a file that still grows.
+TrackFile read_track(host::ByteSource source, host::LastLine last_line = host::LastLine::kAccept);
 /// The same of a file; `-` is standard input.
 TrackFile read_track_file(const std::string& path);
 /// An image's path: beside the track file where it is relative.

@@ -41,7 +41,7 @@ TEST(FitLine, StatesTheTruthOfItsErrors) {
 
 TEST(FitLine, NeighboursThatErrAlikeMakeTheCovarianceLarger) {
   std::mt19937_64 random(2);
-  std::vector<EdgePoint> points = straight(random, 0.2);
+  std::vector<EdgePoint> points = straight(random, 0.2, 4000);
   const auto alone = fit_line(points);
   // Every error held for five points.
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -50,14 +50,14 @@ std::string body(const LineSatellite& satellite) {
          ", 0.35 texture { Metal } }\n";
 }
 
-// The body's frame to the camera's, for points that went through povray_vector: rows are the images of its axes.
-std::string placed(const Matrix3& R_camera_body, const Vector3& t_camera) {
+// The body's frame to the scene's, for points that went through povray_vector: columns are the images of its axes. The
+// scene's frame is the camera's with the satellite's middle as origin: POV-Ray keeps bounding boxes in single
+// precision.
+std::string placed(const Matrix3& R_camera_body) {
   const Vector3 flip(1.0, -1.0, 1.0);
   const Matrix3 R = flip.asDiagonal() * R_camera_body * flip.asDiagonal();
-  const Vector3 t = flip.asDiagonal() * t_camera;
-  return fmt::format(
-      "matrix <{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}>\n",
-      R(0, 0), R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1), R(0, 2), R(1, 2), R(2, 2), t.x(), t.y(), t.z());
+  return fmt::format("matrix <{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},0,0,0>\n",
+                     R(0, 0), R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1), R(0, 2), R(1, 2), R(2, 2));
 }
 
 constexpr const char* kTextures =
@@ -87,9 +87,9 @@ std::string line_scene(const LineScenario& scenario, const LineView& view, const
   if (satellite.panels == 2) {
     parts += panel(satellite, -inner - satellite.panel_length_m) + truss(satellite, -inner);
   }
-  return povray_preamble() + povray_camera(optics, Matrix3::Identity(), Vector3::Zero()) + kTextures +
-         "light_source { " + povray_vector(place + 1e7 * to_sun) + " rgb 1 parallel point_at " + povray_vector(place) +
-         " }\nunion {\n" + parts + placed(R_camera_station * view.R_station_body, place) + "}\n";
+  return povray_preamble() + povray_camera(optics, Matrix3::Identity(), -place) + kTextures + "light_source { " +
+         povray_vector(1e5 * to_sun) + " rgb 1 parallel point_at <0,0,0>" + " }\nunion {\n" + parts +
+         placed(R_camera_station * view.R_station_body) + "}\n";
 }
 
 }  // namespace pharos::sim
