@@ -13,9 +13,10 @@ namespace {
 
 // The epsilon of (3): keeps black black. Small beside the darkest step of 16 bits after (7), 65535^-0.8 = 1.4e-4.
 constexpr float kBlack = 1e-5F;
-// RMS error of the illumination as the solver estimates it, of the frame's range; a tenth of a step of 8 bits.
-constexpr double kTolerance = 1e-3;
-constexpr int kMostIterations = 40;
+// Bound of the illumination's error that the solver works to, of its range; what is left is a tenth to two thirds of
+// it.
+constexpr double kTolerance = 5e-3;
+constexpr int kMostIterations = 60;
 
 void raise(const FloatImage& refined, double gamma, FloatImage& out) {
   out.shape(refined.width_px, refined.height_px, 1);
@@ -77,6 +78,16 @@ const Enhanced& Enhancer::enhance(ImageView<const std::uint16_t> frame) {
   return enhance(buffers_->widened);
 }
 
+const Enhanced& Enhancer::illuminate(const FloatImage& frame) {
+  Buffers& b = *buffers_;
+  Enhanced& steps = b.steps;
+  max_of_channels(frame, steps.start);
+  b.weights.weigh(steps.start, settings_.strategy, settings_.alpha, settings_.sigma_px, b.system);
+  steps.iterations = b.solver.solve(b.system, steps.start, kTolerance, kMostIterations, steps.refined);
+  raise(steps.refined, settings_.gamma, steps.illumination);
+  return steps;
+}
+
 const Enhanced& Enhancer::enhance(const FloatImage& frame) {
   Buffers& b = *buffers_;
   Enhanced& steps = b.steps;
@@ -84,10 +95,7 @@ const Enhanced& Enhancer::enhance(const FloatImage& frame) {
     steps = Enhanced();
     return steps;
   }
-  max_of_channels(frame, steps.start);
-  b.weights.weigh(steps.start, settings_.strategy, settings_.alpha, settings_.sigma_px, b.system);
-  steps.iterations = b.solver.solve(b.system, steps.start, kTolerance, kMostIterations, steps.refined);
-  raise(steps.refined, settings_.gamma, steps.illumination);
+  illuminate(frame);
   divide(frame, steps.illumination, steps.reflectance);
   steps.noise_sigma = b.denoiser.denoise(steps.reflectance, settings_, steps.denoised);
   recompose(steps.reflectance, steps.illumination, steps.denoised, steps.result);

@@ -60,6 +60,9 @@ class Enhancer {
   /// The same of one or three planes, 0 ... 1.
   const Enhanced& enhance(const FloatImage& frame);
 
+  /// The first half alone, for what needs no more: start, refined, illumination and iterations.
+  const Enhanced& illuminate(const FloatImage& frame);
+
   /// The next frame starts cold: after a cut, or where frames must not depend on those before.
   void forget();
 

@@ -12,8 +12,11 @@ using Index = std::ptrdiff_t;
 
 // Below it lines of both directions solve a grid by themselves.
 constexpr Index kCoarsest_px = 4;
-float kDamping = 0.8F;
-float kCoarseLink = 0.5F;
+constexpr int kCoarsestRounds = 4;
+// Two links lead from one group of 2 x 2 to the next, over twice the distance: 2 / 2 / 2.
+constexpr float kCoarseLink = 0.5F;
+// Coarse corrections in a cycle. With one the iterations grow by a half to twice on textured frames.
+constexpr int kCorrections = 2;
 
 void resize(SmoothnessGrid& grid, Index width, Index height) {
   grid.width = width;
@@ -115,7 +118,7 @@ void residual(SmoothnessGrid& grid) {
   apply(grid, grid.x.data(), [out, b](Index at, float value) { out[at] = b[at] - value; });
 }
 
-// residual <- solution of each column's tridiagonal system; x += damping of it
+// residual <- solution of each column's tridiagonal system; x += that
 void columns(SmoothnessGrid& grid) {
   const Index width = grid.width, height = grid.height;
   float* y = grid.residual.data();
@@ -136,7 +139,7 @@ void columns(SmoothnessGrid& grid) {
       const float* inverse = grid.along_column.data() + v * width;
       for (Index u = 0; u < width; ++u) here[u] += link[u] * inverse[u] * after[u];
     }
-    for (Index u = 0; u < width; ++u) x[u] += kDamping * here[u];
+    for (Index u = 0; u < width; ++u) x[u] += here[u];
   }
 }
 
@@ -160,7 +163,7 @@ void rows_at(SmoothnessGrid& grid, Index v) {
     for (std::size_t k = 0; k < kRows; ++k) {
       const Index at = static_cast<Index>(k) * width + u;
       last[k] = y[at] + link[at] * inverse[at] * last[k];
-      x[at] += kDamping * last[k];
+      x[at] += last[k];
     }
   }
 }
@@ -207,6 +210,27 @@ double dot(const std::vector<float>& a, const std::vector<float>& b) {
   return sum;
 }
 
+// Conjugate gradients approach the solution by sqrt(step * (r, z)) in the norm of the system, each time at right angles
+// to all before (Hestenes and Stiefel): what the last few steps took away bounds what is left from above as soon as
+// they shrink, and this norm bounds the RMS.
+class LastSteps {
+ public:
+  double error_after(double square, double pixels) {
+    squares_[count_++ % kKept] = square;
+    double sum = 0.0;
+    for (const double one : squares_) sum += one;
+    const double error = std::sqrt(sum / pixels);
+    return count_ < kKept ? kFewSteps * error : error;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 3;
+  // Before there are so many, only a start that is good ten times over is believed.
+  static constexpr double kFewSteps = 10.0;
+  std::array<double, kKept> squares_{};
+  std::size_t count_ = 0;
+};
+
 }  // namespace
 
 void SmoothnessSolver::build(const SmoothnessSystem& system) {
@@ -233,20 +257,21 @@ void SmoothnessSolver::cycle(std::size_t level) {
   SmoothnessGrid& grid = grids_[level];
   std::fill(grid.x.begin(), grid.x.end(), 0.0F);
   grid.residual = grid.b;
-  const int rounds = level + 1 < grids_.size() ? 1 : 8;
+  const bool coarsest = level + 1 == grids_.size();
+  const int rounds = coarsest ? kCoarsestRounds : 1;
   for (int k = 0; k < rounds; ++k) {
     if (k > 0) residual(grid);
     columns(grid);
     residual(grid);
     rows(grid);
   }
-  if (level + 1 < grids_.size()) {
+  for (int k = 0; !coarsest && k < kCorrections; ++k) {
     residual(grid);
     restrict_to(grid, grids_[level + 1]);
     cycle(level + 1);
     prolong(grids_[level + 1], grid);
   }
-  for (int k = 0; k < rounds; ++k) {
+  for (int k = 0; k < rounds; ++k) {  // in the opposite order, so that the cycle is symmetric
     residual(grid);
     rows(grid);
     residual(grid);
@@ -261,8 +286,10 @@ int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& st
   if (refined.width_px != start.width_px || refined.height_px != start.height_px || refined.channels != 1) {
     refined = start;
   }
-  const auto [low, high] = std::minmax_element(start.values.begin(), start.values.end());
-  const double enough = tolerance * static_cast<double>(*high - *low);
+  const auto range = [&] {
+    const auto [low, high] = std::minmax_element(refined.values.begin(), refined.values.end());
+    return static_cast<double>(*high - *low);
+  };
   const double pixels = static_cast<double>(start.pixels());
   std::vector<float>& r = fine.b;
   std::vector<float>& z = fine.x;
@@ -272,24 +299,24 @@ int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& st
   direction_.resize(start.pixels());
   image_.resize(start.pixels());
   double before = 0.0;
-  for (int k = 0;; ++k) {
+  LastSteps steps;
+  for (int k = 0; k < most_iterations; ++k) {
     cycle(0);
-    const double rms = std::sqrt(dot(z, z) / pixels);
-    if (rms <= enough || k >= most_iterations) {
-      for (std::size_t i = 0; i < z.size(); ++i) refined.values[i] += z[i];
-      return k;
-    }
     const double now = dot(r, z);
+    if (!(now > 0.0)) return k;  // solved to the last bit
     const float beta = k == 0 ? 0.0F : static_cast<float>(now / before);
     before = now;
     for (std::size_t i = 0; i < z.size(); ++i) direction_[i] = k == 0 ? z[i] : z[i] + beta * direction_[i];
     apply(fine, direction_.data(), [&](Index at, float value) { image_[static_cast<std::size_t>(at)] = value; });
-    const auto step = static_cast<float>(now / dot(direction_, image_));
+    const double step = now / dot(direction_, image_);
+    const auto length = static_cast<float>(step);
     for (std::size_t i = 0; i < z.size(); ++i) {
-      refined.values[i] += step * direction_[i];
-      r[i] -= step * image_[i];
+      refined.values[i] += length * direction_[i];
+      r[i] -= length * image_[i];
     }
+    if (steps.error_after(step * now, pixels) <= tolerance * range()) return k + 1;
   }
+  return most_iterations;
 }
 
 }  // namespace pharos::enhance

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "host/images/grey_image.hpp"
+#include "host/vision/ring2/stereo_circles.hpp"
+#include "tools/cli/reproduce/ring2/simulated_pair.hpp"
+#include "tools/sim/povray/render_scene.hpp"
+#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/stereo/stereo_scenario.hpp"
+
+namespace pharos::host {
+
+/// Both cameras' images of one pose of a scenario.
+inline std::array<GreyImage, 2> rendered_pair(const sim::StereoScenario& scenario, std::size_t pair) {
+  std::array<GreyImage, 2> images;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const sim::LinearImage light = sim::render_scene(
+        sim::stereo_scene_text(scenario, pair, v),
+        {.width_px = scenario.rig[v].width_px, .height_px = scenario.rig[v].height_px, .antialias_threshold = 0.01});
+    sim::RandomStream random(7, "pixels " + std::to_string(2 * pair + v));
+    images[v] = sim::expose(sim::blurred(light, scenario.blur_px), {}, random);
+  }
+  return images;
+}
+
+inline StereoImages views_of(const std::array<GreyImage, 2>& images) { return {images[0].view(), images[1].view()}; }
+
+inline double angle_deg(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 57.29577951308232;
+}
+
+}  // namespace pharos::host

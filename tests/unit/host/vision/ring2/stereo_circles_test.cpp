@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/ring2/stereo_circles.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/support/input_error.hpp"
+#include "tests/unit/host/vision/ring2/rendered_pair.hpp"
+
+namespace pharos::host {
+namespace {
+
+// One pair for all tests, half the usual size: rendering is what costs.
+class StereoCirclesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scenario_ = new sim::StereoScenario(sim::parse_stereo_scenario(
+        "poses = [[0.03, -0.02, 2.6, 9.0, -11.0]]\n[rig]\nwidth_px = 640\nheight_px = 512\nfocal_px = 500\n", "pair",
+        1));
+    images_ = new std::array<GreyImage, 2>(rendered_pair(*scenario_, 0));
+  }
+  static void TearDownTestSuite() {
+    delete images_;
+    delete scenario_;
+  }
+  static StereoCircles find(const std::array<GreyImage, 2>& images) {
+    return StereoCircleFinder(ring2::core_rig(scenario_->rig), {}).find(views_of(images));
+  }
+  static std::array<GreyImage, 2> with(std::size_t view, std::uint16_t value) {
+    std::array<GreyImage, 2> images = *images_;
+    std::fill(images[view].pixels.begin(), images[view].pixels.end(), value);
+    return images;
+  }
+
+  static sim::StereoScenario* scenario_;
+  static std::array<GreyImage, 2>* images_;
+};
+sim::StereoScenario* StereoCirclesTest::scenario_ = nullptr;
+std::array<GreyImage, 2>* StereoCirclesTest::images_ = nullptr;
+
+TEST_F(StereoCirclesTest, FindsRingAndNozzleInARenderedPair) {
+  const StereoCircles circles = find(*images_);
+  ASSERT_TRUE(circles.estimate.has_value()) << circles.refusal;
+  const sim::RingAndNozzle truth = scenario_->target_at(0);
+  const ring2::CirclesEstimate& e = *circles.estimate;
+  EXPECT_EQ(e.ellipses, 4);
+  EXPECT_FALSE(e.ambiguous());
+  EXPECT_LT(angle_deg(e.normal, truth.normal), 0.1);
+  EXPECT_LT((e.ring_centre_m - truth.ring_centre_m).norm(), 0.003);
+  EXPECT_NEAR(e.distance_m, truth.distance_m, 0.003);
+}
+
+TEST_F(StereoCirclesTest, ABlackOrSaturatedImageIsNamed) {
+  EXPECT_EQ(find(with(0, 300)).refusal, "left_black");
+  EXPECT_EQ(find(with(1, 0)).refusal, "right_black");
+  EXPECT_EQ(find(with(1, 65535)).refusal, "right_saturated");
+  EXPECT_EQ(find(with(0, 30000)).refusal, "left_even");
+}
+
+TEST_F(StereoCirclesTest, ExchangedImagesAreNamed) {
+  const StereoCircles circles = find({(*images_)[1], (*images_)[0]});
+  EXPECT_FALSE(circles.estimate.has_value());
+  EXPECT_EQ(circles.refusal, "left_right_exchanged");
+}
+
+TEST_F(StereoCirclesTest, ANozzleHiddenFromOneCameraIsDoneWithout) {
+  const StereoCircles all = find(*images_);
+  ASSERT_TRUE(all.estimate.has_value());
+  auto found = all.found;
+  // Whatever is smaller than the ring goes from the right image.
+  std::erase_if(found[1], [&](const ellipse::DetectedEllipse& e) {
+    return e.ellipse.a_px < 0.6 * all.contours[1][0]->ellipse.a_px;
+  });
+  const StereoCircles three = circles_among(ring2::core_rig(scenario_->rig), {}, found);
+  ASSERT_TRUE(three.estimate.has_value()) << three.refusal;
+  EXPECT_EQ(three.estimate->ellipses, 3);
+  EXPECT_LT(angle_deg(three.estimate->normal, scenario_->target_at(0).normal), 0.2);
+}
+
+TEST_F(StereoCirclesTest, AnotherCamerasImageAndABadRigAreUsageErrors) {
+  std::array<GreyImage, 2> images = *images_;
+  images[1].height_px -= 2;
+  EXPECT_THROW(find(images), InputError);
+  ring2::Rig rig = ring2::core_rig(scenario_->rig);
+  rig.views[1].T_rig_camera.t = rig.views[0].T_rig_camera.t;
+  EXPECT_THROW(StereoCircleFinder(rig, {}), InputError);
+}
+
+}  // namespace
+}  // namespace pharos::host

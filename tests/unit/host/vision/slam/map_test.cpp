@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/vision/slam/mapping.hpp"
+#include "simulated_views.hpp"
+
+namespace pharos::slam {
+namespace {
+
+using namespace test;
+
+// What each side knows of the other agrees, and the tree has one root.
+void expect_whole(const Map& map) {
+  int roots = 0;
+  for (const auto& [id, keyframe] : map.keyframes) {
+    for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
+      if (keyframe.points[k] == kNone) continue;
+      const auto& seen_by = map.points.at(keyframe.points[k]).seen_by;
+      ASSERT_TRUE(seen_by.contains(id));
+      EXPECT_EQ(seen_by.at(id), static_cast<int>(k));
+    }
+    for (const auto& [other, shared] : keyframe.neighbours) {
+      ASSERT_TRUE(map.keyframes.contains(other));
+      EXPECT_TRUE(map.keyframes.at(other).neighbours.contains(id));
+    }
+    roots += keyframe.parent == kNone ? 1 : 0;
+    if (keyframe.parent != kNone) {
+      EXPECT_TRUE(map.keyframes.at(keyframe.parent).children.contains(id));
+    }
+  }
+  EXPECT_EQ(roots, 1);
+  for (const auto& [id, point] : map.points) {
+    ASSERT_FALSE(point.seen_by.empty());
+    for (const auto& [keyframe, feature] : point.seen_by) {
+      EXPECT_EQ(map.keyframes.at(keyframe).points[static_cast<std::size_t>(feature)], id);
+    }
+  }
+}
+
+class MapOfTurns : public ::testing::Test {
+ protected:
+  MapOfTurns() {
+    points_ = random_points(random_, 60);
+    for (std::size_t k = 0; k < points_.size(); ++k) descriptors_.push_back(descriptor_of(random_));
+    for (int k = 0; k < 8; ++k) {
+      Frame frame = frame_of(points_, descriptors_, turned_pose(0.03 * k), 0.2, random_);
+      for (std::size_t p = 0; p < ids_.size(); ++p) frame.points[p] = ids_[p];
+      const KeyframeId id = map_.add_keyframe(frame, {}).id;
+      map_.update_neighbours(id);
+      add_stereo_points(map_, id, kCamera);
+      if (ids_.empty()) ids_ = map_.keyframes.at(id).points;
+    }
+  }
+
+  std::mt19937_64 random_{1};
+  std::vector<Vector3> points_;
+  std::vector<Descriptor> descriptors_;
+  std::vector<PointId> ids_;
+  Map map_;
+};
+
+TEST_F(MapOfTurns, PointsAndKeyframesAgree) {
+  EXPECT_EQ(map_.points.size(), points_.size());
+  EXPECT_EQ(map_.points.at(ids_[0]).seen_by.size(), 8U);
+  expect_whole(map_);
+}
+
+TEST_F(MapOfTurns, StaysWholeWhateverGoes) {
+  for (int k = 0; k < 40; ++k) {
+    switch (random_() % 4) {
+      case 0:
+        map_.fuse(ids_[random_() % ids_.size()], ids_[random_() % ids_.size()]);
+        break;
+      case 1:
+        map_.remove_point(ids_[random_() % ids_.size()]);
+        break;
+      case 2:
+        map_.remove_keyframe(static_cast<KeyframeId>(1 + random_() % 7));
+        break;
+      default: {
+        const PointId point = ids_[random_() % ids_.size()];
+        if (map_.points.contains(point)) map_.forget_observation(point, map_.points.at(point).seen_by.begin()->first);
+      }
+    }
+    expect_whole(map_);
+  }
+}
+
+TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
+  const CameraFromTarget before = map_.pose_of(4);
+  map_.remove_keyframe(4);
+  map_.remove_keyframe(map_.keyframes.at(5).parent);
+  EXPECT_FALSE(map_.keyframes.contains(4));
+  EXPECT_LT(pose_difference(map_.pose_of(4), before).norm(), 1e-9);
+}
+
+TEST_F(MapOfTurns, TheFirstKeyframeStays) {
+  map_.remove_keyframe(0);
+  EXPECT_TRUE(map_.keyframes.contains(0));
+}
+
+TEST_F(MapOfTurns, RedundantKeyframesGoAndTheLimitHolds) {
+  EXPECT_GT(cull_keyframes(map_, 7, nullptr, 0), 0);
+  expect_whole(map_);
+  cull_keyframes(map_, 7, nullptr, 3);
+  EXPECT_LE(map_.keyframes.size(), 4U);
+  EXPECT_TRUE(map_.keyframes.contains(7));
+  expect_whole(map_);
+}
+
+TEST_F(MapOfTurns, DoublePointsOfAKeyframeBecomeOne) {
+  // The same landmarks seen anew by a keyframe that was not told of them.
+  const Frame frame = frame_of(points_, descriptors_, turned_pose(0.1), 0.2, random_);
+  const KeyframeId id = map_.add_keyframe(frame, {}).id;
+  add_stereo_points(map_, id, kCamera);
+  ASSERT_EQ(map_.points.size(), 2 * points_.size());
+  const int fused = fuse_points(map_, ids_, id, kCamera, 3.0);
+  EXPECT_GT(fused, 50);
+  EXPECT_EQ(map_.points.size(), 2 * points_.size() - static_cast<std::size_t>(fused));
+  map_.update_neighbours(id);
+  expect_whole(map_);
+}
+
+}  // namespace
+}  // namespace pharos::slam

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/pose_only.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/vision/slam/rigid_fit.hpp"
+#include "simulated_views.hpp"
+
+namespace pharos::slam {
+namespace {
+
+using namespace test;
+
+TEST(PoseOnly, JacobianAgreesWithCentralDifferences) {
+  std::mt19937_64 random(1);
+  const CameraFromTarget pose = turned_pose(0.4);
+  for (const Vector3& point : random_points(random, 20)) {
+    const Observation at = seen(point, pose, 1.0, random);
+    const auto J = residual_jacobian(at, kCamera, pose);
+    for (int k = 0; k < 6; ++k) {
+      Vector6 step = Vector6::Zero();
+      step[k] = 1e-6;
+      const Vector3 slope =
+          (residual_of(at, kCamera, pose.moved_by(step)) - residual_of(at, kCamera, pose.moved_by(-step))) / 2e-6;
+      EXPECT_LT((J.col(k) - slope).norm(), 1e-5 * (1.0 + slope.norm())) << "column " << k;
+    }
+  }
+}
+
+TEST(PoseOnly, FindsTheExactPoseAmongGrossOutliers) {
+  std::mt19937_64 random(2);
+  const CameraFromTarget truth = turned_pose(0.3);
+  std::vector<Observation> observations;
+  for (const Vector3& point : random_points(random, 100)) observations.push_back(seen(point, truth, 0.0, random));
+  for (std::size_t k = 0; k < 30; ++k)
+    observations[k].pixel += Vector2(25.0, -40.0) + random_vector(random, 10.0).head<2>();
+  const PoseOnly placed =
+      adjust_pose(observations, kCamera, truth.moved_by((Vector6() << 0.02, -0.01, 0.01, 0.02, 0.01, 0.05).finished()));
+  EXPECT_LT(rotation_angle_between(placed.pose.R, truth.R), 1e-6);
+  EXPECT_LT((placed.pose.t - truth.t).norm(), 1e-5);
+  EXPECT_EQ(placed.inliers, 70);
+  for (std::size_t k = 0; k < 30; ++k) EXPECT_FALSE(placed.inlier[k]);
+}
+
+TEST(PoseOnly, CovarianceDescribesItsErrors) {
+  std::mt19937_64 random(3);
+  const CameraFromTarget truth = turned_pose(-0.2);
+  const std::vector<Vector3> points = random_points(random, 60);
+  double sum = 0.0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<Observation> observations;
+    for (const Vector3& point : points) observations.push_back(seen(point, truth, 0.4, random));
+    const PoseOnly placed = adjust_pose(observations, kCamera, truth);
+    const Vector6 error = pose_difference(truth, placed.pose);
+    sum += error.dot(placed.covariance.inverse() * error);
+  }
+  // Chi-squared of 6 x 200 degrees of freedom: 6 +- 0.25 a run; what the outlier limit cuts off widens it a little.
+  EXPECT_NEAR(sum / kRuns, 6.0, 1.0);
+}
+
+TEST(RigidFit, RecoversAMotionExactlyAndRefusesALine) {
+  std::mt19937_64 random(4);
+  const CameraFromTarget truth = turned_pose(2.5);
+  std::vector<Vector3> points = random_points(random, 10), moved;
+  for (const Vector3& point : points) moved.push_back(truth * point);
+  const auto pose = rigid_fit(points, moved);
+  ASSERT_TRUE(pose);
+  EXPECT_LT((pose->R - truth.R).norm(), 1e-9);
+  EXPECT_LT((pose->t - truth.t).norm(), 1e-9);
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = Vector3(static_cast<double>(k), 0.0, 0.0);
+  EXPECT_FALSE(rigid_fit(points, points));
+  EXPECT_FALSE(rigid_fit({points[0], points[1]}, {points[0], points[1]}));
+}
+
+TEST(RobustPose, NeedsNoStartAndHalfOfTheMatchesMayBeWrong) {
+  std::mt19937_64 random(5);
+  const CameraFromTarget truth = turned_pose(1.2);
+  std::vector<Observation> observations;
+  for (const Vector3& point : random_points(random, 80)) observations.push_back(seen(point, truth, 0.3, random));
+  for (std::size_t k = 0; k < 40; ++k) observations[k].point_m = random_vector(random, 0.8);
+  const auto placed = robust_pose(observations, kCamera, 20, 7);
+  ASSERT_TRUE(placed);
+  EXPECT_LT(rotation_angle_between(placed->pose.R, truth.R), 0.005);
+  EXPECT_GE(placed->inliers, 35);
+  const auto again = robust_pose(observations, kCamera, 20, 7);
+  EXPECT_EQ(again->pose.R, placed->pose.R);
+  for (Observation& at : observations) at.point_m = random_vector(random, 0.8);
+  EXPECT_FALSE(robust_pose(observations, kCamera, 20, 7)) << "nothing agrees";
+}
+
+}  // namespace
+}  // namespace pharos::slam

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way from images, on short sequences of a turning satellite.
+#include "host/vision/slam/slam_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+
+#include "host/support/input_error.hpp"
+#include "host/vision/slam/spin.hpp"
+#include "tools/sim/stereo_tumbling/room_sequence.hpp"
+#include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
+
+namespace pharos::slam {
+namespace {
+
+using Image = std::vector<std::uint8_t>;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr int kFrames = 25;
+
+// 480x360, 1 deg a frame; rendered once for all tests.
+struct Footage {
+  sim::TumblingScenario scenario{.turn_deg = 40.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
+  sim::TumblingSequence sequence{scenario, 5};
+  std::vector<std::array<Image, 2>> pairs;
+
+  const std::array<Image, 2>& pair(int frame) {
+    while (static_cast<int>(pairs.size()) <= frame) {
+      std::array<Image, 2> both;
+      for (int side = 0; side < 2; ++side) {
+        for (const std::uint16_t value : sequence.image(static_cast<int>(pairs.size()), side).pixels) {
+          both[static_cast<std::size_t>(side)].push_back(static_cast<std::uint8_t>(value >> 8U));
+        }
+      }
+      pairs.push_back(std::move(both));
+    }
+    return pairs[static_cast<std::size_t>(frame)];
+  }
+};
+
+Footage& footage() {
+  static Footage it;
+  return it;
+}
+
+class SlamOfATurn : public ::testing::Test {
+ protected:
+  std::unique_ptr<SlamSystem> system(bool threads = false) {
+    SlamSettings settings;
+    settings.features = 800;
+    settings.threads = threads;
+    return make_slam(footage().sequence.rig(), "rig.toml", settings);
+  }
+  static ImageView<const std::uint8_t> view(const Image& image) { return {image.data(), 480, 360}; }
+  static TrackedFrame push(SlamSystem& slam, int slot, int shown) {
+    const auto& pair = footage().pair(shown);
+    return slam.push(0.05 * slot, view(pair[0]), view(pair[1]));
+  }
+  static double error_deg(const TrackedFrame& frame, int shown) {
+    return kDegrees * rotation_angle_between(frame.placed->pose.R, footage().sequence.truth(shown).R);
+  }
+};
+
+TEST_F(SlamOfATurn, FollowsTheAttitude) {
+  const auto slam = system();
+  for (int k = 0; k < kFrames; ++k) EXPECT_TRUE(push(*slam, k, k).placed) << k;
+  slam->finish();
+  const auto trajectory = slam->trajectory();
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kFrames));
+  for (int k = 0; k < kFrames; ++k) EXPECT_LT(error_deg(trajectory[static_cast<std::size_t>(k)], k), 0.5) << k;
+  const SlamReport report = slam->report();
+  EXPECT_EQ(report.frames, kFrames);
+  EXPECT_EQ(report.tracked, kFrames);
+  EXPECT_GE(report.keyframes, 2);
+  EXPECT_EQ(slam->points().size(), static_cast<std::size_t>(report.points));
+  const auto spin = fit_spin(trajectory);
+  ASSERT_TRUE(spin);
+  EXPECT_NEAR(kDegrees * spin->rate(), 20.0, 0.3);
+  const Vector3 axis = footage().sequence.pose(0).R.col(2);
+  EXPECT_GT(spin->axis().dot(axis), std::cos(2.0 / kDegrees));
+}
+
+TEST_F(SlamOfATurn, GivesTheSameBitsTwice) {
+  std::vector<Matrix3> first;
+  for (int run = 0; run < 2; ++run) {
+    const auto slam = system();
+    for (int k = 0; k < 10; ++k) push(*slam, k, k);
+    std::vector<Matrix3> attitudes;
+    for (const TrackedFrame& frame : slam->trajectory()) attitudes.push_back(frame.placed->pose.R);
+    if (run == 0) first = attitudes;
+    EXPECT_EQ(attitudes, first);
+  }
+}
+
+TEST_F(SlamOfATurn, ThreadsEndWithAMapAsGood) {
+  const auto slam = system(true);
+  for (int k = 0; k < 15; ++k) push(*slam, k, k);
+  slam->finish();
+  const auto trajectory = slam->trajectory();
+  EXPECT_LT(error_deg(trajectory.back(), 14), 0.6);
+  EXPECT_GE(slam->report().keyframes, 2);
+}
+
+TEST_F(SlamOfATurn, BlackAndSaturatedFramesHaveNoPoseAndItComesBack) {
+  const auto slam = system();
+  for (int k = 0; k < 8; ++k) push(*slam, k, k);
+  const Image black(480 * 360, 0), white(480 * 360, 255);
+  EXPECT_FALSE(slam->push(0.4, view(black), view(black)).placed);
+  EXPECT_FALSE(slam->push(0.45, view(white), view(white)).placed);
+  TrackedFrame back;
+  for (int k = 8; k < 12 && !back.placed; ++k) back = push(*slam, k + 2, k);
+  ASSERT_TRUE(back.placed);
+  EXPECT_TRUE(back.relocalised);
+  const SlamReport report = slam->report();
+  EXPECT_EQ(report.dark, 1);
+  EXPECT_EQ(report.saturated, 1);
+  EXPECT_GE(report.lost, 2);
+  EXPECT_EQ(report.relocalised, 1);
+}
+
+TEST_F(SlamOfATurn, AJumpOfTenDegreesIsFollowed) {
+  const auto slam = system();
+  for (int k = 0; k < 8; ++k) push(*slam, k, k);
+  const TrackedFrame jumped = push(*slam, 8, 18);
+  ASSERT_TRUE(jumped.placed);
+  EXPECT_LT(error_deg(jumped, 18), 0.8);
+}
+
+TEST_F(SlamOfATurn, ARepeatedFrameStaysWhereItIs) {
+  const auto slam = system();
+  for (int k = 0; k < 6; ++k) push(*slam, k, k);
+  const TrackedFrame again = push(*slam, 6, 5);
+  ASSERT_TRUE(again.placed);
+  EXPECT_LT(error_deg(again, 5), 0.4);
+  EXPECT_EQ(slam->report().repeated, 1);
+  EXPECT_TRUE(push(*slam, 7, 7).placed);
+}
+
+TEST_F(SlamOfATurn, ExchangedImagesAreNamed) {
+  const auto slam = system();
+  try {
+    for (int k = 0; k < 8; ++k) {
+      const auto& pair = footage().pair(k);
+      slam->push(0.05 * k, view(pair[1]), view(pair[0]));
+    }
+    FAIL() << "nothing said";
+  } catch (const host::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("exchanged"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(SlamOfATurn, AnotherImageSizeIsNamed) {
+  const auto slam = system();
+  const Image small(320 * 240, 0);
+  try {
+    slam->push(0.0, {small.data(), 320, 240}, {small.data(), 320, 240});
+    FAIL();
+  } catch (const host::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("320 x 240"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("480 x 360"), std::string::npos);
+  }
+}
+
+// Raw images of an unrectified, distorting rig: the walk's first metre.
+TEST(SlamOfARoom, FollowsTheCamera) {
+  const sim::RoomSequence room({.path_m = 1.0, .width_px = 564, .height_px = 360}, 1);
+  SlamSettings settings;
+  settings.scene = Scene::kStatic;
+  const auto slam = make_slam(room.rig(), "rig.toml", settings);
+  for (int k = 0; k < room.frames(); ++k) {
+    std::array<Image, 2> pair;
+    for (int side = 0; side < 2; ++side) {
+      for (const std::uint16_t value : room.image(k, side).pixels) {
+        pair[static_cast<std::size_t>(side)].push_back(static_cast<std::uint8_t>(value >> 8U));
+      }
+    }
+    ASSERT_TRUE(slam->push(0.05 * k, {pair[0].data(), 564, 360}, {pair[1].data(), 564, 360}).placed) << k;
+  }
+  slam->finish();
+  for (const TrackedFrame& frame : slam->trajectory()) {
+    const auto truth = room.truth(static_cast<int>(frame.number));
+    const auto camera = frame.placed->pose.inverse();
+    EXPECT_LT((camera.t - truth.t).norm(), 0.02) << frame.number;
+    EXPECT_LT(kDegrees * rotation_angle_between(camera.R, truth.R), 0.3) << frame.number;
+  }
+}
+
+}  // namespace
+}  // namespace pharos::slam
