@@ -16,7 +16,7 @@ namespace pharos::host {
 struct StereoSettings {
   ellipse::EllipseSettings ellipses{.min_minor_px = 8.0};
   /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
-  double systematic_px = 0.05;
+  double systematic_px = 0.03;
 };
 
 using StereoImages = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
