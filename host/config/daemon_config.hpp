@@ -10,6 +10,7 @@
 #include "host/device/camera_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/pointing/pass.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
@@ -57,10 +58,29 @@ struct CameraConfig {
   bool is_recorded() const { return !frames.empty(); }
 };
 
+/// One telescope whose images arrive as files, and the panels before it.
+struct TelescopeConfig {
+  /// Told in every message, as `line/NAME`: letters, digits, `-` and `_`; no two telescopes share one.
+  std::string name;
+  /// Of what it looks at; told in every message.
+  std::string target;
+  std::filesystem::path camera_file;
+  PinholeCamera camera;
+  /// Where images arrive.
+  std::filesystem::path directory;
+  /// Grows by a row an image: image,time_s,azimuth_deg,elevation_deg[,range_m]; time_s is UTC since 1970.
+  std::filesystem::path track_file;
+  pointing::Geodetic station;
+  /// How the target holds its panels during a pass; none: no pass is told, only its images.
+  std::optional<pointing::AttitudeLaw> law;
+  /// So long without an image ends a pass.
+  double pass_gap_s = 60.0;
+};
+
 struct LcmConfig {
   /// Default: multicast that never leaves this computer (ttl 0).
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
-  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, STATUS.
+  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, LINE_POINTING, STATUS.
   std::string channel_prefix = "PHAROS_";
 };
 
@@ -100,6 +120,7 @@ struct DaemonConfig {
   LogConfig log;
   std::vector<TargetConfig> targets;
   std::vector<CameraConfig> cameras;
+  std::vector<TelescopeConfig> telescopes;
 };
 
 }  // namespace pharos::host

@@ -70,6 +70,21 @@ void describe_camera(std::ostream& out, const CameraConfig& camera) {
       << '\n';
 }
 
+void describe_telescope(std::ostream& out, const TelescopeConfig& telescope) {
+  out << "telescope " << telescope.name << " (target " << telescope.target
+      << "):\n  images: " << telescope.directory.string() << ", track " << telescope.track_file.string()
+      << "\n  lens: " << telescope.camera.width_px << " x " << telescope.camera.height_px << " pixels from "
+      << telescope.camera_file.string() << "\n  station: latitude " << telescope.station.latitude_rad * kDegPerRad
+      << " deg, longitude " << telescope.station.longitude_rad * kDegPerRad << " deg, height "
+      << telescope.station.height_m << " m\n  pass: ";
+  if (telescope.law) {
+    out << "law " << pointing::name_of(*telescope.law) << ", ends after " << telescope.pass_gap_s
+        << " s without an image\n";
+  } else {
+    out << "not told (law = \"none\")\n";
+  }
+}
+
 }  // namespace
 
 std::string describe(const DaemonConfig& config) {
@@ -80,6 +95,7 @@ std::string describe(const DaemonConfig& config) {
     out << prefix << "LIGHTHOUSE_POSE, " << (config.publish.bearings ? prefix + "LIGHTHOUSE_BEARINGS, " : "");
   }
   if (!config.cameras.empty()) out << prefix << "TOF_POSE, ";
+  if (!config.telescopes.empty()) out << prefix << "LINE_POINTING, ";
   out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
       << config.publish.status_period_s << " s\nstate directory: "
       << (config.state_directory.empty() ? "none: calibrations are forgotten at a restart"
@@ -89,6 +105,7 @@ std::string describe(const DaemonConfig& config) {
   describe_log(out, config.log);
   for (const TargetConfig& target : config.targets) describe_target(out, target);
   for (const CameraConfig& camera : config.cameras) describe_camera(out, camera);
+  for (const TelescopeConfig& telescope : config.telescopes) describe_telescope(out, telescope);
   return out.str();
 }
 

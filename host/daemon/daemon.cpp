@@ -50,6 +50,9 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
   load_memory();
   for (const TargetConfig& target : config_.targets) add_channel(target, replay_speed);
   for (const CameraConfig& camera : config_.cameras) add_camera(camera, replay_speed);
+  for (const TelescopeConfig& telescope : config_.telescopes) {
+    telescopes_.push_back(std::make_unique<TelescopeFeed>(loop_, telescope, publisher_));
+  }
   loop_.watch(signals_.fd(), [this] { on_signal(); });
   loop_.watch(attend_timer_.fd(), [this] { attend(); });
   loop_.watch(status_timer_.fd(), [this] { publish_health(); });
@@ -90,7 +93,7 @@ void Daemon::add_camera(const CameraConfig& camera, ReplaySpeed replay_speed) {
 void Daemon::stop_when_all_ended() {
   const auto ended = [](const auto& any) { return any->finished(); };
   const auto replayed = [](const auto& any) { return any->feed->finished(); };
-  if (std::all_of(channels_.begin(), channels_.end(), replayed) &&
+  if (telescopes_.empty() && std::all_of(channels_.begin(), channels_.end(), replayed) &&
       std::all_of(cameras_.begin(), cameras_.end(), ended)) {
     loop_.stop();
   }
@@ -133,6 +136,7 @@ void Daemon::attend() {
   const std::int64_t now_ns = monotonic_now_ns();
   for (const auto& channel : channels_) channel->feed->attend(now_ns);
   for (const auto& camera : cameras_) camera->attend(now_ns);
+  for (const auto& telescope : telescopes_) telescope->attend(now_ns);
   // Poses first, files when no bytes are in hand.
   memory_.save(now_ns);
   warn("calibrations", memory_.trouble(), now_ns);
@@ -199,6 +203,7 @@ void Daemon::publish_health() {
     counts.push_back({"recording.failures", static_cast<std::int64_t>(recorded.failures)});
   }
   for (const auto& camera : cameras_) health.sources.push_back(camera->health(monotonic_now_ns()));
+  for (const auto& telescope : telescopes_) health.sources.push_back(telescope->health(monotonic_now_ns()));
   publisher_.publish_health(health);
 }
 
@@ -207,6 +212,7 @@ NamedCounts Daemon::named_counts() const {
   const ProcessUsage usage = process_usage();
   return {{"published_poses", sent.poses},
           {"published_bearings", sent.bearings},
+          {"published_pointings", sent.pointings},
           {"published_status", sent.status},
           {"published_bytes", sent.bytes},
           {"publish_failures", sent.failed},

@@ -15,6 +15,7 @@
 #include "host/daemon/replay_feed.hpp"
 #include "host/daemon/signals.hpp"
 #include "host/daemon/target_line.hpp"
+#include "host/daemon/telescope_feed.hpp"
 #include "host/daemon/timer.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/record/stream_recorder.hpp"
@@ -58,6 +59,7 @@ class Daemon {
   LogLimit log_limit_;
   std::vector<std::unique_ptr<Channel>> channels_;
   std::vector<std::unique_ptr<CameraFeed>> cameras_;
+  std::vector<std::unique_ptr<TelescopeFeed>> telescopes_;
   std::int64_t started_ns_ = 0;
   std::int64_t failed_told_ = 0;
   std::string message_;

@@ -11,6 +11,7 @@ Publisher::Publisher(MessageSink& sink, const std::string& prefix)
       board_pose_channel_(prefix + "LIGHTHOUSE_BOARD_POSE"),
       bearings_channel_(prefix + "LIGHTHOUSE_BEARINGS"),
       tof_channel_(prefix + "TOF_POSE"),
+      pointing_channel_(prefix + "LINE_POINTING"),
       status_channel_(prefix + "STATUS") {}
 
 template <class Message>
@@ -41,6 +42,12 @@ bool Publisher::publish_board_pose(const CycleReport& report) {
 bool Publisher::publish_pose(const TofReport& report) {
   const bool sent = send(tof_channel_, pose_message(report));
   counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_pointing(const LineReport& report) {
+  const bool sent = send(pointing_channel_, pointing_message(report));
+  counters_.pointings += sent ? 1 : 0;
   return sent;
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
+#include "host/publish/line_report.hpp"
 #include "host/publish/message_sink.hpp"
 #include "host/publish/tof_report.hpp"
 
@@ -16,6 +17,7 @@ namespace pharos::host {
 struct PublishCounters {
   std::int64_t poses = 0;
   std::int64_t bearings = 0;
+  std::int64_t pointings = 0;
   std::int64_t status = 0;
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink did not take
@@ -33,6 +35,8 @@ class Publisher {
   bool publish_board_pose(const CycleReport& report);
   /// pose_t of a depth camera; refused frames are told as refused cycles are.
   bool publish_pose(const TofReport& report);
+  /// pointing_t of a telescope; refused images and passes are told as refused cycles are.
+  bool publish_pointing(const LineReport& report);
   /// bearings_t of the same cycle.
   bool publish_bearings(const CycleReport& report);
   /// status_t.
@@ -49,6 +53,7 @@ class Publisher {
   std::string board_pose_channel_;
   std::string bearings_channel_;
   std::string tof_channel_;
+  std::string pointing_channel_;
   std::string status_channel_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t status_sequence_ = 0;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "host/publish/messages.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kNsPerUs = 1000;
+
+void fill(const Vector3& v, double (&out)[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = v[i];
+}
+
+}  // namespace
+
+pointing_t pointing_message(const LineReport& report) {
+  pointing_t message{};
+  message.utime = report.utc_ns / kNsPerUs;
+  message.sequence = report.sequence;
+  message.source = report.source;
+  message.station_or_camera = report.camera;
+  message.target = report.target;
+  message.flags = report.flags;
+  message.from_pass = report.from_pass ? 1 : 0;
+  message.images = report.images;
+  const bool refused = !report.refusal.empty();
+  const char* answered = report.ambiguous ? "ambiguous" : "ok";
+  message.status = refused ? "refused_" + report.refusal : answered;
+  message.valid = refused ? 0 : 1;
+  if (refused) return message;
+  const Vector3 &s = report.axis_station, &e = report.axis_earth;
+  fill(s, message.axis_station);
+  fill(e, message.axis_earth);
+  message.pitch_rad = std::asin(std::clamp(s.z(), -1.0, 1.0));
+  message.yaw_rad = std::atan2(s.x(), s.y());
+  message.earth_pitch_rad = std::asin(std::clamp(e.z(), -1.0, 1.0));
+  message.earth_yaw_rad = std::atan2(e.x(), e.y());
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      message.axis_covariance[3 * row + column] = report.covariance_station(row, column);
+    }
+  }
+  message.sigma_axis_rad = std::sqrt(report.covariance_station.trace());
+  fill(report.plane_normal_station, message.plane_normal_station);
+  message.sigma_plane_rad = report.sigma_plane_rad;
+  return message;
+}
+
+}  // namespace pharos::host
