@@ -18,7 +18,7 @@ constexpr std::int32_t kRows = 30;
 constexpr int kTriples = 300;
 constexpr double kNear = 0.25;  // in ray coordinates
 constexpr int kTries = 6;       // to find a near one
-constexpr std::size_t kLeastOnFace = 40;
+constexpr std::size_t kLeastOnFace = 20;
 // What lies behind a plane speaks against it more than what lies on it speaks for it.
 constexpr int kBehind = 4;
 constexpr int kRefinements = 2;
@@ -33,21 +33,33 @@ struct Sample {
 };
 using Samples = StaticVector<Sample, static_cast<std::size_t>(kColumns* kRows)>;
 
-void take(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, Samples& samples) {
+// How far from a plane a sample of foil still belongs to it.
+double gate_m(const DepthNoise& noise, const Sample& s) {
+  const double ratio = s.z_m / noise.range_m;
+  return kWrinkles_m + kFoilNoise * noise.sigma_m * ratio * ratio;
+}
+double height_m(const DepthPlane& plane, double size, const Sample& s) {
+  return (1.0 - s.z_m * (plane.q.x() * s.ray.x() + plane.q.y() * s.ray.y() + plane.q.z())) / size;
+}
+
+// Those behind `front`, where there is one.
+void take(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthNoise& noise,
+          const DepthPlane* front, Samples& samples) {
   for (std::int32_t row = 0; row < kRows; ++row) {
     const std::int32_t v = (2 * row + 1) * frame.depth.height_px / (2 * kRows);
     for (std::int32_t column = 0; column < kColumns; ++column) {
       const std::int32_t u = (2 * column + 1) * frame.depth.width_px / (2 * kColumns);
-      const double z = depth_z_m(camera, frame.depth.at(u, v));
-      if (has_depth(frame.depth.at(u, v)) && z > 0.0) samples.push_back({rays.at(u, v), z});
+      const Sample sample{rays.at(u, v), depth_z_m(camera, frame.depth.at(u, v))};
+      if (!has_depth(frame.depth.at(u, v)) || !(sample.z_m > 0.0)) continue;
+      if (front != nullptr && height_m(*front, front->q.norm(), sample) > -3.0 * gate_m(noise, sample)) continue;
+      samples.push_back(sample);
     }
   }
 }
 
 class FaceFinder {
  public:
-  FaceFinder(const Samples& samples, const DepthNoise& noise)
-      : samples_(samples), noise_per_square_(kFoilNoise * noise.sigma_m / (noise.range_m * noise.range_m)) {}
+  FaceFinder(const Samples& samples, const DepthNoise& noise) : samples_(samples), noise_(noise) {}
 
   std::optional<DepthPlane> find() {
     std::optional<DepthPlane> best;
@@ -65,11 +77,6 @@ class FaceFinder {
   }
 
  private:
-  double gate(const Sample& s) const { return kWrinkles_m + noise_per_square_ * s.z_m * s.z_m; }
-  static double height(const DepthPlane& plane, double size, const Sample& s) {
-    return (1.0 - s.z_m * (plane.q.x() * s.ray.x() + plane.q.y() * s.ray.y() + plane.q.z())) / size;
-  }
-
   // One sample and two near it.
   std::optional<DepthPlane> draw() {
     const Sample& first = samples_[lottery_.below(samples_.size())];
@@ -95,9 +102,9 @@ class FaceFinder {
     int on_plane = 0;
     int behind = 0;
     for (const Sample& s : samples_) {
-      const double over = height(plane, size, s);
-      on_plane += std::fabs(over) < gate(s) ? 1 : 0;
-      behind += over < -3.0 * gate(s) ? 1 : 0;
+      const double over = height_m(plane, size, s);
+      on_plane += std::fabs(over) < gate_m(noise_, s) ? 1 : 0;
+      behind += over < -3.0 * gate_m(noise_, s) ? 1 : 0;
     }
     return on_plane < static_cast<int>(kLeastOnFace) ? 0 : on_plane - kBehind * behind;
   }
@@ -108,7 +115,7 @@ class FaceFinder {
     Matrix3 normal = Matrix3::Zero();
     Vector3 right = Vector3::Zero();
     for (const Sample& s : samples_) {
-      if (!(std::fabs(height(plane, size, s)) < gate(s))) continue;
+      if (!(std::fabs(height_m(plane, size, s)) < gate_m(noise_, s))) continue;
       const Vector3 row(s.ray.x(), s.ray.y(), 1.0);
       normal.noalias() += row * row.transpose();
       right += row / s.z_m;
@@ -119,16 +126,16 @@ class FaceFinder {
   }
 
   const Samples& samples_;
-  double noise_per_square_;
+  const DepthNoise& noise_;
   Lottery lottery_;
 };
 
 }  // namespace
 
 std::optional<DepthPlane> face_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                     const DepthNoise& noise) {
+                                     const DepthNoise& noise, const DepthPlane* front) {
   Samples samples;
-  take(frame, camera, rays, samples);
+  take(frame, camera, rays, noise, front, samples);
   if (samples.size() < kLeastOnFace) return std::nullopt;
   return FaceFinder(samples, noise).find();
 }

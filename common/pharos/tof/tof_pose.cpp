@@ -11,6 +11,8 @@ namespace pharos::tof {
 namespace {
 
 constexpr double kPartlyHidden = 0.9;
+// A boom that fills most of the frame, and the face behind it.
+constexpr int kFacePlanes = 2;
 // Burrs and missing corners included.
 constexpr double kDoubtfulArea = 3.0;
 
@@ -138,14 +140,18 @@ Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamer
   };
   const auto ring = ring_in(frame.intensity);
   if (ring) return ring;
-  const auto face = face_plane(frame, camera, workspace.rays, settings.noise);
-  if (!face) return ring;
   // Connectors are looked for later: their heights' memory is free.
   const ImageView<std::uint16_t> standing(workspace.connector.heights.data(), frame.depth.width_px,
                                           frame.depth.height_px);
-  make_standing_light(frame, camera, workspace.rays, *face, standing);
-  const auto by_height = ring_in(standing);
-  return by_height ? by_height : ring;
+  auto face = face_plane(frame, camera, workspace.rays, settings.noise);
+  for (int plane = 0; face && plane < kFacePlanes; ++plane) {
+    make_standing_light(frame, camera, workspace.rays, *face, standing);
+    const auto by_height = ring_in(standing);
+    if (by_height) return by_height;
+    const DepthPlane front = *face;
+    face = face_plane(frame, camera, workspace.rays, settings.noise, &front);
+  }
+  return ring;
 }
 
 }  // namespace
