@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ring2/ellipse_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/support/input_error.hpp"
+#include "tools/sim/stereo/stereo_writer.hpp"
+
+namespace pharos::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "circles-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string path(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name)) << content;
+    return path(name);
+  }
+
+ private:
+  fs::path path_;
+};
+
+constexpr const char* kHeader = "view,feature,cx_px,cy_px,a_px,b_px,theta_rad,sigma_px,points\n";
+
+std::string complaint_about(const std::string& rows) {
+  const Folder folder;
+  try {
+    read_ellipse_table(host::ByteSource(folder.write("e.csv", kHeader + rows)));
+  } catch (const host::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EllipseTable, ReadsProblemsInTheOrderOfTheirFirstRows) {
+  const Folder folder;
+  const std::string path = folder.write("e.csv",
+                                        "problem,view,feature,cx_px,cy_px,a_px,b_px,theta_rad\n"
+                                        "b,left,ring,600,500,100,90,0.1\na,right,nozzle,600,500,30,20,0.1\n"
+                                        "b,right,ring,610,500,20,90,0\n");
+  const EllipseTable table = read_ellipse_table(host::ByteSource(path));
+  EXPECT_TRUE(table.has_problems);
+  ASSERT_EQ(table.problems.size(), 2U);
+  EXPECT_EQ(table.problems[0].name, "b");
+  ASSERT_TRUE(table.problems[0].contours[1][0].has_value());
+  EXPECT_EQ(table.problems[0].contours[1][0]->ellipse.a_px, 90.0);  // the longer axis, whatever its column
+  EXPECT_FALSE(table.problems[0].contours[0][1].has_value());
+  EXPECT_TRUE(table.problems[1].contours[1][1].has_value());
+}
+
+TEST(EllipseTable, NamesWhatIsWrongWithARow) {
+  EXPECT_THAT(complaint_about("middle,ring,1,1,9,9,0,,\n"), AllOf(HasSubstr("line 2"), HasSubstr("left nor right")));
+  EXPECT_THAT(complaint_about("left,hole,1,1,9,9,0,,\n"), HasSubstr("ring nor nozzle"));
+  EXPECT_THAT(complaint_about("left,ring,1,1,-9,9,0,,\n"), AllOf(HasSubstr("a_px"), HasSubstr("semi-axis")));
+  EXPECT_THAT(complaint_about("left,ring,1,1,9,nan,0,,\n"), HasSubstr("b_px"));
+  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,0,\n"), HasSubstr("sigma_px"));
+  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,0.1,3\n"), HasSubstr("at least 5"));
+  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,,\nleft,ring,1,1,9,9,0,,\n"),
+              AllOf(HasSubstr("line 3"), HasSubstr("given before")));
+}
+
+TEST(EllipseTable, WhatIsSimulatedIsReadAndAnsweredWithTheTruth) {
+  const Folder folder;
+  sim::StereoScenario scenario = sim::read_stereo_scenario(std::string(PHAROS_SCENARIOS) + "/stereo_attitudes.toml", 5);
+  scenario.render = false;
+  sim::write_stereo_pairs(scenario, 5, folder.path("out"), [] {});
+  const host::RigFile file = host::read_rig_file(folder.path("out/rig.toml"));
+  ring2::Rig rig;
+  rig.views[0] = {file.left.optics, file.left.pose()};
+  rig.views[1] = {file.right.optics, file.right.pose()};
+  const EllipseTable table = read_ellipse_table(host::ByteSource(folder.path("out/ellipses.csv")));
+  ASSERT_EQ(table.problems.size(), 100U);
+  for (std::size_t k = 0; k < table.problems.size(); ++k) {
+    const auto estimate = ring2::solve_circles(rig, table.problems[k].contours);
+    ASSERT_TRUE(estimate.ok());
+    EXPECT_LT((estimate->normal - scenario.target_at(k).normal).norm(), 1e-8);
+    EXPECT_LT((estimate->ring_centre_m - scenario.target_at(k).ring_centre_m).norm(), 1e-8);
+  }
+}
+
+TEST(StereoScenario, IsReadStrictly) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      sim::parse_stereo_scenario(text, "s.toml", 1);
+    } catch (const host::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint(""), HasSubstr("poses"));
+  EXPECT_THAT(complaint("poses = [[0, 0, 3, 0, 0]]\nblurr_px = 1"), HasSubstr("blurr_px"));
+  EXPECT_THAT(complaint("poses = [[0, 0, -3, 0, 0]]"), HasSubstr("ahead of the rig"));
+  EXPECT_THAT(complaint("poses = [[0, 0, 3, 0, 0]]\n[rig]\ndistortion = [0.1, 0, 0, 0, 0]"), HasSubstr("render"));
+  EXPECT_EQ(complaint("poses = [[0, 0, 3, 0, 0]]"), "");
+}
+
+}  // namespace
+}  // namespace pharos::tools
