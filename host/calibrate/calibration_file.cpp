@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/calibration_file.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "host/config/strict_toml.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
@@ -17,6 +21,12 @@ constexpr double kSamePlace_m = 1e-3;
 constexpr std::int64_t kMostParameters = 3 * kMaxSensors + kMaxStations * kAxes * kRotorParameters + 6;
 
 Vector3 vector_of(const std::array<double, 3>& values) { return Vector3(values.data()); }
+
+std::string id_text(std::uint32_t id) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%08X", static_cast<unsigned>(id));
+  return text.data();
+}
 
 void read_sensor(const TomlTable& table, CalibrationFile& file) {
   SensorPlacement sensor;
@@ -48,11 +58,35 @@ void read_summary(const TomlTable& table, CalibrationFile& file) {
   }
 }
 
-void read_pair(const TomlTable& table) {
-  table.text("reference");
-  table.text("station");
-  table.vector<4>("orientation_wxyz", {-1.0, 1.0});
-  table.vector<3>("position_m");
+// The six rows and columns of the covariance that are the pair's own.
+Matrix6 pair_covariance(const TomlTable& table, const CalibrationFile& file) {
+  const std::string first = "station " + id_text(file.pair->station) + " turn_x_rad";
+  const auto found = std::find(file.parameters.begin(), file.parameters.end(), first);
+  const auto at = static_cast<std::size_t>(found - file.parameters.begin());
+  if (at + 6 > file.parameters.size()) {
+    table.fail("station", "the covariance in [calibration] does not tell how well its pose is known; keep \"" + first +
+                              "\" and what follows, or remove this [[pair]]");
+  }
+  Matrix6 covariance;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      covariance(i, j) = file.covariance[at + static_cast<std::size_t>(i)][at + static_cast<std::size_t>(j)];
+    }
+  }
+  return covariance;
+}
+
+void read_pair(const TomlTable& table, CalibrationFile& file) {
+  if (file.pair) table.fail("reference", "a second [[pair]]; two stations make one");
+  file.pair.emplace();
+  file.pair->reference = host::read_station_id(table, "reference");
+  file.pair->station = host::read_station_id(table, "station");
+  const std::array<double, 4> wxyz = table.vector<4>("orientation_wxyz", {-1.0, 1.0});
+  const Quaternion q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  constexpr double kUnitWithin = 1e-3;
+  if (!(std::abs(q.norm() - 1.0) < kUnitWithin)) table.fail("orientation_wxyz", "must be a unit quaternion");
+  file.pair->T_reference_station = {q.normalized().toRotationMatrix(), vector_of(table.vector<3>("position_m"))};
+  file.pair->covariance = pair_covariance(table, file);
 }
 
 CalibrationFile read(const TomlTable& root, const std::string& name) {
@@ -61,7 +95,7 @@ CalibrationFile read(const TomlTable& root, const std::string& name) {
   file.stations = host::read_stations(root);
   read_summary(root.table_or_empty("calibration"), file);
   for (const TomlTable& table : root.tables("sensor")) read_sensor(table, file);
-  for (const TomlTable& table : root.tables("pair")) read_pair(table);
+  for (const TomlTable& table : root.tables("pair")) read_pair(table, file);
   root.reject_unknown();
   if (file.has_target()) {
     const auto shape = check_target(file.sensors);
@@ -103,6 +137,14 @@ Target calibrated_target(const CalibrationFile& file, const Target& nominal) {
     }
   }
   return target;
+}
+
+std::optional<motion::StationRelative> relative_pose(const CalibratedPair& pair, std::uint32_t first_id,
+                                                     std::uint32_t second_id) {
+  const motion::StationRelative relative{pair.T_reference_station, pair.covariance};
+  if (pair.reference == first_id && pair.station == second_id) return relative;
+  if (pair.reference == second_id && pair.station == first_id) return relative.seen_from_the_other();
+  return std::nullopt;
 }
 
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma) {

@@ -9,8 +9,16 @@
 #include "host/calibrate/lighthouse_calibration.hpp"
 #include "host/stations/station_file.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/motion/station_pair.hpp"
 
 namespace pharos::calibrate {
+
+/// How two stations stand to one another: T_reference_station and the covariance of its error (Pose::moved_by).
+struct CalibratedPair {
+  std::uint32_t reference = 0, station = 0;  // their ids
+  ReferenceFromStation T_reference_station;
+  Matrix6 covariance = Matrix6::Zero();
+};
 
 /// What a file of calibrations says: stations alone (host/stations), or with the target that was calibrated with them.
 struct CalibrationFile {
@@ -20,6 +28,7 @@ struct CalibrationFile {
   std::vector<Vector3> nominal_m;  // of each of them, as the target's table gave it
   double scale_sigma = 0.0;        // relative, of the target's size and so of every range
   int model_form = 0;              // 0: the file does not say
+  std::optional<CalibratedPair> pair;
   std::vector<std::string> parameters;
   std::vector<std::vector<double>> covariance;
 
@@ -36,6 +45,10 @@ CalibrationFile parse_calibration(std::string_view text, const std::string& name
 /// the file is of another target: other sensor numbers, or positions other than those that it was calibrated from (1
 /// mm).
 Target calibrated_target(const CalibrationFile& file, const Target& nominal);
+
+/// Where the second slot's station stands in the frame of the first slot's, if the pair is these two.
+std::optional<motion::StationRelative> relative_pose(const CalibratedPair& pair, std::uint32_t first_id,
+                                                     std::uint32_t second_id);
 
 /// A pose's covariance with what the target's uncertain size puts on its range.
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/calibrate/calibration_file.hpp"
 #include "host/device/camera_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
@@ -15,6 +16,9 @@
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
+
+/// How poses are found: every hit at its own instant (common/pharos/motion), or each cycle alone, the paper's way.
+enum class TrackMethod : std::uint8_t { kMotion, kEpoch };
 
 /// One cooperative target: the port that its capture board hangs on and how its pose is found.
 struct TargetConfig {
@@ -29,7 +33,9 @@ struct TargetConfig {
   /// Of `pharos calibrate lighthouse`; empty: the target's table and what stations send hold.
   std::filesystem::path calibration_file;
   std::vector<lighthouse::StationCalibration> calibrated_stations;
-  double scale_sigma = 0.0;  // relative, of the target's size
+  std::optional<calibrate::CalibratedPair> calibrated_pair;  // of two stations
+  double scale_sigma = 0.0;                                  // relative, of the target's size
+  TrackMethod method = TrackMethod::kMotion;
   track::TrackOptions track;
   /// Keep accepted station calibrations in the state directory and use them after a restart.
   bool remember_calibrations = true;

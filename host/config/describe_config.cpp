@@ -43,6 +43,9 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
     out << "\n  calibrated: " << target.calibrated_stations.size() << " stations and the sensors, from "
         << target.calibration_file.string() << ", size known to " << 100.0 * target.scale_sigma << " %";
   }
+  out << "\n  method: "
+      << (target.method == TrackMethod::kMotion ? "motion, a pose a sweep" : "epoch, each cycle alone")
+      << (target.calibrated_pair ? ", the stations' relative pose from the calibration" : "");
   out << "\n  solve: sigma " << target.track.solve.sigma_rad * kArcsecPerRad << " arcsec, rho "
       << target.track.solve.rho << ", station model form " << static_cast<int>(target.track.form)
       << ", smoothed flashes: " << yes_no(target.track.smooth_flashes) << ", prior younger than "

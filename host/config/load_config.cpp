@@ -87,6 +87,7 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Surr
     const calibrate::CalibrationFile file = surroundings.read_calibration(target.calibration_file.string());
     target.target = calibrate::calibrated_target(file, target.target);
     target.scale_sigma = file.scale_sigma;
+    target.calibrated_pair = file.pair;
     for (const StationEntry& station : file.stations) {
       if (!station.id) throw InputError(file.name + ": a [[station]] without id; the daemon knows stations by theirs");
       target.calibrated_stations.push_back(station.calibration);
@@ -118,6 +119,8 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   }
   target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000));
   target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations);
+  target.method =
+      table.choice_or("method", "motion", {"motion", "epoch"}) == "motion" ? TrackMethod::kMotion : TrackMethod::kEpoch;
   target.track = read_solve(table.table_or_empty("solve"));
   target.target_file = read_path(table, "target_file", folder);
   try {

@@ -21,6 +21,7 @@ namespace pharos::host {
   X(ootx_payloads, "OOTX payloads received")                                             \
   X(ootx_unreadable, "OOTX payloads of no known protocol")                               \
   X(calibrations_taken, "calibrations taken into use")                                   \
+  X(station_pairs_refused, "times the stations did not stand as the calibration says")   \
   X(raw_edges, "edges received in diagnostic mode")                                      \
   X(target_restarts, "times the target's clock started anew")                            \
   X(unexpected_events, "good frames of types that only a host sends")

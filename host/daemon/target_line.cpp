@@ -47,7 +47,7 @@ TargetLine::TargetLine(const TargetConfig& config, const PublishConfig& publish,
       source_(source),
       publisher_(publisher),
       memory_(memory),
-      tracker_(config.target, config.track),
+      tracker_(config_),
       line_baud_(line_baud),
       log_(config.name) {
   if (!config_.remember_calibrations) return;
@@ -97,7 +97,7 @@ void TargetLine::restart(const char* why) {
   log_.info("restart", std::string("target started anew (") + why + ')', arrival_.monotonic_ns);
   ++counters_.target_restarts;
   clock_.restart();
-  tracker_ = track::EpochTracker(config_.target, config_.track);
+  tracker_.restart();
   calibrations_.forget_stations();
   told_ = {};
   any_ticks_ = false;
@@ -107,10 +107,29 @@ void TargetLine::restart(const char* why) {
 void TargetLine::line_lost() {
   link_.restart();
   frame_bytes_ = 0;
-  tracker_ = track::EpochTracker(config_.target, config_.track);
+  tracker_.restart();
+  believe_stations();
+}
+
+void TargetLine::believe_stations() {
   for (std::uint8_t station = 0; station < kMaxStations; ++station) {
     if (const auto* sent = calibrations_.in_use(station)) tracker_.set_calibration(station, believed(*sent));
   }
+  const auto *first = calibrations_.in_use(0), *second = calibrations_.in_use(1);
+  if (first != nullptr && second != nullptr) tracker_.set_stations(first->id, second->id);
+}
+
+// Told once: a station that was knocked, or a calibration of how they stood before.
+void TargetLine::watch_relative() {
+  const bool refused = tracker_.relative_refused();
+  if (refused && !relative_refused_) {
+    ++counters_.station_pairs_refused;
+    log_.warn("stations moved",
+              "the two stations do not stand as " + config_.calibration_file.string() +
+                  " says: how they stand is learnt anew from what both see; calibrate again",
+              arrival_.monotonic_ns);
+  }
+  relative_refused_ = refused;
 }
 
 void TargetLine::end_of_input() {
@@ -125,12 +144,13 @@ void TargetLine::take(const lighthouse::Sweep& sweep) {
   }
   // After so long in the dark a station may have come back under another's number.
   if (sweep.flash.start_ticks - last_flash_ticks_ > track::kLongestDarkTicks) {
-    tracker_ = track::EpochTracker(config_.target, config_.track);
+    tracker_.restart();
     calibrations_.forget_stations();
   }
   last_flash_ticks_ = sweep.flash.start_ticks;
   last_sweep_ns_ = arrival_.monotonic_ns;
   if (const auto result = tracker_.push(sweep)) answer(*result);
+  watch_relative();
 }
 
 void TargetLine::take(const lighthouse::OotxPayload& payload) {
@@ -148,7 +168,7 @@ void TargetLine::take(const lighthouse::OotxPayload& payload) {
   const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
   if (calibration == nullptr) return;
   ++counters_.calibrations_taken;
-  tracker_.set_calibration(payload.station, believed(*calibration));
+  believe_stations();
   if (!config_.calibration_file.empty() && &believed(*calibration) == calibration) {
     log_.warn("other station",
               "station " + station_id_text(calibration->id) + " is not in " + config_.calibration_file.string() +

@@ -14,11 +14,11 @@
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_counters.hpp"
+#include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/publisher.hpp"
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/report/link_decoder.hpp"
-#include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
 
@@ -28,7 +28,7 @@ struct Arrival {
   std::int64_t monotonic_ns = 0;
 };
 
-/// One target's bytes to poses on LCM: link -> sweeps -> cycles -> UTC -> publisher. Knows no port and no file.
+/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> publisher. Knows no port and no file.
 class TargetLine {
  public:
   /// `publisher` and `memory` must outlive this. `source` is told in every message.
@@ -77,6 +77,8 @@ class TargetLine {
   }
 
   const lighthouse::StationCalibration& believed(const lighthouse::StationCalibration& sent) const;
+  void believe_stations();
+  void watch_relative();
   void watch_clock(const report::LinkEvent& event);
   void restart(const char* why);
   void answer(const track::EpochResult& result);
@@ -97,7 +99,7 @@ class TargetLine {
   report::LinkDecoder link_;
   ClockMap clock_;
   lighthouse::CalibrationStore calibrations_;
-  track::EpochTracker tracker_;
+  TargetTracker tracker_;
   int line_baud_ = 0;
   Arrival arrival_;
   std::int64_t push_began_ns_ = 0;  // this computer's monotonic time now, also in a replay
@@ -124,6 +126,7 @@ class TargetLine {
   std::int64_t poses_at_last_health_ = 0;
   std::int64_t last_health_ns_ = -1;
   std::string last_refusal_;
+  bool relative_refused_ = false;
   std::optional<std::uint8_t> told_version_;
 };
 

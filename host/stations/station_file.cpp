@@ -32,20 +32,24 @@ constexpr std::array<Field, 5> kFields{{
     {"gibbous_magnitude_rad", &RotorCalibration::gibbous_magnitude_rad, kSmallAngle},
 }};
 
-std::uint32_t read_id(const TomlTable& table) {
-  const std::string text = table.text("id");
+}  // namespace
+
+std::uint32_t read_station_id(const TomlTable& table, std::string_view key) {
+  const std::string text = table.text(key);
   std::uint32_t id = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id, kHexadecimal);
   if (error != std::errc{} || end != text.data() + text.size()) {
-    table.fail("id", "must be up to eight hexadecimal digits, as printed on the station");
+    table.fail(key, "must be up to eight hexadecimal digits, as printed on the station");
   }
   return id;
 }
 
+namespace {
+
 StationEntry read_entry(const TomlTable& table) {
   StationEntry entry;
   if (table.has("slot")) entry.slot = static_cast<std::uint8_t>(table.integer("slot", 0, kMaxStations - 1));
-  if (table.has("id")) entry.id = read_id(table);
+  if (table.has("id")) entry.id = read_station_id(table, "id");
   if (!entry.id && !entry.slot) table.fail("id", "a [[station]] needs an id or a slot");
   entry.calibration.id = entry.id.value_or(0);
   for (const Field& field : kFields) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pharos/lighthouse/station_calibration.hpp"
@@ -22,6 +23,9 @@ struct StationEntry {
 /// Reads a station file (README.md shows one; `-` is standard input). Throws InputError naming file, line and key for
 /// what is not one: an entry without id and slot, an unknown key, an angle that no station has.
 std::vector<StationEntry> read_station_file(const std::string& path);
+
+/// A station's identity under `key`, in hexadecimal as printed on it.
+std::uint32_t read_station_id(const TomlTable& table, std::string_view key);
 
 /// The [[station]] tables of a file that holds more than stations.
 std::vector<StationEntry> read_stations(const TomlTable& root);

@@ -35,6 +35,16 @@ calibrate::CalibrationFile calibrated(const std::string& path) {
   return file;
 }
 
+TEST(DaemonConfig, TracksMotionUnlessToldToTakeEachCycleAlone) {
+  const auto method = [&](const std::string& more) {
+    return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).method;
+  };
+  EXPECT_EQ(method(""), TrackMethod::kMotion);
+  EXPECT_EQ(method("method = 'motion'\n"), TrackMethod::kMotion);
+  EXPECT_EQ(method("method = 'epoch'\n"), TrackMethod::kEpoch);
+  EXPECT_THROW(method("method = 'cycle'\n"), InputError);
+}
+
 TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
   Surroundings surroundings = made_up();
   surroundings.read_calibration = calibrated;

@@ -23,9 +23,11 @@ class TargetLineTest : public ::testing::Test {
  protected:
   static LighthouseFromBody pose_ahead() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
-  static TargetConfig config() {
+  // An answer a cycle, so that what goes in and what comes out can be counted against each other.
+  static TargetConfig config(TrackMethod method = TrackMethod::kEpoch) {
     TargetConfig config;
     config.name = "dock";
+    config.method = method;
     config.target = StillTarget::target();
     return config;
   }
