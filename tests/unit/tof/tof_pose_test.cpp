@@ -44,6 +44,30 @@ TEST_F(TofPoseTest, NoiselessFramesGiveTheirPose) {
   EXPECT_NEAR(pose->ring.fit.model.radius(RingEdge::kInner), 0.49, 0.0006);
 }
 
+TEST_F(TofPoseTest, FoilBrighterThanTheRingDoesNotMoveItsEdges) {
+  const CameraFromTarget truth = facing({0.12, -0.07, 2.3}, {0.25, -0.2, 0.6});
+  for (const double wall_grey : {4000.0, 20000.0}) {
+    SyntheticRing scene;
+    scene.wall_grey = wall_grey;
+    const auto pose = measure(render(scene, truth, camera_));
+    ASSERT_TRUE(pose.ok()) << wall_grey << ' ' << name_of(pose.error());
+    EXPECT_TRUE(pose->has_turn());
+    EXPECT_LT((pose->target.pose.t - truth.t).norm(), 0.0006) << wall_grey;
+    EXPECT_LT(angle_deg(pose->target.pose.R, truth.R), 0.12) << wall_grey;
+    EXPECT_NEAR(pose->ring.fit.model.radius(RingEdge::kInner), 0.49, 0.0006) << wall_grey;
+  }
+}
+
+TEST_F(TofPoseTest, ARingThatOnlyDepthsShowIsFound) {
+  SyntheticRing scene;
+  scene.wall_grey = scene.plate_grey = scene.ring_grey;
+  const CameraFromTarget truth = facing({0.12, -0.07, 2.3}, {0.25, -0.2, 0.6});
+  const auto pose = measure(test::with_noise(render(scene, truth, camera_), 12.0, 60.0, 1));
+  ASSERT_TRUE(pose.ok()) << name_of(pose.error());
+  EXPECT_LT((pose->target.pose.t - truth.t).norm(), 0.003);
+  EXPECT_LT(angle_deg(pose->target.pose.R, truth.R), 0.5);
+}
+
 TEST_F(TofPoseTest, PositionIsTheCirclesCentreNotItsImagesCentre) {
   // Near and tilted by 35 deg, where the two are 8 mm apart.
   const CameraFromTarget truth = facing({0.0, 0.0, 1.9}, {35.0 * kRadPerDeg, 0.0, 0.0});
