@@ -14,7 +14,7 @@ namespace pharos::host {
 
 /// What is looked for in a pair of images.
 struct StereoSettings {
-  ellipse::EllipseSettings ellipses{.min_minor_px = 8.0};
+  ellipse::EllipseSettings ellipses{.min_minor_px = 12.0};
   /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
   double systematic_px = 0.03;
 };
