@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tests/support/allocation_guard.hpp"
 #include "tests/unit/ring2/scenes.hpp"
 
 namespace pharos::ring2 {
@@ -81,6 +82,18 @@ TEST(ExactCircles, AnglesAreThoseOfTheContract) {
     EXPECT_NEAR(back.theta_rad, attitude.theta_rad, 1e-15);
     EXPECT_NEAR(back.gamma_rad, attitude.gamma_rad, 1e-15);
   }
+}
+
+TEST(ExactCircles, TakeNoHeapMemory) {
+  const Scene scene = scene_of(8.0 * kDeg, -6.0 * kDeg);
+  const ContourSet contours = clean_contours(scene);
+  const Rig rig = core_rig(scene.rig);
+  test::AllocationGuard guard;
+  const auto estimate = solve_circles(rig, contours);
+  const auto exchanged = solve_circles(rig, {contours[1], contours[0]});
+  EXPECT_EQ(guard.allocations(), 0U);
+  EXPECT_TRUE(estimate.ok());
+  EXPECT_FALSE(exchanged.ok());
 }
 
 TEST(ExactCircles, DerivativesAreThoseOfCentralDifferences) {
