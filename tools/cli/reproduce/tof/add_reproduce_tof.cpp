@@ -6,6 +6,7 @@
 
 #include "tools/cli/commands.hpp"
 #include "tools/cli/output.hpp"
+#include "tools/cli/reproduce/tof/board_table.hpp"
 #include "tools/cli/reproduce/tof/four_tests.hpp"
 #include "tools/cli/reproduce/tof/success_campaign.hpp"
 #include "tools/cli/seed_option.hpp"
@@ -22,16 +23,24 @@ constexpr const char* kExample =
 
 struct Options {
   int frames = 100;
+  int boards = 20;
   int success = 0;
   std::uint64_t seed = 1;
   bool markdown = false;
   OutputOptions output;
 };
 
+std::vector<ComparisonRow> rows_of(const Options& options) {
+  if (options.success > 0) return reproduce_success(options.success, options.seed);
+  std::vector<ComparisonRow> rows;
+  if (options.boards > 0) rows = reproduce_board_table(options.boards, options.seed);
+  for (const ComparisonRow& row : reproduce_four_tests({options.frames, options.seed})) rows.push_back(row);
+  return rows;
+}
+
 int run(const Options& options) {
   require_writable(options.output.path);
-  const std::vector<ComparisonRow> rows = options.success > 0 ? reproduce_success(options.success, options.seed)
-                                                              : reproduce_four_tests({options.frames, options.seed});
+  const std::vector<ComparisonRow> rows = rows_of(options);
   if (options.markdown) {
     write_markdown(rows, options.output.path);
   } else {
@@ -43,10 +52,13 @@ int run(const Options& options) {
 }  // namespace
 
 void add_reproduce_tof(CLI::App& reproduce, int& exit_code) {
-  CLI::App* command = reproduce.add_subcommand("tof", "Paper 000: tables 2 and 3; or how many frames have a pose");
+  CLI::App* command = reproduce.add_subcommand("tof", "Paper 000: tables 1 to 3; or how many frames have a pose");
   const auto options = std::make_shared<Options>();
   command->add_option("--frames", options->frames, "Of each of the four tests")
       ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command->add_option("--boards", options->boards, "Images of each calibration board of table 1; 0: without")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command
       ->add_option("--success", options->success,

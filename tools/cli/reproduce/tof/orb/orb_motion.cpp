@@ -2,6 +2,9 @@
 // OpenCV's ORB, matcher and RANSAC behind one function: what the paper compares itself with.
 #include "tools/cli/reproduce/tof/orb/orb_motion.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <vector>
@@ -16,6 +19,10 @@ constexpr double kFullPicture = 255.0;
 constexpr double kBrightestShare = 0.995;  // of the pixels lie below the picture's white
 constexpr float kRatio = 0.8F;             // of the best match's distance to the second best
 constexpr int kLeastMatches = 8;
+// A motion is believed where this many pairs agree with it and the second frame's own depths are where it puts the
+// points, in the median: a solution that diverged has neither.
+constexpr int kLeastAgreeing = 20;
+constexpr double kMostDepthError_m = 0.02;
 constexpr int kTrials = 500;
 constexpr float kMostError_px = 2.0F;
 
@@ -42,6 +49,23 @@ Features features_of(const OrbFrame& frame) {
   Features features;
   cv::ORB::create(kFeatures)->detectAndCompute(picture(frame), cv::noArray(), features.points, features.words);
   return features;
+}
+
+// Median distance along z between where the motion puts the points and what the second frame's depths say there.
+double depth_error_m(const std::vector<cv::Point3d>& points, const std::vector<cv::Point2d>& to, const cv::Mat& R,
+                     const cv::Mat& t, const OrbFrame& second, const OrbCamera& camera) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int counts = second.depth[cvRound(to[i].y) * second.width_px + cvRound(to[i].x)];
+    if (counts == 0) continue;
+    const cv::Point3d& p = points[i];
+    const double z = R.at<double>(2, 0) * p.x + R.at<double>(2, 1) * p.y + R.at<double>(2, 2) * p.z + t.at<double>(2);
+    errors.push_back(std::abs(z - counts * camera.depth_scale_m));
+  }
+  if (errors.size() < static_cast<std::size_t>(kLeastMatches)) return std::numeric_limits<double>::infinity();
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
 }
 
 bool motion(const OrbFrame& first, const OrbFrame& second, const OrbCamera& camera, cv::Mat& R, cv::Mat& t) {
@@ -79,9 +103,16 @@ bool motion(const OrbFrame& first, const OrbFrame& second, const OrbCamera& came
   if (!cv::solvePnPRansac(points, to, K, distortion, turn, t, false, kTrials, kMostError_px, 0.999, inliers)) {
     return false;
   }
-  if (inliers.rows < kLeastMatches) return false;
+  if (inliers.rows < kLeastAgreeing) return false;
+  std::vector<cv::Point3d> agreeing;
+  std::vector<cv::Point2d> seen;
+  for (int i = 0; i < inliers.rows; ++i) {
+    agreeing.push_back(points[static_cast<std::size_t>(inliers.at<int>(i))]);
+    seen.push_back(to[static_cast<std::size_t>(inliers.at<int>(i))]);
+  }
+  cv::solvePnPRefineLM(agreeing, seen, K, distortion, turn, t);
   cv::Rodrigues(turn, R);
-  return true;
+  return depth_error_m(agreeing, seen, R, t, second, camera) < kMostDepthError_m;
 }
 
 }  // namespace
