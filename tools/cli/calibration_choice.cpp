@@ -38,6 +38,12 @@ Target CalibrationChoice::target(const Target& nominal, lighthouse::ModelForm fo
   return calibrate::calibrated_target(content, nominal);
 }
 
+std::optional<motion::StationRelative> CalibrationChoice::relative() const {
+  const auto first = stations_.id(0), second = stations_.id(1);
+  if (!file_ || !file_->content().pair || !first || !second) return std::nullopt;
+  return calibrate::relative_pose(*file_->content().pair, *first, *second);
+}
+
 void CalibrationChoice::widen(LighthousePoseEstimate& estimate) const {
   if (file_) calibrate::widen_by_scale(estimate, file_->content().scale_sigma);
 }

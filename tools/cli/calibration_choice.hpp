@@ -26,6 +26,8 @@ class CalibrationChoice {
   /// The target with the file's sensor positions; `nominal` where none are given. Throws InputError where the file was
   /// made of another target or with another sign form.
   Target target(const Target& nominal, lighthouse::ModelForm form) const;
+  /// Where slot 1's station stands to slot 0's: of a file that knows both, once both are known by name.
+  std::optional<motion::StationRelative> relative() const;
   /// Widens a pose's covariance by what is not known of the target's size.
   void widen(LighthousePoseEstimate& estimate) const;
   std::optional<std::uint32_t> station_id(std::uint8_t station) const { return stations_.id(station); }

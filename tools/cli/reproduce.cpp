@@ -26,6 +26,7 @@ constexpr int kQuickSets = 10;
 constexpr double kQuickSet_s = 12.0;  // OOTX takes 9 s to come twice
 constexpr int kQuickRuns = 3;
 constexpr double kQuickRun_s = 15.0;
+constexpr CalibrationSession kQuickCalibration = {12, 1.0};
 
 struct Options {
   bool quick = false;
@@ -54,6 +55,7 @@ std::vector<ComparisonRow> simulated_rows(const Options& options) {
     sets.set_s = kQuickSet_s;
     runs.runs = kQuickRuns;
     runs.run_s = kQuickRun_s;
+    runs.calibration = kQuickCalibration;
   }
   std::vector<ComparisonRow> rows = reproduce_static_sets(sets);
   for (const ComparisonRow& row : reproduce_dynamic_runs(runs)) rows.push_back(row);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
@@ -27,17 +28,18 @@ namespace {
 constexpr const char* kExample =
     "Example:\n"
     "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
-    "Each row is T_lighthouse_body of one cycle of one station; time_s is the mean time of the hits used.\n"
-    "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated; noise shared by all "
-    "hits\n"
-    "of a sweep is taken as 0.87 of a bearing's variance unless --rho says otherwise.\n"
-    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, residual_high\n"
+    "Each row is T_lighthouse_body in the frame of the station in the column station.\n"
+    "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated, both stations' hits in\n"
+    "one estimate where both see it (flag fused); noise shared by all hits of a sweep is taken as 0.87 of a bearing's\n"
+    "variance unless --rho says otherwise. --method epoch: a row a cycle, time_s the mean time of the hits used.\n"
+    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, fused, "
+    "residual_high\n"
     "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
 
 struct Options {
   std::string edges;
   std::string target;
-  std::string method = "epoch";
+  std::string method = "motion";
   std::string calibration = "ootx";
   std::string sensors;
   int form = 1;
@@ -51,17 +53,6 @@ struct Options {
     options.solve = solver.solve();
     options.form = form == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
     options.smooth_flashes = !raw_flashes;
-    return options;
-  }
-  // What is known to be wrong with target and station is in every covariance.
-  motion::MotionOptions motion(bool target_calibrated) const {
-    const track::TrackOptions same = track();
-    motion::MotionOptions options;
-    options.solve = same.solve;
-    options.form = same.form;
-    options.smooth_flashes = same.smooth_flashes;
-    if (solver.noise.rho > 0.0) options.rho = solver.noise.rho;
-    options.systematic = target_calibrated ? motion::kCalibratedErrors : motion::kUncalibratedErrors;
     return options;
   }
 };
@@ -129,12 +120,18 @@ class Tracking {
   std::size_t rows() { return output_.rows().rows(); }
   std::size_t poses() const { return poses_; }
   bool uncalibrated() const { return uncalibrated_ > 0; }
+  /// The stations do not stand as the calibration says.
+  bool stations_moved() const {
+    if constexpr (kMotion) return tracker_.pair().survey_refused();
+    return false;
+  }
 
  private:
   void forget_stations() {
     tracker_.forget_stations();
     calibration_.forget_stations();
     known_ = {};
+    relative_known_ = false;
     refresh_calibrations();  // a file may name them by slot
   }
   void refresh_calibrations() {
@@ -143,6 +140,12 @@ class Tracking {
       if (now == nullptr || known_[station] == *now) continue;
       known_[station] = *now;
       tracker_.set_calibration(station, *now);
+    }
+    if constexpr (kMotion) {
+      if (relative_known_) return;
+      const auto relative = calibration_.relative();
+      if (relative) tracker_.set_relative(relative);
+      relative_known_ = relative.has_value();
     }
   }
   void take(track::EpochResult result) {
@@ -158,7 +161,9 @@ class Tracking {
   Tracker tracker_;
   Output output_;
   ResidualTable residuals_;
+  static constexpr bool kMotion = std::is_same_v<Tracker, motion::MotionTracker>;
   std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> known_;
+  bool relative_known_ = false;
   std::size_t poses_ = 0;
   std::size_t uncalibrated_ = 0;
 };
@@ -168,8 +173,12 @@ void say_what_came_out(const Options& options, const std::string& name, Tracking
   if (options.calibration == "ootx" && tracking.uncalibrated()) {
     note(name + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
   }
+  if (tracking.stations_moved()) {
+    note(name + ": the two stations do not stand as the [[pair]] of " + options.calibration +
+         " says: it was not used; calibrate anew");
+  }
   if (tracking.poses() > 0) return;
-  note(tracking.rows() > 0 ? name + ": every cycle was refused; see the column status"
+  note(tracking.rows() > 0 ? name + ": every pose was refused; see the column status"
                            : name + ": no complete cycle; --stats says what became of its pulses");
 }
 
@@ -217,13 +226,14 @@ int run(const Options& options) {
     return run_with(options, std::move(calibration), track::EpochTracker(believed, options.track()));
   }
   const bool calibrated = !same_positions(believed, target.target);
-  return run_with(options, std::move(calibration), motion::MotionTracker(believed, options.motion(calibrated)));
+  return run_with(options, std::move(calibration),
+                  motion::MotionTracker(believed, motion::motion_options(options.track(), calibrated)));
 }
 
 }  // namespace
 
 void add_track(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("track", "A recording and a target to poses, one a station and cycle");
+  CLI::App* command = app.add_subcommand("track", "A recording and a target to poses");
   const auto options = std::make_shared<Options>();
   command
       ->add_option(
@@ -233,8 +243,8 @@ void add_track(CLI::App& app, int& exit_code) {
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
   command
       ->add_option("--method", options->method,
-                   "epoch: each cycle alone, the paper's way; motion: every hit at its own instant, a row a sweep")
-      ->check(CLI::IsMember({"epoch", "motion"}))
+                   "motion: every hit at its own instant, a row a sweep; epoch: each cycle alone, the paper's way")
+      ->check(CLI::IsMember({"motion", "epoch"}))
       ->capture_default_str();
   command
       ->add_option("--calibration", options->calibration,

@@ -35,8 +35,8 @@ TEST(CliPrecision, PredictsWhatTrackReportsOfTheSameView) {
   const ExampleRecording& recording = ExampleRecording::get();
   for (const char* noise : {"--rho 0", "--rho 0.8717", "--sigma-arcsec 60"}) {
     const auto predicted = rows_of(precision(kHeader + pose_row("here", recording.truth()), noise).out).at(0);
-    const auto tracked =
-        rows_of(pharos("track " + recording.edges() + " --target " + recording.target() + " " + noise).out);
+    const auto tracked = rows_of(
+        pharos("track " + recording.edges() + " --method epoch --target " + recording.target() + " " + noise).out);
     const Row& last = tracked.at(tracked.size() / 2);
     ASSERT_EQ(2 * std::stoi(predicted.at("visible")), std::stoi(last.at("observations")));
     for (const char* column : {"adop_deg_per_rad", "pdop_m_per_rad", "sigma_rot_deg", "sigma_pos_mm"}) {

@@ -33,7 +33,7 @@ TEST(CliTrack, PrintsTheColumnsOfTheContract) {
 }
 
 TEST(CliTrack, FindsThePoseOfEveryCycleWithTheCalibrationThatTheStationSends) {
-  const auto rows = rows_of(track().out);
+  const auto rows = rows_of(track("--method epoch").out);
   ASSERT_NEAR(static_cast<double>(rows.size()), 12 * 60, 10.0);
   std::size_t good = 0;
   for (const Row& row : rows) {
@@ -49,6 +49,23 @@ TEST(CliTrack, FindsThePoseOfEveryCycleWithTheCalibrationThatTheStationSends) {
     EXPECT_GE(std::stod(row.at("qw")), 0.0);
   }
   EXPECT_GT(good, rows.size() - 5);
+}
+
+TEST(CliTrack, FindsThePoseOfEverySweepUnlessToldOtherwise) {
+  const std::string out = track().out;
+  EXPECT_EQ(track("--method motion").out, out);
+  const auto rows = rows_of(out);
+  ASSERT_NEAR(static_cast<double>(rows.size()), 12 * 120, 20.0);
+  std::size_t good = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].at("status") != "ok") continue;
+    ++good;
+    const LighthouseFromBody pose = pose_of(rows[i]);
+    EXPECT_LT((pose.t - recording().truth().t).norm(), 1e-3);
+    EXPECT_LT(rotation_angle_between(pose.R, recording().truth().R) * kDegPerRad, 0.1);
+    EXPECT_GT(std::stod(rows[i].at("sigma_pos_mm")), 0.0);
+  }
+  EXPECT_GT(good, rows.size() - 10);
 }
 
 TEST(CliTrack, SaysWhatIsUncalibrated) {
@@ -95,8 +112,8 @@ TEST(CliTrack, SaysFileLineAndKeyOfABadCalibration) {
 }
 
 TEST(CliTrack, ScalesItsSigmasWithTheNoiseItIsTold) {
-  const Row at_8_8 = rows_of(track().out).back();
-  const Row at_88 = rows_of(track("--sigma-arcsec 88").out).back();
+  const Row at_8_8 = rows_of(track("--method epoch").out).back();
+  const Row at_88 = rows_of(track("--method epoch --sigma-arcsec 88").out).back();
   EXPECT_NEAR(std::stod(at_88.at("sigma_rot_deg")) / std::stod(at_8_8.at("sigma_rot_deg")), 10.0, 1e-3);
   EXPECT_NEAR(std::stod(at_88.at("sigma_pos_mm")) / std::stod(at_8_8.at("sigma_pos_mm")), 10.0, 1e-3);
   EXPECT_NEAR(std::stod(at_88.at("adop_deg_per_rad")) / std::stod(at_8_8.at("adop_deg_per_rad")), 1.0, 1e-3);
@@ -104,7 +121,7 @@ TEST(CliTrack, ScalesItsSigmasWithTheNoiseItIsTold) {
 
 TEST(CliTrack, ShowsWhatIsLeftOfEverySensor) {
   const Folder folder;
-  const Outcome run = track("--sensors " + folder.path("sensors.csv"));
+  const Outcome run = track("--method epoch --sensors " + folder.path("sensors.csv"));
   EXPECT_EQ(run.exit_code, 0);
   const auto rows = rows_of(content_of(folder.path("sensors.csv")));
   EXPECT_GE(rows.size(), 8u);
@@ -134,7 +151,7 @@ TEST(CliTrack, RefusedCyclesKeepTheirPlaceWithEmptyFields) {
 
 TEST(CliTrack, GivesAmbiguousPosesBothSolutions) {
   const Folder folder;
-  const Outcome run = pharos("track " + recording().edges() + " --sigma-arcsec 600 --target " +
+  const Outcome run = pharos("track " + recording().edges() + " --method epoch --sigma-arcsec 600 --target " +
                              folder.write("plane.csv", plane_target_csv()));
   EXPECT_THAT(run.err, HasSubstr("one plane"));
   std::size_t ambiguous = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/reproduce/comparison.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -23,6 +24,10 @@ std::string rounded(double value) {
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
+bool any_further(const std::vector<ComparisonRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const ComparisonRow& row) { return row.further.has_value(); });
+}
+
 }  // namespace
 
 std::optional<double> ratio_of(const ComparisonRow& row) {
@@ -34,21 +39,42 @@ std::optional<double> ratio_of(const ComparisonRow& row) {
 }
 
 void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options) {
-  Output output(options, {"item", "what", "unit", "published", "ours", "ratio", "remark"});
+  std::vector<std::string> columns = {"item", "what", "unit", "published", "ours", "ratio", "remark"};
+  const bool further = any_further(rows);
+  if (further) columns.insert(columns.end(), {"calibrated", "motion", "both"});
+  Output output(options, columns);
   for (const ComparisonRow& row : rows) {
-    output.rows().text(row.item).text(row.what).text(row.unit).text(row.expected);
-    output.rows().number(row.ours).number(ratio_of(row)).text(row.remark).end_row();
+    host::RowWriter& out = output.rows();
+    out.text(row.item).text(row.what).text(row.unit).text(row.expected);
+    out.number(row.ours).number(ratio_of(row)).text(row.remark);
+    if (further && row.further) {
+      out.number(row.further->calibrated).number(row.further->motion).number(row.further->both);
+    } else if (further) {
+      out.none(3);
+    }
+    out.end_row();
   }
   output.finish();
 }
 
 void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path) {
-  std::string text = "| item | what | published or asked | ours | ratio | remark |\n|---|---|---|---|---|---|\n";
+  const bool further = any_further(rows);
+  std::string text = "| item | what | published or asked | ours | ratio | remark |";
+  text += further ? " + calibration | + motion | both |\n|---|---|---|---|---|---|---|---|---|\n"
+                  : "\n|---|---|---|---|---|---|\n";
   for (const ComparisonRow& row : rows) {
     const std::optional<double> ratio = ratio_of(row);
     const std::string unit = row.unit.empty() ? "" : " " + row.unit;
     text += "| " + row.item + " | " + row.what + " | " + (row.expected.empty() ? "" : row.expected + unit) + " | " +
-            rounded(row.ours) + unit + " | " + (ratio ? rounded(*ratio) : "") + " | " + row.remark + " |\n";
+            rounded(row.ours) + unit + " | " + (ratio ? rounded(*ratio) : "") + " | " + row.remark + " |";
+    if (further && row.further) {
+      const FurtherColumns& more = *row.further;
+      text += " " + rounded(more.calibrated) + unit + " | " + rounded(more.motion) + unit + " | " + rounded(more.both) +
+              unit + " |";
+    } else if (further) {
+      text += " | | |";
+    }
+    text += "\n";
   }
   const auto close = [](std::FILE* file) { return file == stdout ? 0 : std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(path == "-" ? stdout : std::fopen(path.c_str(), "w"), close);

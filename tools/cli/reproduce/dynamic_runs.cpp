@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "pharos/base/units.hpp"
+#include "pharos/motion/motion_tracker.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/reproduce/calibration_session.hpp"
 #include "tools/cli/reproduce/pose_spread.hpp"
 #include "tools/cli/reproduce/simulated_run.hpp"
 
@@ -86,9 +88,11 @@ track::TrackOptions paper_method() {
   return options;
 }
 
-DynamicRun evaluate(const SimulatedRun& run, const track::TrackOptions& options) {
+template <class Tracker>
+DynamicRun evaluate(const SimulatedRun& run, const RunBelief& belief, Tracker tracker) {
   DynamicRun out;
-  run.track(options, [&](const track::EpochResult& result, const LighthouseFromBody& truth) {
+  const auto kept = std::make_unique<Tracker>(std::move(tracker));
+  run.feed(*kept, belief, [&](const track::EpochResult& result, const LighthouseFromBody& truth) {
     if (!result.pose) {
       ++out.refused;
       return;
@@ -102,6 +106,23 @@ DynamicRun evaluate(const SimulatedRun& run, const track::TrackOptions& options)
   return out;
 }
 
+// The columns beside the paper's method, in this order.
+enum Column : std::size_t { kPaper, kCalibration, kMotion, kBoth, kColumns };
+using FourColumns = std::array<DynamicRun, kColumns>;
+
+FourColumns four_columns(const SimulatedRun& run, const CalibrationSession& session, std::uint64_t seed) {
+  const RunBelief announced = run.as_announced(), calibrated = calibrate_for(run, session, seed);
+  const track::TrackOptions paper = paper_method();
+  track::TrackOptions told;
+  told.solve.rho = kPaperRho;
+  const auto motion = [&](const RunBelief& belief, bool is_calibrated) {
+    return motion::MotionTracker(belief.target, motion::motion_options(told, is_calibrated));
+  };
+  return {evaluate(run, announced, track::EpochTracker(announced.target, paper)),
+          evaluate(run, calibrated, track::EpochTracker(calibrated.target, paper)),
+          evaluate(run, announced, motion(announced, false)), evaluate(run, calibrated, motion(calibrated, true))};
+}
+
 SimulatedRun fly(double run_s, std::uint64_t seed) {
   sim::LighthouseScenario scenario = paper_scenario(run_s);
   scenario.errors = sim::ErrorScenario::workshop();
@@ -110,65 +131,55 @@ SimulatedRun fly(double run_s, std::uint64_t seed) {
   return SimulatedRun(std::move(scenario), seed);
 }
 
-void add_run_rows(std::size_t run, const DynamicRun& result, std::vector<ComparisonRow>& rows) {
+// Adds a row whose figure is `value` of each column's run.
+template <class Value>
+void add_row(const std::string& what, const char* unit, const char* published, const FourColumns& columns,
+             const std::string& remark, std::vector<ComparisonRow>& rows, Value&& value) {
+  rows.push_back({"table 2", what, unit, published, value(columns[kPaper]), remark,
+                  FurtherColumns{value(columns[kCalibration]), value(columns[kMotion]), value(columns[kBoth])}});
+}
+
+void add_run_rows(std::size_t run, const FourColumns& columns, std::vector<ComparisonRow>& rows) {
   const PublishedRun published = run < kPublishedRuns ? kTable2[run] : PublishedRun{"", "", "", ""};
   const std::string name = "run " + std::to_string(run + 1) + ": ";
+  const DynamicRun& result = columns[kPaper];
   const std::string counts =
       std::to_string(result.sure.count()) + " cycles ok; " + std::to_string(result.all.count() - result.sure.count()) +
       " ambiguous and " + std::to_string(result.refused) + " refused left out; " +
       std::to_string(result.sure.count() - result.right.count()) + " of the ok in another minimum";
-  rows.push_back(
-      {"table 2", name + "rotation RMS", "deg", published.rotation_rms_deg, result.sure.rms().rotation_deg, counts});
-  rows.push_back(
-      {"table 2", name + "rotation maximum", "deg", published.rotation_max_deg, result.sure.max().rotation_deg, ""});
-  rows.push_back(
-      {"table 2", name + "position RMS", "mm", published.position_rms_mm, result.sure.rms().position_mm, ""});
-  rows.push_back(
-      {"table 2", name + "position maximum", "mm", published.position_max_mm, result.sure.max().position_mm, ""});
+  add_row(name + "rotation RMS", "deg", published.rotation_rms_deg, columns, counts, rows,
+          [](const DynamicRun& r) { return r.sure.rms().rotation_deg; });
+  add_row(name + "rotation maximum", "deg", published.rotation_max_deg, columns, "", rows,
+          [](const DynamicRun& r) { return r.sure.max().rotation_deg; });
+  add_row(name + "position RMS", "mm", published.position_rms_mm, columns, "", rows,
+          [](const DynamicRun& r) { return r.sure.rms().position_mm; });
+  add_row(name + "position maximum", "mm", published.position_max_mm, columns, "", rows,
+          [](const DynamicRun& r) { return r.sure.max().position_mm; });
 }
 
 // Medians of the ten published values.
 constexpr const char* kPublishedRotation_deg = "0.885";
 constexpr const char* kPublishedPosition_mm = "11.45";
 
-// One way of solving, over all runs.
-struct Method {
-  std::string name;
-  track::TrackOptions options;
-  std::vector<DynamicRun> runs;
-
-  template <class Value>
-  double median(Value&& value) const {
-    std::vector<double> values;
-    for (const DynamicRun& run : runs) values.push_back(value(run));
-    return median_of(values);
-  }
-};
-
-std::vector<Method> methods() {
-  std::vector<Method> out = {{"the paper's method", paper_method(), {}}, {"angles and smoothed flashes", {}, {}}};
-  // What the workshop's errors leave as residual; told so, the second minimum is recognised for what it is.
-  constexpr double kWorkshopSigma_arcsec = 30.0;
-  out.push_back({"angles and smoothed flashes told 30 arcsec of noise", {}, {}});
-  out.back().options.solve.sigma_rad = kWorkshopSigma_arcsec * kRadPerArcsec;
-  return out;
-}
-
-void add_method_rows(const Method& method, std::vector<ComparisonRow>& rows) {
-  const auto add = [&](const char* what, const char* unit, const char* published, double ours) {
-    rows.push_back({"table 2", method.name + ": " + what + " (median of runs)", unit, published, ours, ""});
+// Middle values over the runs, of each column.
+void add_medians(const std::vector<FourColumns>& runs, std::vector<ComparisonRow>& rows) {
+  const auto add = [&](const char* what, const char* unit, const char* published, auto&& value) {
+    std::array<double, kColumns> middle{};
+    for (std::size_t column = 0; column < kColumns; ++column) {
+      std::vector<double> values;
+      for (const FourColumns& run : runs) values.push_back(value(run[column]));
+      middle[column] = median_of(values);
+    }
+    rows.push_back({"table 2", std::string(what) + " (median of runs)", unit, published, middle[kPaper], "",
+                    FurtherColumns{middle[kCalibration], middle[kMotion], middle[kBoth]}});
   };
-  const auto rotation = [](const ErrorStatistics& s) { return s.rms().rotation_deg; };
-  const auto position = [](const ErrorStatistics& s) { return s.rms().position_mm; };
-  add("rotation RMS", "deg", kPublishedRotation_deg,
-      method.median([&](const auto& run) { return rotation(run.sure); }));
-  add("position RMS", "mm", kPublishedPosition_mm, method.median([&](const auto& run) { return position(run.sure); }));
-  add("cycles more than 10 deg off (another minimum)", "%", "",
-      method.median([](const auto& run) { return run.wrong_percent(); }));
+  add("rotation RMS", "deg", kPublishedRotation_deg, [](const DynamicRun& r) { return r.sure.rms().rotation_deg; });
+  add("position RMS", "mm", kPublishedPosition_mm, [](const DynamicRun& r) { return r.sure.rms().position_mm; });
+  add("answers more than 10 deg off (another minimum)", "%", "", [](const DynamicRun& r) { return r.wrong_percent(); });
   add("rotation RMS without those", "deg", kPublishedRotation_deg,
-      method.median([&](const auto& run) { return rotation(run.right); }));
+      [](const DynamicRun& r) { return r.right.rms().rotation_deg; });
   add("position RMS without those", "mm", kPublishedPosition_mm,
-      method.median([&](const auto& run) { return position(run.right); }));
+      [](const DynamicRun& r) { return r.right.rms().position_mm; });
 }
 
 }  // namespace
@@ -176,15 +187,14 @@ void add_method_rows(const Method& method, std::vector<ComparisonRow>& rows) {
 std::vector<ComparisonRow> reproduce_dynamic_runs(const DynamicRunsOptions& options) {
   Progress progress("table 2", "runs", static_cast<std::size_t>(options.runs));
   std::vector<ComparisonRow> rows;
-  std::vector<Method> ways = methods();
+  std::vector<FourColumns> runs;
   for (std::size_t i = 0; i < static_cast<std::size_t>(options.runs); ++i) {
     const SimulatedRun run = fly(options.run_s, options.seed + i);
-    for (Method& way : ways) way.runs.push_back(evaluate(run, way.options));
-    add_run_rows(i, ways.front().runs.back(), rows);
+    runs.push_back(four_columns(run, options.calibration, options.seed + i));
+    add_run_rows(i, runs.back(), rows);
     progress.step();
   }
-  if (rows.empty()) return rows;
-  for (const Method& way : ways) add_method_rows(way, rows);
+  if (!runs.empty()) add_medians(runs, rows);
   return rows;
 }
 

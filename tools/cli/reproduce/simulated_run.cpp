@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "pharos/base/ticks.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/lighthouse/decoder.hpp"
+#include "tools/cli/reproduce/body_frame.hpp"
 #include "tools/cli/reproduce/paper_target.hpp"
 
 namespace pharos::tools {
@@ -35,14 +35,16 @@ void SimulatedRun::track(
     const track::TrackOptions& options,
     const std::function<void(const track::EpochResult&, const LighthouseFromBody& truth)>& take) const {
   const auto tracker = std::make_unique<track::EpochTracker>(simulator_.nominal_target(), options);
-  if (calibration_) tracker->set_calibration(0, *calibration_);
-  const auto give = [&](const track::EpochResult& result) {
-    take(result, simulator_.truth(0, ticks_to_seconds(result.time_ticks)));
-  };
-  for (const lighthouse::Sweep& sweep : sweeps_) {
-    if (const auto result = tracker->push(sweep)) give(*result);
-  }
-  while (const auto result = tracker->flush()) give(*result);
+  feed(*tracker, {simulator_.nominal_target(), calibration_, {}}, take);
+}
+
+RunBelief SimulatedRun::as_announced() const {
+  const Target& nominal = simulator_.nominal_target();
+  return {nominal, calibration_, body_frame_of(nominal, simulator_.true_target())};
+}
+
+RunBelief SimulatedRun::believing(const Target& target, const lighthouse::StationCalibration& station) const {
+  return {target, station, body_frame_of(target, simulator_.true_target())};
 }
 
 sim::LighthouseScenario paper_scenario(double duration_s) {
