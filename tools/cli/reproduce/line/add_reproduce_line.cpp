@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/reproduce/line/add_reproduce_line.hpp"
+
+#include <memory>
+
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/reproduce/line/attitude_tables.hpp"
+#include "tools/cli/seed_option.hpp"
+
+namespace pharos::tools {
+namespace {
+
+struct Options {
+  std::uint64_t seed = 1;
+  bool markdown = false;
+  OutputOptions output;
+};
+
+int run(const Options& options) {
+  require_writable(options.output.path);
+  const std::vector<ComparisonRow> rows = reproduce_attitudes(options.seed);
+  if (options.markdown) {
+    write_markdown(rows, options.output.path);
+  } else {
+    write_rows(rows, options.output);
+  }
+  return kExitAnswered;
+}
+
+}  // namespace
+
+void add_reproduce_line(CLI::App& reproduce, int& exit_code) {
+  CLI::App* command = reproduce.add_subcommand("line", "Paper 003: tables 1 and 2 (needs povray)");
+  const auto options = std::make_shared<Options>();
+  add_seed_option(*command, options->seed, "Of sun, stars and noise");
+  command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
+  add_output_options(*command, options->output);
+  command->footer(
+      "The four attitudes are rendered and measured as `pharos line` does.\n\nExample: pharos reproduce line "
+      "--markdown");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
