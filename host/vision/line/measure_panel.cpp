@@ -72,13 +72,17 @@ void measure_ends(ImageView<const std::uint16_t> image, const TargetMask& target
 Result<Panel, LineRefusal> measured_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
                                           const PinholeCamera& camera, const EdgePair& pair) {
   const double reach = kReachShare * pair.separation;
-  Panel panel;
-  for (const auto& [guess, into] : {std::pair{&pair.first, &panel.first}, {&pair.second, &panel.second}}) {
-    const auto side = measured_side(image, target, camera, *guess, reach);
-    if (!side) return side.error();
-    if (side->cut) return LineRefusal::kCutByBorder;
-    *into = *side;
+  const auto first = measured_side(image, target, camera, pair.first, reach);
+  const auto second = measured_side(image, target, camera, pair.second, reach);
+  for (const auto* side : {&first, &second}) {
+    if (*side ? (*side)->cut : side->error() == LineRefusal::kCutByBorder) return LineRefusal::kCutByBorder;
   }
+  if (first.ok() != second.ok()) {
+    const LineRefusal why = first ? second.error() : first.error();
+    return why == LineRefusal::kEdgeUnsure ? LineRefusal::kOneEdge : why;
+  }
+  if (!first) return first.error();
+  Panel panel{*first, *second, {}};
   measure_ends(image, target, camera, panel);
   return panel;
 }
@@ -148,20 +152,26 @@ PanelMeasurement measurement_of(const std::vector<Panel>& panels, const PinholeC
 }
 
 // How much longer the long sides are than the short ones in space, from perspective; nothing where it does not tell.
-std::optional<double> aspect_in_space(const PanelMeasurement& panel) {
-  if (panel.short_planes.size() != 2 || panel.long_planes.size() != 2) return std::nullopt;
+// One end is enough: it is square to the axis.
+std::optional<double> aspect_in_space(const PanelMeasurement& panel, const PinholeCamera& camera) {
+  if (panel.short_planes.empty() || panel.long_planes.size() != 2) return std::nullopt;
   const auto axis = pointing::estimate_axis({panel.long_planes.data(), 2});
-  const auto across = pointing::estimate_axis({panel.short_planes.data(), 2});
-  if (!axis || !across || axis->sigma_rad() > kSureSigma_rad || across->sigma_rad() > kSureSigma_rad)
-    return std::nullopt;
-  const Vector3 normal = axis->axis.cross(across->axis);
-  const auto corner = [&](std::size_t i, std::size_t k) {
-    const Vector3 ray = panel.long_planes[i].normal.cross(panel.short_planes[k].normal);
-    return Vector3(ray / normal.dot(ray));
+  if (!axis || axis->sigma_rad() > kSureSigma_rad) return std::nullopt;
+  const Vector3& end = panel.short_planes[0].normal;
+  const Vector3 normal = axis->axis.cross(axis->axis.cross(end)).normalized();
+  const auto on_panel = [&](const Vector3& ray) { return Vector3(ray / normal.dot(ray)); };
+  const auto ray_of = [&](const Vector2& place) {
+    return Vector3((place.x() - camera.cx_px) / camera.fx_px, (place.y() - camera.cy_px) / camera.fy_px, 1.0);
   };
-  const double length = (corner(0, 0) - corner(0, 1)).norm() + (corner(1, 0) - corner(1, 1)).norm();
-  const double width = (corner(0, 0) - corner(1, 0)).norm() + (corner(0, 1) - corner(1, 1)).norm();
-  return length / width;
+  double length = 0.0;
+  std::array<Vector3, 2> corners;
+  for (std::size_t i = 0; i < 2; ++i) {
+    corners[i] = on_panel(panel.long_planes[i].normal.cross(end));
+    for (const Vector2& place : {panel.long_edges[i].begin, panel.long_edges[i].end}) {
+      length = std::max(length, (on_panel(ray_of(place)) - corners[i]).norm());
+    }
+  }
+  return length / (corners[0] - corners[1]).norm();
 }
 
 LineRefusal why_no_panel(const std::vector<Segment>& edges, const TargetMask& target,
@@ -199,12 +209,13 @@ Result<PanelMeasurement, LineRefusal> measure_panel(ImageView<const std::uint16_
   if (choice->panels.size() == 1) {
     const EdgePair& pair = choice->panels[0];
     double aspect = pair.middle.length() / pair.separation;
-    if (const auto in_space = aspect_in_space(result)) {
+    if (const auto in_space = aspect_in_space(result, camera)) {
+      aspect = std::max(*in_space, 1.0 / *in_space);
       if (*in_space < 1.0) {
+        if (result.short_planes.size() < 2) return LineRefusal::kNoPanel;
         std::swap(result.long_planes, result.short_planes);
         std::swap(result.long_edges, result.short_edges);
       }
-      aspect = std::max(*in_space, 1.0 / *in_space);
     }
     if (aspect < kLeastAspect) return LineRefusal::kNoPanel;
   }
@@ -223,7 +234,14 @@ LineAnswer answer_of(const PanelMeasurement& panel, const pointing::LineOfSight&
   if (!axis) return answer;  // two finite planes always have one
   answer.axis = *axis;
   answer.axis.axis = pointing::signed_axis(axis->axis);
-  if (axis->sigma_along_rad > kPlaneOnlySigma_rad) answer.flags |= kFlagPlaneOnly;
+  // Edges that contradict each other tell less than each of them says.
+  if (axis->degrees_of_freedom > 0) {
+    const double widening = std::max(1.0, axis->chi2 / axis->degrees_of_freedom);
+    answer.axis.covariance *= widening;
+    answer.axis.sigma_along_rad *= std::sqrt(widening);
+    answer.axis.sigma_plane_rad *= std::sqrt(widening);
+  }
+  if (answer.axis.sigma_along_rad > kPlaneOnlySigma_rad) answer.flags |= kFlagPlaneOnly;
   if (panel.short_planes.size() >= 2) {
     const auto across = pointing::estimate_axis({panel.short_planes.data(), panel.short_planes.size()});
     if (!across) return answer;
@@ -233,7 +251,7 @@ LineAnswer answer_of(const PanelMeasurement& panel, const pointing::LineOfSight&
     const double cosine = std::clamp(std::abs(d.dot(side)), 0.0, 1.0);
     answer.square_rad = std::acos(cosine);
     const Matrix3 covariance = R * across->covariance * R.transpose();
-    const double variance = side.dot(axis->covariance * side) + d.dot(covariance * d);
+    const double variance = side.dot(answer.axis.covariance * side) + d.dot(covariance * d);
     answer.sigma_square_rad = std::sqrt(variance);
     if (0.5 * kPi - *answer.square_rad > 3.0 * answer.sigma_square_rad + kSquareSlack_rad)
       answer.flags |= kFlagNotSquare;

@@ -12,7 +12,7 @@ constexpr double kLeastShare = 0.12;      // of the longest edge
 constexpr double kMostConvergence = 0.2;  // rad: perspective of a panel as deep as an eighth of its distance
 constexpr double kLeastOverlap = 0.55;    // of the shorter edge; a body may hide the rest
 constexpr double kLeastSeparation_px = 3.5;
-constexpr double kMostSeparation = 2.5;  // times the overlap: foreshortened panels
+constexpr double kMostSeparation = 3.0;  // times the overlap: foreshortened panels
 constexpr double kLeastFill = 0.85;      // of the strip between the edges
 constexpr double kWingTurn = 0.08;       // rad between the middle lines of a wing's panels
 constexpr double kWingOff = 0.35;        // of one's middle from the other's line, in separations
@@ -73,11 +73,6 @@ bool is_wing(const EdgePair& a, const EdgePair& b) {
          std::abs(b.middle.offset(a.middle.middle())) < kWingOff * narrower;
 }
 
-bool crosses(const EdgePair& a, const EdgePair& b) {
-  return std::abs(a.middle.along().dot(b.middle.along())) < 0.97 &&
-         (a.middle.middle() - b.middle.middle()).norm() < 0.5 * std::max(a.separation, b.separation);
-}
-
 }  // namespace
 
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target) {
@@ -111,11 +106,6 @@ std::optional<PanelChoice> choose_panels(const std::vector<Segment>& edges, cons
     }
   }
   if (choice.panels.empty()) return std::nullopt;
-  if (choice.panels.size() == 1) {
-    for (const EdgePair& pair : pairs) {
-      if (crosses(choice.panels[0], pair)) choice.across = pair;
-    }
-  }
   return choice;
 }
 

@@ -19,8 +19,6 @@ struct EdgePair {
 /// One panel, or the two of a wing.
 struct PanelChoice {
   std::vector<EdgePair> panels;
-  /// Another pair of edges of the same panel, across these: with one panel alone it may be the longer one in space.
-  std::optional<EdgePair> across;
 };
 
 /// Pairs of edges by length, slope, end points and mutual convergence.
