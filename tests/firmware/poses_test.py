@@ -31,7 +31,7 @@ def target_rows(frames):
 
 
 def host_rows(pharos, light):
-    done = subprocess.run([pharos, "track", light / "edges.csv.gz", "--target", light / "target.csv"], check=True, text=True,
+    done = subprocess.run([pharos, "track", light / "edges.csv.gz", "--method", "epoch", "--target", light / "target.csv"], check=True, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     for row in csv.DictReader(done.stdout.splitlines()):
         yield (int(row["station"]), round(float(row["time_s"]) * 50e6)), row
