@@ -20,17 +20,19 @@ void add_solve(CLI::App& app, int& exit_code);
 void add_precision(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);  // cli/calibrate
 void add_reproduce(CLI::App& app, int& exit_code);
-void add_sim(CLI::App& app, int& exit_code);       // tools/sim
-void add_listen(CLI::App& app, int& exit_code);    // tools/listen
-void add_flash(CLI::App& app, int& exit_code);     // tools/flash
-void add_bench(CLI::App& app, int& exit_code);     // tools/bench
-void add_evaluate(CLI::App& app, int& exit_code);  // tools/evaluate
-void add_layout(CLI::App& app, int& exit_code);    // tools/layout
-void add_ellipses(CLI::App& app, int& exit_code);  // tools/ellipses
-void add_circles(CLI::App& app, int& exit_code);   // tools/ring2
-void add_enhance(CLI::App& app, int& exit_code);   // tools/enhance
-void add_tof(CLI::App& app, int& exit_code);       // tools/tof
-void add_line(CLI::App& app, int& exit_code);      // tools/line
+void add_sim(CLI::App& app, int& exit_code);         // tools/sim
+void add_listen(CLI::App& app, int& exit_code);      // tools/listen
+void add_flash(CLI::App& app, int& exit_code);       // tools/flash
+void add_bench(CLI::App& app, int& exit_code);       // tools/bench
+void add_evaluate(CLI::App& app, int& exit_code);    // tools/evaluate
+void add_layout(CLI::App& app, int& exit_code);      // tools/layout
+void add_ellipses(CLI::App& app, int& exit_code);    // tools/ellipses
+void add_circles(CLI::App& app, int& exit_code);     // tools/ring2
+void add_enhance(CLI::App& app, int& exit_code);     // tools/enhance
+void add_tof(CLI::App& app, int& exit_code);         // tools/tof
+void add_line(CLI::App& app, int& exit_code);        // tools/line
+void add_slam(CLI::App& app, int& exit_code);        // tools/slam
+void add_vocabulary(CLI::App& app, int& exit_code);  // tools/slam
 
 inline void add_commands(CLI::App& app, int& exit_code) {
   add_decode(app, exit_code);
@@ -50,6 +52,8 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_enhance(app, exit_code);
   add_tof(app, exit_code);
   add_line(app, exit_code);
+  add_slam(app, exit_code);
+  add_vocabulary(app, exit_code);
 }
 
 }  // namespace pharos::tools

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/bundle.hpp"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "host/vision/slam/pose_blocks.hpp"
+
+namespace pharos::slam {
+namespace {
+
+// (12), one observation: rows are whitened.
+class Reprojection : public ceres::CostFunction {
+ public:
+  Reprojection(const Observation& seen, const StereoCamera& camera) : seen_(seen), camera_(camera) {
+    set_num_residuals(seen.stereo() ? 3 : 2);
+    mutable_parameter_block_sizes()->assign({7, 3});
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const CameraFromTarget pose = slam::pose_of(parameters[0]);
+    Observation at = seen_;
+    at.point_m = Vector3(parameters[1]);
+    if (!((pose * at.point_m).z() > 1e-3)) return false;
+    const double weight = 1.0 / std::sqrt(seen_.variance_px2);
+    const Vector3 e = weight * residual_of(at, camera_, pose);
+    const int rows = num_residuals();
+    for (int k = 0; k < rows; ++k) residuals[k] = e[k];
+    if (jacobians == nullptr) return true;
+    const Eigen::Matrix<double, 3, 6> J = weight * residual_jacobian(at, camera_, pose);
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>> out(jacobians[0], rows, 7);
+      out.leftCols<6>() = J.topRows(rows);
+      out.col(6).setZero();
+    }
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> out(jacobians[1], rows, 3);
+      out = (J.rightCols<3>() * pose.R).topRows(rows);
+    }
+    return true;
+  }
+
+ private:
+  Observation seen_;
+  StereoCamera camera_;
+};
+
+class GiveUp : public ceres::IterationCallback {
+ public:
+  explicit GiveUp(const std::atomic<bool>* flag) : flag_(flag) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return flag_ != nullptr && *flag_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::atomic<bool>* flag_;
+};
+
+struct Blocks {
+  std::map<KeyframeId, PoseBlock> poses;
+  std::map<PointId, std::array<double, 3>> points;
+};
+
+void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& camera, const BundleSettings& settings,
+           const std::vector<bool>& use) {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::HuberLoss loss(std::sqrt(kHuberChi2));
+  PoseManifold manifold;
+  ceres::Problem ceres(options);
+  auto* ordering = new ceres::ParameterBlockOrdering;  // NOLINT(cppcoreguidelines-owning-memory): the solver owns it
+  for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+    const BundleObservation& observation = problem.observations[k];
+    if (!use[k]) continue;
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
+    ceres.AddResidualBlock(new Reprojection(observation.seen, camera), &loss,
+                           blocks.poses.at(observation.keyframe).data(), blocks.points.at(observation.point).data());
+  }
+  std::size_t moving = 0;
+  for (auto& [id, block] : blocks.poses) {
+    if (!ceres.HasParameterBlock(block.data())) continue;
+    ceres.SetManifold(block.data(), &manifold);
+    ordering->AddElementToGroup(block.data(), 1);
+    if (problem.fixed.at(id)) {
+      ceres.SetParameterBlockConstant(block.data());
+    } else {
+      ++moving;
+    }
+  }
+  for (auto& [id, block] : blocks.points) {
+    if (ceres.HasParameterBlock(block.data())) ordering->AddElementToGroup(block.data(), 0);
+  }
+  GiveUp give_up(settings.give_up);
+  ceres::Solver::Options solver;
+  solver.linear_solver_ordering.reset(ordering);
+  solver.linear_solver_type = moving <= 40 ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  solver.max_num_iterations = settings.iterations;
+  solver.function_tolerance = 1e-5;
+  solver.num_threads = 1;
+  solver.logging_type = ceres::SILENT;
+  solver.callbacks.push_back(&give_up);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &ceres, &summary);
+}
+
+bool fits(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
+  Observation at = observation.seen;
+  at.point_m = Vector3(blocks.points.at(observation.point).data());
+  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe).data());
+  if (!((pose * at.point_m).z() > 1e-3)) return false;
+  return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
+}
+
+void add_observations(const Map& map, BundleProblem& problem, const std::set<KeyframeId>& moving) {
+  for (auto& [id, position] : problem.points) {
+    const MapPoint& point = map.points.at(id);
+    position = point.position_m;
+    for (const auto& [keyframe, feature] : point.seen_by) {
+      const Keyframe& frame = map.keyframes.at(keyframe);
+      const Feature& seen = frame.features[static_cast<std::size_t>(feature)];
+      problem.poses[keyframe] = frame.pose;
+      problem.fixed[keyframe] = !moving.contains(keyframe);
+      problem.observations.push_back(
+          {keyframe, id, {Vector3::Zero(), seen.pixel, seen.stereo() ? seen.right_u_px : -1.0, seen.variance_px2()}});
+    }
+  }
+}
+
+}  // namespace
+
+BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t most_keyframes) {
+  std::set<KeyframeId> moving{keyframe};
+  for (const KeyframeId id : map.best_neighbours(keyframe, most_keyframes)) moving.insert(id);
+  BundleProblem problem;
+  for (const KeyframeId id : moving) {
+    for (const PointId point : map.keyframes.at(id).points) {
+      if (point != kNone) problem.points[point];
+    }
+  }
+  moving.erase(map.keyframes.begin()->first);
+  add_observations(map, problem, moving);
+  return problem;
+}
+
+BundleProblem global_problem(const Map& map) {
+  BundleProblem problem;
+  std::set<KeyframeId> moving;
+  for (const auto& [id, keyframe] : map.keyframes) moving.insert(id);
+  moving.erase(map.keyframes.begin()->first);
+  for (const auto& [id, point] : map.points) problem.points[id];
+  add_observations(map, problem, moving);
+  return problem;
+}
+
+std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera,
+                                       const BundleSettings& settings) {
+  Blocks blocks;
+  for (const auto& [id, pose] : problem.poses) blocks.poses[id] = block_of(pose);
+  for (const auto& [id, point] : problem.points) blocks.points[id] = {point.x(), point.y(), point.z()};
+  std::vector<bool> use(problem.observations.size(), true);
+  std::vector<std::size_t> rejected;
+  solve(problem, blocks, camera, settings, use);
+  for (std::size_t k = 0; k < use.size(); ++k) {
+    use[k] = fits(problem.observations[k], blocks, camera);
+  }
+  const bool stopped = settings.give_up != nullptr && *settings.give_up;
+  if (!stopped) solve(problem, blocks, camera, settings, use);
+  for (std::size_t k = 0; k < use.size(); ++k) {
+    if (!use[k] && !fits(problem.observations[k], blocks, camera)) rejected.push_back(k);
+  }
+  for (auto& [id, pose] : problem.poses) {
+    if (!problem.fixed.at(id)) pose = slam::pose_of(blocks.poses.at(id).data());
+  }
+  for (auto& [id, point] : problem.points) point = Vector3(blocks.points.at(id).data());
+  return rejected;
+}
+
+void apply(const BundleProblem& solved, const std::vector<std::size_t>& rejected, Map& map) {
+  for (const auto& [id, pose] : solved.poses) {
+    const auto at = map.keyframes.find(id);
+    if (at != map.keyframes.end() && !solved.fixed.at(id)) at->second.pose = pose;
+  }
+  for (const auto& [id, position] : solved.points) {
+    const auto at = map.points.find(id);
+    if (at != map.points.end()) at->second.position_m = position;
+  }
+  for (const std::size_t k : rejected) {
+    const BundleObservation& observation = solved.observations[k];
+    if (map.points.contains(observation.point) && map.keyframes.contains(observation.keyframe)) {
+      map.forget_observation(observation.point, observation.keyframe);
+    }
+  }
+}
+
+}  // namespace pharos::slam

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/engine.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/support/input_error.hpp"
+#include "host/vision/slam/bundle.hpp"
+#include "host/vision/slam/mapping.hpp"
+
+namespace pharos::slam {
+namespace {
+
+constexpr int kLeastStart = 60;   // stereo features of a first map
+constexpr int kPairsChecked = 5;  // whether left is left
+constexpr std::size_t kLocalKeyframes = 20;
+constexpr int kLocalSteps = 6;
+constexpr std::int64_t kMappingFrames = 4;
+constexpr int kGlobalSteps = 12;  // while tracking goes on
+constexpr int kFinalSteps = 40;
+
+class Stopwatch {
+ public:
+  double ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double quantile(std::vector<float> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
+}  // namespace
+
+Engine::Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings)
+    : settings_(settings),
+      frontend_(std::move(rectification), settings),
+      recognition_(std::move(vocabulary)),
+      tracker_(frontend_.camera(), map_, &recognition_),
+      closer_(frontend_.camera(), map_, recognition_) {
+  if (!settings_.threads) return;
+  mapping_ = std::thread([this] {
+    while (const auto id = to_map_.next()) {
+      map_keyframe(*id);
+      to_close_.push(*id);
+      to_map_.done();
+    }
+  });
+  closing_ = std::thread([this] {
+    while (const auto id = to_close_.next()) {
+      close_loop(*id);
+      to_close_.done();
+    }
+  });
+}
+
+Engine::~Engine() {
+  to_map_.close();
+  if (mapping_.joinable()) mapping_.join();
+  to_close_.close();
+  if (closing_.joinable()) closing_.join();
+}
+
+void Engine::finish() {
+  if (settings_.threads) {
+    to_map_.wait_until_idle();
+    to_close_.wait_until_idle();
+  }
+  BundleProblem problem;
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_.keyframes.size() < 2) return;
+    problem = global_problem(map_);
+  }
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kFinalSteps, nullptr});
+  const std::lock_guard lock(mutex_);
+  apply_global(problem, rejected, map_);
+}
+
+void Engine::check_pair(const StereoFrontend::Result& seen) {
+  if (pairs_checked_ >= kPairsChecked || seen.features.size() < kLeastStart) return;
+  checked_.matched += seen.stats.matched;
+  checked_.swapped += seen.stats.swapped;
+  checked_.off_rows += seen.stats.off_rows;
+  if (++pairs_checked_ < kPairsChecked) return;
+  if (checked_.swapped > 2 * checked_.matched) {
+    throw host::InputError("left and right images seem to be exchanged: what both show lies on the wrong side");
+  }
+  if (checked_.off_rows > 2 * checked_.matched) {
+    throw host::InputError(
+        "the images' rows do not agree: left and right are out of step, or the rig file is of other cameras");
+  }
+}
+
+KeyframeId Engine::make_keyframe(Frame& frame) {
+  const KeyframeId id = map_.add_keyframe(frame, recognition_.words_of(frame.features)).id;
+  map_.update_neighbours(id);
+  add_stereo_points(map_, id, frontend_.camera());
+  const Keyframe& keyframe = map_.keyframes.at(id);
+  for (const PointId point : keyframe.points) {
+    if (point != kNone && map_.points.at(point).seen_by.size() == 1) recent_.push_back(point);
+  }
+  recognition_.add(keyframe);
+  tracker_.became_keyframe(keyframe);
+  last_keyframe_frame_ = frame.number;
+  ++report_.keyframes_made;
+  return id;
+}
+
+TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
+  TrackedFrame out{
+      frame.number, frame.time_s, std::nullopt, false, false, false, static_cast<int>(frame.features.size()), 0};
+  KeyframeId made = kNone;
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_.keyframes.empty()) {
+      if (seen.stats.matched >= kLeastStart) {
+        frame.points.assign(frame.features.size(), kNone);
+        made = make_keyframe(frame);
+        out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
+      }
+    } else {
+      // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
+      const bool idle = settings_.threads ? to_map_.idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
+      const Tracked tracked = tracker_.track(frame, idle);
+      out.inliers = tracked.inliers;
+      out.relocalised = tracked.relocalised;
+      out.lost = tracked.state == TrackState::kLost;
+      if (!out.lost) out.placed = TrackedPose{tracked.pose, tracked.covariance};
+      if (tracked.wants_keyframe) made = make_keyframe(frame);
+    }
+    out.keyframe = made != kNone;
+    const Pose<frame::Camera, frame::Camera> relative =
+        out.placed ? frame.pose * map_.pose_of(tracker_.reference()).inverse() : Pose<frame::Camera, frame::Camera>{};
+    log_.add(out, tracker_.reference(), relative);
+  }
+  if (made == kNone) return out;
+  if (settings_.threads) {
+    to_map_.push(made);
+  } else {
+    map_keyframe(made);
+    close_loop(made);
+  }
+  return out;
+}
+
+TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) {
+  const StereoCamera& camera = frontend_.camera();
+  if (left.width_px != camera.width_px || left.height_px != camera.height_px || !left.same_size(right)) {
+    throw host::InputError("a pair of " + std::to_string(left.width_px) + " x " + std::to_string(left.height_px) +
+                           " and " + std::to_string(right.width_px) + " x " + std::to_string(right.height_px) +
+                           " pixels; the rig's cameras have " + std::to_string(camera.width_px) + " x " +
+                           std::to_string(camera.height_px));
+  }
+  const Stopwatch watch;
+  StereoFrontend::Result seen = frontend_.push(left, right);
+  check_pair(seen);
+  Frame frame;
+  frame.number = report_.frames;
+  frame.time_s = time_s;
+  frame.features = std::move(seen.features);
+  frame.grid = FeatureGrid(frame.features, camera.width_px, camera.height_px);
+  const double before_ms = watch.ms();
+  const std::size_t mapped_before = settings_.threads ? 0 : mapping_ms_.size();
+  TrackedFrame out = place(frame, seen);
+  double took_ms = watch.ms();
+  // Mapping is timed by itself.
+  if (!settings_.threads && mapping_ms_.size() > mapped_before) took_ms = before_ms;
+  note_figures(out, seen, took_ms);
+  if (out.placed) out.placed = in_left_frame(*out.placed, frontend_.R_left_rectified());
+  last_ = std::move(frame);
+  return out;
+}
+
+void Engine::note_figures(const TrackedFrame& out, const StereoFrontend::Result& seen, double took_ms) {
+  const std::lock_guard lock(mutex_);
+  ++report_.frames;
+  report_.tracked += out.placed ? 1 : 0;
+  report_.lost += out.lost ? 1 : 0;
+  report_.relocalised += out.relocalised ? 1 : 0;
+  report_.repeated += seen.repeated ? 1 : 0;
+  report_.dark += seen.dark ? 1 : 0;
+  report_.saturated += seen.saturated ? 1 : 0;
+  features_.push_back(static_cast<float>(out.features));
+  tracking_ms_.push_back(static_cast<float>(took_ms));
+  if (out.placed) inliers_.push_back(static_cast<float>(out.inliers));
+}
+
+void Engine::map_keyframe(KeyframeId id) {
+  const Stopwatch watch;
+  BundleProblem problem;
+  std::int64_t corrections = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!map_.keyframes.contains(id)) return;
+    cull_points(map_, recent_);
+    triangulate(map_, id, frontend_.camera());
+    for (const PointId point : map_.keyframes.at(id).points) {
+      if (point != kNone && map_.points.at(point).born_at == id && map_.points.at(point).seen_by.size() == 2) {
+        recent_.push_back(point);
+      }
+    }
+    fuse_with_neighbours(map_, id, frontend_.camera());
+    problem = local_problem(map_, id, kLocalKeyframes);
+    corrections = corrections_;
+  }
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kLocalSteps, nullptr});
+  const std::lock_guard lock(mutex_);
+  // A loop that was closed meanwhile moved what this solution knows.
+  if (corrections == corrections_) apply(problem, rejected, map_);
+  if (map_.keyframes.contains(id)) cull_keyframes(map_, id, &recognition_, settings_.most_keyframes);
+  mapping_ms_.push_back(static_cast<float>(watch.ms()));
+}
+
+void Engine::close_loop(KeyframeId id) {
+  if (!settings_.close_loops) return;
+  const Stopwatch watch;
+  BundleProblem problem;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto loop = closer_.find(id);
+    report_.loops_refused = closer_.refused();
+    if (!loop) return;
+    closer_.correct(*loop);
+    ++report_.loops;
+    ++corrections_;
+    problem = global_problem(map_);
+  }
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kGlobalSteps, nullptr});
+  const std::lock_guard lock(mutex_);
+  apply_global(problem, rejected, map_);
+  ++corrections_;
+  report_.loop_max_ms = std::max(report_.loop_max_ms, watch.ms());
+}
+
+std::vector<TrackedFrame> Engine::trajectory() const {
+  const std::lock_guard lock(mutex_);
+  return log_.frames(map_, frontend_.R_left_rectified());
+}
+
+std::vector<SlamPoint> Engine::points() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<SlamPoint> out;
+  for (const auto& [id, point] : map_.points) {
+    out.push_back({frontend_.R_left_rectified() * point.position_m, static_cast<int>(point.seen_by.size())});
+  }
+  return out;
+}
+
+SlamReport Engine::report() const {
+  const std::lock_guard lock(mutex_);
+  SlamReport out = report_;
+  out.keyframes = static_cast<int>(map_.keyframes.size());
+  out.points = static_cast<int>(map_.points.size());
+  out.features_median = quantile(features_, 0.5);
+  out.inliers_median = quantile(inliers_, 0.5);
+  out.tracking_median_ms = quantile(tracking_ms_, 0.5);
+  out.tracking_p95_ms = quantile(tracking_ms_, 0.95);
+  out.mapping_median_ms = quantile(mapping_ms_, 0.5);
+  return out;
+}
+
+std::vector<std::array<double, 3>> Engine::last_features() const {
+  std::vector<std::array<double, 3>> out;
+  for (std::size_t k = 0; k < last_.features.size(); ++k) {
+    const Feature& feature = last_.features[k];
+    const bool known = k < last_.points.size() && last_.points[k] != kNone;
+    out.push_back({feature.pixel.x(), feature.pixel.y(), known ? 2.0 : feature.stereo() ? 1.0 : 0.0});
+  }
+  return out;
+}
+
+}  // namespace pharos::slam

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "host/vision/slam/loop_closing.hpp"
+#include "host/vision/slam/slam_system.hpp"
+#include "host/vision/slam/stereo_frontend.hpp"
+#include "host/vision/slam/tracker.hpp"
+#include "host/vision/slam/trajectory_log.hpp"
+
+namespace pharos::slam {
+
+/// Keyframes that wait for a thread, which works on one at a time.
+class KeyframeQueue {
+ public:
+  void push(KeyframeId id);
+  /// Waits for the next one; empty when closed.
+  std::optional<KeyframeId> next();
+  /// The one that next() gave is done.
+  void done();
+  bool idle() const;
+  bool waiting() const;
+  void wait_until_idle() const;
+  void close();
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::deque<KeyframeId> ids_;
+  bool busy_ = false, closed_ = false;
+};
+
+/// SlamSystem itself: tracking in the caller's thread, mapping and loop closing after it or in theirs.
+///
+/// One mutex guards map, tracker and recognition; adjustments work on copies outside it.
+class Engine final : public SlamSystem {
+ public:
+  Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings);
+  ~Engine() override;
+
+  TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) override;
+  void finish() override;
+  std::vector<TrackedFrame> trajectory() const override;
+  std::vector<SlamPoint> points() const override;
+  SlamReport report() const override;
+  std::vector<std::array<double, 3>> last_features() const override;
+  ImageView<const std::uint8_t> last_image() const override { return frontend_.image(); }
+  ImageView<const std::uint8_t> last_mask() const override { return frontend_.mask(); }
+
+ private:
+  TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen);
+  KeyframeId make_keyframe(Frame& frame);
+  void check_pair(const StereoFrontend::Result& seen);
+  void map_keyframe(KeyframeId id);
+  void close_loop(KeyframeId id);
+  void note_figures(const TrackedFrame& out, const StereoFrontend::Result& seen, double took_ms);
+
+  SlamSettings settings_;
+  StereoFrontend frontend_;
+  mutable std::mutex mutex_;
+  Map map_;
+  Recognition recognition_;
+  Tracker tracker_;
+  LoopCloser closer_;
+  std::int64_t corrections_ = 0;  // of the whole map
+  TrajectoryLog log_;
+  Frame last_;
+  std::vector<PointId> recent_;
+  std::int64_t last_keyframe_frame_ = 0;
+  int pairs_checked_ = 0;
+  StereoMatchStats checked_;
+
+  SlamReport report_;
+  std::vector<float> features_, inliers_, tracking_ms_, mapping_ms_;
+
+  KeyframeQueue to_map_, to_close_;
+  std::thread mapping_, closing_;
+};
+
+}  // namespace pharos::slam

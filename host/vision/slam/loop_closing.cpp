@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/loop_closing.hpp"
+
+#include <algorithm>
+
+#include "host/vision/slam/mapping.hpp"
+#include "host/vision/slam/projection_match.hpp"
+#include "host/vision/slam/rigid_fit.hpp"
+
+namespace pharos::slam {
+namespace {
+
+constexpr KeyframeId kLeastApart = 10;  // keyframes since the start and since the last loop
+constexpr std::size_t kMostCandidates = 3;
+constexpr int kLeastByLikeness = 20, kLeastInliers = 40;
+constexpr std::size_t kSurroundings = 10;
+constexpr double kRadius_px = 5.0;
+constexpr int kStrong = 100;  // shared points of an edge of the essential graph
+
+Observation observation_of(const Feature& feature, const Vector3& point_m) {
+  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
+}
+
+std::set<PointId> points_around(const Map& map, KeyframeId id) {
+  std::vector<KeyframeId> around = map.best_neighbours(id, kSurroundings);
+  around.push_back(id);
+  std::set<PointId> points;
+  for (const KeyframeId near : around) {
+    for (const PointId point : map.keyframes.at(near).points) {
+      if (point != kNone) points.insert(point);
+    }
+  }
+  return points;
+}
+
+void move_points(Map& map, const std::map<KeyframeId, CameraFromTarget>& before, const std::set<PointId>& but) {
+  for (auto& [id, point] : map.points) {
+    if (but.contains(id)) continue;
+    const KeyframeId viewer = point.seen_by.begin()->first;
+    const auto old = before.find(viewer);
+    if (old == before.end()) continue;
+    point.position_m = map.keyframes.at(viewer).pose.inverse() * (old->second * point.position_m);
+  }
+}
+
+}  // namespace
+
+std::optional<Loop> LoopCloser::find(KeyframeId id) {
+  if (!map_.keyframes.contains(id) || id < kLeastApart || (closed_at_ != kNone && id < closed_at_ + kLeastApart)) {
+    return std::nullopt;
+  }
+  const Keyframe& here = map_.keyframes.at(id);
+  std::set<KeyframeId> connected{id};
+  for (const auto& [near, shared] : here.neighbours) {
+    connected.insert(near);
+    for (const auto& [other, also] : map_.keyframes.at(near).neighbours) connected.insert(other);
+  }
+  const auto candidates = recognition_.like(here.words, map_, connected);
+  for (std::size_t k = 0; k < std::min(candidates.size(), kMostCandidates); ++k) {
+    if (auto loop = check(here, candidates[k].keyframe)) return loop;
+  }
+  refused_ += candidates.empty() ? 0 : 1;
+  return std::nullopt;
+}
+
+std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate) {
+  const Keyframe& there = map_.keyframes.at(candidate);
+  std::vector<bool> known(there.points.size());
+  for (std::size_t k = 0; k < known.size(); ++k) known[k] = there.points[k] != kNone;
+  std::vector<Observation> observations;
+  for (const ProjectionMatch& match : match_by_likeness(there.features, known, here.features, {}, 0.85)) {
+    const PointId point = there.points[static_cast<std::size_t>(match.candidate)];
+    observations.push_back(
+        observation_of(here.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
+  }
+  const auto placed = robust_pose(observations, camera_, kLeastByLikeness, static_cast<std::uint64_t>(here.id));
+  if (!placed) return std::nullopt;
+  std::vector<Candidate> candidates;
+  for (const PointId id : points_around(map_, candidate)) {
+    const MapPoint& point = map_.points.at(id);
+    candidates.push_back({id, point.position_m, point.descriptor, point.level, kRadius_px, 0.0});
+  }
+  const auto matches = match_by_projection(candidates, here, {}, camera_, placed->pose, {kMaybeSamePoint, 0.9, false});
+  std::vector<Observation> all;
+  for (const ProjectionMatch& match : matches) {
+    all.push_back(observation_of(here.features[static_cast<std::size_t>(match.feature)],
+                                 candidates[static_cast<std::size_t>(match.candidate)].position_m));
+  }
+  const PoseOnly refined = adjust_pose(all, camera_, placed->pose);
+  if (refined.inliers < kLeastInliers) return std::nullopt;
+  Loop loop{here.id, candidate, refined.pose, {}};
+  for (std::size_t k = 0; k < matches.size(); ++k) {
+    if (refined.inlier[k]) {
+      loop.seen.emplace_back(matches[k].feature, candidates[static_cast<std::size_t>(matches[k].candidate)].point);
+    }
+  }
+  return loop;
+}
+
+void LoopCloser::move_side(const Loop& loop, const std::vector<KeyframeId>& side) {
+  const CameraFromTarget old_here = map_.keyframes.at(loop.here).pose;
+  const Pose<frame::Target, frame::Target> shift = loop.corrected.inverse() * old_here;
+  const std::set<PointId> kept = points_around(map_, loop.there);
+  std::set<PointId> moving;
+  for (const KeyframeId id : side) {
+    for (const PointId point : map_.keyframes.at(id).points) {
+      if (point != kNone && !kept.contains(point)) moving.insert(point);
+    }
+  }
+  for (const PointId id : moving) {
+    Vector3& position = map_.points.at(id).position_m;
+    position = shift * position;
+  }
+  for (const KeyframeId id : side) {
+    CameraFromTarget& pose = map_.keyframes.at(id).pose;
+    pose = (pose * old_here.inverse()) * loop.corrected;
+  }
+}
+
+std::vector<PoseEdge> LoopCloser::essential_edges(const std::map<KeyframeId, CameraFromTarget>& before) const {
+  std::vector<PoseEdge> edges;
+  for (const auto& [id, keyframe] : map_.keyframes) {
+    std::set<KeyframeId> to;
+    if (keyframe.parent != kNone) to.insert(keyframe.parent);
+    for (const auto& [other, shared] : keyframe.neighbours) {
+      if (other < id && shared >= kStrong) to.insert(other);
+    }
+    for (const KeyframeId other : to) {
+      edges.push_back({id, other, before.at(id) * before.at(other).inverse()});
+    }
+    for (const auto& [other, measured] : keyframe.loops) {
+      if (other < id && map_.keyframes.contains(other)) edges.push_back({id, other, measured});
+    }
+  }
+  return edges;
+}
+
+void LoopCloser::correct(const Loop& loop) {
+  std::map<KeyframeId, CameraFromTarget> before;
+  for (const auto& [id, keyframe] : map_.keyframes) before[id] = keyframe.pose;
+  // Edges of what was known before double points join the two sides.
+  std::vector<PoseEdge> edges = essential_edges(before);
+  std::vector<KeyframeId> side = map_.best_neighbours(loop.here, map_.keyframes.size());
+  side.push_back(loop.here);
+  move_side(loop, side);
+  for (const auto& [feature, point] : loop.seen) {
+    if (!map_.points.contains(point)) continue;
+    const PointId own = map_.keyframes.at(loop.here).points[static_cast<std::size_t>(feature)];
+    if (own == kNone) {
+      map_.observe(point, loop.here, feature);
+    } else {
+      map_.fuse(own, point);
+    }
+  }
+  const std::set<PointId> around = points_around(map_, loop.there);
+  const std::vector<PointId> theirs(around.begin(), around.end());
+  for (const KeyframeId id : side) fuse_points(map_, theirs, id, camera_, kRadius_px);
+  Keyframe& here = map_.keyframes.at(loop.here);
+  Keyframe& there = map_.keyframes.at(loop.there);
+  here.loops[loop.there] = here.pose * there.pose.inverse();
+  there.loops[loop.here] = there.pose * here.pose.inverse();
+  std::map<KeyframeId, CameraFromTarget> moved = before;
+  for (const KeyframeId id : side) {
+    map_.update_neighbours(id);
+    moved[id] = map_.keyframes.at(id).pose;
+  }
+  // Edges that the loop made: what of one side sees of the other, as both stand now.
+  const std::set<KeyframeId> here_side(side.begin(), side.end());
+  for (const KeyframeId id : side) {
+    for (const auto& [other, shared] : map_.keyframes.at(id).neighbours) {
+      if (here_side.contains(other)) continue;
+      edges.push_back({id, other, moved.at(id) * moved.at(other).inverse()});
+    }
+  }
+  edges.push_back({loop.here, loop.there, here.loops.at(loop.there)});
+  std::map<KeyframeId, CameraFromTarget> solved = moved;
+  adjust_pose_graph(solved, edges, {map_.keyframes.begin()->first});
+  for (auto& [id, keyframe] : map_.keyframes) keyframe.pose = solved.at(id);
+  move_points(map_, moved, {});
+  closed_at_ = loop.here;
+}
+
+void apply_global(const BundleProblem& solved, const std::vector<std::size_t>& rejected, Map& map) {
+  std::map<KeyframeId, CameraFromTarget> before;
+  for (const auto& [id, keyframe] : map.keyframes) before[id] = keyframe.pose;
+  apply(solved, rejected, map);
+  for (auto& [id, keyframe] : map.keyframes) {
+    if (solved.poses.contains(id) || keyframe.parent == kNone) continue;
+    keyframe.pose = before.at(id) * before.at(keyframe.parent).inverse() * map.keyframes.at(keyframe.parent).pose;
+  }
+  std::set<PointId> told;
+  for (const auto& [id, position] : solved.points) told.insert(id);
+  move_points(map, before, told);
+}
+
+}  // namespace pharos::slam

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/vision/slam/pose_only.hpp"
+#include "host/vision/slam/projection_match.hpp"
+
+namespace pharos::slam {
+namespace {
+
+constexpr std::size_t kLeastPoints = 100;
+constexpr std::size_t kTriangulateWith = 10;
+constexpr std::size_t kFuseWith = 20, kFuseWithTheirs = 5;
+constexpr double kFuseRadius_px = 3.0;
+constexpr double kLeastFoundShare = 0.25;
+constexpr std::size_t kLeastObservers = 3;
+constexpr double kRedundantShare = 0.9;
+constexpr double kCosLeastParallax = 0.99985;  // 1 deg
+
+Observation observation_of(const Feature& feature, const Vector3& point_m) {
+  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
+}
+
+bool fits(const Feature& feature, const Vector3& point_m, const StereoCamera& camera, const CameraFromTarget& pose) {
+  if (!((pose * point_m).z() > 1e-3)) return false;
+  const Observation at = observation_of(feature, point_m);
+  return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
+}
+
+std::vector<bool> pointless(const Keyframe& keyframe) {
+  std::vector<bool> free(keyframe.points.size());
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] = keyframe.points[k] == kNone;
+  return free;
+}
+
+// Where two features see a point: crossing of their rays, or the nearer one's stereo depth where the rays hardly cross.
+bool place_of(const Keyframe& a, const Feature& in_a, const Keyframe& b, const Feature& in_b,
+              const StereoCamera& camera, Vector3& point) {
+  const auto T_target_a = a.pose.inverse(), T_target_b = b.pose.inverse();
+  const Vector3 ray_a = T_target_a.R * camera.back_project(in_a.pixel, 1.0);
+  const Vector3 ray_b = T_target_b.R * camera.back_project(in_b.pixel, 1.0);
+  const double cosine = ray_a.normalized().dot(ray_b.normalized());
+  if (cosine < kCosLeastParallax) {
+    // Midpoint of the shortest line between the rays.
+    const Vector3 between = T_target_b.t - T_target_a.t;
+    const double aa = ray_a.dot(ray_a), bb = ray_b.dot(ray_b), ab = ray_a.dot(ray_b);
+    const double determinant = aa * bb - ab * ab;
+    const double along_a = (bb * ray_a.dot(between) - ab * ray_b.dot(between)) / determinant;
+    const double along_b = (ab * ray_a.dot(between) - aa * ray_b.dot(between)) / determinant;
+    point = 0.5 * (T_target_a.t + along_a * ray_a + T_target_b.t + along_b * ray_b);
+    return along_a > 0.0 && along_b > 0.0;
+  }
+  if (in_a.stereo()) {
+    point = T_target_a * camera.back_project(in_a.pixel, in_a.depth_m);
+    return true;
+  }
+  if (in_b.stereo()) point = T_target_b * camera.back_project(in_b.pixel, in_b.depth_m);
+  return in_b.stereo();
+}
+
+// Distance of b's feature from the line on which a's feature must lie there, px.
+double off_line(const Keyframe& a, const Feature& in_a, const Keyframe& b, const Feature& in_b,
+                const StereoCamera& camera) {
+  const Pose<frame::Camera, frame::Camera> T_b_a = b.pose * a.pose.inverse();
+  const Vector3 normal = T_b_a.t.cross(T_b_a.R * camera.back_project(in_a.pixel, 1.0));
+  const Vector2 gradient(normal.x() / camera.fx_px, normal.y() / camera.fy_px);
+  return std::abs(normal.dot(camera.back_project(in_b.pixel, 1.0))) / std::max(1e-12, gradient.norm());
+}
+
+int triangulate_pair(Map& map, KeyframeId a_id, KeyframeId b_id, const StereoCamera& camera) {
+  const Keyframe &a = map.keyframes.at(a_id), &b = map.keyframes.at(b_id);
+  if ((a.pose.inverse().t - b.pose.inverse().t).norm() < 0.5 * camera.baseline_m) return 0;
+  const auto matches = match_by_likeness(a.features, pointless(a), b.features, pointless(b), 0.8);
+  int added = 0;
+  for (const ProjectionMatch& match : matches) {
+    const Feature& in_a = a.features[static_cast<std::size_t>(match.candidate)];
+    const Feature& in_b = b.features[static_cast<std::size_t>(match.feature)];
+    Vector3 point;
+    if (match.distance > kSamePoint || off_line(a, in_a, b, in_b, camera) > 2.0 * scale_of(in_b.level) ||
+        !place_of(a, in_a, b, in_b, camera, point) || !fits(in_a, point, camera, a.pose) ||
+        !fits(in_b, point, camera, b.pose)) {
+      continue;
+    }
+    const PointId id = map.add_point(point, a_id, match.candidate).id;
+    map.observe(id, b_id, match.feature);
+    map.refresh(id);
+    ++added;
+  }
+  return added;
+}
+
+bool redundant(const Map& map, const Keyframe& keyframe) {
+  int near = 0, elsewhere = 0;
+  for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
+    if (keyframe.points[k] == kNone) continue;
+    const MapPoint& point = map.points.at(keyframe.points[k]);
+    ++near;
+    if (point.seen_by.size() <= kLeastObservers) continue;
+    std::size_t as_good = 0;
+    for (const auto& [other, feature] : point.seen_by) {
+      if (other == keyframe.id) continue;
+      const Feature& there = map.keyframes.at(other).features[static_cast<std::size_t>(feature)];
+      as_good += there.level <= keyframe.features[k].level + 1 ? 1U : 0U;
+    }
+    elsewhere += as_good >= kLeastObservers ? 1 : 0;
+  }
+  return near > 0 && elsewhere > kRedundantShare * near;
+}
+
+}  // namespace
+
+void add_stereo_points(Map& map, KeyframeId id, const StereoCamera& camera) {
+  const Keyframe& keyframe = map.keyframes.at(id);
+  std::vector<std::pair<double, int>> by_depth;
+  for (std::size_t k = 0; k < keyframe.features.size(); ++k) {
+    if (keyframe.features[k].stereo()) by_depth.emplace_back(keyframe.features[k].depth_m, static_cast<int>(k));
+  }
+  std::sort(by_depth.begin(), by_depth.end());
+  const auto T_target_camera = keyframe.pose.inverse();
+  for (std::size_t k = 0; k < by_depth.size(); ++k) {
+    const auto [depth_m, index] = by_depth[k];
+    if (depth_m > kNearBaselines * camera.baseline_m && k >= kLeastPoints) break;
+    const auto at = static_cast<std::size_t>(index);
+    if (keyframe.points[at] != kNone) continue;
+    map.add_point(T_target_camera * camera.back_project(keyframe.features[at].pixel, depth_m), id, index);
+  }
+}
+
+int triangulate(Map& map, KeyframeId keyframe, const StereoCamera& camera) {
+  int added = 0;
+  for (const KeyframeId other : map.best_neighbours(keyframe, kTriangulateWith)) {
+    added += triangulate_pair(map, keyframe, other, camera);
+  }
+  return added;
+}
+
+int fuse_points(Map& map, const std::vector<PointId>& points, KeyframeId into, const StereoCamera& camera,
+                double radius_px) {
+  const Keyframe& keyframe = map.keyframes.at(into);
+  const Vector3 eye = keyframe.pose.inverse().t;
+  std::vector<Candidate> candidates;
+  for (const PointId id : points) {
+    const MapPoint* point = map.find_point(id);
+    if (point == nullptr || point->seen_by.contains(into)) continue;
+    const Vector3 sight = point->position_m - eye;
+    const double distance_m = sight.norm();
+    if (distance_m < 0.8 * point->least_distance_m || distance_m > 1.2 * point->most_distance_m ||
+        sight.dot(point->normal) < 0.5 * distance_m) {
+      continue;
+    }
+    const double level = std::log(point->most_distance_m / distance_m) / std::log(kLevelScale);
+    candidates.push_back({id, point->position_m, point->descriptor,
+                          std::clamp(static_cast<int>(std::lround(level)), 0, kLevels - 1), radius_px, 0.0});
+  }
+  int fused = 0;
+  for (const ProjectionMatch& match :
+       match_by_projection(candidates, keyframe, {}, camera, keyframe.pose, {kSamePoint, 1.0, false})) {
+    const PointId id = candidates[static_cast<std::size_t>(match.candidate)].point;
+    const PointId there = keyframe.points[static_cast<std::size_t>(match.feature)];
+    if (!map.points.contains(id)) continue;
+    ++fused;
+    if (there == kNone) {
+      map.observe(id, into, match.feature);
+    } else if (map.points.at(there).seen_by.size() > map.points.at(id).seen_by.size()) {
+      map.fuse(id, there);
+    } else {
+      map.fuse(there, id);
+    }
+  }
+  return fused;
+}
+
+void fuse_with_neighbours(Map& map, KeyframeId id, const StereoCamera& camera) {
+  std::set<KeyframeId> around;
+  for (const KeyframeId near : map.best_neighbours(id, kFuseWith)) {
+    around.insert(near);
+    for (const KeyframeId other : map.best_neighbours(near, kFuseWithTheirs)) around.insert(other);
+  }
+  around.erase(id);
+  const auto points_of = [&map](KeyframeId of) {
+    std::vector<PointId> points;
+    for (const PointId point : map.keyframes.at(of).points) {
+      if (point != kNone) points.push_back(point);
+    }
+    return points;
+  };
+  const std::vector<PointId> own = points_of(id);
+  for (const KeyframeId other : around) fuse_points(map, own, other, camera, kFuseRadius_px);
+  std::set<PointId> theirs;
+  for (const KeyframeId other : around) {
+    for (const PointId point : points_of(other)) theirs.insert(point);
+  }
+  fuse_points(map, {theirs.begin(), theirs.end()}, id, camera, kFuseRadius_px);
+  for (const PointId point : points_of(id)) map.refresh(point);
+  map.update_neighbours(id);
+}
+
+void cull_points(Map& map, std::vector<PointId>& recent) {
+  std::vector<PointId> kept;
+  for (const PointId id : recent) {
+    const MapPoint* point = map.find_point(id);
+    if (point == nullptr) continue;
+    const KeyframeId age = map.newest() - point->born_at;
+    const bool missed = static_cast<double>(point->found) < kLeastFoundShare * static_cast<double>(point->visible);
+    if (missed || (age >= 3 && point->seen_by.size() < kLeastObservers)) {
+      map.remove_point(id);
+    } else if (age < 4) {
+      kept.push_back(id);
+    }
+  }
+  recent = std::move(kept);
+}
+
+int cull_keyframes(Map& map, KeyframeId id, Recognition* recognition, std::size_t most) {
+  int removed = 0;
+  const auto remove = [&](KeyframeId gone) {
+    const Keyframe& keyframe = map.keyframes.at(gone);
+    if (keyframe.parent == kNone || !keyframe.loops.empty()) return;
+    if (recognition != nullptr) recognition->remove(keyframe);
+    map.remove_keyframe(gone);
+    ++removed;
+  };
+  const auto around = map.best_neighbours(id, map.keyframes.size());
+  for (const KeyframeId near : around) {
+    if (redundant(map, map.keyframes.at(near))) remove(near);
+  }
+  while (most > 0 && map.keyframes.size() > most) {
+    const int before = removed;
+    for (auto at = std::next(map.keyframes.begin()); at != map.keyframes.end() && removed == before; ++at) {
+      if (at->first == id) break;
+      remove(at->first);
+      break;
+    }
+    if (removed == before) break;
+  }
+  return removed;
+}
+
+}  // namespace pharos::slam

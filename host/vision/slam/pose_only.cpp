@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/pose_only.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace pharos::slam {
+namespace {
+
+constexpr int kRounds = 4;
+constexpr int kMostSteps = 8;
+constexpr double kSmallStep = 1e-7;  // rad and m: nothing that a pixel shows
+constexpr int kLeastPoints = 3;
+constexpr double kLeastDepth_m = 1e-3;
+
+double limit_of(const Observation& observation) { return observation.stereo() ? kStereoChi2 : kMonoChi2; }
+
+struct Normal {
+  Matrix6 H = Matrix6::Zero();
+  Vector6 g = Vector6::Zero();
+  double cost = 0.0;
+};
+
+Normal gather(const std::vector<Observation>& observations, const std::vector<bool>& inlier, const StereoCamera& camera,
+              const CameraFromTarget& pose) {
+  Normal normal;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const Observation& observation = observations[k];
+    if (!inlier[k] || (pose * observation.point_m).z() < kLeastDepth_m) continue;
+    const Vector3 e = residual_of(observation, camera, pose);
+    const Eigen::Matrix<double, 3, 6> J = residual_jacobian(observation, camera, pose);
+    const double chi2 = e.squaredNorm() / observation.variance_px2;
+    const bool far = chi2 > kHuberChi2;
+    const double weight = (far ? std::sqrt(kHuberChi2 / chi2) : 1.0) / observation.variance_px2;
+    normal.cost += far ? 2.0 * std::sqrt(kHuberChi2 * chi2) - kHuberChi2 : chi2;
+    normal.H += weight * J.transpose() * J;
+    normal.g += weight * J.transpose() * e;
+  }
+  return normal;
+}
+
+CameraFromTarget descend(const std::vector<Observation>& observations, const std::vector<bool>& inlier,
+                         const StereoCamera& camera, CameraFromTarget pose) {
+  Normal normal = gather(observations, inlier, camera, pose);
+  double damping = 1e-6;
+  for (int step = 0; step < kMostSteps; ++step) {
+    Matrix6 H = normal.H;
+    H.diagonal() *= 1.0 + damping;
+    const Vector6 delta = -H.ldlt().solve(normal.g);
+    if (!delta.allFinite()) break;
+    const CameraFromTarget next = pose.moved_by(delta);
+    const Normal there = gather(observations, inlier, camera, next);
+    if (there.cost > normal.cost) {
+      damping *= 100.0;
+      if (damping > 1e4) break;
+      continue;
+    }
+    pose = next;
+    normal = there;
+    damping = std::max(1e-9, 0.1 * damping);
+    if (delta.norm() < kSmallStep) break;
+  }
+  pose.R = orthonormalised(pose.R);
+  return pose;
+}
+
+}  // namespace
+
+Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose) {
+  const Vector3 predicted = camera.project(pose * observation.point_m);
+  return {observation.pixel.x() - predicted.x(), observation.pixel.y() - predicted.y(),
+          observation.stereo() ? observation.right_u_px - predicted.z() : 0.0};
+}
+
+Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,
+                                              const CameraFromTarget& pose) {
+  const Vector3 turned = pose.R * observation.point_m;
+  const Vector3 p = turned + pose.t;
+  const double over_z = 1.0 / p.z(), over_z2 = over_z * over_z;
+  Matrix3 J = Matrix3::Zero();
+  J(0, 0) = -camera.fx_px * over_z;
+  J(0, 2) = camera.fx_px * p.x() * over_z2;
+  J(1, 1) = -camera.fy_px * over_z;
+  J(1, 2) = camera.fy_px * p.y() * over_z2;
+  if (observation.stereo()) {
+    J(2, 0) = J(0, 0);
+    J(2, 2) = camera.fx_px * (p.x() - camera.baseline_m) * over_z2;
+  }
+  Eigen::Matrix<double, 3, 6> out;
+  out.leftCols<3>() = -J * skew(turned);
+  out.rightCols<3>() = J;
+  return out;
+}
+
+PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
+                     const CameraFromTarget& start) {
+  PoseOnly result{start, Matrix6::Zero(), std::vector<bool>(observations.size(), true), 0};
+  for (int round = 0; round < kRounds; ++round) {
+    result.pose = descend(observations, result.inlier, camera, result.pose);
+    result.inliers = 0;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+      const Observation& observation = observations[k];
+      const bool ahead = (result.pose * observation.point_m).z() > kLeastDepth_m;
+      const double chi2 =
+          ahead ? residual_of(observation, camera, result.pose).squaredNorm() / observation.variance_px2 : 1e9;
+      result.inlier[k] = chi2 <= limit_of(observation);
+      result.inliers += result.inlier[k] ? 1 : 0;
+    }
+    if (result.inliers < kLeastPoints) break;
+  }
+  if (result.inliers < kLeastPoints) return result;
+  const Normal normal = gather(observations, result.inlier, camera, result.pose);
+  const Matrix6 covariance = normal.H.ldlt().solve(Matrix6::Identity());
+  if (covariance.allFinite()) result.covariance = covariance;
+  return result;
+}
+
+}  // namespace pharos::slam

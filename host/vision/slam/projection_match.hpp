@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/vision/slam/frame.hpp"
+
+namespace pharos::slam {
+
+/// A point that a frame may show.
+struct Candidate {
+  PointId point = kNone;
+  Vector3 position_m = Vector3::Zero();
+  Descriptor descriptor;
+  int level = 0;           ///< at which it should show
+  double radius_px = 7.0;  ///< of the search, on that level
+  double angle_rad = 0.0;  ///< of its patch; used where matches must turn alike
+};
+
+struct ProjectionMatch {
+  int candidate = 0;
+  int feature = 0;
+  int distance = 0;
+};
+
+struct ProjectionRules {
+  int most_distance = kMaybeSamePoint;
+  double ratio = 0.9;       ///< best distance over the second best of the same level
+  bool turn_alike = false;  ///< drop matches whose patch turned otherwise than most
+};
+
+/// Projects candidates by `pose` and matches each with the likest feature nearby, and each feature with the likest of
+/// its candidates. Only features whose `free` is set (empty: all).
+std::vector<ProjectionMatch> match_by_projection(const std::vector<Candidate>& candidates, const Frame& frame,
+                                                 const std::vector<bool>& free, const StereoCamera& camera,
+                                                 const CameraFromTarget& pose, const ProjectionRules& rules);
+
+/// Likest features of two frames both ways, by descriptors alone; `from` and `to` select features (empty: all).
+std::vector<ProjectionMatch> match_by_likeness(const std::vector<Feature>& from, const std::vector<bool>& use_from,
+                                               const std::vector<Feature>& to, const std::vector<bool>& use_to,
+                                               double ratio);
+
+/// Drops matches whose difference of angles is not among the three commonest twelfths of a turn.
+void keep_alike_turns(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad);
+
+}  // namespace pharos::slam

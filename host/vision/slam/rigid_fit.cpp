@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/rigid_fit.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace pharos::slam {
+namespace {
+
+constexpr int kMostTrials = 300;
+constexpr double kSure = 0.999;
+// Reprojection limits while trials are judged: depths of single features are coarse.
+constexpr double kLoose = 4.0;
+
+std::vector<bool> inliers_of(const std::vector<Observation>& observations, const StereoCamera& camera,
+                             const CameraFromTarget& pose, int& count) {
+  std::vector<bool> inlier(observations.size());
+  count = 0;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const Observation& at = observations[k];
+    const bool ahead = (pose * at.point_m).z() > 1e-3;
+    inlier[k] = ahead && residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= kLoose * kStereoChi2;
+    count += inlier[k] ? 1 : 0;
+  }
+  return inlier;
+}
+
+int trials_for(double share) {
+  const double hit = share * share * share;
+  if (hit >= 1.0) return 1;
+  return static_cast<int>(std::min<double>(kMostTrials, std::ceil(std::log(1.0 - kSure) / std::log1p(-hit))));
+}
+
+}  // namespace
+
+std::optional<CameraFromTarget> rigid_fit(const std::vector<Vector3>& points, const std::vector<Vector3>& seen) {
+  if (points.size() < 3 || points.size() != seen.size()) return std::nullopt;
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    from += points[k];
+    to += seen[k];
+  }
+  from /= static_cast<double>(points.size());
+  to /= static_cast<double>(points.size());
+  Matrix3 H = Matrix3::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) H += (points[k] - from) * (seen[k] - to).transpose();
+  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (!(svd.singularValues()[1] > 1e-9 * svd.singularValues()[0])) return std::nullopt;
+  Matrix3 mirror = Matrix3::Identity();
+  mirror(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  const Matrix3 R = svd.matrixV() * mirror * svd.matrixU().transpose();
+  return CameraFromTarget{R, to - R * from};
+}
+
+std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
+                                    int least_inliers, std::uint64_t seed) {
+  std::vector<std::size_t> stereo;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (observations[k].stereo()) stereo.push_back(k);
+  }
+  if (stereo.size() < 3 || static_cast<int>(observations.size()) < least_inliers) return std::nullopt;
+  const auto seen_at = [&](const Observation& at) {
+    return camera.back_project(at.pixel, camera.depth_m(at.pixel.x() - at.right_u_px));
+  };
+  std::mt19937_64 random(seed);
+  std::vector<bool> best;
+  int most = 0, trials = kMostTrials;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<Vector3> points, seen;
+    for (int k = 0; k < 3; ++k) {
+      const Observation& at = observations[stereo[random() % stereo.size()]];
+      points.push_back(at.point_m);
+      seen.push_back(seen_at(at));
+    }
+    const auto pose = rigid_fit(points, seen);
+    if (!pose) continue;
+    int count = 0;
+    std::vector<bool> inlier = inliers_of(observations, camera, *pose, count);
+    if (count <= most) continue;
+    most = count;
+    best = std::move(inlier);
+    trials = std::min(trials, trials_for(static_cast<double>(count) / static_cast<double>(observations.size())));
+  }
+  if (most < std::max(3, least_inliers / 2)) return std::nullopt;
+  std::vector<Vector3> points, seen;
+  for (const std::size_t k : stereo) {
+    if (!best[k]) continue;
+    points.push_back(observations[k].point_m);
+    seen.push_back(seen_at(observations[k]));
+  }
+  const auto start = rigid_fit(points, seen);
+  if (!start) return std::nullopt;
+  PoseOnly refined = adjust_pose(observations, camera, *start);
+  if (refined.inliers < least_inliers) return std::nullopt;
+  return refined;
+}
+
+}  // namespace pharos::slam

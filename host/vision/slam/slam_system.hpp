@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/vision/slam/feature.hpp"
+#include "host/vision/slam/tracked_frame.hpp"
+#include "pharos/base/image_view.hpp"
+
+namespace pharos::slam {
+
+enum class Scene {
+  kTarget,  ///< a body that moves before a dark or still background, which is masked
+  kStatic,  ///< nothing is masked: the camera moves
+};
+
+struct SlamSettings {
+  Scene scene = Scene::kTarget;
+  int features = 1000;
+  bool close_loops = true;
+  /// Tracking, mapping and loop closing each in a thread of their own; else one after the other: same input, same bits.
+  bool threads = false;
+  std::size_t most_keyframes = 0;  ///< 0: no limit; the paper's is 20
+  std::string vocabulary;          ///< a file; empty: the one that ships
+};
+
+struct SlamReport {
+  int frames = 0, tracked = 0, lost = 0, relocalised = 0, repeated = 0;
+  int dark = 0, saturated = 0;  ///< frames too dark or too bright for any feature
+  int keyframes = 0, keyframes_made = 0, points = 0;
+  int loops = 0, loops_refused = 0;
+  double features_median = 0.0, inliers_median = 0.0;
+  double tracking_median_ms = 0.0, tracking_p95_ms = 0.0;
+  double mapping_median_ms = 0.0, loop_max_ms = 0.0;  ///< of one keyframe, of one closed loop
+};
+
+/// A point of the finished map, in the target's frame, and how many keyframes see it.
+struct SlamPoint {
+  Vector3 position_m = Vector3::Zero();
+  int observers = 0;
+};
+
+/// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017). Lives in
+/// a module that make_slam() loads, as OpenCV and Ceres do.
+class SlamSystem {
+ public:
+  virtual ~SlamSystem() = default;
+  /// A raw pair of the rig's size, 8 bits a pixel; times must grow. Throws InputError for other sizes, and where the
+  /// first pairs show that left and right are exchanged or out of step.
+  virtual TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) = 0;
+  /// Waits for the threads and adjusts all of the map once more. After it every frame stands where the whole map says.
+  virtual void finish() = 0;
+  /// All frames so far, told from the keyframes as they stand now; lost ones without a pose.
+  virtual std::vector<TrackedFrame> trajectory() const = 0;
+  virtual std::vector<SlamPoint> points() const = 0;
+  virtual SlamReport report() const = 0;
+  /// Features of the last pair in the rectified left image: column, row, and 0 (mono), 1 (stereo) or 2 (of the map).
+  virtual std::vector<std::array<double, 3>> last_features() const = 0;
+  /// The rectified left image of the last pair, and 0 where it was masked.
+  virtual ImageView<const std::uint8_t> last_image() const = 0;
+  virtual ImageView<const std::uint8_t> last_mask() const = 0;
+};
+
+/// Descriptors of an image's ORB features, for training a vocabulary.
+std::vector<Descriptor> describe_image(ImageView<const std::uint8_t> image, int features);
+
+/// Throws InputError where the module, the vocabulary or the rig is no good; `rig_name` is for messages.
+std::unique_ptr<SlamSystem> make_slam(const host::RigFile& rig, const std::string& rig_name,
+                                      const SlamSettings& settings);
+
+}  // namespace pharos::slam

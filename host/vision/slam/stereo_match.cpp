@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/stereo_match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace pharos::slam {
+namespace {
+
+constexpr int kRadius_px = 5;  // of the pixels compared: 11x11
+constexpr int kShift_px = 5;   // searched to each side of the right feature
+constexpr int kLikest = (kSamePoint + kMaybeSamePoint) / 2;
+constexpr double kLeastDisparity_px = 0.3;
+
+// Right features by the rows that they may match.
+class Rows {
+ public:
+  Rows(const std::vector<Feature>& right, std::int32_t height_px, double reach)
+      : rows_(static_cast<std::size_t>(height_px)) {
+    for (std::size_t k = 0; k < right.size(); ++k) {
+      const double half = reach * scale_of(right[k].level);
+      const int first = std::max(0, static_cast<int>(std::ceil(right[k].pixel.y() - half)));
+      const int last = std::min(height_px - 1, static_cast<int>(std::floor(right[k].pixel.y() + half)));
+      for (int v = first; v <= last; ++v) rows_[static_cast<std::size_t>(v)].push_back(static_cast<int>(k));
+    }
+  }
+  const std::vector<int>& at(double v) const {
+    const auto row = std::clamp(std::lround(v), 0L, static_cast<long>(rows_.size()) - 1);
+    return rows_[static_cast<std::size_t>(row)];
+  }
+
+ private:
+  std::vector<std::vector<int>> rows_;
+};
+
+struct Likest {
+  int index = -1;
+  int distance = kLikest;
+};
+
+Likest likest(const Feature& feature, const std::vector<Feature>& right, const std::vector<int>& candidates,
+              double first_u, double last_u) {
+  Likest best;
+  for (const int k : candidates) {
+    const Feature& other = right[static_cast<std::size_t>(k)];
+    if (std::abs(other.level - feature.level) > 1 || other.pixel.x() < first_u || other.pixel.x() > last_u) continue;
+    const int d = distance(feature.descriptor, other.descriptor);
+    if (d < best.distance) best = {k, d};
+  }
+  return best;
+}
+
+// Sum of differences of two squares of pixels, each less its own middle: lamps differ from camera to camera.
+int difference(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int u, int v, int right_u) {
+  const int offset = left.at(u, v) - right.at(right_u, v);
+  int sum = 0;
+  for (int dv = -kRadius_px; dv <= kRadius_px; ++dv) {
+    const std::uint8_t* a = left.row(v + dv) + u;
+    const std::uint8_t* b = right.row(v + dv) + right_u;
+    for (int du = -kRadius_px; du <= kRadius_px; ++du) sum += std::abs(a[du] - b[du] - offset);
+  }
+  return sum;
+}
+
+struct SubPixel {
+  double right_u_px = -1.0;
+  int difference = 0;
+};
+
+// The right column of a left feature, refined on the feature's level. Below 0 where no clear minimum is inside.
+SubPixel refine(const Feature& feature, double right_u, const std::vector<PyramidLevel>& left_pyramid,
+                const std::vector<PyramidLevel>& right_pyramid) {
+  const auto level = static_cast<std::size_t>(feature.level);
+  const ImageView<const std::uint8_t> left = left_pyramid[level].image, right = right_pyramid[level].image;
+  const double scale = static_cast<double>(left_pyramid[0].image.width_px) / left.width_px;
+  const double scale_v = static_cast<double>(left_pyramid[0].image.height_px) / left.height_px;
+  const double place = (feature.pixel.x() + 0.5) / scale - 0.5;
+  const auto u = static_cast<int>(std::lround(place));
+  const auto v = static_cast<int>(std::lround((feature.pixel.y() + 0.5) / scale_v - 0.5));
+  const auto middle = static_cast<int>(std::lround((right_u + 0.5) / scale - 0.5));
+  const int reach = kRadius_px + kShift_px + 1;
+  if (u < reach || v < reach || u + reach >= left.width_px || v + reach >= left.height_px || middle < reach ||
+      middle + reach >= right.width_px) {
+    return {};
+  }
+  std::array<int, 2 * kShift_px + 1> sums{};
+  for (int shift = -kShift_px; shift <= kShift_px; ++shift) {
+    sums[static_cast<std::size_t>(shift + kShift_px)] = difference(left, right, u, v, middle + shift);
+  }
+  const auto best = std::min_element(sums.begin(), sums.end());
+  if (best == sums.begin() || best == sums.end() - 1) return {};
+  // A sum of absolute differences has straight flanks near its minimum: two lines of equal slope meet there.
+  const double before = *(best - 1) - *best, after = *(best + 1) - *best;
+  const double slope = std::max(before, after);
+  if (!(slope > 0.0)) return {};
+  const double between = 0.5 * (before - after) / slope;
+  const double shift = static_cast<double>(best - sums.begin()) - kShift_px + between;
+  const double right_place = middle + shift + (place - u);
+  return {(right_place + 0.5) * scale - 0.5, *best};
+}
+
+void drop_unlike(std::vector<Feature>& left, const std::vector<int>& differences, int& matched) {
+  std::vector<int> sorted;
+  for (const int d : differences) {
+    if (d >= 0) sorted.push_back(d);
+  }
+  if (sorted.empty()) return;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double most = 1.5 * 1.4 * sorted[sorted.size() / 2];
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (differences[k] <= most) continue;
+    left[k].right_u_px = left[k].depth_m = -1.0;
+    --matched;
+  }
+}
+
+}  // namespace
+
+StereoMatchStats match_stereo(std::vector<Feature>& left, const std::vector<Feature>& right,
+                              const std::vector<PyramidLevel>& left_pyramid,
+                              const std::vector<PyramidLevel>& right_pyramid, const StereoCamera& camera,
+                              double least_depth_m) {
+  const Rows rows(right, camera.height_px, 2.0), wide_rows(right, camera.height_px, 12.0);
+  const double most_disparity = camera.fx_px * camera.baseline_m / least_depth_m;
+  StereoMatchStats stats;
+  std::vector<int> differences(left.size(), -1);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    Feature& feature = left[k];
+    const double u = feature.pixel.x(), v = feature.pixel.y();
+    const Likest found = likest(feature, right, rows.at(v), u - most_disparity, u);
+    if (found.index < 0) {
+      stats.swapped += likest(feature, right, rows.at(v), u + 2.0, u + most_disparity).index >= 0 ? 1 : 0;
+      stats.off_rows += likest(feature, right, wide_rows.at(v), u - most_disparity, u).index >= 0 ? 1 : 0;
+      continue;
+    }
+    const SubPixel place =
+        refine(feature, right[static_cast<std::size_t>(found.index)].pixel.x(), left_pyramid, right_pyramid);
+    const double disparity = u - place.right_u_px;
+    if (place.right_u_px < 0.0 || disparity < kLeastDisparity_px || disparity > most_disparity) continue;
+    feature.right_u_px = place.right_u_px;
+    feature.depth_m = camera.depth_m(disparity);
+    differences[k] = place.difference;
+    ++stats.matched;
+  }
+  drop_unlike(left, differences, stats.matched);
+  return stats;
+}
+
+}  // namespace pharos::slam

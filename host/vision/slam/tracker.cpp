@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/vision/slam/rigid_fit.hpp"
+
+namespace pharos::slam {
+namespace {
+
+constexpr double kMotionRadius_px = 7.0;  // around a predicted place; tripled where it finds too little
+constexpr int kLeastByMotion = 20;
+constexpr int kLeastPlaced = 15;      // inliers of a first placement
+constexpr int kLeastInLocalMap = 30;  // inliers in the local map: below, the frame is lost
+constexpr int kLeastRelocalised = 50;
+constexpr std::size_t kMostLocalKeyframes = 40;
+constexpr std::size_t kMostCandidates = 5;  // keyframes tried to relocalise
+constexpr double kCosMostTurn = 0.5;        // a point seen from 60 deg aside looks like another
+constexpr double kCosFacing = 0.998;
+constexpr double kMostSteps = 20.0;  // missing frames that a prediction bridges
+// Section 2.2, rules (1) to (4).
+constexpr std::int64_t kFramesBetween = 20;
+constexpr int kLeastTracked = 50;
+constexpr double kShareOfReference = 0.9;
+
+Observation observation_of(const Feature& feature, const Vector3& point_m) {
+  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
+}
+
+}  // namespace
+
+PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
+  std::vector<Observation> observations;
+  std::vector<std::size_t> features;
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    const MapPoint* point = map_.find_point(frame.points[k]);
+    if (point == nullptr) continue;
+    observations.push_back(observation_of(frame.features[k], point->position_m));
+    features.push_back(k);
+  }
+  PoseOnly placed = adjust_pose(observations, camera_, start);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (!placed.inlier[k]) frame.points[features[k]] = kNone;
+  }
+  return placed;
+}
+
+std::optional<PoseOnly> Tracker::by_motion(Frame& frame) {
+  CameraFromTarget predicted = last_pose();
+  if (has_step_) {
+    const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMostSteps);
+    for (int k = 0; k < static_cast<int>(steps); ++k) predicted = step_ * predicted;
+  }
+  // Points of the map that the last frame showed, and its own stereo features that no point stands for.
+  const Pose<frame::Target, frame::Camera> T_target_last = last_pose().inverse();
+  std::vector<Candidate> candidates;
+  for (std::size_t k = 0; k < last_.features.size(); ++k) {
+    const Feature& feature = last_.features[k];
+    const MapPoint* point = map_.find_point(last_.points[k]);
+    if (point == nullptr && !feature.stereo()) continue;
+    const Vector3 position =
+        point != nullptr ? point->position_m : T_target_last * camera_.back_project(feature.pixel, feature.depth_m);
+    candidates.push_back({point != nullptr ? point->id : kNone, position, feature.descriptor, feature.level,
+                          kMotionRadius_px, feature.angle_rad});
+  }
+  std::vector<ProjectionMatch> matches;
+  for (const double widening : {1.0, 3.0}) {
+    for (Candidate& candidate : candidates) candidate.radius_px = widening * kMotionRadius_px;
+    matches = match_by_projection(candidates, frame, {}, camera_, predicted, {kMaybeSamePoint, 0.9, true});
+    if (static_cast<int>(matches.size()) >= kLeastByMotion) break;
+  }
+  if (static_cast<int>(matches.size()) < kLeastByMotion) return std::nullopt;
+  std::vector<Observation> observations;
+  for (const ProjectionMatch& match : matches) {
+    observations.push_back(observation_of(frame.features[static_cast<std::size_t>(match.feature)],
+                                          candidates[static_cast<std::size_t>(match.candidate)].position_m));
+  }
+  const PoseOnly placed = adjust_pose(observations, camera_, predicted);
+  if (placed.inliers < kLeastPlaced) return std::nullopt;
+  std::fill(frame.points.begin(), frame.points.end(), kNone);
+  for (std::size_t k = 0; k < matches.size(); ++k) {
+    if (placed.inlier[k]) {
+      frame.points[static_cast<std::size_t>(matches[k].feature)] =
+          candidates[static_cast<std::size_t>(matches[k].candidate)].point;
+    }
+  }
+  return placed;
+}
+
+std::optional<PoseOnly> Tracker::by_likeness(Frame& frame, KeyframeId id, int least_inliers) {
+  const auto at = map_.keyframes.find(id);
+  if (at == map_.keyframes.end()) return std::nullopt;
+  const Keyframe& keyframe = at->second;
+  std::vector<bool> known(keyframe.points.size());
+  for (std::size_t k = 0; k < known.size(); ++k) known[k] = keyframe.points[k] != kNone;
+  const auto matches = match_by_likeness(keyframe.features, known, frame.features, {}, 0.8);
+  std::vector<Observation> observations;
+  for (const ProjectionMatch& match : matches) {
+    const PointId point = keyframe.points[static_cast<std::size_t>(match.candidate)];
+    observations.push_back(
+        observation_of(frame.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
+  }
+  const auto placed =
+      robust_pose(observations, camera_, least_inliers, static_cast<std::uint64_t>(frame.number * 4096 + id));
+  if (!placed) return std::nullopt;
+  std::fill(frame.points.begin(), frame.points.end(), kNone);
+  for (std::size_t k = 0; k < matches.size(); ++k) {
+    if (placed->inlier[k]) {
+      frame.points[static_cast<std::size_t>(matches[k].feature)] =
+          keyframe.points[static_cast<std::size_t>(matches[k].candidate)];
+    }
+  }
+  return placed;
+}
+
+std::optional<PoseOnly> Tracker::relocalise(Frame& frame) {
+  if (recognition_ == nullptr) return by_likeness(frame, reference_, kLeastPlaced);
+  const auto candidates = recognition_->like(recognition_->words_of(frame.features), map_, {});
+  for (std::size_t k = 0; k < std::min(candidates.size(), kMostCandidates); ++k) {
+    if (auto placed = by_likeness(frame, candidates[k].keyframe, kLeastPlaced)) return placed;
+  }
+  return std::nullopt;
+}
+
+std::vector<PointId> Tracker::local_points(const Frame& frame) {
+  std::map<KeyframeId, int> votes;
+  for (const PointId id : frame.points) {
+    const MapPoint* point = map_.find_point(id);
+    if (point == nullptr) continue;
+    for (const auto& [keyframe, feature] : point->seen_by) ++votes[keyframe];
+  }
+  std::set<KeyframeId> local;
+  int most = 0;
+  for (const auto& [id, count] : votes) {
+    local.insert(id);
+    if (count > most) {
+      most = count;
+      nearest_ = id;
+    }
+  }
+  for (const auto& [id, count] : votes) {
+    if (local.size() >= kMostLocalKeyframes) break;
+    for (const KeyframeId other : map_.best_neighbours(id, 5)) local.insert(other);
+    const Keyframe& keyframe = map_.keyframes.at(id);
+    if (keyframe.parent != kNone) local.insert(keyframe.parent);
+  }
+  std::set<PointId> points;
+  for (const KeyframeId id : local) {
+    for (const PointId point : map_.keyframes.at(id).points) {
+      if (point != kNone) points.insert(point);
+    }
+  }
+  return {points.begin(), points.end()};
+}
+
+std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& start, bool wide) {
+  const std::vector<PointId> local = local_points(frame);
+  std::set<PointId> matched;
+  std::vector<bool> free(frame.points.size());
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    free[k] = frame.points[k] == kNone;
+    if (!free[k]) matched.insert(frame.points[k]);
+  }
+  const Vector3 eye = start.pose.inverse().t;
+  std::vector<Candidate> candidates;
+  for (const PointId id : local) {
+    MapPoint& point = map_.points.at(id);
+    const Vector3 p = start.pose * point.position_m;
+    if (p.z() <= 0.0) continue;
+    const Vector3 place = camera_.project(p);
+    if (!(place.x() >= 0.0 && place.x() < camera_.width_px && place.y() >= 0.0 && place.y() < camera_.height_px)) {
+      continue;
+    }
+    const double distance_m = p.norm();
+    if (distance_m < 0.8 * point.least_distance_m || distance_m > 1.2 * point.most_distance_m) continue;
+    const double facing = (point.position_m - eye).dot(point.normal) / distance_m;
+    if (facing < kCosMostTurn) continue;
+    ++point.visible;
+    if (matched.contains(id)) continue;
+    const int level = std::clamp(
+        static_cast<int>(std::ceil(std::log(point.most_distance_m / distance_m) / std::log(kLevelScale) - 0.5)), 0,
+        kLevels - 1);
+    const double radius = (facing > kCosFacing ? 2.5 : 4.0) * (wide ? 3.0 : 1.0);
+    candidates.push_back({id, point.position_m, point.descriptor, level, radius, 0.0});
+  }
+  for (const ProjectionMatch& match :
+       match_by_projection(candidates, frame, free, camera_, start.pose, {kMaybeSamePoint, 0.8, false})) {
+    frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
+  }
+  PoseOnly placed = adjust(frame, start.pose);
+  for (const PointId id : frame.points) {
+    if (id != kNone) ++map_.points.at(id).found;
+  }
+  if (placed.inliers < (wide ? kLeastRelocalised : kLeastInLocalMap)) return std::nullopt;
+  return placed;
+}
+
+bool Tracker::keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const {
+  if (frame.number < last_relocalised_ + kFramesBetween) return false;                      // (1)
+  if (!mapping_idle && frame.number < last_keyframe_frame_ + kFramesBetween) return false;  // (2)
+  if (inliers < kLeastTracked) return false;                                                // (3)
+  const Keyframe& reference = map_.keyframes.at(nearest_);
+  // What the reference alone has seen is not known to be trackable.
+  const std::size_t observers = map_.keyframes.size() == 1 ? 1 : 2;
+  return inliers < kShareOfReference * map_.tracked_points(reference, observers);  // (4)
+}
+
+void Tracker::remember(const Frame& frame, const PoseOnly& placed) {
+  const CameraFromTarget before = state_ == TrackState::kTracking ? last_pose() : placed.pose;
+  const double elapsed = frame.time_s - last_.time_s;
+  has_step_ = state_ == TrackState::kTracking && elapsed > 0.0;
+  if (has_step_) {
+    step_ = placed.pose * before.inverse();
+    step_s_ = elapsed;
+  }
+  last_ = frame;
+  T_last_reference_ = placed.pose * map_.pose_of(reference_).inverse();
+  state_ = TrackState::kTracking;
+}
+
+Tracked Tracker::track(Frame& frame, bool mapping_idle) {
+  frame.points.assign(frame.features.size(), kNone);
+  Tracked out;
+  if (map_.keyframes.empty()) return out;
+  std::optional<PoseOnly> placed;
+  if (state_ == TrackState::kTracking) {
+    placed = by_motion(frame);
+    if (!placed) placed = by_likeness(frame, reference_, kLeastPlaced);
+    if (placed) placed = in_local_map(frame, *placed, false);
+  }
+  if (!placed) {
+    placed = relocalise(frame);
+    if (placed) placed = in_local_map(frame, *placed, true);
+    out.relocalised = placed.has_value();
+    if (placed) last_relocalised_ = frame.number;
+  }
+  if (!placed) {
+    std::fill(frame.points.begin(), frame.points.end(), kNone);
+    out.state = state_ = TrackState::kLost;
+    return out;
+  }
+  frame.pose = placed->pose;
+  if (out.relocalised) state_ = TrackState::kLost;  // the step across the gap is no motion
+  const CameraFromTarget last = last_pose();
+  reference_ = nearest_;
+  T_last_reference_ = last * map_.pose_of(reference_).inverse();
+  remember(frame, *placed);
+  out.state = TrackState::kTracking;
+  out.pose = placed->pose;
+  out.covariance = placed->covariance;
+  out.inliers = placed->inliers;
+  out.wants_keyframe = keyframe_due(frame, placed->inliers, mapping_idle);
+  return out;
+}
+
+void Tracker::became_keyframe(const Keyframe& keyframe) {
+  reference_ = keyframe.id;
+  last_ = static_cast<const Frame&>(keyframe);
+  T_last_reference_ = last_.pose * keyframe.pose.inverse();
+  last_keyframe_frame_ = keyframe.number;
+  state_ = TrackState::kTracking;
+}
+
+}  // namespace pharos::slam

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include "host/vision/slam/map.hpp"
+#include "host/vision/slam/pose_only.hpp"
+#include "host/vision/slam/projection_match.hpp"
+#include "host/vision/slam/recognition.hpp"
+
+namespace pharos::slam {
+
+enum class TrackState { kWaiting, kTracking, kLost };
+
+/// What became of one frame.
+struct Tracked {
+  TrackState state = TrackState::kWaiting;
+  CameraFromTarget pose;
+  Matrix6 covariance = Matrix6::Zero();
+  int inliers = 0;
+  bool relocalised = false;
+  bool wants_keyframe = false;
+};
+
+/// Section 2.2: places frames in the map.
+///
+/// Prediction: the step from frame before last to last, repeated. For a target that spins at a constant rate about a
+/// fixed axis before a still camera, T_k = exp(k xi) T_0: the step exp(xi) is the same in the camera's frame and, seen
+/// from the target, in its own, so one rule serves a tumbling target and a moving camera.
+/// The map must not change while a call runs.
+class Tracker {
+ public:
+  Tracker(const StereoCamera& camera, Map& map, const Recognition* recognition)
+      : camera_(camera), map_(map), recognition_(recognition) {}
+
+  /// Pose and points of `frame` are filled in. `mapping_idle` enters the keyframe rules.
+  Tracked track(Frame& frame, bool mapping_idle);
+  /// The frame became the keyframe `id`, whose points it shares from now on.
+  void became_keyframe(const Keyframe& keyframe);
+  KeyframeId reference() const { return reference_; }
+
+ private:
+  std::optional<PoseOnly> by_motion(Frame& frame);
+  std::optional<PoseOnly> by_likeness(Frame& frame, KeyframeId keyframe, int least_inliers);
+  std::optional<PoseOnly> relocalise(Frame& frame);
+  std::optional<PoseOnly> in_local_map(Frame& frame, const PoseOnly& start, bool wide);
+  std::vector<PointId> local_points(const Frame& frame);
+  PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
+  bool keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const;
+  CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }
+  void remember(const Frame& frame, const PoseOnly& placed);
+
+  StereoCamera camera_;
+  Map& map_;
+  const Recognition* recognition_;
+  TrackState state_ = TrackState::kWaiting;
+  Frame last_;
+  Pose<frame::Camera, frame::Camera> T_last_reference_, step_;
+  bool has_step_ = false;
+  double step_s_ = 0.0;
+  KeyframeId reference_ = kNone;  // that the last frame's pose is told from
+  KeyframeId nearest_ = kNone;    // that shares most points with the frame at hand
+  std::int64_t last_keyframe_frame_ = 0, last_relocalised_ = -1000;
+};
+
+}  // namespace pharos::slam

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos slam: stereo pairs to the poses of a target without a model (paper 004).
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/images/grey_image.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/enhance/enhancer.hpp"
+#include "host/vision/slam/slam_system.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/slam/frame_names.hpp"
+#include "tools/slam/slam_files.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos slam left right --rig rig.toml --report report.json --map map.ply > poses.tum\n"
+    "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
+    "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
+    "row. --scene static: nothing is masked, the camera moves.";
+
+struct Options {
+  std::string left, right, rig;
+  std::string scene = "target", output = "target";
+  std::string report, map, overlay;
+  double rate_hz = 20.0;
+  bool no_loops = false, threads = false;
+  std::string enhance;  // empty, or the denoiser
+  slam::SlamSettings settings;
+};
+
+// Images as the system takes them, enhanced where that is asked for.
+class Lit {
+ public:
+  explicit Lit(const std::string& denoiser) : enhanced_(!denoiser.empty()) {
+    enhance::EnhanceSettings settings;
+    if (denoiser == "fast") settings.denoiser = enhance::Denoiser::kFast;
+    if (denoiser == "none") settings.denoiser = enhance::Denoiser::kNone;
+    for (auto& enhancer : enhancers_) enhancer = enhance::Enhancer(settings);
+  }
+  std::vector<std::uint8_t> of(const host::GreyImage& image, std::size_t side) {
+    if (!enhanced_) return eight_bits(image);
+    std::vector<std::uint8_t> out(image.pixels.size());
+    enhance::to_integers(enhancers_[side].enhance(image.view()).result.view(),
+                         ImageView<std::uint8_t>(out.data(), image.width_px, image.height_px));
+    return out;
+  }
+
+ private:
+  bool enhanced_;
+  std::array<enhance::Enhancer, 2> enhancers_;
+};
+
+int run(Options options) {
+  options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
+  options.settings.close_loops = !options.no_loops;
+  options.settings.threads = options.threads;
+  for (const std::string& file : {options.report, options.map}) {
+    if (!file.empty()) require_writable(file);
+  }
+  const std::vector<PairName> pairs = pair_names(options.left, options.right, options.rate_hz);
+  const auto system = slam::make_slam(host::read_rig_file(options.rig), options.rig, options.settings);
+  Lit lit(options.enhance);
+  bool lost = false;
+  Progress progress("slam", "pairs", pairs.size());
+  for (const PairName& pair : pairs) {
+    const host::GreyImage left = host::read_grey_image(pair.left), right = host::read_grey_image(pair.right);
+    const std::vector<std::uint8_t> left_8 = lit.of(left, 0), right_8 = lit.of(right, 1);
+    const slam::TrackedFrame frame = system->push(pair.time_s, {left_8.data(), left.width_px, left.height_px},
+                                                  {right_8.data(), right.width_px, right.height_px});
+    if (frame.lost && !lost) note(pair.left + ": tracking is lost; looking for known views");
+    lost = frame.lost;
+    if (frame.relocalised) note(pair.left + ": found again");
+    if (!options.overlay.empty()) write_slam_overlay(options.overlay, pair.stem, *system);
+    progress.step();
+  }
+  system->finish();
+  const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
+  const int rows = write_tum(trajectory, options.output == "camera");
+  if (!options.map.empty()) write_map_ply(options.map, system->points());
+  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory);
+  if (rows > 0) return kExitAnswered;
+  note(options.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
+       " pairs, none with enough stereo features");
+  return kExitNoAnswer;
+}
+
+}  // namespace
+
+void add_slam(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("slam", "Stereo pairs to the poses of a target without a model");
+  const auto options = std::make_shared<Options>();
+  command->add_option("LEFT", options->left, "Folder of left images, raw or rectified, in order of their names")
+      ->required();
+  command->add_option("RIGHT", options->right, "Folder of right images")->required();
+  command->add_option("--rig", options->rig, "Rig file (TOML)")->required();
+  command->add_option("--scene", options->scene, "target: a body before dark or stillness; static: all of the image")
+      ->check(CLI::IsMember({"target", "static"}));
+  command->add_option("--output", options->output, "Poses of the target in the camera, or of the camera")
+      ->check(CLI::IsMember({"target", "camera"}));
+  command->add_option("--rate", options->rate_hz, "Pairs a second where names tell no time (default 20)")
+      ->check(CLI::Range(0.001, 10'000.0));
+  command->add_option("--report", options->report, "File for figures of the run (JSON)");
+  command->add_option("--map", options->map, "File for the map's points (PLY)");
+  command->add_option("--overlay", options->overlay, "Folder for pictures of the features");
+  command
+      ->add_option("--enhance", options->enhance,
+                   "Enhance low light first (see `pharos enhance`); its denoiser: bm3d (default), fast or none")
+      ->type_name("[DENOISER]")
+      ->expected(0, 1)
+      ->default_str("bm3d")
+      ->check(CLI::IsMember({"bm3d", "fast", "none"}));
+  command->add_option("--features", options->settings.features, "Features a frame (default 1000)")
+      ->check(CLI::Range(100, 10'000));
+  command->add_option("--max-keyframes", options->settings.most_keyframes, "Limit of keyframes; the paper's is 20")
+      ->check(CLI::Range(5, 100'000));
+  command->add_option("--vocabulary", options->settings.vocabulary, "Visual words (default: those that ship)");
+  command->add_flag("--no-loops", options->no_loops, "Do not close loops, as in the paper");
+  command->add_flag("--threads", options->threads,
+                    "Tracking, mapping and loop closing at once: faster, but no two runs are alike to the bit");
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools

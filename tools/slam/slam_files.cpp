@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/slam/slam_files.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "host/images/canvas.hpp"
+#include "host/support/exact_number.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/slam/spin.hpp"
+
+namespace pharos::tools {
+namespace {
+
+void finish(std::ofstream& file, const std::string& path) {
+  if (!file.flush()) throw host::InputError(path + ": cannot be written");
+}
+
+nlohmann::ordered_json spin_json(const slam::Spin& spin) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const auto list = [](const Vector3& v, double scale) {
+    return std::vector<double>{scale * v.x(), scale * v.y(), scale * v.z()};
+  };
+  nlohmann::ordered_json json;
+  json["rate_deg_s"] = kDegrees * spin.rate();
+  json["sigma_rate_deg_s"] = kDegrees * spin.sigma_rate_rad_s();
+  json["axis_camera"] = list(spin.axis(), 1.0);
+  json["sigma_axis_deg"] = kDegrees * spin.sigma_axis_rad();
+  json["rate_camera_deg_s"] = list(spin.rate_rad_s, kDegrees);
+  for (int row = 0; row < 3; ++row) {
+    json["covariance_deg2_s2"].push_back(list(spin.covariance.row(row), kDegrees * kDegrees));
+  }
+  json["turned_deg"] = kDegrees * spin.turned_rad;
+  json["residual_rms_deg"] = kDegrees * spin.residual_rms_rad;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> eight_bits(const host::GreyImage& image) {
+  std::vector<std::uint8_t> out;
+  out.reserve(image.pixels.size());
+  for (const std::uint16_t value : image.pixels) out.push_back(static_cast<std::uint8_t>(value >> 8U));
+  return out;
+}
+
+int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera) {
+  int rows = 0;
+  std::string text;
+  for (const slam::TrackedFrame& frame : trajectory) {
+    if (!frame.placed) continue;
+    const auto& pose = frame.placed->pose;
+    const Vector3 t = of_camera ? pose.inverse().t : pose.t;
+    const Quaternion q = canonical_quaternion(of_camera ? Matrix3(pose.R.transpose()) : pose.R);
+    text += host::exact_number(frame.time_s);
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
+      text += ' ' + host::exact_number(value);
+    text += '\n';
+    ++rows;
+  }
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw host::InputError("standard output cannot be written");
+  }
+  return rows;
+}
+
+void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points) {
+  std::ofstream file(path);
+  file << "ply\nformat ascii 1.0\ncomment metres, in the left camera's frame at the first frame\nelement vertex "
+       << points.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\nproperty int observers\nend_header\n";
+  for (const slam::SlamPoint& point : points) {
+    for (int k = 0; k < 3; ++k) file << host::exact_number(point.position_m[k]) << ' ';
+    file << point.observers << '\n';
+  }
+  finish(file, path);
+}
+
+void write_slam_report(const std::string& path, const slam::SlamReport& report,
+                       const std::vector<slam::TrackedFrame>& trajectory) {
+  nlohmann::ordered_json json;
+  json["frames"] = report.frames;
+  json["tracked"] = report.tracked;
+  json["lost"] = report.lost;
+  json["relocalised"] = report.relocalised;
+  json["repeated"] = report.repeated;
+  json["dark"] = report.dark;
+  json["saturated"] = report.saturated;
+  json["keyframes"] = report.keyframes;
+  json["keyframes_made"] = report.keyframes_made;
+  json["points"] = report.points;
+  json["loops"] = report.loops;
+  json["loops_refused"] = report.loops_refused;
+  json["features_median"] = report.features_median;
+  json["inliers_median"] = report.inliers_median;
+  json["tracking_median_ms"] = report.tracking_median_ms;
+  json["tracking_p95_ms"] = report.tracking_p95_ms;
+  json["mapping_median_ms"] = report.mapping_median_ms;
+  json["loop_max_ms"] = report.loop_max_ms;
+  if (const auto spin = slam::fit_spin(trajectory)) json["spin"] = spin_json(*spin);
+  std::ofstream file(path);
+  file << json.dump(2) << '\n';
+  finish(file, path);
+}
+
+void write_slam_overlay(const std::string& folder, const std::string& stem, const slam::SlamSystem& system) {
+  const ImageView<const std::uint8_t> image = system.last_image(), mask = system.last_mask();
+  std::vector<std::uint16_t> grey;
+  for (std::int32_t v = 0; v < image.height_px; ++v) {
+    for (std::int32_t u = 0; u < image.width_px; ++u) grey.push_back(static_cast<std::uint16_t>(image.at(u, v) * 257));
+  }
+  host::Canvas canvas({grey.data(), image.width_px, image.height_px}, host::Canvas::zoom_for(image.width_px));
+  for (std::int32_t v = 0; v < mask.height_px; ++v) {
+    for (std::int32_t u = 0; u < mask.width_px; ++u) {
+      if (mask.at(u, v) == 0) canvas.tint(u, v, host::colours::kBlue, 0.15);
+    }
+  }
+  for (const auto& [u, v, kind] : system.last_features()) {
+    canvas.dot({u, v}, kind > 1.5 ? host::colours::kGreen : kind > 0.5 ? host::colours::kYellow : host::colours::kRed);
+  }
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw host::InputError(folder + ": cannot be made: " + error.message());
+  canvas.write_png((std::filesystem::path(folder) / (stem + "_slam.png")).string());
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/images/grey_image.hpp"
+#include "host/vision/slam/slam_system.hpp"
+
+namespace pharos::tools {
+
+/// The upper 8 of 16 bits a pixel: what ORB works on.
+std::vector<std::uint8_t> eight_bits(const host::GreyImage& image);
+
+/// Rows of placed frames on standard output: timestamp tx ty tz qx qy qz qw; `of_camera`: the inverse poses. Returns
+/// how many.
+int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera);
+
+/// The map's points as a PLY file of ASCII vertices: x y z in metres, observers.
+void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points);
+
+/// Figures of a run as one JSON object. Throws InputError where it cannot be written.
+void write_slam_report(const std::string& path, const slam::SlamReport& report,
+                       const std::vector<slam::TrackedFrame>& trajectory);
+
+/// DIR/STEM_slam.png: features of the last pair (mono, stereo, of the map) over the rectified left image, what is
+/// masked tinted.
+void write_slam_overlay(const std::string& folder, const std::string& stem, const slam::SlamSystem& system);
+
+}  // namespace pharos::tools

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos vocabulary: images to the visual words by which `pharos slam` knows places again.
+#include "host/vision/slam/vocabulary.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+
+#include "host/images/grey_image.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/slam/slam_system.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/slam/slam_files.hpp"
+
+namespace pharos::tools {
+namespace {
+
+struct Options {
+  std::vector<std::string> images;
+  std::string output;
+  int branches = 8, depth = 4, features = 1000;
+  std::uint64_t seed = 1;
+};
+
+int run(const Options& options) {
+  require_writable(options.output);
+  std::vector<std::vector<slam::Descriptor>> described;
+  Progress progress("vocabulary", "images", options.images.size());
+  for (const std::string& path : options.images) {
+    const host::GreyImage image = host::read_grey_image(path);
+    const std::vector<std::uint8_t> pixels = eight_bits(image);
+    described.push_back(slam::describe_image({pixels.data(), image.width_px, image.height_px}, options.features));
+    progress.step();
+  }
+  const slam::Vocabulary vocabulary = slam::Vocabulary::train(described, options.branches, options.depth, options.seed);
+  const std::vector<std::uint8_t> bytes = vocabulary.bytes();
+  std::ofstream file(options.output, std::ios::binary);
+  for (const std::uint8_t byte : bytes) file.put(static_cast<char>(byte));
+  if (!file.flush()) throw host::InputError(options.output + ": cannot be written");
+  note(std::to_string(vocabulary.words()) + " words of " + std::to_string(described.size()) + " images, " +
+       std::to_string(bytes.size()) + " bytes");
+  return kExitAnswered;
+}
+
+}  // namespace
+
+void add_vocabulary(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("vocabulary", "Train the visual words that `pharos slam` knows places by");
+  const auto options = std::make_shared<Options>();
+  command->add_option("IMAGE", options->images, "Images, far apart from each other in what they show")->required();
+  command->add_option("--output", options->output, "Vocabulary file to write")->required();
+  command->add_option("--branches", options->branches, "Children of a node (default 8)")
+      ->check(CLI::Range(2, slam::Vocabulary::kMostBranches));
+  command->add_option("--depth", options->depth, "Levels of the tree (default 4)")
+      ->check(CLI::Range(1, slam::Vocabulary::kMostDepth));
+  command->add_option("--seed", options->seed, "Of the start values");
+  command->footer("Example: pharos vocabulary frames/left/*0.png --output orb.words");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
