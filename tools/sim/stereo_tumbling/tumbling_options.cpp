@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tools/cli/progress.hpp"
+#include "tools/sim/stereo_tumbling/room_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 
 namespace pharos::tools {
@@ -12,10 +13,16 @@ namespace {
 struct Options {
   std::string scene, renderer = "povray", light = "good";
   sim::TumblingScenario scenario;
+  sim::RoomScenario room;
 };
 
 bool write_scene(Options options, std::uint64_t seed, const std::string& directory) {
   if (options.scene.empty()) return false;
+  if (options.scene == "room") {
+    Progress progress("rendered", "pairs", static_cast<std::size_t>(sim::RoomSequence(options.room, seed).frames()));
+    sim::write_room(options.room, seed, directory, [&progress] { progress.step(); });
+    return true;
+  }
   options.scenario.povray = options.renderer == "povray";
   options.scenario.good_light = options.light == "good";
   const auto pairs = static_cast<std::size_t>(options.scenario.turn_deg / options.scenario.step_deg) + 1;
@@ -28,8 +35,12 @@ bool write_scene(Options options, std::uint64_t seed, const std::string& directo
 
 std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("--scene", options->scene, "tumbling: a satellite that turns (paper 004), instead of a scenario")
-      ->check(CLI::IsMember({"tumbling"}));
+  command
+      .add_option("--scene", options->scene,
+                  "tumbling: a satellite that turns (paper 004); room: a walk with a raw, distorting rig")
+      ->check(CLI::IsMember({"tumbling", "room"}));
+  command.add_option("--path-m", options->room.path_m, "room: length of the walk (default 60)")
+      ->check(CLI::Range(0.0, 10'000.0));
   command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling: the whole turn (default 360)")
       ->check(CLI::Range(0.0, 7200.0));
   command.add_option("--step-deg", options->scenario.step_deg, "tumbling: a frame (default 0.5)")

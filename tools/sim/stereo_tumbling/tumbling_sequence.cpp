@@ -5,10 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
-#include "host/support/exact_number.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/sim/povray/render_scene.hpp"
 #include "tools/sim/povray/scene_text.hpp"
@@ -16,6 +14,7 @@
 #include "tools/sim/stereo_tumbling/cast_panels.hpp"
 #include "tools/sim/stereo_tumbling/povray_panels.hpp"
 #include "tools/sim/stereo_tumbling/satellite_scene.hpp"
+#include "tools/sim/stereo_tumbling/sequence_files.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -36,7 +35,7 @@ Matrix3 start_attitude() {
 
 std::string frame_name(int frame) {
   const std::string digits = std::to_string(frame);
-  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits + ".png";
+  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
 }
 
 class TextureFolder {
@@ -155,29 +154,14 @@ host::GreyImage TumblingSequence::image(int frame, int side) {
 void write_tumbling(const TumblingScenario& scenario, std::uint64_t seed, const std::string& directory,
                     const std::function<void()>& step) {
   TumblingSequence sequence(scenario, seed);
-  const std::filesystem::path root(directory);
-  for (const char* side : {"left", "right"}) {
-    std::error_code error;
-    std::filesystem::create_directories(root / side, error);
-    if (error) throw host::InputError((root / side).string() + ": cannot be made: " + error.message());
-  }
-  std::ofstream(root / "rig.toml") << host::rig_text(sequence.rig());
-  std::ofstream truth(root / "truth.tum");
+  SequenceFiles files(directory, sequence.rig());
   for (int frame = 0; frame < sequence.frames(); ++frame) {
-    for (int side = 0; side < 2; ++side) {
-      const host::GreyImage image = sequence.image(frame, side);
-      host::write_grey_png((root / (side == 0 ? "left" : "right") / frame_name(frame)).string(), image.view(), 8);
-    }
+    for (int side = 0; side < 2; ++side) files.image(frame_name(frame), side, sequence.image(frame, side));
     const auto pose = sequence.truth(frame);
-    const Quaternion q = pose.quaternion();
-    truth << host::exact_number(frame / scenario.rate_hz);
-    for (const double value : {pose.t.x(), pose.t.y(), pose.t.z(), q.x(), q.y(), q.z(), q.w()}) {
-      truth << ' ' << host::exact_number(value);
-    }
-    truth << '\n';
+    files.truth(frame / scenario.rate_hz, pose.t, pose.quaternion());
     step();
   }
-  if (!truth.flush()) throw host::InputError((root / "truth.tum").string() + ": cannot be written");
+  files.finish();
 }
 
 }  // namespace pharos::sim
