@@ -9,6 +9,7 @@
 #include "tools/cli/reproduce/line/add_reproduce_line.hpp"
 #include "tools/cli/reproduce/recordings.hpp"
 #include "tools/cli/reproduce/ring2/add_reproduce_ring2.hpp"
+#include "tools/cli/reproduce/slam/add_reproduce_slam.hpp"
 #include "tools/cli/reproduce/static_sets.hpp"
 #include "tools/cli/reproduce/tof/add_reproduce_tof.hpp"
 #include "tools/cli/seed_option.hpp"
@@ -98,6 +99,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     options->real = recordings->count() > 0;
     exit_code = run(*options);
   });
+  add_reproduce_slam(*reproduce, exit_code);
   add_reproduce_tof(*reproduce, exit_code);
   add_reproduce_line(*reproduce, exit_code);
   add_reproduce_ring2(*reproduce, exit_code);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace pharos::tools {
+
+/// `pharos reproduce slam`: table 1 of paper 004 beside ours.
+void add_reproduce_slam(CLI::App& reproduce, int& exit_code);
+
+}  // namespace pharos::tools
