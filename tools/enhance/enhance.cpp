@@ -105,7 +105,7 @@ class Worker {
     return steps_->result;
   }
   const enhance::FloatImage& quieten(const enhance::FloatImage& frame, Outcome& outcome) {
-    outcome.noise_sigma = denoiser_.denoise(frame, options_.settings, quiet_);
+    outcome.noise_sigma = denoiser_.denoise(frame, 1.0F, options_.settings, quiet_);
     return quiet_;
   }
 
@@ -213,6 +213,8 @@ void add_settings(CLI::App& command, Options& options) {
                   "Standard deviation of the noise in the reflectance's luma, of 255 (default: estimated)")
       ->check(number_from(0.0, 255.0));
   command.add_flag("--denoise-only", options.denoise_only, "Leave the light alone: only denoise the luma of IN");
+  command.add_flag("!--clip", settings.fit_to_white,
+                   "Cut what is above white off, as in print; else R is divided by what 99.5 % of it stay below");
   command.add_option("--threads", settings.threads, "Same result with any number")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

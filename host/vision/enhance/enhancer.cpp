@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host/vision/enhance/luma.hpp"
 #include "host/vision/enhance/smoothness.hpp"
@@ -13,9 +14,8 @@ namespace {
 
 // The epsilon of (3): keeps black black. Small beside the darkest step of 16 bits after (7), 65535^-0.8 = 1.4e-4.
 constexpr float kBlack = 1e-5F;
-// Bound of the illumination's error that the solver works to, of its range; what is left is a tenth to two thirds of
-// it.
-constexpr double kTolerance = 5e-3;
+// What the solver's last steps may still have moved, of the illumination's range (RMS): leaves an error below 0.5 %.
+constexpr double kTolerance = 3e-3;
 constexpr int kMostIterations = 60;
 
 void raise(const FloatImage& refined, double gamma, FloatImage& out) {
@@ -35,17 +35,31 @@ void divide(const FloatImage& frame, const FloatImage& illumination, FloatImage&
   }
 }
 
+// Dark frames have an illumination that hardly follows the target's rim: all of the target may lie above white. Of
+// every fourth pixel that is lit.
+float peak_of(const FloatImage& reflectance, std::vector<float>& lit) {
+  lit.clear();
+  for (std::size_t k = 0; k < reflectance.values.size(); k += 4) {
+    if (reflectance.values[k] > 0.0F) lit.push_back(reflectance.values[k]);
+  }
+  if (lit.empty()) return 1.0F;
+  const auto at = lit.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), at, lit.end());
+  return std::max(1.0F, *at);
+}
+
 // (8)
-void recompose(const FloatImage& reflectance, const FloatImage& illumination, const FloatImage& denoised,
+void recompose(const FloatImage& reflectance, const FloatImage& illumination, const FloatImage& denoised, float peak,
                FloatImage& result) {
   result.shape(reflectance.width_px, reflectance.height_px, reflectance.channels);
   const float* light = illumination.plane(0);
+  const float scale = 1.0F / peak;
   for (int c = 0; c < reflectance.channels; ++c) {
     const float* plain = reflectance.plane(c);
     const float* quiet = denoised.plane(c);
     float* to = result.plane(c);
     for (std::size_t k = 0; k < reflectance.pixels(); ++k) {
-      to[k] = quiet[k] + (std::min(plain[k], 1.0F) - quiet[k]) * light[k];
+      to[k] = quiet[k] + (std::min(plain[k] * scale, 1.0F) - quiet[k]) * light[k];
     }
   }
 }
@@ -54,6 +68,7 @@ void recompose(const FloatImage& reflectance, const FloatImage& illumination, co
 
 struct Enhancer::Buffers {
   FloatImage widened;
+  std::vector<float> lit;
   Enhanced steps;
   SmoothnessWeights weights;
   SmoothnessSystem system;
@@ -97,8 +112,9 @@ const Enhanced& Enhancer::enhance(const FloatImage& frame) {
   }
   illuminate(frame);
   divide(frame, steps.illumination, steps.reflectance);
-  steps.noise_sigma = b.denoiser.denoise(steps.reflectance, settings_, steps.denoised);
-  recompose(steps.reflectance, steps.illumination, steps.denoised, steps.result);
+  steps.peak = settings_.fit_to_white ? peak_of(steps.reflectance, b.lit) : 1.0F;
+  steps.noise_sigma = b.denoiser.denoise(steps.reflectance, steps.peak, settings_, steps.denoised);
+  recompose(steps.reflectance, steps.illumination, steps.denoised, steps.peak, steps.result);
   return steps;
 }
 

@@ -27,6 +27,8 @@ struct EnhanceSettings {
   Bm3dSettings bm3d;  ///< kVideoBm3d for frames in a stream
   /// Standard deviation of the noise in the reflectance's luma, 1 = white; empty: estimated from each frame.
   std::optional<double> noise_sigma;
+  /// Divide R by its peak() before it is denoised and recomposed; else what is above white is cut off, as in print.
+  bool fit_to_white = true;
   int threads = 2;  ///< the answer is the same, bit by bit, with any number
 };
 
@@ -36,8 +38,9 @@ struct Enhanced {
   FloatImage refined;        ///< solution of (5); one plane
   FloatImage illumination;   ///< L = refined^gamma (7); one plane
   FloatImage reflectance;    ///< R = S / (L + eps) (3), unbounded; planes as the frame's
-  FloatImage denoised;       ///< R_d: R within 0 ... 1, its luma denoised
-  FloatImage result;         ///< R L + R_d (1 - L) (8), R within 0 ... 1
+  float peak = 1.0F;         ///< where settings fit_to_white: what 99.5 % of R's lit pixels stay below, 1 at least
+  FloatImage denoised;       ///< R_d: R / peak within 0 ... 1, its luma denoised
+  FloatImage result;         ///< (R / peak) L + R_d (1 - L) (8), R / peak within 0 ... 1
   double noise_sigma = 0.0;  ///< used for R_d; 0 without a denoiser
   int iterations = 0;        ///< of the solver of (5)
 };

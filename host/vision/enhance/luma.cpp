@@ -20,10 +20,11 @@ void luma_of(const FloatImage& image, FloatImage& luma) {
   }
 }
 
-double LumaDenoiser::denoise(const FloatImage& reflectance, const EnhanceSettings& settings, FloatImage& denoised) {
-  denoised.shape(reflectance.width_px, reflectance.height_px, reflectance.channels);
-  std::transform(reflectance.values.begin(), reflectance.values.end(), denoised.values.begin(),
-                 [](float value) { return std::clamp(value, 0.0F, 1.0F); });
+double LumaDenoiser::denoise(const FloatImage& image, float white, const EnhanceSettings& settings,
+                             FloatImage& denoised) {
+  denoised.shape(image.width_px, image.height_px, image.channels);
+  std::transform(image.values.begin(), image.values.end(), denoised.values.begin(),
+                 [scale = 1.0F / white](float value) { return std::clamp(value * scale, 0.0F, 1.0F); });
   if (settings.denoiser == Denoiser::kNone) return 0.0;
   luma_of(denoised, luma_);
   const FloatImage& luma = luma_;

@@ -210,24 +210,22 @@ double dot(const std::vector<float>& a, const std::vector<float>& b) {
   return sum;
 }
 
-// Conjugate gradients approach the solution by sqrt(step * (r, z)) in the norm of the system, each time at right angles
-// to all before (Hestenes and Stiefel): what the last few steps took away bounds what is left from above as soon as
-// they shrink, and this norm bounds the RMS.
+// How far the last few steps went, together. What is left is shorter by as much as the steps shrink; three of them
+// leave room for the slowest frames seen, which shrink by a seventh a step.
 class LastSteps {
  public:
-  double error_after(double square, double pixels) {
-    squares_[count_++ % kKept] = square;
+  double length_with(double step) {
+    steps_[count_++ % kKept] = step;
     double sum = 0.0;
-    for (const double one : squares_) sum += one;
-    const double error = std::sqrt(sum / pixels);
-    return count_ < kKept ? kFewSteps * error : error;
+    for (const double one : steps_) sum += one;
+    return count_ < kKept ? kFewSteps * sum : sum;
   }
 
  private:
   static constexpr std::size_t kKept = 3;
-  // Before there are so many, only a start that is good ten times over is believed.
-  static constexpr double kFewSteps = 10.0;
-  std::array<double, kKept> squares_{};
+  // Before there are so many, only a start that is good five times over is believed.
+  static constexpr double kFewSteps = 5.0;
+  std::array<double, kKept> steps_{};
   std::size_t count_ = 0;
 };
 
@@ -314,7 +312,8 @@ int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& st
       refined.values[i] += length * direction_[i];
       r[i] -= length * image_[i];
     }
-    if (steps.error_after(step * now, pixels) <= tolerance * range()) return k + 1;
+    const double moved = step * std::sqrt(dot(direction_, direction_) / pixels);
+    if (steps.length_with(moved) <= tolerance * range()) return k + 1;
   }
   return most_iterations;
 }

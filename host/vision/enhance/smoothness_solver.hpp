@@ -19,7 +19,8 @@ struct SmoothnessGrid {
 /// (links differ by five orders of magnitude, and lines follow the strong ones), 2x2 pixels to one, coarse grids of the
 /// same five-point form.
 ///
-/// Stops where the last steps say that the RMS error is below `tolerance` of the solution's range. Keeps its memory.
+/// Stops where the last three steps together moved the solution by less than `tolerance` of its range (RMS). Keeps its
+/// memory.
 class SmoothnessSolver {
  public:
   /// `refined`: the start value in where it has the size of `start` (else `start` is), the solution out. Returns the

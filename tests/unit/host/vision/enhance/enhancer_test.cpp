@@ -42,7 +42,7 @@ TEST(Enhancer, StepsAreThoseOfThePaper) {
       const float value = frame.plane(c)[k];
       most = std::max(most, value);
       ASSERT_NEAR(steps.reflectance.plane(c)[k] * light, value, 2e-3F * value + 1e-6F);  // (1)
-      const float plain = std::min(steps.reflectance.plane(c)[k], 1.0F);
+      const float plain = std::min(steps.reflectance.plane(c)[k] / steps.peak, 1.0F);
       ASSERT_NEAR(steps.result.plane(c)[k], plain * light + steps.denoised.plane(c)[k] * (1.0F - light), 1e-5F);  // (8)
     }
     ASSERT_EQ(steps.start.values[k], most);  // (2)
@@ -62,6 +62,39 @@ TEST(Enhancer, DarkTargetBecomesBrightAndBlackStaysBlack) {
     before += static_cast<double>(frame.values[k]);
   }
   EXPECT_GT(target, 8.0 * before);
+}
+
+// A checked square in the dark, shot with a little noise: the ground around its rim is that far away, and its squares
+// near the rim are those of its middle.
+TEST(Enhancer, TargetsRimHasNoHalo) {
+  for (const float light : {0.5F, 0.08F, 0.02F}) {
+    FloatImage frame;
+    frame.shape(320, 240, 1);
+    for (std::int32_t v = 60; v < 180; ++v) {
+      for (std::int32_t u = 80; u < 240; ++u) frame.view().at(u, v) = (u / 8 + v / 8) % 2 == 0 ? light : 0.75F * light;
+    }
+    test::add_noise(frame, 0.0006, 3);
+    for (float& value : frame.values) value = std::max(value, 0.0F);
+    Enhancer enhancer(with(Denoiser::kFast));
+    const Enhanced& steps = enhancer.enhance(frame);
+    const auto band = [&](int low, int high) {  // distance outside the square, px
+      double sum = 0.0;
+      int count = 0;
+      for (std::int32_t v = 0; v < 240; ++v) {
+        for (std::int32_t u = 0; u < 320; ++u) {
+          const int outside = std::max({80 - u, u - 239, 60 - v, v - 179});
+          if (outside < low || outside > high) continue;
+          sum += static_cast<double>(steps.result.view().at(u, v));
+          ++count;
+        }
+      }
+      return sum / count;
+    };
+    EXPECT_NEAR(band(2, 10), band(30, 60), 2.0 / 255.0) << light;
+    EXPECT_NEAR(band(-15, -2), band(-50, -30), 0.1) << light;
+    EXPECT_GT(band(-50, -30), 0.5) << light;
+    EXPECT_LT(band(-50, -30), 0.99) << light;  // not all white
+  }
 }
 
 TEST(Enhancer, GreyInIsGreyOut) {

@@ -13,7 +13,7 @@
 namespace pharos::enhance {
 namespace {
 
-constexpr double kTolerance = 5e-3;  // what Enhancer asks for
+constexpr double kTolerance = 3e-3;  // what Enhancer asks for
 constexpr int kMost = 60;
 
 struct Case {
