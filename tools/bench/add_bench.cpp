@@ -7,6 +7,7 @@
 
 #include "tools/bench/bench_decode.hpp"
 #include "tools/bench/bench_ellipses.hpp"
+#include "tools/bench/bench_enhance.hpp"
 #include "tools/bench/bench_motion.hpp"
 #include "tools/bench/bench_pose.hpp"
 #include "tools/bench/bench_target.hpp"
@@ -55,6 +56,15 @@ std::vector<BenchRow> run_ellipses(const Options& options) {
   return bench_ellipses(options.problems.value_or(kImages), peer);
 }
 
+std::vector<BenchRow> run_enhance(const Options& options) {
+  const LowLightPeers* peers = load_low_light();
+  if (peers == nullptr) std::fprintf(stderr, "pharos bench: %s has no peers of enhancement\n", kPeerModuleName);
+  EnhanceBench bench;
+  if (!options.images.empty()) bench.images = options.images;
+  if (options.problems) bench.pairs = *options.problems;
+  return bench_enhance(bench, peers);
+}
+
 int run(const Options& options) {
   constexpr int kProblems = 2000;
   if (options.sweep) {
@@ -62,6 +72,10 @@ int run(const Options& options) {
     return kExitAnswered;
   }
   if (options.what == "target") return run_target(options);
+  if (options.what == "enhance") {
+    write_rows(run_enhance(options), form_of(options));
+    return kExitAnswered;
+  }
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
   const auto wanted = [&](const char* what) { return options.what == "all" || options.what == what; };
@@ -87,12 +101,15 @@ void add_bench(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option("what", options->what,
-                   "pose, ellipses, decode, motion, all of these (default), or target: the soft core")
-      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "target"}));
+                   "pose, ellipses, decode, motion, all of these (default), enhance, or target: the soft core")
+      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "enhance", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
-  command->add_option("--problems", options->problems, "Pose problems (2000; target 200), images a set (100)")
+  command
+      ->add_option("--problems", options->problems,
+                   "Pose problems (2000; target 200), images a set (100), pairs of views (20)")
       ->check(CLI::Range(10, 1'000'000));
-  command->add_option("--images", options->images, "target: folder of the images (the build's, or the installed one)");
+  command->add_option("--images", options->images,
+                      "target: folder of the images (the build's, or the installed one); enhance: of opencv-doc's");
   command->add_flag("--sensors", options->by_sensors, "target: how the figures grow from 4 to 32 sensors");
   command->add_flag("--sweep", options->sweep, "ellipses: recall and precision over thresholds of the score (CSV)");
   auto* csv = command->add_flag("--csv", options->csv, "what,ours,peer,ratio,unit instead of aligned columns");

@@ -13,4 +13,10 @@ EdgeDrawingFunction load_edge_drawing() {
   return reinterpret_cast<EdgeDrawingFunction>(host::find_module_function(kPeerModuleName, kEdgeDrawingName).function);
 }
 
+const LowLightPeers* load_low_light() {
+  const auto peers =
+      reinterpret_cast<LowLightPeersFunction>(host::find_module_function(kPeerModuleName, kLowLightPeersName).function);
+  return peers == nullptr ? nullptr : peers();
+}
+
 }  // namespace pharos::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/bench/edge_drawing.hpp"
+#include "tools/bench/low_light_peers.hpp"
 #include "tools/bench/peer_solver.hpp"
 
 namespace pharos::tools {
@@ -10,5 +11,7 @@ namespace pharos::tools {
 PeerFunction load_peers();
 /// The same for ellipses.
 EdgeDrawingFunction load_edge_drawing();
+/// The same for low light.
+const LowLightPeers* load_low_light();
 
 }  // namespace pharos::tools
