@@ -71,7 +71,7 @@ void TelescopeLine::track_failed(const std::string& trouble, std::int64_t monoto
 
 LineReport TelescopeLine::report(double time_s) {
   LineReport result;
-  result.utc_ns = static_cast<std::int64_t>(std::clamp(time_s, -kMostTime_s, kMostTime_s) * kNsPerSecond);
+  result.utc_ns = std::llround(std::clamp(time_s, -kMostTime_s, kMostTime_s) * kNsPerSecond);
   result.sequence = sequence_++;
   result.source = "line/" + config_.name;
   result.camera = config_.name;
