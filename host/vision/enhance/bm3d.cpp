@@ -22,7 +22,7 @@ constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
 // sides they must not meet.
 constexpr std::int32_t kBand_px = 64;
 constexpr std::int32_t kMostReach_px = (kBand_px - kSide) / 2;
-// Between pairs of references the fast denoiser's blocks are weighed as often as 8 ms allow.
+// From one block of the fast denoiser to the next: 8 ms for 640x480.
 constexpr std::int32_t kFastStep_px = 2;
 // Mean absolute difference of blocks that may be stacked: beyond what noise makes of equal ones (1.13 sigma).
 constexpr float kAlikeNoisy = 0.17F, kAlikeClean = 0.11F;

@@ -109,7 +109,7 @@ TEST_F(Denoising, Bm3dTakesMostOfTheNoiseAndTheQuickOnesLess) {
   EXPECT_GT(fast, 5.0);
 }
 
-// The Wiener step is there for something: what the first step alone leaves is more.
+// Averages of blocks neither make light nor lose it.
 TEST_F(Denoising, BiasIsSmall) {
   denoiser_.bm3d(noisy_, kSigma, {}, 1, quiet_);
   double before = 0.0, after = 0.0;

@@ -49,7 +49,7 @@ TEST_F(Turning, DepthsOfFeaturesAreThoseOfTheFaces) {
   EXPECT_GT(result.stats.matched, 500);
   // Depth off the nearest plane of the satellite, as disparity.
   const auto T_camera_target = sequence_.rig().left.pose().inverse() * sequence_.pose(0);
-  std::vector<double> errors_px;
+  std::vector<double> errors;  // in sigmas of a coordinate
   for (const Feature& feature : result.features) {
     if (!feature.stereo()) continue;
     const StereoCamera& camera = frontend.camera();
@@ -62,11 +62,12 @@ TEST_F(Turning, DepthsOfFeaturesAreThoseOfTheFaces) {
       const double disparity = camera.fx_px * camera.baseline_m / depth;
       nearest = std::min(nearest, std::abs(disparity - (feature.pixel.x() - feature.right_u_px)));
     }
-    errors_px.push_back(nearest);
+    errors.push_back(nearest / std::sqrt(feature.variance_px2()));
   }
-  std::sort(errors_px.begin(), errors_px.end());
-  EXPECT_LT(errors_px[errors_px.size() / 2], 0.2);
-  EXPECT_LT(errors_px[errors_px.size() * 9 / 10], 1.0);
+  std::sort(errors.begin(), errors.end());
+  // A disparity is the difference of two coordinates: Gaussian ones would have their median at 0.95.
+  EXPECT_LT(errors[errors.size() / 2], 0.95);
+  EXPECT_LT(errors[errors.size() * 9 / 10], 3.0);
 }
 
 TEST_F(Turning, NoFeatureIsAStar) {
