@@ -9,6 +9,7 @@ import sys
 RETAINED = 32
 LOADER = 4096  # its section, whether it fills it or not
 CHIP = 36 * 1024
+SLOT = 256 * 1024
 # Most bytes of variables and stack, and of everything (code, constants, variables, stack, loader) together.
 LIMITS = {"decoder.ep4ce10": (12 * 1024, CHIP), "decoder_pose.ep4ce10": (CHIP, None)}
 
@@ -36,6 +37,11 @@ def main():
               f"{CHIP - on_chip:+,} |")
         if ram > most_ram or on_chip > (most_all or CHIP):
             print(f"FAILED: {name} is over its budget of {most_ram:,} variables and stack, {most_all or CHIP:,} in all")
+            failed = True
+    for image in sorted(images.glob("decoder*.image")):
+        print(f"{image.name}: {image.stat().st_size:,} bytes of the {SLOT:,} of a slot")
+        if image.stat().st_size > SLOT:
+            print(f"FAILED: {image.name} fits no slot of the loader's flash")
             failed = True
     loader = images / "ep4ce10_loader.bin"
     if loader.stat().st_size > LOADER:

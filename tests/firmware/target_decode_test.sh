@@ -11,6 +11,7 @@ pharos=$build/bin/pharos
 data=${PHAROS_DATA:-$root/../shared/data}/lighthouse
 command -v qemu-system-riscv32 >/dev/null ||
   { echo "skipped: qemu-system-riscv32 is not installed (tools/install-dependencies test)"; exit 77; }
+flying=$build/firmware/bin/decoder.qemu_virt.elf # for 12 inputs; recordings have up to 32 (tools/target-decode's own image)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -37,9 +38,9 @@ case $what in
     for file in "$root"/tools/sim/scenarios/{demo,two_stations}.toml "$work/restart.toml"; do
       scenario=$(basename "$file" .toml)
       "$pharos" sim lighthouse "$file" --seed 5 --output "$work/$scenario" 2>/dev/null
-      decode_on_target "$work/$scenario/edges.csv.gz"
+      decode_on_target --image "$flying" "$work/$scenario/edges.csv.gz"
       same "$scenario" "$work/$scenario/edges.csv.gz" 5000
-      decode_on_target "$work/$scenario/edges.csv.gz" --ootx
+      decode_on_target --image "$flying" "$work/$scenario/edges.csv.gz" --ootx
       same "$scenario, OOTX" "$work/$scenario/edges.csv.gz" 5 --ootx
     done
     ;;
