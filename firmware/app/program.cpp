@@ -18,6 +18,9 @@ constexpr std::int64_t kLineStuck_ticks = kTicksPerSecond;
 /// The solver must have come by within so long.
 constexpr std::int64_t kSolverStuck_ticks = 2 * kTicksPerSecond;
 
+/// Hello, counters and the time for a second: whoever has come so far is no silent image.
+constexpr std::uint32_t kConfirmed_frames = 12;
+
 constexpr std::uint8_t modes_of(const PoseDesk* desk) {
   return static_cast<std::uint8_t>(wire::kModeSweeps | (desk != nullptr ? wire::kModePoses : 0));
 }
@@ -211,7 +214,9 @@ void Program::stay_alive() {
   if (desk_ == nullptr || desk_->take_alive()) solver_seen_ticks_ = now_ticks_;
   const bool line_moves = now_ticks_ - line_free_ticks_ < kLineStuck_ticks;
   const bool solver_moves = now_ticks_ - solver_seen_ticks_ < kSolverStuck_ticks;
-  if (line_moves && solver_moves) board_.system.feed_watchdog();
+  if (!line_moves || !solver_moves) return;
+  board_.system.feed_watchdog();
+  if (line_.frames() >= kConfirmed_frames) board_.system.confirm_start();
 }
 
 }  // namespace pharos::app

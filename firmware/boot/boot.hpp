@@ -14,8 +14,12 @@ template <BootBoard Board>
   loader.prepare(take_loader_request(Board::retained()));
   for (;;) {
     const Turn turn = loader.turn();
-    if (turn == Turn::kStart) Board::start(loader.loaded()->entry_address);
+    if (turn == Turn::kStart) {
+      note_start(Board::retained());
+      Board::start(loader.loaded()->entry_address);
+    }
     if (turn == Turn::kRestart) {
+      forget_tries(Board::retained());
       announce_reset(Board::retained(), wire::ResetCause::kCommand);
       Board::restart();
     }

@@ -94,7 +94,7 @@ class Loader {
 
 template <BootBoard Board>
 void Loader<Board>::prepare(bool stay) {
-  slots_.find();
+  slots_.find(had_its_tries(Board::retained()));
   hello_.role = wire::Role::kLoader;
   hello_.reset_cause = static_cast<std::uint8_t>(Board::retained().last_cause);
   hello_.start_count = static_cast<std::uint16_t>(Board::retained().start_count);

@@ -14,11 +14,16 @@ namespace pharos::boot {
 struct Retained {
   static constexpr std::uint32_t kMark = 0x50485254;  // holds after the first note_reset() since power on
 
+  /// Starts that an image has to confirm itself in; then the other slot's is started until power goes or the loader was
+  /// asked to start.
+  static constexpr std::uint16_t kMostTries = 3;
+
   std::uint32_t mark = 0;
   std::uint32_t announced = 0;  // wire::ResetCause of the reset that is about to come; 0: nobody said
   std::uint32_t stay_in_loader = 0;
   std::uint32_t last_cause = 0;  // wire::ResetCause of the last reset, for Hello
-  std::uint32_t start_count = 0;
+  std::uint16_t start_count = 0;
+  std::uint16_t unconfirmed_starts = 0;  // in a row without confirm_start()
   // Of the last fault since power on, in the words of the privileged specification; the application's to fill.
   std::uint32_t fault_cause = 0;    // mcause
   std::uint32_t fault_address = 0;  // mepc
@@ -39,6 +44,7 @@ inline void note_reset(volatile Retained& retained) {
     retained.announced = static_cast<std::uint32_t>(wire::ResetCause::kPowerOn);
     retained.stay_in_loader = 0;
     retained.start_count = 0;
+    retained.unconfirmed_starts = 0;
     retained.fault_cause = 0;
     retained.fault_address = 0;
     retained.fault_value = 0;
@@ -48,7 +54,25 @@ inline void note_reset(volatile Retained& retained) {
   const bool known = announced - 1 < wire::kResetCauses - 1u;
   retained.last_cause = known ? announced : static_cast<std::uint32_t>(wire::ResetCause::kWatchdog);
   retained.announced = 0;
-  retained.start_count = retained.start_count + 1;
+  retained.start_count = static_cast<std::uint16_t>(retained.start_count + 1);
+}
+
+/// Whether the newest image had its tries: then the other one is to be started.
+inline bool had_its_tries(const volatile Retained& retained) {
+  return retained.unconfirmed_starts >= Retained::kMostTries;
+}
+
+/// The loader's, right before it starts an image.
+inline void note_start(volatile Retained& retained) {
+  retained.unconfirmed_starts = static_cast<std::uint16_t>(retained.unconfirmed_starts + 1);
+}
+
+/// The loader's, before a reset that is to start the newest image: it may be another than the one that had its tries.
+inline void forget_tries(volatile Retained& retained) { retained.unconfirmed_starts = 0; }
+
+/// The application's, once it does its work. An image that was fallen back on does not bring back the other one.
+inline void confirm_start(volatile Retained& retained) {
+  if (!had_its_tries(retained)) forget_tries(retained);
 }
 
 /// Whether the program that ran before the reset asked for the loader. Asks once: the next start is an ordinary one.

@@ -18,12 +18,13 @@ namespace pharos::boot {
 template <BootBoard Board>
 class Slots {
  public:
-  /// Reads what the slots say, and copies the newest whole image to its place.
-  void find() {
+  /// Reads what the slots say, and copies the newest whole image to its place; `older`: the other one, if it is whole.
+  void find(bool older) {
     for (std::size_t slot = 0; slot < image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
     const std::size_t newest = heads_[1].mark.sequence > heads_[0].mark.sequence ? 1 : 0;
     next_sequence_ = heads_[newest].mark.sequence + 1;
-    if (!take(newest)) (void)take(1 - newest);
+    const std::size_t first = older ? 1 - newest : newest;
+    if (!take(first)) (void)take(1 - first);
   }
 
   /// The image that was copied to its place; null when no slot holds a whole one.

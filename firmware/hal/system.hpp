@@ -15,6 +15,8 @@ class System {
   virtual std::uint32_t cycles() = 0;
   /// Restarts the program unless called again within the watchdog's time (about a second).
   virtual void feed_watchdog() = 0;
+  /// The program does its work: the loader need not fall back on the image before it.
+  virtual void confirm_start() = 0;
   /// Starts anew, at the loader; `stay_in_loader`: and stops there for a new image.
   [[noreturn]] virtual void restart(bool stay_in_loader) = 0;
 

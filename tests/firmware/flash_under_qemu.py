@@ -16,6 +16,8 @@ from qemu_target import DECODER, LOADER, PoorLine, QemuTarget, have_qemu, raw_li
 
 PHAROS = IMAGES = None
 LOADER_MOST_BYTES = 4096
+ON_CHIP = 0x80001000
+RESET, CAUSE_COMMAND = 3, 2  # wire::CommandCode, wire::ResetCause
 BAUD = 460_800
 
 
@@ -116,15 +118,40 @@ class FlashUnderQemu(unittest.TestCase):
         self.assertEqual(codes[:2], [0, 0])
         self.flashed(self.first, "--allow-older")
 
-    def test_the_decoder_starts_the_loader_and_comes_back(self):
+    def comes_back(self, name):
         edges = pathlib.Path(self.folder.name) / "edges"
         self.target = QemuTarget(IMAGES, pathlib.Path(self.folder.name) / "decoder_flash", edges)
         self.addCleanup(self.target.switch_off)
         self.target.switch_on()
-        decoder = IMAGES / "decoder.qemu_virt.image"
-        row = self.flashed(decoder)
-        self.assertEqual((row["board"], row["name"]), ("qemu_virt", "decoder"))
-        self.assertEqual(self.flashed(decoder)["version_before"], row["version"])
+        image = IMAGES / f"{name}.qemu_virt.image"
+        row = self.flashed(image)
+        self.assertEqual((row["board"], row["name"]), ("qemu_virt", name))
+        self.assertEqual(self.flashed(image)["version_before"], row["version"], "the program starts the loader when it is told to")
+        self.target.forget()
+        before = self.target.hello()
+        self.target.command(RESET)
+        self.target.forget()
+        said = [self.target.hello() for _ in range(4)]  # the last of what ran before may be among them
+        hello = next((one for one in said if one and one.start_count != before.start_count), before)
+        self.assertEqual((hello.role, hello.reset_cause, hello.start_count), (DECODER, CAUSE_COMMAND, before.start_count + 1))
+
+    def test_the_decoder_runs_on_chip_starts_the_loader_and_comes_back(self):
+        load_address = int.from_bytes((IMAGES / "decoder.qemu_virt.image").read_bytes()[12:16], "little")
+        self.assertEqual(load_address, ON_CHIP)
+        self.comes_back("decoder")
+
+    def test_the_decoder_with_poses_starts_the_loader_and_comes_back(self):
+        self.comes_back("decoder_pose")
+
+    def test_goes_back_from_an_image_that_stays_silent(self):
+        self.target.switch_on()
+        self.flashed(self.first)
+        run = flash(self.target.port, IMAGES / "flash_probe_4.image", "--wait", "10")
+        self.assertEqual(run.returncode, 1, "it cannot be said to run: " + run.stderr)
+        print(run.stderr.strip())
+        self.assert_runs((1, 0, 1))
+        self.assertEqual(self.flashed(self.second)["version"], "1.0.2")
+        self.assert_runs((1, 0, 2))
 
     def made(self, *options):
         path = pathlib.Path(self.folder.name) / "made.image"

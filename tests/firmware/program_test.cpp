@@ -50,6 +50,7 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
 
   std::uint32_t cycles() override { return 0; }
   void feed_watchdog() override { ++fed; }
+  void confirm_start() override { ++confirmed; }
   void restart(bool stay_in_loader) override { throw Restarted{stay_in_loader}; }
   wire::ResetCause reset_cause() override { return wire::ResetCause::kWatchdog; }
   std::uint16_t start_count() override { return 7; }
@@ -80,6 +81,7 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
   std::uint32_t lost = 0;
   bool overflow = false;
   int fed = 0;
+  int confirmed = 0;
   report::LinkDecoder host;
   std::vector<report::LinkEvent> events;
   wire::FrameEncoder encoder;

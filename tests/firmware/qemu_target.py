@@ -21,7 +21,7 @@ import zlib
 from tape import unstuffed
 
 FLASH_BYTES = 32 << 20  # what the machine's bank has
-HELLO = 1
+HELLO, COMMAND = 1, 0x30
 RESIDUE = 0x2144DF1C
 DECODER, LOADER = 0, 1
 
@@ -117,6 +117,13 @@ class QemuTarget:
             if select.select([self.line], [], [], 0.1)[0]:
                 self.received += os.read(self.line, 4096)
         return None
+
+    def command(self, code):
+        """A Command frame; the answer comes with everything else."""
+        plain = struct.pack("<BBHBI", 1, COMMAND, 1, code, 0)
+        plain += struct.pack("<I", zlib.crc32(plain))
+        blocks = b"".join(bytes([len(block) + 1]) + block for block in plain.split(b"\0"))
+        os.write(self.line, b"\0" + blocks + b"\0")
 
     def forget(self):
         """Drops what has come so far."""

@@ -65,7 +65,12 @@ class LoaderBoard : public LoaderMemory {
   }
   static std::uint32_t ticks() { return mmio32(kCapture + PHAROS_CAPTURE_TIME_LOW_OFFSET); }
   /// The loader's memory is a ROM, so its first instruction is as good as a reset.
-  [[noreturn]] static void restart() { start(reinterpret_cast<std::uintptr_t>(__loader)); }
+  /// With the watchdog wound up: an image that hangs before it could do so itself is reset too.
+  [[noreturn]] static void start(std::uint32_t entry) {
+    mmio32(kWatchdog + 4) = 4;
+    LoaderMemory::start(entry);
+  }
+  [[noreturn]] static void restart() { LoaderMemory::start(reinterpret_cast<std::uintptr_t>(__loader)); }
 
  private:
   static constexpr std::uint32_t kFirstSlot = 0x100000;

@@ -12,6 +12,7 @@ namespace pharos::board {
 /// What every board answers alike, from what the loader retained and from the stack's mark.
 class CommonSystem : public hal::System {
  public:
+  void confirm_start() override { boot::confirm_start(retained()); }
   void restart(bool stay_in_loader) override {
     boot::announce_reset(retained(), wire::ResetCause::kCommand, stay_in_loader);
     reset_machine();

@@ -234,6 +234,47 @@ TEST_F(Loader, IsHeardForAFifthOfASecondAfterEveryReset) {
   EXPECT_TRUE(target.runs_application());
 }
 
+TEST_F(Loader, GoesBackFromAnImageThatStaysSilent) {
+  const Bytes first = make_image(1, {.version = {1, 0, 1}});
+  const Bytes silent = make_image(2, {.version = {1, 0, 2}});
+  start_with(target, host, first);
+  target.silent_patch = 2;
+  host.flash(silent);
+  target.run(kTicksPerSecond);
+  for (int reset = 0; reset < Retained::kMostTries; ++reset) {
+    ASSERT_TRUE(target.runs_application());
+    EXPECT_EQ(target.running().version.patch, 2) << reset;
+    target.reset();  // the watchdog's
+    target.run(kTicksPerSecond);
+  }
+  ASSERT_TRUE(target.runs_application());
+  EXPECT_EQ(target.running().version.patch, 1);
+  target.reset();
+  target.run(kTicksPerSecond);
+  EXPECT_EQ(target.running().version.patch, 1) << "it does not go to and fro";
+
+  const Bytes third = make_image(3, {.version = {1, 0, 3}});
+  ASSERT_TRUE(host.flash(third));
+  target.run(kTicksPerSecond);
+  EXPECT_EQ(target.running().version.patch, 3) << "over the silent one";
+  target.silent_patch = 3;
+  for (int reset = 0; reset <= Retained::kMostTries; ++reset) {
+    target.reset();
+    target.run(kTicksPerSecond);
+  }
+  EXPECT_EQ(target.running().version.patch, 1) << "the good one was kept";
+}
+
+TEST_F(Loader, KeepsASilentImageWhereThereIsNoOther) {
+  start_with(target, host, old_image);
+  target.hangs = true;
+  for (int reset = 0; reset < 2 * Retained::kMostTries; ++reset) {
+    target.reset();
+    target.run(kTicksPerSecond);
+    ASSERT_TRUE(target.runs_application());
+  }
+}
+
 TEST_F(Loader, SaysNothingOnItsWayToTheImage) {
   start_with(target, host, old_image);
   target.reset();

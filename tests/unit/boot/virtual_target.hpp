@@ -27,6 +27,8 @@ class VirtualTarget {
   bool powered = false;
   /// The application no longer hears or says anything.
   bool hangs = false;
+  /// Images of this version never hear or say anything; -1: none.
+  int silent_patch = -1;
   /// What a turn of the target's main loop takes; the more, the quicker the test.
   std::int64_t turn_ticks = 250;
 
@@ -87,10 +89,12 @@ class VirtualTarget {
   void step_loader() {
     const Turn turn = loader_->turn();
     if (turn == Turn::kStart) {
+      note_start(machine.retained);
       application_ = std::make_unique<Application>();
       application_->header = *loader_->loaded();
       loader_.reset();
     } else if (turn == Turn::kRestart) {
+      forget_tries(machine.retained);
       announce_reset(machine.retained, wire::ResetCause::kCommand);
       reset();
     }
@@ -118,7 +122,7 @@ class VirtualTarget {
 
   void step_application() {
     Application& app = *application_;
-    if (hangs) {
+    if (hangs || app.header.version.patch == silent_patch) {
       (void)machine.receive();
       return;
     }
@@ -129,6 +133,7 @@ class VirtualTarget {
     if (machine.now - app.last_time >= kTicksPerSecond / 10) {
       app.last_time = machine.now;
       say(wire::Time{machine.now});
+      confirm_start(machine.retained);
     }
     for (int byte = machine.receive(); byte >= 0; byte = machine.receive()) {
       if (const auto frame = app.frames.push(static_cast<std::uint8_t>(byte))) obey(*frame);
