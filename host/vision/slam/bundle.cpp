@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -59,9 +60,24 @@ class GiveUp : public ceres::IterationCallback {
   const std::atomic<bool>* flag_;
 };
 
+// Ceres orders what it eliminates by address: blocks stand in one array in the order of their numbers, or the same
+// problem would be solved in another order each time.
 struct Blocks {
-  std::map<KeyframeId, PoseBlock> poses;
-  std::map<PointId, std::array<double, 3>> points;
+  explicit Blocks(const BundleProblem& problem) : numbers(7 * problem.poses.size() + 3 * problem.points.size()) {
+    double* at = numbers.data();
+    for (const auto& [id, pose] : problem.poses) {
+      const PoseBlock block = block_of(pose);
+      poses[id] = at;
+      at = std::copy(block.begin(), block.end(), at);
+    }
+    for (const auto& [id, point] : problem.points) {
+      points[id] = at;
+      at = std::copy(point.data(), point.data() + 3, at);
+    }
+  }
+  std::vector<double> numbers;
+  std::map<KeyframeId, double*> poses;
+  std::map<PointId, double*> points;
 };
 
 void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& camera, const BundleSettings& settings,
@@ -77,22 +93,22 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
     const BundleObservation& observation = problem.observations[k];
     if (!use[k]) continue;
     // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
-    ceres.AddResidualBlock(new Reprojection(observation.seen, camera), &loss,
-                           blocks.poses.at(observation.keyframe).data(), blocks.points.at(observation.point).data());
+    ceres.AddResidualBlock(new Reprojection(observation.seen, camera), &loss, blocks.poses.at(observation.keyframe),
+                           blocks.points.at(observation.point));
   }
   std::size_t moving = 0;
-  for (auto& [id, block] : blocks.poses) {
-    if (!ceres.HasParameterBlock(block.data())) continue;
-    ceres.SetManifold(block.data(), &manifold);
-    ordering->AddElementToGroup(block.data(), 1);
+  for (const auto& [id, block] : blocks.poses) {
+    if (!ceres.HasParameterBlock(block)) continue;
+    ceres.SetManifold(block, &manifold);
+    ordering->AddElementToGroup(block, 1);
     if (problem.fixed.at(id)) {
-      ceres.SetParameterBlockConstant(block.data());
+      ceres.SetParameterBlockConstant(block);
     } else {
       ++moving;
     }
   }
-  for (auto& [id, block] : blocks.points) {
-    if (ceres.HasParameterBlock(block.data())) ordering->AddElementToGroup(block.data(), 0);
+  for (const auto& [id, block] : blocks.points) {
+    if (ceres.HasParameterBlock(block)) ordering->AddElementToGroup(block, 0);
   }
   GiveUp give_up(settings.give_up);
   ceres::Solver::Options solver;
@@ -109,8 +125,8 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
 
 bool fits(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
   Observation at = observation.seen;
-  at.point_m = Vector3(blocks.points.at(observation.point).data());
-  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe).data());
+  at.point_m = Vector3(blocks.points.at(observation.point));
+  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
   if (!((pose * at.point_m).z() > 1e-3)) return false;
   return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
 }
@@ -158,9 +174,7 @@ BundleProblem global_problem(const Map& map) {
 
 std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera,
                                        const BundleSettings& settings) {
-  Blocks blocks;
-  for (const auto& [id, pose] : problem.poses) blocks.poses[id] = block_of(pose);
-  for (const auto& [id, point] : problem.points) blocks.points[id] = {point.x(), point.y(), point.z()};
+  Blocks blocks(problem);
   std::vector<bool> use(problem.observations.size(), true);
   std::vector<std::size_t> rejected;
   solve(problem, blocks, camera, settings, use);
@@ -173,9 +187,9 @@ std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamer
     if (!use[k] && !fits(problem.observations[k], blocks, camera)) rejected.push_back(k);
   }
   for (auto& [id, pose] : problem.poses) {
-    if (!problem.fixed.at(id)) pose = slam::pose_of(blocks.poses.at(id).data());
+    if (!problem.fixed.at(id)) pose = slam::pose_of(blocks.poses.at(id));
   }
-  for (auto& [id, point] : problem.points) point = Vector3(blocks.points.at(id).data());
+  for (auto& [id, point] : problem.points) point = Vector3(blocks.points.at(id));
   return rejected;
 }
 

@@ -61,21 +61,24 @@ Vector6 edge_residual(const PoseEdge& edge, const CameraFromTarget& from, const 
 
 void adjust_pose_graph(std::map<KeyframeId, CameraFromTarget>& poses, const std::vector<PoseEdge>& edges,
                        const std::vector<KeyframeId>& fixed) {
-  std::map<KeyframeId, PoseBlock> blocks;
-  for (const auto& [id, pose] : poses) blocks[id] = block_of(pose);
+  // In one array: Ceres may order by address.
+  std::vector<PoseBlock> numbers;
+  numbers.reserve(poses.size());
+  std::map<KeyframeId, double*> blocks;
+  for (const auto& [id, pose] : poses) blocks[id] = numbers.emplace_back(block_of(pose)).data();
   PoseManifold manifold;
   ceres::Problem::Options options;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(options);
   for (const PoseEdge& edge : edges) {
     // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
-    problem.AddResidualBlock(new EdgeCost(edge), nullptr, blocks.at(edge.from).data(), blocks.at(edge.to).data());
+    problem.AddResidualBlock(new EdgeCost(edge), nullptr, blocks.at(edge.from), blocks.at(edge.to));
   }
-  for (auto& [id, block] : blocks) {
-    if (problem.HasParameterBlock(block.data())) problem.SetManifold(block.data(), &manifold);
+  for (const auto& [id, block] : blocks) {
+    if (problem.HasParameterBlock(block)) problem.SetManifold(block, &manifold);
   }
   for (const KeyframeId id : fixed) {
-    if (problem.HasParameterBlock(blocks.at(id).data())) problem.SetParameterBlockConstant(blocks.at(id).data());
+    if (problem.HasParameterBlock(blocks.at(id))) problem.SetParameterBlockConstant(blocks.at(id));
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -84,7 +87,7 @@ void adjust_pose_graph(std::map<KeyframeId, CameraFromTarget>& poses, const std:
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  for (auto& [id, pose] : poses) pose = slam::pose_of(blocks.at(id).data());
+  for (auto& [id, pose] : poses) pose = slam::pose_of(blocks.at(id));
 }
 
 }  // namespace pharos::slam

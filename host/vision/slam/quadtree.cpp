@@ -13,10 +13,13 @@ struct Part {
   float left, top, right, bottom;
   std::size_t first, count;  // its corners stand together
   std::size_t number;        // of creation: makes the order of equals certain
+
+  float area() const { return (right - left) * (bottom - top); }
 };
 
-struct LessCrowded {
+struct Later {
   bool operator()(const Part& a, const Part& b) const {
+    if (a.area() != b.area()) return a.area() < b.area();
     return a.count != b.count ? a.count < b.count : a.number > b.number;
   }
 };
@@ -28,7 +31,7 @@ constexpr float kSmallest_px = 2.0F;
 
 std::vector<Corner> spread(std::vector<Corner> corners, float width_px, float height_px, std::size_t wanted) {
   if (corners.size() <= wanted) return corners;
-  std::priority_queue<Part, std::vector<Part>, LessCrowded> parts;
+  std::priority_queue<Part, std::vector<Part>, Later> parts;
   std::vector<Part> finished;
   std::size_t number = 0;
   const auto add = [&](const Part& part) {
