@@ -27,6 +27,8 @@ constexpr std::size_t kMostSingles = 12;
 constexpr double kLeastInliers = 0.35;
 // Scatter about the plane over what the camera's noise would give at that range: beyond it is no plane.
 constexpr double kMostScatter = 3.0;
+// The same of the ring's face alone, without walls and mixed pixels; tilt darkens it by a third.
+constexpr double kMostFaceScatter = 1.8;
 // On the plane: distance of the circles' centres, in outer radii.
 constexpr double kMostEccentricity = 0.03;
 constexpr double kLeastStepShare = 0.6;
@@ -251,7 +253,10 @@ class Chooser {
     const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
     if (!outer || !inner) return std::nullopt;
     const auto plane = fit_plane(frame_, camera_, rays_, ring_region(*inner, *outer));
-    if (!plane) return std::nullopt;
+    if (!plane ||
+        plane->rms_m > kMostFaceScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
+      return std::nullopt;
+    }
     return fit_ring(frame_, camera_, rays_, *plane, *model, settings_.least_step_m, noise_, workspace_);
   }
 
