@@ -88,15 +88,15 @@ int listen(const ListenOptions& options) {
   if (listener.foreign() > 0) {
     std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.foreign()));
   }
-  if (options.csv && listener.status_messages() > 0) {
-    std::fprintf(stderr, "%lld status messages not shown: they are no rows; use --json\n",
-                 static_cast<long long>(listener.status_messages()));
+  if (options.csv && listener.other_messages() > 0) {
+    std::fprintf(stderr, "%lld status or pointing messages not shown: they are no rows of this table; use --json\n",
+                 static_cast<long long>(listener.other_messages()));
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw host::InputError(
         "standard output: rows were lost, it cannot be written; free the disk or choose another file");
   }
-  const bool heard = listener.summary().poses() > 0 || listener.status_messages() > 0;
+  const bool heard = listener.summary().poses() > 0 || listener.other_messages() > 0;
   return heard ? kExitAnswered : kExitNoAnswer;
 }
 
@@ -104,7 +104,8 @@ int listen(const ListenOptions& options) {
 
 void add_listen(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ListenOptions>();
-  CLI::App* command = app.add_subcommand("listen", "Poses (or status messages) on LCM as they arrive, one line each");
+  CLI::App* command =
+      app.add_subcommand("listen", "Poses (or pointings, or status) on LCM as they arrive, one line each");
   command->add_option("CHANNEL", options->channel, "Channel, or a regular expression for several")
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL")->capture_default_str();
@@ -120,8 +121,9 @@ void add_listen(CLI::App& app, int& exit_code) {
   command->footer(
       "Example: pharos listen --duration 10 --summary --truth truth.csv\n"
       "         pharos listen PHAROS_TOF_POSE\n"
+      "         pharos listen PHAROS_LINE_POINTING\n"
       "         pharos listen PHAROS_STATUS --json\n"
-      "Ends with 0 when at least one pose or status message was received, with 1 when none was.");
+      "Ends with 0 when at least one pose, pointing or status message was received, with 1 when none was.");
   command->callback([options, &exit_code] { exit_code = listen(*options); });
 }
 

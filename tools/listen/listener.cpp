@@ -5,8 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/status_t.hpp"
+#include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
 #include "tools/listen/status_rows.hpp"
 
@@ -62,12 +64,15 @@ void Listener::begin() {
 void Listener::take(const std::string& channel, const void* data, int size, std::int64_t utc_ns,
                     std::int64_t monotonic_ns) {
   pose_t pose;
+  pointing_t pointing;
   status_t status;
   if (decode(pose, data, size)) {
     take_pose(channel, pose, utc_ns, monotonic_ns);
+  } else if (decode(pointing, data, size)) {
+    take_other([&](bool json) { return json ? pointing_json(pointing) : pointing_line(pointing); });
   } else if (decode(status, data, size)) {
     print_those_known(monotonic_ns);
-    take_status(status);
+    take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });
   } else {
     ++foreign_;
   }
@@ -116,10 +121,10 @@ void Listener::print(const ReceivedPose& pose) {
   write_pose_row(*rows_, pose);
 }
 
-void Listener::take_status(const status_t& message) {
-  ++status_messages_;
+void Listener::take_other(const std::function<std::string(bool)>& text) {
+  ++other_messages_;
   if (format_ == ListenFormat::kNone || format_ == ListenFormat::kCsv) return;
-  std::puts((format_ == ListenFormat::kJson ? status_json(message) : status_lines(message)).c_str());
+  std::puts(text(format_ == ListenFormat::kJson).c_str());
   std::fflush(stdout);
 }
 

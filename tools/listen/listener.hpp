@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +18,6 @@ struct ReceiveBuffer;
 }
 namespace pharos {
 class pose_t;
-class status_t;
 }  // namespace pharos
 
 namespace pharos::tools {
@@ -31,19 +31,21 @@ class Listener {
 
   /// What comes before the first message: the header row of a CSV table.
   void begin();
-  /// Any message of a channel listened to: pose_t and status_t are printed (a status not as CSV: it
-  /// is no row), others counted as foreign.
+  /// Any message of a channel listened to: pose_t, pointing_t and status_t are printed (the last two not as CSV: they
+  /// are no rows of it), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Prints the poses that still wait for their truth, and compares those that were printed before it was written.
   void finish();
 
   const ListenSummary& summary() const { return summary_; }
   std::int64_t foreign() const { return foreign_; }
-  std::int64_t status_messages() const { return status_messages_; }
+  /// Status and pointing messages.
+  std::int64_t other_messages() const { return other_messages_; }
 
  private:
   void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
-  void take_status(const status_t& message);
+  /// A message that is no pose; `text` makes its JSON object or its lines.
+  void take_other(const std::function<std::string(bool json)>& text);
   /// In their order: a pose waits for its truth, and others behind it.
   void print_those_known(std::int64_t monotonic_ns);
   /// False: its truth is not there (yet).
@@ -61,7 +63,7 @@ class Listener {
   std::unique_ptr<host::RowWriter> rows_;   // of CSV and JSON
   ListenSummary summary_;
   std::int64_t foreign_ = 0;
-  std::int64_t status_messages_ = 0;
+  std::int64_t other_messages_ = 0;
 };
 
 }  // namespace pharos::tools

@@ -15,13 +15,6 @@ namespace {
 constexpr std::int64_t kUsPerSecond = 1'000'000;
 constexpr double kMsPerS = 1e3;
 
-std::string clock_text(std::int64_t utime_us) {
-  const std::time_t seconds = utime_us / kUsPerSecond;
-  std::tm utc{};
-  ::gmtime_r(&seconds, &utc);
-  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec, utime_us % kUsPerSecond / 1000);
-}
-
 std::string attitude_text(const ReceivedPose& pose) {
   if (pose.of_camera) {
     const tof::TargetAngles angles = tof::angles_of(pose.pose->R);
@@ -34,6 +27,13 @@ std::string attitude_text(const ReceivedPose& pose) {
 }
 
 }  // namespace
+
+std::string clock_text(std::int64_t utime_us) {
+  const std::time_t seconds = utime_us / kUsPerSecond;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec, utime_us % kUsPerSecond / 1000);
+}
 
 std::string pose_line(const ReceivedPose& pose) {
   std::string out = fmt::format("{} {} {} {}", clock_text(pose.utime_us), pose.target,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "tools/listen/received_pose.hpp"
 
 namespace pharos::tools {
+
+/// Time of day, UTC, to the millisecond.
+std::string clock_text(std::int64_t utime_us);
 
 /// One line for people: UTC, target, station, position in mm, rotation vector in degrees (of cameras: the
 /// angles of paper 000), sigmas, rate, age, error.

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "tools/listen/listener.hpp"
+#include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
 
 namespace pharos::tools {
@@ -169,6 +171,30 @@ TEST_F(ListenerWithTruth, APoseWhoseTruthNeverComesHoldsUpNobodyForLong) {
   const std::string lines = lines_of(2'000, 600'000'000, 0);
   EXPECT_THAT(lines, ::testing::ContainsRegex("00.002 [^\n]*/s  age [^\n]* ms\n.*00.000 .*error"));
   EXPECT_EQ(compared_, 1);
+}
+
+TEST(Listener, ShowsWhereAPanelPoints) {
+  pointing_t message{};
+  message.utime = 61'000'000;
+  message.target = "iss";
+  message.status = "ok";
+  message.valid = 1;
+  message.images = 1;
+  message.pitch_rad = 0.5;
+  message.yaw_rad = -0.25;
+  message.sigma_axis_rad = 0.02;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  Listener listener(ListenFormat::kLines, std::nullopt);
+  ::testing::internal::CaptureStdout();
+  listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(),
+              HasSubstr("00:01:01.000 iss image ok  pitch 28.648 yaw -14.324 deg  sigma 1.146 deg"));
+  EXPECT_EQ(listener.foreign(), 0);
+  EXPECT_EQ(listener.other_messages(), 1);
+  message.valid = 0;
+  message.status = "refused_no_panel";
+  EXPECT_THAT(pointing_json(message), HasSubstr("\"pitch_deg\":null"));
 }
 
 TEST(Listener, PassesOverWhatItDoesNotKnow) {
