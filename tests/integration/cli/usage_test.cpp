@@ -55,7 +55,7 @@ TEST(CliUsage, NamesAnUnknownCommandAndThoseThatThereAre) {
   expect("bogus", "pharos: unknown command 'bogus'; the commands are decode, track, solve", "`pharos --help`");
   expect("--bogus", "pharos: unknown option '--bogus'", "`pharos --help`");
   expect("", "pharos: no command given", "decode, track, solve");
-  expect("sim bogus", "pharos sim: unknown command 'bogus'", "lighthouse, tof, serial");
+  expect("sim bogus", "pharos sim: unknown command 'bogus'", "lighthouse, tof, line, stereo, serial");
   expect("reproduce", "pharos reproduce: no command given", "lighthouse");
 }
 
