@@ -33,8 +33,10 @@ DaemonUnderTest::DaemonUnderTest()
   lcm_ = std::make_unique<lcm::LCM>(url_);
   target_clock_zero_ns_ = monotonic_now_ns() - ticks_to_nanoseconds(kFirstTicks);
   if (!lcm_->good()) return;  // start() says so
-  lcm_->subscribe("PHAROS_LIGHTHOUSE_POSE", &DaemonUnderTest::on_pose, this);
-  lcm_->subscribe("PHAROS_TOF_POSE", &DaemonUnderTest::on_pose, this);
+  // LCM keeps 30 messages for whoever does not ask: fewer than a daemon sends while a test waits for its end.
+  constexpr int kMessages = 10'000;
+  lcm_->subscribe("PHAROS_LIGHTHOUSE_POSE", &DaemonUnderTest::on_pose, this)->setQueueCapacity(kMessages);
+  lcm_->subscribe("PHAROS_TOF_POSE", &DaemonUnderTest::on_pose, this)->setQueueCapacity(kMessages);
   lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
   listen(1);
 }
