@@ -23,7 +23,7 @@ BAUD = 460_800
 
 def flash(port, image, *options, **keywords):
     return subprocess.run([PHAROS, "flash", port, image, *options], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          timeout=120, **keywords)
+                          timeout=600, **keywords)
 
 
 class FlashUnderQemu(unittest.TestCase):
@@ -140,6 +140,7 @@ class FlashUnderQemu(unittest.TestCase):
         self.assertEqual(load_address, ON_CHIP)
         self.comes_back("decoder")
 
+    @unittest.skipUnless("PHAROS_LONG" in os.environ, "a quarter of a megabyte, twice: runs with the label long")
     def test_the_decoder_with_poses_starts_the_loader_and_comes_back(self):
         self.comes_back("decoder_pose")
 
