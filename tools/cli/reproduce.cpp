@@ -69,11 +69,7 @@ int run(const Options& options) {
   if (!options.sets_file.empty()) require_writable(options.sets_file);
   const std::vector<ComparisonRow> rows =
       options.real ? measure_recordings(recordings_directory(options.recordings)) : simulated_rows(options);
-  if (options.markdown) {
-    write_markdown(rows, options.output.path);
-  } else {
-    write_rows(rows, options.output);
-  }
+  write_comparison(rows, options.markdown, options.output);
   return rows.empty() ? kExitNoAnswer : kExitAnswered;
 }
 

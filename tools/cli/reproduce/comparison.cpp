@@ -83,4 +83,12 @@ void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& p
   }
 }
 
+void write_comparison(const std::vector<ComparisonRow>& rows, bool markdown, const OutputOptions& options) {
+  if (markdown) {
+    write_markdown(rows, options.path);
+  } else {
+    write_rows(rows, options);
+  }
+}
+
 }  // namespace pharos::tools

@@ -34,5 +34,7 @@ std::optional<double> ratio_of(const ComparisonRow& row);
 void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options);
 /// The same as a Markdown table for people, rounded to three digits; fit for a README.
 void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path);
+/// One of the two, as --markdown says.
+void write_comparison(const std::vector<ComparisonRow>& rows, bool markdown, const OutputOptions& options);
 
 }  // namespace pharos::tools

@@ -2,11 +2,8 @@
 #include "tools/sim/line/line_writer.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
-#include <memory>
 #include <string>
 
 #include "host/cameras/camera_file.hpp"
@@ -15,28 +12,12 @@
 #include "pharos/base/units.hpp"
 #include "tools/sim/line/line_image.hpp"
 #include "tools/sim/line/sky_frames.hpp"
+#include "tools/sim/table_file.hpp"
 
 namespace pharos::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& path) {
-  throw host::InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
-}
-
-class Table {
- public:
-  Table(const fs::path& path, std::vector<std::string> columns) : file_(std::fopen(path.c_str(), "w"), &std::fclose) {
-    if (!file_) refuse(path);
-    rows_ = std::make_unique<host::RowWriter>(file_.get(), host::RowFormat::kCsv, std::move(columns));
-  }
-  host::RowWriter& rows() { return *rows_; }
-
- private:
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::unique_ptr<host::RowWriter> rows_;
-};
 
 // Names sort as the images follow each other.
 std::string name_of(std::size_t index, std::size_t images) {
@@ -54,7 +35,7 @@ void write_camera(const LineCamera& camera, const fs::path& path) {
   file.camera.optics.cy_px = 0.5 * (camera.height_px - 1);
   std::ofstream out(path);
   out << host::camera_text(file);
-  if (!out.flush()) refuse(path);
+  if (!out.flush()) refuse_output(path);
 }
 
 // The upper end of the axis, as formula (1) and the rule for its sign have it.
@@ -94,9 +75,10 @@ void write_line_images(const LineScenario& scenario, std::uint64_t seed, const f
   std::vector<std::string> columns{"image",        "time_s",        "azimuth_deg", "elevation_deg",
                                    "latitude_deg", "longitude_deg", "height_m"};
   if (scenario.write_range) columns.emplace_back("range_m");
-  Table track(folder / "track.csv", columns);
-  Table truth(folder / "truth.csv", {"image", "time_s", "pitch_deg", "yaw_deg", "sx", "sy", "sz", "earth_pitch_deg",
-                                     "earth_yaw_deg", "ex", "ey", "ez", "short_x", "short_y", "short_z", "range_m"});
+  TableFile track(folder / "track.csv", columns);
+  TableFile truth(folder / "truth.csv",
+                  {"image", "time_s", "pitch_deg", "yaw_deg", "sx", "sy", "sz", "earth_pitch_deg", "earth_yaw_deg",
+                   "ex", "ey", "ez", "short_x", "short_y", "short_z", "range_m"});
   for (std::size_t k = 0; k < scenario.views.size(); ++k) {
     const std::string name = name_of(k, scenario.views.size());
     host::write_grey_png((folder / name).string(), line_image(scenario, k, seed).view(), scenario.imaging.sensor.bits);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/stereo/stereo_writer.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 
 #include "host/cameras/rig_file.hpp"
 #include "host/images/grey_image.hpp"
@@ -15,6 +12,7 @@
 #include "tools/sim/povray/render_scene.hpp"
 #include "tools/sim/povray/sensor.hpp"
 #include "tools/sim/stereo/projected_ellipse.hpp"
+#include "tools/sim/table_file.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -24,24 +22,6 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 2> kViews{"left", "right"};
 // Least difference of light that is worth more rays: at every edge, not on even surfaces.
 constexpr double kAntialias = 0.01;
-
-[[noreturn]] void refuse(const fs::path& path) {
-  throw host::InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
-}
-
-// A CSV file that grows.
-class Table {
- public:
-  Table(const fs::path& path, std::vector<std::string> columns) : file_(std::fopen(path.c_str(), "w"), &std::fclose) {
-    if (!file_) refuse(path);
-    rows_ = std::make_unique<host::RowWriter>(file_.get(), host::RowFormat::kCsv, std::move(columns));
-  }
-  host::RowWriter& rows() { return *rows_; }
-
- private:
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::unique_ptr<host::RowWriter> rows_;
-};
 
 host::RigCamera rig_camera(const StereoCamera& camera) {
   host::RigCamera out;
@@ -65,7 +45,7 @@ void write_rig(const fs::path& path, const StereoRig& rig) {
   file.right = rig_camera(rig[1]);
   std::ofstream out(path);
   out << host::rig_text(file);
-  if (!out.flush()) refuse(path);
+  if (!out.flush()) refuse_output(path);
 }
 
 // Four digits, more where there are more pairs: names sort as the pairs follow each other.
@@ -130,10 +110,10 @@ void write_stereo_pairs(const StereoScenario& scenario, std::uint64_t seed, cons
   fs::create_directories(folder, error);
   if (error) throw host::InputError(directory + ": cannot be made: " + error.message() + "; choose another --output");
   write_rig(folder / "rig.toml", scenario.rig);
-  Table truth(folder / "truth.csv", {"pair", "theta_deg", "gamma_deg", "nx", "ny", "nz", "cx_m", "cy_m", "cz_m",
-                                     "ring_radius_m", "nozzle_radius_m", "distance_m"});
-  Table ellipses(folder / "ellipses.csv",
-                 {"problem", "view", "feature", "cx_px", "cy_px", "a_px", "b_px", "theta_rad", "sigma_px", "points"});
+  TableFile truth(folder / "truth.csv", {"pair", "theta_deg", "gamma_deg", "nx", "ny", "nz", "cx_m", "cy_m", "cz_m",
+                                         "ring_radius_m", "nozzle_radius_m", "distance_m"});
+  TableFile ellipses(folder / "ellipses.csv", {"problem", "view", "feature", "cx_px", "cy_px", "a_px", "b_px",
+                                               "theta_rad", "sigma_px", "points"});
   for (std::size_t pair = 0; pair < scenario.poses.size(); ++pair) {
     const std::string number = number_of(pair, scenario.poses.size());
     const RingAndNozzle target = scenario.target_at(pair);

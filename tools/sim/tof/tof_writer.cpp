@@ -2,32 +2,24 @@
 #include "tools/sim/tof/tof_writer.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <fstream>
-#include <memory>
 #include <string>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
-#include "host/table/row_writer.hpp"
+#include "tools/sim/table_file.hpp"
 
 namespace pharos::sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path) {
-  throw host::InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
-}
-
 template <typename Bytes>
 void write_bytes(const fs::path& path, const Bytes& bytes) {
   std::ofstream out(path, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!out) refuse(path);
+  if (!out) refuse_output(path);
 }
 
 // Four digits, more where there are more frames: names sort as the frames follow each other.
@@ -56,27 +48,23 @@ std::string camera_of(const TofScenario& scenario, const RawCoordinates& raw) {
 
 class TruthTable {
  public:
-  explicit TruthTable(const fs::path& path) : file_(std::fopen(path.c_str(), "w"), &std::fclose) {
-    if (!file_) refuse(path);
-    rows_ = std::make_unique<host::RowWriter>(
-        file_.get(), host::RowFormat::kCsv,
-        std::vector<std::string>{"frame", "time_s", "qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m", "alpha_deg",
-                                 "beta_deg", "gamma_deg"});
-  }
+  explicit TruthTable(const fs::path& path)
+      : file_(path, {"frame", "time_s", "qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m", "alpha_deg", "beta_deg",
+                     "gamma_deg"}) {}
 
   void add(const std::string& number, const TofTruth& truth) {
     const Quaternion q = truth.T_camera_target.quaternion();
     const Vector3& t = truth.T_camera_target.t;
-    rows_->text(number).number(truth.time_s).number(q.w()).number(q.x()).number(q.y()).number(q.z());
-    rows_->number(t.x()).number(t.y()).number(t.z());
-    rows_->number(truth.angles.alpha_deg).number(truth.angles.beta_deg).number(truth.angles.gamma_deg);
-    rows_->end_row();
+    host::RowWriter& rows = file_.rows();
+    rows.text(number).number(truth.time_s).number(q.w()).number(q.x()).number(q.y()).number(q.z());
+    rows.number(t.x()).number(t.y()).number(t.z());
+    rows.number(truth.angles.alpha_deg).number(truth.angles.beta_deg).number(truth.angles.gamma_deg);
+    rows.end_row();
   }
-  void finish() { rows_->flush(); }
+  void finish() { file_.rows().flush(); }
 
  private:
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::unique_ptr<host::RowWriter> rows_;
+  TableFile file_;
 };
 
 }  // namespace

@@ -20,11 +20,7 @@ struct Options {
 int run(const Options& options) {
   require_writable(options.output.path);
   const std::vector<ComparisonRow> rows = reproduce_attitudes(options.seed);
-  if (options.markdown) {
-    write_markdown(rows, options.output.path);
-  } else {
-    write_rows(rows, options.output);
-  }
+  write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }
 

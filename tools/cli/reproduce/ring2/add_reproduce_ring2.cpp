@@ -27,11 +27,7 @@ int run(const Options& options) {
   require_writable(options.output.path);
   std::vector<ComparisonRow> rows = reproduce_ring2_sweeps(options.seed);
   for (const ComparisonRow& row : reproduce_ring2_noise(options.problems, options.seed)) rows.push_back(row);
-  if (options.markdown) {
-    write_markdown(rows, options.output.path);
-  } else {
-    write_rows(rows, options.output);
-  }
+  write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }
 

@@ -31,11 +31,7 @@ int run(Options options) {
   Progress progress("reproduce slam", "pairs", table_one_pairs(options.table));
   options.table.step = [&progress](std::size_t pairs) { progress.step(pairs); };
   const std::vector<ComparisonRow> rows = reproduce_table_one(options.table);
-  if (options.markdown) {
-    write_markdown(rows, options.output.path);
-  } else {
-    write_rows(rows, options.output);
-  }
+  write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }
 

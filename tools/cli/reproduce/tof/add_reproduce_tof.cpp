@@ -41,11 +41,7 @@ std::vector<ComparisonRow> rows_of(const Options& options) {
 int run(const Options& options) {
   require_writable(options.output.path);
   const std::vector<ComparisonRow> rows = rows_of(options);
-  if (options.markdown) {
-    write_markdown(rows, options.output.path);
-  } else {
-    write_rows(rows, options.output);
-  }
+  write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }
 
