@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/support/flag_text.hpp"
+#include "host/vision/ring2/rim.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::tools {
@@ -14,6 +15,8 @@ using ring2::CirclesEstimate;
 
 constexpr std::array<FlagWord, 3> kUntoldWords = {
     {{ring2::kUntoldScale, "scale"}, {ring2::kUntoldRing, "ring"}, {ring2::kUntoldNozzle, "nozzle"}}};
+
+constexpr std::array<FlagWord, 2> kOneEdgeWords = {{{host::kOneEdgeRing, "ring"}, {host::kOneEdgeNozzle, "nozzle"}}};
 
 const std::vector<std::string> kContract = {
     "theta_deg",     "gamma_deg",       "nx",         "ny",        "nz",    "cx_m", "cy_m", "cz_m",
@@ -31,7 +34,8 @@ const std::vector<std::string> kDetails = {"sigma_position_mm",
                                            "untold",
                                            "alt_theta_deg",
                                            "alt_gamma_deg",
-                                           "delta_chi2"};
+                                           "delta_chi2",
+                                           "one_edge"};
 
 void write_vector(const Vector3& vector, bool told, host::RowWriter& rows) {
   for (int axis = 0; axis < 3; ++axis) rows.number(told ? std::optional<double>(vector[axis]) : std::nullopt);
@@ -70,7 +74,7 @@ std::vector<std::string> circle_columns(bool with_problem) {
 
 std::string untold_words(std::uint8_t untold) { return host::joined_flags(untold, kUntoldWords); }
 
-void write_circles(const CirclesEstimate& e, bool by_paper, host::RowWriter& rows) {
+void write_circles(const CirclesEstimate& e, bool by_paper, std::uint8_t one_edge, host::RowWriter& rows) {
   const ring2::Attitude attitude = ring2::attitude_of(e.normal);
   const Told told(e.untold);
   const auto when = [](bool is_told, double value) { return is_told ? std::optional<double>(value) : std::nullopt; };
@@ -95,7 +99,7 @@ void write_circles(const CirclesEstimate& e, bool by_paper, host::RowWriter& row
   } else {
     rows.none(3);
   }
-  rows.end_row();
+  rows.text(host::joined_flags(one_edge, kOneEdgeWords)).end_row();
 }
 
 void write_refusal(const std::string& reason, host::RowWriter& rows) {

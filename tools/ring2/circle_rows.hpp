@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@ namespace pharos::tools {
 /// The columns of `pharos circles`; with `problem` where the input has one.
 std::vector<std::string> circle_columns(bool with_problem);
 
-/// One answer's row. `by_paper`: no covariance, so no sigmas.
-void write_circles(const ring2::CirclesEstimate& estimate, bool by_paper, host::RowWriter& rows);
+/// One answer's row. `by_paper`: no covariance, so no sigmas. `one_edge`: OneEdge bits, where images told.
+void write_circles(const ring2::CirclesEstimate& estimate, bool by_paper, std::uint8_t one_edge, host::RowWriter& rows);
 /// A refusal's row: everything empty but the status, refused_<reason>.
 void write_refusal(const std::string& reason, host::RowWriter& rows);
 

@@ -56,7 +56,7 @@ Solved solved(const ring2::Rig& rig, const ring2::ContourSet& contours, bool by_
 
 bool write(const Solved& estimate, bool by_paper, host::RowWriter& rows) {
   if (estimate) {
-    write_circles(*estimate, by_paper, rows);
+    write_circles(*estimate, by_paper, 0, rows);
   } else {
     write_refusal(name_of(estimate.error()), rows);
   }
@@ -101,7 +101,7 @@ bool from_images(const ring2::Rig& rig, const Options& options) {
     if (!estimate) circles.refusal = name_of(estimate.error());
   }
   if (circles.estimate) {
-    write_circles(*circles.estimate, by_paper, output.rows());
+    write_circles(*circles.estimate, by_paper, circles.one_edge, output.rows());
   } else {
     write_refusal(circles.refusal, output.rows());
   }

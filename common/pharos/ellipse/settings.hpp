@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 namespace pharos::ellipse {
 
 /// What is looked for. The defaults are for docking rings seen by a camera of 640x480; the README says what each rests
@@ -14,6 +16,9 @@ struct EllipseSettings {
   double min_score = 0.68;
   /// Edges that lie less closely on the contour are no ellipse's: a polygon's.
   double max_rms_px = 0.4;
+  /// Arcs of fewer edge points propose no ellipse; they support those that others propose. Of large ellipses among
+  /// foil, whose many short arcs cost the more the more pairs they make.
+  std::uint32_t min_seed_points = 12;
 };
 
 }  // namespace pharos::ellipse

@@ -8,6 +8,7 @@
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/circle_match.hpp"
 #include "host/vision/ring2/image_check.hpp"
+#include "host/vision/ring2/rim.hpp"
 #include "pharos/ellipse/detect.hpp"
 
 namespace pharos::host {
@@ -23,10 +24,9 @@ constexpr std::size_t kMostEllipses = 24;
 // A lone ellipse that is to be the fourth must not make the worst contour worse than this.
 constexpr double kMostRms_px = 0.5;
 
-std::vector<DetectedEllipse> detected(ImageView<const std::uint16_t> image, const ellipse::EllipseSettings& settings) {
-  std::vector<std::uint16_t> planes(ellipse::kPlanes * image.pixels());
-  const auto workspace = std::make_unique<ellipse::EllipseWorkspace>(std::span<std::uint16_t>(planes));
-  const std::span<const DetectedEllipse> found = ellipse::detect_ellipses(image, settings, *workspace);
+std::vector<DetectedEllipse> detected(ImageView<const std::uint16_t> image, const ellipse::EllipseSettings& settings,
+                                      ellipse::EllipseWorkspace& workspace) {
+  const std::span<const DetectedEllipse> found = ellipse::detect_ellipses(image, settings, workspace);
   std::vector<DetectedEllipse> ellipses(found.begin(), found.end());
   std::sort(ellipses.begin(), ellipses.end(),
             [](const auto& a, const auto& b) { return a.ellipse.a_px > b.ellipse.a_px; });
@@ -102,17 +102,44 @@ StereoCircles circles_among(const ring2::Rig& rig, const StereoSettings& setting
   const auto estimate = ring2::solve_circles(rig, answer.contours);
   if (estimate) {
     answer.estimate = *estimate;
+    answer.one_edge = settle_rims(rig, contours, *answer.estimate);
   } else {
     answer.refusal = name_of(estimate.error());
   }
   return answer;
 }
 
+// One image's search, with memory that lasts: making and clearing it would cost a tenth of the search.
+class StereoCircleFinder::View {
+ public:
+  explicit View(const PinholeCamera& optics)
+      : planes_(ellipse::kPlanes * static_cast<std::size_t>(optics.width_px) *
+                static_cast<std::size_t>(optics.height_px)),
+        workspace_(planes_) {}
+
+  void look(ImageView<const std::uint16_t> image, const ellipse::EllipseSettings& settings) {
+    fault = fault_of(image);
+    found.clear();
+    if (fault == ImageFault::kNone) found = detected(image, settings, workspace_);
+  }
+
+  ImageFault fault = ImageFault::kNone;
+  std::vector<DetectedEllipse> found;
+
+ private:
+  std::vector<std::uint16_t> planes_;
+  ellipse::EllipseWorkspace workspace_;
+};
+
+StereoCircleFinder::StereoCircleFinder(StereoCircleFinder&&) noexcept = default;
+StereoCircleFinder& StereoCircleFinder::operator=(StereoCircleFinder&&) noexcept = default;
+StereoCircleFinder::~StereoCircleFinder() = default;
+
 StereoCircleFinder::StereoCircleFinder(const ring2::Rig& rig, const StereoSettings& settings)
     : rig_(rig), settings_(settings) {
   switch (ring2::fault_of(rig)) {
     case ring2::RigFault::kNone:
-      return;
+      break;
     case ring2::RigFault::kOptics:
       throw InputError("the rig: a camera has no usable optics; calibrate it");
     case ring2::RigFault::kRotation:
@@ -120,6 +147,7 @@ StereoCircleFinder::StereoCircleFinder(const ring2::Rig& rig, const StereoSettin
     case ring2::RigFault::kCamerasCoincide:
       throw InputError("the rig: both cameras stand in one place; give each its position");
   }
+  for (std::size_t v = 0; v < ring2::kViews; ++v) views_[v] = std::make_unique<View>(rig.views[v].optics);
 }
 
 StereoCircles StereoCircleFinder::find(const StereoImages& images) {
@@ -131,18 +159,16 @@ StereoCircles StereoCircleFinder::find(const StereoImages& images) {
                      std::to_string(optics.width_px) + " x " + std::to_string(optics.height_px) +
                      "; give the rig file of these cameras");
   }
+  std::thread right([&] { views_[1]->look(images[1], settings_.ellipses); });
+  views_[0]->look(images[0], settings_.ellipses);
+  right.join();
   for (std::size_t v = 0; v < ring2::kViews; ++v) {
-    const ImageFault fault = fault_of(images[v]);
-    if (fault == ImageFault::kNone) continue;
+    if (views_[v]->fault == ImageFault::kNone) continue;
     StereoCircles answer;
-    answer.refusal = std::string(kViewNames[v]) + '_' + name_of(fault);
+    answer.refusal = std::string(kViewNames[v]) + '_' + name_of(views_[v]->fault);
     return answer;
   }
-  std::array<std::vector<DetectedEllipse>, ring2::kViews> found;
-  std::thread right([&] { found[1] = detected(images[1], settings_.ellipses); });
-  found[0] = detected(images[0], settings_.ellipses);
-  right.join();
-  return circles_among(rig_, settings_, std::move(found));
+  return circles_among(rig_, settings_, {std::move(views_[0]->found), std::move(views_[1]->found)});
 }
 
 }  // namespace pharos::host

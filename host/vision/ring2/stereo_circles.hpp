@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +16,7 @@ namespace pharos::host {
 
 /// What is looked for in a pair of images.
 struct StereoSettings {
-  ellipse::EllipseSettings ellipses{.min_minor_px = 12.0};
+  ellipse::EllipseSettings ellipses{.min_minor_px = 12.0, .min_seed_points = 25};
   /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
   double systematic_px = 0.03;
 };
@@ -24,6 +26,7 @@ using StereoImages = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
 /// A pair's answer: circles, or the word for why there are none.
 struct StereoCircles {
   std::optional<ring2::CirclesEstimate> estimate;
+  std::uint8_t one_edge = 0;  ///< OneEdge bits (rim.hpp): radii that may be those of an inner edge; their sigmas say so
   std::string refusal;  ///< left_black, right_saturated, left_no_ellipse, no_common_circle, left_right_exchanged, ...
   ring2::ContourSet contours;                                              ///< the ellipses that the answer rests on
   std::array<std::vector<ellipse::DetectedEllipse>, ring2::kViews> found;  ///< all that were detected
@@ -39,6 +42,9 @@ class StereoCircleFinder {
  public:
   /// Throws InputError for a rig that cannot measure.
   StereoCircleFinder(const ring2::Rig& rig, const StereoSettings& settings);
+  StereoCircleFinder(StereoCircleFinder&&) noexcept;
+  StereoCircleFinder& operator=(StereoCircleFinder&&) noexcept;
+  ~StereoCircleFinder();
 
   /// Throws InputError where an image has not its camera's size.
   StereoCircles find(const StereoImages& images);
@@ -48,6 +54,8 @@ class StereoCircleFinder {
  private:
   ring2::Rig rig_;
   StereoSettings settings_;
+  class View;
+  std::array<std::unique_ptr<View>, ring2::kViews> views_;
 };
 
 /// The same from ellipses that were detected elsewhere.

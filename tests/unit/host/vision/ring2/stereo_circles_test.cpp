@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "host/support/input_error.hpp"
+#include "host/vision/ring2/rim.hpp"
 #include "tests/unit/host/vision/ring2/rendered_pair.hpp"
 
 namespace pharos::host {
@@ -77,6 +78,51 @@ TEST_F(StereoCirclesTest, ANozzleHiddenFromOneCameraIsDoneWithout) {
   ASSERT_TRUE(three.estimate.has_value()) << three.refusal;
   EXPECT_EQ(three.estimate->ellipses, 3);
   EXPECT_LT(angle_deg(three.estimate->normal, scenario_->target_at(0).normal), 0.2);
+}
+
+// What is found, without ellipses of a ring so large (of the outer edge's, in either view).
+std::array<std::vector<ellipse::DetectedEllipse>, 2> without_ring_edges(const StereoCircles& all, double least,
+                                                                        double most, bool left, bool right) {
+  auto found = all.found;
+  for (std::size_t v = 0; v < 2; ++v) {
+    if (v == 0 ? !left : !right) continue;
+    const double outer_px = all.contours[v][0]->ellipse.a_px;
+    std::erase_if(found[v], [&](const ellipse::DetectedEllipse& e) {
+      return e.ellipse.a_px > least * outer_px && e.ellipse.a_px < most * outer_px;
+    });
+  }
+  return found;
+}
+
+TEST_F(StereoCirclesTest, TheRingsOuterEdgeInOneImageIsEnoughForItsRadius) {
+  const StereoCircles all = find(*images_);
+  ASSERT_TRUE(all.estimate.has_value());
+  EXPECT_EQ(all.one_edge & kOneEdgeRing, 0);
+  const double truth_m = scenario_->target_at(0).ring_radius_m;
+  for (const bool left : {true, false}) {
+    const StereoCircles circles =
+        circles_among(ring2::core_rig(scenario_->rig), {}, without_ring_edges(all, 0.98, 1.2, left, !left));
+    ASSERT_TRUE(circles.estimate.has_value()) << circles.refusal;
+    const double sigma_m = std::sqrt(circles.estimate->covariance(ring2::kRadius, ring2::kRadius));
+    EXPECT_NEAR(circles.estimate->ring_radius_m, truth_m, 0.003);
+    EXPECT_NEAR(circles.estimate->ring_radius_m, truth_m, 4.0 * sigma_m);
+    EXPECT_LT(sigma_m, 0.002);
+    EXPECT_EQ(circles.one_edge & kOneEdgeRing, 0);
+  }
+}
+
+TEST_F(StereoCirclesTest, ALoneInnerEdgeSaysHowLittleItTellsOfTheRadius) {
+  const StereoCircles all = find(*images_);
+  ASSERT_TRUE(all.estimate.has_value());
+  const double truth_m = scenario_->target_at(0).ring_radius_m;
+  const StereoCircles circles =
+      circles_among(ring2::core_rig(scenario_->rig), {}, without_ring_edges(all, 0.98, 1.2, true, true));
+  ASSERT_TRUE(circles.estimate.has_value()) << circles.refusal;
+  EXPECT_NE(circles.one_edge & kOneEdgeRing, 0);
+  const double error_m = std::abs(circles.estimate->ring_radius_m - truth_m);
+  EXPECT_GT(error_m, 0.02);
+  EXPECT_LT(error_m, 2.0 * std::sqrt(circles.estimate->covariance(ring2::kRadius, ring2::kRadius)));
+  EXPECT_LT(angle_deg(circles.estimate->normal, scenario_->target_at(0).normal), 0.2);
 }
 
 TEST_F(StereoCirclesTest, AnotherCamerasImageAndABadRigAreUsageErrors) {
