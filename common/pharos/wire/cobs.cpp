@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/wire/cobs.hpp"
 
+#include <algorithm>
+
 namespace pharos::wire {
 namespace {
 
@@ -8,43 +10,41 @@ constexpr std::uint8_t kFullBlock = 0xFF;  // 254 plain bytes and no zero after 
 
 }  // namespace
 
-CobsWriter::CobsWriter(std::span<std::uint8_t> out) : out_(out) { open_block(); }
+CobsWriter::CobsWriter(std::span<std::uint8_t> out) : out_(out), size_(1), overflow_(out.empty()) {}
 
-void CobsWriter::open_block() {
-  code_at_ = size_;
-  code_ = 1;
-  if (size_ == out_.size()) {
-    overflow_ = true;
-  } else {
-    ++size_;
-  }
-}
-
-void CobsWriter::put(std::uint8_t byte) {
-  // A full block is closed only when something follows it: at the very end it stands without a successor.
-  if (code_ == kFullBlock && !overflow_) {
-    out_[code_at_] = code_;
-    open_block();
-  }
-  if (overflow_) return;
-  if (byte == 0) {
-    out_[code_at_] = code_;
-    open_block();
-  } else if (size_ == out_.size()) {
-    overflow_ = true;
-  } else {
-    out_[size_++] = byte;
-    ++code_;
-  }
-}
-
+// Every byte of a line comes by here: what changes with it stays in registers.
 void CobsWriter::put(std::span<const std::uint8_t> bytes) {
-  for (const std::uint8_t byte : bytes) put(byte);
+  if (overflow_) return;
+  std::uint8_t* const out = out_.data();
+  std::size_t block = block_;
+  std::size_t size = size_;
+  std::size_t stop = end_of_block(block);
+  for (const std::uint8_t byte : bytes) {
+    // A full block is closed only when something follows it: at the very end it stands without a successor.
+    while (size == stop) {
+      if (size - block != kFullBlock || size == out_.size()) {
+        overflow_ = true;
+        return;
+      }
+      out[block] = kFullBlock;
+      block = size++;
+      stop = end_of_block(block);
+    }
+    if (byte != 0) {
+      out[size++] = byte;
+    } else {
+      out[block] = static_cast<std::uint8_t>(size - block);
+      block = size++;
+      stop = end_of_block(block);
+    }
+  }
+  block_ = block;
+  size_ = size;
 }
 
 std::size_t CobsWriter::finish() {
   if (overflow_) return 0;
-  out_[code_at_] = code_;
+  out_[block_] = static_cast<std::uint8_t>(size_ - block_);
   return size_;
 }
 

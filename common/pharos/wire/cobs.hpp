@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,19 +15,18 @@ namespace pharos::wire {
 class CobsWriter {
  public:
   explicit CobsWriter(std::span<std::uint8_t> out);
-  void put(std::uint8_t byte);
   void put(std::span<const std::uint8_t> bytes);
   /// Closes the last block. Stuffed bytes written, or 0 when they did not fit.
   std::size_t finish();
 
  private:
-  void open_block();
+  /// Where a block that begins there is full, or the room is at its end.
+  std::size_t end_of_block(std::size_t block) const { return std::min(block + 255, out_.size()); }
 
   std::span<std::uint8_t> out_;
-  std::size_t size_ = 0;
-  std::size_t code_at_ = 0;
-  std::uint8_t code_ = 1;
-  bool overflow_ = false;
+  std::size_t block_ = 0;  // where the open block begins: with its length
+  std::size_t size_;
+  bool overflow_;
 };
 
 /// Removes the stuffing in place. Plain bytes, at the front of `bytes`; empty when the stuffing is broken (a zero
