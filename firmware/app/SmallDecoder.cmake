@@ -5,8 +5,8 @@
 set(core ${PROJECT_SOURCE_DIR}/common/pharos)
 set(sources commands.cpp program.cpp main_decoder.cpp)
 list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
-foreach(part decoder edge_pairing event_order flash_grouping ootx_frames rotor_clock slot_search slot_tracker sweep_collector
-    time_base)
+foreach(part edge_pairing flash_grouping light_decoder ootx_frames rotor_clock slot_search slot_tracker sorted_decoder
+    sweep_collector time_base)
   list(APPEND sources ${core}/lighthouse/${part}.cpp)
 endforeach()
 foreach(part cobs command_message counters_message crc32 frame_decoder frame_encoder hello_message ootx_message
@@ -15,7 +15,12 @@ foreach(part cobs command_message counters_message crc32 frame_decoder frame_enc
 endforeach()
 list(APPEND sources ${core}/report/convert.cpp ${core}/report/reporter.cpp)
 
-set(hot_sources decoder.cpp edge_pairing.cpp event_order.cpp)
+set(hot_sources ${CMAKE_CURRENT_LIST_DIR}/program.cpp)
+foreach(part lighthouse/edge_pairing lighthouse/flash_grouping lighthouse/light_decoder lighthouse/rotor_clock lighthouse/slot_tracker
+    lighthouse/sorted_decoder lighthouse/sweep_collector wire/cobs wire/crc32 wire/frame_encoder wire/sweep_message
+    report/convert report/reporter)
+  list(APPEND hot_sources ${core}/${part}.cpp)
+endforeach()
 foreach(library pharos_small_decoder pharos_small_decoder_32)
   add_library(${library} OBJECT ${sources})
   target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/common)
@@ -24,5 +29,4 @@ foreach(library pharos_small_decoder pharos_small_decoder_32)
   target_compile_definitions(${library} PRIVATE ${PHAROS_VERSION_DEFINITIONS})
 endforeach()
 target_compile_definitions(pharos_small_decoder PRIVATE PHAROS_MAX_SENSORS=12)
-list(TRANSFORM hot_sources PREPEND ${core}/lighthouse/)
 set_source_files_properties(${hot_sources} PROPERTIES COMPILE_OPTIONS -O2)

@@ -78,7 +78,11 @@ bool Program::capture() {
 
 void Program::take(const lighthouse::Edge& edge) {
   decoder_.push(edge);
-  if (!has_mode(wire::kModeRawEdges) || hold(edge)) return;
+  if (has_mode(wire::kModeRawEdges)) report_raw(edge);
+}
+
+[[gnu::noinline]] void Program::report_raw(lighthouse::Edge edge) {
+  if (hold(edge)) return;
   // The frame is full. It goes as soon as the line is free; until then edges find no room.
   if (line_.free()) {
     flushed_ticks_ = now_ticks_;

@@ -9,7 +9,7 @@
 #include "firmware/app/pose_desk.hpp"
 #include "firmware/app/schedule.hpp"
 #include "firmware/hal/board.hpp"
-#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/lighthouse/sorted_decoder.hpp"
 #include "pharos/report/reporter.hpp"
 
 namespace pharos::app {
@@ -31,6 +31,7 @@ class Program {
   bool receive();
   bool capture();
   void take(const lighthouse::Edge& edge);
+  void report_raw(lighthouse::Edge edge);
   bool hold(const lighthouse::Edge& edge);
   bool send();
   report::Reporter::Bytes next_frame();
@@ -46,7 +47,7 @@ class Program {
 
   hal::Board board_;
   PoseDesk* desk_;
-  lighthouse::Decoder decoder_;
+  lighthouse::SortedDecoder decoder_;
   report::Reporter reporter_;
   Commands commands_;
   EdgeStream edges_;

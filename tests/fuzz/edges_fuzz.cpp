@@ -9,6 +9,7 @@
 
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/decoder.hpp"
+#include "pharos/lighthouse/sorted_decoder.hpp"
 #include "pharos/report/convert.hpp"
 #include "pharos/wire/codec.hpp"
 #include "pharos/wire/frame.hpp"
@@ -41,9 +42,10 @@ class Bytes {
 };
 
 /// Takes what the decoder gives and checks it by itself.
+template <class AnyDecoder>
 class Watched {
  public:
-  Decoder decoder;
+  AnyDecoder decoder;
 
   void take() {
     while (const auto sweep = decoder.take_sweep()) check(*sweep);
@@ -92,9 +94,15 @@ SyntheticLight light_at(std::int64_t ticks, bool lone) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes in(data, size);
-  Watched watched;
+  Watched<Decoder> watched;
+  Watched<SortedDecoder> promised;  // the same edges, which break what it was promised of their order
   Decoder& decoder = watched.decoder;
   const bool edges_only = (in.byte() & 1U) != 0;
+  const auto push_edge = [&](const Edge& edge) {
+    decoder.push(edge);
+    promised.decoder.push(edge);
+    promised.take();
+  };
   std::int64_t now = 50'000'000;
   std::size_t lights = 0;
   while (!in.empty()) {
@@ -106,7 +114,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         now += in.number(2);
         const std::int64_t width = in.number(2) / 6 - 16;
         if (edges_only) {
-          decoder.push(Edge{now, sensor, (width & 1) != 0});
+          push_edge(Edge{now, sensor, (width & 1) != 0});
         } else {
           decoder.push(RawPulse{now, now + width, sensor});
         }
@@ -116,14 +124,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         now += in.number(2);
         const std::int64_t width = 2'600 + in.number(2) % 4'600;
         for (std::uint8_t i = 0; i < 4; ++i) {
-          decoder.push(Edge{now, i, true});
-          decoder.push(Edge{now + width, i, false});
+          push_edge(Edge{now, i, true});
+          push_edge(Edge{now + width, i, false});
         }
         break;
       }
       case 3:  // somewhere else in time: stale, future
         if (edges_only) {
-          decoder.push(Edge{now + (in.number(5) - (std::int64_t{1} << 39)), sensor, (what & 8U) != 0});
+          push_edge(Edge{now + (in.number(5) - (std::int64_t{1} << 39)), sensor, (what & 8U) != 0});
         } else {
           const std::int64_t rise = now + (in.number(5) - (std::int64_t{1} << 39));
           decoder.push(RawPulse{rise, rise + 3'200, sensor});
@@ -131,7 +139,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 4:  // numbers without any sense
         if (edges_only) {
-          decoder.push(Edge{in.number(8), sensor, (what & 8U) != 0});
+          push_edge(Edge{in.number(8), sensor, (what & 8U) != 0});
         } else {
           const std::int64_t rise = in.number(8);
           decoder.push(RawPulse{rise, in.number(8), sensor});
@@ -141,8 +149,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (++lights > 8) break;
         for (const RawPulse& pulse : light_at(now, (what & 8U) != 0).slots(0, 8 + sensor % 16)) {
           if (edges_only) {
-            decoder.push(Edge{pulse.rise_ticks, pulse.sensor, true});
-            decoder.push(Edge{pulse.fall_ticks, pulse.sensor, false});
+            push_edge(Edge{pulse.rise_ticks, pulse.sensor, true});
+            push_edge(Edge{pulse.fall_ticks, pulse.sensor, false});
           } else {
             decoder.push(pulse);
           }
@@ -151,6 +159,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         break;
       case 6:  // the clock
+        promised.decoder.advance(now);
         decoder.advance(now + in.number(3));
         break;
       default:  // a pause
@@ -164,8 +173,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const SyntheticLight light = light_at(now, false);
   for (const RawPulse& pulse : light.slots(0, 40)) {
     if (edges_only) {
-      decoder.push(Edge{pulse.rise_ticks, pulse.sensor, true});
-      decoder.push(Edge{pulse.fall_ticks, pulse.sensor, false});
+      push_edge(Edge{pulse.rise_ticks, pulse.sensor, true});
+      push_edge(Edge{pulse.fall_ticks, pulse.sensor, false});
     } else {
       decoder.push(pulse);
     }
@@ -176,6 +185,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const DecoderCounters& counters = decoder.counters();
   require(counters.pulses_in == pulses_accounted(counters));
   if (edges_only) require(counters.edges_in == edges_accounted(counters));
+  promised.decoder.flush();
+  promised.take();
+  const DecoderCounters& told = promised.decoder.counters();
+  require(told.edges_in == edges_accounted(told) && told.pulses_in == pulses_accounted(told));
   // Twelve flashes are six slots. What came before may move the time base while the light is on: half a slot of room.
   constexpr std::int64_t kHalfSlot_ticks = 208'333;
   require(watched.lit_since(light.flash(0, 6).start_ticks + decoder.time_offset_ticks() - kHalfSlot_ticks) >= 34);

@@ -11,10 +11,6 @@ namespace {
 /// A pulse that falls this long before the newest stamp has no elder still to come.
 constexpr std::int64_t kHoldTicks = TimeBase::kMaxBehindTicks;
 
-LightEvent event_of(const Edge& edge) {
-  return {edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall};
-}
-
 }  // namespace
 
 void Decoder::push(const Edge& edge) {
@@ -82,13 +78,6 @@ void Decoder::judge(LightEvent event) {
   count_given_up(given_up);
 }
 
-void Decoder::count_given_up(const TimeBase::GivenUp& given_up) {
-  counters_.pulses_late += given_up.late_pulses;
-  counters_.pulses_off_time += given_up.off_time_pulses;
-  counters_.edges_late += given_up.late_edges;
-  counters_.edges_off_time += given_up.off_time_edges;
-}
-
 void Decoder::time_moved(std::int64_t newest_before) {
   ++counters_.time_base_changes;
   const std::int64_t newest = time_base_.newest_ticks();
@@ -144,74 +133,9 @@ void Decoder::refresh_quiet() {
 // All that is of `until_stamp` or before, but for the last `keep` of the order.
 void Decoder::give_out(std::uint32_t until_stamp, std::size_t keep) {
   while (order_.size() > keep && order_.oldest_is_by(until_stamp)) {
-    const LightEvent event = order_.pop();
-    if (event.kind == LightEvent::Kind::kPulse) {
-      handle(Pulse{event.stamp_ticks - event.width_ticks, event.width_ticks, event.sensor}, event.stamp_ticks);
-    } else if (const auto pulse = pairing_.push(event, counters_)) {
-      handle(*pulse, event.stamp_ticks);
-    }
+    take(order_.pop());
   }
 }
-
-inline void Decoder::handle(const Pulse& pulse, std::int64_t fall_ticks) {
-  if (pulse.width_ticks < kShortestPulseTicks) {
-    ++counters_.pulses_glitch;
-    return;
-  }
-  if (fall_ticks > deadline_ticks_) pass_time(fall_ticks);
-  std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
-  // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
-  const auto overlap = static_cast<std::uint64_t>(last_fall - pulse.rise_ticks);
-  if (overlap - 1 < kLongestPulseTicks) {
-    ++counters_.pulses_doubled;
-    return;
-  }
-  last_fall = fall_ticks;
-  if (pulse.width_ticks < kShortestFlashPulseTicks) {
-    collector_.push(pulse, counters_);
-  } else if (!grouping_.join(pulse)) {
-    handle_long(pulse);
-  }
-}
-
-void Decoder::handle_long(const Pulse& pulse) {
-  while (!grouping_.open(pulse)) {
-    close(grouping_.first_to_close());
-    if (grouping_.join(pulse)) break;
-  }
-  refresh_deadline();
-}
-
-void Decoder::pass_time(std::int64_t now_ticks) {
-  while (now_ticks > grouping_.deadline_ticks()) close(grouping_.first_to_close());
-  if (now_ticks > collector_.deadline_ticks()) collector_.pass_time(now_ticks, counters_);
-  refresh_deadline();
-}
-
-void Decoder::refresh_deadline() {
-  deadline_ticks_ = std::min(grouping_.deadline_ticks(), collector_.deadline_ticks());
-}
-
-void Decoder::close(FlashGroup& group) {
-  const FlashCandidate candidate = candidate_of(group);
-  if (candidate.length_ticks < kShortestFlashTicks) {
-    for (std::size_t k = 0; k < group.size(); ++k) collector_.push(group[k], counters_);
-  } else {
-    const auto flash = tracker_.push(candidate, counters_);
-    (flash ? counters_.pulses_in_flashes : counters_.pulses_flash_length) += candidate.sensors;
-    if (flash) handle(*flash);
-  }
-  grouping_.close(group);
-}
-
-void Decoder::handle(const TrackedFlash& flash) {
-  collector_.push(flash, counters_);
-  const std::uint8_t station = flash.flash.station;
-  const auto bytes = ootx_[station].push(flash.flash.data, flash.follows_last, counters_);
-  if (bytes && !payloads_.push({flash.flash.start_ticks, station, *bytes})) ++counters_.outputs_overflow;
-}
-
-std::int64_t Decoder::decoded_ticks() const { return tracker_.last_flash_ticks(); }
 
 void Decoder::advance(std::int64_t now_ticks) {
   time_base_.advance(now_ticks);
@@ -224,22 +148,7 @@ void Decoder::flush() {
   if (time_base_.end(given_up) == TimeBase::Verdict::kMoved) time_moved(newest_before);
   count_given_up(given_up);
   give_out(order_.newest_stamp(), 0);
-  pairing_.end(counters_);
-  pass_time(INT64_MAX - 1);
-  collector_.finish_all(counters_);
-  refresh_deadline();
-}
-
-std::optional<Sweep> Decoder::take_sweep() {
-  if (!collector_.has_finished()) return std::nullopt;
-  std::optional<Sweep> sweep(collector_.finished());
-  collector_.drop_finished();
-  return sweep;
-}
-
-std::optional<OotxPayload> Decoder::take_ootx() {
-  if (payloads_.empty()) return std::nullopt;
-  return payloads_.pop();
+  finish();
 }
 
 }  // namespace pharos::lighthouse

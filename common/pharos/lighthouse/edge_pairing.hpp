@@ -3,13 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "pharos/base/capacity.hpp"
 #include "pharos/lighthouse/decoder_counters.hpp"
-#include "pharos/lighthouse/light_event.hpp"
 #include "pharos/lighthouse/optical_timing.hpp"
-#include "pharos/lighthouse/pulse.hpp"
 
 namespace pharos::lighthouse {
 
@@ -19,28 +16,27 @@ namespace pharos::lighthouse {
 /// the second is dropped. A fall later than the longest credible pulse: both are dropped, the pulse never ended.
 class EdgePairing {
  public:
-  std::optional<Pulse> push(const LightEvent& edge, DecoderCounters& counters) {
-    const std::uint32_t bit = std::uint32_t{1} << edge.sensor;
-    const bool high = (high_ & bit) != 0;
-    std::int64_t& rise = rise_ticks_[edge.sensor];
-    if (edge.kind == LightEvent::Kind::kRise) {
-      if (high) count_missing_fall(edge.stamp_ticks - rise, counters);
-      high_ |= bit;
-      rise = edge.stamp_ticks;
-      return std::nullopt;
-    }
-    if (!high) {
+  void rise(std::uint8_t sensor, std::int64_t stamp_ticks, DecoderCounters& counters) {
+    const std::uint32_t bit = std::uint32_t{1} << sensor;
+    if ((high_ & bit) != 0) count_missing_fall(stamp_ticks - rise_ticks_[sensor], counters);
+    high_ |= bit;
+    rise_ticks_[sensor] = stamp_ticks;
+  }
+  /// Length of the pulse that ends; negative where none does.
+  std::int32_t fall(std::uint8_t sensor, std::int64_t stamp_ticks, DecoderCounters& counters) {
+    const std::uint32_t bit = std::uint32_t{1} << sensor;
+    if ((high_ & bit) == 0) {
       ++counters.edges_doubled;
-      return std::nullopt;
+      return -1;
     }
     high_ ^= bit;
-    const auto width = static_cast<std::uint64_t>(edge.stamp_ticks - rise);
+    const auto width = static_cast<std::uint64_t>(stamp_ticks - rise_ticks_[sensor]);
     if (width > kLongestPulseTicks) {  // or negative
       counters.edges_never_ended += 2;
-      return std::nullopt;
+      return -1;
     }
     ++counters.pulses_in;
-    return Pulse{rise, static_cast<std::int32_t>(width), edge.sensor};
+    return static_cast<std::int32_t>(width);
   }
   /// End of the input: edges that still wait for their partner never ended.
   void end(DecoderCounters& counters);

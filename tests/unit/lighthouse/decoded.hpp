@@ -13,8 +13,9 @@
 namespace pharos::test {
 
 /// A decoder with everything that it gave out so far.
-struct Decoded {
-  lighthouse::Decoder decoder;
+template <class AnyDecoder>
+struct DecodedBy {
+  AnyDecoder decoder;
   std::vector<lighthouse::Sweep> sweeps;  // lit and dark
   std::vector<lighthouse::OotxPayload> payloads;
 
@@ -46,6 +47,8 @@ struct Decoded {
     return count;
   }
 };
+
+using Decoded = DecodedBy<lighthouse::Decoder>;
 
 /// Checks every sweep against the light that it came from: no sweep that was not there, none wrong in any bit, hits
 /// where they belong to the tick. `offset_ticks` is what the decoder had to add to time. Returns the number of lit

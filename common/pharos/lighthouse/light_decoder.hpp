@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "pharos/base/ring.hpp"
+#include "pharos/lighthouse/decoder_counters.hpp"
+#include "pharos/lighthouse/edge_pairing.hpp"
+#include "pharos/lighthouse/flash_grouping.hpp"
+#include "pharos/lighthouse/light_event.hpp"
+#include "pharos/lighthouse/ootx_frames.hpp"
+#include "pharos/lighthouse/ootx_payload.hpp"
+#include "pharos/lighthouse/pulse.hpp"
+#include "pharos/lighthouse/slot_tracker.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/lighthouse/sweep_collector.hpp"
+#include "pharos/lighthouse/time_base.hpp"
+
+namespace pharos::lighthouse {
+
+/// Light in the order of time -> sweeps and OOTX payloads: all of a decoder but its front door, which Decoder (input
+/// nearly in order) and SortedDecoder (in order) put before it. Integer arithmetic only.
+///
+/// Take sweeps and payloads after every push; at most SweepCollector::kHeld sweeps and two payloads wait.
+/// A sweep comes out with the first pulse of its station's next flash, or as soon as the clock says that its window has
+/// passed. Lock needs 7 to 12 flashes.
+class LightDecoder {
+ public:
+  /// The oldest sweep that waits, null when none does. It stands until drop_sweep(): half a kilobyte need not be
+  /// copied.
+  const Sweep* next_sweep() const { return collector_.has_finished() ? &collector_.finished() : nullptr; }
+  void drop_sweep() { collector_.drop_finished(); }
+  const OotxPayload* next_ootx() const { return payloads_.empty() ? nullptr : &payloads_.front(); }
+  void drop_ootx() { payloads_.drop(); }
+  /// The same for a caller that wants copies.
+  std::optional<Sweep> take_sweep();
+  std::optional<OotxPayload> take_ootx();
+  const DecoderCounters& counters() const { return counters_; }
+  LockState lock() const { return tracker_.lock(time_base_.newest_ticks()); }
+  std::int64_t time_offset_ticks() const { return time_base_.offset_ticks(); }
+
+ protected:
+  LightDecoder() = default;
+  ~LightDecoder() = default;
+
+  /// An edge or a pulse on the time base, none before it.
+  void take(const LightEvent& event) {
+    if (event.kind == LightEvent::Kind::kRise) return rise(event.sensor, event.stamp_ticks);
+    if (event.kind == LightEvent::Kind::kFall) return fall(event.sensor, event.stamp_ticks);
+    handle(Pulse{event.stamp_ticks - event.width_ticks, event.width_ticks, event.sensor}, event.stamp_ticks);
+  }
+  void rise(std::uint8_t sensor, std::int64_t stamp_ticks) { pairing_.rise(sensor, stamp_ticks, counters_); }
+  void fall(std::uint8_t sensor, std::int64_t stamp_ticks) {
+    const std::int32_t width_ticks = pairing_.fall(sensor, stamp_ticks, counters_);
+    if (width_ticks >= 0) handle(Pulse{stamp_ticks - width_ticks, width_ticks, sensor}, stamp_ticks);
+  }
+  /// Nothing of `now_ticks` or before will come any more.
+  void pass_time(std::int64_t now_ticks);
+  /// The input is at its end: what waits for more is given out.
+  void finish();
+  void count_given_up(const TimeBase::GivenUp& given_up);
+  std::int64_t decoded_ticks() const { return tracker_.last_flash_ticks(); }
+
+  static LightEvent event_of(const Edge& edge) {
+    return {edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall};
+  }
+
+  // Small things that every edge touches first: a load reaches 2 KiB from the object's start.
+  DecoderCounters counters_;
+  /// When the next thing is to be done but for new light: the earliest deadline of grouping and collector.
+  std::int64_t deadline_ticks_ = INT64_MAX;
+  TimeBase time_base_;
+
+ private:
+  static constexpr std::size_t kHeldPayloads = 2;
+  static constexpr std::int64_t kNever = INT64_MIN / 2;
+  static constexpr std::array<std::int64_t, kMaxSensors> filled_with_never() {
+    std::array<std::int64_t, kMaxSensors> times{};
+    times.fill(kNever);
+    return times;
+  }
+
+  void handle(const Pulse& pulse, std::int64_t fall_ticks) {
+    if (pulse.width_ticks < kShortestPulseTicks) {
+      ++counters_.pulses_glitch;
+      return;
+    }
+    if (fall_ticks > deadline_ticks_) pass_time(fall_ticks);
+    std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
+    // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
+    const auto overlap = static_cast<std::uint64_t>(last_fall - pulse.rise_ticks);
+    if (overlap - 1 < kLongestPulseTicks) {
+      ++counters_.pulses_doubled;
+      return;
+    }
+    last_fall = fall_ticks;
+    if (pulse.width_ticks < kShortestFlashPulseTicks) {
+      collector_.push(pulse, counters_);
+    } else if (!grouping_.join(pulse)) {
+      handle_long(pulse.rise_ticks, pulse.width_ticks, pulse.sensor);
+    }
+  }
+  void handle_long(std::int64_t rise_ticks, std::int32_t width_ticks, std::uint8_t sensor);
+  void refresh_deadline();
+  void close(FlashGroup& group);
+  void handle(const TrackedFlash& flash);
+
+  FlashGrouping grouping_;
+  EdgePairing pairing_;
+  std::array<std::int64_t, kMaxSensors> last_fall_ticks_ = filled_with_never();
+  SlotTracker tracker_;
+  SweepCollector collector_;
+  std::array<OotxFrames, kMaxStations> ootx_;
+  Ring<OotxPayload, kHeldPayloads> payloads_;
+};
+
+}  // namespace pharos::lighthouse

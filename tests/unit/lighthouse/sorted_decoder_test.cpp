@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/lighthouse/sorted_decoder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "unit/lighthouse/decoded.hpp"
+
+namespace pharos::lighthouse {
+namespace {
+
+using test::SyntheticLight;
+
+constexpr std::int64_t kSlot_ticks = 416'667;
+
+// Two stations with what real light has: pulses missing, glitches, reflections, edges whose partner was lost.
+std::vector<Edge> faulty_edges(double begin_s, std::int64_t slots, unsigned seed) {
+  SyntheticLight::Settings settings;
+  settings.begin_s = begin_s;
+  std::mt19937 dice(seed);
+  const auto one_in = [&](unsigned n) { return dice() % n == 0; };
+  std::vector<Edge> edges;
+  for (const RawPulse& pulse : SyntheticLight(settings).slots(0, slots)) {
+    if (!one_in(60)) edges.push_back({pulse.rise_ticks, pulse.sensor, true});
+    if (!one_in(60)) edges.push_back({pulse.fall_ticks, pulse.sensor, false});
+    if (one_in(30)) {
+      const auto width = static_cast<std::int64_t>(dice() % 900);
+      edges.push_back({pulse.fall_ticks + 500, pulse.sensor, true});
+      edges.push_back({pulse.fall_ticks + 500 + width, pulse.sensor, false});
+    }
+    if (one_in(200)) edges.push_back({pulse.rise_ticks, 77, true});
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](auto& a, auto& b) { return a.stamp_ticks < b.stamp_ticks; });
+  return edges;
+}
+
+void expect_equal(const Sweep& a, const Sweep& b) {
+  EXPECT_EQ(a.flash.start_ticks, b.flash.start_ticks);
+  EXPECT_EQ(a.flash.length_ticks, b.flash.length_ticks);
+  EXPECT_EQ(a.flash.station, b.flash.station);
+  EXPECT_EQ(a.flash.axis, b.flash.axis);
+  EXPECT_EQ(a.flash.data, b.flash.data);
+  EXPECT_EQ(a.flash.skip, b.flash.skip);
+  EXPECT_EQ(a.flash.sensors, b.flash.sensors);
+  EXPECT_EQ(a.period_sixteenth_ticks, b.period_sixteenth_ticks);
+  EXPECT_EQ(a.flags, b.flags);
+  ASSERT_EQ(a.hits.size(), b.hits.size());
+  for (std::size_t k = 0; k < a.hits.size(); ++k) {
+    EXPECT_EQ(a.hits[k].sensor, b.hits[k].sensor);
+    EXPECT_EQ(a.hits[k].width_ticks, b.hits[k].width_ticks);
+    EXPECT_EQ(a.hits[k].centre_half_ticks, b.hits[k].centre_half_ticks);
+  }
+}
+
+void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t least_sweeps) {
+  test::DecodedBy<SortedDecoder> sorted;
+  test::Decoded reference;
+  sorted.push(edges);
+  sorted.flush();
+  reference.push(edges);
+  reference.flush();
+  ASSERT_GE(reference.sweeps.size(), least_sweeps);
+  ASSERT_EQ(sorted.sweeps.size(), reference.sweeps.size());
+  for (std::size_t k = 0; k < sorted.sweeps.size(); ++k) expect_equal(sorted.sweeps[k], reference.sweeps[k]);
+  std::vector<std::uint32_t> told;
+  for_each_counter(reference.counters(), [&](auto, std::uint32_t value, auto) { told.push_back(value); });
+  for_each_counter(sorted.counters(), [&, k = std::size_t{0}](const char* name, std::uint32_t value, auto) mutable {
+    EXPECT_EQ(value, told[k++]) << name;
+  });
+  EXPECT_EQ(sorted.counters().edges_in, edges_accounted(sorted.counters()));
+  test::expect_balance(sorted.counters());
+}
+
+TEST(SortedDecoder, GivesWhatDecoderGivesOfFaultyLight) {
+  for (unsigned seed = 1; seed <= 8; ++seed) expect_what_decoder_gives(faulty_edges(1.0, 400, seed), 600);
+}
+
+TEST(SortedDecoder, FollowsTimeOverADarkAndAStepBackAsDecoderDoes) {
+  std::vector<Edge> edges = faulty_edges(1.0, 120, 1);
+  for (const double begin_s : {3.0, 90.0, 20.0}) {  // a dark, a longer one, a target that restarted
+    const std::vector<Edge> more = faulty_edges(begin_s, 120, static_cast<unsigned>(begin_s));
+    edges.insert(edges.end(), more.begin(), more.end());
+  }
+  expect_what_decoder_gives(edges, 600);
+}
+
+TEST(SortedDecoder, GivesASweepAsSoonAsTheClockSaysThatItsWindowHasPassed) {
+  SortedDecoder decoder;
+  const auto edges = faulty_edges(1.0, 40, 3);
+  for (const Edge& edge : edges) {
+    decoder.push(edge);
+    while (decoder.next_sweep() != nullptr) decoder.drop_sweep();
+  }
+  decoder.advance(edges.back().stamp_ticks + 2 * kSlot_ticks);
+  EXPECT_NE(decoder.next_sweep(), nullptr);
+}
+
+TEST(SortedDecoder, OneEdgeOutOfOrderCostsItsPulseOnly) {
+  std::vector<Edge> edges = faulty_edges(1.0, 200, 5);
+  test::DecodedBy<SortedDecoder> in_order, out_of_order;
+  in_order.push(edges);
+  in_order.flush();
+  std::swap(edges[edges.size() / 2], edges[edges.size() / 2 + 1]);
+  out_of_order.push(edges);
+  out_of_order.flush();
+  EXPECT_EQ(out_of_order.sweeps.size(), in_order.sweeps.size());
+  EXPECT_EQ(out_of_order.counters().edges_in, edges_accounted(out_of_order.counters()));
+  EXPECT_LE(in_order.counters().pulses_in - out_of_order.counters().pulses_in, 2U);
+  test::expect_balance(out_of_order.counters());
+}
+
+}  // namespace
+}  // namespace pharos::lighthouse
