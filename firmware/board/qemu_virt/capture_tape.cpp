@@ -2,6 +2,8 @@
 #include "firmware/board/qemu_virt/capture_tape.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 
 #include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/processor.hpp"
@@ -14,49 +16,37 @@ namespace {
 constexpr std::uint32_t kSpeed = 0xFFFFFFFE;
 constexpr std::uint32_t kEnd = 0xFFFFFFFF;
 
-std::uint32_t word(const std::array<std::uint8_t, 16>& bytes, std::size_t index) {
-  const std::uint8_t* at = &bytes[4 * index];
-  return std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
-}
-
 }  // namespace
 
 void CaptureTape::start() {
   if (!console_.start()) return;
   while (!held_ && now_ticks_ == 0 && !ended_) {
-    if (next()) continue;
+    if (const Aside aside(*this); take_words(aside.begin() - instructions_)) continue;
     set_timer(machine_ticks() + kTicksPerSecond / 1000);
     wait_for_interrupt();
   }
 }
 
-CaptureTape::Aside::Aside(CaptureTape& tape) : tape_(tape), begin_(instructions_retired_low()) {}
-CaptureTape::Aside::~Aside() { tape_.instructions_ += instructions_retired_low() - begin_; }
-
-bool CaptureTape::next() {
-  const Aside aside(*this);
-  return take_words(aside.begin() - instructions_);
-}
-
 // Has the next words, if they have come whole. True when it does.
 bool CaptureTape::fetch() {
-  while (count_ < bytes_.size()) {
-    const auto come = console_.read(bytes_.size() - count_);
+  const auto bytes = std::as_writable_bytes(std::span(words_));
+  while (count_ < bytes.size()) {
+    const auto come = console_.read(bytes.size() - count_);
     waiting_ = come.empty();
     if (waiting_) return false;
-    for (const volatile std::uint8_t& byte : come) bytes_[count_++] = byte;
-    if (count_ < bytes_.size()) continue;
-    const std::uint32_t status = word(bytes_, 0);
+    for (const volatile std::uint8_t& byte : come) bytes[count_++] = std::byte{byte};
+    if (count_ < bytes.size()) continue;
+    const std::uint32_t status = words_[0];
     if (status == kSpeed) {
-      speed_ = word(bytes_, 1);
+      speed_ = words_[1];
       millisecond_ = kTicksPerSecond / 1000 * 1024 / speed_;
       count_ = 0;
     } else if (status == kEnd) {
       due_ticks_ = now_ticks_;
     } else if ((status & PHAROS_CAPTURE_STATUS_COUNT_MASK) != 0) {
-      due_ticks_ = now_ticks_ + ticks_difference(word(bytes_, 1), static_cast<std::uint32_t>(now_ticks_));
+      due_ticks_ = now_ticks_ + ticks_difference(words_[1], static_cast<std::uint32_t>(now_ticks_));
     } else {
-      due_ticks_ = static_cast<std::int64_t>(std::uint64_t{word(bytes_, 2)} << 32 | word(bytes_, 1));
+      due_ticks_ = static_cast<std::int64_t>(std::uint64_t{words_[2]} << 32 | words_[1]);
     }
   }
   return true;
@@ -66,7 +56,7 @@ bool CaptureTape::fetch() {
 void CaptureTape::use() {
   count_ = 0;
   now_ticks_ = due_ticks_;
-  const std::uint32_t status = word(bytes_, 0);
+  const std::uint32_t status = words_[0];
   if (status == kEnd) {
     ended_ = true;
     return;
@@ -75,7 +65,7 @@ void CaptureTape::use() {
   new_overflow_ = new_overflow_ || (overflow && !overflow_);
   overflow_ = overflow;
   held_ = (status & PHAROS_CAPTURE_STATUS_COUNT_MASK) != 0;
-  if (!held_) lost_ = word(bytes_, 3);
+  if (!held_) lost_ = words_[3];
 }
 
 // Takes the next words, where there are any and their time has come. True when it did.
@@ -102,20 +92,25 @@ std::int64_t CaptureTape::core_ticks(std::uint32_t instructions) {
 
 std::int64_t CaptureTape::now_ticks() {
   // Never beyond what is known to come: until then nothing else does.
-  if (speed_ != 0 && !held_ && count_ == bytes_.size()) {
+  if (speed_ != 0 && !held_ && count_ == sizeof(words_)) {
     const Aside aside(*this);
     now_ticks_ = std::max(now_ticks_, std::min(core_ticks(aside.begin() - instructions_), due_ticks_));
   }
   return now_ticks_;
 }
 
+// But for what is aside, what it costs a board: a status, and three registers where there is a record.
 bool CaptureTape::read(hal::CaptureRecord& record) {
-  if (!held_ && (ended_ || !next() || !held_)) return false;
+  if (!held_ && !ended_) {
+    const Aside aside(*this);
+    take_words(aside.begin() - instructions_);
+  }
+  if (!held_) return false;
   held_ = false;
-  record.time_ticks = word(bytes_, 1);
-  record.changed = word(bytes_, 2);
-  record.levels = word(bytes_, 3);
-  record.gap = (word(bytes_, 0) & PHAROS_CAPTURE_STATUS_GAP) != 0;
+  record.time_ticks = words_[1];
+  record.changed = words_[2];
+  record.levels = words_[3];
+  record.gap = (words_[0] & PHAROS_CAPTURE_STATUS_GAP) != 0;
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "firmware/board/qemu_virt/virtio_console.hpp"
+#include "firmware/board/rv32/processor.hpp"
 #include "firmware/hal/edge_capture.hpp"
 
 namespace pharos::board {
@@ -36,8 +37,8 @@ class CaptureTape final : public hal::EdgeCapture {
   /// While one stands, instructions are not the core's: no board spends them.
   class Aside {
    public:
-    explicit Aside(CaptureTape& tape);
-    ~Aside();
+    [[gnu::always_inline]] explicit Aside(CaptureTape& tape) : tape_(tape), begin_(instructions_retired_low()) {}
+    [[gnu::always_inline]] ~Aside() { tape_.instructions_ += instructions_retired_low() - begin_; }
     Aside(const Aside&) = delete;
     Aside& operator=(const Aside&) = delete;
     std::uint32_t begin() const { return begin_; }
@@ -52,16 +53,15 @@ class CaptureTape final : public hal::EdgeCapture {
   bool ended() const { return ended_; }
 
  private:
-  bool next();
   bool take_words(std::uint32_t instructions);
   bool fetch();
   void use();
   std::int64_t core_ticks(std::uint32_t instructions);
 
   VirtioConsole console_;
-  std::array<std::uint8_t, 16> bytes_{};
+  std::array<std::uint32_t, 4> words_{};
   std::size_t count_ = 0;
-  std::int64_t due_ticks_ = 0;       // when the words in bytes_ may be used
+  std::int64_t due_ticks_ = 0;       // when the words in words_ may be used
   std::int64_t core_ticks_ = 0;      // where the core's own time has come to
   std::uint32_t core_fraction_ = 0;  // and what is left of a tick, 1/1024
   std::uint32_t core_begin_ = 0;     // instructions by then, but for those on the tape
@@ -72,7 +72,7 @@ class CaptureTape final : public hal::EdgeCapture {
   std::uint32_t instructions_ = 0;
   bool overflow_ = false;      // the flag as last read
   bool new_overflow_ = false;  // it rose since last asked
-  bool held_ = false;          // the record in bytes_ is not given out yet
+  bool held_ = false;          // the record in words_ is not given out yet
   bool waiting_ = false;
   bool ended_ = false;
 };
