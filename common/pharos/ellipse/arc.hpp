@@ -26,7 +26,9 @@ struct Arc {
   PointF start_tangent, finish_tangent;  ///< unit vectors along the contour
   std::array<PointF, kArcSamples> samples{};
   std::array<PointF, kArcSamples> normals{};  ///< unit gradients at the samples
-  bool seed = false;                          ///< long and bent enough to propose an ellipse; others only support one
+  PointF about;                               ///< all its points lie within `radius_px` of here
+  float radius_px = 0.0F;
+  bool seed = false;  ///< long and bent enough to propose an ellipse; others only support one
 
   std::uint32_t points() const { return end - begin; }
 };

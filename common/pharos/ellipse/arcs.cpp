@@ -55,6 +55,19 @@ PointF tangent_of(std::span<const EdgePoint> points) {
   return unit(sum);
 }
 
+// A circle around all points: the one around their bounds.
+void bound(std::span<const EdgePoint> points, Arc& arc) {
+  PointF low = place_of(points.front());
+  PointF high = low;
+  for (const EdgePoint& p : points) {
+    low = {std::min(low.u, p.u_px), std::min(low.v, p.v_px)};
+    high = {std::max(high.u, p.u_px), std::max(high.v, p.v_px)};
+  }
+  const float half_u = 0.5F * (high.u - low.u), half_v = 0.5F * (high.v - low.v);
+  arc.about = {low.u + half_u, low.v + half_v};
+  arc.radius_px = std::sqrt(half_u * half_u + half_v * half_v);
+}
+
 Arc make_arc(std::span<const EdgePoint> points, std::uint32_t begin) {
   Arc arc;
   arc.begin = begin;
@@ -70,6 +83,7 @@ Arc make_arc(std::span<const EdgePoint> points, std::uint32_t begin) {
     arc.samples[k] = place_of(p);
     arc.normals[k] = normal_of(p);
   }
+  bound(points, arc);
   // Between samples no arc turns by half a turn: the sum unwinds whole turns.
   PointF direction = arc.start_tangent;
   for (std::size_t k = 0; k <= kArcSamples; ++k) {

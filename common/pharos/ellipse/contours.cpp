@@ -30,15 +30,15 @@ std::uint16_t neighbour(const EllipseWorkspace& workspace, ImageView<const std::
   float least = 1e9F;
   for (std::int32_t dv = -1; dv <= 1; ++dv) {
     for (std::int32_t du = -1; du <= 1; ++du) {
-      const std::int32_t u = p.column + du, v = p.row + dv;
-      const std::uint16_t place = places.contains(u, v) ? places.at(u, v) : std::uint16_t{0};
+      const std::uint16_t place = places.at(p.column + du, p.row + dv);  // no edge point lies on the border
       if (place == 0) continue;
       const EdgePoint& q = workspace.edges[place - 1U];
       const Step step{q.u_px - p.u_px, q.v_px - p.v_px};
       const float squared = dot(step, step), forward = dot(step, along);
       if (forward <= 0.0F || forward * forward < kMinAlignment * kMinAlignment * squared || squared >= least) continue;
       const Step other = gradient_of(q);
-      if (dot(gradient, other) < kMinAlignment * length * std::sqrt(dot(other, other))) continue;
+      const float alike = dot(gradient, other);
+      if (alike < 0.0F || alike * alike < kMinAlignment * kMinAlignment * length * length * dot(other, other)) continue;
       least = squared;
       best = place;
     }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "pharos/base/image_view.hpp"
+#include "pharos/ellipse/contours.hpp"
 #include "pharos/ellipse/detected_ellipse.hpp"
 #include "pharos/ellipse/settings.hpp"
 #include "pharos/ellipse/workspace.hpp"
@@ -18,5 +19,12 @@ namespace pharos::ellipse {
 /// The answer lies in the workspace and holds until its next use.
 std::span<const DetectedEllipse> detect_ellipses(ImageView<const std::uint16_t> image, const EllipseSettings& settings,
                                                  EllipseWorkspace& workspace);
+
+/// The two halves of detect_ellipses, for who looks at each apart. First: edge points along contours; none in images of
+/// a size that cannot be.
+void trace_contours(ImageView<const std::uint16_t> image, EllipseWorkspace& workspace, Contours& contours);
+/// Second: arcs and ellipses of the contours that were just traced.
+std::span<const DetectedEllipse> ellipses_along(const Contours& contours, const EllipseSettings& settings,
+                                                EllipseWorkspace& workspace);
 
 }  // namespace pharos::ellipse

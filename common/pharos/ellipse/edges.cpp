@@ -35,6 +35,17 @@ Profile profile_of(ImageView<const std::uint16_t> magnitude, std::int32_t u, std
   return profile;
 }
 
+// False for most pixels that are no ridge, without a division: what lies between two values is no less than the
+// smaller.
+bool may_be_ridge(ImageView<const std::uint16_t> magnitude, std::int32_t u, std::int32_t v, Gradient gradient) {
+  const int su = gradient.u < 0 ? -1 : 1, sv = gradient.v < 0 ? -1 : 1;
+  const bool flat = std::abs(gradient.u) >= std::abs(gradient.v);
+  const int straight_u = flat ? su : 0, straight_v = flat ? 0 : sv;
+  const std::uint16_t here = magnitude.at(u, v);
+  return here >= std::min(magnitude.at(u + straight_u, v + straight_v), magnitude.at(u + su, v + sv)) &&
+         here >= std::min(magnitude.at(u - straight_u, v - straight_v), magnitude.at(u - su, v - sv));
+}
+
 // Most of an image is no edge: blocks of pixels below the threshold are passed over at once.
 constexpr std::int32_t kBlock_px = 16;
 
@@ -48,6 +59,7 @@ bool any_above(const std::uint16_t* values, std::uint16_t low) {
 bool edge_at(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::int32_t u,
              std::int32_t v, EdgePoint& point) {
   const Gradient gradient = gradient_at(smoothed, u, v);
+  if (!may_be_ridge(magnitude, u, v, gradient)) return false;
   const Profile profile = profile_of(magnitude, u, v, gradient);
   if (!profile.is_ridge()) return false;
   const float top = profile.top();

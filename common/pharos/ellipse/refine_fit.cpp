@@ -98,15 +98,17 @@ struct Normal {
 
 // Lower triangles only.
 Normal normal_equations(const Contour& contour, std::span<const PointF> points) {
+  std::array<Distance, kMaxFitPoints> all;
   Distances distances;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    distances[k] = static_cast<float>(std::abs(contour.distance(points[k]).value));
+    all[k] = contour.distance(points[k]);
+    distances[k] = static_cast<float>(std::abs(all[k].value));
   }
   Normal normal;
   normal.sigma = scatter_of(distances, points.size());
   const double per_width = 1.0 / (kTukey * normal.sigma);
-  for (const PointF& point : points) {
-    const Distance d = contour.distance(point);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Distance& d = all[k];
     const double ratio = d.value * per_width;
     if (std::abs(ratio) >= 1.0) continue;
     const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);

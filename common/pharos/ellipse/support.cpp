@@ -8,6 +8,8 @@ namespace pharos::ellipse {
 namespace {
 
 constexpr float kMinAlignment = 0.906F;  // cos 25 deg
+// Beyond what rounding can do to a square.
+constexpr float kNearly = 1.0001F;
 
 // The contour in single precision, ready for many points.
 class Contact {
@@ -20,19 +22,35 @@ class Contact {
         over_a_(static_cast<float>(1.0 / e.a_px)),
         over_b_(static_cast<float>(1.0 / e.b_px)),
         sign_(bright_inside ? -1.0F : 1.0F),
-        gate_(static_cast<float>(gate_px)) {}
+        gate_(static_cast<float>(gate_px)) {
+    // |q^2 - 1| <= gate |slope| and |slope| <= 2 |q| / b bound the size of q.
+    const double share = gate_px / e.b_px;
+    const double root = std::sqrt(1.0 + share * share);
+    least_size_ = static_cast<float>(root - share);
+    most_size_ = static_cast<float>(root + share);
+  }
 
   // In units of the axes: on the unit circle where the point is on the contour.
   PointF scaled(PointF p) const {
     const float u = p.u - cx_, v = p.v - cy_;
     return {(cos_ * u + sin_ * v) * over_a_, (cos_ * v - sin_ * u) * over_b_};
   }
+  // Whether a point within `radius_px` of `about` can touch: sizes of q differ by no more than radius / b.
+  bool may_touch_within(PointF about, float radius_px) const {
+    constexpr float kRounding = 1e-3F;
+    const PointF q = scaled(about);
+    const float size = std::sqrt(q.u * q.u + q.v * q.v);
+    const float reach = radius_px * over_b_ + kRounding * (1.0F + size);
+    return size - reach <= most_size_ && size + reach >= least_size_;
+  }
   // Distance to first order, or empty off the gate or where the gradient points elsewhere than the normal.
   bool touches(PointF p, PointF gradient, float& distance) const {
     const PointF q = scaled(p);
     const float x = q.u * over_a_, y = q.v * over_b_;
-    const float slope = 2.0F * std::sqrt(x * x + y * y);
+    const float squared = 4.0F * (x * x + y * y);
     const float f = q.u * q.u + q.v * q.v - 1.0F;
+    if (f * f > kNearly * gate_ * gate_ * squared) return false;  // most points, without a root
+    const float slope = std::sqrt(squared);
     if (std::abs(f) > gate_ * slope) return false;
     distance = f / slope;
     const float gx = cos_ * gradient.u + sin_ * gradient.v, gy = cos_ * gradient.v - sin_ * gradient.u;
@@ -42,9 +60,11 @@ class Contact {
 
  private:
   float cx_, cy_, cos_, sin_, over_a_, over_b_, sign_, gate_;
+  float least_size_, most_size_;  // of q where it touches
 };
 
 bool may_touch(const Contact& contact, const Arc& arc) {
+  if (!contact.may_touch_within(arc.about, arc.radius_px)) return false;
   float distance = 0.0F;
   for (std::size_t k = 0; k < kArcSamples; ++k) {
     if (contact.touches(arc.samples[k], arc.normals[k], distance)) return true;

@@ -2,6 +2,7 @@
 #include "pharos/tof/bit_image.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace pharos::tof {
 
@@ -9,6 +10,15 @@ void BitImage::reset(std::int32_t width_px, std::int32_t height_px) {
   width_ = std::clamp<std::int32_t>(width_px, 0, kMaxWidth_px);
   height_ = std::clamp<std::int32_t>(height_px, 0, kMaxHeight_px);
   std::fill_n(words_.begin(), static_cast<std::size_t>(height_ * kWords), std::uint64_t{0});
+}
+
+std::int32_t BitImage::next_set(std::int32_t u, std::int32_t v) const {
+  std::uint64_t from_here = ~std::uint64_t{0} << bit(u);
+  for (std::int32_t k = u / 64; 64 * k < width_; ++k, from_here = ~std::uint64_t{0}) {
+    const std::uint64_t rest = word(64 * k, v) & from_here;
+    if (rest != 0) return 64 * k + std::countr_zero(rest);
+  }
+  return width_;
 }
 
 template <class Join>

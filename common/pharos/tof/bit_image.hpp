@@ -21,6 +21,9 @@ class BitImage {
   void set(std::int32_t u, std::int32_t v) { word(u, v) |= std::uint64_t{1} << bit(u); }
   void clear(std::int32_t u, std::int32_t v) { word(u, v) &= ~(std::uint64_t{1} << bit(u)); }
 
+  /// The first column from `u` on that is set in row v; width_px() where there is none.
+  std::int32_t next_set(std::int32_t u, std::int32_t v) const;
+
   // With a square of 3 x 3 pixels; beyond the border nothing is set. `out` becomes the result.
   void erode(BitImage& out) const;
   void dilate(BitImage& out) const;

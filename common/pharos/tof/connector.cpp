@@ -265,7 +265,7 @@ class RegionJudge {
 void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double least_amplitude, BitImage& mask) {
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     const std::uint16_t* row = frame.intensity.row(rect.v + v) + rect.u;
-    for (std::int32_t u = 0; u < rect.width_px; ++u) {
+    for (std::int32_t u = mask.next_set(0, v); u < rect.width_px; u = mask.next_set(u + 1, v)) {
       if (row[u] < least_amplitude) mask.clear(u, v);
     }
   }
@@ -301,8 +301,9 @@ void keep_alike(StaticVector<RegionReport, kMostConnectors>& list) {
 template <class Visit>
 void for_each_region(ConnectorWorkspace& workspace, BitImage& mask, Visit visit) {
   for (std::int32_t v = 0; v < mask.height_px(); ++v) {
-    for (std::int32_t u = 0; u < mask.width_px(); ++u) {
-      if (mask.at(u, v) && grow_region(mask, u, v, workspace.growing, workspace.region)) visit(workspace.region);
+    // Growing takes the region out of the mask.
+    for (std::int32_t u = mask.next_set(0, v); u < mask.width_px(); u = mask.next_set(u + 1, v)) {
+      if (grow_region(mask, u, v, workspace.growing, workspace.region)) visit(workspace.region);
     }
   }
 }

@@ -42,19 +42,26 @@ double usual_foot(const DepthCamera& camera, const RingModel& ring, const PixelR
 void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
                          double lowest_m, ImageView<std::uint16_t> heights) {
   const std::int32_t lowest = kHeightZero + static_cast<std::int32_t>(lowest_m / kHeightUnit_m);
-  const DepthPlane plane = ring.plane();
+  const Eigen::Vector3f q = ring.plane().q.cast<float>();
+  const Eigen::Vector3f centre = ring.centre_m.cast<float>();
   const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
-  const double least = ring.radius_m[1] - margin_m;
-  const double most = ring.radius_m[0] + margin_m;
+  const auto least = static_cast<float>(ring.radius_m[1] - margin_m);
+  const auto most = static_cast<float>(ring.radius_m[0] + margin_m);
+  RayGrid::Row ray;
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
+    rays.row_at(rect.u, rect.v + v, rect.width_px, ray);
+    const float *x = ray.x.data(), *y = ray.y.data();
+    std::uint16_t* row = heights.row(v);
     for (std::int32_t u = 0; u < rect.width_px; ++u) {
-      if (heights.at(u, v) < lowest) {
-        heights.at(u, v) = kNoHeight;
-        continue;
-      }
-      const Vector2 ray = rays.at(rect.u + u, rect.v + v);
-      const double squared = (plane.z_m(ray) * Vector3(ray.x(), ray.y(), 1.0) - ring.centre_m).squaredNorm();
-      if (squared > least * least && squared < most * most) heights.at(u, v) = kNoHeight;
+      // Where the ray meets the plane, from the centre, times 1/z.
+      const float inverse_z = q.x() * x[u] + q.y() * y[u] + q.z();
+      const float du = x[u] - inverse_z * centre.x();
+      const float dv = y[u] - inverse_z * centre.y();
+      const float dw = 1.0F - inverse_z * centre.z();
+      const float squared = du * du + dv * dv + dw * dw;
+      const float unit = inverse_z * inverse_z;
+      const bool on_ring = squared > least * least * unit && squared < most * most * unit;
+      row[u] = row[u] < lowest || on_ring ? kNoHeight : row[u];
     }
   }
 }

@@ -128,10 +128,14 @@ class Fitter {
       }
       const Vector3 q = rows.inverse() * right;
       if (!q.allFinite()) continue;
-      for (std::size_t i = 0; i < count; ++i) distance[i] = std::fabs(residual(q, start_[i]));
+      std::size_t nearer = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        distance[i] = std::fabs(residual(q, start_[i]));
+        nearer += distance[i] < best_median ? 1U : 0U;
+      }
+      if (best_median >= 0.0 && nearer <= count / 2) continue;  // the median is no less
       const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(count / 2);
       std::nth_element(distance.begin(), middle, distance.begin() + static_cast<std::ptrdiff_t>(count));
-      if (best_median >= 0.0 && *middle >= best_median) continue;
       best_median = *middle;
       best = q;
     }

@@ -16,19 +16,33 @@ struct RowContent {
   std::int32_t saturated = 0;
 };
 
-// Multiplied and mixed pixel by pixel; 0 where no pixel has depth.
-RowContent read_row(const TofFrame& frame, std::int32_t v) {
+// Multiplied and mixed pixel by pixel (FNV-1a). In four chains, as a multiplication takes longer than all else here.
+std::uint64_t hash_of(const std::uint16_t* depth, const std::uint16_t* intensity, std::int32_t count) {
   constexpr std::uint64_t kPrime = 0x100000001b3U;
+  constexpr std::uint64_t kBegin = 0xcbf29ce484222325U;
+  constexpr std::int32_t kChains = 4;
+  std::array<std::uint64_t, kChains> chain = {kBegin, kBegin + 1, kBegin + 2, kBegin + 3};
+  const auto mix = [&](std::uint64_t& hash, std::int32_t u) {
+    hash = (hash ^ (static_cast<std::uint64_t>(depth[u]) << 16U | intensity[u])) * kPrime;
+  };
+  std::int32_t u = 0;
+  for (; u + kChains <= count; u += kChains) {
+    for (std::int32_t k = 0; k < kChains; ++k) mix(chain[static_cast<std::size_t>(k)], u + k);
+  }
+  for (; u < count; ++u) mix(chain[0], u);
+  std::uint64_t hash = kBegin;
+  for (const std::uint64_t one : chain) hash = (hash ^ one) * kPrime;
+  return hash;
+}
+
+// The hash is 0 where no pixel has depth.
+RowContent read_row(const TofFrame& frame, std::int32_t v) {
   RowContent content;
-  std::uint64_t hash = 0xcbf29ce484222325U;
   const std::uint16_t* depth = frame.depth.row(v);
   const std::uint16_t* intensity = frame.intensity.row(v);
-  for (std::int32_t u = 0; u < frame.depth.width_px; ++u) {
-    hash = (hash ^ (static_cast<std::uint64_t>(depth[u]) << 16U | intensity[u])) * kPrime;
-    content.with_depth += has_depth(depth[u]) ? 1 : 0;
-    content.saturated += intensity[u] == kFullScale ? 1 : 0;
-  }
-  content.hash = content.with_depth > 0 ? hash | 1U : 0;
+  for (std::int32_t u = 0; u < frame.depth.width_px; ++u) content.with_depth += has_depth(depth[u]) ? 1 : 0;
+  for (std::int32_t u = 0; u < frame.depth.width_px; ++u) content.saturated += intensity[u] == kFullScale ? 1 : 0;
+  content.hash = content.with_depth > 0 ? hash_of(depth, intensity, frame.depth.width_px) | 1U : 0;
   return content;
 }
 

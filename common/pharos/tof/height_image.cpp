@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tof/height_image.hpp"
 
+#include <algorithm>
+
 namespace pharos::tof {
 
 void make_heights(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthPlane& plane,
                   const PixelRect& rect, ImageView<std::uint16_t> heights) {
-  constexpr double kMost = kMostHeight_m / kHeightUnit_m;
+  // Single precision: a thousandth of a count.
+  constexpr auto kMost = static_cast<float>(kMostHeight_m / kHeightUnit_m);
+  const auto scale = static_cast<float>(camera.depth_scale_m);
+  const auto origin = static_cast<float>(camera.depth_origin_z_m);
+  const Eigen::Vector3f q = plane.q.cast<float>();
+  const auto per_share = static_cast<float>(1.0 / (plane.q.norm() * kHeightUnit_m));
+  RayGrid::Row ray;
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     const std::uint16_t* depth = frame.depth.row(rect.v + v) + rect.u;
     std::uint16_t* out = heights.row(v);
+    rays.row_at(rect.u, rect.v + v, rect.width_px, ray);
+    const float *x = ray.x.data(), *y = ray.y.data();
     for (std::int32_t u = 0; u < rect.width_px; ++u) {
-      if (!has_depth(depth[u])) {
-        out[u] = kNoHeight;
-        continue;
-      }
-      const double height =
-          plane.height_m(rays.at(rect.u + u, rect.v + v), depth_z_m(camera, depth[u])) * (1.0 / kHeightUnit_m);
-      const bool near = height > -kMost && height < kMost;
-      out[u] = near ? static_cast<std::uint16_t>(kHeightZero + static_cast<std::int32_t>(height)) : kNoHeight;
+      const float z = static_cast<float>(depth[u]) * scale + origin;
+      const float height = (1.0F - z * (q.x() * x[u] + q.y() * y[u] + q.z())) * per_share;
+      const float near = std::clamp(height, -kMost, kMost);
+      const bool seen = has_depth(depth[u]) && near == height;
+      out[u] = static_cast<std::uint16_t>(seen ? kHeightZero + static_cast<std::int32_t>(near) : kNoHeight);
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tof/layer_light.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace pharos::tof {
@@ -28,6 +29,30 @@ struct InverseDepth {
   }
 };
 
+// The four pixels around a place: left and right of the upper row, then of the lower one.
+struct Corners {
+  std::array<double, 4> light;
+  std::array<std::uint16_t, 4> counts;
+
+  Corners(const TofFrame& frame, std::int32_t left, std::int32_t top) {
+    const std::uint16_t *upper = frame.intensity.row(top) + left, *lower = upper + frame.intensity.stride_px;
+    light = {static_cast<double>(upper[0]), static_cast<double>(upper[1]), static_cast<double>(lower[0]),
+             static_cast<double>(lower[1])};
+    const std::uint16_t *far_upper = frame.depth.row(top) + left, *far_lower = far_upper + frame.depth.stride_px;
+    counts = {far_upper[0], far_upper[1], far_lower[0], far_lower[1]};
+  }
+  // False where one has light but no depth; what is dark has no light then.
+  bool can_be_used(double dark_counts) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (light[k] >= kFullScale) return false;
+      if (has_depth(counts[k])) continue;
+      if (light[k] > dark_counts) return false;
+      light[k] = 0.0;
+    }
+    return true;
+  }
+};
+
 }  // namespace
 
 bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthPlane& plane,
@@ -45,25 +70,21 @@ bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGri
     const auto top = static_cast<std::int32_t>(pixel.y());
     const double s = pixel.x() - left;
     const double t = pixel.y() - top;
+    Corners corners(frame, left, top);
+    if (!corners.can_be_used(dark_counts)) return false;
+    const std::array<double, 4> share = {(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t};
+    const double first = inverse.here + (left - middle.x()) * inverse.per_u + (top - middle.y()) * inverse.per_v;
+    const std::array<double, 4> inverse_z = {first, first + inverse.per_u, first + inverse.per_v,
+                                             first + inverse.per_u + inverse.per_v};
     double amplitude = 0.0;
     double moment = 0.0;
-    for (std::int32_t corner = 0; corner < 4; ++corner) {
-      const std::int32_t u = left + (corner & 1);
-      const std::int32_t v = top + (corner >> 1);
-      const std::uint16_t light = frame.intensity.at(u, v);
-      const std::uint16_t counts = frame.depth.at(u, v);
-      if (light == kFullScale) return false;
-      if (!has_depth(counts)) {
-        if (light > dark_counts) return false;
-        continue;
-      }
-      const double weight = ((corner & 1) != 0 ? s : 1.0 - s) * ((corner >> 1) != 0 ? t : 1.0 - t) * light;
-      const double inverse_z = inverse.here + (u - middle.x()) * inverse.per_u + (v - middle.y()) * inverse.per_v;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double weight = share[k] * corners.light[k];
       amplitude += weight;
-      moment += weight * (1.0 - depth_z_m(camera, counts) * inverse_z) * height_unit;
+      moment += weight * (1.0 - depth_z_m(camera, corners.counts[k]) * inverse_z[k]);
     }
     profile.amplitude[static_cast<std::size_t>(i)] = amplitude;
-    profile.moment[static_cast<std::size_t>(i)] = moment;
+    profile.moment[static_cast<std::size_t>(i)] = moment * height_unit;
   }
   return true;
 }

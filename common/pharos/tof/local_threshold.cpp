@@ -64,12 +64,14 @@ void local_threshold(ImageView<const std::uint16_t> grey, std::int32_t half_wind
   std::fill_n(columns, grey.width_px, ColumnSums{});
   for (std::int32_t k = -w; k <= w; ++k) add_row(columns, grey.row(mirrored(k, grey.height_px)), grey.width_px, 1);
   for (std::int32_t v = 0; v < grey.height_px; ++v) {
+    const std::uint16_t* row = grey.row(v);
     ColumnSums window;
     for (std::int32_t k = -w; k <= w; ++k) add(window, columns[mirrored(k, grey.width_px)]);
     for (std::int32_t u = 0; u < grey.width_px; ++u) {
-      if (grows(grey.at(u, v), window, form)) above.set(u, v);
-      remove(window, columns[mirrored(u - w, grey.width_px)]);
-      add(window, columns[mirrored(u + w + 1, grey.width_px)]);
+      if (grows(row[u], window, form)) above.set(u, v);
+      const bool inside = u >= w && u + w + 1 < grey.width_px;
+      remove(window, columns[inside ? u - w : mirrored(u - w, grey.width_px)]);
+      add(window, columns[inside ? u + w + 1 : mirrored(u + w + 1, grey.width_px)]);
     }
     add_row(columns, grey.row(mirrored(v - w, grey.height_px)), grey.width_px, -1);
     add_row(columns, grey.row(mirrored(v + w + 1, grey.height_px)), grey.width_px, 1);

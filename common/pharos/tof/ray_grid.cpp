@@ -37,4 +37,22 @@ Vector2 RayGrid::at(double u_px, double v_px) const {
           (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y)};
 }
 
+void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row& row) const {
+  const double t = static_cast<double>(v % kStep_px) / kStep_px;
+  const auto between = [t](double above, double below) { return static_cast<float>((1.0 - t) * above + t * below); };
+  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_)];
+  for (std::int32_t k = 0; k < count;) {
+    const int cell = (u + k) / kStep_px;
+    const int first = (u + k) % kStep_px;
+    const Node* left = node + cell;
+    const Node* below = left + columns_;
+    const float x = between(left[0].x, below[0].x), step_x = (between(left[1].x, below[1].x) - x) / kStep_px;
+    const float y = between(left[0].y, below[0].y), step_y = (between(left[1].y, below[1].y) - y) / kStep_px;
+    for (int s = first; s < kStep_px && k < count; ++s, ++k) {
+      row.x[static_cast<std::size_t>(k)] = x + static_cast<float>(s) * step_x;
+      row.y[static_cast<std::size_t>(k)] = y + static_cast<float>(s) * step_y;
+    }
+  }
+}
+
 }  // namespace pharos::tof

@@ -19,6 +19,13 @@ class RayGrid {
   /// Ray (x/z, y/z) of a pixel position in the image.
   Vector2 at(double u_px, double v_px) const;
 
+  /// Rays of one row's pixels, for work on whole images: of `count` pixels from (u, v) on, in single precision.
+  struct Row {
+    std::array<float, kMaxWidth_px> x;
+    std::array<float, kMaxWidth_px> y;
+  };
+  void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row& row) const;
+
   const PinholeCamera& camera() const { return camera_; }
 
  private:

@@ -111,8 +111,14 @@ bool inside_image(const PinholeCamera& camera, const RingModel& model) {
 class Chooser {
  public:
   Chooser(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingSettings& settings,
-          const DepthNoise& noise, RingFitWorkspace& workspace)
-      : frame_(frame), camera_(camera), rays_(rays), settings_(settings), noise_(noise), workspace_(workspace) {}
+          const DepthNoise& noise, RingFitWorkspace& workspace, TofStageListener* listener)
+      : frame_(frame),
+        camera_(camera),
+        rays_(rays),
+        settings_(settings),
+        noise_(noise),
+        workspace_(workspace),
+        listener_(listener) {}
 
   Result<RingChoice, TofFailure> choose(std::span<const DetectedEllipse> ellipses) {
     if (ellipses.empty()) return TofFailure::kNoEllipses;
@@ -120,10 +126,12 @@ class Chooser {
     for (const Pair& pair : pairs_) {
       examine({pair.outer->ellipse, pair.inner->ellipse});
     }
+    ended(TofStage::kPlane);
     RingChoice choice;
     if (measure_best(choice)) return choice;
     candidates_.clear();
     examine_singles(ellipses);
+    ended(TofStage::kPlane);
     if (measure_best(choice)) return choice;
     return farthest_;
   }
@@ -148,6 +156,9 @@ class Chooser {
   }
 
   void failed(TofFailure why) { farthest_ = std::max(farthest_, why); }
+  void ended(TofStage stage) const {
+    if (listener_ != nullptr) listener_->ended(stage);
+  }
 
   // Plane, size and step of the ring between two ellipses.
   void examine(const std::array<Ellipse, 2>& shape) {
@@ -211,10 +222,12 @@ class Chooser {
   bool measure_best(RingChoice& choice) {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
-    for (std::size_t i = 0; i < candidates_.size() && i < kMostMeasured; ++i) {
-      if (measure(candidates_[i], choice)) return true;
+    bool measured = false;
+    for (std::size_t i = 0; i < candidates_.size() && i < kMostMeasured && !measured; ++i) {
+      measured = measure(candidates_[i], choice);
     }
-    return false;
+    ended(TofStage::kRing);
+    return measured;
   }
 
   bool measure(const Candidate& candidate, RingChoice& choice) {
@@ -266,6 +279,7 @@ class Chooser {
   const RingSettings& settings_;
   const DepthNoise& noise_;
   RingFitWorkspace& workspace_;
+  TofStageListener* listener_;
   StaticVector<Pair, kMostPairs> pairs_;
   StaticVector<Candidate, kMostPairs> candidates_;
   TofFailure farthest_ = TofFailure::kNoNestedPair;
@@ -275,8 +289,9 @@ class Chooser {
 
 Result<RingChoice, TofFailure> choose_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                            std::span<const DetectedEllipse> ellipses, const RingSettings& settings,
-                                           const DepthNoise& noise, RingFitWorkspace& workspace) {
-  return Chooser(frame, camera, rays, settings, noise, workspace).choose(ellipses);
+                                           const DepthNoise& noise, RingFitWorkspace& workspace,
+                                           TofStageListener* listener) {
+  return Chooser(frame, camera, rays, settings, noise, workspace, listener).choose(ellipses);
 }
 
 }  // namespace pharos::tof

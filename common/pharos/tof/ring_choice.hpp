@@ -7,6 +7,7 @@
 #include "pharos/ellipse/detected_ellipse.hpp"
 #include "pharos/tof/ring_fit.hpp"
 #include "pharos/tof/tof_failure.hpp"
+#include "pharos/tof/tof_stages.hpp"
 
 namespace pharos::tof {
 
@@ -23,10 +24,11 @@ struct RingChoice {
 /// concentric circles of a docking ring's size; inside and outside the surroundings must lie behind it. A nozzle's rim
 /// has no plane between its ellipses, circles painted on a surface have no step. The pair with the most pixels on its
 /// plane is measured. Where no pair is the ring, single ellipses are tried with the other edge found in the depths
-/// (ring_extent.hpp). The error is that of the candidate which came farthest.
+/// (ring_extent.hpp). The error is that of the candidate which came farthest. `listener`, if any, is told of kPlane and
+/// kRing.
 Result<RingChoice, TofFailure> choose_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                            std::span<const ellipse::DetectedEllipse> ellipses,
                                            const RingSettings& settings, const DepthNoise& noise,
-                                           RingFitWorkspace& workspace);
+                                           RingFitWorkspace& workspace, TofStageListener* listener = nullptr);
 
 }  // namespace pharos::tof

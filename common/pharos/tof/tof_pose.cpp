@@ -16,6 +16,10 @@ constexpr int kFacePlanes = 2;
 // Burrs and missing corners included.
 constexpr double kDoubtfulArea = 3.0;
 
+void tell(TofStageListener* listener, TofStage ended) {
+  if (listener != nullptr) listener->ended(ended);
+}
+
 bool is_good(const TargetPose& target) {
   if (!target.pose.is_finite() || !target.covariance.allFinite()) return false;
   return (target.covariance.diagonal().array() > 0.0).all();
@@ -109,9 +113,10 @@ class ConnectorChoice {
 };
 
 void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
-                   TofWorkspace& workspace, TofPose& result) {
+                   TofWorkspace& workspace, TofStageListener* listener, TofPose& result) {
   const RingFit& ring = result.ring.fit;
   find_connectors(frame, camera, workspace.rays, ring, settings.connector, workspace.connector);
+  tell(listener, TofStage::kConnector);
   ConnectorChoice choice(frame, camera, workspace, ring);
   const bool told = choice.choose(settings.connector.expected, settings.connector.least_difference_m);
   const bool few = static_cast<std::int32_t>(choice.choices().size()) < settings.connector.expected;
@@ -130,13 +135,24 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
   }
 }
 
+std::span<const ellipse::DetectedEllipse> ellipses_in(ImageView<const std::uint16_t> image, const TofSettings& settings,
+                                                      TofWorkspace& workspace, TofStageListener* listener) {
+  ellipse::Contours contours;
+  ellipse::trace_contours(image, workspace.ellipse, contours);
+  tell(listener, TofStage::kEdges);
+  const auto ellipses = ellipse::ellipses_along(contours, settings.ellipse, workspace.ellipse);
+  tell(listener, TofStage::kEllipses);
+  return ellipses;
+}
+
 // By the intensity image; where that does not show the ring (foil as bright beside it), by what stands over the face.
 // The failure is the first one's.
 Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
-                                         TofWorkspace& workspace) {
+                                         TofWorkspace& workspace, TofStageListener* listener) {
   const auto ring_in = [&](ImageView<const std::uint16_t> image) {
-    const auto ellipses = ellipse::detect_ellipses(image, settings.ellipse, workspace.ellipse);
-    return choose_ring(frame, camera, workspace.rays, ellipses, settings.ring, settings.noise, workspace.edges);
+    const auto ellipses = ellipses_in(image, settings, workspace, listener);
+    return choose_ring(frame, camera, workspace.rays, ellipses, settings.ring, settings.noise, workspace.edges,
+                       listener);
   };
   const auto ring = ring_in(frame.intensity);
   if (ring) return ring;
@@ -146,6 +162,7 @@ Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamer
   auto face = face_plane(frame, camera, workspace.rays, settings.noise);
   for (int plane = 0; face && plane < kFacePlanes; ++plane) {
     make_standing_light(frame, camera, workspace.rays, *face, standing);
+    tell(listener, TofStage::kFace);
     const auto by_height = ring_in(standing);
     if (by_height) return by_height;
     const DepthPlane front = *face;
@@ -157,7 +174,8 @@ Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamer
 }  // namespace
 
 Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthCamera& camera,
-                                             const TofSettings& settings, TofWorkspace& workspace) {
+                                             const TofSettings& settings, TofWorkspace& workspace,
+                                             TofStageListener* listener) {
   workspace.connector.regions.clear();
   workspace.connector.connectors.clear();
   workspace.ellipse.found.clear();
@@ -165,12 +183,14 @@ Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthC
   for (RingEdgePoints& points : workspace.edges.points) points.clear();
   if (const auto failure = workspace.frames.check(frame, camera)) return *failure;
   if (!workspace.rays.prepare(camera.optics)) return TofFailure::kCameraUnusable;
-  const auto ring = find_ring(frame, camera, settings, workspace);
+  tell(listener, TofStage::kCheck);
+  const auto ring = find_ring(frame, camera, settings, workspace, listener);
   if (!ring) return ring.error();
   TofPose result;
   result.ring = *ring;
   if (ring->fit.seen < kPartlyHidden) result.flags |= kFlagRingPartlyHidden;
-  add_connector(frame, camera, settings, workspace, result);
+  add_connector(frame, camera, settings, workspace, listener, result);
+  tell(listener, TofStage::kPose);
   if (!is_good(result.target)) return TofFailure::kRingNotCircles;
   return result;
 }

@@ -11,6 +11,7 @@
 #include "pharos/tof/ring_choice.hpp"
 #include "pharos/tof/target_frame.hpp"
 #include "pharos/tof/tof_settings.hpp"
+#include "pharos/tof/tof_stages.hpp"
 
 namespace pharos::tof {
 
@@ -65,8 +66,9 @@ static_assert(sizeof(TofWorkspace) <= 8U * 1024U * 1024U, "fits the board's exte
 /// The whole path (paper 000): ellipses in the intensity image, the docking ring by depth, connectors, target frame.
 ///
 /// The error names what was missing; stage_of tells the stage. Every pose that comes back is finite, with a positive
-/// definite covariance. Costs are in the README.
+/// definite covariance. Costs are in the README; `listener`, if any, is told of each stage's end.
 Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthCamera& camera,
-                                             const TofSettings& settings, TofWorkspace& workspace);
+                                             const TofSettings& settings, TofWorkspace& workspace,
+                                             TofStageListener* listener = nullptr);
 
 }  // namespace pharos::tof

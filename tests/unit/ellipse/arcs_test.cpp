@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "pharos/ellipse/arc_pair.hpp"
@@ -142,6 +144,38 @@ TEST(Smooth, KeepsEvenImagesAndSpreadsAPointAsABinomial) {
   EXPECT_NEAR(to.at(17, 15), 65535.0 * 16.0 / 256.0, 8.0);
   EXPECT_NEAR(to.at(18, 16), 65535.0 * 6.0 / 256.0, 8.0);
   EXPECT_LE(to.at(19, 16), 8);
+}
+
+// Four times the rounded mean of two neighbours, rows first, borders repeated: to the last bit, at every width.
+TEST(Smooth, IsFourMeansOfTwoNeighboursEachWay) {
+  const auto filtered = [](std::vector<std::uint32_t> line) {
+    line.insert(line.begin(), 2, line.front());
+    line.insert(line.end(), 2, line.back());
+    for (int pass = 0; pass < 4; ++pass) {
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) line[k] = (line[k] + line[k + 1] + 1) / 2;
+      line.pop_back();
+    }
+    return line;
+  };
+  std::mt19937 random(3);
+  for (const auto& [width, height] : {std::pair{8, 9}, std::pair{257, 8}, std::pair{511, 12}}) {
+    const auto pixels = static_cast<std::size_t>(width * height);
+    std::vector<std::uint16_t> image(pixels), scratch(pixels), out(pixels);
+    for (std::uint16_t& value : image) value = static_cast<std::uint16_t>(random());
+    image[0] = 65535;  // no shift
+    smooth({image.data(), width, height}, {scratch.data(), width, height}, {out.data(), width, height});
+    std::vector<std::vector<std::uint32_t>> rows;
+    for (int v = 0; v < height; ++v)
+      rows.push_back(filtered({image.begin() + v * width, image.begin() + (v + 1) * width}));
+    for (int u = 0; u < width; ++u) {
+      std::vector<std::uint32_t> column;
+      for (const auto& row : rows) column.push_back(row[static_cast<std::size_t>(u)]);
+      column = filtered(column);
+      for (int v = 0; v < height; ++v) {
+        ASSERT_EQ(out[static_cast<std::size_t>(v * width + u)], column[static_cast<std::size_t>(v)]) << u << ", " << v;
+      }
+    }
+  }
 }
 
 }  // namespace

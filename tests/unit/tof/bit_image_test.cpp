@@ -42,6 +42,27 @@ TEST(BitImage, ErosionAndDilationLookAtEightNeighbours) {
   }
 }
 
+TEST(BitImage, NextSetFindsEachInTurn) {
+  for (const int width : {1, 63, 64, 65, 640}) {
+    const auto image = std::make_unique<BitImage>();
+    std::mt19937 random(2);
+    std::bernoulli_distribution sparse(0.05);
+    image->reset(width, 4);
+    for (int v = 0; v < 4; ++v) {
+      for (int u = 0; u < width; ++u) {
+        if (sparse(random)) image->set(u, v);
+      }
+    }
+    for (int v = 0; v < 4; ++v) {
+      int next = width;
+      for (int u = width; u >= 0; --u) {
+        if (u < width && image->at(u, v)) next = u;
+        ASSERT_EQ(image->next_set(u, v), next) << width << " from " << u << ", " << v;
+      }
+    }
+  }
+}
+
 TEST(BitImage, OpeningDropsBurrsAndClosingFillsHoles) {
   const auto image = std::make_unique<BitImage>();
   const auto scratch = std::make_unique<BitImage>();

@@ -54,6 +54,21 @@ TEST_F(DepthPlaneTest, GridOfRaysIsThatOfTheLens) {
   EXPECT_LT(worst * camera_.optics.fx_px, 0.02) << "px";
 }
 
+TEST_F(DepthPlaneTest, RowsOfRaysAreThoseOfThePixels) {
+  RayGrid::Row row;
+  for (const int u : {0, 1, 3, 5, 318}) {
+    for (int v = 0; v < 240; ++v) {
+      const int count = std::min(320 - u, 150);
+      rays_->row_at(u, v, count, row);
+      for (int k = 0; k < count; ++k) {
+        const auto place = static_cast<std::size_t>(k);
+        const Vector2 ray(row.x[place], row.y[place]);
+        ASSERT_LT((ray - rays_->at(u + k, v)).norm() * camera_.optics.fx_px, 1e-4) << u + k << ", " << v << ", px";
+      }
+    }
+  }
+}
+
 TEST_F(DepthPlaneTest, NoiselessDepthsGiveTheirPlane) {
   const auto plane = fit(plane_frame(camera_, kPlane, 0.0, 1));
   ASSERT_TRUE(plane.has_value());

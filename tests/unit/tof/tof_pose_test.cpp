@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "pharos/base/units.hpp"
 #include "support/allocation_guard.hpp"
@@ -131,6 +132,18 @@ TEST_F(TofPoseTest, TwoConnectorsAtOneDistanceAreAmbiguous) {
   const double second = angle_deg(pose->second->pose.R, truth.R);
   EXPECT_LT(std::min(first, second), 0.2);
   EXPECT_NEAR(std::max(first, second), 90.0, 0.3);
+}
+
+TEST_F(TofPoseTest, TellsOfEachStageInTurn) {
+  struct Listener final : TofStageListener {
+    void ended(TofStage stage) override { stages.push_back(stage); }
+    std::vector<TofStage> stages;
+  } listener;
+  const SyntheticFrame frame = render(SyntheticRing{}, facing({0.05, 0.0, 2.3}, {0.2, 0.1, 0.4}), camera_);
+  ASSERT_TRUE(measure_tof_pose(frame.view(), camera_, settings_, *workspace_, &listener).ok());
+  const std::vector<TofStage> wanted = {TofStage::kCheck, TofStage::kEdges,     TofStage::kEllipses, TofStage::kPlane,
+                                        TofStage::kRing,  TofStage::kConnector, TofStage::kPose};
+  EXPECT_EQ(listener.stages, wanted);
 }
 
 TEST_F(TofPoseTest, TakesNoMemoryFromTheHeap) {
