@@ -61,7 +61,7 @@ class Combiner {
 
  private:
   const StaticVector<Arc, kMaxArcs>& arcs() const { return workspace_.arcs; }
-  bool proposes(const Arc& arc) const { return arc.seed && arc.points() >= settings_.min_seed_points; }
+  bool enough(std::uint32_t points) const { return points >= settings_.min_proposal_points; }
   float weight(std::uint16_t k) const {
     return static_cast<float>(arcs()[k].points()) * std::min(3.0F, std::abs(arcs()[k].turn_rad));
   }
@@ -69,14 +69,14 @@ class Combiner {
   void propose(std::size_t position) {
     const std::uint16_t seed = order_[position];
     const Arc& arc = arcs()[seed];
-    if (!proposes(arc) || explained_[seed]) return;
+    if (!arc.seed || explained_[seed]) return;
     best_ = {};
-    if (std::abs(arc.turn_rad) >= kMinTurnAlone_rad) consider(arc, nullptr);
+    if (std::abs(arc.turn_rad) >= kMinTurnAlone_rad && enough(arc.points())) consider(arc, nullptr);
     if (!(std::abs(arc.turn_rad) >= 5.5F && !best_.empty())) {
       for (std::size_t k = position + 1; k < arcs().size(); ++k) {
         const std::uint16_t other = order_[k];
         const Arc& partner = arcs()[other];
-        if (!proposes(partner) || explained_[other]) continue;
+        if (!partner.seed || explained_[other] || !enough(arc.points() + partner.points())) continue;
         if (std::abs(arc.turn_rad + partner.turn_rad) < kMinTurnOfPair_rad || !may_pair(arc, partner)) continue;
         consider(arc, &partner);
       }

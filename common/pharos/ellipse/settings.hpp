@@ -16,9 +16,9 @@ struct EllipseSettings {
   double min_score = 0.68;
   /// Edges that lie less closely on the contour are no ellipse's: a polygon's.
   double max_rms_px = 0.4;
-  /// Arcs of fewer edge points propose no ellipse; they support those that others propose. Of large ellipses among
-  /// foil, whose many short arcs cost the more the more pairs they make.
-  std::uint32_t min_seed_points = 12;
+  /// An arc or a pair of arcs proposes an ellipse from so many edge points on; 0: as they come. For large ellipses
+  /// among foil, whose hundreds of short arcs make thousands of pairs.
+  std::uint32_t min_proposal_points = 0;
 };
 
 }  // namespace pharos::ellipse

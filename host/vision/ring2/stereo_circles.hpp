@@ -16,7 +16,7 @@ namespace pharos::host {
 
 /// What is looked for in a pair of images.
 struct StereoSettings {
-  ellipse::EllipseSettings ellipses{.min_minor_px = 12.0, .min_seed_points = 25};
+  ellipse::EllipseSettings ellipses{.min_minor_px = 12.0, .min_proposal_points = 70};
   /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
   double systematic_px = 0.03;
 };

@@ -12,13 +12,21 @@
 
 namespace pharos::host {
 
+/// How finely edges are rendered.
+struct Rays {
+  int per_side = 4;
+  double threshold = 0.01;
+};
+
 /// Both cameras' images of one pose of a scenario.
-inline std::array<GreyImage, 2> rendered_pair(const sim::StereoScenario& scenario, std::size_t pair) {
+inline std::array<GreyImage, 2> rendered_pair(const sim::StereoScenario& scenario, std::size_t pair, Rays rays = {}) {
   std::array<GreyImage, 2> images;
   for (std::size_t v = 0; v < 2; ++v) {
-    const sim::LinearImage light = sim::render_scene(
-        sim::stereo_scene_text(scenario, pair, v),
-        {.width_px = scenario.rig[v].width_px, .height_px = scenario.rig[v].height_px, .antialias_threshold = 0.01});
+    const sim::LinearImage light =
+        sim::render_scene(sim::stereo_scene_text(scenario, pair, v), {.width_px = scenario.rig[v].width_px,
+                                                                      .height_px = scenario.rig[v].height_px,
+                                                                      .rays_per_side = rays.per_side,
+                                                                      .antialias_threshold = rays.threshold});
     sim::RandomStream random(7, "pixels " + std::to_string(2 * pair + v));
     images[v] = sim::expose(sim::blurred(light, scenario.blur_px), {}, random);
   }
