@@ -9,6 +9,7 @@
 #include "host/calibrate/lighthouse_calibration.hpp"
 #include "host/stations/station_file.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
+#include "pharos/motion/hypothesis.hpp"
 #include "pharos/motion/station_pair.hpp"
 
 namespace pharos::calibrate {
@@ -49,6 +50,11 @@ Target calibrated_target(const CalibrationFile& file, const Target& nominal);
 /// Where the second slot's station stands in the frame of the first slot's, if the pair is these two.
 std::optional<motion::StationRelative> relative_pose(const CalibratedPair& pair, std::uint32_t first_id,
                                                      std::uint32_t second_id);
+
+/// What a file leaves wrong with sensors and rotors, from its own covariance: root mean squares over the sensors' axes
+/// (their common size, which widen_by_scale() counts, taken out) and over all rotors in directions to 30 deg off axis.
+/// Where it holds no covariance, what calibrations usually leave; of stations only, what nobody calibrated.
+motion::SystematicErrors systematic_errors(const CalibrationFile& file);
 
 /// A pose's covariance with what the target's uncertain size puts on its range.
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma);

@@ -14,6 +14,7 @@
 #include "pharos/pointing/pass.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/track/epoch_tracker.hpp"
+#include "pharos/motion/motion_tracker.hpp"
 
 namespace pharos::host {
 
@@ -38,8 +39,11 @@ struct TargetConfig {
   TrackMethod method = TrackMethod::kMotion;
   track::TrackOptions track;
   /// Keep accepted station calibrations in the state directory and use them after a restart.
+  /// What nobody knows of sensors and rotors: of the calibration, or without one.
+  motion::SystematicErrors systematic = motion::kUncalibratedErrors;
   bool remember_calibrations = true;
 
+  motion::AnswerLimits limits;  // of method motion
   bool is_replay() const { return port.rfind(kReplayPrefix, 0) == 0; }
   std::filesystem::path replay_file() const { return port.substr(std::string(kReplayPrefix).size()); }
   static constexpr const char* kReplayPrefix = "replay:";

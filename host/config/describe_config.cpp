@@ -49,8 +49,9 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
   out << "\n  solve: sigma " << target.track.solve.sigma_rad * kArcsecPerRad << " arcsec, rho "
       << target.track.solve.rho << ", station model form " << static_cast<int>(target.track.form)
       << ", smoothed flashes: " << yes_no(target.track.smooth_flashes) << ", prior younger than "
-      << target.track.prior_max_age_s << " s\n  remembers calibrations: " << yes_no(target.remember_calibrations)
-      << '\n';
+      << target.track.prior_max_age_s << " s, poses of at most " << target.limits.rotation_rad * kDegPerRad
+      << " deg and " << target.limits.position_m * kMmPerM
+      << " mm (1 sigma, method motion)\n  remembers calibrations: " << yes_no(target.remember_calibrations) << '\n';
 }
 
 void describe_camera(std::ostream& out, const CameraConfig& camera) {

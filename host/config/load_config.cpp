@@ -79,6 +79,14 @@ track::TrackOptions read_solve(const TomlTable& table) {
 }
 
 // Sensor positions and stations as calibrated.
+motion::AnswerLimits read_limits(const TomlTable& table) {
+  motion::AnswerLimits limits;
+  limits.rotation_rad =
+      table.number_or("largest_sigma_deg", limits.rotation_rad * kDegPerRad, {0.001, 180.0}) * kRadPerDeg;
+  limits.position_m = table.number_or("largest_sigma_mm", limits.position_m * kMmPerM, {0.01, 1e4}) / kMmPerM;
+  return limits;
+}
+
 void read_calibration(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
                       TargetConfig& target) {
   if (!table.has("calibration_file")) return;
@@ -88,6 +96,7 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Surr
     target.target = calibrate::calibrated_target(file, target.target);
     target.scale_sigma = file.scale_sigma;
     target.calibrated_pair = file.pair;
+    target.systematic = calibrate::systematic_errors(file);
     for (const StationEntry& station : file.stations) {
       if (!station.id) throw InputError(file.name + ": a [[station]] without id; the daemon knows stations by theirs");
       target.calibrated_stations.push_back(station.calibration);
@@ -121,7 +130,9 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations);
   target.method =
       table.choice_or("method", "motion", {"motion", "epoch"}) == "motion" ? TrackMethod::kMotion : TrackMethod::kEpoch;
-  target.track = read_solve(table.table_or_empty("solve"));
+  const TomlTable solve = table.table_or_empty("solve");
+  target.track = read_solve(solve);
+  target.limits = read_limits(solve);
   target.target_file = read_path(table, "target_file", folder);
   try {
     const TargetFile file = surroundings.read_target(target.target_file.string());

@@ -10,8 +10,7 @@ TargetTracker::TargetTracker(const TargetConfig& config)
 
 TargetTracker::Either TargetTracker::make(const TargetConfig& config) {
   if (config.method == TrackMethod::kEpoch) return track::EpochTracker(config.target, config.track);
-  const bool calibrated = !config.calibration_file.empty();
-  return motion::MotionTracker(config.target, motion::motion_options(config.track, calibrated));
+  return motion::MotionTracker(config.target, motion::motion_options(config.track, config.systematic, config.limits));
 }
 
 void TargetTracker::restart() {

@@ -44,6 +44,10 @@ std::optional<motion::StationRelative> CalibrationChoice::relative() const {
   return calibrate::relative_pose(*file_->content().pair, *first, *second);
 }
 
+motion::SystematicErrors CalibrationChoice::systematic() const {
+  return file_ ? calibrate::systematic_errors(file_->content()) : motion::kUncalibratedErrors;
+}
+
 void CalibrationChoice::widen(LighthousePoseEstimate& estimate) const {
   if (file_) calibrate::widen_by_scale(estimate, file_->content().scale_sigma);
 }

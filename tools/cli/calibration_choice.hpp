@@ -28,6 +28,8 @@ class CalibrationChoice {
   Target target(const Target& nominal, lighthouse::ModelForm form) const;
   /// Where slot 1's station stands to slot 0's: of a file that knows both, once both are known by name.
   std::optional<motion::StationRelative> relative() const;
+  /// What nobody knows of sensors and rotors.
+  motion::SystematicErrors systematic() const;
   /// Widens a pose's covariance by what is not known of the target's size.
   void widen(LighthousePoseEstimate& estimate) const;
   std::optional<std::uint32_t> station_id(std::uint8_t station) const { return stations_.id(station); }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos track: a recording and a target to poses of the target in each station's frame.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
 #include "pharos/motion/motion_tracker.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 #include "tools/cli/calibration_choice.hpp"
@@ -45,9 +45,12 @@ struct Options {
   int form = 1;
   bool raw_flashes = false;
   bool stats = false;
+  double largest_sigma_deg = motion::AnswerLimits{}.rotation_rad * kDegPerRad;
+  double largest_sigma_mm = motion::AnswerLimits{}.position_m * kMmPerM;
   SolverOptions solver;
   OutputOptions output;
 
+  motion::AnswerLimits limits() const { return {largest_sigma_deg * kRadPerDeg, largest_sigma_mm / kMmPerM}; }
   track::TrackOptions track() const {
     track::TrackOptions options;
     options.solve = solver.solve();
@@ -210,12 +213,6 @@ int run_with(const Options& options, CalibrationChoice calibration, Tracker trac
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }
 
-// A calibration of `pharos calibrate lighthouse` moves the sensors.
-bool same_positions(const Target& a, const Target& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const SensorPlacement& p, const SensorPlacement& q) { return p.position_m == q.position_m; });
-}
-
 int run(const Options& options) {
   check_files(options);
   const host::TargetFile target = host::read_target(options.target);
@@ -225,9 +222,8 @@ int run(const Options& options) {
   if (options.method == "epoch") {
     return run_with(options, std::move(calibration), track::EpochTracker(believed, options.track()));
   }
-  const bool calibrated = !same_positions(believed, target.target);
-  return run_with(options, std::move(calibration),
-                  motion::MotionTracker(believed, motion::motion_options(options.track(), calibrated)));
+  const auto motion = motion::motion_options(options.track(), calibration.systematic(), options.limits());
+  return run_with(options, std::move(calibration), motion::MotionTracker(believed, motion));
 }
 
 }  // namespace
@@ -254,6 +250,14 @@ void add_track(CLI::App& app, int& exit_code) {
   command
       ->add_option("--form", options->form, "Sign form of the station model's curve term; real stations fit 1 better")
       ->check(CLI::IsMember({1, 2}))
+      ->capture_default_str();
+  command
+      ->add_option("--largest-sigma-deg", options->largest_sigma_deg,
+                   "method motion: poses known less well (1 sigma) are refused, too_uncertain")
+      ->check(CLI::Range(0.001, 180.0))
+      ->capture_default_str();
+  command->add_option("--largest-sigma-mm", options->largest_sigma_mm, "The same of the position")
+      ->check(CLI::Range(0.01, 1e4))
       ->capture_default_str();
   command->add_flag("--raw-flashes", options->raw_flashes, "Flash times as measured, not smoothed");
   command->add_option("--sensors", options->sensors, "File for what is left of each sensor: mean, sd, rms per station");

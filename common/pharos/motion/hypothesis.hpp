@@ -19,9 +19,10 @@ struct SystematicErrors {
 };
 
 /// Of a target built from its drawing and a station known from its OOTX alone: 0.4 mm; phase 0.5 mrad, tilt and curve
-/// 0.3 mrad each. And what a calibration from thirty poses and one length leaves of them.
+/// 0.3 mrad each.
 inline constexpr SystematicErrors kUncalibratedErrors{0.4e-3, 0.6e-3};
-inline constexpr SystematicErrors kCalibratedErrors{0.012e-3, 0.04e-3};
+/// What a calibration from thirty poses and one length leaves of them, where the calibration does not say itself.
+inline constexpr SystematicErrors kCalibratedErrors{0.002e-3, 0.07e-3};
 
 /// Noise of one bearing as assumed: its standard deviation (rad) and the correlation between sensors of one sweep; and
 /// what is no noise.

@@ -10,9 +10,6 @@
 namespace pharos::motion {
 namespace {
 
-// Beyond these an answer is none: a body seen so badly is as good as lost.
-constexpr double kLargestRotation_rad = 0.35, kLargestPosition_m = 0.3;
-
 std::uint8_t flags_of(const lighthouse::Sweep& sweep, bool calibrated) {
   std::uint8_t flags = 0;
   if (!calibrated) flags |= track::kEpochUncalibrated;
@@ -39,13 +36,15 @@ double residual_rms(const HitFits& used, const Vector6& shift) {
 
 }  // namespace
 
-MotionOptions motion_options(const track::TrackOptions& same, bool target_calibrated) {
+MotionOptions motion_options(const track::TrackOptions& same, const SystematicErrors& systematic,
+                             const AnswerLimits& limits) {
   MotionOptions options;
   options.solve = same.solve;
   options.form = same.form;
   options.smooth_flashes = same.smooth_flashes;
   if (same.solve.rho > 0.0) options.rho = same.solve.rho;
-  options.systematic = target_calibrated ? kCalibratedErrors : kUncalibratedErrors;
+  options.systematic = systematic;
+  options.limits = limits;
   return options;
 }
 
@@ -178,10 +177,10 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   } else {
     result.flags |= track::kEpochPrior;
   }
-  if (e.sigma_rotation_rad() > kLargestRotation_rad || e.sigma_position_m() > kLargestPosition_m) {
-    return pose::Refusal::kTooFewSensors;
-  }
   if (!e.pose.is_finite() || !e.covariance.allFinite()) return pose::Refusal::kNotConverged;
+  if (e.sigma_rotation_rad() > options_.limits.rotation_rad || e.sigma_position_m() > options_.limits.position_m) {
+    return pose::Refusal::kTooUncertain;
+  }
   if (const Hypothesis* rival = station.track.rival(); rival != nullptr && &leader != pair_.joint()) {
     const double delta = station.track.delta_chi2();
     if (delta < kAmbiguousDeltaChi2) e.second = {rival->belief().pose, std::max(0.0, delta)};

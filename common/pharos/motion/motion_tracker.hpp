@@ -5,10 +5,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "pharos/base/units.hpp"
 #include "pharos/motion/station_pair.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::motion {
+
+/// Stated sigmas (square roots of the traces) beyond which an answer is none (too_uncertain). As they stand: a body
+/// seen so badly is as good as lost. Who needs every valid pose to be good sets what good is.
+struct AnswerLimits {
+  double rotation_rad = 20.0 * kRadPerDeg;
+  double position_m = 0.3;
+};
 
 struct MotionOptions {
   pose::SolveOptions solve;  // of the cycles solved alone; its sigma is the noise of one bearing, its rho that of ADOP
@@ -19,11 +27,12 @@ struct MotionOptions {
   double rho = kPaperRho;
   /// What is known to be wrong with target and stations, for every answer's covariance.
   SystematicErrors systematic;
+  AnswerLimits limits;
 };
 
 /// The noise and station model of a tracker of single cycles; a rho of 0 there was not told, and is the paper's here.
-/// `target_calibrated`: target and stations come from a calibration.
-MotionOptions motion_options(const track::TrackOptions& same, bool target_calibrated);
+MotionOptions motion_options(const track::TrackOptions& same, const SystematicErrors& systematic,
+                             const AnswerLimits& limits = {});
 
 /// What the last sweep said of the tracker's own honesty.
 struct InnovationStatistics {

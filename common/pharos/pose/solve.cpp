@@ -184,6 +184,8 @@ const char* name_of(Refusal refusal) {
       return "bad_input";
     case Refusal::kSearchLimit:
       return "search_limit";
+    case Refusal::kTooUncertain:
+      return "too_uncertain";
   }
   return "unknown";
 }

@@ -47,8 +47,9 @@ enum class Refusal : std::uint8_t {
   kBehindStation,  // the only fit lies behind the station
   kBadInput,       // a bearing outside (0, pi) or not finite
   kSearchLimit,    // hits compete or contradict, and what may be spent on the search found no pose that they agree on
+  kTooUncertain,   // the covariance is beyond what may be called an answer (motion::AnswerLimits)
 };
-inline constexpr Refusal kLastRefusal = Refusal::kSearchLimit;
+inline constexpr Refusal kLastRefusal = Refusal::kTooUncertain;
 /// Sensors that a pose takes without a prior.
 inline constexpr int kLeastSensorsAlone = 4;
 

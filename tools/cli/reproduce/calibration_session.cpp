@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/reproduce/calibration_session.hpp"
 
+#include "host/calibrate/calibration_file.hpp"
 #include "host/calibrate/lighthouse_calibration.hpp"
 
 namespace pharos::tools {
@@ -52,9 +53,12 @@ RunBelief calibrate_for(const SimulatedRun& run, const CalibrationSession& sessi
   const double length_m =
       (find_sensor(built, kLengthFrom)->position_m - find_sensor(built, kLengthTo)->position_m).norm();
   material.lengths.push_back({kLengthFrom, kLengthTo, length_m + kLengthSigma_m * random.normal(), kLengthSigma_m});
+  const Target nominal = material.target;
   const calibrate::LighthouseCalibration calibration = calibrate::calibrate_lighthouse(std::move(material));
-  const calibrate::Unknowns& unknowns = calibration.bundle.unknowns;
-  return run.believing(unknowns.target, unknowns.station[0]);
+  const auto file = calibrate::parse_calibration(calibrate::calibration_text(calibration, nominal), "simulated rests");
+  RunBelief belief = run.believing(calibrate::calibrated_target(file, nominal), file.stations.front().calibration);
+  belief.systematic = calibrate::systematic_errors(file);
+  return belief;
 }
 
 }  // namespace pharos::tools

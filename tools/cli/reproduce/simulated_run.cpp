@@ -35,16 +35,16 @@ void SimulatedRun::track(
     const track::TrackOptions& options,
     const std::function<void(const track::EpochResult&, const LighthouseFromBody& truth)>& take) const {
   const auto tracker = std::make_unique<track::EpochTracker>(simulator_.nominal_target(), options);
-  feed(*tracker, {simulator_.nominal_target(), calibration_, {}}, take);
+  feed(*tracker, {simulator_.nominal_target(), calibration_, {}, {}}, take);
 }
 
 RunBelief SimulatedRun::as_announced() const {
   const Target& nominal = simulator_.nominal_target();
-  return {nominal, calibration_, body_frame_of(nominal, simulator_.true_target())};
+  return {nominal, calibration_, body_frame_of(nominal, simulator_.true_target()), motion::kUncalibratedErrors};
 }
 
 RunBelief SimulatedRun::believing(const Target& target, const lighthouse::StationCalibration& station) const {
-  return {target, station, body_frame_of(target, simulator_.true_target())};
+  return {target, station, body_frame_of(target, simulator_.true_target()), motion::kCalibratedErrors};
 }
 
 sim::LighthouseScenario paper_scenario(double duration_s) {

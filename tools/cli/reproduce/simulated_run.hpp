@@ -9,6 +9,7 @@
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/lighthouse/sweep.hpp"
+#include "pharos/motion/hypothesis.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
 
@@ -21,6 +22,7 @@ struct RunBelief {
   /// The body frame that these sensors mean in that of the sensors as built, by least squares: what a hand-eye
   /// calibration against another measuring system finds.
   Pose<frame::Body, frame::Body> T_built_believed;
+  motion::SystematicErrors systematic = motion::kUncalibratedErrors;
 };
 
 /// One simulated recording of one station, decoded: light pulses through the whole decoder, calibration as the station
