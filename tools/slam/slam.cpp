@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos slam: stereo pairs to the poses of a target without a model (paper 004).
 #include <CLI/CLI.hpp>
-#include <array>
 #include <memory>
+#include <optional>
 
 #include "host/cameras/rig_file.hpp"
+#include "host/device/pair_names.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
-#include "host/vision/enhance/enhancer.hpp"
+#include "host/vision/enhance/eight_bits.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/slam/frame_names.hpp"
 #include "tools/slam/slam_files.hpp"
 
 namespace pharos::tools {
@@ -35,27 +35,13 @@ struct Options {
   slam::SlamSettings settings;
 };
 
-// Images as the system takes them, enhanced where that is asked for.
-class Lit {
- public:
-  explicit Lit(const std::string& denoiser) : enhanced_(!denoiser.empty()) {
-    enhance::EnhanceSettings settings;
-    if (denoiser == "fast") settings.denoiser = enhance::Denoiser::kFast;
-    if (denoiser == "none") settings.denoiser = enhance::Denoiser::kNone;
-    for (auto& enhancer : enhancers_) enhancer = enhance::Enhancer(settings);
-  }
-  std::vector<std::uint8_t> of(const host::GreyImage& image, std::size_t side) {
-    if (!enhanced_) return eight_bits(image);
-    std::vector<std::uint8_t> out(image.pixels.size());
-    enhance::to_integers(enhancers_[side].enhance(image.view()).result.view(),
-                         ImageView<std::uint8_t>(out.data(), image.width_px, image.height_px));
-    return out;
-  }
-
- private:
-  bool enhanced_;
-  std::array<enhance::Enhancer, 2> enhancers_;
-};
+std::optional<enhance::EnhanceSettings> enhance_settings(const std::string& denoiser) {
+  if (denoiser.empty()) return std::nullopt;
+  enhance::EnhanceSettings settings;
+  if (denoiser == "fast") settings.denoiser = enhance::Denoiser::kFast;
+  if (denoiser == "none") settings.denoiser = enhance::Denoiser::kNone;
+  return settings;
+}
 
 int run(Options options) {
   options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
@@ -64,16 +50,14 @@ int run(Options options) {
   for (const std::string& file : {options.report, options.map}) {
     if (!file.empty()) require_writable(file);
   }
-  const std::vector<PairName> pairs = pair_names(options.left, options.right, options.rate_hz);
+  const std::vector<host::PairName> pairs = host::pair_names(options.left, options.right, options.rate_hz);
   const auto system = slam::make_slam(host::read_rig_file(options.rig), options.rig, options.settings);
-  Lit lit(options.enhance);
+  enhance::EightBitPairs lit(enhance_settings(options.enhance));
   bool lost = false;
   Progress progress("slam", "pairs", pairs.size());
-  for (const PairName& pair : pairs) {
+  for (const host::PairName& pair : pairs) {
     const host::GreyImage left = host::read_grey_image(pair.left), right = host::read_grey_image(pair.right);
-    const std::vector<std::uint8_t> left_8 = lit.of(left, 0), right_8 = lit.of(right, 1);
-    const slam::TrackedFrame frame = system->push(pair.time_s, {left_8.data(), left.width_px, left.height_px},
-                                                  {right_8.data(), right.width_px, right.height_px});
+    const slam::TrackedFrame frame = system->push(pair.time_s, lit.of(left.view(), 0), lit.of(right.view(), 1));
     if (frame.lost && !lost) note(pair.left + ": tracking is lost; looking for known views");
     lost = frame.lost;
     if (frame.relocalised) note(pair.left + ": found again");

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace pharos::tools {
+namespace pharos::host {
 
 /// A stereo pair on disk.
 struct PairName {
   std::string left;
   std::string right;
   double time_s = 0.0;
-  std::string stem;  ///< of the left file, for pictures
+  std::optional<std::int64_t> stamp_ns;  ///< where the pair's name tells its time
+  std::string stem;                      ///< of the left file, for pictures
 };
 
 /// Pairs of the PNG and PGM images of two folders by sorted name. Time: the name where it is a number of 16 to 19
@@ -19,4 +22,8 @@ struct PairName {
 /// for times that do not grow or of which left and right differ by more than half a frame.
 std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz);
 
-}  // namespace pharos::tools
+/// The same of one directory as `pharos sim stereo` writes it: left/ and right/ in it, or NAME_left.png beside
+/// NAME_right.png. Also throws for a left image without its right one, or the reverse.
+std::vector<PairName> pair_names_in(const std::string& directory, double rate_hz);
+
+}  // namespace pharos::host

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/device/pair_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> images_in(const std::string& folder) {
+  std::error_code error;
+  std::vector<fs::path> images;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".png" || extension == ".pgm") images.push_back(entry.path());
+  }
+  if (error) throw InputError(folder + ": " + error.message() + "; name a folder of images");
+  if (images.empty()) throw InputError(folder + ": holds no .png or .pgm image");
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
+// Of a name that ends in _left or _right, what stands before that.
+std::string name_of_pair(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  for (const std::string_view side : {"_left", "_right"}) {
+    if (stem.ends_with(side)) return stem.substr(0, stem.size() - side.size());
+  }
+  return stem;
+}
+
+std::optional<std::int64_t> stamp_ns(const fs::path& path) {
+  const std::string stem = name_of_pair(path);
+  const bool digits = std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || stem.size() < 16 || stem.size() > 19) return std::nullopt;
+  try {
+    return std::stoll(stem);
+  } catch (const std::out_of_range&) {
+    return std::nullopt;
+  }
+}
+
+// Half the median step between stamps.
+double half_step_ns(const std::vector<fs::path>& images) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < images.size(); ++k) {
+    const auto a = stamp_ns(images[k - 1]), b = stamp_ns(images[k]);
+    if (a && b) steps.push_back(static_cast<double>(*b - *a));
+  }
+  if (steps.empty()) return 1e18;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  return 0.5 * steps[steps.size() / 2];
+}
+
+std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights, double rate_hz) {
+  const double tolerance_ns = half_step_ns(lefts);
+  const bool stamped =
+      std::all_of(lefts.begin(), lefts.end(), [](const auto& path) { return stamp_ns(path).has_value(); });
+  std::vector<PairName> pairs;
+  for (std::size_t k = 0; k < lefts.size(); ++k) {
+    const auto a = stamp_ns(lefts[k]), b = stamp_ns(rights[k]);
+    if (a && b && std::abs(static_cast<double>(*a - *b)) > tolerance_ns) {
+      throw InputError(lefts[k].string() + " and " + rights[k].string() +
+                       " are no pair: left and right are out of step; remove those that have no partner");
+    }
+    const double time_s = stamped ? static_cast<double>(*a) * 1e-9 : static_cast<double>(k) / rate_hz;
+    if (!pairs.empty() && time_s <= pairs.back().time_s) {
+      throw InputError(lefts[k].string() + ": its time is not after the image before it");
+    }
+    pairs.push_back({lefts[k].string(), rights[k].string(), time_s, stamped ? a : std::nullopt, lefts[k].stem()});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz) {
+  const auto lefts = images_in(left), rights = images_in(right);
+  if (lefts.size() != rights.size()) {
+    throw InputError(left + " holds " + std::to_string(lefts.size()) + " images and " + right + " " +
+                     std::to_string(rights.size()) + "; remove those that have no partner");
+  }
+  return paired(lefts, rights, rate_hz);
+}
+
+std::vector<PairName> pair_names_in(const std::string& directory, double rate_hz) {
+  const fs::path folder(directory);
+  std::error_code ignored;
+  if (fs::is_directory(folder / "left", ignored)) {
+    return pair_names((folder / "left").string(), (folder / "right").string(), rate_hz);
+  }
+  std::array<std::vector<fs::path>, 2> sides;
+  for (const fs::path& image : images_in(directory)) {
+    const std::string stem = image.stem().string();
+    if (stem.ends_with("_left")) sides[0].push_back(image);
+    if (stem.ends_with("_right")) sides[1].push_back(image);
+  }
+  const auto& [lefts, rights] = sides;
+  if (lefts.empty() && rights.empty()) {
+    throw InputError(directory + ": holds no pairs: NAME_left.png and NAME_right.png, or folders left and right");
+  }
+  const auto [a, b] = std::mismatch(lefts.begin(), lefts.end(), rights.begin(), rights.end(),
+                                    [](const auto& l, const auto& r) { return name_of_pair(l) == name_of_pair(r); });
+  if (a != lefts.end() || b != rights.end()) {
+    const bool left_alone = b == rights.end() || (a != lefts.end() && name_of_pair(*a) < name_of_pair(*b));
+    throw InputError((left_alone ? *a : *b).string() + ": has no partner; left and right belong together");
+  }
+  return paired(lefts, rights, rate_hz);
+}
+
+}  // namespace pharos::host
