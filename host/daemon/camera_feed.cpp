@@ -6,18 +6,12 @@
 #include "host/daemon/now.hpp"
 #include "host/device/gige_module.hpp"
 #include "host/device/recorded_source.hpp"
-#include "host/support/module_function.hpp"
 
 namespace pharos::host {
 namespace {
 
 // Of the camera that `pharos sim tof` simulates, and the Helios' own greatest.
 constexpr double kUsualRate_hz = 30.0;
-
-std::unique_ptr<FrameSource> open_gige_source(const CameraSettings& settings) {
-  const auto open = reinterpret_cast<GigeModuleFunction>(module_function(kGigeModuleName, kGigeModuleFunction));
-  return std::unique_ptr<FrameSource>(open(settings));
-}
 
 std::unique_ptr<FrameSource> source_of(const CameraConfig& config, bool fastest) {
   if (!config.is_recorded()) return open_gige_source(config.device);

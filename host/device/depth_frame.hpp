@@ -23,7 +23,8 @@ enum class CameraClock : std::uint8_t {
   kHost,  // the epoch of 1970, UTC of this computer
 };
 
-/// One frame of a depth camera: intensity and Cartesian Z of every pixel, and when it was taken.
+/// One frame of a depth camera: intensity and Cartesian Z of every pixel, and when it was taken. Of a grey camera: the
+/// intensity alone.
 struct DepthFrame {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -49,6 +50,10 @@ struct DepthFrame {
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     intensity.resize(pixels);
     depth.resize(pixels);
+  }
+  void resize_grey(std::int32_t width, std::int32_t height) {
+    resize(width, height);
+    depth.clear();
   }
   ImageView<const std::uint16_t> intensity_view() const { return {intensity.data(), width_px, height_px}; }
   ImageView<const std::uint16_t> depth_view() const { return {depth.data(), width_px, height_px}; }

@@ -31,6 +31,16 @@ std::string list_of(const char* const* words, guint count) {
   return list;
 }
 
+std::uint32_t code_of(CameraFormat format) {
+  if (format == CameraFormat::kDepth) return kCoord3dAbcy16;
+  return format == CameraFormat::kMono8 ? kMono8 : kMono16;
+}
+
+const char* name_of(CameraFormat format) {
+  if (format == CameraFormat::kDepth) return "Coord3D_ABCY16";
+  return format == CameraFormat::kMono8 ? "Mono8" : "Mono16";
+}
+
 std::uint32_t format_of(ArvBuffer* buffer) {
   return static_cast<std::uint32_t>(arv_buffer_get_image_pixel_format(buffer));
 }
@@ -48,6 +58,7 @@ struct GigeCamera::Parts {
   std::optional<CoordinateScale> scale;
   FrameNumbers numbers;
 
+  bool is_depth() const { return settings.format == CameraFormat::kDepth; }
   bool has(const char* feature) const {
     ArvError error;
     return arv_camera_is_feature_available(camera.get(), feature, error.out()) != 0 && !error;
@@ -100,8 +111,8 @@ void GigeCamera::Parts::set_mode() {
 }
 
 void GigeCamera::Parts::set_format() {
-  if (offers_format("Coord3D_ABCY16")) {
-    set_word("PixelFormat", "Coord3D_ABCY16", "the pixel format");
+  if (!is_depth() || offers_format("Coord3D_ABCY16")) {
+    set_word("PixelFormat", name_of(settings.format), "the pixel format");
   } else if (offers_format("Coord3D_C16") && offers_format("Mono16")) {
     in_turns = true;
     set_word("PixelFormat", "Coord3D_C16", "the pixel format");
@@ -142,7 +153,7 @@ void GigeCamera::Parts::check_size() const {
 }
 
 void GigeCamera::Parts::read_scale() {
-  if (!has("Scan3dCoordinateSelector") || !has("Scan3dCoordinateScale")) return;
+  if (!is_depth() || !has("Scan3dCoordinateSelector") || !has("Scan3dCoordinateScale")) return;
   constexpr std::array<const char*, 3> kAxes{"CoordinateA", "CoordinateB", "CoordinateC"};
   constexpr double kMetresPerMillimetre = 1e-3;
   CoordinateScale read;
@@ -196,7 +207,7 @@ void GigeCamera::Parts::stop() const {
 void GigeCamera::Parts::describe() {
   identity = word("DeviceVendorName") + ' ' + word("DeviceModelName") + ' ' + serial_of(camera.get());
   if (const std::string mode = word("Scan3dOperatingMode"); !mode.empty()) identity += ", " + mode;
-  identity += in_turns ? ", Coord3D_C16 and Mono16 in turns" : ", Coord3D_ABCY16";
+  identity += in_turns ? ", Coord3D_C16 and Mono16 in turns" : std::string(", ") + name_of(settings.format);
   identity += ", packets of " + std::to_string(settings.packet_size);
 }
 
@@ -248,6 +259,10 @@ bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, DepthFra
   const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
   const std::span<const std::uint8_t> bytes(
       data, std::min(size, payload_bytes(format, settings.width_px, settings.height_px)));
+  if (!is_depth()) {
+    frame.resize_grey(settings.width_px, settings.height_px);
+    return format == kMono8 ? unpack_8(bytes, frame.intensity) : unpack_16(bytes, frame.intensity);
+  }
   frame.resize(settings.width_px, settings.height_px);
   if (format == kCoord3dAbcy16) return unpack_abcy16(bytes, frame.depth, frame.intensity);
   return unpack_16(bytes, format == kMono16 ? frame.intensity : frame.depth);
@@ -299,7 +314,7 @@ FrameOutcome GigeCamera::next(DepthFrame& frame, std::chrono::milliseconds timeo
     parts_->give_back(std::move(buffer));
     return FrameOutcome::kNone;
   }
-  const std::uint32_t format = parts_->in_turns ? kCoord3dC16 : kCoord3dAbcy16;
+  const std::uint32_t format = parts_->in_turns ? kCoord3dC16 : code_of(parts_->settings.format);
   const FrameOutcome outcome = parts_->outcome(buffer.get(), format, frame, missing);
   parts_->give_back(std::move(buffer));
   return outcome == FrameOutcome::kFrame && parts_->in_turns ? parts_->intensity_of(frame) : outcome;

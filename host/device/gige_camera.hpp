@@ -35,8 +35,9 @@ enum class FrameOutcome : std::uint8_t {
 /// One GigE Vision camera, held and streaming. Everything of Aravis and GLib is in its .cpp file. One thread only.
 class GigeCamera {
  public:
-  /// Finds, takes, sets and starts the camera: mode, format (Coord3D_ABCY16, else Coord3D_C16 and Mono16 in turns),
-  /// packets; then reads scale and offset. Throws CameraError. Takes up to 3.5 s where no camera answers.
+  /// Finds, takes, sets and starts the camera: mode, format (Coord3D_ABCY16, else Coord3D_C16 and Mono16 in turns; of a
+  /// grey camera as asked), packets; then reads scale and offset. Throws CameraError. Takes up to 3.5 s where no camera
+  /// answers.
   explicit GigeCamera(const CameraSettings& settings);
   ~GigeCamera();
 

@@ -40,4 +40,11 @@ bool unpack_16(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> val
   return true;
 }
 
+bool unpack_8(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> values) {
+  constexpr unsigned kWhite16PerWhite8 = 257;
+  if (bytes.size() != values.size()) return false;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(kWhite16PerWhite8 * bytes[i]);
+  return true;
+}
+
 }  // namespace pharos::host

@@ -9,6 +9,7 @@ namespace pharos::host {
 // GenICam pixel formats, as 32 bits. Bits 16-23 are the bits of a pixel.
 inline constexpr std::uint32_t kCoord3dAbcy16 = 0x82400403;  // LUCID's own: X, Y, Z, intensity
 inline constexpr std::uint32_t kCoord3dC16 = 0x011000B8;     // Z
+inline constexpr std::uint32_t kMono8 = 0x01080001;          // intensity
 inline constexpr std::uint32_t kMono16 = 0x01100007;         // intensity
 
 /// Bytes of a frame of this format and size.
@@ -24,5 +25,8 @@ bool unpack_abcy16(std::span<const std::uint8_t> bytes, std::span<std::uint16_t>
 
 /// One little-endian number a pixel; false as above.
 bool unpack_16(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> values);
+
+/// One byte a pixel, as 16 bits: times 257, so that white is 65535 either way; false as above.
+bool unpack_8(std::span<const std::uint8_t> bytes, std::span<std::uint16_t> values);
 
 }  // namespace pharos::host

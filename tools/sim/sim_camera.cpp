@@ -28,9 +28,11 @@ struct CameraOptions {
   std::uint64_t seed = 1;
   std::size_t frames = kUsualFrames;
   std::string camera_file;
+  std::string view;  // left, right: of pairs; else a depth camera
   std::vector<std::string> stalls;
   std::vector<std::string> deaths;
   std::vector<std::string> freezes;
+  double jitter_ms = 0.0;
   sim::CameraPlay play;
 };
 
@@ -51,6 +53,9 @@ std::vector<sim::Interval> parse_intervals(const char* option, const std::vector
 }
 
 sim::FrameReel make_reel(const CameraOptions& options) {
+  if (!options.view.empty()) {
+    return sim::reel_of_pairs(options.input, options.view == "left" ? 0 : 1, options.frames);
+  }
   if (std::filesystem::is_directory(options.input)) return sim::reel_of_directory(options.input, options.frames);
   Progress progress("rendered", "frames", options.frames);
   return sim::reel_of_scenario(options.input, options.seed, options.frames, options.camera_file,
@@ -70,6 +75,8 @@ int serve(CameraOptions options) {
   options.play.stalls = parse_intervals("--stall", options.stalls);
   options.play.deaths = parse_intervals("--death", options.deaths);
   options.play.freezes = parse_intervals("--freeze", options.freezes);
+  options.play.grey = !options.view.empty();
+  options.play.clock_jitter_s = options.jitter_ms * 1e-3;
   const sim::FrameReel reel = make_reel(options);
   block_stop_signals();
   // There before the camera is, so that whoever waits for it finds both.
@@ -90,6 +97,11 @@ void add_behaviour(CLI::App& command, CameraOptions& options) {
   command.add_flag("--apart", play.depth_and_intensity_apart, "offer Coord3D_C16 and Mono16 only");
   command.add_option("--clock-ppm", play.clock_ppm, "how much the camera's clock runs fast")
       ->check(number_from(-1000.0, 1000.0));
+  command.add_option("--clock-start", play.clock_start_s, "what the camera's clock shows at its start, s")
+      ->check(number_from(0.0, 1e9))
+      ->capture_default_str();
+  command.add_option("--jitter-ms", options.jitter_ms, "with --view: sigma of what the camera's times are off")
+      ->check(number_from(0.0, 1000.0));
   command.add_flag("--ptp", play.ptp, "follow UTC once PtpEnable is set");
 }
 
@@ -100,9 +112,16 @@ void add_sim_camera(CLI::App& sim, int& exit_code) {
   sim::CameraPlay& play = options->play;
   CLI::App* command = sim.add_subcommand("camera", "Serve frames as a Helios on the network (GigE Vision)");
   command
-      ->add_option("INPUT", options->input,
-                   "scenario (tools/sim/scenarios/tof_*.toml), or a directory of frames with its camera.toml")
+      ->add_option(
+          "INPUT", options->input,
+          "scenario (tools/sim/scenarios/tof_*.toml), or a directory of frames with its camera.toml; with --view "
+          "a directory of pairs")
       ->required();
+  command
+      ->add_option("--view", options->view,
+                   "left or right: serve that side of recorded pairs as a grey camera (Mono8, Mono16), triggered at "
+                   "the beats of UTC: two of them show one pair at a time")
+      ->check(CLI::IsMember({"left", "right"}));
   add_seed_option(*command, options->seed, "of the scenario");
   command->add_option("--frames", options->frames, "how many frames are made beforehand; they are shown to and fro")
       ->check(CLI::Range(1, kMostFrames))
@@ -121,7 +140,7 @@ void add_sim_camera(CLI::App& sim, int& exit_code) {
   command->footer(
       "Prints its address once the frames are made; ends on SIGINT or SIGTERM. One camera an address.\n\n"
       "Example: pharos sim camera tools/sim/scenarios/tof_approach.toml --truth /tmp/truth.csv --camera-file "
-      "/tmp/camera.toml");
+      "/tmp/camera.toml\n         pharos sim camera /tmp/pairs --view left --address 127.0.0.2 --serial L1 --rate 10");
   command->callback([options, &exit_code] { exit_code = serve(*options); });
 }
 

@@ -23,6 +23,9 @@ struct CameraPlay {
   double frame_rate_hz = 30.0;
   std::string mode = "Distance5000mmMultiFreq";
   bool depth_and_intensity_apart = false;
+  /// One of a rig's cameras: Mono8 and Mono16, triggered at the beats of `frame_rate_hz` in UTC, so that several show
+  /// the frames of one instant (FrameReel::at the beat's number).
+  bool grey = false;
   /// Depth counts on the wire in the modes up to 3000 mm, which a real camera may give finer than the others.
   double fine_scale_m = 0.0001;
   double scale_m = 0.00025;
@@ -34,6 +37,7 @@ struct CameraPlay {
 
   double clock_start_s = 1000.0;  // what its clock shows at its start
   double clock_ppm = 0.0;         // how much it runs fast
+  double clock_jitter_s = 0.0;    // sigma of what its times are off, each on its own
   bool ptp = false;               // it follows UTC once it is told to (PtpEnable)
 
   double duration_s = 0.0;  // 0: until SIGINT or SIGTERM

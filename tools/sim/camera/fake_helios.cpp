@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <random>
 
 #include "host/daemon/now.hpp"
 #include "host/device/gobject.hpp"
@@ -28,6 +30,16 @@ constexpr std::size_t kFineModes = 2;  // up to 3000 mm
 constexpr std::uint32_t kVendorText = 0x48;
 constexpr std::uint32_t kModelText = 0x68;
 constexpr std::size_t kTextBytes = 32;
+
+OfferedFormats offered_by(const CameraPlay& play) {
+  if (play.grey) return OfferedFormats::kGrey;
+  return play.depth_and_intensity_apart ? OfferedFormats::kDepthApart : OfferedFormats::kDepth;
+}
+
+std::uint32_t first_format(OfferedFormats offered) {
+  if (offered == OfferedFormats::kGrey) return host::kMono16;
+  return offered == OfferedFormats::kDepth ? host::kCoord3dAbcy16 : host::kCoord3dC16;
+}
 
 bool any_holds(const std::vector<Interval>& intervals, double time_s) {
   return std::any_of(intervals.begin(), intervals.end(), [&](const Interval& one) { return one.holds(time_s); });
@@ -69,6 +81,7 @@ struct FakeHelios::Parts {
   std::uint64_t shown = 0;  // of the reel
   std::int64_t last_camera_ns = 0;
   double lost_share = 0.0;  // as Aravis was told
+  std::mt19937_64 jitter{std::hash<std::string>()(play.serial)};
 
   ArvFakeCamera* registers() const { return arv_gv_fake_camera_get_fake_camera(camera.get()); }
   std::uint32_t read(std::uint32_t address) const {
@@ -94,7 +107,8 @@ struct FakeHelios::Parts {
   void fill(ArvBuffer* buffer, std::uint32_t format);
   void heed_ptp() const;
   void lose(double share);
-  std::int64_t camera_time_ns(std::int64_t utc_ns) const;
+  std::int64_t camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const;
+  void take_picture(std::int64_t utc_ns);
 };
 
 WireScale FakeHelios::Parts::scale_of(std::size_t mode) const {
@@ -105,21 +119,21 @@ WireScale FakeHelios::Parts::scale_of(std::size_t mode) const {
 
 void FakeHelios::Parts::set_up() const {
   write_text(kVendorText, "LUCID Vision Labs");
-  write_text(kModelText, "HLS003S-001 (simulated)");
+  write_text(kModelText, play.grey ? "PHX050S-M (simulated)" : "HLS003S-001 (simulated)");
   const auto width = static_cast<std::uint32_t>(reel.width_px);
   const auto height = static_cast<std::uint32_t>(reel.height_px);
   write(ARV_FAKE_CAMERA_REGISTER_SENSOR_WIDTH, width);
   write(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT, height);
   write(ARV_FAKE_CAMERA_REGISTER_WIDTH, width);
   write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, height);
-  write(ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT,
-        play.depth_and_intensity_apart ? host::kCoord3dC16 : host::kCoord3dAbcy16);
+  write(ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT, first_format(offered_by(play)));
   write(ARV_FAKE_CAMERA_REGISTER_ACQUISITION_FRAME_PERIOD_US,
         static_cast<std::uint32_t>(std::lround(kUsPerSecond / play.frame_rate_hz)));
+  write(kPtpStatusRegister, kPtpDisabled);
+  if (play.grey) return;
   const auto mode = std::find(kHeliosModes.begin(), kHeliosModes.end(), play.mode);
   if (mode == kHeliosModes.end()) throw host::InputError("--mode " + play.mode + ": the Helios has no such mode");
   write(kModeRegister, static_cast<std::uint32_t>(mode - kHeliosModes.begin()));
-  write(kPtpStatusRegister, kPtpDisabled);
   for (std::uint32_t i = 0; i < kHeliosModes.size(); ++i) {
     const WireScale wire = scale_of(i);
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
@@ -133,10 +147,26 @@ void FakeHelios::Parts::heed_ptp() const {
   if (play.ptp) write(kPtpStatusRegister, read(kPtpEnableRegister) != 0 ? kPtpSlave : kPtpDisabled);
 }
 
-std::int64_t FakeHelios::Parts::camera_time_ns(std::int64_t utc_ns) const {
+std::int64_t FakeHelios::Parts::camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const {
   if (read(kPtpStatusRegister) == kPtpSlave) return utc_ns;
-  const double since_start_ns = static_cast<double>(host::monotonic_now_ns() - clock_began_ns);
+  const double since_start_ns = static_cast<double>(monotonic_ns - clock_began_ns);
   return std::llround(play.clock_start_s * kNsPerSecond + since_start_ns * (1.0 + play.clock_ppm * 1e-6));
+}
+
+// Which frame is shown, and the time that the camera tells of it.
+void FakeHelios::Parts::take_picture(std::int64_t utc_ns) {
+  const std::int64_t now_ns = host::monotonic_now_ns();
+  if (!play.grey) {
+    ++shown;
+    last_camera_ns = camera_time_ns(utc_ns, now_ns);
+    return;
+  }
+  // Aravis sends at the beats of UTC: the trigger was the last one.
+  const auto period_ns = static_cast<std::int64_t>(read(ARV_FAKE_CAMERA_REGISTER_ACQUISITION_FRAME_PERIOD_US)) * 1000;
+  const std::int64_t since_trigger_ns = utc_ns % period_ns;
+  shown = static_cast<std::uint64_t>(utc_ns / period_ns) + 1;
+  const double off_ns = std::normal_distribution<double>(0.0, 1.0)(jitter) * play.clock_jitter_s * kNsPerSecond;
+  last_camera_ns = camera_time_ns(utc_ns - since_trigger_ns, now_ns - since_trigger_ns) + std::llround(off_ns);
 }
 
 void FakeHelios::Parts::lose(double share) {
@@ -150,15 +180,13 @@ void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
   heed_ptp();
   const std::int64_t utc_ns = host::utc_now_ns();
   const bool frozen = any_holds(play.freezes, time_s) && shown > 0;
-  if (!frozen) {
-    ++shown;
-    last_camera_ns = camera_time_ns(utc_ns);
-  }
+  if (!frozen) take_picture(utc_ns);
   arv_buffer_set_timestamp(buffer, static_cast<guint64>(last_camera_ns));
   const ReelFrame& frame = reel.at(shown - 1);
   std::size_t received = 0;  // what a receiver would have got; the memory is as large as the payload
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &received)));
-  write_payload(reel, frame, format, scale_of(read(kModeRegister)), {data, arv_fake_camera_get_payload(registers())});
+  const WireScale wire = play.grey ? WireScale() : scale_of(read(kModeRegister));
+  write_payload(reel, frame, format, wire, {data, arv_fake_camera_get_payload(registers())});
   if (truth != nullptr && frame.T_camera_target && !frozen) truth->add(utc_ns, *frame.T_camera_target);
   lose(any_holds(play.stalls, time_s) ? 1.0 : play.loss);
   frames.fetch_add(1, std::memory_order_relaxed);
@@ -166,7 +194,7 @@ void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
 
 FakeHelios::FakeHelios(const FrameReel& reel, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns)
     : parts_(std::make_unique<Parts>(reel, play, truth, began_ns)) {
-  const DescriptionFile description(helios_description(play.depth_and_intensity_apart));
+  const DescriptionFile description(helios_description(offered_by(play)));
   parts_->camera.reset(arv_gv_fake_camera_new_full(play.address.c_str(), play.serial.c_str(), description.path()));
   if (arv_gv_fake_camera_is_running(parts_->camera.get()) == 0) {
     throw host::InputError("no camera can be served at " + play.address +

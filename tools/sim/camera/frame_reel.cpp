@@ -52,6 +52,9 @@ void write_payload(const FrameReel& reel, const ReelFrame& frame, std::uint32_t 
     for (std::size_t i = 0; i < frame.depth.size(); ++i) put(&out[kBytes16 * i], z_count(reel, frame.depth[i], wire));
   } else if (format == host::kMono16) {
     for (std::size_t i = 0; i < frame.intensity.size(); ++i) put(&out[kBytes16 * i], frame.intensity[i]);
+  } else if (format == host::kMono8) {
+    for (std::size_t i = 0; i < frame.intensity.size(); ++i)
+      out[i] = static_cast<std::uint8_t>(frame.intensity[i] >> 8);
   } else {
     std::fill(out.begin(), out.end(), std::uint8_t{0});
   }

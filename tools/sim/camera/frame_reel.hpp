@@ -15,7 +15,7 @@ namespace pharos::sim {
 /// One frame that the camera will show, and what is true in it.
 struct ReelFrame {
   std::vector<std::uint16_t> intensity;  // row by row
-  std::vector<std::uint16_t> depth;      // counts of FrameReel::depth_scale_m; 0 and 65535: none
+  std::vector<std::uint16_t> depth;      // counts of FrameReel::depth_scale_m; 0 and 65535: none; empty: grey alone
   std::optional<Pose<frame::Camera, frame::Target>> T_camera_target;
 };
 

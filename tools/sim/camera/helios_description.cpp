@@ -73,9 +73,11 @@ std::string modes() {
   return enumeration("Scan3dOperatingMode", kModeRegister, entries);
 }
 
-std::string formats(bool apart) {
-  std::vector<Entry> entries{{"Coord3D_C16", host::kCoord3dC16}, {"Mono16", host::kMono16}};
-  if (!apart) entries.insert(entries.begin(), {"Coord3D_ABCY16", host::kCoord3dAbcy16});
+std::string formats(OfferedFormats offered) {
+  std::vector<Entry> entries{{"Mono16", host::kMono16}};
+  if (offered == OfferedFormats::kGrey) entries.push_back({"Mono8", host::kMono8});
+  if (offered != OfferedFormats::kGrey) entries.insert(entries.begin(), {"Coord3D_C16", host::kCoord3dC16});
+  if (offered == OfferedFormats::kDepth) entries.insert(entries.begin(), {"Coord3D_ABCY16", host::kCoord3dAbcy16});
   return enumeration("PixelFormat", 0x128, entries);
 }
 
@@ -85,31 +87,33 @@ std::string category(const std::string& name, const std::vector<const char*>& fe
   return text + "</Category>\n";
 }
 
-std::string categories() {
-  return category("Root", {"DeviceControl", "ImageFormatControl", "AcquisitionControl", "Scan3dControl",
-                           "TransportLayerControl"}) +
+std::string categories(bool depth) {
+  std::vector<const char*> all{"DeviceControl", "ImageFormatControl", "AcquisitionControl", "TransportLayerControl"};
+  if (depth) all.push_back("Scan3dControl");
+  const std::string scan3d = category(
+      "Scan3dControl", {"Scan3dOperatingMode", "Scan3dCoordinateSelector", "Scan3dCoordinateScale",
+                        "Scan3dCoordinateOffset", "Scan3dConfidenceThresholdEnable", "Scan3dConfidenceThresholdMin",
+                        "Scan3dSpatialFilterEnable", "Scan3dFlyingPixelsRemovalEnable"});
+  return category("Root", all) +
          category("DeviceControl",
                   {"DeviceVendorName", "DeviceModelName", "DeviceVersion", "DeviceSerialNumber", "DeviceID"}) +
          category("ImageFormatControl",
                   {"SensorWidth", "SensorHeight", "OffsetX", "OffsetY", "Width", "Height", "PixelFormat"}) +
          category("AcquisitionControl", {"AcquisitionMode", "AcquisitionStart", "AcquisitionStop",
                                          "AcquisitionFrameRate", "ExposureTimeSelector"}) +
-         category("Scan3dControl",
-                  {"Scan3dOperatingMode", "Scan3dCoordinateSelector", "Scan3dCoordinateScale", "Scan3dCoordinateOffset",
-                   "Scan3dConfidenceThresholdEnable", "Scan3dConfidenceThresholdMin", "Scan3dSpatialFilterEnable",
-                   "Scan3dFlyingPixelsRemovalEnable"}) +
+         (depth ? scan3d : std::string()) +
          category("TransportLayerControl", {"PayloadSize", "PtpEnable", "PtpStatus"});
 }
 
 // Addresses below 0x400 are those of the fake camera's own registers and of GigE Vision's first page.
-std::string device_and_image(bool apart) {
+std::string device_and_image(OfferedFormats offered) {
   return text_register("DeviceVendorName", 0x48, 32) + text_register("DeviceModelName", 0x68, 32) +
          text_register("DeviceVersion", 0x88, 32) + text_register("DeviceSerialNumber", 0xD8, 16) +
          text_register("DeviceID", 0xD8, 16) + integer("SensorHeight", 0x118, "", "RO") +
          integer("SensorWidth", 0x11C, "", "RO") + integer("OffsetX", 0x130, "<Min>0</Min><Max>0</Max>") +
          integer("OffsetY", 0x134, "<Min>0</Min><Max>0</Max>") +
          integer("Width", 0x100, "<Min>1</Min><pMax>SensorWidth</pMax>") +
-         integer("Height", 0x104, "<Min>1</Min><pMax>SensorHeight</pMax>") + formats(apart);
+         integer("Height", 0x104, "<Min>1</Min><pMax>SensorHeight</pMax>") + formats(offered);
 }
 
 std::string acquisition() {
@@ -145,15 +149,16 @@ std::string transport() {
 
 }  // namespace
 
-std::string helios_description(bool depth_and_intensity_apart) {
+std::string helios_description(OfferedFormats formats) {
+  const bool depth = formats != OfferedFormats::kGrey;
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<RegisterDescription ModelName=\"Helios\" VendorName=\"LUCID\" "
          "StandardNameSpace=\"None\" SchemaMajorVersion=\"1\" SchemaMinorVersion=\"0\" SchemaSubMinorVersion=\"1\" "
          "MajorVersion=\"1\" MinorVersion=\"0\" SubMinorVersion=\"0\" ToolTip=\"Simulated Helios\" ProductGuid=\"0\" "
          "VersionGuid=\"0\" xmlns=\"http://www.genicam.org/GenApi/Version_1_0\" "
          "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
          "xsi:schemaLocation=\"http://www.genicam.org/GenApi/Version_1_0 GenApiSchema.xsd\">\n" +
-         categories() + device_and_image(depth_and_intensity_apart) + acquisition() + scan3d() + transport() +
-         "</RegisterDescription>\n";
+         categories(depth) + device_and_image(formats) + acquisition() + (depth ? scan3d() : std::string()) +
+         transport() + "</RegisterDescription>\n";
 }
 
 }  // namespace pharos::sim

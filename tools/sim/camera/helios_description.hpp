@@ -27,8 +27,14 @@ inline constexpr std::uint32_t kModeStride = 3 * kAxisStride;
 inline constexpr std::uint32_t kPtpSlave = 9;  // values of PtpStatus, as IEEE 1588 numbers port states
 inline constexpr std::uint32_t kPtpDisabled = 3;
 
-/// The GenICam description: the nodes of a Helios that Pharos and its users meet. `depth_and_intensity_apart`: a camera
-/// that offers Coord3D_C16 and Mono16 only.
-std::string helios_description(bool depth_and_intensity_apart);
+/// What the simulated camera offers.
+enum class OfferedFormats : std::uint8_t {
+  kDepth,       // Coord3D_ABCY16, Coord3D_C16, Mono16
+  kDepthApart,  // Coord3D_C16, Mono16
+  kGrey,        // Mono8, Mono16: no depth camera at all
+};
+
+/// The GenICam description: the nodes of a Helios, or of a grey camera, that Pharos and its users meet.
+std::string helios_description(OfferedFormats formats);
 
 }  // namespace pharos::sim

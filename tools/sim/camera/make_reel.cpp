@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/device/frame_directory.hpp"
+#include "host/device/pair_names.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/sim/tof/tof_simulator.hpp"
 
@@ -68,6 +71,23 @@ FrameReel reel_of_directory(const std::string& directory, std::size_t most) {
     host::DepthFrame frame;
     files.read(i, reel.width_px, reel.height_px, frame);
     reel.frames.push_back({std::move(frame.intensity), std::move(frame.depth), std::nullopt});
+  }
+  return reel;
+}
+
+FrameReel reel_of_pairs(const std::string& directory, std::size_t side, std::size_t most) {
+  FrameReel reel;
+  for (const host::PairName& pair : host::pair_names_in(directory, 1.0)) {
+    if (reel.frames.size() == most) break;
+    const std::string& file = side == 0 ? pair.left : pair.right;
+    host::GreyImage image = host::read_grey_image(file);
+    if (reel.frames.empty()) {
+      reel.width_px = image.width_px;
+      reel.height_px = image.height_px;
+    } else if (image.width_px != reel.width_px || image.height_px != reel.height_px) {
+      throw host::InputError(file + ": is of another size than the image before it; a camera has one");
+    }
+    reel.frames.push_back({std::move(image.pixels), {}, std::nullopt});
   }
   return reel;
 }

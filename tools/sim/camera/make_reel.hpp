@@ -19,4 +19,8 @@ FrameReel reel_of_scenario(const std::string& scenario, std::uint64_t seed, std:
 /// Throws host::InputError.
 FrameReel reel_of_directory(const std::string& directory, std::size_t most);
 
+/// The first `most` images of one side (0 left, 1 right) of recorded pairs, as `pharos sim stereo` writes them, for a
+/// grey camera. Throws host::InputError; also where they are not of one size.
+FrameReel reel_of_pairs(const std::string& directory, std::size_t side, std::size_t most);
+
 }  // namespace pharos::sim

@@ -28,6 +28,7 @@ TEST(PixelFormat, TakesNothingFromBytesThatAreTooFewOrTooMany) {
   for (const std::size_t size : {0u, 8u, 15u, 17u, 24u}) {
     EXPECT_FALSE(unpack_abcy16(std::vector<std::uint8_t>(size, 1), depth, intensity)) << size;
     EXPECT_FALSE(unpack_16(std::vector<std::uint8_t>(size, 1), depth)) << size;
+    EXPECT_FALSE(unpack_8(std::vector<std::uint8_t>(size, 1), depth)) << size;
   }
   EXPECT_EQ(depth, (Values{7, 7}));
   EXPECT_EQ(intensity, (Values{7, 7}));
@@ -53,6 +54,20 @@ TEST(PixelFormat, ReadsWhatTheSimulatedCameraSends) {
   EXPECT_NEAR((bytes[0] | bytes[1] << 8) * 0.0001 - 3.0, 0.3, 1e-4) << "X";
   EXPECT_EQ(depth[1], 0xFFFF) << "none";
   EXPECT_EQ(intensity, (Values{100, 200}));
+}
+
+TEST(PixelFormat, GreyFramesComeAsTheSimulatedCameraSendsThem) {
+  sim::FrameReel reel{2, 1, 0.00025, {}, {}};
+  reel.frames.push_back({{0x1234, 0xFFFF}, {}, std::nullopt});
+  std::vector<std::uint8_t> bytes(4);
+  Values grey(2);
+  sim::write_payload(reel, reel.frames[0], kMono16, {}, bytes);
+  ASSERT_TRUE(unpack_16(bytes, grey));
+  EXPECT_EQ(grey, (Values{0x1234, 0xFFFF}));
+  bytes.resize(payload_bytes(kMono8, 2, 1));
+  sim::write_payload(reel, reel.frames[0], kMono8, {}, bytes);
+  ASSERT_TRUE(unpack_8(bytes, grey));
+  EXPECT_EQ(grey, (Values{0x1212, 0xFFFF})) << "white stays white";
 }
 
 TEST(FrameReel, IsShownToAndFroWithoutAJump) {
