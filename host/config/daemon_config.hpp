@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "host/cameras/rig_file.hpp"
 #include "host/device/camera_settings.hpp"
+#include "host/vision/slam/slam_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/pointing/pass.hpp"
@@ -87,10 +90,45 @@ struct TelescopeConfig {
   double pass_gap_s = 60.0;
 };
 
+/// What is done to images in low light before anything is looked for: nothing, or enhancement with a denoiser.
+enum class LowLight : std::uint8_t { kOff, kBm3d, kFast, kNotDenoised };
+
+/// How a target without a model is followed.
+struct SlamConfig {
+  SlamConfig() {
+    settings.threads = true;
+    settings.keep_trajectory = false;
+  }
+  slam::SlamSettings settings;
+  LowLight enhance = LowLight::kOff;
+};
+
+/// One rig of two cameras, and what is measured with it.
+struct StereoConfig {
+  /// Told in every message, as `ring2/NAME` and `slam/NAME`: letters, digits, `-` and `_`; no two rigs share one.
+  std::string name;
+  /// Of what it looks at; told in every message.
+  std::string target;
+  std::filesystem::path rig_file;
+  RigFile rig;
+  /// Left and right camera on the network; their sizes are those of the rig file.
+  std::array<CameraSettings, 2> devices;
+  /// Two frames whose times differ by no more are a pair. Times told from arrivals differ by a millisecond or two
+  /// between cameras; a target that turns 10 deg/s turns 0.05 deg meanwhile.
+  double pairing_window_s = 5e-3;
+  /// Recorded pairs (a directory as `pharos sim stereo` writes it) in place of cameras on the network; empty: none.
+  std::filesystem::path frames;
+  bool ring2 = false;
+  std::optional<SlamConfig> slam;
+
+  bool is_recorded() const { return !frames.empty(); }
+};
+
 struct LcmConfig {
   /// Default: multicast that never leaves this computer (ttl 0).
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
-  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, LINE_POINTING, STATUS.
+  /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, RING2_POSE, SLAM_POSE,
+  /// LINE_POINTING, STATUS.
   std::string channel_prefix = "PHAROS_";
 };
 
@@ -131,6 +169,7 @@ struct DaemonConfig {
   std::vector<TargetConfig> targets;
   std::vector<CameraConfig> cameras;
   std::vector<TelescopeConfig> telescopes;
+  std::vector<StereoConfig> stereos;
 };
 
 }  // namespace pharos::host

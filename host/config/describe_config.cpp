@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <sstream>
 
 #include "host/config/load_config.hpp"
@@ -74,6 +75,51 @@ void describe_camera(std::ostream& out, const CameraConfig& camera) {
       << '\n';
 }
 
+const char* describe_low_light(LowLight light) {
+  switch (light) {
+    case LowLight::kOff:
+      return "as they come";
+    case LowLight::kBm3d:
+      return "enhanced, denoiser bm3d";
+    case LowLight::kFast:
+      return "enhanced, denoiser fast";
+    case LowLight::kNotDenoised:
+      return "enhanced, not denoised";
+  }
+  return "as they come";
+}
+
+void describe_stereo(std::ostream& out, const StereoConfig& stereo) {
+  out << "stereo " << stereo.name << " (target " << stereo.target << "):\n  ";
+  const double rate_hz = stereo.devices[0].frame_rate_hz;
+  if (stereo.is_recorded()) {
+    out << "pairs: " << stereo.frames.string();
+  } else {
+    for (std::size_t side = 0; side < stereo.devices.size(); ++side) {
+      const CameraSettings& device = stereo.devices[side];
+      out << (side == 0 ? "left:" : ", right:") << (device.serial.empty() ? "" : " serial number " + device.serial)
+          << (device.address.empty() ? "" : " at " + device.address);
+    }
+    const CameraSettings& device = stereo.devices[0];
+    out << ", " << (device.format == CameraFormat::kMono8 ? "Mono8" : "Mono16") << ", packets of " << device.packet_size
+        << ", follow PTP: " << yes_no(device.ptp) << "\n  pairs: frames within " << stereo.pairing_window_s * 1e3
+        << " ms";
+  }
+  if (rate_hz > 0.0) out << ", " << rate_hz << " frames/s";
+  out << "\n  rig: " << stereo.rig.left.optics.width_px << " x " << stereo.rig.left.optics.height_px << " pixels from "
+      << stereo.rig_file.string() << '\n';
+  if (stereo.ring2) out << "  ring2: docking ring and nozzle of every pair\n";
+  if (!stereo.slam) return;
+  const slam::SlamSettings& slam = stereo.slam->settings;
+  out << "  slam: scene " << (slam.scene == slam::Scene::kStatic ? "static" : "target") << ", " << slam.features
+      << " features, "
+      << (slam.most_keyframes == 0 ? "keyframes without limit"
+                                   : "at most " + std::to_string(slam.most_keyframes) + " keyframes")
+      << ", closes loops: " << yes_no(slam.close_loops) << ", vocabulary "
+      << (slam.vocabulary.empty() ? "as it ships" : slam.vocabulary) << ", images "
+      << describe_low_light(stereo.slam->enhance) << '\n';
+}
+
 void describe_telescope(std::ostream& out, const TelescopeConfig& telescope) {
   out << "telescope " << telescope.name << " (target " << telescope.target
       << "):\n  images: " << telescope.directory.string() << ", track " << telescope.track_file.string()
@@ -99,6 +145,11 @@ std::string describe(const DaemonConfig& config) {
     out << prefix << "LIGHTHOUSE_POSE, " << (config.publish.bearings ? prefix + "LIGHTHOUSE_BEARINGS, " : "");
   }
   if (!config.cameras.empty()) out << prefix << "TOF_POSE, ";
+  const auto any = [&config](const auto& has) {
+    return std::any_of(config.stereos.begin(), config.stereos.end(), has);
+  };
+  if (any([](const StereoConfig& stereo) { return stereo.ring2; })) out << prefix << "RING2_POSE, ";
+  if (any([](const StereoConfig& stereo) { return stereo.slam.has_value(); })) out << prefix << "SLAM_POSE, ";
   if (!config.telescopes.empty()) out << prefix << "LINE_POINTING, ";
   out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
       << config.publish.status_period_s << " s\nstate directory: "
@@ -109,6 +160,7 @@ std::string describe(const DaemonConfig& config) {
   describe_log(out, config.log);
   for (const TargetConfig& target : config.targets) describe_target(out, target);
   for (const CameraConfig& camera : config.cameras) describe_camera(out, camera);
+  for (const StereoConfig& stereo : config.stereos) describe_stereo(out, stereo);
   for (const TelescopeConfig& telescope : config.telescopes) describe_telescope(out, telescope);
   return out.str();
 }

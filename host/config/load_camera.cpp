@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/config/load_camera.hpp"
 
-#include <arpa/inet.h>
-
-#include <map>
 #include <set>
 
 #include "host/config/config_parts.hpp"
+#include "host/config/load_device.hpp"
 #include "pharos/tof/tof_frame.hpp"
 
 namespace pharos::host {
@@ -14,15 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostAveraged = 1000;         // half a minute at 30 frames/s
-constexpr std::int64_t kLeastPacket = 576;  // what every IPv4 network passes
-constexpr std::int64_t kMostPacket = 65'000;
-constexpr std::size_t kMostSerial = 16;  // of GigE Vision
-
-bool is_address(const std::string& text) {
-  in_addr parsed{};
-  return ::inet_pton(AF_INET, text.c_str(), &parsed) == 1;
-}
+constexpr int kMostAveraged = 1000;  // half a minute at 30 frames/s
 
 DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const Surroundings& surroundings) {
   DepthCamera camera;
@@ -42,9 +32,7 @@ DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const S
 
 void read_frames(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
                  CameraConfig& camera) {
-  for (const char* key : {"serial", "address", "mode", "packet_size", "ptp"}) {
-    if (table.has(key)) table.fail(key, "is of a camera on the network; remove it, or remove frames");
-  }
+  refuse_beside_frames(table, {"serial", "address", "mode", "packet_size", "ptp"});
   camera.frames = read_path(table, "frames", folder);
   try {
     surroundings.check_frames(camera.frames);
@@ -54,24 +42,12 @@ void read_frames(const TomlTable& table, const fs::path& folder, const Surroundi
 }
 
 void read_device(const TomlTable& table, CameraSettings& device) {
-  device.serial = table.text_or("serial", "");
-  device.address = table.text_or("address", "");
-  if (table.has("serial") &&
-      (device.serial.size() > kMostSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
-    table.fail("serial", "must be 1 to " + std::to_string(kMostSerial) + " letters, digits, - or _");
-  }
-  if (table.has("address") && !is_address(device.address)) {
-    table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
-  }
-  if (device.serial.empty() && device.address.empty()) {
-    table.fail("serial", "is missing; give serial or address of a camera, or frames = \"DIRECTORY\"");
-  }
+  read_which_camera(table, "frames = \"DIRECTORY\"", device);
   device.mode = table.text_or("mode", "");
   if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
     table.fail("mode", "must be a word of the camera's Scan3dOperatingMode, as Distance5000mmMultiFreq");
   }
-  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kLeastPacket, kMostPacket));
-  device.ptp = table.boolean_or("ptp", device.ptp);
+  read_transport(table, device);
 }
 
 tof::RingSettings read_ring(const TomlTable& table) {
@@ -97,7 +73,7 @@ CameraConfig read_camera_table(const TomlTable& table, const fs::path& folder, c
   } else {
     read_device(table, camera.device);
   }
-  camera.device.frame_rate_hz = table.number_or("frame_rate_hz", camera.device.frame_rate_hz, {0.1, 100.0});
+  read_frame_rate(table, camera.device);
   camera.device.width_px = camera.camera.optics.width_px;
   camera.device.height_px = camera.camera.optics.height_px;
   camera.average_frames = static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMostAveraged));

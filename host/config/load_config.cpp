@@ -9,6 +9,7 @@
 #include "host/config/config_parts.hpp"
 #include "host/config/lcm_url.hpp"
 #include "host/config/load_camera.hpp"
+#include "host/config/load_stereo.hpp"
 #include "host/config/load_telescope.hpp"
 #include "host/config/strict_toml.hpp"
 #include "pharos/base/units.hpp"
@@ -175,10 +176,11 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surr
   config.targets = read_targets(root, folder, surroundings);
   config.cameras = read_cameras(root, folder, surroundings);
   config.telescopes = read_telescopes(root, folder, surroundings);
-  if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty()) {
+  config.stereos = read_stereos(root, folder, surroundings, config.cameras);
+  if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",
               "is missing; add a [[target]] with name, port and target_file, or a [[camera]] with name, target, "
-              "camera_file and serial, or a [[telescope]]");
+              "camera_file and serial, or a [[stereo]] or [[telescope]]");
   }
   root.reject_unknown();
   return config;

@@ -10,9 +10,15 @@
 #include <cstring>
 
 #include "host/device/frame_directory.hpp"
+#include "host/device/pair_names.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"
+#include "host/vision/ring2/ring2_rig.hpp"
+#include "host/vision/ring2/stereo_circles.hpp"
+#include "host/vision/slam/rectification.hpp"
+#include "host/vision/slam/vocabulary.hpp"
 
 namespace pharos::host {
 namespace {
@@ -26,6 +32,28 @@ void check_recording(const fs::path& file) {
     throw InputError(file.string() + ": is not a file; give a recording made by pharosd's [recording]");
   }
   const StreamReader reads_the_head{ByteSource(file.string())};
+}
+
+// The whole optics is looked at, not only what the file's reader can see.
+void check_ring2(const RigFile& rig) { static_cast<void>(StereoCircleFinder(ring2_rig(rig), {})); }
+
+void check_slam(const RigFile& rig, const std::string& name) { static_cast<void>(slam::rectify(rig, name)); }
+
+void check_vocabulary(const std::string& path) {
+  static_cast<void>(slam::Vocabulary::read(path.empty() ? slam::shipped_vocabulary_path() : path));
+}
+
+void check_pairs(const fs::path& directory, const RigFile& rig) {
+  const PairName first = pair_names_in(directory.string(), 1.0).front();
+  const std::array<std::pair<const std::string*, const PinholeCamera*>, 2> sides{
+      {{&first.left, &rig.left.optics}, {&first.right, &rig.right.optics}}};
+  for (const auto& [file, optics] : sides) {
+    const GreyImage image = read_grey_image(*file);
+    if (image.width_px == optics->width_px && image.height_px == optics->height_px) continue;
+    throw InputError(*file + ": has " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
+                     " pixels, the rig's camera " + std::to_string(optics->width_px) + " x " +
+                     std::to_string(optics->height_px) + "; name the rig file of these cameras");
+  }
 }
 
 void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }
@@ -64,10 +92,16 @@ void add_trouble(std::vector<std::string>& troubles, const char* key, const fs::
 }  // namespace
 
 Surroundings this_computer() {
-  return {read_target, check_recording, identity, calibrate::read_calibration_file, read_camera_file, check_frames};
+  return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
+          read_camera_file, check_frames,     read_rig_file, check_ring2,
+          check_slam,       check_vocabulary, check_pairs};
 }
 
 calibrate::CalibrationFile Surroundings::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+RigFile Surroundings::no_rig(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 

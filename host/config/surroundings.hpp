@@ -8,6 +8,7 @@
 
 #include "host/calibrate/calibration_file.hpp"
 #include "host/cameras/camera_file.hpp"
+#include "host/cameras/rig_file.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/table/target_file.hpp"
 
@@ -29,6 +30,19 @@ struct Surroundings {
   /// Throws InputError unless there are recorded frames in the directory. Unless given, there are.
   std::function<void(const std::filesystem::path& directory)> check_frames = [](const std::filesystem::path&) {};
 
+  /// How a rig file becomes a rig; throws InputError. Unless given, there is none.
+  std::function<RigFile(const std::string& path)> read_rig = no_rig;
+  /// Each throws InputError for what its system cannot work with. Unless given, all is well.
+  std::function<void(const RigFile& rig)> check_ring2 = [](const RigFile&) {};
+  std::function<void(const RigFile& rig, const std::string& name)> check_slam = [](const RigFile&, const std::string&) {
+  };
+  /// `path` empty: the vocabulary that ships.
+  std::function<void(const std::string& path)> check_vocabulary = [](const std::string&) {};
+  /// Throws InputError unless there are recorded pairs of this rig in the directory: the first one is read.
+  std::function<void(const std::filesystem::path& directory, const RigFile& rig)> check_pairs =
+      [](const std::filesystem::path&, const RigFile&) {};
+
+  static RigFile no_rig(const std::string& path);
   static calibrate::CalibrationFile no_calibration(const std::string& path);
   static CameraFile no_camera(const std::string& path);
 };

@@ -53,6 +53,11 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
   for (const TelescopeConfig& telescope : config_.telescopes) {
     telescopes_.push_back(std::make_unique<TelescopeFeed>(loop_, telescope, publisher_));
   }
+  for (const StereoConfig& stereo : config_.stereos) {
+    stereos_.push_back(std::make_unique<StereoFeed>(loop_, stereo, config_.publish, publisher_,
+                                                    replay_speed == ReplaySpeed::kFastest,
+                                                    [this] { stop_when_all_ended(); }));
+  }
   loop_.watch(signals_.fd(), [this] { on_signal(); });
   loop_.watch(attend_timer_.fd(), [this] { attend(); });
   loop_.watch(status_timer_.fd(), [this] { publish_health(); });
@@ -94,7 +99,7 @@ void Daemon::stop_when_all_ended() {
   const auto ended = [](const auto& any) { return any->finished(); };
   const auto replayed = [](const auto& any) { return any->feed->finished(); };
   if (telescopes_.empty() && std::all_of(channels_.begin(), channels_.end(), replayed) &&
-      std::all_of(cameras_.begin(), cameras_.end(), ended)) {
+      std::all_of(cameras_.begin(), cameras_.end(), ended) && std::all_of(stereos_.begin(), stereos_.end(), ended)) {
     loop_.stop();
   }
 }
@@ -123,7 +128,8 @@ void Daemon::run() {
   status_timer_.start_every(std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(config_.publish.status_period_s)));
   const std::string cameras = cameras_.empty() ? "" : ", " + counted(cameras_.size(), "camera");
-  spdlog::info("pharosd {} started, {}{}", PHAROS_VERSION, counted(channels_.size(), "target"), cameras);
+  const std::string rigs = stereos_.empty() ? "" : ", " + counted(stereos_.size(), "stereo rig");
+  spdlog::info("pharosd {} started, {}{}{}", PHAROS_VERSION, counted(channels_.size(), "target"), cameras, rigs);
   loop_.run();
   memory_.save_at_last();
   message_ = "stopped";
@@ -137,6 +143,7 @@ void Daemon::attend() {
   for (const auto& channel : channels_) channel->feed->attend(now_ns);
   for (const auto& camera : cameras_) camera->attend(now_ns);
   for (const auto& telescope : telescopes_) telescope->attend(now_ns);
+  for (const auto& stereo : stereos_) stereo->attend(now_ns);
   // Poses first, files when no bytes are in hand.
   memory_.save(now_ns);
   warn("calibrations", memory_.trouble(), now_ns);
@@ -176,6 +183,10 @@ std::string Daemon::trouble() const {
     const std::string notice = camera->clock_notice(monotonic_now_ns());
     if (!notice.empty()) return camera->name() + ": " + notice;
   }
+  for (const auto& stereo : stereos_) {
+    const std::string notice = stereo->clock_notice(monotonic_now_ns());
+    if (!notice.empty()) return stereo->name() + ": " + notice;
+  }
   const std::string recording = recording_trouble();
   return recording.empty() ? memory_.trouble() : recording;
 }
@@ -204,6 +215,9 @@ void Daemon::publish_health() {
   }
   for (const auto& camera : cameras_) health.sources.push_back(camera->health(monotonic_now_ns()));
   for (const auto& telescope : telescopes_) health.sources.push_back(telescope->health(monotonic_now_ns()));
+  for (const auto& stereo : stereos_) {
+    for (SourceHealth& system : stereo->health(monotonic_now_ns())) health.sources.push_back(std::move(system));
+  }
   publisher_.publish_health(health);
 }
 

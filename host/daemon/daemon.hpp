@@ -14,6 +14,7 @@
 #include "host/daemon/log_limit.hpp"
 #include "host/daemon/replay_feed.hpp"
 #include "host/daemon/signals.hpp"
+#include "host/daemon/stereo/stereo_feed.hpp"
 #include "host/daemon/target_line.hpp"
 #include "host/daemon/telescope_feed.hpp"
 #include "host/daemon/timer.hpp"
@@ -22,8 +23,8 @@
 
 namespace pharos::host {
 
-/// All targets and cameras of a configuration in one poll loop: feed -> recorder and line -> publisher, status beside
-/// it.
+/// All targets, cameras and rigs of a configuration in one poll loop: feed -> recorder and line -> publisher, status
+/// beside it.
 class Daemon {
  public:
   /// Throws InputError for a replay that is no recording. `sink` must outlive this. `signals` end run().
@@ -60,6 +61,7 @@ class Daemon {
   std::vector<std::unique_ptr<Channel>> channels_;
   std::vector<std::unique_ptr<CameraFeed>> cameras_;
   std::vector<std::unique_ptr<TelescopeFeed>> telescopes_;
+  std::vector<std::unique_ptr<StereoFeed>> stereos_;
   std::int64_t started_ns_ = 0;
   std::int64_t failed_told_ = 0;
   std::string message_;

@@ -42,6 +42,7 @@ void replay_instead(host::DaemonConfig& config, const std::string& file) {
   target.port = host::TargetConfig::kReplayPrefix + file;
   config.targets = {target};
   config.cameras.clear();
+  config.stereos.clear();
 }
 
 int run(const Options& options) {

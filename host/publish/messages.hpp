@@ -4,6 +4,7 @@
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/line_report.hpp"
+#include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pointing_t.hpp"
@@ -16,6 +17,7 @@ namespace pharos::host {
 
 pose_t pose_message(const CycleReport& report);
 pose_t pose_message(const TofReport& report);
+pose_t pose_message(const StereoReport& report);
 pointing_t pointing_message(const LineReport& report);
 bearings_t bearings_message(const CycleReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);

@@ -58,6 +58,26 @@ bearing_t bearing_message(const ReportedBearing& bearing) {
   return message;
 }
 
+// All of a camera's message but the pose.
+pose_t camera_message(const CameraReport& report, bool ambiguous) {
+  pose_t message{};
+  message.utime = floor_us(report.utc_ns);
+  message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
+  message.latency_us = saturated_us(report.latency_ns);
+  message.sequence = report.sequence;
+  message.source = report.source;
+  message.station_or_camera = report.camera;
+  message.target = report.target;
+  message.parent_frame = "camera";
+  message.child_frame = "target";
+  const bool refused = !report.refusal.empty();
+  message.status = refused ? "refused_" + report.refusal : ambiguous ? "ambiguous" : "ok";
+  message.valid = refused ? 0 : 1;
+  message.flags = report.flags;
+  message.observations = report.observations;
+  return message;
+}
+
 }  // namespace
 
 pose_t pose_message(const CycleReport& report) {
@@ -84,24 +104,22 @@ pose_t pose_message(const CycleReport& report) {
 }
 
 pose_t pose_message(const TofReport& report) {
-  pose_t message{};
-  message.utime = floor_us(report.utc_ns);
-  message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
-  message.latency_us = saturated_us(report.latency_ns);
-  message.sequence = report.sequence;
-  message.source = report.source;
-  message.station_or_camera = report.camera;
-  message.target = report.target;
-  message.parent_frame = "camera";
-  message.child_frame = "target";
-  const bool refused = !report.refusal.empty();
-  const char* answered = report.pose.ambiguous() ? "ambiguous" : "ok";
-  message.status = refused ? "refused_" + report.refusal : answered;
-  message.valid = refused ? 0 : 1;
-  message.flags = report.flags;
-  message.observations = report.observations;
-  if (!refused) fill_estimate(report.pose, message);  // residuals there are metres: residual_rms_rad stays 0
+  pose_t message = camera_message(report, report.pose.ambiguous());
+  if (message.valid != 0) fill_estimate(report.pose, message);  // residuals are metres: residual_rms_rad stays 0
   return message;
+}
+
+pose_t pose_message(const StereoReport& report) {
+  return std::visit(
+      [&report](const auto& pose) {
+        pose_t message = camera_message(report, pose.ambiguous());
+        if (!report.of_slam()) message.parent_frame = "rig";
+        if (message.valid == 0) return message;
+        fill_estimate(pose, message);
+        message.residual_rms_rad = pose.residual_rms;
+        return message;
+      },
+      report.pose);
 }
 
 bearings_t bearings_message(const CycleReport& report) {

@@ -11,6 +11,8 @@ Publisher::Publisher(MessageSink& sink, const std::string& prefix)
       board_pose_channel_(prefix + "LIGHTHOUSE_BOARD_POSE"),
       bearings_channel_(prefix + "LIGHTHOUSE_BEARINGS"),
       tof_channel_(prefix + "TOF_POSE"),
+      ring2_channel_(prefix + "RING2_POSE"),
+      slam_channel_(prefix + "SLAM_POSE"),
       pointing_channel_(prefix + "LINE_POINTING"),
       status_channel_(prefix + "STATUS") {}
 
@@ -41,6 +43,12 @@ bool Publisher::publish_board_pose(const CycleReport& report) {
 
 bool Publisher::publish_pose(const TofReport& report) {
   const bool sent = send(tof_channel_, pose_message(report));
+  counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_pose(const StereoReport& report) {
+  const bool sent = send(report.of_slam() ? slam_channel_ : ring2_channel_, pose_message(report));
   counters_.poses += sent ? 1 : 0;
   return sent;
 }

@@ -9,6 +9,7 @@
 #include "host/publish/health.hpp"
 #include "host/publish/line_report.hpp"
 #include "host/publish/message_sink.hpp"
+#include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
 
 namespace pharos::host {
@@ -35,6 +36,8 @@ class Publisher {
   bool publish_board_pose(const CycleReport& report);
   /// pose_t of a depth camera; refused frames are told as refused cycles are.
   bool publish_pose(const TofReport& report);
+  /// pose_t of a stereo rig, on the channel of its system; refused pairs are told as refused cycles are.
+  bool publish_pose(const StereoReport& report);
   /// pointing_t of a telescope; refused images and passes are told as refused cycles are.
   bool publish_pointing(const LineReport& report);
   /// bearings_t of the same cycle.
@@ -53,6 +56,8 @@ class Publisher {
   std::string board_pose_channel_;
   std::string bearings_channel_;
   std::string tof_channel_;
+  std::string ring2_channel_;
+  std::string slam_channel_;
   std::string pointing_channel_;
   std::string status_channel_;
   std::vector<std::uint8_t> buffer_;

@@ -6,6 +6,7 @@
 #include "host/cameras/rig_file.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
+#include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"
 #include "tools/bench/stopwatch.hpp"
 #include "tools/cli/commands.hpp"
@@ -40,13 +41,6 @@ struct Options {
   int repeats = 0;
   OutputOptions output;
 };
-
-ring2::Rig rig_of(const host::RigFile& file) {
-  ring2::Rig rig;
-  rig.views[0] = {file.left.optics, file.left.pose()};
-  rig.views[1] = {file.right.optics, file.right.pose()};
-  return rig;
-}
 
 using Solved = Result<ring2::CirclesEstimate, ring2::CirclesFailure>;
 
@@ -119,7 +113,7 @@ int run(const Options& options) {
   const std::string& read = table ? options.ellipses : options.images[0];
   const bool twice = read == "-" && (options.rig == "-" || (!table && options.images[1] == "-"));
   if (twice) throw host::InputError("standard input (-) can be read once");
-  const ring2::Rig rig = rig_of(host::read_rig_file(options.rig));
+  const ring2::Rig rig = host::ring2_rig(host::read_rig_file(options.rig));
   return (table ? from_table(rig, options) : from_images(rig, options)) ? kExitAnswered : kExitNoAnswer;
 }
 

@@ -29,6 +29,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Of a run without end: the last ones, at least half of so many.
+constexpr std::size_t kMostFigures = 4096;
+
+void keep_last(std::vector<float>& figures) {
+  if (figures.size() < kMostFigures) return;
+  figures.erase(figures.begin(), figures.end() - static_cast<std::ptrdiff_t>(kMostFigures / 2));
+}
+
 double quantile(std::vector<float> values, double share) {
   if (values.empty()) return 0.0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -132,13 +140,13 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
       out.inliers = tracked.inliers;
       out.relocalised = tracked.relocalised;
       out.lost = tracked.state == TrackState::kLost;
-      if (!out.lost) out.placed = TrackedPose{tracked.pose, tracked.covariance};
+      if (!out.lost) out.placed = TrackedPose{tracked.pose, tracked.covariance, tracked.rms_px};
       if (tracked.wants_keyframe) made = make_keyframe(frame);
     }
     out.keyframe = made != kNone;
     const Pose<frame::Camera, frame::Camera> relative =
         out.placed ? frame.pose * map_.pose_of(tracker_.reference()).inverse() : Pose<frame::Camera, frame::Camera>{};
-    log_.add(out, tracker_.reference(), relative);
+    if (settings_.keep_trajectory) log_.add(out, tracker_.reference(), relative);
   }
   if (made == kNone) return out;
   if (settings_.threads) {
@@ -190,6 +198,8 @@ void Engine::note_figures(const TrackedFrame& out, const StereoFrontend::Result&
   features_.push_back(static_cast<float>(out.features));
   tracking_ms_.push_back(static_cast<float>(took_ms));
   if (out.placed) inliers_.push_back(static_cast<float>(out.inliers));
+  if (settings_.keep_trajectory) return;
+  for (std::vector<float>* figures : {&features_, &inliers_, &tracking_ms_, &mapping_ms_}) keep_last(*figures);
 }
 
 void Engine::map_keyframe(KeyframeId id) {

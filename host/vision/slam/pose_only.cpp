@@ -68,8 +68,9 @@ CameraFromTarget descend(const std::vector<Observation>& observations, const std
 
 Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose) {
   const Vector3 predicted = camera.project(pose * observation.point_m);
+  const double disparity = observation.pixel.x() - observation.right_u_px, expected = predicted.x() - predicted.z();
   return {observation.pixel.x() - predicted.x(), observation.pixel.y() - predicted.y(),
-          observation.stereo() ? observation.right_u_px - predicted.z() : 0.0};
+          observation.stereo() ? (disparity - expected) / kDisparityShare : 0.0};
 }
 
 Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,
@@ -82,19 +83,33 @@ Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, co
   J(0, 2) = camera.fx_px * p.x() * over_z2;
   J(1, 1) = -camera.fy_px * over_z;
   J(1, 2) = camera.fy_px * p.y() * over_z2;
-  if (observation.stereo()) {
-    J(2, 0) = J(0, 0);
-    J(2, 2) = camera.fx_px * (p.x() - camera.baseline_m) * over_z2;
-  }
+  if (observation.stereo()) J(2, 2) = camera.fx_px * camera.baseline_m * over_z2 / kDisparityShare;
   Eigen::Matrix<double, 3, 6> out;
   out.leftCols<3>() = -J * skew(turned);
   out.rightCols<3>() = J;
   return out;
 }
 
+namespace {
+
+double rms_of(const std::vector<Observation>& observations, const StereoCamera& camera, const PoseOnly& result) {
+  double sum_px2 = 0.0;
+  int coordinates = 0;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (!result.inlier[k]) continue;
+    sum_px2 += residual_of(observations[k], camera, result.pose).squaredNorm();
+    coordinates += observations[k].stereo() ? 3 : 2;
+  }
+  return coordinates == 0 ? 0.0 : std::sqrt(sum_px2 / coordinates);
+}
+
+}  // namespace
+
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
                      const CameraFromTarget& start) {
-  PoseOnly result{start, Matrix6::Zero(), std::vector<bool>(observations.size(), true), 0};
+  PoseOnly result;
+  result.pose = start;
+  result.inlier.assign(observations.size(), true);
   for (int round = 0; round < kRounds; ++round) {
     result.pose = descend(observations, result.inlier, camera, result.pose);
     result.inliers = 0;
@@ -112,6 +127,7 @@ PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoC
   const Normal normal = gather(observations, result.inlier, camera, result.pose);
   const Matrix6 covariance = normal.H.ldlt().solve(Matrix6::Identity());
   if (covariance.allFinite()) result.covariance = covariance;
+  result.rms_px = rms_of(observations, camera, result);
   return result;
 }
 

@@ -23,7 +23,8 @@ inline constexpr double kStereoChi2 = 7.815;
 /// Where Huber's cost leaves the square: two sigma. What is wrong by less than the limits above is still not Gaussian.
 inline constexpr double kHuberChi2 = 4.0;
 
-/// x - pi(R X + t) of (10), px; the third row is 0 for a mono feature.
+/// x - pi(R X + t) of (10), px. The third row is not the right column's, which errs as the left one does, but the
+/// disparity's, over kDisparityShare so that all rows have one variance; 0 for a mono feature.
 Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose);
 /// d residual / d delta of Pose::moved_by: rotation before translation.
 Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,
@@ -34,6 +35,7 @@ struct PoseOnly {
   Matrix6 covariance = Matrix6::Zero();  ///< of delta, from the inliers; zero where the answer is not certain at all
   std::vector<bool> inlier;
   int inliers = 0;
+  double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each
 };
 
 /// (10): least squares of the reprojections over the pose alone, Huber's cost, Gauss and Newton; outliers are sorted

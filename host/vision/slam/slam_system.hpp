@@ -10,25 +10,11 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/vision/slam/feature.hpp"
+#include "host/vision/slam/slam_settings.hpp"
 #include "host/vision/slam/tracked_frame.hpp"
 #include "pharos/base/image_view.hpp"
 
 namespace pharos::slam {
-
-enum class Scene {
-  kTarget,  ///< a body that moves before a dark or still background, which is masked
-  kStatic,  ///< nothing is masked: the camera moves
-};
-
-struct SlamSettings {
-  Scene scene = Scene::kTarget;
-  int features = 1000;
-  bool close_loops = true;
-  /// Tracking, mapping and loop closing each in a thread of their own; else one after the other: same input, same bits.
-  bool threads = false;
-  std::size_t most_keyframes = 0;  ///< 0: no limit; the paper's is 20
-  std::string vocabulary;          ///< a file; empty: the one that ships
-};
 
 struct SlamReport {
   int frames = 0, tracked = 0, lost = 0, relocalised = 0, repeated = 0;

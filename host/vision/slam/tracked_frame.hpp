@@ -13,6 +13,7 @@ struct TrackedPose {
   Pose<frame::Camera, frame::Target> pose;
   /// Of delta in Pose::moved_by, from the frame's own features: what the map's errors add is not in it.
   Matrix6 covariance = Matrix6::Zero();
+  double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each; of the first frame, which has none, 0
 };
 
 /// One stereo pair and what came of it.

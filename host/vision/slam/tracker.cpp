@@ -249,6 +249,7 @@ Tracked Tracker::track(Frame& frame, bool mapping_idle) {
   out.state = TrackState::kTracking;
   out.pose = placed->pose;
   out.covariance = placed->covariance;
+  out.rms_px = placed->rms_px;
   out.inliers = placed->inliers;
   out.wants_keyframe = keyframe_due(frame, placed->inliers, mapping_idle);
   return out;

@@ -18,6 +18,7 @@ struct Tracked {
   TrackState state = TrackState::kWaiting;
   CameraFromTarget pose;
   Matrix6 covariance = Matrix6::Zero();
+  double rms_px = 0.0;
   int inliers = 0;
   bool relocalised = false;
   bool wants_keyframe = false;

@@ -7,7 +7,9 @@ TrackedPose in_left_frame(const TrackedPose& rectified, const Matrix3& R) {
   Matrix6 turn = Matrix6::Zero();
   turn.topLeftCorner<3, 3>() = R;
   turn.bottomRightCorner<3, 3>() = R;
-  return {{R * rectified.pose.R * R.transpose(), R * rectified.pose.t}, turn * rectified.covariance * turn.transpose()};
+  return {{R * rectified.pose.R * R.transpose(), R * rectified.pose.t},
+          turn * rectified.covariance * turn.transpose(),
+          rectified.rms_px};
 }
 
 void TrajectoryLog::add(const TrackedFrame& frame, KeyframeId reference,
@@ -21,7 +23,8 @@ std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R
     out.push_back(entry.frame);
     if (!entry.frame.placed) continue;
     const CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);
-    out.back().placed = in_left_frame({pose, entry.frame.placed->covariance}, R_left_rectified);
+    out.back().placed =
+        in_left_frame({pose, entry.frame.placed->covariance, entry.frame.placed->rms_px}, R_left_rectified);
   }
   return out;
 }

@@ -23,13 +23,18 @@ pharos::host::CameraFile a_camera() {
 // Any bytes are either a configuration that describes itself or an InputError of one line; never anything else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const pharos::host::Surroundings nothing{
-      [](const std::string&) { return pharos::host::TargetFile{}; }, [](const std::filesystem::path&) {},
-      [](const std::string& path) { return path; }, pharos::host::Surroundings::no_calibration,
-      [](const std::string&) { return a_camera(); }};
+  const pharos::host::Surroundings nothing{[](const std::string&) { return pharos::host::TargetFile{}; },
+                                           [](const std::filesystem::path&) {},
+                                           [](const std::string& path) { return path; },
+                                           pharos::host::Surroundings::no_calibration,
+                                           [](const std::string&) { return a_camera(); },
+                                           [](const std::filesystem::path&) {},
+                                           [](const std::string&) { return pharos::host::RigFile{}; }};
   try {
     const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);
-    if ((config.targets.empty() && config.cameras.empty()) || pharos::host::describe(config).empty()) std::abort();
+    const bool nothing_to_do =
+        config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty();
+    if (nothing_to_do || pharos::host::describe(config).empty()) std::abort();
   } catch (const pharos::host::InputError& error) {
     if (std::string_view(error.what()).rfind("fuzz.toml:", 0) != 0) std::abort();
   }

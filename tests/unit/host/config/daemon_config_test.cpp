@@ -135,7 +135,7 @@ TEST(DaemonConfig, NamesFileLineAndKeyOfAnUnknownKeyAndTheOneMeant) {
               AllOf(StartsWith("p.toml:5: target[0].bauds:"), HasSubstr("baud\"?")));
   EXPECT_THAT(error_of(std::string("[lcm]\ncolour = 1\n") + kOneTarget),
               StartsWith("p.toml:2: lcm.colour: unknown key"));
-  EXPECT_THAT(error_of(std::string("[stereo]\n") + kOneTarget), StartsWith("p.toml:1: stereo: unknown key"));
+  EXPECT_THAT(error_of(std::string("[sonar]\n") + kOneTarget), StartsWith("p.toml:1: sonar: unknown key"));
 }
 
 struct BadLine {

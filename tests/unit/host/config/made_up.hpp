@@ -15,6 +15,17 @@ inline TargetFile any_target(const std::string&) {
   return file;
 }
 
+/// 640 x 480 pixels; cannot be opened where the name holds "gone".
+inline RigFile a_rig(const std::string& path) {
+  if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+  RigFile rig;
+  for (RigCamera* camera : {&rig.left, &rig.right}) {
+    camera->optics.width_px = 640;
+    camera->optics.height_px = 480;
+  }
+  return rig;
+}
+
 /// No disk: what is called gone is not there, all other files are; /dev/left and /dev/right are one device. A camera
 /// file is of 640 x 480 pixels, of 1280 x 480 where its name holds "large".
 inline Surroundings made_up() {
@@ -37,7 +48,8 @@ inline Surroundings made_up() {
           },
           [](const std::filesystem::path& directory) {
             if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
-          }};
+          },
+          a_rig};
 }
 
 inline DaemonConfig parse(const std::string& text) {

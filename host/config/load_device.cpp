@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/load_device.hpp"
+
+#include <arpa/inet.h>
+
+#include <string>
+
+#include "host/config/config_parts.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kLeastPacket = 576;  // what every IPv4 network passes
+constexpr std::int64_t kMostPacket = 65'000;
+constexpr std::size_t kMostSerial = 16;  // of GigE Vision
+
+bool is_address(const std::string& text) {
+  in_addr parsed{};
+  return ::inet_pton(AF_INET, text.c_str(), &parsed) == 1;
+}
+
+}  // namespace
+
+void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device) {
+  device.serial = table.text_or("serial", "");
+  device.address = table.text_or("address", "");
+  if (table.has("serial") &&
+      (device.serial.size() > kMostSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
+    table.fail("serial", "must be 1 to " + std::to_string(kMostSerial) + " letters, digits, - or _");
+  }
+  if (table.has("address") && !is_address(device.address)) {
+    table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
+  }
+  if (device.serial.empty() && device.address.empty()) {
+    table.fail("serial", "is missing; give serial or address of a camera, or " + std::string(instead));
+  }
+}
+
+void read_transport(const TomlTable& table, CameraSettings& device) {
+  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kLeastPacket, kMostPacket));
+  device.ptp = table.boolean_or("ptp", device.ptp);
+}
+
+void read_frame_rate(const TomlTable& table, CameraSettings& device) {
+  device.frame_rate_hz = table.number_or("frame_rate_hz", device.frame_rate_hz, {0.1, 100.0});
+}
+
+void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (table.has(key)) table.fail(key, "is of a camera on the network; remove it, or remove frames");
+  }
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+
+#include "host/config/strict_toml.hpp"
+#include "host/device/camera_settings.hpp"
+
+namespace pharos::host {
+
+// What every table about a GigE Vision camera holds. Each throws InputError with file, line and key.
+
+/// serial and address: of which at least one must be there; `instead` says what to give where there is neither.
+void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device);
+/// packet_size and ptp.
+void read_transport(const TomlTable& table, CameraSettings& device);
+/// frame_rate_hz; without it the camera's own.
+void read_frame_rate(const TomlTable& table, CameraSettings& device);
+/// Recorded frames stand in for a camera: none of `keys` may be there.
+void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys);
+
+}  // namespace pharos::host

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/health_parts.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kNsPerUs = 1000;
+
+}  // namespace
+
+SourceState state_of(CameraState camera) {
+  switch (camera) {
+    case CameraState::kOpen:
+      return SourceState::kOk;
+    case CameraState::kSilent:
+      return SourceState::kStale;
+    case CameraState::kGone:
+      return SourceState::kGone;
+    case CameraState::kTaken:
+    case CameraState::kWrong:
+      return SourceState::kError;
+  }
+  return SourceState::kError;
+}
+
+void add_times(NamedCounts& counts, const std::string& stage, const LatencyHistogram& times) {
+  counts.push_back({stage + "_p50_us", times.quantile_ns(0.5) / kNsPerUs});
+  counts.push_back({stage + "_p99_us", times.quantile_ns(0.99) / kNsPerUs});
+  counts.push_back({stage + "_max_us", times.max_ns() / kNsPerUs});
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/stereo/camera_pairs.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "host/daemon/health_parts.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::array<const char*, 2> kSides{"left", "right"};
+
+// The later, the worse.
+int rank(CameraState state) {
+  constexpr std::array kWorse{CameraState::kOpen, CameraState::kSilent, CameraState::kGone, CameraState::kTaken,
+                              CameraState::kWrong};
+  return static_cast<int>(std::find(kWorse.begin(), kWorse.end(), state) - kWorse.begin());
+}
+
+void add(std::string& text, const char* side, const std::string& words) {
+  if (words.empty()) return;
+  text += (text.empty() ? "" : "; ") + std::string(side) + ": " + words;
+}
+
+std::int64_t middle(std::int64_t a, std::int64_t b) { return a + (b - a) / 2; }
+
+}  // namespace
+
+CameraPairs::CameraPairs(Cameras cameras, std::int64_t window_ns)
+    : cameras_(std::move(cameras)), matcher_(window_ns, [this](std::size_t side, DepthFramePtr frame) {
+        cameras_[side]->give_back(std::move(frame));
+      }) {}
+
+std::string CameraPairs::device() const { return cameras_[0]->device() + " and " + cameras_[1]->device(); }
+
+std::string CameraPairs::clock_notice(std::int64_t monotonic_ns) const {
+  const std::string left = jumps_[0].notice(monotonic_ns);
+  return left.empty() ? jumps_[1].notice(monotonic_ns) : left;
+}
+
+StereoPairPtr CameraPairs::take() {
+  for (std::size_t side = 0; side < cameras_.size(); ++side) {
+    while (DepthFramePtr frame = cameras_[side]->take()) {
+      if (StereoPairPtr pair = paired(side, std::move(frame))) return pair;
+    }
+  }
+  return nullptr;
+}
+
+StereoPairPtr CameraPairs::paired(std::size_t side, DepthFramePtr frame) {
+  transport_[side].add(frame->complete_monotonic_ns - frame->arrival_monotonic_ns);
+  const std::optional<MappedTime> time = clocks_[side].time_of(*frame);
+  if (jumps_[side].look(clocks_[side].map(), frame->complete_monotonic_ns)) {
+    matcher_.clear();  // what waits is timed by the clock as it was
+    last_utc_ns_ = 0;
+  }
+  if (!time) {
+    ++frames_no_clock_;
+    cameras_[side]->give_back(std::move(frame));
+    return nullptr;
+  }
+  auto frames = matcher_.push(side, {std::move(frame), *time});
+  return frames ? made(std::move(*frames)) : nullptr;
+}
+
+StereoPairPtr CameraPairs::made(std::array<TimedFrame, 2> frames) {
+  auto pair = std::make_shared<StereoPair>();
+  const MappedTime &left = frames[0].time, &right = frames[1].time;
+  pair->time = {middle(left.utc_ns, right.utc_ns), middle(left.monotonic_ns, right.monotonic_ns),
+                std::max(left.sigma_ns, right.sigma_ns)};
+  pair->steady_ns = pair->time.monotonic_ns;
+  pair->offset_ns = right.utc_ns - left.utc_ns;
+  pair->complete_monotonic_ns =
+      std::max(frames[0].frame->complete_monotonic_ns, frames[1].frame->complete_monotonic_ns);
+  for (std::size_t side = 0; side < frames.size(); ++side) pair->frames[side] = std::move(frames[side].frame);
+  if (pair->time.utc_ns <= last_utc_ns_ || pair->steady_ns <= last_steady_ns_) {
+    ++pairs_time_back_;
+    give_back(std::move(pair));
+    return nullptr;
+  }
+  last_utc_ns_ = pair->time.utc_ns;
+  last_steady_ns_ = pair->steady_ns;
+  ++pairs_;
+  offsets_.add(std::abs(pair->offset_ns));
+  return pair;
+}
+
+void CameraPairs::give_back(StereoPairPtr pair) {
+  for (std::size_t side = 0; side < cameras_.size(); ++side) cameras_[side]->give_back(std::move(pair->frames[side]));
+}
+
+PairSourceStatus CameraPairs::status() const {
+  const std::array<FrameSourceStatus, 2> cameras{cameras_[0]->status(), cameras_[1]->status()};
+  PairSourceStatus status;
+  status.state = rank(cameras[0].state) < rank(cameras[1].state) ? cameras[1].state : cameras[0].state;
+  for (std::size_t side = 0; side < cameras.size(); ++side) {
+    add(status.trouble, kSides[side], cameras[side].trouble);
+    add(status.identity, kSides[side], cameras[side].identity);
+    status.session += cameras[side].session;
+    const ClockMap& map = clocks_[side].map();
+    if (map.synchronised()) {
+      status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(map.sigma_ns()));
+    }
+  }
+  if (clocks_[0].by_ptp() && clocks_[1].by_ptp()) status.clock_sigma_ns = FrameClock::kPtpSigmaNs;
+  status.clock_drift_ppm = clocks_[0].map().drift_ppm();
+  status.counters = named_counts(cameras);
+  return status;
+}
+
+NamedCounts CameraPairs::named_counts(const std::array<FrameSourceStatus, 2>& cameras) const {
+  NamedCounts counts{{"device.pairs", pairs_},
+                     {"device.pairs_time_back", pairs_time_back_},
+                     {"device.frames_no_clock", frames_no_clock_}};
+  for (std::size_t side = 0; side < cameras.size(); ++side) {
+    const std::string head = std::string(kSides[side]) + '.';
+    counts.push_back({head + "frames_without_partner", matcher_.unpaired(side)});
+    for_each_counter(cameras[side].counters, [&](const char* name, std::int64_t value) {
+      counts.push_back({head + name, value});
+    });
+    add_times(counts, head + "transport", transport_[side]);
+    counts.push_back({head + "clock.by_ptp", clocks_[side].by_ptp() ? 1 : 0});
+    counts.push_back({head + "clock.ptp_doubted", clocks_[side].ptp_doubted()});
+  }
+  add_times(counts, "pair_offset", offsets_);
+  return counts;
+}
+
+}  // namespace pharos::host

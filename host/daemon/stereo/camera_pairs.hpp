@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "host/daemon/frame_clock.hpp"
+#include "host/daemon/host_jump.hpp"
+#include "host/daemon/latency_histogram.hpp"
+#include "host/daemon/stereo/pair_matcher.hpp"
+#include "host/daemon/stereo/pair_source.hpp"
+
+namespace pharos::host {
+
+/// Pairs of two cameras, each with a clock of its own: frames are timed in this computer's clocks and matched there.
+/// Either camera may be missing, lost and back at any time; frames without a partner are counted.
+class CameraPairs : public PairSource {
+ public:
+  /// Left and right.
+  using Cameras = std::array<std::unique_ptr<FrameSource>, 2>;
+  CameraPairs(Cameras cameras, std::int64_t window_ns);
+
+  std::vector<int> fds() const override { return {cameras_[0]->fd(), cameras_[1]->fd()}; }
+  StereoPairPtr take() override;
+  void give_back(StereoPairPtr pair) override;
+  PairSourceStatus status() const override;
+  std::string device() const override;
+  std::string clock_notice(std::int64_t monotonic_ns) const override;
+
+ private:
+  StereoPairPtr paired(std::size_t side, DepthFramePtr frame);
+  StereoPairPtr made(std::array<TimedFrame, 2> frames);
+  NamedCounts named_counts(const std::array<FrameSourceStatus, 2>& cameras) const;
+
+  Cameras cameras_;
+  std::array<FrameClock, 2> clocks_;
+  std::array<HostJump, 2> jumps_;
+  PairMatcher matcher_;
+  std::int64_t last_utc_ns_ = 0;
+  std::int64_t last_steady_ns_ = 0;
+  std::int64_t pairs_ = 0;
+  std::int64_t pairs_time_back_ = 0;
+  std::int64_t frames_no_clock_ = 0;
+  std::array<LatencyHistogram, 2> transport_;  // first packet to last
+  LatencyHistogram offsets_;                   // between the two times of a pair
+};
+
+}  // namespace pharos::host

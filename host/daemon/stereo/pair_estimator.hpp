@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/daemon/stereo/stereo_pair.hpp"
+#include "host/publish/health.hpp"
+#include "host/publish/stereo_report.hpp"
+
+namespace pharos::host {
+
+/// What a stage of an estimator took.
+struct StageTime {
+  const char* stage = "";
+  std::int64_t ns = 0;
+};
+
+/// What became of one pair.
+struct PairAnswer {
+  std::string refusal;  // the word after refused_; empty where there is a pose
+  std::string advice;   // the same for people, with what to do
+  std::string flags;    // words joined by '|'
+  int observations = 0;
+  std::variant<RingPoseEstimate, SlamPoseEstimate> pose;
+  std::vector<StageTime> stages;
+  NamedCounts figures;  // of the estimator so far; empty where it tells none
+};
+
+/// Pairs to poses, in a thread of its own; pairs come in the order of their times.
+class PairEstimator {
+ public:
+  virtual ~PairEstimator() = default;
+  /// Never throws for what a pair may hold.
+  virtual PairAnswer measure(const StereoPair& pair) = 0;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/daemon/stereo/stereo_pair.hpp"
+#include "host/device/frame_source.hpp"
+#include "host/publish/health.hpp"
+
+namespace pharos::host {
+
+/// How a source of pairs fares.
+struct PairSourceStatus {
+  CameraState state = CameraState::kGone;
+  std::string trouble;   // what is wrong and what to do; empty when open
+  std::string identity;  // of both cameras
+  NamedCounts counters;
+  double clock_sigma_ns = 0.0;
+  double clock_drift_ppm = 0.0;
+  std::uint32_t session = 0;  // grows with every opening of a camera
+  bool finished = false;      // a recording has come to its end
+};
+
+/// Where pairs come from: two cameras on the network, or recorded ones. One thread, the loop's.
+class PairSource {
+ public:
+  virtual ~PairSource() = default;
+  /// Readable while there may be something to take.
+  virtual std::vector<int> fds() const = 0;
+  /// The next pair, or null.
+  virtual StereoPairPtr take() = 0;
+  /// A pair that nobody looks at any more: its buffers go round, and a recording at full speed goes on.
+  virtual void give_back(StereoPairPtr pair) = 0;
+  virtual PairSourceStatus status() const = 0;
+  /// What it reads from, for people.
+  virtual std::string device() const = 0;
+  /// That this computer's clock was set a moment ago, for people; empty when it was not.
+  virtual std::string clock_notice(std::int64_t monotonic_ns) const = 0;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/daemon/stereo/pair_source.hpp"
+#include "host/daemon/timer.hpp"
+#include "host/device/pair_names.hpp"
+
+namespace pharos::host {
+
+/// Recorded pairs in their order, at the pace of their times; then they have come to their end. A pair whose name is a
+/// time (ns since 1970) has that time; others have that of the start and go on from there. A file that cannot be read,
+/// or is of another size than the rig's camera, is counted and passed over.
+class RecordedPairs : public PairSource {
+ public:
+  struct Options {
+    double rate_hz = 20.0;  ///< where names tell no time
+    /// The next pair once the one before was worked on, without waiting.
+    bool fastest = false;
+    std::array<std::array<std::int32_t, 2>, 2> sizes_px{};  ///< width, height of left and right
+  };
+  /// Throws InputError where there are no pairs.
+  RecordedPairs(const std::string& directory, const Options& options);
+
+  std::vector<int> fds() const override { return {timer_.fd()}; }
+  StereoPairPtr take() override;
+  void give_back(StereoPairPtr pair) override;
+  PairSourceStatus status() const override;
+  std::string device() const override { return path_; }
+  std::string clock_notice(std::int64_t) const override { return {}; }
+
+  /// A longer silence of the recording is cut to this.
+  static constexpr std::int64_t kLongestSilenceNs = 10'000'000'000;
+
+ private:
+  void arm();
+  bool read(const PairName& name, StereoPair& pair);
+  std::int64_t time_ns(std::size_t index) const;
+
+  std::string path_;
+  Options options_;
+  std::vector<PairName> pairs_;
+  Timer timer_;
+  std::size_t next_ = 0;
+  std::int64_t began_utc_ns_ = 0;
+  std::int64_t due_monotonic_ns_ = 0;
+  std::int64_t pairs_read_ = 0;
+  std::int64_t pairs_unreadable_ = 0;
+  std::string trouble_;
+  bool finished_ = false;
+};
+
+}  // namespace pharos::host

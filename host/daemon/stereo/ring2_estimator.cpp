@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/stereo/ring2_estimator.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "host/support/flag_text.hpp"
+#include "host/vision/ring2/ring2_rig.hpp"
+#include "host/vision/ring2/ring_pose.hpp"
+
+namespace pharos::host {
+namespace {
+
+enum RingFlag : std::uint8_t {
+  kNoConnector = 1,  // as of tof: the turn about Z' is not told; two circles on one axis never tell it
+  kNoNozzle = 2,     // the ring alone
+};
+constexpr std::array<FlagWord, 2> kRingFlagWords{{{kNoConnector, "no_connector"}, {kNoNozzle, "no_nozzle"}}};
+
+// Of the ellipses that the answer rests on.
+int edge_points(const StereoCircles& circles) {
+  int points = 0;
+  for (std::size_t view = 0; view < ring2::kViews; ++view) {
+    for (const auto& contour : circles.contours[view]) {
+      if (!contour) continue;
+      const auto is_it = [&contour](const ellipse::DetectedEllipse& found) {
+        return Vector2(found.ellipse.cx_px, found.ellipse.cy_px) == contour->centre_px &&
+               found.ellipse.a_px == contour->ellipse.a_px;
+      };
+      const auto found = std::find_if(circles.found[view].begin(), circles.found[view].end(), is_it);
+      if (found != circles.found[view].end()) points += found->points;
+    }
+  }
+  return points;
+}
+
+// What a person can do about a refusal of host/vision/ring2 or common/ring2.
+const char* advice_of(const std::string& refusal) {
+  const auto ends = [&refusal](const char* end) { return refusal.ends_with(end); };
+  if (ends("_black")) return "the image shows nothing: light, lens cap, exposure?";
+  if (ends("_saturated")) return "most of the image is white: expose it less";
+  if (ends("_even")) return "nothing stands out from anything: is it in focus, is there a target?";
+  if (ends("_no_ellipse")) return "no ellipse of 12 px or more: is the ring in view, and whole?";
+  if (refusal == "left_right_exchanged") return "exchange the cameras in the configuration, or their cables";
+  if (refusal == "no_common_circle" || refusal == "inconsistent") {
+    return "what the cameras see is no one circle before this rig: has a camera been moved since its calibration?";
+  }
+  return "the ellipses do not tell a ring's pose";
+}
+
+}  // namespace
+
+Ring2Estimator::Ring2Estimator(const RigFile& rig)
+    : finder_(ring2_rig(rig), {}), focal_px_(0.5 * (rig.left.optics.fx_px + rig.right.optics.fx_px)) {}
+
+PairAnswer Ring2Estimator::measure(const StereoPair& pair) {
+  PairAnswer answer;
+  const StereoCircles circles = finder_.find({pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view()});
+  answer.refusal = circles.refusal;
+  answer.advice = circles.refusal.empty() ? "" : advice_of(circles.refusal);
+  answer.pose = RingPoseEstimate{};
+  if (!circles.estimate) return answer;
+  if ((circles.estimate->untold & (ring2::kUntoldScale | ring2::kUntoldRing)) != 0) {
+    answer.refusal = "no_ring";
+    answer.advice = "the ring was not seen by both cameras: where is it?";
+    return answer;
+  }
+  RingPoseEstimate pose = ring_pose(*circles.estimate, focal_px_);
+  pose.observations = answer.observations = edge_points(circles);
+  const bool no_nozzle = (circles.estimate->untold & ring2::kUntoldNozzle) != 0;
+  answer.flags = joined_flags(kNoConnector | (no_nozzle ? kNoNozzle : 0), kRingFlagWords);
+  answer.pose = pose;
+  return answer;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/cameras/rig_file.hpp"
+#include "host/daemon/stereo/pair_estimator.hpp"
+#include "host/vision/ring2/stereo_circles.hpp"
+
+namespace pharos::host {
+
+/// Docking ring and nozzle of each pair by itself (host/vision/ring2).
+class Ring2Estimator : public PairEstimator {
+ public:
+  /// Throws InputError for a rig that cannot measure.
+  explicit Ring2Estimator(const RigFile& rig);
+  PairAnswer measure(const StereoPair& pair) override;
+
+ private:
+  StereoCircleFinder finder_;
+  double focal_px_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/stereo/slam_estimator.hpp"
+
+#include <array>
+
+#include "host/daemon/now.hpp"
+#include "host/support/flag_text.hpp"
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+namespace {
+
+enum SlamFlag : std::uint8_t {
+  kMapStart = 1,     // poses count from this pair on
+  kRelocalised = 2,  // found again after it was lost
+};
+constexpr std::array<FlagWord, 2> kSlamFlagWords{{{kMapStart, "map_start"}, {kRelocalised, "relocalised"}}};
+
+constexpr std::int64_t kFiguresEveryNs = 1'000'000'000;  // they cost a lock and a sort
+constexpr double kNsPerSecond = 1e9;
+
+std::optional<enhance::EnhanceSettings> settings_of(LowLight light) {
+  if (light == LowLight::kOff) return std::nullopt;
+  enhance::EnhanceSettings settings;
+  if (light == LowLight::kFast) settings.denoiser = enhance::Denoiser::kFast;
+  if (light == LowLight::kNotDenoised) settings.denoiser = enhance::Denoiser::kNone;
+  settings.bm3d = enhance::kVideoBm3d;
+  return settings;
+}
+
+}  // namespace
+
+SlamEstimator::SlamEstimator(const StereoConfig& config)
+    : rig_(config.rig),
+      rig_name_(config.rig_file.string()),
+      focal_px_(0.5 * (rig_.left.optics.fx_px + rig_.right.optics.fx_px)),
+      settings_(config.slam->settings),
+      eight_bits_(settings_of(config.slam->enhance)) {
+  begin();
+}
+
+void SlamEstimator::begin() {
+  system_ = slam::make_slam(rig_, rig_name_, settings_);
+  map_started_ = false;
+  ++maps_;
+}
+
+PairAnswer SlamEstimator::measure(const StereoPair& pair) {
+  PairAnswer answer;
+  SlamPoseEstimate estimate;
+  answer.pose = estimate;
+  if (!began_ns_) began_ns_ = pair.steady_ns;
+  const double time_s = static_cast<double>(pair.steady_ns - *began_ns_) / kNsPerSecond;
+  const std::int64_t start_ns = monotonic_now_ns();
+  const auto left = eight_bits_.of(pair.frames[0]->intensity_view(), 0);
+  const auto right = eight_bits_.of(pair.frames[1]->intensity_view(), 1);
+  const std::int64_t lit_ns = monotonic_now_ns();
+  try {
+    const slam::TrackedFrame frame = system_->push(time_s, left, right);
+    answer.observations = frame.inliers;
+    if (frame.placed) {
+      estimate.pose = frame.placed->pose;
+      estimate.covariance = frame.placed->covariance;
+      estimate.residual_rms = frame.placed->rms_px / focal_px_;
+      estimate.observations = frame.inliers;
+      answer.pose = estimate;
+      answer.flags =
+          joined_flags((map_started_ ? 0 : kMapStart) | (frame.relocalised ? kRelocalised : 0), kSlamFlagWords);
+      map_started_ = true;
+    } else if (frame.lost) {
+      answer.refusal = "lost";
+      answer.advice = "tracking is lost; looking for known views";
+    } else {
+      answer.refusal = "no_map";
+      answer.advice = "too few features for a first map: is the target lit, and in both images?";
+    }
+  } catch (const InputError& error) {
+    answer.refusal = "no_pair";
+    answer.advice = error.what();
+    begin();
+  }
+  answer.stages = {{"light", lit_ns - start_ns}, {"tracking", monotonic_now_ns() - lit_ns}};
+  tell_figures(answer);
+  return answer;
+}
+
+void SlamEstimator::tell_figures(PairAnswer& answer) {
+  const std::int64_t now_ns = monotonic_now_ns();
+  if (now_ns - figures_told_ns_ < kFiguresEveryNs) return;
+  figures_told_ns_ = now_ns;
+  const slam::SlamReport report = system_->report();
+  answer.figures = {{"slam.maps", maps_},
+                    {"slam.keyframes", report.keyframes},
+                    {"slam.points", report.points},
+                    {"slam.loops", report.loops},
+                    {"slam.loops_refused", report.loops_refused},
+                    {"slam.relocalised", report.relocalised},
+                    {"slam.frames_dark", report.dark},
+                    {"slam.frames_saturated", report.saturated},
+                    {"slam.frames_repeated", report.repeated}};
+}
+
+}  // namespace pharos::host

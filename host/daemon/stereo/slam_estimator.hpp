@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/stereo/pair_estimator.hpp"
+#include "host/vision/enhance/eight_bits.hpp"
+#include "host/vision/slam/slam_system.hpp"
+
+namespace pharos::host {
+
+/// A target without a model, followed from pair to pair (host/vision/slam), its images enhanced first where that is
+/// asked for. While tracking is lost there is no pose; known views bring it back.
+class SlamEstimator : public PairEstimator {
+ public:
+  /// Of a rig whose `slam` is set. Throws InputError for a rig or a vocabulary that is no good.
+  explicit SlamEstimator(const StereoConfig& config);
+  PairAnswer measure(const StereoPair& pair) override;
+
+ private:
+  void begin();
+  void tell_figures(PairAnswer& answer);
+
+  RigFile rig_;
+  std::string rig_name_;
+  double focal_px_;
+  slam::SlamSettings settings_;
+  enhance::EightBitPairs eight_bits_;
+  std::unique_ptr<slam::SlamSystem> system_;
+  std::optional<std::int64_t> began_ns_;  // of the pairs' steady time
+  bool map_started_ = false;
+  std::int64_t maps_ = 0;
+  std::int64_t figures_told_ns_ = 0;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of StereoLine that tells how it fares.
+#include "host/daemon/health_parts.hpp"
+#include "host/daemon/stereo/stereo_line.hpp"
+
+namespace pharos::host {
+namespace {
+
+// A pair a second is the slowest rig that is not silent.
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr double kNsPerSecond = 1e9;
+
+}  // namespace
+
+SourceHealth StereoLine::health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns) {
+  SourceHealth health;
+  health.source = source_;
+  health.target = target_;
+  health.device = device;
+  health.identity = pairs.identity;
+  health.data_age_ns = last_pair_ns_ < 0 ? -1 : monotonic_ns - last_pair_ns_;
+  health.pose_age_ns = last_pose_ns_ < 0 ? -1 : monotonic_ns - last_pose_ns_;
+  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
+    health.pose_rate_hz = static_cast<double>(poses_ - poses_at_last_health_) * kNsPerSecond /
+                          static_cast<double>(monotonic_ns - last_health_ns_);
+  }
+  poses_at_last_health_ = poses_;
+  last_health_ns_ = monotonic_ns;
+  health.clock_sigma_ns = pairs.clock_sigma_ns;
+  health.clock_drift_ppm = pairs.clock_drift_ppm;
+  health.counters = named_counts(pairs);
+  judge(health, pairs, monotonic_ns);
+  return health;
+}
+
+// From the cameras upwards: the lowest thing that is wrong is the one to tell.
+void StereoLine::judge(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t now_ns) const {
+  health.state = state_of(pairs.state);
+  health.message = pairs.trouble;
+  if (health.state != SourceState::kOk) return;
+  const bool pose = last_pose_ns_ >= 0 && now_ns - last_pose_ns_ < kSilenceNs;
+  if (pose && last_refusal_.empty()) return;
+  health.state = pose ? SourceState::kOk : SourceState::kWaiting;
+  if (last_pair_ns_ < 0 || now_ns - last_pair_ns_ >= kSilenceNs) {
+    if (health.message.empty()) health.message = "no pair came yet";
+  } else if (!last_refusal_.empty()) {
+    health.message = "no pose: " + last_refusal_;
+  } else if (!pose) {
+    health.message = counters_.pairs_stale > 0 ? "pairs are older than publish.max_age_s when they are measured"
+                                               : "no pair was answered yet";
+  }
+}
+
+NamedCounts StereoLine::named_counts(const PairSourceStatus& pairs) const {
+  NamedCounts counts;
+  for_each_counter(counters_, [&](const char* name, std::int64_t value) { counts.push_back({name, value}); });
+  for (const auto& [reason, count] : counters_.refused) counts.push_back({"refused." + reason, count});
+  counts.insert(counts.end(), pairs.counters.begin(), pairs.counters.end());
+  counts.insert(counts.end(), figures_.begin(), figures_.end());
+  add_times(counts, "waiting", waiting_);
+  add_times(counts, "estimator", estimator_);
+  for (const auto& [stage, times] : stages_) add_times(counts, "estimator." + stage, times);
+  add_times(counts, "latency", latency_);
+  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
+  return counts;
+}
+
+}  // namespace pharos::host

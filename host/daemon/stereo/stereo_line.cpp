@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/stereo/stereo_line.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "host/daemon/now.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+
+}  // namespace
+
+StereoLine::StereoLine(const StereoConfig& config, const PublishConfig& publish, const std::string& source,
+                       Publisher& publisher)
+    : name_(config.name),
+      target_(config.target),
+      source_(source),
+      publisher_(publisher),
+      max_age_ns_(std::llround(publish.max_age_s * kNsPerSecond)),
+      log_(source) {}
+
+bool StereoLine::stale(std::int64_t age_ns) const { return std::abs(age_ns) > max_age_ns_; }
+
+bool StereoLine::take(const StereoPair& pair) {
+  const std::int64_t now_ns = monotonic_now_ns();
+  last_pair_ns_ = now_ns;
+  if (!stale(now_ns - pair.time.monotonic_ns)) return true;
+  ++counters_.pairs_stale;
+  return false;
+}
+
+// What is told of one refusal, and that it is over, goes to the log; what repeats does not.
+void StereoLine::count(const PairAnswer& answer, std::int64_t monotonic_ns) {
+  if (answer.refusal.empty()) {
+    const bool ambiguous = std::visit([](const auto& pose) { return pose.ambiguous(); }, answer.pose);
+    ++(ambiguous ? counters_.pairs_ambiguous : counters_.pairs_ok);
+    if (!last_refusal_.empty()) log_.info("answered", "poses again", monotonic_ns);
+    last_refusal_.clear();
+    return;
+  }
+  ++counters_.pairs_refused;
+  ++counters_.refused[answer.refusal];
+  const std::string told = answer.refusal + ": " + answer.advice;
+  if (told != last_refusal_) log_.warn("refused", told, monotonic_ns);
+  last_refusal_ = told;
+}
+
+StereoReport StereoLine::report(const StereoPair& pair, const PairAnswer& answer) const {
+  StereoReport report;
+  report.utc_ns = pair.time.utc_ns;
+  report.utc_sigma_ns = pair.time.sigma_ns;
+  report.latency_ns = monotonic_now_ns() - pair.time.monotonic_ns;
+  report.sequence = sequence_;
+  report.source = source_;
+  report.camera = name_;
+  report.target = target_;
+  report.flags = answer.flags;
+  report.observations = answer.observations;
+  report.refusal = answer.refusal;
+  report.pose = answer.pose;
+  return report;
+}
+
+void StereoLine::done(const PairWorker::Done& done, bool clock_was_set) {
+  const PairAnswer& answer = done.answer;
+  waiting_.add(done.waited_ns);
+  estimator_.add(done.took_ns);
+  for (const StageTime& time : answer.stages) stages_[time.stage].add(time.ns);
+  if (!answer.figures.empty()) figures_ = answer.figures;
+  const bool finite =
+      std::visit([](const auto& pose) { return pose.pose.is_finite() && pose.covariance.allFinite(); }, answer.pose);
+  if (answer.refusal.empty() && !finite) {
+    ++counters_.pairs_not_finite;
+    return;
+  }
+  StereoReport told = report(*done.pair, answer);
+  if (stale(told.latency_ns)) {
+    ++counters_.pairs_stale;
+    return;
+  }
+  const std::int64_t now_ns = monotonic_now_ns();
+  count(answer, now_ns);
+  ++sequence_;
+  if (clock_was_set) told.flags += told.flags.empty() ? "clock_set" : "|clock_set";
+  if (!publisher_.publish_pose(told) || !told.refusal.empty()) return;
+  last_pose_ns_ = now_ns;
+  latency_.add(told.latency_ns);
+  ++poses_;
+}
+
+}  // namespace pharos::host

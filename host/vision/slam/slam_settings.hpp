@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace pharos::slam {
+
+enum class Scene {
+  kTarget,  ///< a body that moves before a dark or still background, which is masked
+  kStatic,  ///< nothing is masked: the camera moves
+};
+
+struct SlamSettings {
+  Scene scene = Scene::kTarget;
+  int features = 1000;
+  bool close_loops = true;
+  /// Tracking, mapping and loop closing each in a thread of their own; else one after the other: same input, same bits.
+  bool threads = false;
+  /// Every frame is kept for trajectory(). Else that is empty, figures are of the last frames, and memory does not grow
+  /// with time: for a run without end.
+  bool keep_trajectory = true;
+  std::size_t most_keyframes = 0;  ///< 0: no limit; the paper's is 20
+  std::string vocabulary;          ///< a file; empty: the one that ships
+};
+
+}  // namespace pharos::slam

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/stereo/pair_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "host/daemon/stereo/camera_pairs.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kWindow = 5 * kMs;
+
+class PairMatcherTest : public ::testing::Test {
+ protected:
+  /// Left and right time of the pair that this frame completes, ms.
+  std::optional<std::pair<std::int64_t, std::int64_t>> push(std::size_t side, std::int64_t ms) {
+    return push_ns(side, ms * kMs);
+  }
+  std::optional<std::pair<std::int64_t, std::int64_t>> push_ns(std::size_t side, std::int64_t ns) {
+    auto pair = matcher.push(side, {std::make_unique<DepthFrame>(), MappedTime{ns, ns, 0}});
+    if (!pair) return std::nullopt;
+    return std::pair((*pair)[0].time.utc_ns / kMs, (*pair)[1].time.utc_ns / kMs);
+  }
+
+  std::array<int, 2> given_up{};
+  PairMatcher matcher{kWindow, [this](std::size_t side, DepthFramePtr frame) {
+                        EXPECT_TRUE(frame);
+                        ++given_up[side];
+                      }};
+};
+
+using Times = std::pair<std::int64_t, std::int64_t>;
+
+TEST_F(PairMatcherTest, PairsWithinTheWindowWhicheverComesFirst) {
+  EXPECT_FALSE(push(0, 0));
+  EXPECT_EQ(push(1, 2), Times(0, 2));
+  EXPECT_FALSE(push(1, 51));
+  EXPECT_EQ(push(0, 50), Times(50, 51));
+  EXPECT_FALSE(push(0, 100));
+  EXPECT_FALSE(push(1, 106)) << "beyond the window";
+  EXPECT_EQ(matcher.unpaired(0), 1);
+  EXPECT_EQ(push(0, 104), Times(104, 106));
+  EXPECT_EQ(matcher.unpaired(1), 0);
+}
+
+TEST_F(PairMatcherTest, TakesTheNearestOfSeveralAndGivesTheOlderUp) {
+  push(0, 0);
+  push(0, 3);
+  push(0, 6);
+  EXPECT_EQ(push(1, 4), Times(3, 4));
+  EXPECT_EQ(matcher.unpaired(0), 1);
+  EXPECT_EQ(push(1, 7), Times(6, 7)) << "the later one still waited";
+}
+
+TEST_F(PairMatcherTest, ACameraThatLagsBehindLosesNothing) {
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(push(0, 50 * k));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(push(1, 50 * k + 1), Times(50 * k, 50 * k + 1));
+  EXPECT_EQ(given_up[0] + given_up[1], 0);
+}
+
+TEST_F(PairMatcherTest, WithoutTheOtherCameraAFewWaitAndTheRestIsCounted) {
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(push(0, 50 * k));
+  EXPECT_EQ(matcher.unpaired(0), 100 - static_cast<std::int64_t>(PairMatcher::kMostWaiting));
+  EXPECT_EQ(push(1, 50 * 99), Times(50 * 99, 50 * 99)) << "back again";
+  EXPECT_EQ(matcher.unpaired(0), 99);
+  EXPECT_EQ(given_up[0], 99) << "every buffer goes back";
+}
+
+TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
+  std::mt19937_64 random(3);
+  std::array<std::int64_t, 2> now{};
+  std::int64_t pushed = 0, paired = 0, last = -1;
+  for (int k = 0; k < 20'000; ++k) {
+    // The camera that is behind, mostly: the two never part for good.
+    const std::size_t behind = now[0] <= now[1] ? 0 : 1;
+    const std::size_t side = random() % 4 == 0 ? 1 - behind : behind;
+    now[side] += static_cast<std::int64_t>(random() % 8'000'000);
+    ++pushed;
+    const auto pair = push_ns(side, now[side]);
+    if (!pair) continue;
+    paired += 2;
+    EXPECT_LE(std::abs(pair->first - pair->second), kWindow / kMs + 1);
+    EXPECT_GE(pair->first, last) << "pairs go forwards";
+    last = pair->first;
+  }
+  matcher.clear();
+  EXPECT_EQ(pushed, paired + given_up[0] + given_up[1]);
+  EXPECT_EQ(matcher.unpaired(0), given_up[0]);
+  EXPECT_GT(paired, 1000);
+}
+
+/// A camera of a test: frames that it is given, on this computer's clock.
+class HandCamera : public FrameSource {
+ public:
+  int fd() const override { return queue.fd(); }
+  DepthFramePtr take() override { return queue.take(); }
+  void give_back(DepthFramePtr frame) override {
+    ++returned;
+    queue.give_back(std::move(frame));
+  }
+  FrameSourceStatus status() const override { return about; }
+  std::string device() const override { return "camera " + about.identity; }
+  void show(std::int64_t utc_ns) {
+    DepthFramePtr frame = queue.blank();
+    frame->resize_grey(2, 1);
+    frame->clock = CameraClock::kHost;
+    frame->camera_ns = frame->arrival_utc_ns = utc_ns;
+    frame->arrival_monotonic_ns = frame->complete_monotonic_ns = utc_ns;
+    queue.push(std::move(frame));
+  }
+
+  FrameQueue queue;
+  FrameSourceStatus about;
+  int returned = 0;
+};
+
+class CameraPairsTest : public ::testing::Test {
+ protected:
+  CameraPairsTest() {
+    for (std::size_t side = 0; side < 2; ++side) {
+      auto camera = std::make_unique<HandCamera>();
+      hands[side] = camera.get();
+      hands[side]->about.state = CameraState::kOpen;
+      hands[side]->about.session = 1;
+      hands[side]->about.identity = side == 0 ? "L" : "R";
+      cameras[side] = std::move(camera);
+    }
+    pairs.emplace(std::move(cameras), kWindow);
+  }
+  std::int64_t counter(const std::string& name) const {
+    for (const NamedCount& count : pairs->status().counters) {
+      if (count.name == name) return count.value;
+    }
+    return -1;
+  }
+
+  CameraPairs::Cameras cameras;
+  std::array<HandCamera*, 2> hands{};
+  std::optional<CameraPairs> pairs;
+};
+
+TEST_F(CameraPairsTest, MakesPairsAndSendsTheBuffersRound) {
+  const std::int64_t t = 1'000'000 * kMs;
+  hands[0]->show(t);
+  hands[1]->show(t + 2 * kMs);
+  StereoPairPtr pair = pairs->take();
+  ASSERT_TRUE(pair);
+  EXPECT_EQ(pair->time.utc_ns, t + kMs);
+  EXPECT_EQ(pair->offset_ns, 2 * kMs);
+  EXPECT_EQ(counter("device.pairs"), 1);
+  EXPECT_GE(counter("pair_offset_max_us"), 1999);
+  pairs->give_back(std::move(pair));
+  EXPECT_EQ(hands[0]->returned, 1);
+  EXPECT_EQ(hands[1]->returned, 1);
+}
+
+TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
+  EXPECT_EQ(pairs->status().state, CameraState::kOpen);
+  EXPECT_EQ(pairs->status().identity, "left: L; right: R");
+  hands[1]->about.state = CameraState::kGone;
+  hands[1]->about.trouble = "no camera answers";
+  EXPECT_EQ(pairs->status().state, CameraState::kGone);
+  EXPECT_EQ(pairs->status().trouble, "right: no camera answers");
+  for (int k = 0; k < 20; ++k) {
+    hands[0]->show((1'000'000 + 50 * k) * kMs);
+    EXPECT_FALSE(pairs->take());
+  }
+  EXPECT_EQ(counter("left.frames_without_partner"), 16);
+}
+
+TEST_F(CameraPairsTest, PairsNeverGoBack) {
+  const std::int64_t t = 1'000'000 * kMs;
+  for (const std::int64_t at : {t, t - 20 * kMs, t + 20 * kMs}) {
+    hands[0]->show(at);
+    hands[1]->show(at);
+    EXPECT_EQ(pairs->take() != nullptr, at != t - 20 * kMs);
+  }
+  EXPECT_EQ(counter("device.pairs_time_back"), 1);
+}
+
+}  // namespace
+}  // namespace pharos::host

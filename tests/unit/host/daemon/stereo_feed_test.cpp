@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recorded pairs in pharosd's loop: docking ring and nozzle, painted, with their truth.
+#include "host/daemon/stereo/stereo_feed.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+
+#include "host/daemon/now.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/ring2/ring_pose.hpp"
+#include "pharos/pose_t.hpp"
+#include "support/painted_ring_pair.hpp"
+#include "unit/host/publish/message_list.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr double kDeg = 0.017453292519943295;
+
+class StereoFeedTest : public ::testing::Test {
+ protected:
+  StereoFeedTest() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() / ("pharos_stereo_" + std::to_string(::getpid()) + test->name());
+    fs::create_directories(folder);
+    config.name = "bow";
+    config.target = "client";
+    config.rig = painted.file();
+    config.frames = folder;
+    config.ring2 = true;
+    for (CameraSettings& device : config.devices) {
+      device.width_px = 640;
+      device.height_px = 512;
+    }
+    publish.max_age_s = 60.0;  // of a busy machine
+  }
+  ~StereoFeedTest() override { fs::remove_all(folder); }
+
+  void write(const std::string& name, const sim::RingAndNozzle& target) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const GreyImage image = painted.image(target, side, 7 + side);
+      write_grey_png((folder / (name + (side == 0 ? "_left.png" : "_right.png"))).string(), image.view(), 8);
+    }
+  }
+  void play(bool fastest = true) {
+    feed.emplace(loop, config, publish, publisher, fastest, [this] { finished = true; });
+    const std::int64_t end_ns = monotonic_now_ns() + 120'000'000'000;
+    while (!finished && monotonic_now_ns() < end_ns) {
+      loop.turn(20);
+      feed->attend(monotonic_now_ns());
+    }
+    EXPECT_TRUE(finished);
+  }
+  std::vector<pose_t> poses() const { return sink.all<pose_t>("PHAROS_RING2_POSE"); }
+  SourceHealth health() { return feed->health(monotonic_now_ns()).at(0); }
+  std::int64_t counter(const std::string& name) {
+    for (const NamedCount& count : health().counters) {
+      if (count.name == name) return count.value;
+    }
+    return -1;
+  }
+
+  test::PaintedRig painted;
+  fs::path folder;
+  StereoConfig config;
+  PublishConfig publish;
+  MessageList sink;
+  Publisher publisher{sink, "PHAROS_"};
+  EventLoop loop;
+  std::optional<StereoFeed> feed;
+  bool finished = false;
+};
+
+TEST_F(StereoFeedTest, TellsTheRingsPoseOfEveryPairInOrder) {
+  const std::vector<sim::RingAndNozzle> truths{test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg),
+                                               test::ring_at({-0.05, 0.04, 2.8}, -7.0 * kDeg, 14.0 * kDeg)};
+  for (std::size_t k = 0; k < truths.size(); ++k) write("170000000" + std::to_string(k) + "000000000", truths[k]);
+  play();
+  ASSERT_EQ(poses().size(), truths.size());
+  for (std::size_t k = 0; k < truths.size(); ++k) {
+    const pose_t pose = poses()[k];
+    EXPECT_EQ(pose.status, "ok");
+    EXPECT_EQ(pose.source, "ring2/bow");
+    EXPECT_EQ(pose.station_or_camera, "bow");
+    EXPECT_EQ(pose.target, "client");
+    EXPECT_EQ(pose.parent_frame, "rig");
+    EXPECT_EQ(pose.child_frame, "target");
+    EXPECT_EQ(pose.utime, 1'700'000'000'000'000 + static_cast<std::int64_t>(k) * 1'000'000) << "of the file's name";
+    EXPECT_EQ(pose.flags, "no_connector");
+    EXPECT_GT(pose.observations, 500);
+    EXPECT_GT(pose.residual_rms_rad, 0.0);
+    const Matrix3 R = Quaternion(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
+                                 pose.orientation_wxyz[3])
+                          .toRotationMatrix();
+    const Vector3 normal = R.col(2), error = Vector3(pose.position_m) - truths[k].ring_centre_m;
+    EXPECT_LT(normal.cross(truths[k].normal).norm(), 0.1 * kDeg);
+    EXPECT_LT(error.norm(), 0.003);
+    const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(pose.covariance);
+    const Matrix3 position = covariance.bottomRightCorner<3, 3>();
+    EXPECT_LT(error.dot(position.inverse() * error), 40.0) << "as far as it says";
+    EXPECT_NEAR(normal.dot(covariance.topLeftCorner<3, 3>() * normal), 9.8696 / 3.0, 1e-3) << "any turn";
+    EXPECT_LT(normal.unitOrthogonal().dot(covariance.topLeftCorner<3, 3>() * normal.unitOrthogonal()), 1e-5);
+  }
+  EXPECT_EQ(counter("pairs_ok"), 2);
+  EXPECT_EQ(counter("device.pairs_read"), 2);
+  EXPECT_GT(counter("estimator_p50_us"), 0);
+}
+
+TEST_F(StereoFeedTest, CountsRefusalsByTheirReasonAndPassesOverWhatIsNoPair) {
+  write("0001", test::ring_at({0.0, 0.0, 2.7}, 0.1, 0.1));
+  for (const char* name : {"0002_left.png", "0003_right.png"}) {
+    fs::copy_file(folder / "0001_left.png", folder / name);
+  }
+  const GreyImage dark{640, 512, 16, std::vector<std::uint16_t>(std::size_t{640} * 512, 100)};
+  write_grey_png((folder / "0002_right.png").string(), dark.view(), 16);
+  std::ofstream(folder / "0003_left.png") << "no image";
+  play();
+  ASSERT_EQ(poses().size(), 2u);
+  EXPECT_EQ(poses()[1].status, "refused_right_black");
+  EXPECT_EQ(poses()[1].orientation_wxyz[0], 0.0) << "no rotation";
+  EXPECT_EQ(poses()[1].sequence, poses()[0].sequence + 1);
+  EXPECT_EQ(counter("refused.right_black"), 1);
+  EXPECT_EQ(counter("pairs_refused"), 1);
+  EXPECT_EQ(counter("device.pairs_unreadable"), 1);
+  EXPECT_EQ(health().state, SourceState::kStale) << "come to its end";
+}
+
+TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) {
+  EXPECT_THROW(StereoFeed(loop, config, publish, publisher, false, [] {}), InputError);
+}
+
+/// Answers when it is let.
+class SlowEstimator : public PairEstimator {
+ public:
+  PairAnswer measure(const StereoPair& pair) override {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [this] { return let > 0; });
+    --let;
+    PairAnswer answer;
+    answer.refusal = std::to_string(pair.offset_ns);
+    return answer;
+  }
+  void release(int count) {
+    const std::lock_guard lock(mutex);
+    let += count;
+    changed.notify_all();
+  }
+  std::mutex mutex;
+  std::condition_variable changed;
+  int let = 0;
+};
+
+StereoPairPtr numbered(std::int64_t number) {
+  auto pair = std::make_shared<StereoPair>();
+  pair->offset_ns = number;
+  return pair;
+}
+
+TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
+  auto slow = std::make_unique<SlowEstimator>();
+  SlowEstimator& estimator = *slow;
+  PairWorker worker(std::move(slow));
+  EXPECT_TRUE(worker.idle());
+  std::int64_t dropped = 0;
+  for (std::int64_t k = 0; k < 50; ++k) {
+    if (const StereoPairPtr given_up = worker.post(numbered(k))) {
+      EXPECT_LT(given_up->offset_ns, k);
+      ++dropped;
+    }
+  }
+  EXPECT_GE(dropped, 48) << "one is worked on, one waits";
+  EXPECT_FALSE(worker.idle());
+  estimator.release(2);
+  std::vector<std::string> answered;
+  const std::int64_t end_ns = monotonic_now_ns() + 30'000'000'000;
+  while (!worker.idle() && monotonic_now_ns() < end_ns) {
+    while (auto done = worker.take()) answered.push_back(done->answer.refusal);
+  }
+  ASSERT_EQ(static_cast<std::int64_t>(answered.size()) + dropped, 50);
+  EXPECT_EQ(answered.back(), "49");
+  estimator.release(1);
+}
+
+TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
+  ring2::CirclesEstimate circles;
+  circles.normal = Vector3(0.1, -0.2, -1.0).normalized();
+  circles.ring_centre_m = Vector3(0.1, 0.2, 3.0);
+  circles.tilt_axes[0] = circles.normal.unitOrthogonal();
+  circles.tilt_axes[1] = circles.normal.cross(circles.tilt_axes[0]);
+  circles.covariance(0, 0) = 1e-6;
+  circles.covariance(1, 1) = 4e-6;
+  circles.covariance(2, 2) = 9e-6;
+  circles.rms_px = 0.5;
+  circles.second = {Vector3(0.0, 0.0, -1.0), Vector3(0.0, 0.0, 3.0), 2.0};
+  const auto pose = ring_pose(circles, 1000.0);
+  EXPECT_LT((pose.pose.R.col(2) - circles.normal).norm(), 1e-12);
+  EXPECT_NEAR(pose.pose.R.determinant(), 1.0, 1e-12);
+  EXPECT_GT(pose.pose.R(0, 0), 0.9) << "X' near the rig's x";
+  const Matrix3 rotation = pose.covariance.topLeftCorner<3, 3>();
+  EXPECT_NEAR(circles.tilt_axes[0].dot(rotation * circles.tilt_axes[0]), 1e-6, 1e-12);
+  EXPECT_NEAR(circles.tilt_axes[1].dot(rotation * circles.tilt_axes[1]), 4e-6, 1e-12);
+  EXPECT_DOUBLE_EQ(pose.covariance(3, 3), 9e-6);
+  EXPECT_DOUBLE_EQ(pose.residual_rms, 5e-4);
+  ASSERT_TRUE(pose.ambiguous());
+  EXPECT_EQ(pose.second->pose.R, Matrix3(Vector3(1.0, -1.0, -1.0).asDiagonal())) << "facing: no angle at all";
+}
+
+}  // namespace
+}  // namespace pharos::host
