@@ -14,10 +14,10 @@
 #include "host/vision/slam/slam_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/motion/motion_tracker.hpp"
 #include "pharos/pointing/pass.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/track/epoch_tracker.hpp"
-#include "pharos/motion/motion_tracker.hpp"
 
 namespace pharos::host {
 
@@ -39,14 +39,14 @@ struct TargetConfig {
   std::vector<lighthouse::StationCalibration> calibrated_stations;
   std::optional<calibrate::CalibratedPair> calibrated_pair;  // of two stations
   double scale_sigma = 0.0;                                  // relative, of the target's size
-  TrackMethod method = TrackMethod::kMotion;
-  track::TrackOptions track;
-  /// Keep accepted station calibrations in the state directory and use them after a restart.
   /// What nobody knows of sensors and rotors: of the calibration, or without one.
   motion::SystematicErrors systematic = motion::kUncalibratedErrors;
+  TrackMethod method = TrackMethod::kMotion;
+  track::TrackOptions track;
+  motion::AnswerLimits limits;  // of method motion
+  /// Keep accepted station calibrations in the state directory and use them after a restart.
   bool remember_calibrations = true;
 
-  motion::AnswerLimits limits;  // of method motion
   bool is_replay() const { return port.rfind(kReplayPrefix, 0) == 0; }
   std::filesystem::path replay_file() const { return port.substr(std::string(kReplayPrefix).size()); }
   static constexpr const char* kReplayPrefix = "replay:";

@@ -79,7 +79,6 @@ track::TrackOptions read_solve(const TomlTable& table) {
   return options;
 }
 
-// Sensor positions and stations as calibrated.
 motion::AnswerLimits read_limits(const TomlTable& table) {
   motion::AnswerLimits limits;
   limits.rotation_rad =
@@ -88,6 +87,7 @@ motion::AnswerLimits read_limits(const TomlTable& table) {
   return limits;
 }
 
+// Sensor positions and stations as calibrated.
 void read_calibration(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
                       TargetConfig& target) {
   if (!table.has("calibration_file")) return;
@@ -96,8 +96,8 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Surr
     const calibrate::CalibrationFile file = surroundings.read_calibration(target.calibration_file.string());
     target.target = calibrate::calibrated_target(file, target.target);
     target.scale_sigma = file.scale_sigma;
-    target.calibrated_pair = file.pair;
     target.systematic = calibrate::systematic_errors(file);
+    target.calibrated_pair = file.pair;
     for (const StationEntry& station : file.stations) {
       if (!station.id) throw InputError(file.name + ": a [[station]] without id; the daemon knows stations by theirs");
       target.calibrated_stations.push_back(station.calibration);
