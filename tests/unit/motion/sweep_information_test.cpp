@@ -6,6 +6,9 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "pharos/base/units.hpp"
+#include "pharos/motion/sweep_fit.hpp"
+
 namespace pharos::motion {
 namespace {
 
@@ -73,6 +76,29 @@ TEST(SweepInformation, AShiftOfAllHitsCountsAsOneErrorNotAsEight) {
   const SweepInformation information = summed(sweep);
   EXPECT_GT(information.misfit, 1.0);
   EXPECT_LT(information.misfit, 1.11);
+}
+
+// Still sensors in recordings: pulses of 25 to 50 ticks scatter by 5 to 10 arcsec, those of 200 by 1 to 3.
+TEST(SweepFit, ANarrowHitCountsLess) {
+  Target target;
+  lighthouse::SweepBearings bearings;
+  constexpr std::array<std::uint16_t, 4> kWidths = {0, 208, 52, 20};  // 0: not told
+  for (std::uint8_t i = 0; i < kWidths.size(); ++i) {
+    target.push_back({i, Vector3(0.02 * i, 0.01 * i * i, 0.0), Vector3::Zero()});
+    bearings.push_back({1000, kPi / 2 - std::atan2(0.02 * i, 2.0), kWidths[i], i});
+  }
+  Belief belief;
+  belief.pose.t = {0.0, 0.0, 2.0};
+  belief.covariance = belief.widest = 1e-6 * Matrix6::Identity();
+  constexpr double kOwn = 3.0 * kRadPerArcsec;
+  const SweepFit fit = fit_sweep(bearings, Axis::kX, {&target, nullptr}, belief, 1000, {kOwn, kOwn});
+  ASSERT_EQ(fit.used.size(), kWidths.size());
+  std::array<double, kWidths.size()> arcsec{};
+  for (const HitFit& hit : fit.used) arcsec[bearings[hit.bearing].sensor] = std::sqrt(hit.variance) * kArcsecPerRad;
+  EXPECT_NEAR(arcsec[0], 3.0, 1e-9);
+  EXPECT_NEAR(arcsec[1], 3.0, 0.05);
+  EXPECT_NEAR(arcsec[2], std::hypot(3.0, 5.0), 1e-6);
+  EXPECT_NEAR(arcsec[3], std::hypot(3.0, 25.0), 1e-6);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "host/support/input_error.hpp"
+#include "pharos/base/units.hpp"
 #include "unit/host/calibrate/simulated_session.hpp"
 
 namespace pharos::calibrate::test {
@@ -81,6 +82,41 @@ TEST_F(CalibrationFileTest, ReadsBackExactlyWhatItWrites) {
   }
 }
 
+TEST_F(CalibrationFileTest, ReadsBackWhereTheSecondStationStands) {
+  const BundleResult& bundle = calibration_->bundle;
+  const CalibrationFile file = read(calibration_text(*calibration_, *nominal_));
+  ASSERT_TRUE(file.pair && bundle.unknowns.T_reference_station.at(1));
+  EXPECT_EQ(file.pair->reference, bundle.unknowns.station[0].id);
+  EXPECT_EQ(file.pair->station, bundle.unknowns.station[1].id);
+  EXPECT_LT(pose_difference(file.pair->T_reference_station, *bundle.unknowns.T_reference_station[1]).norm(), 1e-14);
+  // Its rows are the last six parameters.
+  EXPECT_EQ(file.pair->covariance, bundle.covariance.bottomRightCorner(6, 6));
+  EXPECT_GT(file.pair->covariance.diagonal().minCoeff(), 0.0);
+
+  const auto same = relative_pose(*file.pair, file.pair->reference, file.pair->station);
+  const auto turned = relative_pose(*file.pair, file.pair->station, file.pair->reference);
+  ASSERT_TRUE(same && turned);
+  EXPECT_EQ(same->T_0_1.t, file.pair->T_reference_station.t);
+  EXPECT_LT((turned->T_0_1 * same->T_0_1).t.norm(), 1e-14);
+  EXPECT_FALSE(relative_pose(*file.pair, file.pair->reference, 0x0BADCAFEu));
+}
+
+TEST_F(CalibrationFileTest, SaysWhatIsWrongWithAPair) {
+  const std::string good = calibration_text(*calibration_, *nominal_);
+  const std::size_t at = good.find("[[pair]]");
+  ASSERT_NE(at, std::string::npos);
+  const std::string pair = good.substr(at);
+  EXPECT_THAT(error_of(good + pair), HasSubstr("a second [[pair]]"));
+  const auto instead = [&](const std::string& key, const std::string& value) {
+    const std::size_t line = pair.find("\n" + key + " = ") + 1;
+    return good.substr(0, at) + pair.substr(0, line) + key + " = " + value + pair.substr(pair.find('\n', line));
+  };
+  EXPECT_THAT(error_of(instead("orientation_wxyz", "[1.0, 0.5, 0.0, 0.0]")), HasSubstr("unit quaternion"));
+  EXPECT_THAT(error_of(instead("position_m", "[1.0, 0.5]")), HasSubstr("position_m"));
+  EXPECT_THAT(error_of(instead("station", "\"0BADCAFE\"")), HasSubstr("does not tell how well its pose is known"));
+  EXPECT_THAT(error_of(instead("reference", "\"somewhere\"")), HasSubstr("reference"));
+}
+
 TEST_F(CalibrationFileTest, IsRefusedForAnotherTarget) {
   EXPECT_EQ(refusal_of(*nominal_), "");
   Target fewer = *nominal_;
@@ -109,6 +145,27 @@ TEST_F(CalibrationFileTest, NamesLineAndKeyOfWhatItCannotUse) {
   EXPECT_THAT(error_of("[[sensor]]\nsensor = 1\nposition_m = [0.0, 0.0, 0.0]\nnominal_m = [0.0, 0.0, 0.0]\n"),
               HasSubstr("no target"));
   EXPECT_THAT(error_of("[[sensor]]\nsensr = 1\n"), HasSubstr("sensor"));
+}
+
+TEST_F(CalibrationFileTest, SaysWhatItLeavesWrong) {
+  CalibrationFile file = read(calibration_text(*calibration_, *nominal_));
+  const motion::SystematicErrors left = systematic_errors(file);
+  // Far better than nobody's, and no better than some arcsec and micrometres.
+  EXPECT_LT(left.sensor_position_m, 0.1 * motion::kUncalibratedErrors.sensor_position_m);
+  EXPECT_GT(left.sensor_position_m, 0.2e-6);
+  EXPECT_LT(left.rotor_rad, 0.5 * motion::kUncalibratedErrors.rotor_rad);
+  EXPECT_GT(left.rotor_rad, 2.0 * kRadPerArcsec);
+  // Standard deviations of its covariance: four times this is twice those.
+  for (std::vector<double>& row : file.covariance) {
+    for (double& value : row) value *= 4.0;
+  }
+  file.scale_sigma *= 2.0;
+  EXPECT_NEAR(systematic_errors(file).rotor_rad, 2.0 * left.rotor_rad, 1e-9 * left.rotor_rad);
+  EXPECT_NEAR(systematic_errors(file).sensor_position_m, 2.0 * left.sensor_position_m, 1e-9 * left.sensor_position_m);
+  file.covariance.clear();
+  EXPECT_EQ(systematic_errors(file).rotor_rad, motion::kCalibratedErrors.rotor_rad);
+  EXPECT_EQ(systematic_errors(parse_calibration("[[station]]\nslot = 0\n", "stations")).rotor_rad,
+            motion::kUncalibratedErrors.rotor_rad);
 }
 
 TEST(WidenByScale, AddsTheRangesShareAndNothingAcross) {
