@@ -38,8 +38,9 @@ void smooth_row(const Value* in, Value* out, std::int32_t width, int shift) {
     const Value* from = in + begin;
     for (std::int32_t k = 0; k < count; ++k) values[kReach_px + k] = static_cast<Value>(from[k] << shift);
     for (std::int32_t k = 0; k < kReach_px; ++k) {
-      values[k] = static_cast<Value>(in[std::max(0, begin + k - kReach_px)] << shift);
-      values[kReach_px + count + k] = static_cast<Value>(in[std::min(width - 1, begin + count + k)] << shift);
+      values[k] = static_cast<Value>(in[std::max<std::int32_t>(0, begin + k - kReach_px)] << shift);
+      values[kReach_px + count + k] =
+          static_cast<Value>(in[std::min<std::int32_t>(width - 1, begin + count + k)] << shift);
     }
     for (std::int32_t left = 2 * kReach_px - 1; left >= 0; --left) {
       for (std::int32_t k = 0; k < count + left; ++k) values[k] = mean(values[k], values[k + 1]);
