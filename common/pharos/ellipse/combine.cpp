@@ -23,13 +23,20 @@ constexpr float kMinTurnAlone_rad = 1.75F;
 constexpr float kMinTurnOfPair_rad = 1.0F;
 // A first fit must pass this near to the samples it is made of.
 constexpr double kMaxFitRms_px = 1.0;
-// Samples left out at each end of an arc that does not fit as a whole.
-constexpr std::size_t kTrimmedSamples = 3;
+// Samples left out at an arc's two ends, in this order, where all of it does not fit. The one-sided ones for arcs
+// alone: what hides a part of a circle makes the arc run on along its own edge at one end.
+struct Trim {
+  std::size_t start, finish;
+};
+constexpr std::array<Trim, 4> kTrims = {{{0, 0}, {3, 3}, {5, 0}, {0, 5}}};
+constexpr std::size_t kTrimsOfPairs = 2;
+// Arcs of one ellipse lie as near to their fit; of what lies less well the best part is taken.
+constexpr double kGoodFitRms_px = 0.25;
 // Edge points join a first fit from this far, a refined one from nearer.
 constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
-// Best pairs of one arc that are completed.
-constexpr std::size_t kBestPairs = 3;
+// Best fits with one arc that are completed.
+constexpr std::size_t kBestFits = 3;
 // Neighbouring edge points see the same pixels through the filter: with sigma = 1 px their noise is that of one
 // measurement in 3.5 px (the sum of exp(-d^2/4) over the distances d).
 constexpr double kCorrelation_px = 3.5;
@@ -96,26 +103,34 @@ class Combiner {
   void consider(const Arc& one, const Arc* other) {
     ++workspace_.counters.candidates;
     const double length = one.points() + (other == nullptr ? 0U : other->points());
-    for (const std::size_t trim : {std::size_t{0}, kTrimmedSamples}) {
+    const bool alone = other == nullptr;
+    std::optional<Ellipse> best;
+    double best_squares = kMaxFitRms_px * kMaxFitRms_px;
+    for (const Trim& trim : std::span(kTrims).first(alone ? kTrims.size() : kTrimsOfPairs)) {
       StaticVector<PointF, 2 * kArcSamples> points;
       for (const Arc* arc : {&one, other}) {
         if (arc == nullptr) continue;
-        for (std::size_t k = trim; k < kArcSamples - trim; ++k) points.push_back(arc->samples[k]);
+        for (std::size_t k = trim.start; k < kArcSamples - trim.finish; ++k) points.push_back(arc->samples[k]);
       }
-      const std::optional<Ellipse> ellipse = fit_direct({points.data(), points.size()});
-      if (!ellipse || !plausible(*ellipse, settings_) || !passes_near(*ellipse, {points.data(), points.size()}))
-        continue;
-      return insert({*ellipse, length / perimeter_px(*ellipse)});
+      const std::span<const PointF> fitted(points.data(), points.size());
+      const std::optional<Ellipse> ellipse = fit_direct(fitted);
+      if (!ellipse || !plausible(*ellipse, settings_)) continue;
+      const double squares = mean_square_px2(*ellipse, fitted);
+      if (!(squares <= best_squares)) continue;
+      best = ellipse;
+      best_squares = squares;
+      if (!alone || squares <= kGoodFitRms_px * kGoodFitRms_px) break;
     }
+    if (best) insert({*best, length / perimeter_px(*best)});
   }
 
-  static bool passes_near(const Ellipse& ellipse, std::span<const PointF> points) {
+  static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points) {
     double squares = 0.0;
     for (const PointF& p : points) {
       const double d = distance_px(ellipse, {static_cast<double>(p.u), static_cast<double>(p.v)});
       squares += d * d;
     }
-    return squares <= kMaxFitRms_px * kMaxFitRms_px * static_cast<double>(points.size());
+    return squares / static_cast<double>(points.size());
   }
 
   void insert(const Candidate& candidate) {
@@ -170,7 +185,7 @@ class Combiner {
   const EllipseSettings& settings_;
   EllipseWorkspace& workspace_;
   Support support_;
-  StaticVector<Candidate, kBestPairs> best_;
+  StaticVector<Candidate, kBestFits> best_;
   std::array<std::uint16_t, kMaxArcs> order_{};
   std::array<bool, kMaxArcs> explained_{};
 };
