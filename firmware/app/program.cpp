@@ -9,6 +9,9 @@ namespace {
 
 /// Records of one pass: some 0.5 ms of a 50 MHz core, so that the line is served in between.
 constexpr int kRecordsAPass = 32;
+/// Light that comes record by record does not have the line looked at for each: a millisecond of it fills a third of
+/// the UART's FIFOs.
+constexpr std::int64_t kServe_ticks = kTicksPerSecond / 2000;
 /// How often the decoder is told the time when no light tells it.
 constexpr std::int64_t kAdvance_ticks = kTicksPerSecond / 1000;
 /// Raw edges wait no longer than this for a frame to fill.
@@ -35,16 +38,19 @@ Program::Program(const hal::Board& board, PoseDesk* desk)
   now_ticks_ = board_.capture.now_ticks();
   edges_.note_time(now_ticks_);
   schedule_.start(now_ticks_);
-  advanced_ticks_ = flushed_ticks_ = line_free_ticks_ = solver_seen_ticks_ = busy_since_ticks_ = now_ticks_;
+  served_ticks_ = advanced_ticks_ = flushed_ticks_ = line_free_ticks_ = solver_seen_ticks_ = busy_since_ticks_ =
+      now_ticks_;
 }
 
 bool Program::poll() {
   const std::uint32_t begin = board_.system.cycles();
-  const bool received = receive();
-  const bool captured = capture();
-  const bool sent = send();
-  stay_alive();
-  const bool busy = received || captured || sent;
+  bool busy = capture();
+  if (!busy || now_ticks_ - served_ticks_ >= kServe_ticks) {
+    served_ticks_ = now_ticks_;
+    busy = receive() || busy;
+    busy = send() || busy;
+    stay_alive();
+  }
   const bool counted_there = desk_ != nullptr && desk_->solving();
   if (busy && !counted_there) busy_cycles_ += board_.system.cycles() - begin;
   return busy;

@@ -54,6 +54,7 @@ class Program {
   LineSender line_;
   Schedule schedule_;
   std::int64_t now_ticks_ = 0;
+  std::int64_t served_ticks_ = 0;     // when line and watchdog were last looked at
   std::int64_t advanced_ticks_ = 0;   // of the last advance()
   std::int64_t flushed_ticks_ = 0;    // of the last frame of raw edges
   std::int64_t line_free_ticks_ = 0;  // when the line last took a whole frame
