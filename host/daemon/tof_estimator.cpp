@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/tof_estimator.hpp"
 
+#include "host/daemon/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "pharos/tof/tof_pose.hpp"
 
 namespace pharos::host {
+namespace {
+
+// From one stage's end to the next one's.
+class StageClock final : public tof::TofStageListener {
+ public:
+  explicit StageClock(std::array<std::int64_t, tof::kTofStages>& stage_ns) : stage_ns_(stage_ns) {}
+
+  void ended(tof::TofStage stage) override {
+    const std::int64_t now_ns = monotonic_now_ns();
+    stage_ns_[static_cast<std::size_t>(stage)] += now_ns - last_ns_;
+    last_ns_ = now_ns;
+  }
+
+ private:
+  std::array<std::int64_t, tof::kTofStages>& stage_ns_;
+  std::int64_t last_ns_ = monotonic_now_ns();
+};
+
+}  // namespace
 
 TofEstimator::TofEstimator(const DepthCamera& camera, const tof::TofSettings& settings)
     : camera_(camera), settings_(settings), workspace_(std::make_unique<tof::TofWorkspace>()) {}
@@ -24,8 +44,9 @@ DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file) {
 
 TofAnswer TofEstimator::measure(const DepthFrame& frame) {
   TofAnswer answer;
+  StageClock clock(answer.stage_ns);
   const auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_),
-                                          settings_, *workspace_);
+                                          settings_, *workspace_, &clock);
   if (!pose) {
     answer.refusal = tof::name_of(pose.error());
     answer.advice = tof::describe(pose.error());

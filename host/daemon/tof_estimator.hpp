@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -8,6 +10,7 @@
 #include "host/publish/tof_report.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/tof/tof_settings.hpp"
+#include "pharos/tof/tof_stages.hpp"
 
 namespace pharos::tof {
 struct TofWorkspace;
@@ -22,6 +25,8 @@ struct TofAnswer {
   TofPoseEstimate estimate;
   int observations = 0;  // depth pixels and edge points that it rests on
   std::string flags;
+  /// What each stage took, by TofStage; 0 where the frame did not come to it.
+  std::array<std::int64_t, tof::kTofStages> stage_ns{};
 };
 
 /// A frame to a pose: the core's measure_tof_pose with a workspace of its own.

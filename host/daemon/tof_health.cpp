@@ -85,6 +85,9 @@ NamedCounts TofLine::named_counts(const FrameSourceStatus& camera) const {
   add_times(counts, "transport", transport_);
   add_times(counts, "waiting", waiting_);
   add_times(counts, "estimator", estimator_);
+  for (std::size_t k = 0; k < tof::kTofStages; ++k) {
+    add_times(counts, std::string("estimator.") + tof::name_of(static_cast<tof::TofStage>(k)), estimator_stages_[k]);
+  }
   add_times(counts, "latency", latency_);
   const ClockCounters& clock = clock_.map().counters();
   counts.push_back({"clock.pairs", static_cast<std::int64_t>(clock.pairs)});

@@ -63,6 +63,9 @@ void TofLine::take(const DepthFrame& frame) {
   }
   TofAnswer answered = measure_(frame);
   estimator_.add(monotonic_now_ns() - began_ns);
+  for (std::size_t k = 0; k < tof::kTofStages; ++k) {
+    if (answered.stage_ns[k] > 0) estimator_stages_[k].add(answered.stage_ns[k]);
+  }
   if (frame.taken_in_turns) answered.flags = with_word(answered.flags, "in_turns");
   answer(answered, *time);
 }

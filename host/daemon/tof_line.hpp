@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -66,6 +67,7 @@ class TofLine {
   LatencyHistogram transport_;
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;
+  std::array<LatencyHistogram, tof::kTofStages> estimator_stages_;
   LatencyHistogram latency_;
 };
 

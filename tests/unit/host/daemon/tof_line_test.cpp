@@ -107,6 +107,14 @@ TEST_F(TofLineTest, TellsRefusedFramesWithTheirReason) {
   EXPECT_EQ(health.message, "no pose: no_ring_plane: look at a ring");
 }
 
+TEST_F(TofLineTest, TellsTheTimeOfEachStageThatAFrameCameTo) {
+  next_answer.stage_ns[static_cast<std::size_t>(tof::TofStage::kEdges)] = 2'000'000;
+  for (int k = 0; k < 3; ++k) line->take(frame_now());
+  EXPECT_EQ(counter("estimator.edges_max_us"), 2000);
+  EXPECT_EQ(counter("estimator.edges_p50_us"), 2000);
+  EXPECT_EQ(counter("estimator.face_max_us"), 0) << "no frame came to it";
+}
+
 TEST_F(TofLineTest, NeitherMeasuresNorSendsWhatIsStale) {
   DepthFrame frame = frame_now();
   const std::int64_t second = 1'000'000'000;
