@@ -36,7 +36,8 @@ class TrimmedSearch {
   void consider_triplet(const Triplet& sensors);
   RaySet rays_of_hits(const Triplet& sensors, const std::array<std::int16_t, 6>& hit) const;
   bool next_combination(const Triplet& sensors, std::array<std::int16_t, 6>& hit) const;
-  bool all_places_agree(const PlaceResiduals& residuals);
+  double credible_cost(int places) const;
+  bool all_places_agree(const PlaceResiduals& residuals, const LighthouseFromBody& pose);
 
   Hits& hits_;
   const SolveOptions& options_;
@@ -46,16 +47,20 @@ class TrimmedSearch {
   int starts_ = 0;
 };
 
-bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals) {
+double TrimmedSearch::credible_cost(int places) const {
+  return credible_chi2(places - kPoseUnknowns) * options_.sigma_rad * options_.sigma_rad;
+}
+
+bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals, const LighthouseFromBody& pose) {
   const int places = static_cast<int>(residuals.size());
   const double variance = options_.sigma_rad * options_.sigma_rad;
-  const double credible = credible_chi2(places - kPoseUnknowns) * variance;
+  const double credible = credible_cost(places);
   double cost = 0.0;
   for (const PlaceResidual& r : residuals) cost += r.size * r.size;
   if (cost > kWorthAFit * credible) return false;
   choose_first(hits_, residuals, places);
   const Fit fit =
-      refine(hits_.sightings, best_, Residual::kAngle, {options_.max_iterations, kConvergedShare * variance, 1e300});
+      refine(hits_.sightings, pose, Residual::kAngle, {options_.max_iterations, kConvergedShare * variance, 1e300});
   if (!fit.converged || fit.normal.cost > credible) return false;
   best_ = fit.pose;
   return true;
@@ -68,11 +73,15 @@ void TrimmedSearch::consider(const LighthouseFromBody& start) {
   LighthouseFromBody pose = start;
   for (int step = 0; !complete_; ++step) {
     sort_places(hits_, pose, residuals);
-    const double cost = choose_first(hits_, residuals, core_size(static_cast<int>(residuals.size())));
-    if (cost < best_cost_) {
-      best_ = pose;
-      best_cost_ = cost;
-      complete_ = step > 0 && all_places_agree(residuals);
+    const int core = core_size(static_cast<int>(residuals.size()));
+    const double cost = choose_first(hits_, residuals, core);
+    // A pose that all places agree on is the answer, also behind one whose core fits better: of few sensors eight
+    // places of twelve can fit a wrong pose as well as the true one.
+    const bool best = cost < best_cost_;
+    if (best) best_ = pose, best_cost_ = cost;
+    if (step > 0 && (best || cost <= credible_cost(core))) {
+      complete_ = all_places_agree(residuals, pose);
+      if (!complete_) choose_first(hits_, residuals, core);  // the next step is the core's
     }
     if (complete_ || step == kConcentrationSteps || cost > kNotWorthSteps * best_cost_) return;
     pose = gauss_newton_step(hits_.sightings, pose, Residual::kAngle);

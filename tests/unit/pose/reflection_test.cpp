@@ -80,11 +80,14 @@ Count campaign(Reflected kind, int least_sensors, int problems, std::uint64_t se
 }
 
 TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllTold) {
-  const Count count = campaign(Reflected::kBesideTrueHit, 6, 300, 1);
-  EXPECT_EQ(count.refused, 0);
-  EXPECT_EQ(count.wrong_poses, 0);
-  EXPECT_EQ(count.reflections_used, 0);
-  EXPECT_EQ(count.good_hits_lost, 0);
+  // Set 24 holds a view of six sensors whose nine hits of twelve fit a wrong pose better than the true one.
+  for (const std::uint64_t seed : {1U, 24U, 29U}) {
+    const Count count = campaign(Reflected::kBesideTrueHit, 6, 300, seed);
+    EXPECT_EQ(count.refused, 0);
+    EXPECT_EQ(count.wrong_poses, 0);
+    EXPECT_EQ(count.reflections_used, 0);
+    EXPECT_EQ(count.good_hits_lost, 0);
+  }
 }
 
 TEST(Reflections, InsteadOfTheTrueHitsOfAThirdOfTheSensorsAreLeftOut) {

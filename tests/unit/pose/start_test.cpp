@@ -191,20 +191,32 @@ TEST_P(EveryStart, LeadsToTheSamePose) {
 INSTANTIATE_TEST_SUITE_P(Methods, EveryStart,
                          ::testing::Values(Start::kP3p, Start::kRpnp, Start::kDlt, Start::kHomography));
 
+// How near a start is that stands in for a DLT is a matter of the view (in one of 500 of these it is 0.7 to 1.0 off):
+// what it is for is that the search ends where it ends by itself.
 TEST(StartPoses, DltGivesWayWhereItsReprojectionFails) {
   const Target target = test::frustum_target();
   test::PnpSet set;
   set.least_sensors = 6;
   set.sigma_rad = 60.0 * kRadPerArcsec;
-  test::PnpGenerator generator(target, set, 11);
-  int wrong = 0;
-  for (int k = 0; k < 200; ++k) {
-    const View view = view_of(target, generator);
-    if (nearest(dlt(view.rays), view.problem.truth) < 0.5) continue;
-    ++wrong;
-    EXPECT_LT(nearest(start_poses(view.hits.sightings, Start::kDlt), view.problem.truth), 0.7);
+  SolveOptions by_dlt;
+  by_dlt.start = Start::kDlt;
+  for (const std::uint64_t seed : {1U, 11U, 16U}) {
+    test::PnpGenerator generator(target, set, seed);
+    int wrong = 0;
+    for (int k = 0; k < 200; ++k) {
+      const View view = view_of(target, generator);
+      const StartPoses alone = dlt(view.rays);
+      if (nearest(alone, view.problem.truth) < 0.5) continue;
+      ++wrong;
+      EXPECT_LT(nearest(start_poses(view.hits.sightings, Start::kDlt), view.problem.truth),
+                nearest(alone, view.problem.truth));
+      const auto reference = solve(target, view.problem.observations, {});
+      const auto solution = solve(target, view.problem.observations, by_dlt);
+      ASSERT_TRUE(reference.ok() && solution.ok());
+      EXPECT_LT(distance(solution->estimate.pose, reference->estimate.pose), 0.01);
+    }
+    EXPECT_GT(wrong, 20);
   }
-  EXPECT_GT(wrong, 20);
 }
 
 }  // namespace
