@@ -36,8 +36,8 @@ struct LineImaging {
   double star_light = 0.3;  ///< of the brightest, in units of a white pixel once blurred
   double sky_light = 0.004;
   double antialias_threshold = 0.01;
-  int rays_per_side = 5;
-  ImageSensor sensor;  ///< the exposure is such that the satellite peaks at `peak` of the full well
+  int rays_per_side = 9;  ///< fewer show as a grid along straight edges (README)
+  ImageSensor sensor;     ///< the exposure is such that the satellite peaks at `peak` of the full well
   double peak = 0.8;
 };
 

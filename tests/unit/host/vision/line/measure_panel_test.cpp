@@ -110,6 +110,25 @@ TEST(MeasurePanelRefuses, WhatHasNoAnswerByItsName) {
   EXPECT_EQ(refusal_of(scene.image(), other), LineRefusal::kWrongSize);
 }
 
+TEST(MeasurePanelRefuses, ADimTargetWithoutAPanelAmongBrighterStars) {
+  PaintedPanel scene;
+  scene.light = 0.0;
+  host::GreyImage image = scene.image();
+  testing::add_star(image, 256.0, 256.0, 6000.0, 20.0);  // a patch of 13 x 13 px
+  EXPECT_EQ(refusal_of(image, scene.camera), LineRefusal::kNoPanel);
+  for (int k = 0; k < 8; ++k) testing::add_star(image, 60.0 + 50.0 * k, k % 2 == 0 ? 40.0 : 460.0, 60000.0);
+  EXPECT_EQ(refusal_of(image, scene.camera), LineRefusal::kStarsBrighter);
+}
+
+TEST(MeasurePanelRefuses, AnEdgeBeyondWhatTheLensModelReaches) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.2);
+  // This lens folds its image back well before the panel's ends.
+  PinholeCamera folded = scene.camera;
+  folded.distortion = {-400.0, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(refusal_of(scene.image(), folded), LineRefusal::kOutsideLens);
+}
+
 TEST(MeasurePanelRefuses, ATargetWithOneEdgeOnly) {
   PaintedPanel scene;
   scene.set_axis(0.4, 0.0);
