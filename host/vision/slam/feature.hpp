@@ -46,6 +46,7 @@ struct Feature {
   Vector2 pixel = Vector2::Zero();  ///< of the rectified left image
   double right_u_px = -1.0;         ///< its column in the right image; below 0: a mono feature
   double depth_m = -1.0;            ///< (9), of a stereo feature
+  double off_row_px = 0.0;          ///< of a stereo feature: how many rows lower the right image has it
   int level = 0;                    ///< of the pyramid
   double angle_rad = 0.0;           ///< of the patch, from +u towards +v
   Descriptor descriptor;
@@ -57,6 +58,10 @@ struct Feature {
     return sigma * sigma;
   }
 };
+
+/// Expected error of a disparity, in errors of a coordinate: squares of pixels are compared to some 0.03 px of their
+/// level, while a corner is not the same thing from every side.
+inline constexpr double kDisparityShare = 0.3;
 
 /// A stereo feature nearer than this many baselines has a depth worth a point at once; a farther one tells rotation
 /// only (Mur-Artal 2017).

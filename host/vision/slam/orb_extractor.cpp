@@ -17,10 +17,10 @@ namespace {
 constexpr int kBorder_px = 20;
 constexpr int kCell_px = 32;  // of FAST
 constexpr int kPatchRadius_px = 15;
-constexpr int kWindow_px = 3;  // to each side, of gradients
+constexpr int kWindow_px = 5;  // to each side, of gradients
 constexpr int kMostSteps = 6;
 constexpr double kSmallStep_px = 0.02;
-constexpr double kMostMove_px = 2.0;
+constexpr double kMostMove_px = 0.7;  // farther off it is another corner
 
 int features_of_level(int wanted, int level) {
   const double ratio = 1.0 / kLevelScale;

@@ -30,14 +30,15 @@ inline CameraFromTarget turned_pose(double turn_rad) {
   return {rotation_exp(Vector3(0.05, turn_rad, 0.02)), Vector3(0.1, -0.05, 5.0)};
 }
 
-/// What a camera sees of a point, with noise of `sigma_px` in each coordinate.
+/// What a camera sees of a point, with noise of `sigma_px` in each coordinate and its share in the disparity.
 inline Observation seen(const Vector3& point, const CameraFromTarget& pose, double sigma_px, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0.0, 1.0);
   const Vector3 place = kCamera.project(pose * point);
   Observation observation{point, place.head<2>(), place.z(), sigma_px > 0.0 ? sigma_px * sigma_px : 1.0};
-  observation.pixel.x() += sigma_px * noise(random);
+  const double across = sigma_px * noise(random);
+  observation.pixel.x() += across;
   observation.pixel.y() += sigma_px * noise(random);
-  observation.right_u_px += sigma_px * noise(random);
+  observation.right_u_px += across + kDisparityShare * sigma_px * noise(random);
   return observation;
 }
 
