@@ -11,6 +11,7 @@
 #include "tools/bench/bench_motion.hpp"
 #include "tools/bench/bench_pose.hpp"
 #include "tools/bench/bench_target.hpp"
+#include "tools/bench/bench_tof.hpp"
 #include "tools/bench/peer_module.hpp"
 #include "tools/cli/commands.hpp"
 
@@ -50,10 +51,10 @@ int run_target(const Options& options) {
 
 constexpr int kImages = 100;
 
-std::vector<BenchRow> run_ellipses(const Options& options) {
+EdgeDrawingFunction edge_drawing() {
   const EdgeDrawingFunction peer = load_edge_drawing();
   if (peer == nullptr) std::fprintf(stderr, "pharos bench: %s has no EdgeDrawing: no peer\n", kPeerModuleName);
-  return bench_ellipses(options.problems.value_or(kImages), peer);
+  return peer;
 }
 
 std::vector<BenchRow> run_enhance(const Options& options) {
@@ -76,6 +77,10 @@ int run(const Options& options) {
     write_rows(run_enhance(options), form_of(options));
     return kExitAnswered;
   }
+  if (options.what == "tof") {
+    write_rows(bench_tof(options.problems.value_or(kImages), edge_drawing()), form_of(options));
+    return kExitAnswered;
+  }
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
   const auto wanted = [&](const char* what) { return options.what == "all" || options.what == what; };
@@ -87,7 +92,7 @@ int run(const Options& options) {
     }
     append(bench_pose(options.problems.value_or(kProblems), peers));
   }
-  if (wanted("ellipses")) append(run_ellipses(options));
+  if (wanted("ellipses")) append(bench_ellipses(options.problems.value_or(kImages), edge_drawing()));
   if (wanted("decode")) append(bench_decode(options.edges));
   if (wanted("motion")) append(bench_motion());
   write_rows(rows, form_of(options));
@@ -101,12 +106,13 @@ void add_bench(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option("what", options->what,
-                   "pose, ellipses, decode, motion, all of these (default), enhance, or target: the soft core")
-      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "enhance", "target"}));
+                   "pose, ellipses, decode, motion, all of these (default), enhance, tof: a depth frame's stages, or "
+                   "target: the soft core")
+      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "enhance", "tof", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
   command
       ->add_option("--problems", options->problems,
-                   "Pose problems (2000; target 200), images a set (100), pairs of views (20)")
+                   "Pose problems (2000; target 200), images a set, depth frames (100), pairs of views (20)")
       ->check(CLI::Range(10, 1'000'000));
   command->add_option("--images", options->images,
                       "target: folder of the images (the build's, or the installed one); enhance: of opencv-doc's");

@@ -16,17 +16,19 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Seconds of this thread's processor time that one call takes: what others do on the machine counts less.
+/// This thread's processor time, seconds: what others do on the machine counts less.
+inline double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Processor seconds that one call takes.
 template <class Work>
 double processor_seconds_of(Work&& work) {
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  const double start = now();
+  const double start = thread_seconds();
   work();
-  return now() - start;
+  return thread_seconds() - start;
 }
 
 inline double middle_of(std::vector<double> values) {
