@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "integration/camera/pharosd_camera_fixture.hpp"
+#include "tools/sim/tof/tof_writer.hpp"
 
 namespace pharos::host {
 namespace {
@@ -27,6 +28,8 @@ TEST_F(StillCameraTest, MeasuresWhatTheCameraSees) {
   EXPECT_EQ(pose.station_or_camera, "helios");
   ASSERT_TRUE(daemon.wait([&] { return daemon.counter("frames_ok", "client") > 0; }, kPatience_s));
   EXPECT_GT(daemon.counter("estimator_p50_us", "client"), 0);
+  EXPECT_GT(daemon.counter("estimator.edges_p50_us", "client"), 0);
+  EXPECT_GT(daemon.counter("estimator.connector_p50_us", "client"), 0);
   EXPECT_EQ(daemon.source("client")->state, "ok");
 }
 
@@ -60,6 +63,26 @@ TEST_F(StillCameraTest, StopsCleanlyWhileItLooksForACamera) {
       daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state == "gone"; }, kPatience_s));
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+// frames = "DIRECTORY": what a camera recorded, at its own beat; then the source says that it has come to its end.
+TEST_F(PharosdCameraTest, MeasuresRecordedFrames) {
+  constexpr std::size_t kFrames = 3;
+  const std::filesystem::path folder = daemon.folder() / "recorded";
+  sim::TofScenario scenario = sim::read_tof_scenario(std::string(PHAROS_SCENARIOS) + "/tof_still.toml", 1);
+  scenario.poses.resize(kFrames);
+  sim::TofSimulator simulator(scenario, 1);
+  sim::write_tof_frames(simulator, folder, [] {});
+  std::filesystem::copy_file(folder / "camera.toml", daemon.folder() / "helios.toml");
+  reel.frames.resize(1);
+  reel.frames[0].T_camera_target = simulator.truth(0).T_camera_target;
+  start("frames = 'recorded'\nframe_rate_hz = 5\n");
+  ASSERT_TRUE(poses_come(kFrames)) << daemon.process().text();
+  expect_true_poses();
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state == "stale"; }, kPatience_s));
+  EXPECT_NE(daemon.source("client")->message.find("end"), std::string::npos);
+  EXPECT_EQ(daemon.counter("frames_ok", "client"), kFrames);
 }
 
 }  // namespace
