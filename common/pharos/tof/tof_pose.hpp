@@ -46,7 +46,7 @@ struct TofPose {
   bool has_turn() const { return (flags & kFlagNoConnector) == 0; }
 };
 
-/// All memory of the path beside the stack, which needs some 60 KiB. Holds the last frame's rows and the lens' rays, so
+/// All memory of the path beside the stack, which needs some 80 KiB. Holds the last frame's rows and the lens' rays, so
 /// one workspace belongs to one camera. After measure_tof_pose it holds what was seen, for pictures: ellipse.found,
 /// ellipse.arcs, connector.regions, edges.
 struct TofWorkspace {

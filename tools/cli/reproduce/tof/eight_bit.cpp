@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+
+#include "pharos/tof/ring_extent.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -30,6 +33,23 @@ ellipse::Ellipse mean_of(const ellipse::Ellipse& one, const ellipse::Ellipse& ot
   // The axis has no sign: the mean of two that differ by half a turn is either.
   mean.theta_rad += 0.5 * std::remainder(other.theta_rad - one.theta_rad, std::numbers::pi);
   return mean;
+}
+
+// The detected ellipse that is this edge of the ring; the edge's own image where none is: the ring was found by another
+// edge then (its wall's foot), or by depth.
+std::optional<ellipse::Ellipse> ellipse_of(const tof::RingModel& model, tof::RingEdge edge, const DepthCamera& camera,
+                                           std::span<const ellipse::DetectedEllipse> found) {
+  constexpr double kSame_px = 1.0;
+  const auto image = tof::image_of(model, edge, camera.optics);
+  if (!image) return std::nullopt;
+  for (const ellipse::DetectedEllipse& one : found) {
+    const ellipse::Ellipse& e = one.ellipse;
+    if (std::hypot(e.cx_px - image->cx_px, e.cy_px - image->cy_px) < kSame_px &&
+        std::abs(e.a_px - image->a_px) < kSame_px && std::abs(e.b_px - image->b_px) < kSame_px) {
+      return e;
+    }
+  }
+  return image;
 }
 
 // The point that the pixel's depth says, frame C.
@@ -59,9 +79,13 @@ sim::TofPixels eight_bit_depth(const sim::TofPixels& pixels, const sim::DepthSca
 }
 
 std::optional<tof::CameraFromTarget> paper_pose(const sim::TofPixels& pixels, const DepthCamera& camera,
-                                                const tof::TofPose& seen, const tof::ConnectorWorkspace& regions) {
-  if (regions.connectors.empty()) return std::nullopt;
-  const ellipse::Ellipse ring = mean_of(seen.ring.outer, seen.ring.inner);
+                                                const tof::TofPose& seen, const tof::TofWorkspace& workspace) {
+  const tof::ConnectorWorkspace& regions = workspace.connector;
+  const std::span<const ellipse::DetectedEllipse> found(workspace.ellipse.found.data(), workspace.ellipse.found.size());
+  const auto outer = ellipse_of(seen.ring.fit.model, tof::RingEdge::kOuter, camera, found);
+  const auto inner = ellipse_of(seen.ring.fit.model, tof::RingEdge::kInner, camera, found);
+  if (regions.connectors.empty() || !outer || !inner) return std::nullopt;
+  const ellipse::Ellipse ring = mean_of(*outer, *inner);
   // The plane z = p . (x/z, y/z, 1)^-1 is linear in inverse depth: 1/z = q . ray.
   Matrix3 normal = Matrix3::Zero();
   Vector3 right = Vector3::Zero();

@@ -17,9 +17,10 @@ inline constexpr double kGreySpan_m = 1.0;
 /// circle's centre, a plane through the depths of kRingPoints pixels on it, the connector's middle by its region.
 ///
 /// How many points on the ring the paper takes it does not say; eight reproduce its figures. Nothing where a point has
-/// no depth or the frame no connector. `seen` is the measurement of `pixels`: it tells ellipses and connector.
+/// no depth or the frame no connector. `seen` and `workspace` are the measurement of `pixels`: they tell which of the
+/// detected ellipses are the ring's edges, and the connector.
 std::optional<tof::CameraFromTarget> paper_pose(const sim::TofPixels& pixels, const DepthCamera& camera,
-                                                const tof::TofPose& seen, const tof::ConnectorWorkspace& regions);
+                                                const tof::TofPose& seen, const tof::TofWorkspace& workspace);
 inline constexpr int kRingPoints = 8;
 
 }  // namespace pharos::tools
