@@ -10,6 +10,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/pointing/axis_estimate.hpp"
 #include "pharos/pointing/tangent.hpp"
 
 namespace pharos::pointing {
@@ -23,6 +24,9 @@ constexpr double kSmallStep = 1e-10;
 // What is left of one parameter's information once all others are free too: below it nothing is known of it.
 constexpr double kLeastCondition = 1e-14;
 constexpr double kSameAxis = 5.0;  // sigmas
+// Spin axis and rate are three unknowns more than an axis that stands still has. What they must make better of chi2 to
+// be seen: its 99.99 % quantile for three.
+constexpr double kSeenChi2 = 21.1;
 
 struct Start {
   Spin spin;
@@ -181,6 +185,9 @@ Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, st
   estimate.spin = best.spin;
   estimate.chi2 = best.cost;
   estimate.degrees_of_freedom = static_cast<int>(planes.size()) - 5;
+  const auto still = estimate_axis(planes);
+  const double per_freedom = std::max(1.0, best.cost / estimate.degrees_of_freedom);
+  if (still && still->chi2 - best.cost < kSeenChi2 * per_freedom) return SpinFailure::kNotSeen;
   if (!is_inverse_sound(normal_equations(material, best.spin).information, estimate.covariance)) {
     return SpinFailure::kNotSeen;
   }

@@ -42,7 +42,7 @@ struct SpinEstimate {
 
 enum class SpinFailure : std::uint8_t {
   kTooFewPlanes,  // five unknowns: fewer than eight planes test nothing
-  kNotSeen,       // the axis does not move (or along the spin axis only): rate and spin axis cannot be told
+  kNotSeen,       // an axis that stands still fits as well, or rate and spin axis cannot be told
 };
 
 inline constexpr std::size_t kLeastSpinPlanes = 8;

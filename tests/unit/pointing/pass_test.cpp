@@ -107,6 +107,14 @@ TEST(Pass, AWrongLawIsRejected) {
   EXPECT_EQ(failure_of(spinning(truth, spin), AttitudeLaw::kNadir), PassFailure::kLawDoesNotFit);
 }
 
+TEST(Pass, AnAxisThatStandsStillHasNoSpin) {
+  const OrbitSight truth;
+  for (const unsigned seed : {11U, 12U}) {
+    EXPECT_EQ(solve(truth, pass_of(truth, inertial(kAxis), seed), AttitudeLaw::kSpin).failure,
+              PassFailure::kSpinNotSeen);
+  }
+}
+
 TEST(Pass, AFewImagesOfAnotherEdgeAreSetAside) {
   const OrbitSight truth;
   std::vector<PassImage> images = pass_of(truth, inertial(kAxis), 6);
