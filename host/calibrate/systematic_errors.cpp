@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/calibrate/calibration_file.hpp"
@@ -26,6 +27,12 @@ double sensor_sigma(const CalibrationFile& file) {
   return std::sqrt(std::max(square, 0.0) / (3.0 * count));
 }
 
+// In the order of kRotorParameterNames. (parameters_of() belongs to the adjustment, which readers of a file do
+// without.)
+using Rotor = lighthouse::RotorCalibration;
+constexpr std::array<double Rotor::*, kRotorParameters> kParameters = {
+    &Rotor::phase_rad, &Rotor::tilt_rad, &Rotor::curve_rad, &Rotor::gibbous_phase_rad, &Rotor::gibbous_magnitude_rad};
+
 // Derivative of a rotor's raw angle by its five parameters. Form 2 differs in a sign, which a variance does not see.
 RotorParameters by_parameters(const lighthouse::StationCalibration& station, Axis axis, const Vector3& direction) {
   const auto rotor = static_cast<std::size_t>(index_of(axis));
@@ -33,9 +40,7 @@ RotorParameters by_parameters(const lighthouse::StationCalibration& station, Axi
   for (std::size_t k = 0; k < kRotorParameters; ++k) {
     const auto shifted = [&](double by) {
       lighthouse::StationCalibration other = station;
-      RotorParameters parameters = parameters_of(station.rotor[rotor]);
-      parameters[k] += by;
-      other.rotor[rotor] = rotor_of(parameters);
+      other.rotor[rotor].*kParameters[k] += by;
       return raw_theta(other, lighthouse::ModelForm::kForm1, axis, direction);
     };
     derivative[k] = (shifted(kStep_rad) - shifted(-kStep_rad)) / (2.0 * kStep_rad);

@@ -45,6 +45,17 @@ TEST(DaemonConfig, TracksMotionUnlessToldToTakeEachCycleAlone) {
   EXPECT_THROW(method("method = 'cycle'\n"), InputError);
 }
 
+TEST(DaemonConfig, TakesWhatIsGoodEnough) {
+  const auto limits = [&](const std::string& more) {
+    return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).limits;
+  };
+  EXPECT_EQ(limits("").position_m, motion::AnswerLimits{}.position_m);
+  const motion::AnswerLimits told = limits("[target.solve]\nlargest_sigma_deg = 0.2\nlargest_sigma_mm = 2.5\n");
+  EXPECT_NEAR(told.rotation_rad, 0.2 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(told.position_m, 2.5e-3, 1e-12);
+  EXPECT_THROW(limits("[target.solve]\nlargest_sigma_mm = 0.0\n"), InputError);
+}
+
 TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
   Surroundings surroundings = made_up();
   surroundings.read_calibration = calibrated;
