@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instructions from edges to sweeps, and from sweeps to poses, over a recording.
 #include "firmware/bench/report.hpp"
-#include "pharos/lighthouse/decoder.hpp"
+#include "pharos/lighthouse/sorted_decoder.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace {
@@ -19,7 +19,7 @@ lighthouse::StationCalibration calibration_of(const bench::StationRow& row) {
 }
 
 struct Measured {
-  lighthouse::Decoder decoder;
+  lighthouse::SortedDecoder decoder;
   Counts edge, pose, dark;  // instructions an edge; a sweep that completed a cycle; any other sweep
   std::int64_t track_sum = 0;
   std::uint32_t answers = 0, ambiguous = 0, hits = 0, payloads = 0;
@@ -90,7 +90,7 @@ int main() {
   bench::say("ambiguous", measured.ambiguous);
   bench::say("payloads", measured.payloads);
   bench::say("ticks", last_ticks - first_ticks);
-  bench::say("decoder_bytes", sizeof(lighthouse::Decoder));
+  bench::say("decoder_bytes", sizeof(lighthouse::SortedDecoder));
   bench::say("tracker_bytes", sizeof(track::EpochTracker));
   return 0;
 }

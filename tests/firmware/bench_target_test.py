@@ -22,6 +22,8 @@ BUDGET = {
     "from the last one: farthest from the host's answer": 0.1,
     "from the last one: flagged otherwise than the host": 0,
     "share of the core: decoder at 3 cycles/instruction": 10.0,
+    "share of the core: flying decoder with frames and line at 3 cycles/instruction": 13.0,
+    "flying decoder: edges lost and frames skipped": 0,
     "share of the core: decoder and poses at 3 cycles/instruction": 100.0,
     "decoder object": 7_168,
     "tracker object": 15_360,

@@ -7,6 +7,7 @@
 #include "host/table/row_writer.hpp"
 #include "pharos/base/ticks.hpp"
 #include "tools/bench/bench_decode.hpp"
+#include "tools/bench/bench_flying.hpp"
 #include "tools/bench/target_images.hpp"
 #include "tools/bench/target_input.hpp"
 
@@ -54,6 +55,16 @@ void add_shares(const Findings& light, Rows& rows) {
              stated ? std::optional<double>(10.0) : std::nullopt, "%");
     rows.add(with_cycles("share of the core: decoder and poses", cycles), share(decoding + tracking, ticks, cycles),
              stated ? std::optional<double>(100.0) : std::nullopt, "%");
+  }
+}
+
+void add_flying(const std::filesystem::path& images, Rows& rows) {
+  const std::string what = "share of the core: flying decoder with frames and line";
+  for (const int cycles : {1, 2, 3, 4}) {
+    const FlyingShare share = flying_share(images, cycles);
+    const bool stated = cycles == static_cast<int>(kStatedCycles);
+    rows.add(with_cycles(what, cycles), share.percent, stated ? std::optional<double>(10.0) : std::nullopt, "%");
+    if (stated) rows.add("flying decoder: edges lost and frames skipped", share.lost, 0.0, "");
   }
 }
 
@@ -114,6 +125,7 @@ std::vector<TargetRow> bench_target(const TargetBench& options) {
       pose_problems(test::frustum_target(), 8, 8, options.problems, std::min(options.problems, kFromNothing));
   add_poses(run_image(images, "measure_pose", input.bytes), input, rows);
   add_shares(simulated, rows);
+  add_flying(images, rows);
   rows.add("decoder object", of(simulated, "decoder_bytes"), std::nullopt, "bytes");
   rows.add("tracker object", of(simulated, "tracker_bytes"), std::nullopt, "bytes");
   add_sizes(images, rows);

@@ -2,6 +2,7 @@
 #include "tools/bench/target_images.hpp"
 
 #include <elf.h>
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,23 +43,32 @@ class TemporaryFile {
   std::string path_;
 };
 
-// Replaces this (forked) process by the emulator, its output into `output`.
-[[noreturn]] void become_emulator(const std::string& image, const std::string& input, int output) {
-  dup2(output, STDOUT_FILENO);
+constexpr std::array kMachine = {kEmulator, "-M",   "virt",        "-smp",     "1",    "-m",      "128M",
+                                 "-bios",   "none", "-nodefaults", "-display", "none", "-icount", "shift=0,sleep=off"};
+
+// Replaces this (forked) process by the emulator with an image and further options.
+[[noreturn]] void become_emulator(const std::string& image, const std::vector<std::string>& options) {
   const std::string program = "loader,cpu-num=0,file=" + image;
-  const std::string data = "loader,addr=0x82000000,force-raw=on,file=" + input;
-  execlp(kEmulator, kEmulator, "-M", "virt", "-smp", "1", "-m", "128M", "-bios", "none", "-nodefaults", "-display",
-         "none", "-serial", "stdio", "-icount", "shift=0,sleep=off", "-device", program.c_str(), "-device",
-         data.c_str(), nullptr);
+  std::vector<const char*> arguments(kMachine.begin(), kMachine.end());
+  arguments.insert(arguments.end(), {"-device", program.c_str()});
+  for (const std::string& option : options) arguments.push_back(option.c_str());
+  arguments.push_back(nullptr);
+  execvp(kEmulator, const_cast<char* const*>(arguments.data()));
   _exit(kNoProgram);
 }
 
-std::string output_of(const std::string& image, const std::string& input) {
+// Its standard output, `input` on its standard input where that is named.
+std::string output_of(const std::string& image, const std::vector<std::string>& options,
+                      const std::string& input = "") {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw host::InputError("cannot make a pipe to the emulator");
   const pid_t child = fork();
   if (child < 0) throw host::InputError("cannot start the emulator");
-  if (child == 0) become_emulator(image, input, ends[1]);
+  if (child == 0) {
+    dup2(ends[1], STDOUT_FILENO);
+    if (!input.empty()) dup2(open(input.c_str(), O_RDONLY), STDIN_FILENO);
+    become_emulator(image, options);
+  }
   close(ends[1]);
   std::string text;
   std::array<char, 4096> block{};
@@ -76,6 +86,14 @@ std::string output_of(const std::string& image, const std::string& input) {
     throw host::InputError(image + ": the program failed under the emulator" + (text.empty() ? "" : ": " + text));
   }
   return text;
+}
+
+// The image's path. Throws where it is not there.
+std::string image_of(const fs::path& images, const std::string& name) {
+  const fs::path image = images / (name + ".elf");
+  std::error_code error;
+  if (fs::exists(image, error)) return image.string();
+  throw host::InputError(image.string() + ": no such image; build the target `firmware`");
 }
 
 template <class Header>
@@ -104,22 +122,34 @@ fs::path find_images(const std::string& given) {
   for (const fs::path& place : places) {
     if (fs::exists(place / "measure_pose.elf", error)) return fs::weakly_canonical(place, error);
   }
-  throw host::InputError(places.front().string() +
-                         ": holds no measure_pose.elf; build the target `firmware`, or name the folder with --images");
+  throw host::InputError(
+      places.front().string() +
+      ": holds no measure_pose.elf. Build the images (cmake --build build --target firmware) and, where "
+      "this program is installed, install again; or name their folder with --images");
 }
 
 Findings run_image(const fs::path& images, const std::string& name, const std::vector<char>& input) {
-  const fs::path image = images / (name + ".elf");
-  std::error_code error;
-  if (!fs::exists(image, error))
-    throw host::InputError(image.string() + ": no such image; build the target `firmware`");
+  const std::string image = image_of(images, name);
   const TemporaryFile file(input);
-  std::istringstream lines(output_of(image.string(), file.path()));
+  std::istringstream lines(
+      output_of(image, {"-serial", "stdio", "-device", "loader,addr=0x82000000,force-raw=on,file=" + file.path()}));
   Findings findings;
   std::string what;
   for (std::int64_t value = 0; lines >> what >> value;) findings[what] = value;
-  if (findings.empty()) throw host::InputError(image.string() + ": said nothing that can be read");
+  if (findings.empty()) throw host::InputError(image + ": said nothing that can be read");
   return findings;
+}
+
+std::string fly_image(const fs::path& images, const std::string& name, const std::vector<char>& words) {
+  const std::string image = image_of(images, name);
+  const TemporaryFile tape(words);
+  const TemporaryFile line({});
+  output_of(image,
+            {"-serial", "file:" + line.path(), "-chardev", "stdio,id=edges,signal=off", "-device",
+             "virtio-serial-device", "-device", "virtconsole,chardev=edges"},
+            tape.path());
+  std::ifstream said(line.path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(said), std::istreambuf_iterator<char>()};
 }
 
 std::optional<ImageSizes> image_sizes(const fs::path& images, const std::string& name) {

@@ -21,6 +21,10 @@ std::filesystem::path find_images(const std::string& given);
 /// host::InputError when QEMU or the image is missing, or the program fails.
 Findings run_image(const std::filesystem::path& images, const std::string& name, const std::vector<char>& input);
 
+/// What IMAGES/NAME.elf, a build that flies, says on its line of `words` of the emulated capture block, to their end;
+/// repeatable as run_image. Throws as that.
+std::string fly_image(const std::filesystem::path& images, const std::string& name, const std::vector<char>& words);
+
 /// Bytes of an image by where they lie.
 struct ImageSizes {
   std::uint64_t code_and_constants = 0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -11,8 +12,10 @@
 #include "firmware/bench/input.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/edges_reader.hpp"
+#include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/pulse.hpp"
 #include "tools/bench/stopwatch.hpp"
+#include "tools/sim/capture_feed.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
 
 namespace pharos::tools {
@@ -86,6 +89,24 @@ sim::StationScenario station_at(double x_m, double turn_deg, sim::StationMode mo
   return station;
 }
 
+// The scene that stands for full rate: every sensor of a dome hit in every sweep of two stations.
+sim::LighthouseScenario full_rate(int sensors) {
+  sim::LighthouseScenario scenario;
+  scenario.duration_s = kSimulated_s;
+  scenario.target = dome_target(sensors);
+  scenario.stations = {station_at(-1.0, 25.0, sim::StationMode::kB), station_at(1.0, -25.0, sim::StationMode::kC)};
+  const Matrix3 facing = Vector3(1.0, -1.0, -1.0).asDiagonal();
+  scenario.trajectory = std::make_shared<sim::RestTrajectory>(
+      std::vector<sim::RoomFromBody>{{facing, {0.1, -0.1, 2.2}}}, scenario.duration_s, 0.0);
+  return scenario;
+}
+
+std::vector<lighthouse::RawPulse> pulses_of(sim::LighthouseSimulator& simulator) {
+  std::vector<lighthouse::RawPulse> pulses;
+  while (const auto pulse = simulator.next()) pulses.push_back({pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+  return pulses;
+}
+
 bench::PoseRow row_of(const LighthouseFromBody& pose) {
   bench::PoseRow row;
   for (int i = 0; i < 9; ++i) row.rotation[static_cast<std::size_t>(i)] = pose.R(i / 3, i % 3);
@@ -140,16 +161,9 @@ std::vector<char> recorded_light(const std::string& edges) {
 }
 
 std::vector<char> simulated_light(int sensors) {
-  sim::LighthouseScenario scenario;
-  scenario.duration_s = kSimulated_s;
-  scenario.target = dome_target(sensors);
-  scenario.stations = {station_at(-1.0, 25.0, sim::StationMode::kB), station_at(1.0, -25.0, sim::StationMode::kC)};
-  const Matrix3 facing = Vector3(1.0, -1.0, -1.0).asDiagonal();
-  scenario.trajectory = std::make_shared<sim::RestTrajectory>(
-      std::vector<sim::RoomFromBody>{{facing, {0.1, -0.1, 2.2}}}, scenario.duration_s, 0.0);
+  const sim::LighthouseScenario scenario = full_rate(sensors);
   sim::LighthouseSimulator simulator(scenario, kSeed);
-  std::vector<lighthouse::RawPulse> pulses;
-  while (const auto pulse = simulator.next()) pulses.push_back({pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
+  const std::vector<lighthouse::RawPulse> pulses = pulses_of(simulator);
   const std::vector<lighthouse::Edge> edges = edges_of(pulses);
   std::vector<char> bytes;
   append(bytes, light_header(scenario.target.size(), simulator.stations().size(), edges.size()));
@@ -164,6 +178,26 @@ std::vector<char> simulated_light(int sensors) {
   }
   append_edges(bytes, edges);
   return bytes;
+}
+
+std::vector<char> simulated_words(int sensors, int cycles) {
+  constexpr std::uint32_t kSpeed = 0xFFFFFFFE;  // firmware/board/qemu_virt/capture_tape.hpp
+  sim::LighthouseSimulator simulator(full_rate(sensors), kSeed);
+  std::vector<lighthouse::RawPulse> pulses = pulses_of(simulator);
+  std::stable_sort(pulses.begin(), pulses.end(),
+                   [](const auto& a, const auto& b) { return a.rise_ticks < b.rise_ticks; });
+  sim::CaptureFeed feed;
+  std::int64_t now_ticks = 0;
+  for (const lighthouse::RawPulse& pulse : pulses) {
+    if (pulse.rise_ticks - now_ticks >= kTicksPerSecond / 1000) feed.advance(now_ticks = pulse.rise_ticks);
+    feed.push(pulse);
+  }
+  feed.advance(now_ticks + kTicksPerSecond / 10);
+  feed.end();
+  std::vector<char> words;
+  append(words, std::array<std::uint32_t, 4>{kSpeed, 1024U * static_cast<std::uint32_t>(cycles)});
+  words.insert(words.end(), feed.bytes().begin(), feed.bytes().end());
+  return words;
 }
 
 PoseInput pose_problems(const Target& target, int least_seen, int most_seen, int problems, int from_nothing) {

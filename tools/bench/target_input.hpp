@@ -20,6 +20,10 @@ std::vector<char> recorded_light(const std::string& edges);
 /// the stations say of themselves, so that poses come with it.
 std::vector<char> simulated_light(int sensors);
 
+/// The same light as the emulated capture block gives it (sim::CaptureFeed), to a core of so many cycles an
+/// instruction.
+std::vector<char> simulated_words(int sensors, int cycles);
+
 /// Pose problems as measure_pose reads them, with a prior of a cycle's motion and the host's answer. The last
 /// `from_nothing` are to be solved without the prior too. `host_us`: medians of the host's time a solve.
 struct PoseInput {
