@@ -56,6 +56,7 @@ report::Reporter::Bytes PoseTask::next_frame(report::Reporter& reporter) {
 }
 
 std::uint32_t PoseTask::take_busy_cycles() {
+  if (solving_) count_until_now();
   const std::uint32_t cycles = busy_cycles_;
   busy_cycles_ = 0;
   return cycles;
@@ -78,15 +79,26 @@ bool PoseTask::solve() {
   }
   const auto sweep = take_oldest(sweeps_);
   if (!sweep) return false;
-  solving_ = true;
-  const std::uint32_t begin = system_.cycles();
+  begin_solve();
   const bool calibrated = solve(*sweep);
-  const std::uint32_t spent = system_.cycles() - begin;
   const hal::NoInterrupts guard;
+  count_until_now();
   solving_ = false;
   if (!calibrated) ++missed_;
-  busy_cycles_ += spent;
   return true;
+}
+
+void PoseTask::begin_solve() {
+  const hal::NoInterrupts guard;
+  counted_until_cycles_ = system_.cycles();
+  solving_ = true;
+}
+
+// A solve may reach over several reports: each has its part.
+void PoseTask::count_until_now() {
+  const std::uint32_t now = system_.cycles();
+  busy_cycles_ += now - counted_until_cycles_;
+  counted_until_cycles_ = now;
 }
 
 // False where the station is not calibrated.

@@ -37,6 +37,8 @@ class PoseTask final : public PoseDesk {
 
  private:
   bool solve(const lighthouse::Sweep& sweep);
+  void begin_solve();
+  void count_until_now();
   void answer(const track::EpochResult& result);
 
   hal::System& system_;
@@ -50,6 +52,7 @@ class PoseTask final : public PoseDesk {
   Ring<report::PoseReport, 1> answers_;
   std::uint32_t missed_ = 0;
   std::uint32_t busy_cycles_ = 0;
+  std::uint32_t counted_until_cycles_ = 0;  // of the solve under way
   volatile bool alive_ = false;
   volatile bool solving_ = false;
 };

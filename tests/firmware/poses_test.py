@@ -3,11 +3,12 @@
 """usage: poses_test.py PHAROS IMAGE SCENARIO: poses solved on board, in the block RAM of the board and at the speed of its core.
 
 At three cycles an instruction every cycle of two stations at full rate is answered, by the pose that `pharos track` gives the same
-light, to a tenth of a standard deviation. On a core that is too slow, every sweep that no pose was made of is told. 77 = skipped."""
+light, to a tenth of a standard deviation; no second, those of the first poses among them, takes more than the core has. On a core that is too slow, every sweep that no pose was made of is told. 77 = skipped."""
 
 import csv
 import math
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -20,6 +21,7 @@ POSE, SPEED = 0x12, 0xFFFFFFFE
 UNCALIBRATED = 1
 MOST_SIGMAS = 0.1
 START_TICKS = 50_000_000  # the first poses of two stations are solved from nothing, a third of a second each
+DURATION_S = 14.0  # calibrations come in 9 s at most: four seconds and more of full rate
 MOST_BUSY_PERMILLE = 1000
 
 
@@ -58,15 +60,16 @@ def keeps_up(pharos, image, light, words):
     answered = [key for key in wanted if key in target]
     whole = [second for second in device[:-1] if second["time"] >= begin + START_TICKS]
     busiest = max(second["busy_permille"] for second in whole)
+    busiest_start = max(second["busy_permille"] for second in device)
     skipped = whole[-1]["poses_skipped"] - whole[0]["poses_skipped"]
     print(f"at 3 cycles an instruction: {len(answered)} of {len(wanted)} cycles answered after the start, "
-          f"{skipped} sweeps skipped, busy {busiest / 10} % at most, "
+          f"{skipped} sweeps skipped, busy {busiest / 10} % at most ({busiest_start / 10} % with the start), "
           f"{device[-1]['stack_free_bytes']} bytes of stack never used")
     compared = [sigmas(host[key], target[key][1]) for key in answered if target[key][1] and not target[key][0] & UNCALIBRATED]
     print(f"{len(compared)} poses compared, the farthest {max(compared, default=99):.4f} sigma away")
-    assert len(wanted) > 500 and len(answered) == len(wanted) and skipped == 0, "the core does not keep up"
-    assert busiest <= MOST_BUSY_PERMILLE, "no time is left"
-    assert len(compared) > 200 and max(compared) <= MOST_SIGMAS, "other poses than the host's"
+    assert len(wanted) > 200 and len(answered) == len(wanted) and skipped == 0, "the core does not keep up"
+    assert busiest_start <= MOST_BUSY_PERMILLE, "more than the core has"
+    assert len(compared) > 100 and max(compared) <= MOST_SIGMAS, "other poses than the host's"
     assert min(second["stack_free_bytes"] for second in device) >= 256, "hardly any stack left"
 
 
@@ -78,9 +81,17 @@ def tells_what_it_skips(image, words):
     device = tape.device_counters(frames)
     skipped = device[-1]["poses_skipped"] - max(second["poses_skipped"] for second in device if second["time"] < begin)
     print(f"at 12 cycles an instruction: {answers} answers of {sweeps} sweeps, {skipped} sweeps told as skipped")
-    assert answers > 20 and skipped > 100, "the core was not too slow"
+    assert answers > 5 and skipped > 100, "the core was not too slow, or answered nothing at all"
     # Of four sweeps two are dark, and two make a cycle; of a cycle's four those that were not lost are not told.
     assert answers + skipped >= sweeps / 4, "cycles went unanswered and untold"
+
+
+def shortened(scenario, folder):
+    scenario = pathlib.Path(scenario)
+    shutil.copy(scenario.parent / "target12.csv", folder)
+    copy = folder / scenario.name
+    copy.write_text(re.sub(r"(?m)^duration_s = .*", f"duration_s = {DURATION_S}", scenario.read_text()))
+    return copy
 
 
 def main():
@@ -90,7 +101,7 @@ def main():
     pharos, image, scenario = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         light = pathlib.Path(folder)
-        subprocess.run([pharos, "sim", "lighthouse", scenario, "--seed", "5", "--output", light / "out"], check=True,
+        subprocess.run([pharos, "sim", "lighthouse", shortened(scenario, light), "--seed", "5", "--output", light / "out"], check=True,
                        stderr=subprocess.DEVNULL)
         words = light / "words"
         subprocess.run([pharos, "sim", "capture", light / "out/edges.csv.gz", "--output", words], check=True, stderr=subprocess.DEVNULL)
