@@ -35,8 +35,10 @@ DaemonUnderTest::DaemonUnderTest()
   if (!lcm_->good()) return;  // start() says so
   // LCM keeps 30 messages for whoever does not ask: fewer than a daemon sends while a test waits for its end.
   constexpr int kMessages = 10'000;
-  lcm_->subscribe("PHAROS_LIGHTHOUSE_POSE", &DaemonUnderTest::on_pose, this)->setQueueCapacity(kMessages);
-  lcm_->subscribe("PHAROS_TOF_POSE", &DaemonUnderTest::on_pose, this)->setQueueCapacity(kMessages);
+  for (const char* system : {"LIGHTHOUSE", "TOF", "RING2", "SLAM"}) {
+    lcm_->subscribe(std::string("PHAROS_") + system + "_POSE", &DaemonUnderTest::on_pose, this)
+        ->setQueueCapacity(kMessages);
+  }
   lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
   listen(1);
 }

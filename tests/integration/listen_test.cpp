@@ -8,7 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "host/cameras/rig_file.hpp"
 #include "integration/daemon_under_test.hpp"
+#include "support/painted_ring_pair.hpp"
 
 namespace pharos::host {
 namespace {
@@ -45,6 +47,26 @@ TEST(Listen, SummarisesPosesAgainstTheTruthAndEndsWith0) {
   EXPECT_EQ(exit_code, 0) << listen.text();
   EXPECT_THAT(listen.text(), AllOf(HasSubstr("target dock, station 0:"), HasSubstr("age on arrival"),
                                    HasSubstr("deg RMS"), HasSubstr("0 refused, 0 lost")));
+}
+
+TEST(Listen, ShowsBothSystemsOfAStereoRig) {
+  DaemonUnderTest daemon;
+  const test::PaintedRig painted;
+  std::ofstream(daemon.folder() / "rig.toml") << rig_text(painted.file());
+  std::filesystem::create_directories(daemon.folder() / "pairs");
+  for (std::size_t side = 0; side < 2; ++side) {
+    const GreyImage image = painted.image(test::ring_at({0.0, 0.0, 2.6}, 0.1, -0.1), side, side);
+    write_grey_png((daemon.folder() / "pairs" / (side == 0 ? "0_left.png" : "0_right.png")).string(), image.view(), 8);
+  }
+  std::ofstream(daemon.folder() / "pharosd.toml")
+      << "[lcm]\nurl = '" << daemon.url() << "'\n[publish]\nmax_age_s = 10\n[[stereo]]\nname = 'bow'\n"
+      << "target = 'client'\nrig_file = 'rig.toml'\nsystems = ['ring2', 'slam']\nframes = 'pairs'\n";
+  ChildProcess listen({PHAROS, "listen", "PHAROS_(RING2|SLAM)_POSE", "--url", daemon.url(), "--csv"});
+  ASSERT_TRUE(listen.wait_for("utime,source"));
+  EXPECT_EQ(daemon.start().wait_exit(60.0), 0) << "at the recording's end";
+  EXPECT_TRUE(listen.wait_for(",ring2/bow,client,")) << listen.text();
+  EXPECT_TRUE(listen.wait_for(",ok,no_connector,")) << "the turn about the axis is not told";
+  EXPECT_TRUE(listen.wait_for(",slam/bow,client,")) << listen.text();
 }
 
 TEST(Listen, EndsWith1WhenNoPoseCame) {

@@ -35,7 +35,8 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.station_id = message.station_or_camera;
   pose.station = static_cast<std::uint8_t>(message.station);
   pose.status = message.status;
-  pose.of_camera = message.child_frame == "target";
+  // Slam's target frame is the camera's own at the start: nothing of it faces the camera.
+  pose.of_camera = message.child_frame == "target" && !pose.source.starts_with("slam/");
   pose.flags = message.flags;
   pose.has_turn = pose.flags.find("no_connector") == std::string::npos;
   pose.sigma_rot_rad = message.sigma_rot_rad;

@@ -32,7 +32,7 @@ struct ReceivedPose {
   std::optional<LighthouseFromBody> pose;  // empty when the cycle was refused
   double sigma_rot_rad = 0.0;
   double sigma_pos_m = 0.0;
-  bool of_camera = false;  // T_camera_target: people know the angles of paper 000
+  bool of_camera = false;  // T_camera_target, T_rig_target of a docking ring: people know the angles of paper 000
   bool has_turn = true;    // the turn about the target's Z axis is measured, not made up
   double age_s = 0.0;      // on arrival, after the measurement
   double rate_hz = 0.0;    // of its kind over the last second

@@ -31,6 +31,16 @@ bool bring_loopback_up(int socket) {
   return ::ioctl(socket, SIOCSIFFLAGS, &request) == 0;
 }
 
+// For a second camera: there is one an address.
+bool add_second_address(int socket) {
+  ifreq request{};
+  std::strcpy(request.ifr_name, "lo:2");
+  request.ifr_addr = internet_address("127.0.0.2");
+  if (::ioctl(socket, SIOCSIFADDR, &request) != 0) return false;
+  request.ifr_netmask = internet_address("255.0.0.0");
+  return ::ioctl(socket, SIOCSIFNETMASK, &request) == 0;
+}
+
 bool route_multicast(int socket) {
   char device[] = "lo";
   rtentry route{};
@@ -48,6 +58,7 @@ void OwnNetwork::SetUp() {
   const UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   ASSERT_TRUE(socket.valid());
   ASSERT_TRUE(bring_loopback_up(socket.get()));
+  ASSERT_TRUE(add_second_address(socket.get()));
   ASSERT_TRUE(route_multicast(socket.get()));
 }
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharosd as it is, with recorded pairs and with two simulated grey cameras: ring2 and slam.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <optional>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/daemon/now.hpp"
+#include "integration/daemon_under_test.hpp"
+#include "support/painted_ring_pair.hpp"
+#include "tools/sim/camera/fake_helios.hpp"
+#include "tools/sim/camera/make_reel.hpp"
+#include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr double kStereoPatience_s = 120.0;  // of a machine that does other work
+constexpr double kDeg = 0.017453292519943295;
+
+Matrix3 rotation_of(const pose_t& pose) {
+  return Quaternion(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
+                    pose.orientation_wxyz[3])
+      .toRotationMatrix();
+}
+
+class PharosdStereoTest : public ::testing::Test {
+ protected:
+  void write_pairs(int count) {
+    fs::create_directories(pairs);
+    for (int k = 0; k < count; ++k) {
+      truths.push_back(test::ring_at({0.02 * k, -0.01, 2.6}, 5.0 * k * kDeg, (10.0 - 8.0 * k) * kDeg));
+      for (std::size_t side = 0; side < 2; ++side) {
+        const GreyImage image = painted.image(truths.back(), side, side);
+        const std::string name = "000" + std::to_string(k) + (side == 0 ? "_left.png" : "_right.png");
+        write_grey_png((pairs / name).string(), image.view(), 8);
+      }
+    }
+    std::ofstream(daemon.folder() / "rig.toml") << rig_text(painted.file());
+  }
+  ChildProcess& start(const std::string& stereo, const std::vector<std::string>& arguments = {}) {
+    std::ofstream(daemon.folder() / "pharosd.toml")
+        << "[lcm]\nurl = '" << daemon.url() << "'\n[publish]\nstatus_rate_hz = 10\nmax_age_s = 10.0\n"
+        << "[[stereo]]\nname = 'bow'\ntarget = 'client'\nrig_file = 'rig.toml'\n"
+        << stereo;
+    return daemon.start(arguments);
+  }
+  void expect_ring(const pose_t& pose, const sim::RingAndNozzle& truth) const {
+    EXPECT_EQ(pose.status, "ok");
+    EXPECT_LT(rotation_of(pose).col(2).cross(truth.normal).norm(), 0.1 * kDeg);
+    EXPECT_LT((Vector3(pose.position_m) - truth.ring_centre_m).norm(), 0.003);
+  }
+
+  DaemonUnderTest daemon;
+  fs::path pairs = daemon.folder() / "pairs";
+  test::PaintedRig painted;
+  std::vector<sim::RingAndNozzle> truths;
+};
+
+TEST_F(PharosdStereoTest, TellsTheRingsPoseOfRecordedPairs) {
+  write_pairs(3);
+  ChildProcess& pharosd = start("systems = ['ring2']\nframes = 'pairs'\nframe_rate_hz = 0.5\n");
+  ASSERT_TRUE(daemon.wait([&] { return daemon.valid_poses("client") >= 3; }, kStereoPatience_s)) << pharosd.text();
+  for (std::size_t k = 0; k < truths.size(); ++k) expect_ring(daemon.poses()[k], truths[k]);
+  EXPECT_NEAR(static_cast<double>(daemon.poses()[2].utime - daemon.poses()[0].utime), 4e6, 2.0) << "0.5 pairs/s";
+  EXPECT_EQ(daemon.poses()[0].source, "ring2/bow");
+  EXPECT_EQ(daemon.poses()[0].flags, "no_connector") << "the turn about the axis is not told";
+  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << "at the recording's end";
+  EXPECT_EQ(daemon.counter("pairs_ok", "client"), 3);
+}
+
+TEST_F(PharosdStereoTest, FollowsATumblingTargetInRecordedPairs) {
+  const sim::TumblingScenario scenario{
+      .turn_deg = 20.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
+  sim::write_tumbling(scenario, 5, pairs.string(), [] {});
+  fs::copy_file(pairs / "rig.toml", daemon.folder() / "rig.toml");
+  const sim::TumblingSequence sequence(scenario, 5);
+  ChildProcess& pharosd = start("systems = ['slam']\nframes = 'pairs'\n[stereo.slam]\nfeatures = 800\n", {"--fast"});
+  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << pharosd.text();
+  const auto frames = static_cast<std::size_t>(sequence.frames());
+  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= frames; }, kStereoPatience_s));
+  for (std::size_t k = 0; k < frames; ++k) {
+    const pose_t& pose = daemon.poses()[k];
+    ASSERT_EQ(pose.status, "ok") << k;
+    EXPECT_EQ(pose.source, "slam/bow");
+    EXPECT_EQ(pose.parent_frame, "camera");
+    EXPECT_EQ(pose.flags, k == 0 ? "map_start" : "");
+    EXPECT_NEAR(static_cast<double>(pose.utime - daemon.poses()[0].utime), 5e4 * static_cast<double>(k), 2.0);
+    const auto truth = sequence.truth(static_cast<int>(k));
+    EXPECT_LT(rotation_angle_between(rotation_of(pose), truth.R), 0.5 * kDeg) << k;
+    EXPECT_LT((Vector3(pose.position_m) - truth.t).norm(), 0.03) << k;
+    if (k == 0) continue;
+    EXPECT_GT(pose.sigma_rot_rad, 0.0);
+    EXPECT_GT(pose.residual_rms_rad, 0.0);
+    EXPECT_GT(pose.observations, 30);
+  }
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("pairs_ok", "client") == static_cast<std::int64_t>(frames); }));
+  EXPECT_GE(daemon.counter("slam.keyframes", "client"), 1);
+}
+
+TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
+  write_pairs(1);
+  sim::StereoRig other = painted.rig;
+  for (sim::StereoCamera& camera : other) camera.width_px = 1280;
+  std::ofstream(daemon.folder() / "other.toml") << rig_text(test::PaintedRig{other}.file());
+  std::ofstream(daemon.folder() / "short.words") << "no words";
+  const std::string words = (daemon.folder() / "short.words").string();
+  for (const auto& [keys, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"rig_file = 'other.toml'\nsystems = ['ring2']\nframes = 'pairs'\n",
+            "640 x 512 pixels, the rig's camera 1280"},
+           {"rig_file = 'rig.toml'\nsystems = ['slam']\nframes = 'pairs'\n[stereo.slam]\nvocabulary = 'short.words'\n",
+            words},
+           {"rig_file = 'rig.toml'\nsystems = ['slam']\nframes = 'none'\n", "none"}}) {
+    std::ofstream(daemon.folder() / "pharosd.toml") << "[[stereo]]\nname = 'bow'\ntarget = 'client'\n" << keys;
+    ChildProcess check({DaemonUnderTest::program(), "--check", (daemon.folder() / "pharosd.toml").string()});
+    EXPECT_EQ(check.wait_exit(kStereoPatience_s), 2) << keys;
+    EXPECT_THAT(check.text(), HasSubstr(complaint));
+  }
+}
+
+/// Two grey cameras whose clocks began apart and whose times jitter.
+class TwoCamerasTest : public PharosdStereoTest {
+ protected:
+  TwoCamerasTest() {
+    write_pairs(1);
+    for (std::size_t side = 0; side < 2; ++side) {
+      reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
+      sim::CameraPlay& play = plays[side];
+      play.grey = true;
+      play.frame_rate_hz = 4.0;
+      play.address = side == 0 ? "127.0.0.1" : "127.0.0.2";
+      play.serial = side == 0 ? "L1" : "R1";
+      play.clock_start_s = side == 0 ? 1000.0 : 77.0;
+      play.clock_ppm = side == 0 ? 20.0 : -30.0;
+      play.clock_jitter_s = 0.0005;
+    }
+  }
+  void serve(std::size_t side) { cameras[side].emplace(reels[side], plays[side], nullptr, monotonic_now_ns()); }
+  bool poses_come(std::size_t count) {
+    const std::size_t wanted = daemon.valid_poses("client") + count;
+    return daemon.wait([&] { return daemon.valid_poses("client") >= wanted; }, kStereoPatience_s);
+  }
+
+  std::array<sim::FrameReel, 2> reels;
+  std::array<sim::CameraPlay, 2> plays;
+  std::array<std::optional<sim::FakeHelios>, 2> cameras;
+};
+
+TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) {
+  serve(0);
+  serve(1);
+  // A window for a busy machine: what arrives late is timed late.
+  start(
+      "systems = ['ring2']\npacket_size = 9000\npairing_window_ms = 100\n[stereo.left]\naddress = '127.0.0.1'\n"
+      "[stereo.right]\naddress = '127.0.0.2'\n");
+  ASSERT_TRUE(poses_come(3)) << daemon.process().text();
+  for (const pose_t& pose : daemon.poses()) {
+    if (pose.valid != 0) expect_ring(pose, truths[0]);
+  }
+  EXPECT_NEAR(static_cast<double>(daemon.poses().back().utime), static_cast<double>(utc_now_ns()) * 1e-3, 3e7);
+  cameras[1].reset();
+  ASSERT_TRUE(daemon.wait(
+      [&] {
+        return daemon.source("client")->state != "ok" && daemon.counter("left.frames_without_partner", "client") > 2;
+      },
+      kStereoPatience_s));
+  EXPECT_THAT(daemon.source("client")->message, HasSubstr("right: "));
+  serve(1);
+  ASSERT_TRUE(poses_come(3)) << daemon.process().text();
+  expect_ring(daemon.poses().back(), truths[0]);
+  EXPECT_THAT(daemon.source("client")->identity, HasSubstr("Mono8"));
+  EXPECT_GE(daemon.counter("right.camera_opened", "client"), 2);
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+}  // namespace
+}  // namespace pharos::host
