@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of TofLine that tells how it fares.
+#include "host/daemon/health_parts.hpp"
 #include "host/daemon/tof_line.hpp"
 
 namespace pharos::host {
@@ -7,29 +8,7 @@ namespace {
 
 // Thirty times a second, or three in turns: as long without any is silence.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-constexpr std::int64_t kNsPerUs = 1000;
 constexpr double kNsPerSecond = 1e9;
-
-SourceState state_of(CameraState camera) {
-  switch (camera) {
-    case CameraState::kOpen:
-      return SourceState::kOk;
-    case CameraState::kSilent:
-      return SourceState::kStale;
-    case CameraState::kGone:
-      return SourceState::kGone;
-    case CameraState::kTaken:
-    case CameraState::kWrong:
-      return SourceState::kError;
-  }
-  return SourceState::kError;
-}
-
-void add_times(NamedCounts& counts, const std::string& stage, const LatencyHistogram& times) {
-  counts.push_back({stage + "_p50_us", times.quantile_ns(0.5) / kNsPerUs});
-  counts.push_back({stage + "_p99_us", times.quantile_ns(0.99) / kNsPerUs});
-  counts.push_back({stage + "_max_us", times.max_ns() / kNsPerUs});
-}
 
 }  // namespace
 
