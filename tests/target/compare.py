@@ -24,6 +24,11 @@ BOUNDS = {
     "precision": ("relative", 1e-10),
     "precision_of": ("relative", 1e-10),
     "station": ("absolute", 1e-14),  # rad
+    "tof_ellipse": ("absolute", 1e-11),  # px
+    "tof_ring": ("absolute", 1e-13),  # m
+    "tof_connector": ("absolute", 1e-13),  # m
+    "tof_pose": ("absolute", 1e-13),  # m; elements of a rotation
+    "tof_covariance": ("relative", 1e-8),  # its turns are made by central differences
 }
 
 

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/tof/tof_pose.hpp"
+
+namespace pharos::test {
+
+/// What a frame gave, for compare.py: ellipses, ring, connector, pose.
+void print_result(const Result<tof::TofPose, tof::TofFailure>& result, const tof::TofWorkspace& workspace);
+
+}  // namespace pharos::test
