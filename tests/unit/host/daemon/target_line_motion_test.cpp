@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pharos/base/units.hpp"
 #include "unit/host/daemon/target_line_fixture.hpp"
 
@@ -47,6 +49,85 @@ TEST_F(MotionLineTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
   EXPECT_LT(age_us, 8400.0);
   EXPECT_EQ(all.back().observations, 6);
   for (int k = 0; k < 6; ++k) EXPECT_GT(all.back().covariance[7 * k], 0.0);
+}
+
+// A sweep that comes over the line at once is a pose at once: it does not wait for the other rotor's.
+TEST_F(MotionLineTest, APoseIsOneSweepOldAtTheMost) {
+  constexpr std::int64_t kSweepUs = StillTarget::kHalfTurnTicks / 50;
+  constexpr std::int64_t kLineUs = kMillisecondNs / 1000;
+  move_on(60);
+  for (int i = 0; i < 20; ++i) {
+    const Axis axis = i % 2 == 0 ? Axis::kX : Axis::kY;
+    const std::int64_t flash_ticks = ticks_ + StillTarget::kTurnTicks - StillTarget::kTurnTicks / 3;
+    const std::size_t before = poses().size();
+    ticks_ += StillTarget::kHalfTurnTicks;
+    const std::int64_t end_ticks = flash_ticks + StillTarget::kTurnTicks / 3;
+    motion_.push(target_.bytes_of(target_.sweep(axis, flash_ticks)), arrival_at(end_ticks));
+    ASSERT_EQ(poses().size(), before + 1);
+    const pose_t pose = poses().back();
+    const std::int64_t old_us = arrival_at(end_ticks).utc_ns / 1000 - pose.utime;
+    EXPECT_GT(old_us, 0);
+    EXPECT_LT(old_us, kSweepUs + kLineUs);
+    // What is told besides counts the time of working it out, on this machine's own clock.
+    EXPECT_GE(pose.latency_us, old_us - 100);
+  }
+}
+
+// Four sensors of one plane, nearly square on and far away: the tilt may as well be the other way.
+TEST_F(MotionLineTest, TheSecondSolutionGoesWithThePose) {
+  constexpr std::uint8_t kPlate = 4;
+  TargetConfig flat = config(TrackMethod::kMotion);
+  flat.target = StillTarget::target(kPlate);
+  const auto rotation_of = [](const double* wxyz) { return Quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]); };
+  int ambiguous = 0, sure = 0;
+  for (const double range_m : {3.0, 6.0, 8.0, 10.0}) {
+    for (const double tilt_rad : {0.03, 0.05, 0.08}) {
+      StillTarget plate({rotation_exp(Vector3(tilt_rad, 0.0, 0.4)), Vector3(0.05, 0.1, range_m)}, kPlate);
+      TargetLine line(flat, PublishConfig{}, "lighthouse/plate", publisher_, memory_, 0);
+      const std::size_t before = poses().size();
+      for (int i = 0; i < 40; ++i) {
+        ticks_ += kCycleTicks;
+        line.push(plate.cycle(ticks_), arrival_at(ticks_));
+      }
+      const auto all = poses();
+      for (std::size_t i = before; i < all.size(); ++i) {
+        const pose_t& pose = all[i];
+        EXPECT_EQ(pose.has_second, pose.status == "ambiguous");
+        if (!pose.has_second) {
+          EXPECT_EQ(pose.second_orientation_wxyz[0], 0.0);
+          sure += pose.valid ? 1 : 0;
+          continue;
+        }
+        ++ambiguous;
+        EXPECT_TRUE(pose.valid);
+        EXPECT_GE(pose.second_delta_chi2, 0.0);
+        EXPECT_LT(pose.second_delta_chi2, 9.21);
+        const Quaternion second = rotation_of(pose.second_orientation_wxyz), truth(plate.truth().R);
+        EXPECT_NEAR(second.norm(), 1.0, 1e-9);
+        const double nearer =
+            std::min(rotation_of(pose.orientation_wxyz).angularDistance(truth), second.angularDistance(truth));
+        EXPECT_LT(nearer, 4.0 * pose.sigma_rot_rad);
+      }
+    }
+  }
+  EXPECT_GT(ambiguous, 0);
+  EXPECT_GT(sure, 0);
+}
+
+TEST_F(MotionLineTest, WhatIsKnownTooBadlyIsNoPose) {
+  TargetConfig strict = config(TrackMethod::kMotion);
+  strict.limits.position_m = 1e-7;
+  TargetLine line(strict, PublishConfig{}, "lighthouse/strict", publisher_, memory_, 0);
+  for (int i = 0; i < 40; ++i) {
+    ticks_ += kCycleTicks;
+    line.push(target_.cycle(ticks_), arrival_at(ticks_));
+  }
+  int uncertain = 0;
+  for (const pose_t& pose : poses()) {
+    EXPECT_FALSE(pose.valid);
+    if (pose.status == "refused_too_uncertain") ++uncertain;
+  }
+  EXPECT_GT(uncertain, 30);
 }
 
 // One second of darkness: nothing is told meanwhile, and what is told afterwards is right from its first word.
