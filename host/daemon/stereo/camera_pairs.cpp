@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::array<const char*, 2> kSides{"left", "right"};
 
+// Two seconds of two cameras at 4 frames/s, half a second at 16: no chance, but shutters that are not together.
+constexpr std::int64_t kManyAlone = 16;
+
 // The later, the worse.
 int rank(CameraState state) {
   constexpr std::array kWorse{CameraState::kOpen, CameraState::kSilent, CameraState::kGone, CameraState::kTaken,
@@ -83,6 +86,7 @@ StereoPairPtr CameraPairs::made(std::array<TimedFrame, 2> frames) {
   last_utc_ns_ = pair->time.utc_ns;
   last_steady_ns_ = pair->steady_ns;
   ++pairs_;
+  alone_at_last_pair_ = matcher_.unpaired(0) + matcher_.unpaired(1);
   offsets_.add(std::abs(pair->offset_ns));
   return pair;
 }
@@ -103,6 +107,11 @@ PairSourceStatus CameraPairs::status() const {
     if (map.synchronised()) {
       status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(map.sigma_ns()));
     }
+  }
+  if (status.trouble.empty() && matcher_.unpaired(0) + matcher_.unpaired(1) - alone_at_last_pair_ >= kManyAlone) {
+    status.trouble =
+        "frames of both cameras come, and no two within pairing_window_ms: trigger the shutters together, "
+        "let both cameras follow PTP, or widen it";
   }
   if (clocks_[0].by_ptp() && clocks_[1].by_ptp()) status.clock_sigma_ns = FrameClock::kPtpSigmaNs;
   status.clock_drift_ppm = clocks_[0].map().drift_ppm();

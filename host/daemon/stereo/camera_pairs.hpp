@@ -40,6 +40,7 @@ class CameraPairs : public PairSource {
   std::int64_t last_utc_ns_ = 0;
   std::int64_t last_steady_ns_ = 0;
   std::int64_t pairs_ = 0;
+  std::int64_t alone_at_last_pair_ = 0;  // frames without a partner until then
   std::int64_t pairs_time_back_ = 0;
   std::int64_t frames_no_clock_ = 0;
   std::array<LatencyHistogram, 2> transport_;  // first packet to last

@@ -174,6 +174,20 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
   EXPECT_EQ(counter("left.frames_without_partner"), 16);
 }
 
+TEST_F(CameraPairsTest, ShuttersThatAreNotTogetherAreTold) {
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_EQ(pairs->status().trouble.empty(), k < 9) << k;
+    hands[0]->show((1'000'000 + 50 * k) * kMs);
+    hands[1]->show((1'000'020 + 50 * k) * kMs);
+    EXPECT_FALSE(pairs->take());
+  }
+  EXPECT_NE(pairs->status().trouble.find("pairing_window_ms"), std::string::npos);
+  hands[0]->show(2'000'000 * kMs);
+  hands[1]->show(2'000'000 * kMs);
+  EXPECT_TRUE(pairs->take());
+  EXPECT_EQ(pairs->status().trouble, "") << "over";
+}
+
 TEST_F(CameraPairsTest, PairsNeverGoBack) {
   const std::int64_t t = 1'000'000 * kMs;
   for (const std::int64_t at : {t, t - 20 * kMs, t + 20 * kMs}) {
