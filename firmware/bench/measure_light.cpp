@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instructions from edges to sweeps, and from sweeps to poses, over a recording.
+#include "firmware/bench/light.hpp"
 #include "firmware/bench/report.hpp"
 #include "pharos/lighthouse/sorted_decoder.hpp"
 #include "pharos/track/epoch_tracker.hpp"
@@ -8,15 +9,6 @@ namespace {
 
 using namespace pharos;  // NOLINT: a program of one page
 using bench::Counts;
-
-lighthouse::StationCalibration calibration_of(const bench::StationRow& row) {
-  lighthouse::StationCalibration calibration;
-  for (std::size_t r = 0; r < 2; ++r) {
-    const auto& v = row.rotor[r];
-    calibration.rotor[r] = {v[0], v[1], v[2], v[3], v[4]};
-  }
-  return calibration;
-}
 
 struct Measured {
   lighthouse::SortedDecoder decoder;
@@ -42,23 +34,17 @@ void take(track::EpochTracker& tracker, const lighthouse::Sweep& sweep) {
 int main() {
   bench::Input input;
   const auto& header = input.header<bench::LightHeader>();
-  static Target target;
-  for (std::uint32_t k = 0; k < header.sensors; ++k) {
-    const auto& row = input.next<bench::SensorRow>();
-    target.push_back(
-        {static_cast<std::uint8_t>(row.sensor), {row.position_m[0], row.position_m[1], row.position_m[2]}, {}});
-  }
+  static const Target target = bench::target_of(input, header);
   track::TrackOptions options;
   options.warm_start = true;
   options.solve.sigma_rad = header.sigma_rad;
   static track::EpochTracker tracker(target, options);
   for (std::uint32_t k = 0; k < header.stations; ++k) {
-    tracker.set_calibration(static_cast<std::uint8_t>(k), calibration_of(input.next<bench::StationRow>()));
+    tracker.set_calibration(static_cast<std::uint8_t>(k), bench::calibration_of(input.next<bench::StationRow>()));
   }
   std::int64_t first_ticks = 0, last_ticks = 0;
   for (std::uint32_t k = 0; k < header.edges; ++k) {
-    const auto& row = input.next<bench::EdgeRow>();
-    const lighthouse::Edge edge{row.stamp_ticks(), row.sensor(), row.rising()};
+    const lighthouse::Edge edge = bench::edge_of(input.next<bench::EdgeRow>());
     if (k == 0) first_ticks = edge.stamp_ticks;
     last_ticks = edge.stamp_ticks;
     std::uint32_t count = bench::instructions_of([&] { measured.decoder.push(edge); });

@@ -107,6 +107,20 @@ void add_poses(const Findings& pose, const PoseInput& input, Rows& rows) {
            of(pose, "stack"), "bytes");
 }
 
+// Sweeps of eight hits of two stations: what a hit costs of all that is done, starts and checks included.
+void add_motion(const std::filesystem::path& images, Rows& rows) {
+  constexpr int kHits = 8;
+  const Findings motion = run_image(images, "measure_motion", simulated_light(kHits));
+  for (const std::string how : {"alone", "fused"}) {
+    const std::string name = how == "alone" ? "motion-aware, one station" : "motion-aware, two stations fused";
+    rows.add(name + ": instructions a hit, mean", of(motion, how + "_sum") / of(motion, "hits_" + how), std::nullopt,
+             "instructions");
+    rows.add(name + ": instructions a sweep of 8 hits, worst", of(motion, how + "_worst"), std::nullopt,
+             "instructions");
+  }
+  rows.add("motion tracker object", of(motion, "tracker_bytes"), std::nullopt, "bytes");
+}
+
 double host_ns_an_edge(const std::string& edges) {
   constexpr double kEdgesAPulse = 2.0;
   return 1e3 / bench_decode(edges).front().ours / kEdgesAPulse;  // of M pulses/s
@@ -124,6 +138,7 @@ std::vector<TargetRow> bench_target(const TargetBench& options) {
   const PoseInput input =
       pose_problems(test::frustum_target(), 8, 8, options.problems, std::min(options.problems, kFromNothing));
   add_poses(run_image(images, "measure_pose", input.bytes), input, rows);
+  add_motion(images, rows);
   add_shares(simulated, rows);
   add_flying(images, rows);
   rows.add("decoder object", of(simulated, "decoder_bytes"), std::nullopt, "bytes");
