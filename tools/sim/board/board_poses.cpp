@@ -17,7 +17,9 @@ constexpr double kSmallestSpan = 0.35;
 constexpr double kLargestSpan = 0.85;
 constexpr int kMostTries = 100000;
 
-bool is_seen(const Lens& lens, const BoardSheet& sheet, const Pose<frame::Camera, frame::Board>& T) {
+}  // namespace
+
+bool shows_all_of(const Lens& lens, const BoardSheet& sheet, const Pose<frame::Camera, frame::Board>& T) {
   for (const double column : {-1.0, 0.5 * (sheet.columns - 1), static_cast<double>(sheet.columns)}) {
     for (const double row : {-1.0, 0.5 * (sheet.rows - 1), static_cast<double>(sheet.rows)}) {
       const auto [u, v] = pixel_of(lens, T * Vector3(column * sheet.pitch_m, row * sheet.pitch_m, 0.0));
@@ -26,8 +28,6 @@ bool is_seen(const Lens& lens, const BoardSheet& sheet, const Pose<frame::Camera
   }
   return true;
 }
-
-}  // namespace
 
 Pose<frame::Camera, frame::Board> board_at(const BoardSheet& sheet, const Vector3& middle_m, const Vector3& tilt_rad,
                                            double roll_rad) {
@@ -48,7 +48,7 @@ std::vector<Pose<frame::Camera, frame::Board>> board_poses(const Lens& lens, con
     const double tilt = random.uniform(0.0, kLargestTilt_rad), way = random.uniform(0.0, 2.0 * std::numbers::pi);
     const Vector3 tilt_rad(tilt * std::cos(way), tilt * std::sin(way), 0.0);
     const auto T = board_at(sheet, middle, tilt_rad, random.uniform(-kLargestRoll_rad, kLargestRoll_rad));
-    if (is_seen(lens, sheet, T)) poses.push_back(T);
+    if (shows_all_of(lens, sheet, T)) poses.push_back(T);
   }
   return poses;
 }

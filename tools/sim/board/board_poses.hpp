@@ -13,6 +13,9 @@ namespace pharos::sim {
 std::vector<Pose<frame::Camera, frame::Board>> board_poses(const Lens& lens, const BoardSheet& sheet, int count,
                                                            std::uint64_t seed);
 
+/// Whether the image holds the whole sheet, its margin included.
+bool shows_all_of(const Lens& lens, const BoardSheet& sheet, const Pose<frame::Camera, frame::Board>& T_camera_board);
+
 /// The board's middle at `middle_m`, turned by `roll_rad` about the line of sight and then tilted by the rotation
 /// vector `tilt_rad` about its middle.
 Pose<frame::Camera, frame::Board> board_at(const BoardSheet& sheet, const Vector3& middle_m, const Vector3& tilt_rad,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tools/cli/progress.hpp"
+#include "tools/sim/stereo_tumbling/board_pairs.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 
@@ -14,6 +15,7 @@ struct Options {
   std::string scene, renderer = "povray", light = "good";
   sim::TumblingScenario scenario;
   sim::RoomScenario room;
+  int board_pairs = 15;
 };
 
 bool write_scene(Options options, std::uint64_t seed, const std::string& directory) {
@@ -21,6 +23,12 @@ bool write_scene(Options options, std::uint64_t seed, const std::string& directo
   if (options.scene == "room") {
     Progress progress("rendered", "pairs", static_cast<std::size_t>(sim::RoomSequence(options.room, seed).frames()));
     sim::write_room(options.room, seed, directory, [&progress] { progress.step(); });
+    return true;
+  }
+  if (options.scene == "boards") {
+    Progress progress("rendered", "pairs", static_cast<std::size_t>(options.board_pairs));
+    const host::RigFile rig = sim::tumbling_rig(options.scenario);
+    sim::write_board_pairs(rig, options.board_pairs, seed, directory, [&progress] { progress.step(); });
     return true;
   }
   options.scenario.povray = options.renderer == "povray";
@@ -36,11 +44,14 @@ bool write_scene(Options options, std::uint64_t seed, const std::string& directo
 std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command
-      .add_option("--scene", options->scene,
-                  "tumbling: a satellite that turns (paper 004); room: a walk with a raw, distorting rig")
-      ->check(CLI::IsMember({"tumbling", "room"}));
+      .add_option(
+          "--scene", options->scene,
+          "tumbling: a satellite that turns (paper 004); boards: its rig's calibration; room: a walk with a raw rig")
+      ->check(CLI::IsMember({"tumbling", "boards", "room"}));
   command.add_option("--path-m", options->room.path_m, "room: length of the walk (default 60)")
       ->check(CLI::Range(0.0, 10'000.0));
+  command.add_option("--pairs", options->board_pairs, "boards: how many (default 15; dots, 12 x 8, 80 mm, radius 20)")
+      ->check(CLI::Range(1, 1000));
   command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling: the whole turn (default 360)")
       ->check(CLI::Range(0.0, 7200.0));
   command.add_option("--step-deg", options->scenario.step_deg, "tumbling: a frame (default 0.5)")

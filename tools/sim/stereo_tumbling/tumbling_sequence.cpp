@@ -80,22 +80,30 @@ struct TumblingSequence::Work {
   }
 };
 
+host::RigFile tumbling_rig(const TumblingScenario& scenario) {
+  const double focal = scenario.focal_px * scenario.width_px / 640.0;
+  host::RigFile rig;
+  rig.left.optics = {scenario.width_px,
+                     scenario.height_px,
+                     focal,
+                     focal,
+                     0.5 * (scenario.width_px - 1),
+                     0.5 * (scenario.height_px - 1),
+                     {}};
+  rig.right.optics = rig.left.optics;
+  rig.left.position_m = {-0.5 * scenario.baseline_m, 0.0, 0.0};
+  rig.right.position_m = {0.5 * scenario.baseline_m, 0.0, 0.0};
+  return rig;
+}
+
 TumblingSequence::TumblingSequence(const TumblingScenario& scenario, std::uint64_t seed)
     : scenario_(scenario), seed_(seed), work_(std::make_unique<Work>()) {
   Work& work = *work_;
   work.satellite = satellite_scene(seed);
   work.stars = star_field(scenario.stars, seed);
-  const double focal = scenario.focal_px * scenario.width_px / 640.0;
-  for (std::size_t side = 0; side < 2; ++side) {
-    work.cameras[side] = {scenario.width_px,
-                          scenario.height_px,
-                          focal,
-                          focal,
-                          0.5 * (scenario.width_px - 1),
-                          0.5 * (scenario.height_px - 1),
-                          {}};
-    work.T_rig_camera[side].t.x() = (side == 0 ? -0.5 : 0.5) * scenario.baseline_m;
-  }
+  const host::RigFile rig = tumbling_rig(scenario);
+  work.cameras = {rig.left.optics, rig.right.optics};
+  work.T_rig_camera = {rig.left.pose(), rig.right.pose()};
   if (scenario.povray) {
     write_texture_files(work.satellite, work.textures.path());
   } else {
@@ -114,14 +122,7 @@ int TumblingSequence::frames() const {
   return static_cast<int>(std::lround(scenario_.turn_deg / scenario_.step_deg)) + 1;
 }
 
-host::RigFile TumblingSequence::rig() const {
-  host::RigFile rig;
-  rig.left.optics = work_->cameras[0];
-  rig.right.optics = work_->cameras[1];
-  rig.left.position_m = {work_->T_rig_camera[0].t.x(), 0.0, 0.0};
-  rig.right.position_m = {work_->T_rig_camera[1].t.x(), 0.0, 0.0};
-  return rig;
-}
+host::RigFile TumblingSequence::rig() const { return tumbling_rig(scenario_); }
 
 Pose<frame::Rig, frame::Target> TumblingSequence::pose(int frame) const {
   const double turned = frame * scenario_.step_deg * std::numbers::pi / 180.0;

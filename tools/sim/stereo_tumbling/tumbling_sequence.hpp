@@ -29,6 +29,9 @@ struct TumblingScenario {
   bool povray = true;  ///< else rays of our own: no gloss, a third of the time
 };
 
+/// The two still cameras of a scenario.
+host::RigFile tumbling_rig(const TumblingScenario& scenario);
+
 /// Renders a sequence and keeps what every frame shares.
 class TumblingSequence {
  public:
