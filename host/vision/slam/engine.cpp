@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/bundle.hpp"
@@ -11,8 +12,9 @@
 namespace pharos::slam {
 namespace {
 
-constexpr int kLeastStart = 60;   // stereo features of a first map
-constexpr int kPairsChecked = 5;  // whether left is left
+constexpr int kLeastStart = 60;     // stereo features of a first map
+constexpr int kPairsChecked = 5;    // whether left is left
+constexpr double kOutOfStep = 0.6;  // frames between left and right: exposures at one time stay far below
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
 constexpr std::int64_t kMappingFrames = 4;
@@ -75,20 +77,30 @@ Engine::~Engine() {
   if (closing_.joinable()) closing_.join();
 }
 
-void Engine::finish() {
-  if (settings_.threads) {
-    to_map_.wait_until_idle();
-    to_close_.wait_until_idle();
-  }
-  BundleProblem problem;
-  {
-    const std::lock_guard lock(mutex_);
-    if (map_.keyframes.size() < 2) return;
-    problem = global_problem(map_);
-  }
+void Engine::wait_for_threads() const {
+  if (!settings_.threads) return;
+  to_map_.wait_until_idle();
+  to_close_.wait_until_idle();
+}
+
+Map Engine::adjusted(Map map) const {
+  if (map.keyframes.size() < 2) return map;
+  BundleProblem problem = global_problem(map);
   const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kFinalSteps, nullptr});
+  apply_global(problem, rejected, map);
+  return map;
+}
+
+void Engine::finish() {
+  wait_for_threads();
   const std::lock_guard lock(mutex_);
-  apply_global(problem, rejected, map_);
+  map_ = adjusted(std::move(map_));
+}
+
+std::vector<TrackedFrame> Engine::settled_trajectory() const {
+  wait_for_threads();
+  const std::lock_guard lock(mutex_);
+  return log_.frames(adjusted(map_), frontend_.R_left_rectified());
 }
 
 void Engine::check_pair(const StereoFrontend::Result& seen) {
@@ -104,6 +116,22 @@ void Engine::check_pair(const StereoFrontend::Result& seen) {
     throw host::InputError(
         "the images' rows do not agree: left and right are out of step, or the rig file is of other cameras");
   }
+}
+
+// Rows that the points of a frame moved since the one before, beside rows between left and right.
+void Engine::note_skew(const Frame& frame) {
+  const auto step = tracker_.step();
+  if (!step) return;
+  const StereoCamera& camera = frontend_.camera();
+  const CameraFromTarget before = step->inverse() * frame.pose;
+  for (std::size_t k = 0; k < frame.features.size(); ++k) {
+    const MapPoint* point = map_.find_point(frame.points[k]);
+    if (point == nullptr || !frame.features[k].stereo()) continue;
+    const Vector3 now_m = frame.pose * point->position_m, before_m = before * point->position_m;
+    if (!(now_m.z() > 0.0 && before_m.z() > 0.0)) continue;
+    skew_.add(camera.project(now_m).y() - camera.project(before_m).y(), frame.features[k].off_row_px);
+  }
+  skew_.end_frame();
 }
 
 KeyframeId Engine::make_keyframe(Frame& frame) {
@@ -140,7 +168,10 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
       out.inliers = tracked.inliers;
       out.relocalised = tracked.relocalised;
       out.lost = tracked.state == TrackState::kLost;
-      if (!out.lost) out.placed = TrackedPose{tracked.pose, tracked.covariance, tracked.rms_px};
+      if (!out.lost) {
+        out.placed = TrackedPose{tracked.pose, tracked.covariance, tracked.rms_px};
+        note_skew(frame);
+      }
       if (tracked.wants_keyframe) made = make_keyframe(frame);
     }
     out.keyframe = made != kNone;
@@ -183,6 +214,11 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
   note_figures(out, seen, took_ms);
   if (out.placed) out.placed = in_left_frame(*out.placed, frontend_.R_left_rectified());
   last_ = std::move(frame);
+  if (const auto late = skew_.frames_late(); late && std::abs(*late) > kOutOfStep) {
+    throw host::InputError("left and right images are out of step: the right ones are " +
+                           std::string(*late > 0.0 ? "late" : "early") + " by about " +
+                           std::to_string(std::max(1L, std::lround(std::abs(*late)))) + " frame(s)");
+  }
   return out;
 }
 

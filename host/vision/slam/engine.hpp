@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/vision/slam/loop_closing.hpp"
+#include "host/vision/slam/pair_skew.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "host/vision/slam/stereo_frontend.hpp"
 #include "host/vision/slam/tracker.hpp"
@@ -46,6 +47,7 @@ class Engine final : public SlamSystem {
   TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) override;
   void finish() override;
   std::vector<TrackedFrame> trajectory() const override;
+  std::vector<TrackedFrame> settled_trajectory() const override;
   std::vector<SlamPoint> points() const override;
   SlamReport report() const override;
   std::vector<std::array<double, 3>> last_features() const override;
@@ -53,8 +55,11 @@ class Engine final : public SlamSystem {
   ImageView<const std::uint8_t> last_mask() const override { return frontend_.mask(); }
 
  private:
+  void wait_for_threads() const;
+  Map adjusted(Map map) const;
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen);
   KeyframeId make_keyframe(Frame& frame);
+  void note_skew(const Frame& frame);
   void check_pair(const StereoFrontend::Result& seen);
   void map_keyframe(KeyframeId id);
   void close_loop(KeyframeId id);
@@ -74,6 +79,7 @@ class Engine final : public SlamSystem {
   std::int64_t last_keyframe_frame_ = 0;
   int pairs_checked_ = 0;
   StereoMatchStats checked_;
+  PairSkew skew_;
 
   SlamReport report_;
   std::vector<float> features_, inliers_, tracking_ms_, mapping_ms_;

@@ -16,7 +16,9 @@ constexpr std::size_t kFuseWith = 20, kFuseWithTheirs = 5;
 constexpr double kFuseRadius_px = 3.0;
 constexpr double kLeastFoundShare = 0.25;
 constexpr std::size_t kLeastObservers = 3;
-constexpr double kRedundantShare = 0.9;
+// ORB-SLAM's is 0.9. A corner is found to half a pixel in each keyframe: those that go take accuracy with them (90 deg
+// in good light: RMSE 0.125 deg with 0.9, 0.091 with this).
+constexpr double kRedundantShare = 0.98;
 constexpr double kCosLeastParallax = 0.99985;  // 1 deg
 
 Observation observation_of(const Feature& feature, const Vector3& point_m) {

@@ -37,13 +37,16 @@ struct SlamPoint {
 class SlamSystem {
  public:
   virtual ~SlamSystem() = default;
-  /// A raw pair of the rig's size, 8 bits a pixel; times must grow. Throws InputError for other sizes, and where the
-  /// first pairs show that left and right are exchanged or out of step.
+  /// A raw pair of the rig's size, 8 bits a pixel; times must grow. Throws InputError for other sizes, where the first
+  /// pairs show that left and right are exchanged or of other cameras, and as long as the pairs show that right images
+  /// were not taken when left ones were (PairSkew).
   virtual TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) = 0;
   /// Waits for the threads and adjusts all of the map once more. After it every frame stands where the whole map says.
   virtual void finish() = 0;
   /// All frames so far, told from the keyframes as they stand now; lost ones without a pose.
   virtual std::vector<TrackedFrame> trajectory() const = 0;
+  /// What trajectory() would tell after finish(); the system goes on as if it had not been asked.
+  virtual std::vector<TrackedFrame> settled_trajectory() const = 0;
   virtual std::vector<SlamPoint> points() const = 0;
   virtual SlamReport report() const = 0;
   /// Features of the last pair in the rectified left image: column, row, and 0 (mono), 1 (stereo) or 2 (of the map).

@@ -40,6 +40,10 @@ class Tracker {
   /// The frame became the keyframe `id`, whose points it shares from now on.
   void became_keyframe(const Keyframe& keyframe);
   KeyframeId reference() const { return reference_; }
+  /// From the frame before to the last one; empty where that one was lost.
+  std::optional<Pose<frame::Camera, frame::Camera>> step() const {
+    return has_step_ && state_ == TrackState::kTracking ? std::optional(step_) : std::nullopt;
+  }
 
  private:
   std::optional<PoseOnly> by_motion(Frame& frame);

@@ -14,9 +14,12 @@ namespace pharos::tools {
 namespace {
 
 constexpr const char* kExample =
-    "Stereo pairs of a turning satellite are rendered and tracked; hours with POV-Ray and all turns.\n\n"
+    "Stereo pairs of a turning satellite are rendered and tracked. With own rays and all turns each run takes some "
+    "three\n"
+    "minutes; with POV-Ray hours. Runs can be had one by one; together they share pictures.\n\n"
     "Example:\n"
-    "  pharos reproduce slam --turns 30 60 --renderer rays --markdown";
+    "  pharos reproduce slam --turns 30 60 --renderer rays --markdown\n"
+    "  pharos reproduce slam --runs low-enhanced --renderer rays --output low.csv";
 
 struct Options {
   TableOneOptions table;
@@ -42,6 +45,8 @@ void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command->add_option("--turns", options->table.turns_deg, "Turns, deg (default 30 60 90 180 360 720)")
       ->check(CLI::Range(1.0, 7200.0));
+  command->add_option("--runs", options->table.runs, "Which (default all): good, low-enhanced, low, and -no-loops")
+      ->check(CLI::IsMember(table_one_runs()));
   command->add_option("--features", options->table.features, "Features a frame (default 1000)")
       ->check(CLI::Range(100, 10'000));
   command->add_option("--renderer", options->renderer, "povray, or rays: without gloss, in a tenth of the time")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/reproduce/slam/table_one.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -31,64 +32,85 @@ constexpr std::array<Published, 6> kTable{{{30.0, {0.177, 0.12}, {0.339, 0.57}},
                                            {720.0, {0.221, 1.36}, {0.625, 4.47}}}};
 
 struct Variant {
-  std::string name;
-  bool good_light = true, loops = true;
-  std::optional<enhance::Denoiser> enhanced;
+  const char* key;
+  const char* name;
+  bool good_light, enhanced, loops;
 };
+constexpr std::array<Variant, 5> kVariants{
+    {{"good", "good light", true, false, true},
+     {"good-no-loops", "good light, no loops", true, false, false},
+     {"low-enhanced", "low light, enhanced", false, true, true},
+     {"low-enhanced-no-loops", "low light, enhanced, no loops", false, true, false},
+     {"low", "low light, not enhanced", false, false, true}}};
 
-std::vector<Variant> variants_of(double turn_deg) {
-  std::vector<Variant> variants{{"good light", true, true, {}},
-                                {"low light, enhanced", false, true, enhance::Denoiser::kFast},
-                                {"low light, not enhanced", false, true, {}}};
-  if (turn_deg >= kLoopFrom_deg) {
-    variants.push_back({"good light, no loops", true, false, {}});
-    variants.push_back({"low light, enhanced, no loops", false, false, enhance::Denoiser::kFast});
-  }
-  return variants;
+bool wanted(const Variant& variant, const TableOneOptions& options) {
+  return std::find(options.runs.begin(), options.runs.end(), variant.key) != options.runs.end();
 }
 
-std::vector<std::uint8_t> pixels_of(const host::GreyImage& image, enhance::Enhancer* enhancer) {
-  std::vector<std::uint8_t> out(image.pixels.size());
-  if (enhancer != nullptr) {
-    enhance::to_integers(enhancer->enhance(image.view()).result.view(),
-                         ImageView<std::uint8_t>(out.data(), image.width_px, image.height_px));
-    return out;
+// Turns that a variant is asked for, shortest first.
+std::vector<double> turns_of(const Variant& variant, const TableOneOptions& options) {
+  std::vector<double> turns;
+  for (const double turn : options.turns_deg) {
+    if (variant.loops || turn >= kLoopFrom_deg) turns.push_back(turn);
   }
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = static_cast<std::uint8_t>(image.pixels[k] >> 8U);
-  return out;
+  std::sort(turns.begin(), turns.end());
+  return turns;
 }
+
+sim::TumblingScenario scenario_of(double turn_deg, bool good_light, const TableOneOptions& options) {
+  sim::TumblingScenario scenario;
+  scenario.turn_deg = turn_deg;
+  scenario.good_light = good_light;
+  scenario.povray = options.povray;
+  return scenario;
+}
+
+int last_frame(double turn_deg) { return static_cast<int>(std::lround(turn_deg / sim::TumblingScenario{}.step_deg)); }
+
+using EightBits = std::array<std::vector<std::uint8_t>, 2>;
+
+// A pair as it was taken and, where asked for, enhanced.
+class Pictures {
+ public:
+  explicit Pictures(bool enhanced) {
+    enhance::EnhanceSettings settings;
+    settings.denoiser = enhance::Denoiser::kFast;
+    for (auto& enhancer : enhancers_) {
+      if (enhanced) enhancer = std::make_unique<enhance::Enhancer>(settings);
+    }
+  }
+  void take(sim::TumblingSequence& sequence, int frame) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const host::GreyImage image = sequence.image(frame, static_cast<int>(side));
+      width_px_ = image.width_px;
+      height_px_ = image.height_px;
+      raw_[side].clear();
+      for (const std::uint16_t value : image.pixels) raw_[side].push_back(static_cast<std::uint8_t>(value >> 8U));
+      if (enhancers_[side] == nullptr) continue;
+      bright_[side].resize(raw_[side].size());
+      enhance::to_integers(enhancers_[side]->enhance(image.view()).result.view(),
+                           ImageView<std::uint8_t>(bright_[side].data(), width_px_, height_px_));
+    }
+  }
+  ImageView<const std::uint8_t> view(bool enhanced, std::size_t side) const {
+    return {(enhanced ? bright_ : raw_)[side].data(), width_px_, height_px_};
+  }
+
+ private:
+  std::array<std::unique_ptr<enhance::Enhancer>, 2> enhancers_;
+  EightBits raw_, bright_;
+  std::int32_t width_px_ = 0, height_px_ = 0;
+};
 
 struct Outcome {
   double rmse_deg = 0.0, last_deg = 0.0;
   int loops = 0, without_pose = 0;
 };
 
-Outcome run_variant(sim::TumblingSequence& sequence, const Variant& variant, const TableOneOptions& options) {
-  slam::SlamSettings settings;
-  settings.features = options.features;
-  settings.close_loops = variant.loops;
-  const auto system = slam::make_slam(sequence.rig(), "the simulated rig", settings);
-  std::array<std::unique_ptr<enhance::Enhancer>, 2> enhancers;
-  if (variant.enhanced) {
-    enhance::EnhanceSettings enhance;
-    enhance.denoiser = *variant.enhanced;
-    for (auto& enhancer : enhancers) enhancer = std::make_unique<enhance::Enhancer>(enhance);
-  }
-  for (int frame = 0; frame < sequence.frames(); ++frame) {
-    std::array<std::vector<std::uint8_t>, 2> pair;
-    host::GreyImage image;
-    for (std::size_t side = 0; side < 2; ++side) {
-      image = sequence.image(frame, static_cast<int>(side));
-      pair[side] = pixels_of(image, enhancers[side].get());
-    }
-    system->push(0.05 * frame, {pair[0].data(), image.width_px, image.height_px},
-                 {pair[1].data(), image.width_px, image.height_px});
-    if (options.step) options.step(1);
-  }
-  system->finish();
+Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& sequence) {
   Outcome outcome;
   int placed = 0;
-  for (const slam::TrackedFrame& frame : system->trajectory()) {
+  for (const slam::TrackedFrame& frame : system.settled_trajectory()) {
     if (!frame.placed) {
       ++outcome.without_pose;
       continue;
@@ -99,7 +121,7 @@ Outcome run_variant(sim::TumblingSequence& sequence, const Variant& variant, con
     ++placed;
   }
   outcome.rmse_deg = placed > 0 ? std::sqrt(outcome.rmse_deg / placed) : 0.0;
-  outcome.loops = system->report().loops;
+  outcome.loops = system.report().loops;
   return outcome;
 }
 
@@ -120,32 +142,72 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
   }
 }
 
-sim::TumblingScenario scenario_of(double turn_deg, const Variant& variant, const TableOneOptions& options) {
-  sim::TumblingScenario scenario;
-  scenario.turn_deg = turn_deg;
-  scenario.good_light = variant.good_light;
-  scenario.povray = options.povray;
-  return scenario;
+// One variant on its way through a sequence.
+struct Run {
+  const Variant* variant;
+  std::vector<double> turns;
+  std::unique_ptr<slam::SlamSystem> system;
+  std::vector<ComparisonRow> rows;
+
+  void push(const Pictures& pictures, sim::TumblingSequence& sequence, int frame) {
+    if (turns.empty() || frame > last_frame(turns.back())) return;
+    system->push(0.05 * frame, pictures.view(variant->enhanced, 0), pictures.view(variant->enhanced, 1));
+    for (const double turn : turns) {
+      if (last_frame(turn) == frame) add_rows(turn, *variant, outcome_of(*system, sequence), rows);
+    }
+  }
+};
+
+void run_light(bool good_light, const TableOneOptions& options, std::vector<ComparisonRow>& rows) {
+  std::vector<Run> runs;
+  double longest = 0.0;
+  bool enhanced = false;
+  for (const Variant& variant : kVariants) {
+    const std::vector<double> turns = turns_of(variant, options);
+    if (variant.good_light != good_light || !wanted(variant, options) || turns.empty()) continue;
+    longest = std::max(longest, turns.back());
+    enhanced = enhanced || variant.enhanced;
+    runs.push_back({&variant, turns, nullptr, {}});
+  }
+  if (runs.empty()) return;
+  sim::TumblingSequence sequence(scenario_of(longest, good_light, options), options.seed);
+  for (Run& run : runs) {
+    slam::SlamSettings settings;
+    settings.features = options.features;
+    settings.close_loops = run.variant->loops;
+    run.system = slam::make_slam(sequence.rig(), "the simulated rig", settings);
+  }
+  Pictures pictures(enhanced);
+  for (int frame = 0; frame < sequence.frames(); ++frame) {
+    pictures.take(sequence, frame);
+    for (Run& run : runs) {
+      run.push(pictures, sequence, frame);
+      if (options.step && frame <= last_frame(run.turns.back())) options.step(1);
+    }
+  }
+  for (const Run& run : runs) rows.insert(rows.end(), run.rows.begin(), run.rows.end());
 }
 
 }  // namespace
 
+std::vector<std::string> table_one_runs() {
+  std::vector<std::string> keys;
+  for (const Variant& variant : kVariants) keys.emplace_back(variant.key);
+  return keys;
+}
+
 std::size_t table_one_pairs(const TableOneOptions& options) {
   std::size_t pairs = 0;
-  for (const double turn_deg : options.turns_deg) {
-    pairs += variants_of(turn_deg).size() * static_cast<std::size_t>(std::lround(2.0 * turn_deg) + 1);
+  for (const Variant& variant : kVariants) {
+    const std::vector<double> turns = turns_of(variant, options);
+    if (wanted(variant, options) && !turns.empty()) pairs += static_cast<std::size_t>(last_frame(turns.back()) + 1);
   }
   return pairs;
 }
 
 std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options) {
   std::vector<ComparisonRow> rows;
-  for (const double turn_deg : options.turns_deg) {
-    for (const Variant& variant : variants_of(turn_deg)) {
-      sim::TumblingSequence sequence(scenario_of(turn_deg, variant, options), options.seed);
-      add_rows(turn_deg, variant, run_variant(sequence, variant, options), rows);
-    }
-  }
+  for (const bool good_light : {true, false}) run_light(good_light, options, rows);
   return rows;
 }
 

@@ -81,16 +81,25 @@ TEST_F(SlamOfATurn, FollowsTheAttitude) {
   EXPECT_GT(spin->axis().dot(axis), std::cos(2.0 / kDegrees));
 }
 
+std::vector<Matrix3> attitudes_of(const std::vector<TrackedFrame>& trajectory) {
+  std::vector<Matrix3> attitudes;
+  for (const TrackedFrame& frame : trajectory) attitudes.push_back(frame.placed->pose.R);
+  return attitudes;
+}
+
+// Also where one of the two is asked on its way what it would say at the end.
 TEST_F(SlamOfATurn, GivesTheSameBitsTwice) {
-  std::vector<Matrix3> first;
-  for (int run = 0; run < 2; ++run) {
-    const auto slam = system();
-    for (int k = 0; k < 10; ++k) push(*slam, k, k);
-    std::vector<Matrix3> attitudes;
-    for (const TrackedFrame& frame : slam->trajectory()) attitudes.push_back(frame.placed->pose.R);
-    if (run == 0) first = attitudes;
-    EXPECT_EQ(attitudes, first);
+  const auto asked = system(), left_alone = system();
+  for (int k = 0; k < 10; ++k) {
+    push(*asked, k, k);
+    push(*left_alone, k, k);
+    if (k == 6) asked->settled_trajectory();
   }
+  EXPECT_EQ(attitudes_of(asked->trajectory()), attitudes_of(left_alone->trajectory()));
+  const auto settled = attitudes_of(asked->settled_trajectory());
+  EXPECT_NE(settled, attitudes_of(asked->trajectory()));
+  asked->finish();
+  EXPECT_EQ(attitudes_of(asked->trajectory()), settled);
 }
 
 TEST_F(SlamOfATurn, ThreadsEndWithAMapAsGood) {
@@ -148,6 +157,32 @@ TEST_F(SlamOfATurn, ExchangedImagesAreNamed) {
   } catch (const host::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("exchanged"), std::string::npos) << error.what();
   }
+}
+
+// Names alike, images not: the right camera's are those of the frame before.
+TEST_F(SlamOfATurn, RightImagesThatAreLateAreNamed) {
+  const auto slam = system();
+  try {
+    for (int k = 1; k < kFrames; ++k) {
+      slam->push(0.05 * k, view(footage().pair(k)[0]), view(footage().pair(k - 1)[1]));
+    }
+    FAIL() << "nothing said";
+  } catch (const host::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("out of step"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("early by about 1 frame"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(SlamOfATurn, ATargetThatWasAwayForLongIsFoundAgain) {
+  const auto slam = system();
+  for (int k = 0; k < 8; ++k) push(*slam, k, k);
+  const Image empty(480 * 360, 3);
+  for (int k = 8; k < 60; ++k) EXPECT_FALSE(slam->push(0.05 * k, view(empty), view(empty)).placed);
+  const TrackedFrame back = push(*slam, 60, 6);
+  ASSERT_TRUE(back.placed);
+  EXPECT_TRUE(back.relocalised);
+  EXPECT_LT(error_deg(back, 6), 0.5);
+  EXPECT_EQ(slam->report().lost, 52);
 }
 
 TEST_F(SlamOfATurn, AnotherImageSizeIsNamed) {
