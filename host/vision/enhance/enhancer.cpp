@@ -14,8 +14,8 @@ namespace {
 
 // The epsilon of (3): keeps black black. Small beside the darkest step of 16 bits after (7), 65535^-0.8 = 1.4e-4.
 constexpr float kBlack = 1e-5F;
-// What the solver's last steps may still have moved, of the illumination's range (RMS): leaves an error below 0.5 %.
-constexpr double kTolerance = 3e-3;
+// How far the illumination may be off the exact one, of its range (RMS).
+constexpr double kTolerance = 5e-3;
 constexpr int kMostIterations = 60;
 
 void raise(const FloatImage& refined, double gamma, FloatImage& out) {

@@ -3,23 +3,15 @@
 
 #include <vector>
 
-#include "host/vision/enhance/smoothness.hpp"
+#include "host/vision/enhance/smoothness_grid.hpp"
 
 namespace pharos::enhance {
-
-/// One grid of the hierarchy: mass(p) x(p) + sum of link(p, q) (x(p) - x(q)) = right-hand side.
-struct SmoothnessGrid {
-  std::ptrdiff_t width = 0, height = 0;
-  std::vector<float> mass, right, down;
-  std::vector<float> along_column, along_row;  ///< inverse pivots of the tridiagonal systems of each column and row
-  std::vector<float> x, b, residual;
-};
 
 /// Solves (5) by conjugate gradients, preconditioned by one multigrid cycle: lines of both directions as the smoother
 /// (links differ by five orders of magnitude, and lines follow the strong ones), 2x2 pixels to one, coarse grids of the
 /// same five-point form.
 ///
-/// Stops where the last three steps together moved the solution by less than `tolerance` of its range (RMS). Keeps its
+/// Stops where the solution is off by less than `tolerance` of its range (RMS), as the last step tells it. Keeps its
 /// memory.
 class SmoothnessSolver {
  public:
@@ -29,7 +21,6 @@ class SmoothnessSolver {
             FloatImage& refined);
 
  private:
-  void build(const SmoothnessSystem& system);
   void cycle(std::size_t level);
 
   std::vector<SmoothnessGrid> grids_;
