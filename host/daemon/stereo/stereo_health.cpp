@@ -42,7 +42,10 @@ void StereoLine::judge(SourceHealth& health, const PairSourceStatus& pairs, std:
   if (pose && last_refusal_.empty()) return;
   health.state = pose ? SourceState::kOk : SourceState::kWaiting;
   if (last_pair_ns_ < 0 || now_ns - last_pair_ns_ >= kSilenceNs) {
-    if (health.message.empty()) health.message = "no pair came yet";
+    if (health.message.empty()) {
+      health.message =
+          last_pair_ns_ < 0 ? "no pair came yet" : "no pairs come any more: see frames_without_partner of each side";
+    }
   } else if (!last_refusal_.empty()) {
     health.message = "no pose: " + last_refusal_;
   } else if (!pose) {
