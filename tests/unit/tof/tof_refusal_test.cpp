@@ -8,7 +8,6 @@
 
 #include "pharos/tof/tof_pose.hpp"
 #include "support/synthetic_ring.hpp"
-#include "tools/cli/reproduce/tof/depth_camera_of.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -113,24 +112,6 @@ TEST_F(TofRefusal, ARingOfANozzlesSize) {
 }
 
 // The simulated satellite with its ring taken off: body, foil, connectors and a nozzle that stands out of the face.
-TEST_F(TofRefusal, TheNozzleAlone) {
-  sim::TofScenario scenario;
-  scenario.satellite.ring.reset();
-  // Facing, tilted, and with circles on the foil where the ring would be.
-  for (const auto& [z, alpha] : {std::pair{3.0, 0.0}, std::pair{2.5, 20.0}, std::pair{4.0, -30.0}}) {
-    scenario.poses.push_back({sim::attitude_of({alpha, 5.0, 40.0}), Vector3(0.05, -0.04, z)});
-  }
-  for (const bool painted : {false, true}) {
-    if (painted) scenario.satellite.circles = {{0.0, 0.0, 0.55, 0.06, 0.5}};
-    sim::TofSimulator simulator(scenario, 1);
-    camera_ = tools::depth_camera_of(scenario);
-    for (int k = 0; k < simulator.frames(); ++k) {
-      const sim::TofPixels pixels = simulator.pixels(k);
-      EXPECT_NE(outcome(tools::frame_of(pixels)), "a pose") << k << (painted ? ", circles on the foil" : "");
-    }
-  }
-}
-
 TEST_F(TofRefusal, ARingThatLeavesTheImage) {
   const std::string why = outcome(render(SyntheticRing{}, facing({0.72, 0.0, 2.3}, {0.1, 0.1, 0.0}), camera_));
   EXPECT_EQ(why, "ring_leaves_image");
