@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "support/equal_sweeps.hpp"
 #include "unit/lighthouse/decoded.hpp"
 
 namespace pharos::lighthouse {
@@ -36,24 +37,6 @@ std::vector<Edge> faulty_edges(double begin_s, std::int64_t slots, unsigned seed
   return edges;
 }
 
-void expect_equal(const Sweep& a, const Sweep& b) {
-  EXPECT_EQ(a.flash.start_ticks, b.flash.start_ticks);
-  EXPECT_EQ(a.flash.length_ticks, b.flash.length_ticks);
-  EXPECT_EQ(a.flash.station, b.flash.station);
-  EXPECT_EQ(a.flash.axis, b.flash.axis);
-  EXPECT_EQ(a.flash.data, b.flash.data);
-  EXPECT_EQ(a.flash.skip, b.flash.skip);
-  EXPECT_EQ(a.flash.sensors, b.flash.sensors);
-  EXPECT_EQ(a.period_sixteenth_ticks, b.period_sixteenth_ticks);
-  EXPECT_EQ(a.flags, b.flags);
-  ASSERT_EQ(a.hits.size(), b.hits.size());
-  for (std::size_t k = 0; k < a.hits.size(); ++k) {
-    EXPECT_EQ(a.hits[k].sensor, b.hits[k].sensor);
-    EXPECT_EQ(a.hits[k].width_ticks, b.hits[k].width_ticks);
-    EXPECT_EQ(a.hits[k].centre_half_ticks, b.hits[k].centre_half_ticks);
-  }
-}
-
 void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t least_sweeps) {
   test::DecodedBy<SortedDecoder> sorted;
   test::Decoded reference;
@@ -63,7 +46,7 @@ void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t least
   reference.flush();
   ASSERT_GE(reference.sweeps.size(), least_sweeps);
   ASSERT_EQ(sorted.sweeps.size(), reference.sweeps.size());
-  for (std::size_t k = 0; k < sorted.sweeps.size(); ++k) expect_equal(sorted.sweeps[k], reference.sweeps[k]);
+  for (std::size_t k = 0; k < sorted.sweeps.size(); ++k) test::expect_equal(sorted.sweeps[k], reference.sweeps[k]);
   std::vector<std::uint32_t> told;
   for_each_counter(reference.counters(), [&](auto, std::uint32_t value, auto) { told.push_back(value); });
   for_each_counter(sorted.counters(), [&, k = std::size_t{0}](const char* name, std::uint32_t value, auto) mutable {

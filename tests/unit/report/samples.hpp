@@ -9,6 +9,7 @@
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/report/reports.hpp"
+#include "support/equal_sweeps.hpp"
 
 namespace pharos::report::test {
 
@@ -57,22 +58,6 @@ inline LighthousePoseEstimate random_estimate(std::mt19937_64& random, bool seco
   return estimate;
 }
 
-inline void expect_equal(const lighthouse::Sweep& a, const lighthouse::Sweep& b) {
-  EXPECT_EQ(a.flash.start_ticks, b.flash.start_ticks);
-  EXPECT_EQ(a.flash.length_ticks, b.flash.length_ticks);
-  EXPECT_EQ(a.flash.station, b.flash.station);
-  EXPECT_EQ(a.flash.axis, b.flash.axis);
-  EXPECT_EQ(a.flash.data, b.flash.data);
-  EXPECT_EQ(a.flash.skip, b.flash.skip);
-  EXPECT_EQ(a.flash.sensors, b.flash.sensors);
-  EXPECT_EQ(a.period_sixteenth_ticks, b.period_sixteenth_ticks);
-  EXPECT_EQ(a.flags, b.flags);
-  ASSERT_EQ(a.hits.size(), b.hits.size());
-  for (std::size_t i = 0; i < a.hits.size(); ++i) {
-    EXPECT_EQ(a.hits[i].sensor, b.hits[i].sensor);
-    EXPECT_EQ(a.hits[i].width_ticks, b.hits[i].width_ticks);
-    EXPECT_EQ(a.hits[i].centre_half_ticks, b.hits[i].centre_half_ticks);
-  }
-}
+using pharos::test::expect_equal;
 
 }  // namespace pharos::report::test
