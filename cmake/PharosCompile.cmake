@@ -27,9 +27,40 @@ if(PHAROS_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# Reading Eigen or GoogleTest is two thirds of what compiling a small file costs: read once for all that have the same
+# flags. Not where a compiler cache or clang-tidy look at the command line: neither makes sense of it, and so they see, as
+# the soft core's build does, what a file forgot to include.
+if(CMAKE_CXX_COMPILER_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+  set(PHAROS_PRECOMPILE OFF)
+else()
+  set(PHAROS_PRECOMPILE ON)
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
+endif()
+
+# pharos_headers(KIND HEADERS headers... LIBS libraries... OPTIONS options...): what all targets of one KIND read
+# precompiled; they have these options and no others that touch the code.
+function(pharos_headers kind)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBS;OPTIONS" ${ARGN})
+  if(PHAROS_PRECOMPILE)
+    add_library(pharos_${kind}_headers OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+    target_compile_options(pharos_${kind}_headers PRIVATE ${ARG_OPTIONS})
+    target_link_libraries(pharos_${kind}_headers PRIVATE ${ARG_LIBS} pharos_warnings)
+    target_precompile_headers(pharos_${kind}_headers PRIVATE ${ARG_HEADERS})
+  endif()
+endfunction()
+
+# pharos_reads_headers(TARGET KIND)
+function(pharos_reads_headers target kind)
+  if(PHAROS_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM pharos_${kind}_headers)
+  endif()
+endfunction()
+
 # pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; same floating-point results
 # on every machine (no fused multiply-add where the source has none). For the soft core NAME_12 too, the same sources for
 # a board of 12 inputs (base/capacity.hpp), built where an image asks for it; an image links rooms of one kind only.
+set(PHAROS_CORE_OPTIONS -fno-exceptions -fno-rtti -ffp-contract=off)
+pharos_headers(core HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_CORE_OPTIONS})
 function(pharos_core_library name)
   add_library(${name} STATIC ${ARGN})
   set(libraries ${name})
@@ -42,7 +73,8 @@ function(pharos_core_library name)
   foreach(library IN LISTS libraries)
     target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
     target_link_libraries(${library} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
-    target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti -ffp-contract=off)
+    target_compile_options(${library} PRIVATE ${PHAROS_CORE_OPTIONS})
+    pharos_reads_headers(${library} core)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()

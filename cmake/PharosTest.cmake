@@ -5,22 +5,11 @@ find_package(GTest 1.12 REQUIRED)
 set(PHAROS_TEST_PREFIX "" CACHE STRING "Put before every test's name, so that the tests of two build trees can run as one")
 set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in `tools/test --full`")
 
-# GoogleTest and Eigen are more than half of what compiling a small test costs: parsed once for all of them. Not where a
-# compiler cache or clang-tidy look at the command line: neither makes sense of it, and so they see what a test forgot to
-# include.
-if(NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/tests/precompiled.cpp CONTENT "")
-  add_library(pharos_test_headers OBJECT ${CMAKE_BINARY_DIR}/tests/precompiled.cpp)
-  target_link_libraries(pharos_test_headers PRIVATE Eigen3::Eigen pharos_warnings GTest::gtest GTest::gmock)
-  target_precompile_headers(pharos_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>)
-endif()
-
 # A test's own code runs once and is compiled each time: optimising it fully costs more than it saves. What is tested
 # keeps its flags.
 set(PHAROS_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
-if(TARGET pharos_test_headers)
-  target_compile_options(pharos_test_headers PRIVATE ${PHAROS_TEST_OPTIONS})
-endif()
+pharos_headers(test HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>
+  LIBS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${PHAROS_TEST_OPTIONS})
 
 # pharos_test(NAME [LABEL label] SOURCES files... LIBS libraries...): one GoogleTest program, each case known to ctest.
 # LABEL is unit (default), property, integration, fault, data or long; `long` runs only in `tools/test --full`, and there
@@ -45,9 +34,7 @@ function(pharos_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} pharos_warnings GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR})
   target_compile_options(${name} PRIVATE ${PHAROS_TEST_OPTIONS})
-  if(TARGET pharos_test_headers)
-    target_precompile_headers(${name} REUSE_FROM pharos_test_headers)
-  endif()
+  pharos_reads_headers(${name} test)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   if(PHAROS_FUZZ)
     return()  # that tree builds and runs its fuzzers alone: a test that is not built would be one that fails
