@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -35,6 +36,22 @@ std::string name_of_pair(const fs::path& path) {
     if (stem.ends_with(side)) return stem.substr(0, stem.size() - side.size());
   }
   return stem;
+}
+
+// Names that both sides share pair the images; who has no namesake then is alone.
+void refuse_lone(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights) {
+  const auto [a, b] = std::mismatch(lefts.begin(), lefts.end(), rights.begin(), rights.end(),
+                                    [](const auto& l, const auto& r) { return name_of_pair(l) == name_of_pair(r); });
+  if (a == lefts.end() && b == rights.end()) return;
+  const bool left_alone = b == rights.end() || (a != lefts.end() && name_of_pair(*a) < name_of_pair(*b));
+  throw InputError((left_alone ? *a : *b).string() + ": has no partner; left and right belong together");
+}
+
+bool share_a_name(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights) {
+  std::set<std::string> names;
+  for (const fs::path& path : lefts) names.insert(name_of_pair(path));
+  return std::any_of(rights.begin(), rights.end(),
+                     [&](const auto& path) { return names.contains(name_of_pair(path)); });
 }
 
 std::optional<std::int64_t> stamp_ns(const fs::path& path) {
@@ -84,6 +101,8 @@ std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vect
 
 std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz) {
   const auto lefts = images_in(left), rights = images_in(right);
+  // Stamps of two cameras may differ by a little: those are held to half a frame below.
+  if (!stamp_ns(lefts.front()) && share_a_name(lefts, rights)) refuse_lone(lefts, rights);
   if (lefts.size() != rights.size()) {
     throw InputError(left + " holds " + std::to_string(lefts.size()) + " images and " + right + " " +
                      std::to_string(rights.size()) + "; remove those that have no partner");
@@ -107,12 +126,7 @@ std::vector<PairName> pair_names_in(const std::string& directory, double rate_hz
   if (lefts.empty() && rights.empty()) {
     throw InputError(directory + ": holds no pairs: NAME_left.png and NAME_right.png, or folders left and right");
   }
-  const auto [a, b] = std::mismatch(lefts.begin(), lefts.end(), rights.begin(), rights.end(),
-                                    [](const auto& l, const auto& r) { return name_of_pair(l) == name_of_pair(r); });
-  if (a != lefts.end() || b != rights.end()) {
-    const bool left_alone = b == rights.end() || (a != lefts.end() && name_of_pair(*a) < name_of_pair(*b));
-    throw InputError((left_alone ? *a : *b).string() + ": has no partner; left and right belong together");
-  }
+  refuse_lone(lefts, rights);
   return paired(lefts, rights, rate_hz);
 }
 

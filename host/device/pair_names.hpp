@@ -18,8 +18,9 @@ struct PairName {
 };
 
 /// Pairs of the PNG and PGM images of two folders by sorted name. Time: the name where it is a number of 16 to 19
-/// digits (ns), else index / rate. Throws InputError for a folder without images, for different numbers of images, and
-/// for times that do not grow or of which left and right differ by more than half a frame.
+/// digits (ns), else index / rate. Throws InputError for a folder without images, for different numbers of images, for
+/// an image without a namesake where other names are those of both sides (stamps excepted), and for times that do not
+/// grow or of which left and right differ by more than half a frame.
 std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz);
 
 /// The same of one directory as `pharos sim stereo` writes it: left/ and right/ in it, or NAME_left.png beside

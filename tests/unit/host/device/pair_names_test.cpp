@@ -98,7 +98,26 @@ TEST_F(PairNames, ADirectoryWithoutPairsIsNamed) {
 TEST_F(PairNames, AFrameMissingOnOneSideIsNamed) {
   for (const char* name : {"1.png", "2.png", "3.png"}) add("left", name);
   for (const char* name : {"1.png", "3.png"}) add("right", name);
+  expect_refused("2.png: has no partner");
+}
+
+// Without names in common, numbers alone can tell.
+TEST_F(PairNames, DifferentNumbersOfImagesAreNamed) {
+  for (const char* name : {"l1.png", "l2.png", "l3.png"}) add("left", name);
+  for (const char* name : {"r1.png", "r3.png"}) add("right", name);
   expect_refused("3 images");
+}
+
+TEST_F(PairNames, ShiftedNamesAreNamed) {
+  for (const char* name : {"000000.png", "000001.png", "000002.png"}) add("left", name);
+  for (const char* name : {"000001.png", "000002.png", "000003.png"}) add("right", name);
+  expect_refused("000000.png: has no partner");
+}
+
+TEST_F(PairNames, SidesThatShareNoNameGoByTheirOrder) {
+  for (const char* name : {"l1.png", "l2.png"}) add("left", name);
+  for (const char* name : {"r7.png", "r8.png"}) add("right", name);
+  EXPECT_EQ(pairs().at(1).right, (root_ / "right" / "r8.png").string());
 }
 
 TEST_F(PairNames, StampsOutOfStepAreNamed) {
