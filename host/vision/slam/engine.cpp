@@ -138,6 +138,7 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
   const KeyframeId id = map_.add_keyframe(frame, recognition_.words_of(frame.features)).id;
   map_.update_neighbours(id);
   add_stereo_points(map_, id, frontend_.camera());
+  add_patches(map_, id, frontend_.pyramid());
   const Keyframe& keyframe = map_.keyframes.at(id);
   for (const PointId point : keyframe.points) {
     if (point != kNone && map_.points.at(point).seen_by.size() == 1) recent_.push_back(point);
@@ -164,7 +165,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
     } else {
       // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
       const bool idle = settings_.threads ? to_map_.idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
-      const Tracked tracked = tracker_.track(frame, idle);
+      const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
       out.inliers = tracked.inliers;
       out.relocalised = tracked.relocalised;
       out.lost = tracked.state == TrackState::kLost;
@@ -198,7 +199,7 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
                            std::to_string(camera.height_px));
   }
   const Stopwatch watch;
-  StereoFrontend::Result seen = frontend_.push(left, right);
+  StereoFrontend::Result seen = frontend_.push(left, right, pairs_checked_ < kPairsChecked);
   check_pair(seen);
   Frame frame;
   frame.number = report_.frames;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/vision/slam/descriptor.hpp"
+#include "pharos/base/image_view.hpp"
 #include "pharos/geometry/pose.hpp"
 
 namespace pharos::slam {
@@ -39,24 +40,47 @@ struct StereoCamera {
 /// Scales of the image pyramid: each 1.2 times coarser (ORB's own default).
 inline constexpr int kLevels = 8;
 inline constexpr double kLevelScale = 1.2;
-inline double scale_of(int level) { return std::pow(kLevelScale, level); }
+inline constexpr std::array<double, kLevels> kScales = [] {
+  std::array<double, kLevels> scales{};
+  double scale = 1.0;
+  for (double& of_level : scales) {
+    of_level = scale;
+    scale *= kLevelScale;
+  }
+  return scales;
+}();
+inline double scale_of(int level) { return kScales[static_cast<std::size_t>(level)]; }
+
+/// A corner is found again to half a pixel of its level.
+inline constexpr double kCornerSigma_px = 0.5;
+
+/// A level of an image's pyramid; level 0 is the image itself. Pixel centres: x of a level covers the place
+/// (x + 0.5) s - 0.5 of the image, where s is the ratio of their widths (heights).
+struct PyramidLevel {
+  ImageView<const std::uint8_t> image;
+};
 
 /// One ORB feature of the left image, and where the right one has it.
 struct Feature {
-  Vector2 pixel = Vector2::Zero();  ///< of the rectified left image
-  double right_u_px = -1.0;         ///< its column in the right image; below 0: a mono feature
-  double depth_m = -1.0;            ///< (9), of a stereo feature
-  double off_row_px = 0.0;          ///< of a stereo feature: how many rows lower the right image has it
-  int level = 0;                    ///< of the pyramid
-  double angle_rad = 0.0;           ///< of the patch, from +u towards +v
+  Vector2 pixel = Vector2::Zero();            ///< of the rectified left image
+  double right_u_px = -1.0;                   ///< its column in the right image; below 0: a mono feature
+  double depth_m = -1.0;                      ///< (9), of a stereo feature
+  double off_row_px = 0.0;                    ///< of a stereo feature: how many rows lower the right image has it
+  Vector2 disparity_slope = Vector2::Zero();  ///< of a stereo feature: px of disparity a px to the right and downwards
+  /// Of a coordinate, on its level: a corner's, or better where it was aligned with the patch of its point (patch.hpp).
+  double sigma_px = kCornerSigma_px;
+  int level = 0;           ///< of the pyramid
+  double angle_rad = 0.0;  ///< of the patch, from +u towards +v
   Descriptor descriptor;
 
   bool stereo() const { return depth_m > 0.0; }
-  /// Expected variance of a coordinate, px^2: half a pixel of its level.
-  double variance_px2() const {
-    const double sigma = 0.5 * scale_of(level);
-    return sigma * sigma;
-  }
+  /// Expected variance of a coordinate, px^2.
+  double variance_px2() const { return square(sigma_px * scale_of(level)); }
+  /// The same of a corner, whatever it was aligned with.
+  double corner_variance_px2() const { return square(kCornerSigma_px * scale_of(level)); }
+
+ private:
+  static double square(double x) { return x * x; }
 };
 
 /// Expected error of a disparity, in errors of a coordinate: squares of pixels are compared to some 0.03 px of their

@@ -18,7 +18,7 @@ constexpr double kRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
 
 Observation observation_of(const Feature& feature, const Vector3& point_m) {
-  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
+  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.corner_variance_px2()};
 }
 
 std::set<PointId> points_around(const Map& map, KeyframeId id) {

@@ -15,7 +15,10 @@ Keyframe& Map::add_keyframe(const Frame& frame, WordVector words) {
   std::vector<PointId> seen(keyframe.features.size(), kNone);
   seen.swap(keyframe.points);
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (points.contains(seen[k])) observe(seen[k], id, static_cast<int>(k));
+    keyframe.features[k].sigma_px = kCornerSigma_px;
+    if (!points.contains(seen[k])) continue;
+    observe(seen[k], id, static_cast<int>(k));
+    keyframe.features[k].sigma_px = frame.features[k].sigma_px;
   }
   return keyframe;
 }
@@ -36,6 +39,7 @@ void Map::observe(PointId point, KeyframeId keyframe, int feature) {
   PointId& slot = frame.points[static_cast<std::size_t>(feature)];
   if (slot != kNone || !points.at(point).seen_by.emplace(keyframe, feature).second) return;
   slot = point;
+  frame.features[static_cast<std::size_t>(feature)].sigma_px = kCornerSigma_px;
 }
 
 void Map::forget_observation(PointId point, KeyframeId keyframe) {

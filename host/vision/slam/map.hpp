@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/vision/slam/frame.hpp"
+#include "host/vision/slam/patch.hpp"
 
 namespace pharos::slam {
 
@@ -41,6 +42,7 @@ struct MapPoint {
   std::int64_t visible = 1;    ///< frames that should have seen it
   std::int64_t found = 1;      ///< frames that did
   KeyframeId born_at = kNone;  ///< newest keyframe then
+  std::optional<Patch> patch;  ///< with which later frames find it again
 };
 
 /// Keyframes and points, each holding the other's number. Plain data under one owner: who shares it locks it.
@@ -52,7 +54,8 @@ class Map {
   /// The frame becomes a keyframe seen from its points; `words` may be empty.
   Keyframe& add_keyframe(const Frame& frame, WordVector words);
   MapPoint& add_point(const Vector3& position_m, KeyframeId keyframe, int feature);
-  /// Nothing happens where the keyframe sees the point already or its feature has one.
+  /// Nothing happens where the keyframe sees the point already or its feature has one. The feature counts as a corner:
+  /// nobody aligned it with this point's patch.
   void observe(PointId point, KeyframeId keyframe, int feature);
   void forget_observation(PointId point, KeyframeId keyframe);
   void remove_point(PointId point);

@@ -130,6 +130,17 @@ void add_stereo_points(Map& map, KeyframeId id, const StereoCamera& camera) {
   }
 }
 
+void add_patches(Map& map, KeyframeId id, const std::vector<PyramidLevel>& pyramid) {
+  Keyframe& keyframe = map.keyframes.at(id);
+  for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
+    if (keyframe.points[k] == kNone) continue;
+    MapPoint& point = map.points.at(keyframe.points[k]);
+    if (point.patch) continue;
+    point.patch = cut_patch(id, keyframe.features[k], pyramid);
+    if (point.patch) keyframe.features[k].sigma_px = kPatchSigma_px;
+  }
+}
+
 int triangulate(Map& map, KeyframeId keyframe, const StereoCamera& camera) {
   int added = 0;
   for (const KeyframeId other : map.best_neighbours(keyframe, kTriangulateWith)) {

@@ -13,6 +13,10 @@ namespace pharos::slam {
 /// Points for the keyframe's stereo features that show none yet: all near ones, and of the rest the nearest up to 100.
 void add_stereo_points(Map& map, KeyframeId keyframe, const StereoCamera& camera);
 
+/// The keyframe's points that have no patch yet get theirs from its features that have a depth; `pyramid` is of its
+/// image.
+void add_patches(Map& map, KeyframeId keyframe, const std::vector<PyramidLevel>& pyramid);
+
 /// Points from features that the keyframe and a covisible one have and neither knows: likest by descriptor along the
 /// epipolar line, crossing rays at more than 1 deg or a stereo depth, reprojections within chi-squared in both.
 /// Returns how many.

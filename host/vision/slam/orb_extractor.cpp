@@ -17,10 +17,6 @@ namespace {
 constexpr int kBorder_px = 20;
 constexpr int kCell_px = 32;  // of FAST
 constexpr int kPatchRadius_px = 15;
-constexpr int kWindow_px = 5;  // to each side, of gradients
-constexpr int kMostSteps = 6;
-constexpr double kSmallStep_px = 0.02;
-constexpr double kMostMove_px = 0.7;  // farther off it is another corner
 
 int features_of_level(int wanted, int level) {
   const double ratio = 1.0 / kLevelScale;
@@ -58,29 +54,32 @@ double direction_of(const cv::Mat& image, int u, int v) {
   return std::atan2(m01, m10);
 }
 
-// Smaller eigenvalue of the gradients' square matrix over 7x7: a smooth measure of a corner.
-double corner_strength(const cv::Mat& image, int u, int v) {
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (int dv = -3; dv <= 3; ++dv) {
-    const std::uint8_t* row = image.ptr<std::uint8_t>(v + dv) + u;
-    const std::uint8_t* above = image.ptr<std::uint8_t>(v + dv - 1) + u;
-    const std::uint8_t* below = image.ptr<std::uint8_t>(v + dv + 1) + u;
-    for (int du = -3; du <= 3; ++du) {
-      const double x = row[du + 1] - row[du - 1], y = below[du] - above[du];
-      xx += x * x;
-      xy += x * y;
-      yy += y * y;
-    }
+// Where a level may have features.
+class MaskOfLevel {
+ public:
+  MaskOfLevel(ImageView<const std::uint8_t> mask, const cv::Mat& image, const cv::Mat& level)
+      : mask_(mask),
+        scale_u_(static_cast<float>(image.cols) / static_cast<float>(level.cols)),
+        scale_v_(static_cast<float>(image.rows) / static_cast<float>(level.rows)) {}
+  bool at(float u, float v) const {
+    if (mask_.empty()) return true;
+    const auto mu = static_cast<std::int32_t>(u * scale_u_), mv = static_cast<std::int32_t>(v * scale_v_);
+    return mask_.contains(mu, mv) && mask_.at(mu, mv) != 0;
   }
-  return 0.5 * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy));
-}
+  // What is masked has no parts that slip between every fourth pixel.
+  bool any(const cv::Rect& cell) const {
+    for (int v = cell.y; v < cell.y + cell.height; v += 4) {
+      for (int u = cell.x; u < cell.x + cell.width; u += 4) {
+        if (at(static_cast<float>(u), static_cast<float>(v))) return true;
+      }
+    }
+    return false;
+  }
 
-// Place of a parabola's top over three values, -0.5 to 0.5 from the middle one.
-double top_of(double before, double at, double after) {
-  const double curvature = before - 2.0 * at + after;
-  if (!(curvature < 0.0)) return 0.0;
-  return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
-}
+ private:
+  ImageView<const std::uint8_t> mask_;
+  float scale_u_, scale_v_;
+};
 
 }  // namespace
 
@@ -90,7 +89,6 @@ struct OrbExtractor::Work {
   std::array<cv::Mat, kLevels> levels;
   std::vector<PyramidLevel> views;
   std::vector<cv::KeyPoint> found, keypoints;
-  std::vector<cv::Point2f> places;
   std::vector<Feature> features;
   cv::Mat descriptors;
 
@@ -110,86 +108,74 @@ struct OrbExtractor::Work {
     }
   }
 
+  // Of the part of a level that begins at (u, v).
+  void keep_found(int u, int v, const MaskOfLevel& allowed, std::vector<Corner>& corners) const {
+    for (const cv::KeyPoint& point : found) {
+      const float at_u = point.pt.x + static_cast<float>(u), at_v = point.pt.y + static_cast<float>(v);
+      if (allowed.at(at_u, at_v)) corners.push_back({at_u, at_v, point.response});
+    }
+  }
+
+  // FAST over the whole level; cells that have no corner are asked once more for faint ones.
   std::vector<Corner> corners_of(int level, ImageView<const std::uint8_t> mask) {
     const cv::Mat& image = levels[static_cast<std::size_t>(level)];
-    const double scale_u = static_cast<double>(levels[0].cols) / image.cols;
-    const double scale_v = static_cast<double>(levels[0].rows) / image.rows;
+    const MaskOfLevel allowed(mask, levels[0], image);
+    const int first = kBorder_px - 3;  // FAST's circle
+    const cv::Rect inside(first, first, image.cols - 2 * first, image.rows - 2 * first);
+    const int columns = (inside.width - 6 + kCell_px - 1) / kCell_px,
+              rows = (inside.height - 6 + kCell_px - 1) / kCell_px;
     std::vector<Corner> corners;
-    const int first = kBorder_px - 3, last_u = image.cols - first, last_v = image.rows - first;
-    for (int v = first; v + 6 < last_v; v += kCell_px) {
-      for (int u = first; u + 6 < last_u; u += kCell_px) {
-        const cv::Rect cell(u, v, std::min(kCell_px + 6, last_u - u), std::min(kCell_px + 6, last_v - v));
-        if (cell.width < 7 || cell.height < 7) continue;
-        find_in(image(cell));
-        for (const cv::KeyPoint& point : found) {
-          const auto mu = static_cast<std::int32_t>((static_cast<double>(point.pt.x) + u) * scale_u);
-          const auto mv = static_cast<std::int32_t>((static_cast<double>(point.pt.y) + v) * scale_v);
-          if (!mask.empty() && (!mask.contains(mu, mv) || mask.at(mu, mv) == 0)) continue;
-          corners.push_back({point.pt.x + static_cast<float>(u), point.pt.y + static_cast<float>(v), point.response});
-        }
+    std::vector<bool> has(static_cast<std::size_t>(std::max(0, columns * rows)), false);
+    cv::FAST(image(inside), found, settings.threshold, true);
+    keep_found(first, first, allowed, corners);
+    for (const Corner& corner : corners) {
+      const int column = (static_cast<int>(corner.u_px) - kBorder_px) / kCell_px;
+      const int row = (static_cast<int>(corner.v_px) - kBorder_px) / kCell_px;
+      has[static_cast<std::size_t>(row * columns + column)] = true;
+    }
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        if (has[static_cast<std::size_t>(row * columns + column)]) continue;
+        const cv::Rect cell =
+            cv::Rect(first + column * kCell_px, first + row * kCell_px, kCell_px + 6, kCell_px + 6) & inside;
+        if (!allowed.any(cell)) continue;
+        double low = 0.0, high = 0.0;
+        cv::minMaxLoc(image(cell), &low, &high);
+        if (high - low <= settings.least_threshold) continue;
+        cv::FAST(image(cell), found, settings.least_threshold, true);
+        keep_found(cell.x, cell.y, allowed, corners);
       }
     }
     return corners;
   }
 
-  void find_in(const cv::Mat& cell) {
-    found.clear();
-    double low = 0.0, high = 0.0;
-    cv::minMaxLoc(cell, &low, &high);
-    if (high - low <= settings.least_threshold) return;
-    cv::FAST(cell, found, settings.threshold, true);
-    if (found.empty()) cv::FAST(cell, found, settings.least_threshold, true);
-  }
-
-  // Corners between pixels: where the lines across their gradients meet (Foerstner 1987), which stays with the thing
-  // itself from whatever side it is seen; the top of a parabola over their strength where that point runs away.
-  void place_all(int level, const std::vector<Corner>& corners) {
-    const cv::Mat& image = levels[static_cast<std::size_t>(level)];
-    places.clear();
-    for (const Corner& corner : corners) places.emplace_back(corner.u_px, corner.v_px);
-    if (settings.refine && !places.empty()) {
-      cv::cornerSubPix(image, places, {kWindow_px, kWindow_px}, {-1, -1},
-                       {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMostSteps, kSmallStep_px});
-    }
-    for (std::size_t k = 0; k < corners.size(); ++k) place(level, corners[k], places[k]);
-  }
-
-  void place(int level, const Corner& corner, const cv::Point2f& refined) {
+  void place(int level, const Corner& corner) {
     const cv::Mat& image = levels[static_cast<std::size_t>(level)];
     const int u = cvRound(corner.u_px), v = cvRound(corner.v_px);
-    double du = static_cast<double>(refined.x) - u, dv = static_cast<double>(refined.y) - v;
-    const bool kept = settings.refine && std::hypot(du, dv) <= kMostMove_px;
-    if (!kept) {
-      const double at = corner_strength(image, u, v);
-      du = top_of(corner_strength(image, u - 1, v), at, corner_strength(image, u + 1, v));
-      dv = top_of(corner_strength(image, u, v - 1), at, corner_strength(image, u, v + 1));
-    }
-    // Pixel centres: level pixel x covers the place (x + 0.5) scale - 0.5 of the image.
     const double scale_u = static_cast<double>(levels[0].cols) / image.cols;
     const double scale_v = static_cast<double>(levels[0].rows) / image.rows;
     Feature feature;
-    feature.pixel = {(u + du + 0.5) * scale_u - 0.5, (v + dv + 0.5) * scale_v - 0.5};
+    feature.pixel = {(u + 0.5) * scale_u - 0.5, (v + 0.5) * scale_v - 0.5};
     feature.level = level;
     feature.angle_rad = direction_of(image, u, v);
-    // The descriptor wants the corner's pixel of the level, which OpenCV finds by dividing by the level's scale.
-    const auto scale = static_cast<float>(scale_of(level));
     const double degrees = feature.angle_rad * 180.0 / std::numbers::pi;
-    keypoints.emplace_back(static_cast<float>(u) * scale, static_cast<float>(v) * scale, 31.0F * scale,
-                           static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees), corner.response, level,
+    keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v), 31.0F,
+                           static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees), corner.response, 0,
                            static_cast<int>(features.size()));
     features.push_back(feature);
   }
 
-  void describe() {
-    orb->compute(levels[0], keypoints, descriptors);
-    std::vector<Feature> described;
-    for (std::size_t k = 0; k < keypoints.size(); ++k) {
-      Feature feature = features[static_cast<std::size_t>(keypoints[k].class_id)];
-      std::memcpy(feature.descriptor.bits.data(), descriptors.ptr(static_cast<int>(k)),
-                  sizeof(feature.descriptor.bits));
-      described.push_back(feature);
+  // Descriptors of the level's features, of which those too near to its border go. ORB is given the level as an image
+  // of its own: it need not make its pyramid anew.
+  void describe(int level, std::size_t first) {
+    orb->compute(levels[static_cast<std::size_t>(level)], keypoints, descriptors);
+    std::size_t kept = first;
+    for (std::size_t k = 0; k < keypoints.size(); ++k, ++kept) {
+      features[kept] = features[static_cast<std::size_t>(keypoints[k].class_id)];
+      std::memcpy(features[kept].descriptor.bits.data(), descriptors.ptr(static_cast<int>(k)),
+                  sizeof(features[kept].descriptor.bits));
     }
-    features = std::move(described);
+    features.resize(kept);
   }
 };
 
@@ -211,15 +197,18 @@ const std::vector<Feature>& OrbExtractor::extract(ImageView<const std::uint8_t> 
                     static_cast<std::size_t>(image.stride_px));
   work.build(mat);
   work.features.clear();
-  work.keypoints.clear();
   for (int level = 0; level < kLevels; ++level) {
     const cv::Mat& pixels = work.levels[static_cast<std::size_t>(level)];
     if (pixels.cols < 2 * kBorder_px + 1 || pixels.rows < 2 * kBorder_px + 1) break;
     const auto wanted = static_cast<std::size_t>(features_of_level(work.settings.features, level));
-    work.place_all(level, spread(work.corners_of(level, mask), static_cast<float>(pixels.cols),
-                                 static_cast<float>(pixels.rows), wanted));
+    const std::size_t first = work.features.size();
+    work.keypoints.clear();
+    for (const Corner& corner : spread(work.corners_of(level, mask), static_cast<float>(pixels.cols),
+                                       static_cast<float>(pixels.rows), wanted)) {
+      work.place(level, corner);
+    }
+    if (!work.keypoints.empty()) work.describe(level, first);
   }
-  work.describe();
   return work.features;
 }
 

@@ -14,18 +14,13 @@ struct OrbSettings {
   /// Least difference of light of FAST's circle, grey values of 255: first, and in cells that have none.
   int threshold = 20;
   int least_threshold = 7;
-  bool refine = true;  ///< corners to a tenth of a pixel; not where only descriptors and rows matter
 };
 
-/// The levels of a pyramid, kept for the sub-pixel match; level 0 is the image itself.
-struct PyramidLevel {
-  ImageView<const std::uint8_t> image;
-};
-
-/// ORB features of one image: FAST in cells of each pyramid level, spread by a quadtree, placed between pixels;
-/// orientation and descriptor as Rublee 2011 (OpenCV's).
+/// ORB features of one image: FAST over each pyramid level and once more, for faint corners, in cells that have none;
+/// spread by a quadtree; orientation and descriptor as Rublee 2011 (OpenCV's). Their places are whole pixels of their
+/// levels.
 ///
-/// Keeps its memory; one a camera, not for two threads at once. 640x480, 1000 features: some 8 ms.
+/// Keeps its memory; one a camera, not for two threads at once.
 class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbSettings& settings);

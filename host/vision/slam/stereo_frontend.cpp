@@ -55,11 +55,7 @@ struct StereoFrontend::Work {
   Foreground foreground;
   StillFeatures still;
   ImageView<const std::uint8_t> mask;
-  explicit Work(const OrbSettings& settings) : left(settings), right(unrefined(settings)) {}
-  static OrbSettings unrefined(OrbSettings settings) {
-    settings.refine = false;
-    return settings;
-  }
+  explicit Work(const OrbSettings& settings) : left(settings), right(settings) {}
 
   static void prepare(Side& side, const RectifyMap& map, const StereoCamera& camera) {
     const auto plane = [&](const std::vector<float>& values) {
@@ -98,8 +94,10 @@ StereoFrontend::~StereoFrontend() = default;
 
 ImageView<const std::uint8_t> StereoFrontend::image() const { return view_of(work_->left.image); }
 ImageView<const std::uint8_t> StereoFrontend::mask() const { return work_->mask; }
+const std::vector<PyramidLevel>& StereoFrontend::pyramid() const { return work_->left.extractor.pyramid(); }
 
-StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) {
+StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                                            bool check_order) {
   Work& work = *work_;
   Result result;
   const bool left_same = Work::remember(work.left, mat_of(left)),
@@ -126,7 +124,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   const std::vector<Feature>& right_features = work.right.extractor.features();
   result.stats =
       match_stereo(result.features, right_features, work.left.extractor.pyramid(), work.right.extractor.pyramid(),
-                   rectification_.camera, 3.0 * rectification_.camera.baseline_m);
+                   rectification_.camera, 3.0 * rectification_.camera.baseline_m, check_order);
   if (settings_.scene == Scene::kTarget) work.still.remove_still(result.features);
   return result;
 }

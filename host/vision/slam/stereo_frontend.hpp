@@ -25,12 +25,15 @@ class StereoFrontend {
     bool saturated = false;  ///< hardly a pixel below the limit
     bool repeated = false;   ///< both images equal the pair before, pixel by pixel
   };
-  Result push(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right);
+  /// `check_order`: see match_stereo().
+  Result push(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, bool check_order);
 
   const StereoCamera& camera() const { return rectification_.camera; }
   const Matrix3& R_left_rectified() const { return rectification_.R_left_rectified; }
   ImageView<const std::uint8_t> image() const;
   ImageView<const std::uint8_t> mask() const;
+  /// Of the left image.
+  const std::vector<PyramidLevel>& pyramid() const;
 
  private:
   struct Work;

@@ -145,23 +145,26 @@ std::vector<PointId> Tracker::local_points(const Frame& frame) {
     const Keyframe& keyframe = map_.keyframes.at(id);
     if (keyframe.parent != kNone) local.insert(keyframe.parent);
   }
-  std::set<PointId> points;
+  std::vector<PointId> points;
   for (const KeyframeId id : local) {
     for (const PointId point : map_.keyframes.at(id).points) {
-      if (point != kNone) points.insert(point);
+      if (point != kNone) points.push_back(point);
     }
   }
-  return {points.begin(), points.end()};
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
 }
 
 std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& start, bool wide) {
   const std::vector<PointId> local = local_points(frame);
-  std::set<PointId> matched;
+  std::vector<PointId> matched;
   std::vector<bool> free(frame.points.size());
   for (std::size_t k = 0; k < free.size(); ++k) {
     free[k] = frame.points[k] == kNone;
-    if (!free[k]) matched.insert(frame.points[k]);
+    if (!free[k]) matched.push_back(frame.points[k]);
   }
+  std::sort(matched.begin(), matched.end());
   const Vector3 eye = start.pose.inverse().t;
   std::vector<Candidate> candidates;
   for (const PointId id : local) {
@@ -177,7 +180,7 @@ std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& star
     const double facing = (point.position_m - eye).dot(point.normal) / distance_m;
     if (facing < kCosMostTurn) continue;
     ++point.visible;
-    if (matched.contains(id)) continue;
+    if (std::binary_search(matched.begin(), matched.end(), id)) continue;
     const int level = std::clamp(
         static_cast<int>(std::ceil(std::log(point.most_distance_m / distance_m) / std::log(kLevelScale) - 0.5)), 0,
         kLevels - 1);
@@ -188,12 +191,37 @@ std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& star
        match_by_projection(candidates, frame, free, camera_, start.pose, {kMaybeSamePoint, 0.8, false})) {
     frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
   }
+  align(frame, start.pose);
   PoseOnly placed = adjust(frame, start.pose);
   for (const PointId id : frame.points) {
     if (id != kNone) ++map_.points.at(id).found;
   }
   if (placed.inliers < (wide ? kLeastRelocalised : kLeastInLocalMap)) return std::nullopt;
   return placed;
+}
+
+// Features that show points of the map go where the points' patches are seen.
+void Tracker::align(Frame& frame, const CameraFromTarget& pose) const {
+  if (pyramid_.empty()) return;
+  KeyframeId of = kNone;
+  Pose<frame::Camera, frame::Camera> T_frame_keyframe;
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    const MapPoint* point = map_.find_point(frame.points[k]);
+    if (point == nullptr || !point->patch) continue;
+    if (point->patch->keyframe != of) {
+      of = point->patch->keyframe;
+      T_frame_keyframe = pose * map_.pose_of(of).inverse();
+    }
+    Feature& feature = frame.features[k];
+    const auto found = find_patch(*point->patch, T_frame_keyframe, camera_, feature, pyramid_);
+    if (!found) continue;
+    const Vector2 move = found->pixel - feature.pixel;
+    feature.pixel = found->pixel;
+    feature.sigma_px = found->sigma_px;
+    if (!feature.stereo()) continue;
+    feature.right_u_px += move.x() - feature.disparity_slope.dot(move);
+    feature.depth_m = camera_.depth_m(feature.pixel.x() - feature.right_u_px);
+  }
 }
 
 bool Tracker::keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const {
@@ -219,8 +247,9 @@ void Tracker::remember(const Frame& frame, const PoseOnly& placed) {
   state_ = TrackState::kTracking;
 }
 
-Tracked Tracker::track(Frame& frame, bool mapping_idle) {
+Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<PyramidLevel>& pyramid) {
   frame.points.assign(frame.features.size(), kNone);
+  pyramid_ = pyramid;
   Tracked out;
   if (map_.keyframes.empty()) return out;
   std::optional<PoseOnly> placed;

@@ -35,8 +35,9 @@ class Tracker {
   Tracker(const StereoCamera& camera, Map& map, const Recognition* recognition)
       : camera_(camera), map_(map), recognition_(recognition) {}
 
-  /// Pose and points of `frame` are filled in. `mapping_idle` enters the keyframe rules.
-  Tracked track(Frame& frame, bool mapping_idle);
+  /// Pose and points of `frame` are filled in; features are moved to where `pyramid`, of its left image, shows their
+  /// points' patches (empty: none is). `mapping_idle` enters the keyframe rules.
+  Tracked track(Frame& frame, bool mapping_idle, const std::vector<PyramidLevel>& pyramid);
   /// The frame became the keyframe `id`, whose points it shares from now on.
   void became_keyframe(const Keyframe& keyframe);
   KeyframeId reference() const { return reference_; }
@@ -51,6 +52,7 @@ class Tracker {
   std::optional<PoseOnly> relocalise(Frame& frame);
   std::optional<PoseOnly> in_local_map(Frame& frame, const PoseOnly& start, bool wide);
   std::vector<PointId> local_points(const Frame& frame);
+  void align(Frame& frame, const CameraFromTarget& pose) const;
   PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
   bool keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const;
   CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }
@@ -60,6 +62,7 @@ class Tracker {
   Map& map_;
   const Recognition* recognition_;
   TrackState state_ = TrackState::kWaiting;
+  std::vector<PyramidLevel> pyramid_;  // of the frame at hand
   Frame last_;
   Pose<frame::Camera, frame::Camera> T_last_reference_, step_;
   bool has_step_ = false;

@@ -44,7 +44,7 @@ TEST_F(Turning, DepthsOfFeaturesAreThoseOfTheFaces) {
   StereoFrontend frontend(rectify(sequence_.rig(), "rig"), settings);
   const auto left_image = sequence_.image(0, 0), right_image = sequence_.image(0, 1);
   const auto left = eight_bits(left_image), right = eight_bits(right_image);
-  const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480});
+  const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480}, false);
   EXPECT_GT(result.features.size(), 800U);
   EXPECT_GT(result.stats.matched, 500);
   // Depth off the nearest plane of the satellite, as disparity.
@@ -75,7 +75,7 @@ TEST_F(Turning, NoFeatureIsAStar) {
   StereoFrontend frontend(rectify(sequence_.rig(), "rig"), settings);
   const auto left_image = sequence_.image(0, 0), right_image = sequence_.image(0, 1);
   const auto left = eight_bits(left_image), right = eight_bits(right_image);
-  const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480});
+  const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480}, false);
   // 3.8 m at 5 m with 640 px, seen 0.25 m aside: nothing of the body lies higher or lower than this.
   for (const Feature& feature : result.features) {
     EXPECT_GT(feature.pixel.y(), 60.0);
