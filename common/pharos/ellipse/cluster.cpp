@@ -30,10 +30,11 @@ bool similar(const Ellipse& one, const Ellipse& other) {
 
 bool same_ellipse(const DetectedEllipse& one, const DetectedEllipse& other) {
   if (!similar(one.ellipse, other.ellipse)) return false;
+  const EllipseDistance distance(other.ellipse);
   int near = 0;
   for (int k = 0; k < kPlaces; ++k) {
     const double t = 2.0 * std::numbers::pi * k / kPlaces;
-    if (std::abs(distance_px(other.ellipse, point_at(one.ellipse, t))) < kMinGap_px) ++near;
+    if (std::abs(distance.px(point_at(one.ellipse, t))) < kMinGap_px) ++near;
   }
   return 2 * near >= kPlaces;
 }

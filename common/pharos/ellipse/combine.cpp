@@ -117,7 +117,7 @@ class Combiner {
       const std::span<const PointF> fitted(points.data(), points.size());
       const std::optional<Ellipse> ellipse = fit_direct(fitted);
       if (!ellipse || !plausible(*ellipse, settings_)) continue;
-      const double squares = mean_square_px2(*ellipse, fitted);
+      const double squares = mean_square_px2(*ellipse, fitted, best_squares);
       if (!(squares <= best_squares)) continue;
       best = ellipse;
       best_squares = squares;
@@ -126,13 +126,18 @@ class Combiner {
     if (best) insert({*best, length / perimeter_px(*best)});
   }
 
-  static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points) {
+  // Or more than `most`, as soon as that is sure: most fits come to nothing.
+  static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points, double most) {
+    constexpr double kSure = 1.000001;  // beyond rounding
+    const auto count = static_cast<double>(points.size());
+    const EllipseDistance distance(ellipse);
     double squares = 0.0;
     for (const PointF& p : points) {
-      const double d = distance_px(ellipse, {static_cast<double>(p.u), static_cast<double>(p.v)});
+      const double d = distance.px({static_cast<double>(p.u), static_cast<double>(p.v)});
       squares += d * d;
+      if (squares > kSure * most * count) break;
     }
-    return squares / static_cast<double>(points.size());
+    return squares / count;
   }
 
   void insert(const Candidate& candidate) {

@@ -29,8 +29,9 @@ std::uint16_t neighbour(const EllipseWorkspace& workspace, ImageView<const std::
   std::uint16_t best = 0;
   float least = 1e9F;
   for (std::int32_t dv = -1; dv <= 1; ++dv) {
+    const std::uint16_t* row = places.row(p.row + dv) + p.column;  // no edge point lies on the border
     for (std::int32_t du = -1; du <= 1; ++du) {
-      const std::uint16_t place = places.at(p.column + du, p.row + dv);  // no edge point lies on the border
+      const std::uint16_t place = row[du];
       if (place == 0) continue;
       const EdgePoint& q = workspace.edges[place - 1U];
       const Step step{q.u_px - p.u_px, q.v_px - p.v_px};

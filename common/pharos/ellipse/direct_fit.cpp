@@ -36,6 +36,49 @@ Frame frame_of(std::span<const PointF> points) {
   return frame;
 }
 
+// Sums of products of (x^2, x y, y^2) and (x, y, 1); each different one once.
+struct Scatter {
+  double xxxx = 0.0, xxxy = 0.0, xxyy = 0.0, xyxy = 0.0, xyyy = 0.0, yyyy = 0.0;
+  double xxx = 0.0, xx_y = 0.0, xy_x = 0.0, xy_y = 0.0, yy_x = 0.0, yyy = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0, x = 0.0, y = 0.0;
+
+  void add(double px, double py) {
+    const double pxx = px * px, pxy = px * py, pyy = py * py;
+    xxxx += pxx * pxx;
+    xxxy += pxx * pxy;
+    xxyy += pxx * pyy;
+    xyxy += pxy * pxy;
+    xyyy += pxy * pyy;
+    yyyy += pyy * pyy;
+    xxx += pxx * px;
+    xx_y += pxx * py;
+    xy_x += pxy * px;
+    xy_y += pxy * py;
+    yy_x += pyy * px;
+    yyy += pyy * py;
+    xx += pxx;
+    xy += pxy;
+    yy += pyy;
+    x += px;
+    y += py;
+  }
+  Matrix3 of_quadratic() const {
+    Matrix3 m;
+    m << xxxx, xxxy, xxyy, xxxy, xyxy, xyyy, xxyy, xyyy, yyyy;
+    return m;
+  }
+  Matrix3 of_both() const {
+    Matrix3 m;
+    m << xxx, xx_y, xx, xy_x, xy_y, xy, yy_x, yyy, yy;
+    return m;
+  }
+  Matrix3 of_linear(std::size_t count) const {
+    Matrix3 m;
+    m << xx, xy, x, xy, yy, y, x, y, static_cast<double>(count);
+    return m;
+  }
+};
+
 // A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is none.
 std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linear) {
   const double a = quadratic[0], b = quadratic[1], c = quadratic[2], d = linear[0], e = linear[1], f = linear[2];
@@ -64,15 +107,11 @@ std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   if (points.size() < kMinPoints) return std::nullopt;
   const Frame frame = frame_of(points);
   if (!(frame.scale > 0.0)) return std::nullopt;
-  Matrix3 s1 = Matrix3::Zero(), s2 = Matrix3::Zero(), s3 = Matrix3::Zero();
+  Scatter sums;
   for (const PointF& p : points) {
-    const double x = (static_cast<double>(p.u) - frame.u) / frame.scale;
-    const double y = (static_cast<double>(p.v) - frame.v) / frame.scale;
-    const Vector3 quadratic(x * x, x * y, y * y), linear(x, y, 1.0);
-    s1 += quadratic * quadratic.transpose();
-    s2 += quadratic * linear.transpose();
-    s3 += linear * linear.transpose();
+    sums.add((static_cast<double>(p.u) - frame.u) / frame.scale, (static_cast<double>(p.v) - frame.v) / frame.scale);
   }
+  const Matrix3 s1 = sums.of_quadratic(), s2 = sums.of_both(), s3 = sums.of_linear(points.size());
   const Eigen::LDLT<Matrix3> linear_scatter(s3);
   if (linear_scatter.vectorD().minCoeff() <= 1e-9 * s3.trace()) return std::nullopt;
   // Column by column: Eigen solves for a matrix by a kernel that keeps the caches' sizes in a static.

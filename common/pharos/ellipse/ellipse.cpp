@@ -32,14 +32,20 @@ double anomaly_of(const Ellipse& e, PointPx point) {
   return std::atan2(p.v * e.a_px, p.u * e.b_px);
 }
 
-double distance_px(const Ellipse& e, PointPx point) {
-  const PointPx p = local(e, point);
-  const double x = p.u / e.a_px, y = p.v / e.b_px;
+EllipseDistance::EllipseDistance(const Ellipse& e)
+    : ellipse_(e), cos_(std::cos(e.theta_rad)), sin_(std::sin(e.theta_rad)) {}
+
+double EllipseDistance::px(PointPx point) const {
+  const double a = ellipse_.a_px, b = ellipse_.b_px;
+  const double u = point.u - ellipse_.cx_px, v = point.v - ellipse_.cy_px;
+  const double x = (cos_ * u + sin_ * v) / a, y = (cos_ * v - sin_ * u) / b;
   const double f = x * x + y * y - 1.0;
-  const double slope = 2.0 * std::hypot(x / e.a_px, y / e.b_px);
+  const double slope = 2.0 * std::hypot(x / a, y / b);
   // At the centre nothing has a slope: the contour is b away.
-  return slope * e.b_px > 1e-9 ? std::max(f / slope, -e.b_px) : -e.b_px;
+  return slope * b > 1e-9 ? std::max(f / slope, -b) : -b;
 }
+
+double distance_px(const Ellipse& e, PointPx point) { return EllipseDistance(e).px(point); }
 
 Ellipse normalised(Ellipse e) {
   if (e.a_px < e.b_px) {

@@ -29,6 +29,16 @@ double anomaly_of(const Ellipse& ellipse, PointPx point);
 /// Signed distance to the contour, positive outside, to first order (Sampson): good where the point is much nearer to
 /// the contour than the contour's radius of curvature b^2/a. Elsewhere it has the right sign and grows outwards.
 double distance_px(const Ellipse& ellipse, PointPx point);
+/// The same for many points: the axes' directions are calculated once.
+class EllipseDistance {
+ public:
+  explicit EllipseDistance(const Ellipse& ellipse);
+  double px(PointPx point) const;
+
+ private:
+  Ellipse ellipse_;
+  double cos_, sin_;
+};
 
 /// The same ellipse with a >= b and theta in (-pi/2, pi/2].
 Ellipse normalised(Ellipse ellipse);

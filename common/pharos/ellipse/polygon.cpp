@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/ellipse/polygon.hpp"
 
+#include <array>
+
 namespace pharos::ellipse {
 namespace {
 
@@ -29,19 +31,20 @@ std::uint16_t farthest(std::span<const EdgePoint> points, std::uint16_t first, s
 void approximate_polygon(std::span<const EdgePoint> points, float tolerance_px, Vertices& vertices) {
   vertices.clear();
   if (points.empty()) return;
-  // Ends of the pieces still to be cut, the next one on top.
-  StaticVector<std::uint16_t, kMaxPolygonPoints> ends;
+  // Ends of the pieces still to be cut, the next one on top; each is another point. Not a StaticVector, which would be
+  // cleared for each of many short contours.
+  std::array<std::uint16_t, kMaxPolygonPoints> ends;
+  std::size_t open = 0;
   std::uint16_t first = 0;
   vertices.push_back(0);
-  ends.push_back(static_cast<std::uint16_t>(points.size() - 1));
-  while (!ends.empty()) {
-    const std::uint16_t cut = farthest(points, first, ends.back(), tolerance_px);
+  ends[open++] = static_cast<std::uint16_t>(points.size() - 1);
+  while (open > 0) {
+    const std::uint16_t cut = farthest(points, first, ends[open - 1], tolerance_px);
     if (cut != 0) {
-      ends.push_back(cut);
+      ends[open++] = cut;
       continue;
     }
-    first = ends.back();
-    ends.pop_back();
+    first = ends[--open];
     if (first != vertices.back()) vertices.push_back(first);
   }
 }

@@ -30,12 +30,14 @@ struct Turned {
   }
 };
 
-// Signed distance of a point from where the contour's edge is seen, and what its derivatives are made of.
-struct Distance {
-  double x = 0.0, y = 0.0;    // in the ellipse's axes
-  double fx = 0.0, fy = 0.0;  // slope of f = (x/a)^2 + (y/b)^2 - 1
-  double per_length = 0.0;    // 1 / |slope|
-  double value = 0.0;
+// Signed distances of points from where the contour's edge is seen, and what their derivatives are made of. Columns, so
+// that compilers take roots and divisions two at a time.
+using Column = std::array<double, kMaxFitPoints>;
+struct Distances {
+  Column x, y;        // in the ellipse's axes
+  Column fx, fy;      // slope of f = (x/a)^2 + (y/b)^2 - 1
+  Column per_length;  // 1 / |slope|
+  Column value;
 };
 
 class Contour {
@@ -43,27 +45,32 @@ class Contour {
   explicit Contour(const Ellipse& e)
       : e_(e), turned_(e.theta_rad), ka_(1.0 / (e.a_px * e.a_px)), kb_(1.0 / (e.b_px * e.b_px)) {}
 
-  Distance distance(PointF point) const {
-    const double u = static_cast<double>(point.u) - e_.cx_px, v = static_cast<double>(point.v) - e_.cy_px;
-    Distance d;
-    d.x = turned_.cos * u + turned_.sin * v;
-    d.y = turned_.cos * v - turned_.sin * u;
-    d.fx = 2.0 * d.x * ka_;
-    d.fy = 2.0 * d.y * kb_;
-    d.per_length = 1.0 / std::max(std::sqrt(d.fx * d.fx + d.fy * d.fy), 1e-9);
-    const double curvature = 8.0 * d.per_length * d.per_length * d.per_length * ka_ * kb_;
-    d.value = (0.5 * (d.x * d.fx + d.y * d.fy) - 1.0) * d.per_length + 0.5 * kBlurVariance_px2 * curvature;
-    return d;
+  void measure(std::span<const PointF> points, Distances& d) const {
+    const double cx = e_.cx_px, cy = e_.cy_px, cosine = turned_.cos, sine = turned_.sin, ka = ka_, kb = kb_;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double u = static_cast<double>(points[k].u) - cx, v = static_cast<double>(points[k].v) - cy;
+      const double x = cosine * u + sine * v, y = cosine * v - sine * u;
+      const double fx = 2.0 * x * ka, fy = 2.0 * y * kb;
+      const double per_length = 1.0 / std::max(std::sqrt(fx * fx + fy * fy), 1e-9);
+      const double curvature = 8.0 * per_length * per_length * per_length * ka * kb;
+      d.x[k] = x;
+      d.y[k] = y;
+      d.fx[k] = fx;
+      d.fy[k] = fy;
+      d.per_length[k] = per_length;
+      d.value[k] = (0.5 * (x * fx + y * fy) - 1.0) * per_length + 0.5 * kBlurVariance_px2 * curvature;
+    }
   }
-  // Of the distance by (cx, cy, m, e1, e2), m = (a+b)/2, (e1, e2) = (a-b)/2 (cos, sin)(2 theta).
-  Vector5 slope(const Distance& d) const {
-    const double fa = -d.fx * d.x / e_.a_px, fb = -d.fy * d.y / e_.b_px;
+  // Of a point's distance by (cx, cy, m, e1, e2), m = (a+b)/2, (e1, e2) = (a-b)/2 (cos, sin)(2 theta).
+  Vector5 slope(const Distances& d, std::size_t k) const {
+    const double fx = d.fx[k], fy = d.fy[k];
+    const double fa = -fx * d.x[k] / e_.a_px, fb = -fy * d.y[k] / e_.b_px;
     // Derivative by theta over (a - b): finite at the circle.
-    const double ft = -2.0 * d.x * d.y * (e_.a_px + e_.b_px) * ka_ * kb_;
+    const double ft = -2.0 * d.x[k] * d.y[k] * (e_.a_px + e_.b_px) * ka_ * kb_;
     Vector5 slope;
-    slope << -(d.fx * turned_.cos - d.fy * turned_.sin), -(d.fx * turned_.sin + d.fy * turned_.cos), fa + fb,
+    slope << -(fx * turned_.cos - fy * turned_.sin), -(fx * turned_.sin + fy * turned_.cos), fa + fb,
         turned_.cos2 * (fa - fb) - turned_.sin2 * ft, turned_.sin2 * (fa - fb) + turned_.cos2 * ft;
-    return slope * d.per_length;
+    return slope * d.per_length[k];
   }
   const Turned& turned() const { return turned_; }
 
@@ -82,11 +89,11 @@ std::optional<Ellipse> moved(const Ellipse& e, const Turned& turned, const Vecto
       {e.cx_px + step[0], e.cy_px + step[1], mean + difference, mean - difference, 0.5 * std::atan2(e2, e1)});
 }
 
-using Distances = std::array<float, kMaxFitPoints>;
-
-double scatter_of(Distances distances, std::size_t count) {
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(distances.begin(), middle, distances.begin() + static_cast<std::ptrdiff_t>(count));
+double scatter_of(const Column& distances, std::size_t count) {
+  std::array<float, kMaxFitPoints> sizes;
+  for (std::size_t k = 0; k < count; ++k) sizes[k] = static_cast<float>(std::abs(distances[k]));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
   return std::max(kLeastSigma_px, kSigmaOfMedian * static_cast<double>(*middle));
 }
 
@@ -98,26 +105,21 @@ struct Normal {
 
 // Lower triangles only.
 Normal normal_equations(const Contour& contour, std::span<const PointF> points) {
-  std::array<Distance, kMaxFitPoints> all;
   Distances distances;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    all[k] = contour.distance(points[k]);
-    distances[k] = static_cast<float>(std::abs(all[k].value));
-  }
+  contour.measure(points, distances);
   Normal normal;
-  normal.sigma = scatter_of(distances, points.size());
+  normal.sigma = scatter_of(distances.value, points.size());
   const double per_width = 1.0 / (kTukey * normal.sigma);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Distance& d = all[k];
-    const double ratio = d.value * per_width;
+    const double ratio = distances.value[k] * per_width;
     if (std::abs(ratio) >= 1.0) continue;
     const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    const Vector5 slope = contour.slope(d);
-    for (int row = 0; row < 5; ++row) {
-      const double weighted = weight * slope[row];
-      for (int column = 0; column <= row; ++column) normal.matrix(row, column) += weighted * slope[column];
-      normal.gradient[row] += weighted * d.value;
+    const Vector5 slope = contour.slope(distances, k);
+    const Vector5 weighted = weight * slope;
+    for (int column = 0; column < 5; ++column) {
+      for (int row = column; row < 5; ++row) normal.matrix(row, column) += weighted[row] * slope[column];
     }
+    normal.gradient += weighted * distances.value[k];
   }
   return normal;
 }

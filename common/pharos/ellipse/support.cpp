@@ -2,7 +2,9 @@
 #include "pharos/ellipse/support.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace pharos::ellipse {
 namespace {
@@ -43,14 +45,20 @@ class Contact {
     const float reach = radius_px * over_b_ + kRounding * (1.0F + size);
     return size - reach <= most_size_ && size + reach >= least_size_;
   }
-  // Distance to first order, or empty off the gate or where the gradient points elsewhere than the normal.
+  // False for most points, without a root or a branch.
+  bool may_touch(PointF p) const {
+    const PointF q = scaled(p);
+    const float x = q.u * over_a_, y = q.v * over_b_;
+    const float f = q.u * q.u + q.v * q.v - 1.0F;
+    return f * f <= kNearly * gate_ * gate_ * (4.0F * (x * x + y * y));
+  }
+  // Of a point that may: its distance to first order; false off the gate or where the gradient points elsewhere than
+  // the normal.
   bool touches(PointF p, PointF gradient, float& distance) const {
     const PointF q = scaled(p);
     const float x = q.u * over_a_, y = q.v * over_b_;
-    const float squared = 4.0F * (x * x + y * y);
     const float f = q.u * q.u + q.v * q.v - 1.0F;
-    if (f * f > kNearly * gate_ * gate_ * squared) return false;  // most points, without a root
-    const float slope = std::sqrt(squared);
+    const float slope = std::sqrt(4.0F * (x * x + y * y));
     if (std::abs(f) > gate_ * slope) return false;
     distance = f / slope;
     const float gx = cos_ * gradient.u + sin_ * gradient.v, gy = cos_ * gradient.v - sin_ * gradient.u;
@@ -63,11 +71,16 @@ class Contact {
   float least_size_, most_size_;  // of q where it touches
 };
 
+// Points looked at together, as many as an arc has samples.
+using Together = std::array<std::uint32_t, kArcSamples>;
+
 bool may_touch(const Contact& contact, const Arc& arc) {
   if (!contact.may_touch_within(arc.about, arc.radius_px)) return false;
+  Together near;
+  for (std::size_t k = 0; k < kArcSamples; ++k) near[k] = contact.may_touch(arc.samples[k]) ? 1 : 0;
   float distance = 0.0F;
   for (std::size_t k = 0; k < kArcSamples; ++k) {
-    if (contact.touches(arc.samples[k], arc.normals[k], distance)) return true;
+    if (near[k] != 0 && contact.touches(arc.samples[k], arc.normals[k], distance)) return true;
   }
   return false;
 }
@@ -76,14 +89,26 @@ bool may_touch(const Contact& contact, const Arc& arc) {
 template <class Take>
 std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const EllipseWorkspace& workspace, Take&& take) {
   std::uint32_t count = 0;
-  for (std::uint32_t k = arc.begin; k < arc.end; ++k) {
-    const EdgePoint& p = workspace.ordered[k];
+  const auto look = [&](const EdgePoint& p) {
     const PointF place{p.u_px, p.v_px};
     float distance = 0.0F;
-    if (!contact.touches(place, {static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)}, distance))
-      continue;
+    if (!contact.touches(place, {static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)}, distance)) return;
     take(place, distance);
     ++count;
+  };
+  const std::span<const EdgePoint> points(workspace.ordered.data() + arc.begin, arc.points());
+  std::size_t begin = 0;
+  for (; begin + kArcSamples <= points.size(); begin += kArcSamples) {
+    Together near;
+    for (std::size_t k = 0; k < kArcSamples; ++k) {
+      near[k] = contact.may_touch({points[begin + k].u_px, points[begin + k].v_px}) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < kArcSamples; ++k) {
+      if (near[k] != 0) look(points[begin + k]);
+    }
+  }
+  for (; begin < points.size(); ++begin) {
+    if (contact.may_touch({points[begin].u_px, points[begin].v_px})) look(points[begin]);
   }
   return count;
 }
@@ -109,20 +134,26 @@ class Sectors {
   }
 
   void shares(Support& support) const {
-    double length = 0.0, turn = 0.0, all_length = 0.0, all_turn = 0.0;
-    for (int k = 0; k < 4 * quarter_; ++k) {
-      const double share = ((k % quarter_) + 0.5) / quarter_;
-      const bool odd = (k / quarter_) % 2 == 1;
+    // Of a quarter from the x axis to the y axis, then of one back: each comes twice.
+    std::array<double, kMaxSectors / 2> lengths, turns;
+    for (int k = 0; k < 2 * quarter_; ++k) {
+      const bool odd = k >= quarter_;
+      const double share = ((odd ? k - quarter_ : k) + 0.5) / quarter_;
       const double x = odd ? share : 1.0 - share, y = 1.0 - x;  // on the diamond; |x + y| = 1 there
       const double squared = x * x + y * y;
       const double anomaly = 1.0 / squared;  // dt a step, but for a factor: dt = (x^2 + y^2)^-1 dshare
       const double slant = (e_.a_px * e_.a_px * y * y + e_.b_px * e_.b_px * x * x) / squared;
-      const double step_length = std::sqrt(slant) * anomaly, step_turn = anomaly / slant;
-      all_length += step_length;
-      all_turn += step_turn;
+      lengths[static_cast<std::size_t>(k)] = std::sqrt(slant) * anomaly;
+      turns[static_cast<std::size_t>(k)] = anomaly / slant;
+    }
+    double length = 0.0, turn = 0.0, all_length = 0.0, all_turn = 0.0;
+    for (int k = 0; k < 4 * quarter_; ++k) {
+      const auto step = static_cast<std::size_t>(k < 2 * quarter_ ? k : k - 2 * quarter_);
+      all_length += lengths[step];
+      all_turn += turns[step];
       if ((marked_ >> k & 1U) == 0) continue;
-      length += step_length;
-      turn += step_turn;
+      length += lengths[step];
+      turn += turns[step];
     }
     support.length_share = length / all_length;
     support.turn_share = turn / all_turn;
@@ -138,7 +169,7 @@ class Sectors {
 
 void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
                      Support& support) {
-  support = {};
+  support.clear();
   const Contact contact(ellipse, bright_inside, gate_px);
   Sectors sectors(ellipse);
   StaticVector<std::uint16_t, kMaxArcs> touching;

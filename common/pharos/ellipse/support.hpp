@@ -22,6 +22,13 @@ struct Support {
   double squared_sum_px2 = 0.0;
   double length_share = 0.0;  ///< of the contour's length, in sectors that have points
   double turn_share = 0.0;    ///< of the contour's full turn, in sectors that have points: sum of theta_i of (4) / 2 pi
+
+  void clear() {
+    points.clear();
+    stride = 1;
+    count = arcs = 0;
+    distance_sum_px = squared_sum_px2 = length_share = turn_share = 0.0;
+  }
 };
 
 /// Points of all arcs within `gate_px` of the contour whose gradient is within 25 deg of its normal, on the side told
