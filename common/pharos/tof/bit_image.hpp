@@ -18,6 +18,8 @@ class BitImage {
   std::int32_t height_px() const { return height_; }
   bool at(std::int32_t u, std::int32_t v) const { return ((word(u, v) >> bit(u)) & 1U) != 0; }
   bool contains(std::int32_t u, std::int32_t v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
+  /// The 64 pixels that hold column u, the first in the lowest bit; none beyond the image may be set.
+  void put(std::int32_t u, std::int32_t v, std::uint64_t pixels) { word(u, v) = pixels; }
   void set(std::int32_t u, std::int32_t v) { word(u, v) |= std::uint64_t{1} << bit(u); }
   void clear(std::int32_t u, std::int32_t v) { word(u, v) &= ~(std::uint64_t{1} << bit(u)); }
 

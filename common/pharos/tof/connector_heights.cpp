@@ -47,10 +47,10 @@ void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const R
   const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
   const auto least = static_cast<float>(ring.radius_m[1] - margin_m);
   const auto most = static_cast<float>(ring.radius_m[0] + margin_m);
-  RayGrid::Row ray;
+  RayGrid::Row<float> ray;
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     rays.row_at(rect.u, rect.v + v, rect.width_px, ray);
-    const float *x = ray.x.data(), *y = ray.y.data();
+    const float *x = ray.x(), *y = ray.y();
     std::uint16_t* row = heights.row(v);
     for (std::int32_t u = 0; u < rect.width_px; ++u) {
       // Where the ray meets the plane, from the centre, times 1/z.

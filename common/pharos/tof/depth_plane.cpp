@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "pharos/base/static_vector.hpp"
 #include "pharos/tof/lottery.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
@@ -23,23 +22,47 @@ constexpr int kPasses = 3;
 // Amplitude's weight stays within this factor of the median's, so that a glint does not decide.
 constexpr double kMostWeight = 4.0;
 
-struct Sample {
-  Vector2 ray = Vector2::Zero();
-  double inverse_z = 0.0;
+// In columns, as compilers take two at a time.
+struct Samples {
+  using Column = std::array<double, static_cast<std::size_t>(kStartPixels)>;
+  Column ray_x, ray_y, inverse_z;
+  std::size_t count = 0;
 };
-using Samples = StaticVector<Sample, kStartPixels>;
 
-double residual(const Vector3& q, const Sample& s) {
-  return s.inverse_z - (q.x() * s.ray.x() + q.y() * s.ray.y() + q.z());
-}
-
-// What a pass sums: normal equations of 1/z = q . r, and the residuals about the q that came in.
+// What a pass sums: normal equations of 1/z = q . (x, y, 1), and the residuals about the q that came in.
 struct Sums {
-  Matrix3 normal = Matrix3::Zero();
-  Vector3 right = Vector3::Zero();
-  double weights = 0.0;
+  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, x = 0.0, y = 0.0, weights = 0.0;
+  double right_x = 0.0, right_y = 0.0, right = 0.0;
   SectorSums residuals;
+
+  void add(double ray_x, double ray_y, double inverse_z, double weight) {
+    const double weighted_x = weight * ray_x, weighted_y = weight * ray_y, weighted = weight * inverse_z;
+    xx += weighted_x * ray_x;
+    xy += weighted_x * ray_y;
+    yx += weighted_y * ray_x;  // rounded otherwise than xy
+    yy += weighted_y * ray_y;
+    x += weighted_x;
+    y += weighted_y;
+    weights += weight;
+    right_x += weighted * ray_x;
+    right_y += weighted * ray_y;
+    right += weighted;
+  }
+  Matrix3 normal() const {
+    Matrix3 m;
+    m << xx, xy, x, yx, yy, y, x, y, weights;
+    return m;
+  }
 };
+
+// Some neighbouring pixels of a row, looked at together: what compilers take two at a time.
+constexpr std::int32_t kPiece_px = 64;
+using Column = std::array<double, static_cast<std::size_t>(kPiece_px)>;
+struct Piece {
+  Column inverse_z, residual, weight, weighted_square;
+};
+
+enum class Pass { kFit, kLast };  // sectors are asked of the last one only
 
 class Fitter {
  public:
@@ -55,9 +78,9 @@ class Fitter {
     if (!(sigma > 0.0)) return std::nullopt;
     Sums sums;
     for (int pass = 0; pass < kPasses; ++pass) {
-      sums = summed(q, kGate * sigma);
+      sums = summed(q, kGate * sigma, Pass::kFit);
       if (sums.residuals.count() < kLeastPlanePixels) return std::nullopt;
-      const Vector3 next = sums.normal.inverse() * sums.right;
+      const Vector3 next = sums.normal().inverse() * Vector3(sums.right_x, sums.right_y, sums.right);
       if (!next.allFinite()) return std::nullopt;
       q = next;
       sigma = std::max(floor_, kGateLoss * std::sqrt(sums.residuals.variance()));
@@ -71,68 +94,68 @@ class Fitter {
   static constexpr double kGateLoss = 1.0 / 0.98657;
 
   template <class Visit>
-  void for_each_depth(Visit visit) const {
-    for_each_pixel_between(region_.inner, region_.outer, frame_.depth.width_px, frame_.depth.height_px,
-                           [&](std::int32_t u, std::int32_t v) {
-                             const std::uint16_t counts = frame_.depth.at(u, v);
-                             if (has_depth(counts)) visit(u, v, counts);
-                           });
-  }
-  Sample sample(std::int32_t u, std::int32_t v, std::uint16_t counts) const {
-    return {rays_.at(u, v), 1.0 / depth_z_m(camera_, counts)};
+  void for_each_span(Visit visit) const {
+    for_each_span_between(region_.inner, region_.outer, frame_.depth.width_px, frame_.depth.height_px, visit);
   }
 
   void count() {
-    for_each_pixel_between(region_.inner, region_.outer, frame_.depth.width_px, frame_.depth.height_px,
-                           [&](std::int32_t u, std::int32_t v) {
-                             ++pixels_;
-                             with_depth_ += has_depth(frame_.depth.at(u, v)) ? 1 : 0;
-                           });
+    for_each_span([&](std::int32_t v, PixelSpan span) {
+      const std::uint16_t* depth = frame_.depth.row(v);
+      pixels_ += span.last - span.first + 1;
+      for (std::int32_t u = span.first; u <= span.last; ++u) with_depth_ += has_depth(depth[u]) ? 1 : 0;
+    });
   }
 
   // Evenly over the region; their median amplitude is what weights are relative to.
   void take_start_pixels() {
-    std::int32_t index = 0;
+    std::int32_t due = 0;  // one is taken whenever this reaches the number of pixels
     std::array<std::uint16_t, kStartPixels> amplitudes{};
-    for_each_depth([&](std::int32_t u, std::int32_t v, std::uint16_t counts) {
-      const bool take = static_cast<std::int64_t>(index) * kStartPixels / with_depth_ !=
-                        (static_cast<std::int64_t>(index) + 1) * kStartPixels / with_depth_;
-      ++index;
-      if (!take || !(depth_z_m(camera_, counts) > 0.0) || start_.full()) return;
-      amplitudes[start_.size()] = frame_.intensity.at(u, v);
-      start_.push_back(sample(u, v, counts));
+    for_each_span([&](std::int32_t v, PixelSpan span) {
+      const std::uint16_t* depth = frame_.depth.row(v);
+      for (std::int32_t u = span.first; u <= span.last; ++u) {
+        if (!has_depth(depth[u])) continue;
+        due += kStartPixels;
+        if (due < with_depth_) continue;
+        due %= with_depth_;
+        if (!(depth_z_m(camera_, depth[u]) > 0.0) || start_.count == amplitudes.size()) continue;
+        const Vector2 ray = rays_.at(u, v);
+        amplitudes[start_.count] = frame_.intensity.at(u, v);
+        start_.ray_x[start_.count] = ray.x();
+        start_.ray_y[start_.count] = ray.y();
+        start_.inverse_z[start_.count++] = 1.0 / depth_z_m(camera_, depth[u]);
+      }
     });
-    const auto middle = amplitudes.begin() + static_cast<std::ptrdiff_t>(start_.size() / 2);
-    std::nth_element(amplitudes.begin(), middle, amplitudes.begin() + static_cast<std::ptrdiff_t>(start_.size()));
+    const auto middle = amplitudes.begin() + static_cast<std::ptrdiff_t>(start_.count / 2);
+    std::nth_element(amplitudes.begin(), middle, amplitudes.begin() + static_cast<std::ptrdiff_t>(start_.count));
     amplitude_ = std::max<double>(1.0, *middle);
     weight_scale_ = 1.0 / (amplitude_ * amplitude_);
     // Noiseless depths still differ by their rounding.
-    floor_ = start_.empty() ? 0.0 : camera_.depth_scale_m * start_[0].inverse_z * start_[0].inverse_z;
+    floor_ = start_.count == 0 ? 0.0 : camera_.depth_scale_m * start_.inverse_z[0] * start_.inverse_z[0];
   }
 
   // Least median of squares; the deviation that goes with it, 1/m.
   double start(Vector3& best) const {
-    const std::size_t count = start_.size();
+    const std::size_t count = start_.count;
     if (count < kLeastPlanePixels / 2) return 0.0;
     Lottery lottery;
     double best_median = -1.0;
-    std::array<double, kStartPixels> distance{};
+    Samples::Column distance;
     for (int k = 0; k < kTriples; ++k) {
-      const Sample* three[3] = {&start_[lottery.below(count)], &start_[lottery.below(count)],
-                                &start_[lottery.below(count)]};
       Matrix3 rows;
       Vector3 right;
       for (int i = 0; i < 3; ++i) {
-        rows.row(i) << three[i]->ray.x(), three[i]->ray.y(), 1.0;
-        right[i] = three[i]->inverse_z;
+        const std::size_t one = lottery.below(count);
+        rows.row(i) << start_.ray_x[one], start_.ray_y[one], 1.0;
+        right[i] = start_.inverse_z[one];
       }
       const Vector3 q = rows.inverse() * right;
       if (!q.allFinite()) continue;
-      std::size_t nearer = 0;
+      const double qx = q.x(), qy = q.y(), qz = q.z();
       for (std::size_t i = 0; i < count; ++i) {
-        distance[i] = std::fabs(residual(q, start_[i]));
-        nearer += distance[i] < best_median ? 1U : 0U;
+        distance[i] = std::fabs(start_.inverse_z[i] - (qx * start_.ray_x[i] + qy * start_.ray_y[i] + qz));
       }
+      std::size_t nearer = 0;
+      for (std::size_t i = 0; i < count; ++i) nearer += distance[i] < best_median ? 1U : 0U;
       if (best_median >= 0.0 && nearer <= count / 2) continue;  // the median is no less
       const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(count / 2);
       std::nth_element(distance.begin(), middle, distance.begin() + static_cast<std::ptrdiff_t>(count));
@@ -142,31 +165,56 @@ class Fitter {
     return best_median < 0.0 ? 0.0 : std::max(kMedianToSigma * best_median, floor_);
   }
 
-  double weight(std::int32_t u, std::int32_t v) const {
-    const double amplitude = frame_.intensity.at(u, v);
-    return std::clamp(amplitude * amplitude * weight_scale_, 1.0 / kMostWeight, kMostWeight);
+  // Pixels (first + k, v), k < count, whose rays these are.
+  void look_at(std::int32_t first, std::int32_t v, std::int32_t count, const double* ray_x, const double* ray_y,
+               const Vector3& q, Piece& piece) const {
+    const std::uint16_t* depth = frame_.depth.row(v) + first;
+    const std::uint16_t* light = frame_.intensity.row(v) + first;
+    const double scale = camera_.depth_scale_m, origin = camera_.depth_origin_z_m, weight_scale = weight_scale_;
+    const double qx = q.x(), qy = q.y(), qz = q.z();
+    for (std::int32_t i = 0; i < count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double amplitude = light[i];
+      const double inverse_z = 1.0 / (depth[i] * scale + origin);
+      const double residual = inverse_z - (qx * ray_x[i] + qy * ray_y[i] + qz);
+      const double weight = std::clamp(amplitude * amplitude * weight_scale, 1.0 / kMostWeight, kMostWeight);
+      piece.inverse_z[k] = inverse_z;
+      piece.residual[k] = residual;
+      piece.weight[k] = weight;
+      piece.weighted_square[k] = residual * residual * weight;
+    }
   }
 
-  Sums summed(const Vector3& q, double gate) const {
+  Sums summed(const Vector3& q, double gate, Pass pass) const {
     Sums sums;
-    for_each_depth([&](std::int32_t u, std::int32_t v, std::uint16_t counts) {
-      const Sample s = sample(u, v, counts);
-      const double r = residual(q, s);
-      const double w = weight(u, v);
-      if (!(r * r * w < gate * gate)) return;
-      const Vector3 row(s.ray.x(), s.ray.y(), 1.0);
-      sums.normal.noalias() += (w * row) * row.transpose();
-      sums.right += (w * s.inverse_z) * row;
-      sums.weights += w;
-      sums.residuals.add(u - middle_u(), v - middle_v(), w, r);
+    RayGrid::Row<double> rays;
+    Piece piece;
+    const double middle_u = 0.5 * (region_.outer.left_px() + region_.outer.right_px());
+    const double middle_v = 0.5 * (region_.outer.top_px() + region_.outer.bottom_px());
+    for_each_span([&](std::int32_t v, PixelSpan span) {
+      const std::uint16_t* depth = frame_.depth.row(v);
+      rays_.row_at(span.first, v, span.last - span.first + 1, rays);
+      for (std::int32_t begin = span.first; begin <= span.last; begin += kPiece_px) {
+        const std::int32_t count = std::min(kPiece_px, span.last - begin + 1);
+        const double *ray_x = rays.x() + (begin - span.first), *ray_y = rays.y() + (begin - span.first);
+        look_at(begin, v, count, ray_x, ray_y, q, piece);
+        for (std::int32_t i = 0; i < count; ++i) {
+          const auto k = static_cast<std::size_t>(i);
+          if (!has_depth(depth[begin + i]) || !(piece.weighted_square[k] < gate * gate)) continue;
+          sums.add(ray_x[i], ray_y[i], piece.inverse_z[k], piece.weight[k]);
+          if (pass == Pass::kLast) {
+            sums.residuals.add(begin + i - middle_u, v - middle_v, piece.weight[k], piece.residual[k]);
+          } else {
+            sums.residuals.add(piece.weight[k], piece.residual[k]);
+          }
+        }
+      }
     });
     return sums;
   }
-  double middle_u() const { return 0.5 * (region_.outer.left_px() + region_.outer.right_px()); }
-  double middle_v() const { return 0.5 * (region_.outer.top_px() + region_.outer.bottom_px()); }
 
   std::optional<PlaneFit> answer(const Vector3& q, double sigma) const {
-    const Sums sums = summed(q, kGate * sigma);
+    const Sums sums = summed(q, kGate * sigma, Pass::kLast);
     const std::int32_t used = sums.residuals.count();
     if (used < kLeastPlanePixels) return std::nullopt;
     PlaneFit fit;
@@ -174,10 +222,10 @@ class Fitter {
     fit.pixels = used;
     fit.amplitude = amplitude_;
     fit.inlier_share = static_cast<double>(used) / pixels_;
-    const double mean_inverse_z = sums.right.z() / sums.weights;
+    const double mean_inverse_z = sums.right / sums.weights;
     fit.rms_m = sigma / (mean_inverse_z * mean_inverse_z);
     fit.correlation = sums.residuals.correlation(3);
-    fit.information = sums.normal / (sigma * sigma * fit.correlation);
+    fit.information = sums.normal() / (sigma * sigma * fit.correlation);
     return fit;
   }
 

@@ -60,19 +60,21 @@ class EllipseRows {
   double half_width_, half_height_;
 };
 
-/// Calls visit(u, v) for every pixel of a width x height image inside `outer` and outside `inner`.
+/// Calls visit(v, span) for every span of pixels of a width x height image inside `outer` and outside `inner`; no span
+/// is empty.
 template <class Visit>
-void for_each_pixel_between(const EllipseRows& inner, const EllipseRows& outer, std::int32_t width_px,
-                            std::int32_t height_px, Visit visit) {
+void for_each_span_between(const EllipseRows& inner, const EllipseRows& outer, std::int32_t width_px,
+                           std::int32_t height_px, Visit visit) {
   const PixelSpan rows = outer.rows(height_px);
   for (std::int32_t v = rows.first; v <= rows.last; ++v) {
     const PixelSpan all = outer.at(v, width_px);
     const PixelSpan hole = inner.at(v, width_px);
     const bool holed = hole.last >= hole.first;
     const std::int32_t left_end = holed ? std::min(all.last, hole.first - 1) : all.last;
-    for (std::int32_t u = all.first; u <= left_end; ++u) visit(u, v);
+    if (all.first <= left_end) visit(v, PixelSpan{all.first, left_end});
     if (!holed) continue;
-    for (std::int32_t u = std::max(all.first, hole.last + 1); u <= all.last; ++u) visit(u, v);
+    const std::int32_t right_begin = std::max(all.first, hole.last + 1);
+    if (right_begin <= all.last) visit(v, PixelSpan{right_begin, all.last});
   }
 }
 

@@ -13,12 +13,12 @@ void make_heights(const TofFrame& frame, const DepthCamera& camera, const RayGri
   const auto origin = static_cast<float>(camera.depth_origin_z_m);
   const Eigen::Vector3f q = plane.q.cast<float>();
   const auto per_share = static_cast<float>(1.0 / (plane.q.norm() * kHeightUnit_m));
-  RayGrid::Row ray;
+  RayGrid::Row<float> ray;
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     const std::uint16_t* depth = frame.depth.row(rect.v + v) + rect.u;
     std::uint16_t* out = heights.row(v);
     rays.row_at(rect.u, rect.v + v, rect.width_px, ray);
-    const float *x = ray.x.data(), *y = ray.y.data();
+    const float *x = ray.x(), *y = ray.y();
     for (std::int32_t u = 0; u < rect.width_px; ++u) {
       const float z = static_cast<float>(depth[u]) * scale + origin;
       const float height = (1.0F - z * (q.x() * x[u] + q.y() * y[u] + q.z())) * per_share;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tof/layer_light.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,29 +30,77 @@ struct InverseDepth {
   }
 };
 
+// Of each sample, so that compilers take two at a time.
+using PerSample = std::array<double, kMostSamples>;
 // The four pixels around a place: left and right of the upper row, then of the lower one.
-struct Corners {
-  std::array<double, 4> light;
-  std::array<std::uint16_t, 4> counts;
+constexpr std::size_t kCorners = 4;
 
-  Corners(const TofFrame& frame, std::int32_t left, std::int32_t top) {
-    const std::uint16_t *upper = frame.intensity.row(top) + left, *lower = upper + frame.intensity.stride_px;
-    light = {static_cast<double>(upper[0]), static_cast<double>(upper[1]), static_cast<double>(lower[0]),
-             static_cast<double>(lower[1])};
-    const std::uint16_t *far_upper = frame.depth.row(top) + left, *far_lower = far_upper + frame.depth.stride_px;
-    counts = {far_upper[0], far_upper[1], far_lower[0], far_lower[1]};
-  }
-  // False where one has light but no depth; what is dark has no light then.
-  bool can_be_used(double dark_counts) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (light[k] >= kFullScale) return false;
-      if (has_depth(counts[k])) continue;
-      if (light[k] > dark_counts) return false;
-      light[k] = 0.0;
-    }
-    return true;
-  }
+// Where the samples lie, and what their corners hold.
+struct Places {
+  std::array<std::int32_t, kMostSamples> left, top;
+  PerSample s, t;       // of the way to the right, and down
+  PerSample inverse_z;  // of the plane, at the left upper corner
+  std::array<PerSample, kCorners> light, counts;
 };
+
+void take_places(const InverseDepth& inverse, const Vector2& middle, const Vector2& direction, double reach,
+                 std::size_t count, Places& places) {
+  const double middle_u = middle.x(), middle_v = middle.y(), step_u = direction.x(), step_v = direction.y();
+  const double here = inverse.here, per_u = inverse.per_u, per_v = inverse.per_v;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double way = static_cast<double>(static_cast<std::int32_t>(i)) - reach;
+    const double u = middle_u + way * step_u, v = middle_v + way * step_v;
+    const auto left = static_cast<std::int32_t>(u), top = static_cast<std::int32_t>(v);
+    places.left[i] = left;
+    places.top[i] = top;
+    places.s[i] = u - left;
+    places.t[i] = v - top;
+    places.inverse_z[i] = here + (left - middle_u) * per_u + (top - middle_v) * per_v;
+  }
+}
+
+// False where a pixel has light but no depth; what is dark has no light then.
+bool take_corners(const TofFrame& frame, double dark_counts, std::size_t count, Places& places) {
+  const auto dark = static_cast<std::int32_t>(std::clamp(std::floor(dark_counts), -1.0, double{kFullScale}));
+  bool usable = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t* light = frame.intensity.row(places.top[i]) + places.left[i];
+    const std::uint16_t* counts = frame.depth.row(places.top[i]) + places.left[i];
+    const auto take = [&](std::size_t corner, std::uint16_t bright, std::uint16_t far) {
+      const bool seen = has_depth(far);
+      usable = usable && bright != kFullScale && (seen || bright <= dark);
+      places.light[corner][i] = seen ? bright : 0;
+      places.counts[corner][i] = far;
+    };
+    take(0, light[0], counts[0]);
+    take(1, light[1], counts[1]);
+    take(2, light[frame.intensity.stride_px], counts[frame.depth.stride_px]);
+    take(3, light[frame.intensity.stride_px + 1], counts[frame.depth.stride_px + 1]);
+    if (!usable) return false;
+  }
+  return true;
+}
+
+// Amplitude and moment of all samples, between their corners.
+void sum_corners(const DepthCamera& camera, const InverseDepth& inverse, double height_unit, std::size_t count,
+                 const Places& places, LightProfile& profile) {
+  const double scale = camera.depth_scale_m, origin = camera.depth_origin_z_m;
+  const double per_u = inverse.per_u, per_v = inverse.per_v;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double s = places.s[i], t = places.t[i], first = places.inverse_z[i];
+    const std::array<double, kCorners> share = {(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t};
+    const std::array<double, kCorners> inverse_z = {first, first + per_u, first + per_v, first + per_u + per_v};
+    double amplitude = 0.0;
+    double moment = 0.0;
+    for (std::size_t k = 0; k < kCorners; ++k) {
+      const double weight = share[k] * places.light[k][i];
+      amplitude += weight;
+      moment += weight * (1.0 - (places.counts[k][i] * scale + origin) * inverse_z[k]);
+    }
+    profile.amplitude[i] = amplitude;
+    profile.moment[i] = moment * height_unit;
+  }
+}
 
 }  // namespace
 
@@ -63,29 +112,11 @@ bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGri
     return false;
   }
   const InverseDepth inverse(rays, plane, middle);
-  const double height_unit = 1.0 / plane.q.norm();
-  for (int i = 0; i <= 2 * (search_px + kProfileReach_px); ++i) {
-    const Vector2 pixel = middle + (i - reach) * direction;
-    const auto left = static_cast<std::int32_t>(pixel.x());
-    const auto top = static_cast<std::int32_t>(pixel.y());
-    const double s = pixel.x() - left;
-    const double t = pixel.y() - top;
-    Corners corners(frame, left, top);
-    if (!corners.can_be_used(dark_counts)) return false;
-    const std::array<double, 4> share = {(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t};
-    const double first = inverse.here + (left - middle.x()) * inverse.per_u + (top - middle.y()) * inverse.per_v;
-    const std::array<double, 4> inverse_z = {first, first + inverse.per_u, first + inverse.per_v,
-                                             first + inverse.per_u + inverse.per_v};
-    double amplitude = 0.0;
-    double moment = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double weight = share[k] * corners.light[k];
-      amplitude += weight;
-      moment += weight * (1.0 - depth_z_m(camera, corners.counts[k]) * inverse_z[k]);
-    }
-    profile.amplitude[static_cast<std::size_t>(i)] = amplitude;
-    profile.moment[static_cast<std::size_t>(i)] = moment * height_unit;
-  }
+  const auto count = static_cast<std::size_t>(2 * (search_px + kProfileReach_px) + 1);
+  Places places;
+  take_places(inverse, middle, direction, reach, count, places);
+  if (!take_corners(frame, dark_counts, count, places)) return false;
+  sum_corners(camera, inverse, 1.0 / plane.q.norm(), count, places, profile);
   return true;
 }
 

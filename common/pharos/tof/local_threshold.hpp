@@ -12,16 +12,18 @@ namespace pharos::tof {
 
 /// Sums of a window's rows, one a column.
 struct ColumnSums {
-  std::int32_t count = 0;
-  std::int64_t sum = 0;
-  std::int64_t squares = 0;
+  template <class Number>
+  using PerColumn = std::array<Number, static_cast<std::size_t>(kMaxWidth_px)>;
+  PerColumn<std::int32_t> count{};
+  PerColumn<std::int32_t> sum{};
+  PerColumn<std::int64_t> squares{};
 };
 
 struct ThresholdWorkspace {
-  std::array<ColumnSums, static_cast<std::size_t>(kMaxWidth_px)> columns;
+  ColumnSums columns;
 };
 
-/// Largest half window: sums of its squares stay within 64 bits, and no connector is larger.
+/// Largest half window: its sums stay within 32 bits, those of squares within 64, and no connector is larger.
 inline constexpr std::int32_t kMostHalfWindow_px = 24;
 
 /// Marks pixels that grow (paper 000, (5) and step 3): G > T, T = m - 0.2 s, over windows of

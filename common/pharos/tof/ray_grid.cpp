@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tof/ray_grid.hpp"
 
-#include <algorithm>
-
 namespace pharos::tof {
 
 bool RayGrid::prepare(const PinholeCamera& camera) {
@@ -24,33 +22,39 @@ bool RayGrid::prepare(const PinholeCamera& camera) {
   return true;
 }
 
-Vector2 RayGrid::at(double u_px, double v_px) const {
-  const double column = u_px / kStep_px;
-  const double row = v_px / kStep_px;
-  const int left = std::clamp(static_cast<int>(column), 0, columns_ - 2);
-  const int top = std::clamp(static_cast<int>(row), 0, rows_ - 2);
-  const double s = column - left;
-  const double t = row - top;
-  const Node* node = &nodes_[static_cast<std::size_t>(top * columns_ + left)];
-  const Node* below = node + columns_;
-  return {(1.0 - t) * ((1.0 - s) * node[0].x + s * node[1].x) + t * ((1.0 - s) * below[0].x + s * below[1].x),
-          (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y)};
-}
-
-void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row& row) const {
+void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<float>& row) const {
   const double t = static_cast<double>(v % kStep_px) / kStep_px;
   const auto between = [t](double above, double below) { return static_cast<float>((1.0 - t) * above + t * below); };
-  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_)];
-  for (std::int32_t k = 0; k < count;) {
-    const int cell = (u + k) / kStep_px;
-    const int first = (u + k) % kStep_px;
-    const Node* left = node + cell;
-    const Node* below = left + columns_;
-    const float x = between(left[0].x, below[0].x), step_x = (between(left[1].x, below[1].x) - x) / kStep_px;
-    const float y = between(left[0].y, below[0].y), step_y = (between(left[1].y, below[1].y) - y) / kStep_px;
-    for (int s = first; s < kStep_px && k < count; ++s, ++k) {
-      row.x[static_cast<std::size_t>(k)] = x + static_cast<float>(s) * step_x;
-      row.y[static_cast<std::size_t>(k)] = y + static_cast<float>(s) * step_y;
+  row.first_ = u % kStep_px;
+  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_ + u / kStep_px)];
+  const Node* below = node + columns_;
+  float *out_x = row.x_.data(), *out_y = row.y_.data();
+  float x = between(node[0].x, below[0].x), y = between(node[0].y, below[0].y);
+  for (std::int32_t k = -row.first_; k < count; k += kStep_px) {
+    ++node;
+    ++below;
+    const float next_x = between(node[0].x, below[0].x), next_y = between(node[0].y, below[0].y);
+    const float step_x = (next_x - x) / kStep_px, step_y = (next_y - y) / kStep_px;
+    for (int s = 0; s < kStep_px; ++s) out_x[s] = x + static_cast<float>(s) * step_x;
+    for (int s = 0; s < kStep_px; ++s) out_y[s] = y + static_cast<float>(s) * step_y;
+    out_x += kStep_px;
+    out_y += kStep_px;
+    x = next_x;
+    y = next_y;
+  }
+}
+
+void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<double>& row) const {
+  constexpr std::array<double, kStep_px> kShares = {0.0, 0.25, 0.5, 0.75};
+  const double t = static_cast<double>(v % kStep_px) / kStep_px;
+  row.first_ = u % kStep_px;
+  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_ + u / kStep_px)];
+  const Node* below = node + columns_;
+  double *out_x = row.x_.data(), *out_y = row.y_.data();
+  for (std::int32_t k = -row.first_; k < count; k += kStep_px, ++node, ++below) {
+    for (const double s : kShares) {
+      *out_x++ = (1.0 - t) * ((1.0 - s) * node[0].x + s * node[1].x) + t * ((1.0 - s) * below[0].x + s * below[1].x);
+      *out_y++ = (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y);
     }
   }
 }

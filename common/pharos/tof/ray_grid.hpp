@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "pharos/camera/depth_camera.hpp"
@@ -19,17 +20,28 @@ class RayGrid {
   /// Ray (x/z, y/z) of a pixel position in the image.
   Vector2 at(double u_px, double v_px) const;
 
-  /// Rays of one row's pixels, for work on whole images: of `count` pixels from (u, v) on, in single precision.
-  struct Row {
-    std::array<float, kMaxWidth_px> x;
-    std::array<float, kMaxWidth_px> y;
+  /// Rays of one row's pixels, for work on whole images: x()[k], y()[k] of pixel (u + k, v).
+  template <class Number>
+  class Row {
+   public:
+    const Number* x() const { return x_.data() + first_; }
+    const Number* y() const { return y_.data() + first_; }
+
+   private:
+    friend class RayGrid;
+    std::array<Number, static_cast<std::size_t>(kMaxWidth_px)> x_, y_;  // whole cells, from the first pixel's on
+    std::int32_t first_ = 0;
   };
-  void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row& row) const;
+  /// `count` pixels from (u, v) on, in single precision.
+  void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<float>& row) const;
+  /// The same as at() has them, bit by bit.
+  void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<double>& row) const;
 
   const PinholeCamera& camera() const { return camera_; }
 
  private:
   static constexpr int kStep_px = 4;
+  static_assert(kMaxWidth_px % kStep_px == 0);
   static constexpr int kColumns = kMaxWidth_px / kStep_px + 2;
   static constexpr int kRows = kMaxHeight_px / kStep_px + 2;
 
@@ -43,5 +55,18 @@ class RayGrid {
   int rows_ = 0;
   std::array<Node, static_cast<std::size_t>(kColumns* kRows)> nodes_{};
 };
+
+inline Vector2 RayGrid::at(double u_px, double v_px) const {
+  const double column = u_px / kStep_px;
+  const double row = v_px / kStep_px;
+  const int left = std::clamp(static_cast<int>(column), 0, columns_ - 2);
+  const int top = std::clamp(static_cast<int>(row), 0, rows_ - 2);
+  const double s = column - left;
+  const double t = row - top;
+  const Node* node = &nodes_[static_cast<std::size_t>(top * columns_ + left)];
+  const Node* below = node + columns_;
+  return {(1.0 - t) * ((1.0 - s) * node[0].x + s * node[1].x) + t * ((1.0 - s) * below[0].x + s * below[1].x),
+          (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y)};
+}
 
 }  // namespace pharos::tof

@@ -37,7 +37,7 @@ bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& p
 
 void drop_weak(RingEdgePoints& points) {
   if (points.empty()) return;
-  std::array<double, kMostEdgePoints> strengths{};
+  std::array<double, kMostEdgePoints> strengths;
   for (std::size_t i = 0; i < points.size(); ++i) strengths[i] = points[i].strength;
   const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(strengths.begin(), middle, strengths.begin() + static_cast<std::ptrdiff_t>(points.size()));

@@ -12,7 +12,6 @@
 namespace pharos::tof {
 namespace {
 
-using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix37 = Eigen::Matrix<double, 3, 7>;
 
 constexpr int kRounds = 3;
@@ -65,7 +64,7 @@ RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by
 
 // Robust deviation of what the model leaves.
 double deviation(const RingEdgePoints& points, const std::array<double, kMostEdgePoints>& residuals) {
-  std::array<double, kMostEdgePoints> sizes{};
+  std::array<double, kMostEdgePoints> sizes;
   for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(points.size()));
@@ -91,16 +90,18 @@ struct EdgeSums {
   }
 };
 
-EdgeSums edge_sums(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes,
-                   const RingEdgePoints& points, RingEdge edge, const Vector7& step) {
+void take_rows(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, RingEdge edge,
+               RingFitWorkspace& workspace) {
+  const RingEdgePoints& points = workspace.points[index_of(edge)];
+  auto& rows = workspace.rows[index_of(edge)];
+  for (std::size_t i = 0; i < points.size(); ++i) rows[i] = edge_row(camera, model, axes, points[i], edge);
+}
+
+EdgeSums edge_sums(const RingEdgePoints& points, const RingEdgeRows& rows, const Vector7& step) {
   EdgeSums sums;
   if (points.size() < kLeastEdgePoints) return sums;
-  std::array<Vector7, kMostEdgePoints> rows;
-  std::array<double, kMostEdgePoints> residuals{};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    rows[i] = edge_row(camera, model, axes, points[i], edge);
-    residuals[i] = points[i].offset_px - rows[i].dot(step);
-  }
+  std::array<double, kMostEdgePoints> residuals;
+  for (std::size_t i = 0; i < points.size(); ++i) residuals[i] = points[i].offset_px - rows[i].dot(step);
   const double gate = kGate * deviation(points, residuals);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!(std::fabs(residuals[i]) < gate)) continue;
@@ -124,8 +125,9 @@ struct Solved {
 
 // Both circles' edges and the depths' plane, reweighted from what they leave.
 std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& model, const PlaneFit& plane,
-                                  const std::array<RingEdgePoints, 2>& points) {
+                                  RingFitWorkspace& workspace) {
   const PlaneAxes axes = axes_of(model.normal);
+  for (const RingEdge edge : kRingEdges) take_rows(camera, model, axes, edge, workspace);
   const Matrix37 by_plane = plane_jacobian(model, axes);
   const Vector3 plane_offset = plane.plane.q - model.plane().q;
   Solved solved;
@@ -136,7 +138,7 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
     solved.edge_points = 0;
     EdgeSums both;
     for (const RingEdge edge : kRingEdges) {
-      const EdgeSums sums = edge_sums(camera, model, axes, points[index_of(edge)], edge, solved.step);
+      const EdgeSums sums = edge_sums(workspace.points[index_of(edge)], workspace.rows[index_of(edge)], solved.step);
       normal += sums.normal;
       right += sums.right;
       both.with_wall += sums.with_wall;
@@ -243,7 +245,7 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
       fit.seen =
           find_ring_edges(frame, camera, rays, fit.model, edge, search_px, look, workspace.points[index_of(edge)]);
     }
-    const auto solved = solve_round(camera, fit.model, plane, workspace.points);
+    const auto solved = solve_round(camera, fit.model, plane, workspace);
     if (!solved) return std::nullopt;
     fit.model = moved(fit.model, axes_of(fit.model.normal), solved->step);
     if (!is_sane(fit.model)) return std::nullopt;

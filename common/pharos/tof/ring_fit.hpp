@@ -9,6 +9,7 @@
 namespace pharos::tof {
 
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// The measured ring.
 struct RingFit {
@@ -25,9 +26,13 @@ struct RingFit {
   double disagreement = 0.0;
 };
 
-/// Where the edges of a ring are found, between rounds of the fit.
+/// How the places of a circle's edge points move with the fit's unknowns, px.
+using RingEdgeRows = std::array<Vector7, kMostEdgePoints>;
+
+/// Where the edges of a ring are found, between rounds of the fit, and their rows.
 struct RingFitWorkspace {
   std::array<RingEdgePoints, 2> points;
+  std::array<RingEdgeRows, 2> rows;
 };
 
 /// Two concentric circles in the plane of the depths: all that the frame says about the ring, in one least-squares fit.

@@ -19,6 +19,10 @@ class SectorSums {
   void add(double du, double dv, double weight, double residual) {
     const std::size_t k = sector_of(du, dv);
     sum_[k] += weight * residual;
+    add(weight, residual);
+  }
+  /// Where count() and variance() alone are asked.
+  void add(double weight, double residual) {
     weights_ += weight;
     squares_ += weight * residual * residual;
     ++count_;

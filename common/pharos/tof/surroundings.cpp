@@ -16,9 +16,10 @@ constexpr double kFaceQuantile = 0.85;
 
 // Counts of the height image.
 struct Samples {
-  std::array<std::uint16_t, kMostSamples> height{};
+  std::array<std::uint16_t, kMostSamples> height;  // `count` of them
   std::size_t count = 0;
 
+  bool full() const { return count == kMostSamples; }
   void add(std::uint16_t value) {
     if (count < kMostSamples) height[count++] = value;
   }
@@ -33,12 +34,32 @@ struct Samples {
 Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) {
   Samples samples;
   const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMostSamples);
-  std::int32_t met = 0;
+  std::int32_t passed = stride - 1;
   for (std::int32_t v = region.top; v <= region.bottom; ++v) {
     const Region::Extent& row = region.row[static_cast<std::size_t>(v - region.top)];
     for (std::int32_t u = row.first; u <= row.last; ++u) {
-      if (heights.at(u, v) == kNoHeight || met++ % stride != 0) continue;
+      if (heights.at(u, v) == kNoHeight || ++passed < stride) continue;
       samples.add(heights.at(u, v));
+      passed = 0;
+    }
+  }
+  return samples;
+}
+
+std::int32_t reach_around(const Region& region) { return std::max<std::int32_t>({6, region.rows(), region.columns()}); }
+std::int32_t stride_around(const Region& region) { return 1 + reach_around(region) / 16; }
+
+Samples around(ImageView<const std::uint16_t> heights, const Region& region) {
+  const std::int32_t reach = reach_around(region), stride = stride_around(region);
+  Samples samples;
+  for (std::int32_t v = region.top - reach; v <= region.bottom + reach && !samples.full(); v += stride) {
+    if (v < 0 || v >= heights.height_px) continue;
+    const bool own_row = v >= region.top - 1 && v <= region.bottom + 1;
+    const std::uint16_t* row = heights.row(v);
+    for (std::int32_t u = region.left - reach; u <= region.right + reach; u += stride) {
+      const bool own = own_row && u >= region.left - 1 && u <= region.right + 1;
+      if (own || u < 0 || u >= heights.width_px || row[u] == kNoHeight) continue;
+      samples.add(row[u]);
     }
   }
   return samples;
@@ -47,33 +68,25 @@ Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) 
 }  // namespace
 
 Surroundings surroundings_of(ImageView<const std::uint16_t> heights, const Region& region) {
-  const std::int32_t reach = std::max<std::int32_t>({6, region.rows(), region.columns()});
-  Surroundings around;
-  around.stride_px = 1 + reach / 16;
-  Samples samples;
-  for (std::int32_t v = region.top - reach; v <= region.bottom + reach; v += around.stride_px) {
-    for (std::int32_t u = region.left - reach; u <= region.right + reach; u += around.stride_px) {
-      const bool own = v >= region.top - 1 && v <= region.bottom + 1 && u >= region.left - 1 && u <= region.right + 1;
-      if (own || !heights.contains(u, v) || heights.at(u, v) == kNoHeight) continue;
-      samples.add(heights.at(u, v));
-    }
-  }
-  around.samples = samples.count;
-  if (samples.count < kLeastSurroundings) return around;
+  Surroundings found;
+  found.stride_px = stride_around(region);
+  Samples samples = around(heights, region);
+  found.samples = samples.count;
+  if (samples.count < kLeastSurroundings) return found;
   const std::uint16_t foot = samples.quantile(0.5);
-  around.foot_m = height_of(foot);
+  found.foot_m = height_of(foot);
   for (std::size_t i = 0; i < samples.count; ++i) {
     samples.height[i] = static_cast<std::uint16_t>(std::abs(samples.height[i] - foot));
   }
-  around.sigma_m = kMedianToSigma * kHeightUnit_m * samples.quantile(0.5);
-  return around;
+  found.sigma_m = kMedianToSigma * kHeightUnit_m * samples.quantile(0.5);
+  return found;
 }
 
 void mark_face(ImageView<const std::uint16_t> heights, const Region& region, double least_height_m, BitImage& faces) {
-  const Surroundings around = surroundings_of(heights, region);
   Samples own = inside_of(heights, region);
   if (own.count == 0) return;
-  const double foot = around.samples < kLeastSurroundings ? -kMostHeight_m : around.foot_m;
+  Samples beside = around(heights, region);
+  const double foot = beside.count < kLeastSurroundings ? -kMostHeight_m : height_of(beside.quantile(0.5));
   const double high = height_of(own.quantile(kFaceQuantile));
   if (high - foot < least_height_m) return;
   Samples face;

@@ -55,15 +55,18 @@ TEST_F(DepthPlaneTest, GridOfRaysIsThatOfTheLens) {
 }
 
 TEST_F(DepthPlaneTest, RowsOfRaysAreThoseOfThePixels) {
-  RayGrid::Row row;
+  RayGrid::Row<float> row;
+  RayGrid::Row<double> exact;
   for (const int u : {0, 1, 3, 5, 318}) {
     for (int v = 0; v < 240; ++v) {
       const int count = std::min(320 - u, 150);
       rays_->row_at(u, v, count, row);
+      rays_->row_at(u, v, count, exact);
       for (int k = 0; k < count; ++k) {
-        const auto place = static_cast<std::size_t>(k);
-        const Vector2 ray(row.x[place], row.y[place]);
-        ASSERT_LT((ray - rays_->at(u + k, v)).norm() * camera_.optics.fx_px, 1e-4) << u + k << ", " << v << ", px";
+        const Vector2 ray(row.x()[k], row.y()[k]);
+        const Vector2 of_pixel = rays_->at(u + k, v);
+        ASSERT_LT((ray - of_pixel).norm() * camera_.optics.fx_px, 1e-4) << u + k << ", " << v << ", px";
+        ASSERT_EQ(Vector2(exact.x()[k], exact.y()[k]), of_pixel) << u + k << ", " << v;
       }
     }
   }
