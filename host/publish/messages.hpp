@@ -4,11 +4,13 @@
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/line_report.hpp"
+#include "host/publish/spin_report.hpp"
 #include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 
 namespace pharos::host {
@@ -19,6 +21,7 @@ pose_t pose_message(const CycleReport& report);
 pose_t pose_message(const TofReport& report);
 pose_t pose_message(const StereoReport& report);
 pointing_t pointing_message(const LineReport& report);
+spin_t spin_message(const SpinReport& report);
 bearings_t bearings_message(const CycleReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);
 

@@ -13,6 +13,7 @@ Publisher::Publisher(MessageSink& sink, const std::string& prefix)
       tof_channel_(prefix + "TOF_POSE"),
       ring2_channel_(prefix + "RING2_POSE"),
       slam_channel_(prefix + "SLAM_POSE"),
+      spin_channel_(prefix + "SLAM_SPIN"),
       pointing_channel_(prefix + "LINE_POINTING"),
       status_channel_(prefix + "STATUS") {}
 
@@ -50,6 +51,12 @@ bool Publisher::publish_pose(const TofReport& report) {
 bool Publisher::publish_pose(const StereoReport& report) {
   const bool sent = send(report.of_slam() ? slam_channel_ : ring2_channel_, pose_message(report));
   counters_.poses += sent ? 1 : 0;
+  return sent;
+}
+
+bool Publisher::publish_spin(const SpinReport& report) {
+  const bool sent = send(spin_channel_, spin_message(report));
+  counters_.spins += sent ? 1 : 0;
   return sent;
 }
 

@@ -9,6 +9,7 @@
 #include "host/publish/health.hpp"
 #include "host/publish/line_report.hpp"
 #include "host/publish/message_sink.hpp"
+#include "host/publish/spin_report.hpp"
 #include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
 
@@ -19,6 +20,7 @@ struct PublishCounters {
   std::int64_t poses = 0;
   std::int64_t bearings = 0;
   std::int64_t pointings = 0;
+  std::int64_t spins = 0;
   std::int64_t status = 0;
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink did not take
@@ -38,6 +40,8 @@ class Publisher {
   bool publish_pose(const TofReport& report);
   /// pose_t of a stereo rig, on the channel of its system; refused pairs are told as refused cycles are.
   bool publish_pose(const StereoReport& report);
+  /// spin_t of slam's target; why there is none is told too.
+  bool publish_spin(const SpinReport& report);
   /// pointing_t of a telescope; refused images and passes are told as refused cycles are.
   bool publish_pointing(const LineReport& report);
   /// bearings_t of the same cycle.
@@ -58,6 +62,7 @@ class Publisher {
   std::string tof_channel_;
   std::string ring2_channel_;
   std::string slam_channel_;
+  std::string spin_channel_;
   std::string pointing_channel_;
   std::string status_channel_;
   std::vector<std::uint8_t> buffer_;

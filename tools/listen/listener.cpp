@@ -7,9 +7,11 @@
 
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
+#include "tools/listen/spin_rows.hpp"
 #include "tools/listen/status_rows.hpp"
 
 namespace pharos::tools {
@@ -66,11 +68,14 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
                     std::int64_t monotonic_ns) {
   pose_t pose;
   pointing_t pointing;
+  spin_t spin;
   status_t status;
   if (decode(pose, data, size)) {
     take_pose(channel, pose, utc_ns, monotonic_ns);
   } else if (decode(pointing, data, size)) {
     take_other([&](bool json) { return json ? pointing_json(pointing) : pointing_line(pointing); });
+  } else if (decode(spin, data, size)) {
+    take_other([&](bool json) { return json ? spin_json(spin) : spin_line(spin); });
   } else if (decode(status, data, size)) {
     print_those_known(monotonic_ns);
     take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });

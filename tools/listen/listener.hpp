@@ -31,15 +31,15 @@ class Listener {
 
   /// What comes before the first message: the header row of a CSV table.
   void begin();
-  /// Any message of a channel listened to: pose_t, pointing_t and status_t are printed (the last two not as CSV: they
-  /// are no rows of it), others counted as foreign.
+  /// Any message of a channel listened to: pose_t, pointing_t, spin_t and status_t are printed (the last three not as
+  /// CSV: they are no rows of it), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Prints the poses that still wait for their truth, and compares those that were printed before it was written.
   void finish();
 
   const ListenSummary& summary() const { return summary_; }
   std::int64_t foreign() const { return foreign_; }
-  /// Status and pointing messages.
+  /// Status, spin and pointing messages.
   std::int64_t other_messages() const { return other_messages_; }
 
  private:

@@ -6,6 +6,7 @@
 #include "host/publish/lcm_sink.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "unit/host/publish/message_list.hpp"
 
@@ -27,6 +28,42 @@ TEST(Publisher, SendsEachKindOnItsChannelBehindThePrefix) {
   EXPECT_EQ(list.all<status_t>("TEST_STATUS").size(), 1u);
   EXPECT_EQ(publisher.counters().poses, 2);
   EXPECT_GT(publisher.counters().bytes, 0);
+}
+
+TEST(Publisher, ASpinIsSentWithItsCovarianceAndARefusedOneWithNothing) {
+  MessageList list;
+  Publisher publisher(list, "TEST_");
+  SpinReport report;
+  report.utc_ns = 7'000'900;
+  report.sequence = 4;
+  report.source = "slam/bow";
+  report.camera = "bow";
+  report.target = "client";
+  report.spin = {{0.0, -0.2, 0.1}, 1e-6 * Matrix3::Identity(), {0.0, -0.8, 0.6}, 1e-3, 2e-3, 3e-4, 50, 2.5};
+  report.spin.covariance(0, 2) = report.spin.covariance(2, 0) = 2e-7;
+  EXPECT_TRUE(publisher.publish_spin(report));
+  report.refusal = "lost";
+  EXPECT_TRUE(publisher.publish_spin(report));
+  const auto messages = list.all<spin_t>("TEST_SLAM_SPIN");
+  ASSERT_EQ(messages.size(), 2u);
+  const spin_t &told = messages[0], &refused = messages[1];
+  EXPECT_EQ(told.utime, 7000);
+  EXPECT_EQ(told.sequence, 4);
+  EXPECT_EQ(told.source + told.station_or_camera + told.target, "slam/bowbowclient");
+  EXPECT_EQ(told.reference_frame, "camera");
+  EXPECT_EQ(told.status, "ok");
+  EXPECT_EQ(told.valid, 1);
+  EXPECT_EQ(Vector3(told.rate_rad_s), report.spin.rate_rad_s);
+  EXPECT_EQ(Vector3(told.axis), report.spin.axis);
+  EXPECT_EQ(told.covariance[2], 2e-7);
+  EXPECT_EQ(told.covariance[6], 2e-7);
+  EXPECT_EQ(told.covariance[4], 1e-6);
+  EXPECT_EQ(told.attitudes, 50);
+  EXPECT_EQ(told.span_s, 2.5);
+  EXPECT_EQ(refused.status, "refused_lost");
+  EXPECT_EQ(refused.valid, 0);
+  EXPECT_EQ(Vector3(refused.rate_rad_s), Vector3::Zero());
+  EXPECT_EQ(publisher.counters().spins, 2);
 }
 
 TEST(Publisher, CountsWhatCouldNotBeSent) {

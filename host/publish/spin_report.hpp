@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/publish/camera_report.hpp"
+#include "pharos/geometry/types.hpp"
+
+namespace pharos::host {
+
+/// A constant turning, in the left camera's frame.
+struct SpinEstimate {
+  Vector3 rate_rad_s = Vector3::Zero();
+  Matrix3 covariance = Matrix3::Zero();  // (rad/s)^2
+  Vector3 axis = Vector3::Zero();        // unit; zero where the rate is not to be told from rest
+  double sigma_rate_rad_s = 0.0;
+  double sigma_axis_rad = 0.0;
+  double residual_rms_rad = 0.0;
+  int attitudes = 0;
+  double span_s = 0.0;
+};
+
+/// How the target before a stereo rig turns: what spin_t is made of.
+struct SpinReport : CameraReport {
+  SpinEstimate spin;
+};
+
+}  // namespace pharos::host
