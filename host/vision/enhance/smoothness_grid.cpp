@@ -2,11 +2,17 @@
 #include "host/vision/enhance/smoothness_grid.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "host/vision/enhance/block_transform.hpp"
 
 namespace pharos::enhance {
 namespace {
 
 using Index = std::ptrdiff_t;
+using transform::Four;
+using transform::load;
+using transform::store;
 
 // Below it lines of both directions solve a grid by themselves.
 constexpr Index kCoarsest_px = 4;
@@ -146,30 +152,106 @@ void substitute_columns(SmoothnessGrid& grid, Put&& put) {
   }
 }
 
-// Rows v ... v + kRows - 1 together, since each waits for its last value.
-template <std::size_t kRows>
-void solve_rows(SmoothnessGrid& grid, Index v) {
+// The tridiagonal system of row v: forth, and back into x.
+void solve_row(SmoothnessGrid& grid, Index v) {
   const Index width = grid.width;
-  float last[kRows] = {};
   float* y = grid.residual.data() + v * width;
   const float* link = grid.right.data() + v * width;
   const float* inverse = grid.along_row.data() + v * width;
   float* x = grid.x.data() + v * width;
-  for (Index u = 0; u < width; ++u) {
-    for (std::size_t k = 0; k < kRows; ++k) {
-      const Index at = static_cast<Index>(k) * width + u;
-      last[k] = (y[at] + (u > 0 ? link[at - 1] : 0.0F) * last[k]) * inverse[at];
-      y[at] = last[k];
-    }
-  }
-  std::fill(last, last + kRows, 0.0F);
+  y[0] *= inverse[0];
+  for (Index u = 1; u < width; ++u) y[u] = (y[u] + link[u - 1] * y[u - 1]) * inverse[u];
+  float last = 0.0F;
   for (Index u = width - 1; u >= 0; --u) {
-    for (std::size_t k = 0; k < kRows; ++k) {
-      const Index at = static_cast<Index>(k) * width + u;
-      last[k] = y[at] + link[at] * inverse[at] * last[k];
-      x[at] += last[k];
-    }
+    last = y[u] + link[u] * inverse[u] * last;
+    x[u] += last;
   }
+}
+
+// Four rows of four values from `at`, as columns.
+struct Square {
+  Four column[4];
+  Square(const float* at, Index width)
+      : column{load(at), load(at + width), load(at + 2 * width), load(at + 3 * width)} {
+    turn();
+  }
+  void turn() { transform::turn(column[0], column[1], column[2], column[3]); }
+  void store_at(float* at, Index width) {
+    turn();
+    for (Index k = 0; k < 4; ++k) store(column[k], at + k * width);
+  }
+};
+
+// Four rows' tridiagonal systems, a column or a square of four columns at a time.
+class FourRows {
+ public:
+  FourRows(SmoothnessGrid& grid, Index v)
+      : width_(grid.width),
+        y_(grid.residual.data() + v * width_),
+        x_(grid.x.data() + v * width_),
+        link_(grid.right.data() + v * width_),
+        inverse_(grid.along_row.data() + v * width_) {}
+
+  void begin_forth() {
+    last_ = column(y_) * column(inverse_);
+    put(last_, y_);
+  }
+  void forth(Index u) {
+    last_ = (column(y_ + u) + column(link_ + u - 1) * last_) * column(inverse_ + u);
+    put(last_, y_ + u);
+  }
+  void forth_by_four(Index u) {
+    Square here(y_ + u, width_);
+    const Square link(link_ + u - 1, width_), inverse(inverse_ + u, width_);
+    for (std::size_t k = 0; k < 4; ++k) {
+      last_ = (here.column[k] + link.column[k] * last_) * inverse.column[k];
+      here.column[k] = last_;
+    }
+    here.store_at(y_ + u, width_);
+  }
+  void begin_back() { last_ = Four{}; }
+  void back(Index u) {
+    last_ = column(y_ + u) + column(link_ + u) * column(inverse_ + u) * last_;
+    put(column(x_ + u) + last_, x_ + u);
+  }
+  void back_by_four(Index u) {
+    const Square here(y_ + u, width_), link(link_ + u, width_), inverse(inverse_ + u, width_);
+    Square sum(x_ + u, width_);
+    for (std::size_t k = 4; k-- > 0;) {
+      last_ = here.column[k] + link.column[k] * inverse.column[k] * last_;
+      sum.column[k] += last_;
+    }
+    sum.store_at(x_ + u, width_);
+  }
+
+ private:
+  Four column(const float* at) const { return Four{at[0], at[width_], at[2 * width_], at[3 * width_]}; }
+  void put(const Four& values, float* at) const {
+    for (Index k = 0; k < 4; ++k) at[k * width_] = values[k];
+  }
+
+  Index width_;
+  float *y_, *x_;
+  const float *link_, *inverse_;
+  Four last_{};
+};
+
+// Eight rows from v on together, since each waits for its last value.
+constexpr Index kTogether = 8;
+
+void solve_rows(SmoothnessGrid& grid, Index v) {
+  std::array<FourRows, 2> halves = {FourRows(grid, v), FourRows(grid, v + kTogether / 2)};
+  const auto both = [&halves](auto&& step) {
+    for (FourRows& half : halves) step(half);
+  };
+  const Index whole = 1 + (grid.width - 1) / 4 * 4;
+  both([](FourRows& half) { half.begin_forth(); });
+  for (Index u = 1; u < whole; u += 4) both([u](FourRows& half) { half.forth_by_four(u); });
+  for (Index u = whole; u < grid.width; ++u) both([u](FourRows& half) { half.forth(u); });
+  both([](FourRows& half) { half.begin_back(); });
+  for (Index u = grid.width - 1; u >= whole; --u) both([u](FourRows& half) { half.back(u); });
+  for (Index u = whole - 4; u >= 1; u -= 4) both([u](FourRows& half) { half.back_by_four(u); });
+  both([](FourRows& half) { half.back(0); });
 }
 
 }  // namespace
@@ -214,7 +296,6 @@ void sweep_columns(SmoothnessGrid& grid) {
 
 // All rows are solved from the same x: the row over a group, which is done by then, is kept as it was.
 void sweep_rows(SmoothnessGrid& grid) {
-  constexpr Index kTogether = 8;
   const Index width = grid.width;
   for (Index v = 0; v < grid.height;) {
     const Index count = v + kTogether <= grid.height ? kTogether : 1;
@@ -224,9 +305,9 @@ void sweep_rows(SmoothnessGrid& grid) {
     }
     std::copy_n(grid.x.data() + (v + count - 1) * width, width, grid.row.data());
     if (count == kTogether) {
-      solve_rows<kTogether>(grid, v);
+      solve_rows(grid, v);
     } else {
-      solve_rows<1>(grid, v);
+      solve_row(grid, v);
     }
     v += count;
   }
@@ -247,7 +328,11 @@ void prolong(const SmoothnessGrid& coarse, SmoothnessGrid& fine) {
   for (Index v = 0; v < fine.height; ++v) {
     const float* from = coarse.x.data() + v / 2 * coarse.width;
     float* to = fine.x.data() + v * fine.width;
-    for (Index u = 0; u < fine.width; ++u) to[u] += from[u / 2];
+    for (Index u = 0; u < fine.width / 2; ++u) {
+      to[2 * u] += from[u];
+      to[2 * u + 1] += from[u];
+    }
+    if (fine.width % 2 == 1) to[fine.width - 1] += from[coarse.width - 1];
   }
 }
 

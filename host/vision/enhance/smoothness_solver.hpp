@@ -11,8 +11,8 @@ namespace pharos::enhance {
 /// (links differ by five orders of magnitude, and lines follow the strong ones), 2x2 pixels to one, coarse grids of the
 /// same five-point form.
 ///
-/// Stops where the solution is off by less than `tolerance` of its range (RMS), as the last step tells it. Keeps its
-/// memory.
+/// Stops where the solution is off by less than `tolerance` of its range (RMS), a quarter of it as steps tell. Keeps
+/// its memory.
 class SmoothnessSolver {
  public:
   /// `refined`: the start value in where it has the size of `start` (else `start` is), the solution out. Returns the
