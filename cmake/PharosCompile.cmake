@@ -38,7 +38,7 @@ else()
 endif()
 
 # pharos_headers(KIND HEADERS headers... LIBS libraries... OPTIONS options...): what all targets of one KIND read
-# precompiled; they have these options and no others that touch the code.
+# precompiled; they have these options and no others that touch the code (what was read with -O3 is compiled with -O3).
 function(pharos_headers kind)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBS;OPTIONS" ${ARGN})
   if(PHAROS_PRECOMPILE)
@@ -52,20 +52,31 @@ endfunction()
 # pharos_reads_headers(TARGET KIND)
 function(pharos_reads_headers target kind)
   if(PHAROS_PRECOMPILE)
-    target_precompile_headers(${target} REUSE_FROM pharos_${kind}_headers)
+    set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM pharos_${kind}_headers)
   endif()
 endfunction()
 
 # pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; same floating-point results
 # on every machine (no fused multiply-add where the source has none). For the soft core NAME_12 too, the same sources for
 # a board of 12 inputs (base/capacity.hpp), built where an image asks for it; an image links rooms of one kind only.
+# After NAME the word VECTORS: for loops over images. Roots need no errno, and comparisons no exceptions: the same values,
+# in vectors and without calls.
 set(PHAROS_CORE_OPTIONS -fno-exceptions -fno-rtti -ffp-contract=off)
+set(PHAROS_VECTORS_OPTIONS ${PHAROS_CORE_OPTIONS} -fno-math-errno -fno-trapping-math)
 pharos_headers(core HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_CORE_OPTIONS})
+pharos_headers(vectors HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_VECTORS_OPTIONS})
 function(pharos_core_library name)
-  add_library(${name} STATIC ${ARGN})
+  cmake_parse_arguments(ARG "VECTORS" "" "" ${ARGN})
+  set(kind core)
+  set(options ${PHAROS_CORE_OPTIONS})
+  if(ARG_VECTORS)
+    set(kind vectors)
+    set(options ${PHAROS_VECTORS_OPTIONS})
+  endif()
+  add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
   set(libraries ${name})
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
-    add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARGN})
+    add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARG_UNPARSED_ARGUMENTS})
     target_compile_definitions(${name}_12 PUBLIC PHAROS_MAX_SENSORS=12 PHAROS_HOT_ON_CHIP)
     target_compile_options(${name}_12 PRIVATE -O2)  # its code is in external memory, where there is room
     list(APPEND libraries ${name}_12)
@@ -73,8 +84,8 @@ function(pharos_core_library name)
   foreach(library IN LISTS libraries)
     target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
     target_link_libraries(${library} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
-    target_compile_options(${library} PRIVATE ${PHAROS_CORE_OPTIONS})
-    pharos_reads_headers(${library} core)
+    target_compile_options(${library} PRIVATE ${options})
+    pharos_reads_headers(${library} ${kind})
   endforeach()
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
@@ -90,14 +101,36 @@ function(pharos_module name)
 endfunction()
 
 # pharos_host_library(NAME SOURCES...): a room of the host or of the tools.
+set(PHAROS_HOST_HEADERS <Eigen/Dense> <chrono> <functional> <map> <optional> <sstream> <string> <unordered_map> <vector>)
+pharos_headers(host HEADERS ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen)
 function(pharos_host_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PRIVATE pharos_warnings)
+  pharos_reads_headers(${name} host)
+endfunction()
+
+# pharos_position_independent(TARGETS...): rooms that a module links.
+pharos_headers(independent HEADERS ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS -fPIC)
+function(pharos_position_independent)
+  foreach(target IN LISTS ARGN)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    get_target_property(options ${target} COMPILE_OPTIONS)
+    if(options MATCHES "exceptions")
+      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
+    else()
+      pharos_reads_headers(${target} independent)
+    endif()
+  endforeach()
 endfunction()
 
 # pharos_command_library(NAME SOURCES...): a subcommand's options and the order of its work. CLI11's templates cost more to
 # optimise than ever to run; what computes lives in the rooms it calls.
+set(PHAROS_COMMAND_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(PHAROS_BUILD_HOST)
+  pharos_headers(command HEADERS <CLI/CLI.hpp> ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS ${PHAROS_COMMAND_OPTIONS})
+endif()
 function(pharos_command_library name)
   pharos_host_library(${name} ${ARGN})
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE ${PHAROS_COMMAND_OPTIONS})
+  pharos_reads_headers(${name} command)
 endfunction()
