@@ -18,7 +18,10 @@ std::int64_t microseconds(const timeval& time) {
 ProcessUsage process_usage() {
   ProcessUsage usage;
   rusage times{};
-  if (::getrusage(RUSAGE_SELF, &times) == 0) usage.cpu_us = microseconds(times.ru_utime) + microseconds(times.ru_stime);
+  if (::getrusage(RUSAGE_SELF, &times) == 0) {
+    usage.cpu_us = microseconds(times.ru_utime) + microseconds(times.ru_stime);
+    usage.peak_resident_kib = times.ru_maxrss;
+  }
   std::int64_t total_pages = 0;
   std::int64_t resident_pages = 0;
   std::ifstream("/proc/self/statm") >> total_pages >> resident_pages;

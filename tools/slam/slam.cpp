@@ -30,6 +30,7 @@ struct Options {
   std::string scene = "target", output = "target";
   std::string report, map, overlay;
   double rate_hz = 20.0;
+  std::size_t pairs = 0;  // 0: all
   bool no_loops = false, threads = false;
   std::string enhance;  // empty, or the denoiser
   slam::SlamSettings settings;
@@ -43,6 +44,21 @@ std::optional<enhance::EnhanceSettings> enhance_settings(const std::string& deno
   return settings;
 }
 
+// So many pairs: the first ones; of more than there are, all of them there and back again, at even times.
+std::vector<host::PairName> prolonged(const std::vector<host::PairName>& pairs, std::size_t wanted) {
+  if (wanted <= pairs.size()) return {pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted)};
+  if (pairs.size() < 2) throw host::InputError(pairs.front().left + ": one pair cannot be gone through there and back");
+  const std::size_t last = pairs.size() - 1;
+  const double step_s = (pairs.back().time_s - pairs.front().time_s) / static_cast<double>(last);
+  std::vector<host::PairName> out;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const std::size_t place = k % (2 * last);
+    out.push_back(pairs[place <= last ? place : 2 * last - place]);
+    out.back().time_s = pairs.front().time_s + step_s * static_cast<double>(k);
+  }
+  return out;
+}
+
 int run(Options options) {
   options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
   options.settings.close_loops = !options.no_loops;
@@ -50,10 +66,12 @@ int run(Options options) {
   for (const std::string& file : {options.report, options.map}) {
     if (!file.empty()) require_writable(file);
   }
-  const std::vector<host::PairName> pairs = host::pair_names(options.left, options.right, options.rate_hz);
+  std::vector<host::PairName> pairs = host::pair_names(options.left, options.right, options.rate_hz);
+  if (options.pairs > 0) pairs = prolonged(pairs, options.pairs);
   const auto system = slam::make_slam(host::read_rig_file(options.rig), options.rig, options.settings);
   enhance::EightBitPairs lit(enhance_settings(options.enhance));
   bool lost = false;
+  std::vector<MemoryAt> memory;
   Progress progress("slam", "pairs", pairs.size());
   for (const host::PairName& pair : pairs) {
     const host::GreyImage left = host::read_grey_image(pair.left), right = host::read_grey_image(pair.right);
@@ -63,12 +81,13 @@ int run(Options options) {
     if (frame.relocalised) note(pair.left + ": found again");
     if (!options.overlay.empty()) write_slam_overlay(options.overlay, pair.stem, *system);
     progress.step();
+    note_quarter(static_cast<std::size_t>(&pair - pairs.data()) + 1, pairs.size(), memory);
   }
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
   const int rows = write_tum(trajectory, options.output == "camera");
   if (!options.map.empty()) write_map_ply(options.map, system->points());
-  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory);
+  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, memory);
   if (rows > 0) return kExitAnswered;
   note(options.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
        " pairs, none with enough stereo features");
@@ -90,6 +109,8 @@ void add_slam(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"target", "camera"}));
   command->add_option("--rate", options->rate_hz, "Pairs a second where names tell no time (default 20)")
       ->check(CLI::Range(0.001, 10'000.0));
+  command->add_option("--pairs", options->pairs, "Stop after so many; where there are fewer, there and back again")
+      ->check(CLI::Range(1, 10'000'000));
   command->add_option("--report", options->report, "File for figures of the run (JSON)");
   command->add_option("--map", options->map, "File for the map's points (PLY)");
   command->add_option("--overlay", options->overlay, "Folder for pictures of the features");

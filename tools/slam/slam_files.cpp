@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/daemon/process_usage.hpp"
 #include "host/images/canvas.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/support/input_error.hpp"
@@ -79,8 +80,13 @@ void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& 
   finish(file, path);
 }
 
+void note_quarter(std::size_t done, std::size_t all, std::vector<MemoryAt>& memory) {
+  if (4 * done / all == 4 * (done - 1) / all) return;
+  memory.push_back({done, host::process_usage().resident_kib});
+}
+
 void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory) {
+                       const std::vector<slam::TrackedFrame>& trajectory, const std::vector<MemoryAt>& memory) {
   nlohmann::ordered_json json;
   json["frames"] = report.frames;
   json["tracked"] = report.tracked;
@@ -100,6 +106,10 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["tracking_p95_ms"] = report.tracking_p95_ms;
   json["mapping_median_ms"] = report.mapping_median_ms;
   json["loop_max_ms"] = report.loop_max_ms;
+  for (const MemoryAt& at : memory) {
+    json["memory"].push_back({{"pair", at.pair}, {"resident_mib", static_cast<double>(at.resident_kib) / 1024.0}});
+  }
+  json["memory_peak_mib"] = static_cast<double>(host::process_usage().peak_resident_kib) / 1024.0;
   if (const auto spin = slam::fit_spin(trajectory)) json["spin"] = spin_json(*spin);
   std::ofstream file(path);
   file << json.dump(2) << '\n';

@@ -20,9 +20,18 @@ int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera)
 /// The map's points as a PLY file of ASCII vertices: x y z in metres, observers.
 void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points);
 
+/// What the program held in memory on its way.
+struct MemoryAt {
+  std::size_t pair = 0;
+  std::int64_t resident_kib = 0;
+};
+
+/// Adds to `memory` where `done` of `all` pairs are a quarter, a half, three quarters or all of them.
+void note_quarter(std::size_t done, std::size_t all, std::vector<MemoryAt>& memory);
+
 /// Figures of a run as one JSON object. Throws InputError where it cannot be written.
 void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory);
+                       const std::vector<slam::TrackedFrame>& trajectory, const std::vector<MemoryAt>& memory);
 
 /// DIR/STEM_slam.png: features of the last pair (mono, stereo, of the map) over the rectified left image, what is
 /// masked tinted.

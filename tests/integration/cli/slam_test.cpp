@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// `pharos slam` on what a user gives by mistake: one line that says what and where, exit code 2.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "tests/integration/cli/program.hpp"
+
+namespace pharos::cli_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kRig = R"([left]
+width_px = 64
+height_px = 48
+fx_px = 64.0
+fy_px = 64.0
+cx_px = 31.5
+cy_px = 23.5
+distortion = [0.0, 0.0, 0.0, 0.0, 0.0]
+rotation_wxyz = [1.0, 0.0, 0.0, 0.0]
+position_m = [0.0, 0.0, 0.0]
+
+[right]
+width_px = 64
+height_px = 48
+fx_px = 64.0
+fy_px = 64.0
+cx_px = 31.5
+cy_px = 23.5
+distortion = [0.0, 0.0, 0.0, 0.0, 0.0]
+rotation_wxyz = [1.0, 0.0, 0.0, 0.0]
+position_m = [0.5, 0.0, 0.0]
+)";
+
+// Two folders of three black pairs, and their rig.
+class CliSlam : public ::testing::Test {
+ protected:
+  CliSlam() {
+    for (const char* side : {"left", "right"}) {
+      std::filesystem::create_directories(folder_.path(side));
+      for (const char* name : {"0", "1", "2"}) black(side + std::string("/") + name + ".pgm", 64, 48);
+    }
+    rig_ = folder_.write("rig.toml", kRig);
+  }
+  void black(const std::string& name, int width_px, int height_px) const {
+    const std::string head = "P5\n" + std::to_string(width_px) + " " + std::to_string(height_px) + "\n255\n";
+    folder_.write(name, head + std::string(static_cast<std::size_t>(width_px * height_px), '\0'));
+  }
+  Outcome slam(const std::string& more = "") const {
+    return pharos("slam " + folder_.path("left") + " " + folder_.path("right") + " --rig " + rig_ + more);
+  }
+  static void expect_refused(const Outcome& run, const std::string& words) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(count_lines(run.err), 1U) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(words));
+  }
+  Folder folder_;
+  std::string rig_;
+};
+
+TEST_F(CliSlam, BlackPairsHaveNoPoseAndAReport) {
+  const std::string report = folder_.path("report.json");
+  const Outcome run = slam(" --pairs 7 --report " + report);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("no frame could be placed: 7 pairs"));
+  const std::string text = content_of(report);
+  EXPECT_THAT(text, HasSubstr("\"dark\": 7"));
+  const std::regex memory(R"("pair": 7,\s*"resident_mib": [1-9])");
+  EXPECT_TRUE(std::regex_search(text, memory)) << text;
+  EXPECT_THAT(text, HasSubstr("\"memory_peak_mib\": "));
+}
+
+TEST_F(CliSlam, ARigWithoutBaselineIsNamed) {
+  rig_ = folder_.write("rig.toml",
+                       std::regex_replace(std::string(kRig), std::regex(R"(\[0\.5, 0\.0, 0\.0\])"), "[0.0, 0.0, 0.0]"));
+  expect_refused(slam(), "rig.toml:21: right.position_m: is the left camera's");
+}
+
+TEST_F(CliSlam, ImagesOfAnotherSizeThanTheRigSaysAreNamed) {
+  for (const char* side : {"left", "right"}) black(side + std::string("/0.pgm"), 32, 24);
+  expect_refused(slam(), "32 x 24");
+}
+
+TEST_F(CliSlam, AVocabularyCutShortIsNamed) {
+  const std::string whole = content_of((std::filesystem::path(PHAROS_PROGRAM).parent_path() / "orb.words").string());
+  ASSERT_GT(whole.size(), 1000U);
+  const std::string cut = folder_.write("cut.words", whole.substr(0, whole.size() / 2));
+  expect_refused(slam(" --vocabulary " + cut), "cut.words");
+}
+
+TEST_F(CliSlam, AnEmptyFolderIsNamed) {
+  for (const char* name : {"0", "1", "2"}) std::filesystem::remove(folder_.path(std::string("left/") + name + ".pgm"));
+  expect_refused(slam(), "holds no .png or .pgm image");
+}
+
+TEST_F(CliSlam, APairWithAMissingFileIsNamed) {
+  std::filesystem::remove(folder_.path("right/1.pgm"));
+  expect_refused(slam(), "1.pgm: has no partner");
+}
+
+TEST_F(CliSlam, AnImageCutShortIsNamed) {
+  folder_.write("right/1.pgm", "P5\n64 48\n255\nabc");
+  expect_refused(slam(), "right/1.pgm");
+}
+
+}  // namespace
+}  // namespace pharos::cli_test
