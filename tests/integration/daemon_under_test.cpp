@@ -39,6 +39,7 @@ DaemonUnderTest::DaemonUnderTest()
     lcm_->subscribe(std::string("PHAROS_") + system + "_POSE", &DaemonUnderTest::on_pose, this)
         ->setQueueCapacity(kMessages);
   }
+  lcm_->subscribe("PHAROS_LINE_POINTING", &DaemonUnderTest::on_pointing, this);
   lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
   listen(1);
 }

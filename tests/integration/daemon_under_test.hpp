@@ -11,6 +11,7 @@
 #include "integration/child_process.hpp"
 #include "integration/pseudo_terminal.hpp"
 #include "integration/still_target.hpp"
+#include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/status_t.hpp"
 
@@ -48,6 +49,7 @@ class DaemonUnderTest {
   bool wait(const std::function<bool()>& done, double seconds = 8.0);
 
   const std::vector<pose_t>& poses() const { return poses_; }
+  const std::vector<pointing_t>& pointings() const { return pointings_; }
   std::size_t valid_poses(const std::string& target = "dock") const;
   const std::optional<status_t>& status() const { return status_; }
   /// Of the last status: a source's state, message and counter.
@@ -57,6 +59,9 @@ class DaemonUnderTest {
  private:
   void listen(int timeout_ms);
   void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pose_t* pose) { poses_.push_back(*pose); }
+  void on_pointing(const lcm::ReceiveBuffer*, const std::string&, const pointing_t* pointing) {
+    pointings_.push_back(*pointing);
+  }
   void on_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) { status_ = *status; }
 
   std::filesystem::path folder_;
@@ -64,6 +69,7 @@ class DaemonUnderTest {
   std::unique_ptr<lcm::LCM> lcm_;
   std::unique_ptr<ChildProcess> process_;
   std::vector<pose_t> poses_;
+  std::vector<pointing_t> pointings_;
   std::optional<status_t> status_;
   std::int64_t target_clock_zero_ns_ = 0;
 };
