@@ -58,44 +58,44 @@ bearing_t bearing_message(const ReportedBearing& bearing) {
   return message;
 }
 
-// All of a camera's message but the pose.
-pose_t camera_message(const CameraReport& report, bool ambiguous) {
+// When, where from and how much: of CycleReport and CameraReport alike.
+template <class Report>
+pose_t message_of(const Report& report) {
   pose_t message{};
   message.utime = floor_us(report.utc_ns);
   message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
   message.latency_us = saturated_us(report.latency_ns);
   message.sequence = report.sequence;
   message.source = report.source;
-  message.station_or_camera = report.camera;
   message.target = report.target;
+  message.observations = report.observations;
+  return message;
+}
+
+// All of a camera's message but the pose.
+pose_t camera_message(const CameraReport& report, bool ambiguous) {
+  pose_t message = message_of(report);
+  message.station_or_camera = report.camera;
   message.parent_frame = "camera";
   message.child_frame = "target";
   const bool refused = !report.refusal.empty();
   message.status = refused ? "refused_" + report.refusal : ambiguous ? "ambiguous" : "ok";
   message.valid = refused ? 0 : 1;
   message.flags = report.flags;
-  message.observations = report.observations;
   return message;
 }
 
 }  // namespace
 
 pose_t pose_message(const CycleReport& report) {
-  pose_t message{};
-  message.utime = floor_us(report.utc_ns);
-  message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
-  message.latency_us = saturated_us(report.latency_ns);
-  message.sequence = report.sequence;
-  message.source = report.source;
+  pose_t message = message_of(report);
   message.station_or_camera = report.station_id;
   message.station = static_cast<std::int8_t>(report.station);
-  message.target = report.target;
   message.parent_frame = "lighthouse";
   message.child_frame = "body";
   message.status = status_word(report.pose);
   message.valid = report.pose.ok() ? 1 : 0;
   message.flags = flag_words(report);
-  message.observations = report.observations;
   if (report.pose) {
     fill_estimate(*report.pose, message);
     message.residual_rms_rad = report.pose->residual_rms;
