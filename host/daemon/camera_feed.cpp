@@ -28,7 +28,7 @@ CameraFeed::CameraFeed(EventLoop& loop, const CameraConfig& config, const Publis
     : loop_(loop),
       name_(config.name),
       recorded_(config.is_recorded()),
-      log_(config.name),
+      news_(config.name),
       source_(source_of(config, fastest)),
       estimator_(config.camera, config.tof),
       line_(config, publish, "tof/" + config.name, publisher,
@@ -50,15 +50,6 @@ void CameraFeed::on_readable() {
   }
 }
 
-void CameraFeed::attend(std::int64_t monotonic_ns) {
-  const FrameSourceStatus status = source_->status();
-  if (status.session != session_told_) {
-    session_told_ = status.session;
-    log_.info("open", source_->device() + " is open: " + status.identity, monotonic_ns);
-  }
-  if (status.trouble == told_) return;
-  told_ = status.trouble;
-  if (!told_.empty()) log_.warn("not open", told_, monotonic_ns);
-}
+void CameraFeed::attend(std::int64_t monotonic_ns) { news_.tell(source_->device(), source_->status(), monotonic_ns); }
 
 }  // namespace pharos::host

@@ -7,7 +7,7 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/event_loop.hpp"
-#include "host/daemon/limited_log.hpp"
+#include "host/daemon/source_news.hpp"
 #include "host/daemon/tof_line.hpp"
 #include "host/device/frame_source.hpp"
 
@@ -38,14 +38,12 @@ class CameraFeed {
   EventLoop& loop_;
   std::string name_;
   bool recorded_;
-  LimitedLog log_;
+  SourceNews news_;
   std::unique_ptr<FrameSource> source_;
   TofEstimator estimator_;
   TofLine line_;
   std::function<void()> finished_;
   bool finished_told_ = false;
-  std::string told_;
-  std::uint32_t session_told_ = 0;
 };
 
 }  // namespace pharos::host

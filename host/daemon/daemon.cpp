@@ -129,7 +129,9 @@ void Daemon::run() {
       std::chrono::duration<double>(config_.publish.status_period_s)));
   const std::string cameras = cameras_.empty() ? "" : ", " + counted(cameras_.size(), "camera");
   const std::string rigs = stereos_.empty() ? "" : ", " + counted(stereos_.size(), "stereo rig");
-  spdlog::info("pharosd {} started, {}{}{}", PHAROS_VERSION, counted(channels_.size(), "target"), cameras, rigs);
+  const std::string domes = telescopes_.empty() ? "" : ", " + counted(telescopes_.size(), "telescope");
+  spdlog::info("pharosd {} started, {}{}{}{}", PHAROS_VERSION, counted(channels_.size(), "target"), cameras, rigs,
+               domes);
   loop_.run();
   memory_.save_at_last();
   message_ = "stopped";

@@ -29,4 +29,15 @@ void add_times(NamedCounts& counts, const std::string& stage, const LatencyHisto
   counts.push_back({stage + "_max_us", times.max_ns() / kNsPerUs});
 }
 
+void add_clock(NamedCounts& counts, const ClockCounters& clock) {
+  const auto add = [&counts](const char* name, std::uint64_t value) {
+    counts.push_back({std::string("clock.") + name, static_cast<std::int64_t>(value)});
+  };
+  add("pairs", clock.pairs);
+  add("pairs_ignored", clock.pairs_ignored);
+  add("resynchronised", clock.resynchronised);
+  add("host_steps", clock.host_steps);
+  add("host_jumps", clock.host_jumps);
+}
+
 }  // namespace pharos::host

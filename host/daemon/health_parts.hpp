@@ -3,16 +3,22 @@
 
 #include <string>
 
+#include "host/clock/clock_map.hpp"
 #include "host/daemon/latency_histogram.hpp"
 #include "host/device/frame_source.hpp"
 #include "host/publish/health.hpp"
 
 namespace pharos::host {
 
+// What the health of several lines tells alike.
+
 /// What a camera's state makes of the health of what is measured with it.
 SourceState state_of(CameraState camera);
 
 /// STAGE_p50_us, STAGE_p99_us and STAGE_max_us.
 void add_times(NamedCounts& counts, const std::string& stage, const LatencyHistogram& times);
+
+/// clock.<counter>.
+void add_clock(NamedCounts& counts, const ClockCounters& clock);
 
 }  // namespace pharos::host

@@ -43,6 +43,7 @@ void replay_instead(host::DaemonConfig& config, const std::string& file) {
   config.targets = {target};
   config.cameras.clear();
   config.stereos.clear();
+  config.telescopes.clear();
 }
 
 int run(const Options& options) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of TargetLine that tells how it fares.
+#include "host/daemon/health_parts.hpp"
 #include "host/daemon/target_line.hpp"
 #include "pharos/wire/message_type.hpp"
 
@@ -8,13 +9,12 @@ namespace {
 
 // Counters, hellos and times come at least once a second: twice that is silence.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-constexpr std::int64_t kNsPerUs = 1000;
-constexpr double kNsPerSecond = 1e9;
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 bool within(std::int64_t event_ns, std::int64_t now_ns) { return event_ns >= 0 && now_ns - event_ns < kSilenceNs; }
 
 std::string seconds_text(std::int64_t since_ns, std::int64_t now_ns) {
-  return std::to_string((now_ns - since_ns) / static_cast<std::int64_t>(kNsPerSecond)) + " s";
+  return std::to_string((now_ns - since_ns) / kNsPerSecond) + " s";
 }
 
 }  // namespace
@@ -26,15 +26,7 @@ SourceHealth TargetLine::health(const std::string& device, SourceState port_stat
   health.target = config_.name;
   health.device = device;
   health.identity = identity_;
-  health.data_age_ns = last_frame_ns_ < 0 ? -1 : monotonic_ns - last_frame_ns_;
-  health.pose_age_ns = last_pose_ns_ < 0 ? -1 : monotonic_ns - last_pose_ns_;
-  const std::int64_t poses = static_cast<std::int64_t>(latency_.count());
-  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
-    health.pose_rate_hz = static_cast<double>(poses - poses_at_last_health_) * kNsPerSecond /
-                          static_cast<double>(monotonic_ns - last_health_ns_);
-  }
-  poses_at_last_health_ = poses;
-  last_health_ns_ = monotonic_ns;
+  pace_.tell(health, monotonic_ns);
   health.clock_sigma_ns = clock_.synchronised() ? static_cast<double>(clock_.sigma_ns()) : 0.0;
   health.clock_drift_ppm = clock_.drift_ppm();
   health.counters = named_counts();
@@ -50,17 +42,17 @@ SourceHealth TargetLine::health(const std::string& device, SourceState port_stat
 // From the wire upwards: the lowest thing that is wrong is the one to tell.
 void TargetLine::judge(SourceHealth& health, std::int64_t now_ns) const {
   health.state = SourceState::kWaiting;
-  if (within(last_pose_ns_, now_ns)) {
+  if (pace_.pose_within(kSilenceNs, now_ns)) {
     health.state = SourceState::kOk;
   } else if (last_bytes_ns_ < 0) {
     health.message = "nothing came from the target yet: is it powered, is this its port?";
   } else if (!within(last_bytes_ns_, now_ns)) {
     health.state = SourceState::kStale;
     health.message = "the target has been silent for " + seconds_text(last_bytes_ns_, now_ns);
-  } else if (!within(last_frame_ns_, now_ns) && told_version_) {
+  } else if (!pace_.data_within(kSilenceNs, now_ns) && told_version_) {
     health.state = SourceState::kError;
     health.message = foreign_version_text(*told_version_);
-  } else if (!within(last_frame_ns_, now_ns)) {
+  } else if (!pace_.data_within(kSilenceNs, now_ns)) {
     health.state = SourceState::kError;
     health.message = "bytes come but no frame: is the baud rate that of the target?";
   } else if (!within(last_sweep_ns_, now_ns)) {
@@ -85,15 +77,9 @@ NamedCounts TargetLine::named_counts() const {
       counts.push_back({"cycles_refused_" + name, counters_.refused[i]});
     }
   }
-  counts.push_back({"latency_p50_us", latency_.quantile_ns(0.5) / kNsPerUs});
-  counts.push_back({"latency_p99_us", latency_.quantile_ns(0.99) / kNsPerUs});
-  counts.push_back({"latency_max_us", latency_.max_ns() / kNsPerUs});
+  add_times(counts, "latency", latency_);
   wire::for_each_counter(link_.counters(), add("link."));
-  counts.push_back({"clock.pairs", static_cast<std::int64_t>(clock_.counters().pairs)});
-  counts.push_back({"clock.pairs_ignored", static_cast<std::int64_t>(clock_.counters().pairs_ignored)});
-  counts.push_back({"clock.resynchronised", static_cast<std::int64_t>(clock_.counters().resynchronised)});
-  counts.push_back({"clock.host_steps", static_cast<std::int64_t>(clock_.counters().host_steps)});
-  counts.push_back({"clock.host_jumps", static_cast<std::int64_t>(clock_.counters().host_jumps)});
+  add_clock(counts, clock_.counters());
   counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
   told_.decoder.visit(lighthouse::DecoderCounters{}, add("decoder."));
   told_.device.visit(wire::DeviceCounters{}, add("device."));

@@ -69,7 +69,7 @@ void TargetLine::push(std::span<const std::uint8_t> bytes, const Arrival& arriva
 }
 
 void TargetLine::handle(const report::LinkEvent& event) {
-  last_frame_ns_ = arrival_.monotonic_ns;
+  pace_.data_came(arrival_.monotonic_ns);
   watch_clock(event);
   std::visit([this](const auto& value) { take(value); }, event);
 }
@@ -261,7 +261,7 @@ void TargetLine::answer(const track::EpochResult& result) {
   report->pose = result.pose;
   if (report->pose) calibrate::widen_by_scale(*report->pose, config_.scale_sigma);
   if (publisher_.publish_pose(*report) && result.pose) {
-    last_pose_ns_ = arrival_.monotonic_ns;
+    pace_.pose_went(arrival_.monotonic_ns);
     latency_.add(monotonic_now_ns() - push_began_ns_);
   }
   if (!publish_.bearings) return;

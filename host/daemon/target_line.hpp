@@ -14,6 +14,7 @@
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/limited_log.hpp"
 #include "host/daemon/line_counters.hpp"
+#include "host/daemon/pace.hpp"
 #include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/publisher.hpp"
@@ -120,11 +121,8 @@ class TargetLine {
   std::int64_t sequence_ = 0;
   std::int64_t board_sequence_ = 0;
   std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
-  std::int64_t last_frame_ns_ = -1;
   std::int64_t last_sweep_ns_ = -1;
-  std::int64_t last_pose_ns_ = -1;
-  std::int64_t poses_at_last_health_ = 0;
-  std::int64_t last_health_ns_ = -1;
+  Pace pace_;
   std::string last_refusal_;
   bool relative_refused_ = false;
   std::optional<std::uint8_t> told_version_;

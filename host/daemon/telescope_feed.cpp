@@ -14,7 +14,7 @@ TelescopeFeed::TelescopeFeed(EventLoop& loop, const TelescopeConfig& config, Pub
       log_(config.name),
       line_(config, publisher),
       watch_(config.directory),
-      worker_(config.camera) {
+      worker_(telescope_worker(config.camera)) {
   loop_.watch(watch_.fd(), [this] { on_files(); });
   loop_.watch(worker_.fd(), [this] { on_results(); });
 }
@@ -42,12 +42,14 @@ void TelescopeFeed::match(bool always) {
   const std::int64_t now_ns = monotonic_now_ns();
   try {
     const line::TrackFile track = line::read_track(ByteSource(config_.track_file.string()), LastLine::kDropUnfinished);
-    for (ImageJob& job : line_.match(track, now_ns)) {
-      if (!worker_.post(std::move(job))) line_.dropped();
-    }
+    for (ImageJob& job : line_.match(track, now_ns)) post(std::move(job));
   } catch (const InputError& error) {
     line_.track_failed(error.what(), now_ns);
   }
+}
+
+void TelescopeFeed::post(TelescopeJob job) {
+  if (const auto given_up = worker_.post(std::move(job))) line_.dropped(*given_up);
 }
 
 void TelescopeFeed::on_files() {
@@ -60,7 +62,7 @@ void TelescopeFeed::on_files() {
 
 void TelescopeFeed::on_results() {
   while (auto done = worker_.take()) {
-    std::visit([this](const auto& result) { line_.done(result, monotonic_now_ns()); }, *done);
+    std::visit([this](const auto& result) { line_.done(result, monotonic_now_ns()); }, done->answer);
   }
   attend(monotonic_now_ns());
 }
@@ -76,7 +78,7 @@ void TelescopeFeed::attend(std::int64_t monotonic_ns) {
     }
   }
   match(false);
-  if (auto pass = line_.pass_over(monotonic_ns)) static_cast<void>(worker_.post(std::move(*pass)));
+  if (auto pass = line_.pass_over(monotonic_ns)) post(std::move(*pass));
 }
 
 SourceHealth TelescopeFeed::health(std::int64_t monotonic_ns) {

@@ -37,6 +37,7 @@ class TelescopeFeed {
   void on_files();
   void on_results();
   void match(bool always);
+  void post(TelescopeJob job);
   std::optional<TrackState> track_state() const;
 
   EventLoop& loop_;

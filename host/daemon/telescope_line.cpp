@@ -36,7 +36,7 @@ void TelescopeLine::arrived(const std::string& name) {
     ++counters_.files_no_image;
     return;
   }
-  last_file_ns_ = monotonic_now_ns();
+  pace_.data_came(monotonic_now_ns());
   if (std::find(pending_.begin(), pending_.end(), name) != pending_.end()) return;
   pending_.push_back(name);
   if (pending_.size() <= kMostPending) return;
@@ -61,6 +61,10 @@ std::vector<ImageJob> TelescopeLine::match(const line::TrackFile& track, std::in
     }
   }
   return jobs;
+}
+
+void TelescopeLine::dropped(const TelescopeJob& job) {
+  ++(std::holds_alternative<ImageJob>(job) ? counters_.images_dropped : counters_.passes_dropped);
 }
 
 void TelescopeLine::track_failed(const std::string& trouble, std::int64_t monotonic_ns) {
@@ -98,7 +102,7 @@ void TelescopeLine::done(const ImageResult& result, std::int64_t monotonic_ns) {
   }
   ++counters_.images_ok;
   trouble_.clear();
-  last_answer_ns_ = monotonic_ns;
+  pace_.pose_went(monotonic_ns);
   if (config_.law) {
     const bool late =
         !pass_.empty() && std::abs(result.sighting.time_s - pass_.back().sighting.time_s) > config_.pass_gap_s;
@@ -137,10 +141,13 @@ void TelescopeLine::done(const PassResult& result, std::int64_t monotonic_ns) {
   told.from_pass = true;
   told.images = pass.images;
   told.flags = pointing::name_of(*config_.law);
-  if (result.answer.failure) {
+  if (result.answer.failure || !result.trouble.empty()) {
     ++counters_.passes_refused;
-    told.refusal = pointing::name_of(*result.answer.failure);
-    log_.warn("pass", "pass of " + std::to_string(pass.images) + " images: refused_" + told.refusal, monotonic_ns);
+    told.refusal = result.trouble.empty() ? pointing::name_of(*result.answer.failure) : kInternalError;
+    log_.warn("pass",
+              "pass of " + std::to_string(pass.images) + " images: refused_" + told.refusal +
+                  (result.trouble.empty() ? "" : ": " + result.trouble),
+              monotonic_ns);
   } else {
     ++counters_.passes_ok;
     told.ambiguous = pass.second_axis_station.has_value();
@@ -155,18 +162,11 @@ SourceHealth TelescopeLine::health(std::int64_t monotonic_ns) {
   SourceHealth health;
   health.source = "line/" + config_.name;
   health.target = config_.target;
-  health.data_age_ns = last_file_ns_ < 0 ? -1 : monotonic_ns - last_file_ns_;
-  health.pose_age_ns = last_answer_ns_ < 0 ? -1 : monotonic_ns - last_answer_ns_;
-  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
-    health.pose_rate_hz = static_cast<double>(counters_.images_ok - answers_at_last_health_) * kNsPerSecond /
-                          static_cast<double>(monotonic_ns - last_health_ns_);
-  }
-  answers_at_last_health_ = counters_.images_ok;
-  last_health_ns_ = monotonic_ns;
+  pace_.tell(health, monotonic_ns);
   // A telescope between passes is well: silence is no fault of it.
-  health.state = last_answer_ns_ >= 0 && trouble_.empty() ? SourceState::kOk : SourceState::kWaiting;
+  health.state = pace_.any_pose() && trouble_.empty() ? SourceState::kOk : SourceState::kWaiting;
   health.message = trouble_;
-  if (trouble_.empty() && last_answer_ns_ < 0) health.message = "no image came yet";
+  if (trouble_.empty() && !pace_.any_pose()) health.message = "no image came yet";
   if (!pending_.empty()) {
     health.message = std::to_string(pending_.size()) + " images wait for their row in " + config_.track_file.string();
   }
@@ -179,6 +179,7 @@ SourceHealth TelescopeLine::health(std::int64_t monotonic_ns) {
                      {"images_dropped", c.images_dropped},
                      {"passes_ok", c.passes_ok},
                      {"passes_refused", c.passes_refused},
+                     {"passes_dropped", c.passes_dropped},
                      {"track_errors", c.track_errors},
                      {"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())}};
   for (const auto& [reason, count] : c.refused) health.counters.push_back({"refused." + reason, count});

@@ -10,6 +10,7 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/limited_log.hpp"
+#include "host/daemon/pace.hpp"
 #include "host/daemon/telescope_worker.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/vision/line/track_file.hpp"
@@ -26,7 +27,8 @@ struct TelescopeCounters {
   std::int64_t images_dropped = 0;        ///< more came than can be measured
   std::int64_t passes_ok = 0;
   std::int64_t passes_refused = 0;
-  std::int64_t track_errors = 0;  ///< the track file could not be read
+  std::int64_t passes_dropped = 0;  ///< as images
+  std::int64_t track_errors = 0;    ///< the track file could not be read
   std::map<std::string, std::int64_t> refused;
 };
 
@@ -44,8 +46,8 @@ class TelescopeLine {
   /// The track as it is now: the jobs of the images whose rows it has.
   std::vector<ImageJob> match(const line::TrackFile& track, std::int64_t monotonic_ns);
   void track_failed(const std::string& trouble, std::int64_t monotonic_ns);
-  /// A job that nobody could take.
-  void dropped() { ++counters_.images_dropped; }
+  /// A job that gave way to newer ones.
+  void dropped(const TelescopeJob& job);
 
   void done(const ImageResult& result, std::int64_t monotonic_ns);
   /// The pass that is over: no image for pass_gap_s, or the next one's time is that much later.
@@ -69,11 +71,8 @@ class TelescopeLine {
   std::vector<pointing::PassImage> over_;
   TelescopeCounters counters_;
   std::int64_t sequence_ = 0;
-  std::int64_t last_file_ns_ = -1;
-  std::int64_t last_answer_ns_ = -1;
+  Pace pace_;
   std::int64_t last_result_ns_ = -1;
-  std::int64_t answers_at_last_health_ = 0;
-  std::int64_t last_health_ns_ = -1;
   std::string trouble_;  // of the last image
 };
 

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/telescope_worker.hpp"
 
-#include <sys/eventfd.h>
-
-#include <cerrno>
-#include <cstdint>
 #include <memory>
-#include <system_error>
-#include <utility>
 
 #include "host/images/grey_image.hpp"
 #include "host/support/flag_text.hpp"
@@ -16,6 +10,8 @@
 
 namespace pharos::host {
 namespace {
+
+constexpr std::size_t kMostWaitingImages = 512;  // a night's burst; then the oldest gives way
 
 ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
   ImageResult result;
@@ -41,63 +37,35 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
 
 PassResult solved(const PassJob& job) {
   const auto workspace = std::make_unique<pointing::PassWorkspace>();
-  return {pointing::estimate_pass(job.images, job.options, *workspace)};
+  return {pointing::estimate_pass(job.images, job.options, *workspace), {}};
+}
+
+TelescopeResult failed(const TelescopeJob& job, const std::string& trouble) {
+  if (const auto* image = std::get_if<ImageJob>(&job)) {
+    ImageResult result;
+    result.sighting = image->sighting;
+    result.refusal = kInternalError;
+    result.trouble = image->file.string() + ": " + trouble;
+    return result;
+  }
+  const auto& images = std::get<PassJob>(job).images;
+  PassResult result;
+  result.trouble = trouble;
+  result.answer.estimate.images = static_cast<int>(images.size());
+  result.answer.estimate.time_s = images.front().sighting.time_s;
+  return result;
 }
 
 }  // namespace
 
-TelescopeWorker::TelescopeWorker(PinholeCamera camera)
-    : camera_(camera), ready_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  if (!ready_.valid()) throw std::system_error(errno, std::generic_category(), "eventfd");
-  thread_ = std::thread([this] { run(); });
-}
-
-TelescopeWorker::~TelescopeWorker() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
-}
-
-bool TelescopeWorker::post(Job job) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMostWaiting) return false;
-    waiting_.push_back(std::move(job));
-  }
-  changed_.notify_one();
-  return true;
-}
-
-std::optional<TelescopeWorker::Done> TelescopeWorker::take() {
-  const std::lock_guard lock(mutex_);
-  if (done_.empty()) {
-    std::uint64_t count = 0;
-    static_cast<void>(::read(ready_.get(), &count, sizeof count) == 0);
-    return std::nullopt;
-  }
-  Done done = std::move(done_.front());
-  done_.pop_front();
-  return done;
-}
-
-void TelescopeWorker::run() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
-    if (stop_) return;
-    const Job job = std::move(waiting_.front());
-    waiting_.pop_front();
-    lock.unlock();
-    Done done = std::holds_alternative<ImageJob>(job) ? Done(measured(std::get<ImageJob>(job), camera_))
-                                                      : Done(solved(std::get<PassJob>(job)));
-    lock.lock();
-    done_.push_back(std::move(done));
-    const std::uint64_t one = 1;
-    static_cast<void>(::write(ready_.get(), &one, sizeof one) == sizeof one);  // full only while it is readable
-  }
+TelescopeWorker telescope_worker(const PinholeCamera& camera) {
+  return TelescopeWorker(
+      kMostWaitingImages,
+      [camera](const TelescopeJob& job) {
+        if (const auto* image = std::get_if<ImageJob>(&job)) return TelescopeResult(measured(*image, camera));
+        return TelescopeResult(solved(std::get<PassJob>(job)));
+      },
+      failed);
 }
 
 }  // namespace pharos::host

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <filesystem>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 #include <variant>
 #include <vector>
 
-#include "host/support/unique_fd.hpp"
+#include "host/daemon/job_worker.hpp"
 #include "pharos/pointing/axis_estimate.hpp"
 #include "pharos/pointing/pass.hpp"
 
@@ -38,39 +33,14 @@ struct PassJob {
 };
 struct PassResult {
   pointing::PassAnswer answer;
+  std::string trouble;  ///< of a fault of ours; else empty
 };
 
-/// Measures in a thread of its own, one job after the other: an image costs tens of milliseconds, for which the loop's
-/// lighthouse cycles must not wait. Only whole values pass between the threads.
-class TelescopeWorker {
- public:
-  explicit TelescopeWorker(PinholeCamera camera);
-  ~TelescopeWorker();
-  TelescopeWorker(const TelescopeWorker&) = delete;
-  TelescopeWorker& operator=(const TelescopeWorker&) = delete;
+using TelescopeJob = std::variant<ImageJob, PassJob>;
+using TelescopeResult = std::variant<ImageResult, PassResult>;
+using TelescopeWorker = JobWorker<TelescopeJob, TelescopeResult>;
 
-  using Job = std::variant<ImageJob, PassJob>;
-  using Done = std::variant<ImageResult, PassResult>;
-
-  /// False where kMostWaiting jobs wait already: the job is not taken.
-  bool post(Job job);
-  /// Readable when there is something to take().
-  int fd() const { return ready_.get(); }
-  std::optional<Done> take();
-
-  static constexpr std::size_t kMostWaiting = 512;
-
- private:
-  void run();
-
-  PinholeCamera camera_;
-  UniqueFd ready_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Job> waiting_;
-  std::deque<Done> done_;
-  bool stop_ = false;
-  std::thread thread_;
-};
+/// Images that `camera` took, and passes, each in its turn.
+TelescopeWorker telescope_worker(const PinholeCamera& camera);
 
 }  // namespace pharos::host

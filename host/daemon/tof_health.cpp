@@ -8,7 +8,6 @@ namespace {
 
 // Thirty times a second, or three in turns: as long without any is silence.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-constexpr double kNsPerSecond = 1e9;
 
 }  // namespace
 
@@ -18,14 +17,7 @@ SourceHealth TofLine::health(const std::string& device, const FrameSourceStatus&
   health.target = config_.target;
   health.device = device;
   health.identity = camera.identity;
-  health.data_age_ns = last_frame_ns_ < 0 ? -1 : monotonic_ns - last_frame_ns_;
-  health.pose_age_ns = last_pose_ns_ < 0 ? -1 : monotonic_ns - last_pose_ns_;
-  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
-    health.pose_rate_hz = static_cast<double>(poses_ - poses_at_last_health_) * kNsPerSecond /
-                          static_cast<double>(monotonic_ns - last_health_ns_);
-  }
-  poses_at_last_health_ = poses_;
-  last_health_ns_ = monotonic_ns;
+  pace_.tell(health, monotonic_ns);
   const ClockMap& map = clock_.map();
   health.clock_sigma_ns = map.synchronised() ? static_cast<double>(map.sigma_ns()) : 0.0;
   if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigmaNs);
@@ -41,10 +33,10 @@ void TofLine::judge(SourceHealth& health, const FrameSourceStatus& camera, std::
   health.state = state_of(camera.state);
   health.message = camera.trouble;
   if (health.state != SourceState::kOk) return;
-  if (last_pose_ns_ >= 0 && now_ns - last_pose_ns_ < pose_wait_ns) return;
+  if (pace_.pose_within(pose_wait_ns, now_ns)) return;
   health.state = SourceState::kWaiting;
   const FrameSourceCounters& counters = camera.counters;
-  if (last_frame_ns_ < 0 || now_ns - last_frame_ns_ >= kSilenceNs) {
+  if (!pace_.data_within(kSilenceNs, now_ns)) {
     health.message = counters.frames_incomplete > 0
                          ? "only incomplete frames come: is packet_size more than the network passes?"
                          : "no frame came yet";
@@ -68,12 +60,7 @@ NamedCounts TofLine::named_counts(const FrameSourceStatus& camera) const {
     add_times(counts, std::string("estimator.") + tof::name_of(static_cast<tof::TofStage>(k)), estimator_stages_[k]);
   }
   add_times(counts, "latency", latency_);
-  const ClockCounters& clock = clock_.map().counters();
-  counts.push_back({"clock.pairs", static_cast<std::int64_t>(clock.pairs)});
-  counts.push_back({"clock.pairs_ignored", static_cast<std::int64_t>(clock.pairs_ignored)});
-  counts.push_back({"clock.resynchronised", static_cast<std::int64_t>(clock.resynchronised)});
-  counts.push_back({"clock.host_steps", static_cast<std::int64_t>(clock.host_steps)});
-  counts.push_back({"clock.host_jumps", static_cast<std::int64_t>(clock.host_jumps)});
+  add_clock(counts, clock_.map().counters());
   counts.push_back({"clock.by_ptp", clock_.by_ptp() ? 1 : 0});
   counts.push_back({"clock.ptp_doubted", clock_.ptp_doubted()});
   counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});

@@ -47,7 +47,7 @@ std::optional<MappedTime> TofLine::time_of(const DepthFrame& frame) {
 
 void TofLine::take(const DepthFrame& frame) {
   const std::int64_t began_ns = monotonic_now_ns();
-  last_frame_ns_ = frame.complete_monotonic_ns;
+  pace_.data_came(frame.complete_monotonic_ns);
   transport_.add(frame.complete_monotonic_ns - frame.arrival_monotonic_ns);
   waiting_.add(began_ns - frame.complete_monotonic_ns);
   const PinholeCamera& optics = config_.camera.optics;
@@ -124,9 +124,8 @@ void TofLine::publish(TofReport& report) {
   const std::int64_t now_ns = monotonic_now_ns();
   if (!host_jump_.notice(now_ns).empty()) report.flags = with_word(report.flags, "clock_set");
   if (!publisher_.publish_pose(report) || !report.refusal.empty()) return;
-  last_pose_ns_ = now_ns;
+  pace_.pose_went(now_ns);
   latency_.add(report.latency_ns);
-  ++poses_;
 }
 
 }  // namespace pharos::host

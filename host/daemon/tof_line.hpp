@@ -11,6 +11,7 @@
 #include "host/daemon/host_jump.hpp"
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/limited_log.hpp"
+#include "host/daemon/pace.hpp"
 #include "host/daemon/pose_average.hpp"
 #include "host/daemon/tof_counters.hpp"
 #include "host/daemon/tof_estimator.hpp"
@@ -58,11 +59,7 @@ class TofLine {
   std::string last_refusal_;  // with what to do
   std::int64_t last_utc_ns_ = 0;
   HostJump host_jump_;
-  std::int64_t last_frame_ns_ = -1;
-  std::int64_t last_pose_ns_ = -1;
-  std::int64_t poses_ = 0;
-  std::int64_t poses_at_last_health_ = 0;
-  std::int64_t last_health_ns_ = -1;
+  Pace pace_;
   // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
   LatencyHistogram transport_;
   LatencyHistogram waiting_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/device/depth_frame.hpp"
-#include "host/support/unique_fd.hpp"
+#include "host/support/ready_event.hpp"
 
 namespace pharos::host {
 
@@ -24,16 +24,13 @@ class FrameQueue {
   /// none.
   static constexpr std::size_t kMostWaiting = 2;
 
-  /// Throws std::system_error where the kernel gives no descriptor.
-  FrameQueue();
-
   /// Of the camera's thread: a frame to fill, with the buffers of one that went before.
   DepthFramePtr blank();
   /// Puts it in the queue. True where the oldest that waited was dropped for it.
   bool push(DepthFramePtr frame);
 
   /// Of the poll loop: readable while a frame waits.
-  int fd() const { return event_.get(); }
+  int fd() const { return event_.fd(); }
   /// The oldest that waits, or null.
   DepthFramePtr take();
   /// A frame that was worked on, or a blank that is not needed (any thread).
@@ -43,7 +40,7 @@ class FrameQueue {
   std::mutex mutex_;
   std::deque<DepthFramePtr> waiting_;
   std::vector<DepthFramePtr> blanks_;
-  UniqueFd event_;
+  ReadyEvent event_;
 };
 
 }  // namespace pharos::host

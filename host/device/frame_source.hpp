@@ -42,14 +42,17 @@ enum class CameraState : std::uint8_t {
   kWrong,   // it is not what the configuration says
 };
 
-/// How a source of frames fares.
-struct FrameSourceStatus {
+/// How a source of frames or of pairs fares.
+struct SourceStatus {
   CameraState state = CameraState::kGone;
-  std::string trouble;   // what is wrong and what to do; empty when open
-  std::string identity;  // vendor, model, serial number, mode, format, packets
+  std::string trouble;        // what is wrong and what to do; empty when open
+  std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets
+  std::uint32_t session = 0;  // grows with every opening of a camera
+  bool finished = false;      // a recording has come to its end
+};
+
+struct FrameSourceStatus : SourceStatus {
   FrameSourceCounters counters;
-  std::uint32_t session = 0;
-  bool finished = false;  // a recording has come to its end
 };
 
 /// Where depth frames come from: a camera on the network, or recorded frames.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/device/gige_source.hpp"
 
+#include <exception>
 #include <utility>
 
 #include "host/daemon/now.hpp"
@@ -83,6 +84,8 @@ void GigeSource::look_for_camera() {
     stream(camera);
   } catch (const CameraError& error) {
     set_state(error.state(), error.what());
+  } catch (const std::exception& error) {  // a fault of ours: tried again, and not the end of the daemon
+    set_state(CameraState::kWrong, std::string("internal error: ") + error.what());
   }
 }
 

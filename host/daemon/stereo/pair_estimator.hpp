@@ -33,7 +33,7 @@ struct PairAnswer {
 class PairEstimator {
  public:
   virtual ~PairEstimator() = default;
-  /// Never throws for what a pair may hold.
+  /// Throws for nothing that a pair may hold; must be fit for the next pair if it does throw.
   virtual PairAnswer measure(const StereoPair& pair) = 0;
 };
 

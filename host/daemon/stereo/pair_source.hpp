@@ -11,16 +11,11 @@
 
 namespace pharos::host {
 
-/// How a source of pairs fares.
-struct PairSourceStatus {
-  CameraState state = CameraState::kGone;
-  std::string trouble;   // what is wrong and what to do; empty when open
-  std::string identity;  // of both cameras
+/// Of both cameras together.
+struct PairSourceStatus : SourceStatus {
   NamedCounts counters;
   double clock_sigma_ns = 0.0;
   double clock_drift_ppm = 0.0;
-  std::uint32_t session = 0;  // grows with every opening of a camera
-  bool finished = false;      // a recording has come to its end
 };
 
 /// Where pairs come from: two cameras on the network, or recorded ones. One thread, the loop's.

@@ -78,6 +78,9 @@ PairAnswer SlamEstimator::measure(const StereoPair& pair) {
     answer.refusal = "no_pair";
     answer.advice = error.what();
     begin();
+  } catch (...) {
+    begin();  // what it holds may be half changed
+    throw;
   }
   answer.stages = {{"light", lit_ns - start_ns}, {"tracking", monotonic_now_ns() - lit_ns}};
   tell_figures(answer);

@@ -36,7 +36,7 @@ StereoFeed::StereoFeed(EventLoop& loop, const StereoConfig& config, const Publis
                        bool fastest, std::function<void()> finished)
     : loop_(loop),
       name_(config.name),
-      log_(config.name),
+      news_(config.name),
       source_(source_of(config, fastest)),
       finished_(std::move(finished)) {
   if (config.ring2) add_system(config, publish, "ring2/", publisher, std::make_unique<Ring2Estimator>(config.rig));
@@ -52,7 +52,7 @@ StereoFeed::~StereoFeed() {
 void StereoFeed::add_system(const StereoConfig& config, const PublishConfig& publish, const char* word,
                             Publisher& publisher, std::unique_ptr<PairEstimator> estimator) {
   systems_.push_back(std::unique_ptr<System>(
-      new System{StereoLine(config, publish, word + config.name, publisher), PairWorker(std::move(estimator))}));
+      new System{StereoLine(config, publish, word + config.name, publisher), pair_worker(std::move(estimator))}));
   System& system = *systems_.back();
   loop_.watch(system.worker.fd(), [this, &system] { on_results(system); });
 }
@@ -61,9 +61,9 @@ void StereoFeed::on_readable() {
   if (StereoPairPtr pair = source_->take()) {
     for (const auto& system : systems_) {
       if (!system->line.take(*pair)) continue;
-      if (StereoPairPtr given_up = system->worker.post(pair)) {
+      if (auto given_up = system->worker.post(pair)) {
         system->line.dropped();
-        release(std::move(given_up));
+        release(std::move(*given_up));
       }
     }
     release(std::move(pair));
@@ -74,7 +74,7 @@ void StereoFeed::on_readable() {
 void StereoFeed::on_results(System& system) {
   while (auto done = system.worker.take()) {
     system.line.done(*done, !source_->clock_notice(monotonic_now_ns()).empty());
-    release(std::move(done->pair));
+    release(std::move(done->job));
   }
   tell_when_finished();
 }
@@ -91,16 +91,7 @@ void StereoFeed::tell_when_finished() {
   if (finished_told_) finished_();
 }
 
-void StereoFeed::attend(std::int64_t monotonic_ns) {
-  const PairSourceStatus status = source_->status();
-  if (status.session != session_told_) {
-    session_told_ = status.session;
-    log_.info("open", source_->device() + " is open: " + status.identity, monotonic_ns);
-  }
-  if (status.trouble == told_) return;
-  told_ = status.trouble;
-  if (!told_.empty()) log_.warn("not open", told_, monotonic_ns);
-}
+void StereoFeed::attend(std::int64_t monotonic_ns) { news_.tell(source_->device(), source_->status(), monotonic_ns); }
 
 std::vector<SourceHealth> StereoFeed::health(std::int64_t monotonic_ns) {
   std::vector<SourceHealth> all;

@@ -9,7 +9,7 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/event_loop.hpp"
-#include "host/daemon/limited_log.hpp"
+#include "host/daemon/source_news.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/daemon/stereo/pair_worker.hpp"
 #include "host/daemon/stereo/stereo_line.hpp"
@@ -50,13 +50,11 @@ class StereoFeed {
 
   EventLoop& loop_;
   std::string name_;
-  LimitedLog log_;
+  SourceNews news_;
   std::unique_ptr<PairSource> source_;
   std::vector<std::unique_ptr<System>> systems_;
   std::function<void()> finished_;
   bool finished_told_ = false;
-  std::string told_;
-  std::uint32_t session_told_ = 0;
 };
 
 }  // namespace pharos::host

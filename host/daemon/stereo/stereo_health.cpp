@@ -8,7 +8,6 @@ namespace {
 
 // A pair a second is the slowest rig that is not silent.
 constexpr std::int64_t kSilenceNs = 2'000'000'000;
-constexpr double kNsPerSecond = 1e9;
 
 }  // namespace
 
@@ -18,14 +17,7 @@ SourceHealth StereoLine::health(const std::string& device, const PairSourceStatu
   health.target = target_;
   health.device = device;
   health.identity = pairs.identity;
-  health.data_age_ns = last_pair_ns_ < 0 ? -1 : monotonic_ns - last_pair_ns_;
-  health.pose_age_ns = last_pose_ns_ < 0 ? -1 : monotonic_ns - last_pose_ns_;
-  if (last_health_ns_ >= 0 && monotonic_ns > last_health_ns_) {
-    health.pose_rate_hz = static_cast<double>(poses_ - poses_at_last_health_) * kNsPerSecond /
-                          static_cast<double>(monotonic_ns - last_health_ns_);
-  }
-  poses_at_last_health_ = poses_;
-  last_health_ns_ = monotonic_ns;
+  pace_.tell(health, monotonic_ns);
   health.clock_sigma_ns = pairs.clock_sigma_ns;
   health.clock_drift_ppm = pairs.clock_drift_ppm;
   health.counters = named_counts(pairs);
@@ -38,13 +30,13 @@ void StereoLine::judge(SourceHealth& health, const PairSourceStatus& pairs, std:
   health.state = state_of(pairs.state);
   health.message = pairs.trouble;
   if (health.state != SourceState::kOk) return;
-  const bool pose = last_pose_ns_ >= 0 && now_ns - last_pose_ns_ < kSilenceNs;
+  const bool pose = pace_.pose_within(kSilenceNs, now_ns);
   if (pose && last_refusal_.empty()) return;
   health.state = pose ? SourceState::kOk : SourceState::kWaiting;
-  if (last_pair_ns_ < 0 || now_ns - last_pair_ns_ >= kSilenceNs) {
+  if (!pace_.data_within(kSilenceNs, now_ns)) {
     if (health.message.empty()) {
       health.message =
-          last_pair_ns_ < 0 ? "no pair came yet" : "no pairs come any more: see frames_without_partner of each side";
+          pace_.any_data() ? "no pairs come any more: see frames_without_partner of each side" : "no pair came yet";
     }
   } else if (!last_refusal_.empty()) {
     health.message = "no pose: " + last_refusal_;

@@ -26,7 +26,7 @@ bool StereoLine::stale(std::int64_t age_ns) const { return std::abs(age_ns) > ma
 
 bool StereoLine::take(const StereoPair& pair) {
   const std::int64_t now_ns = monotonic_now_ns();
-  last_pair_ns_ = now_ns;
+  pace_.data_came(now_ns);
   if (!stale(now_ns - pair.time.monotonic_ns)) return true;
   ++counters_.pairs_stale;
   return false;
@@ -76,7 +76,7 @@ void StereoLine::done(const PairWorker::Done& done, bool clock_was_set) {
     ++counters_.pairs_not_finite;
     return;
   }
-  StereoReport told = report(*done.pair, answer);
+  StereoReport told = report(*done.job, answer);
   if (stale(told.latency_ns)) {
     ++counters_.pairs_stale;
     return;
@@ -86,9 +86,8 @@ void StereoLine::done(const PairWorker::Done& done, bool clock_was_set) {
   ++sequence_;
   if (clock_was_set) told.flags += told.flags.empty() ? "clock_set" : "|clock_set";
   if (!publisher_.publish_pose(told) || !told.refusal.empty()) return;
-  last_pose_ns_ = now_ns;
+  pace_.pose_went(now_ns);
   latency_.add(told.latency_ns);
-  ++poses_;
 }
 
 }  // namespace pharos::host

@@ -8,6 +8,7 @@
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/limited_log.hpp"
+#include "host/daemon/pace.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/daemon/stereo/pair_worker.hpp"
 #include "host/daemon/stereo/stereo_counters.hpp"
@@ -48,11 +49,7 @@ class StereoLine {
   std::int64_t sequence_ = 0;
   std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
   NamedCounts figures_;       // of the estimator
-  std::int64_t last_pair_ns_ = -1;
-  std::int64_t last_pose_ns_ = -1;
-  std::int64_t poses_ = 0;
-  std::int64_t poses_at_last_health_ = 0;
-  std::int64_t last_health_ns_ = -1;
+  Pace pace_;
   // Stages of a pair: waiting for its estimator, that and its parts; and from the light to LCM.
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;

@@ -22,6 +22,9 @@ namespace pharos::host {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Field;
 using ::testing::HasSubstr;
 
 constexpr double kDeg = 0.017453292519943295;
@@ -168,12 +171,12 @@ StereoPairPtr numbered(std::int64_t number) {
 TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
   auto slow = std::make_unique<SlowEstimator>();
   SlowEstimator& estimator = *slow;
-  PairWorker worker(std::move(slow));
+  PairWorker worker = pair_worker(std::move(slow));
   EXPECT_TRUE(worker.idle());
   std::int64_t dropped = 0;
   for (std::int64_t k = 0; k < 50; ++k) {
-    if (const StereoPairPtr given_up = worker.post(numbered(k))) {
-      EXPECT_LT(given_up->offset_ns, k);
+    if (const auto given_up = worker.post(numbered(k))) {
+      EXPECT_LT((*given_up)->offset_ns, k);
       ++dropped;
     }
   }
@@ -188,6 +191,44 @@ TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
   ASSERT_EQ(static_cast<std::int64_t>(answered.size()) + dropped, 50);
   EXPECT_EQ(answered.back(), "49");
   estimator.release(1);
+}
+
+/// Throws at the first two pairs.
+class FaultyEstimator : public PairEstimator {
+ public:
+  PairAnswer measure(const StereoPair& pair) override {
+    if (pair.offset_ns == 0) throw std::out_of_range("the seventh of six");
+    if (pair.offset_ns == 1) throw 42;
+    PairAnswer answer;
+    answer.refusal = "no_ring";
+    return answer;
+  }
+};
+
+TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
+  PairWorker worker = pair_worker(std::make_unique<FaultyEstimator>());
+  StereoLine line(config, publish, "ring2/bow", publisher);
+  for (std::int64_t k = 0; k < 3; ++k) {
+    StereoPairPtr pair = numbered(k);
+    pair->time = {utc_now_ns(), monotonic_now_ns(), 0};
+    worker.post(pair);
+    const std::int64_t end_ns = monotonic_now_ns() + 30'000'000'000;
+    while (!worker.idle() && monotonic_now_ns() < end_ns) {
+      if (const auto done = worker.take()) line.done(*done, false);
+    }
+    if (k == 0) {
+      EXPECT_THAT(line.health("", {}, monotonic_now_ns()).counters,
+                  Contains(AllOf(Field(&NamedCount::name, "refused.internal_error"), Field(&NamedCount::value, 1))));
+      PairSourceStatus open;
+      open.state = CameraState::kOpen;
+      line.take(*pair);
+      EXPECT_THAT(line.health("", open, monotonic_now_ns()).message, HasSubstr("the seventh of six"));
+    }
+  }
+  ASSERT_EQ(poses().size(), 3u);
+  EXPECT_EQ(poses()[0].status, "refused_internal_error");
+  EXPECT_EQ(poses()[1].status, "refused_internal_error");
+  EXPECT_EQ(poses()[2].status, "refused_no_ring");
 }
 
 TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
