@@ -229,6 +229,7 @@ NamedCounts Daemon::named_counts() const {
   return {{"published_poses", sent.poses},
           {"published_bearings", sent.bearings},
           {"published_pointings", sent.pointings},
+          {"published_spins", sent.spins},
           {"published_status", sent.status},
           {"published_bytes", sent.bytes},
           {"publish_failures", sent.failed},

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "host/daemon/stereo/spin_window.hpp"
 #include "host/daemon/stereo/stereo_pair.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/stereo_report.hpp"
@@ -25,6 +27,7 @@ struct PairAnswer {
   std::string flags;    // words joined by '|'
   int observations = 0;
   std::variant<RingPoseEstimate, SlamPoseEstimate> pose;
+  std::optional<SpinAnswer> spin;  // where one is due
   std::vector<StageTime> stages;
   NamedCounts figures;  // of the estimator so far; empty where it tells none
 };

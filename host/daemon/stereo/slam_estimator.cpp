@@ -41,6 +41,7 @@ SlamEstimator::SlamEstimator(const StereoConfig& config)
 
 void SlamEstimator::begin() {
   system_ = slam::make_slam(rig_, rig_name_, settings_);
+  spin_.clear();
   map_started_ = false;
   ++maps_;
 }
@@ -58,6 +59,7 @@ PairAnswer SlamEstimator::measure(const StereoPair& pair) {
   try {
     const slam::TrackedFrame frame = system_->push(time_s, left, right);
     answer.observations = frame.inliers;
+    answer.spin = spin_.push(frame);
     if (frame.placed) {
       estimate.pose = frame.placed->pose;
       estimate.covariance = frame.placed->covariance;

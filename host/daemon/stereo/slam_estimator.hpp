@@ -29,6 +29,7 @@ class SlamEstimator : public PairEstimator {
   slam::SlamSettings settings_;
   enhance::EightBitPairs eight_bits_;
   std::unique_ptr<slam::SlamSystem> system_;
+  SpinWindow spin_;
   std::optional<std::int64_t> began_ns_;  // of the pairs' steady time
   bool map_started_ = false;
   std::int64_t maps_ = 0;

@@ -64,6 +64,13 @@ StereoReport StereoLine::report(const StereoPair& pair, const PairAnswer& answer
   return report;
 }
 
+void StereoLine::publish_spin(const StereoReport& told, const SpinAnswer& answer) {
+  SpinReport report{told, answer.spin};
+  report.refusal = answer.refusal;
+  report.sequence = spin_sequence_++;
+  publisher_.publish_spin(report);
+}
+
 void StereoLine::done(const PairWorker::Done& done, bool clock_was_set) {
   const PairAnswer& answer = done.answer;
   waiting_.add(done.waited_ns);
@@ -85,6 +92,7 @@ void StereoLine::done(const PairWorker::Done& done, bool clock_was_set) {
   count(answer, now_ns);
   ++sequence_;
   if (clock_was_set) told.flags += told.flags.empty() ? "clock_set" : "|clock_set";
+  if (answer.spin) publish_spin(told, *answer.spin);
   if (!publisher_.publish_pose(told) || !told.refusal.empty()) return;
   pace_.pose_went(now_ns);
   latency_.add(told.latency_ns);

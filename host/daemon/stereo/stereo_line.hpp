@@ -34,6 +34,7 @@ class StereoLine {
 
  private:
   StereoReport report(const StereoPair& pair, const PairAnswer& answer) const;
+  void publish_spin(const StereoReport& told, const SpinAnswer& answer);
   bool stale(std::int64_t age_ns) const;
   void count(const PairAnswer& answer, std::int64_t monotonic_ns);
   void judge(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t monotonic_ns) const;
@@ -46,7 +47,7 @@ class StereoLine {
   std::int64_t max_age_ns_;
   LimitedLog log_;
   StereoCounters counters_;
-  std::int64_t sequence_ = 0;
+  std::int64_t sequence_ = 0, spin_sequence_ = 0;
   std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
   NamedCounts figures_;       // of the estimator
   Pace pace_;
