@@ -4,12 +4,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-extern "C" int pharos_opencv_lsd(const std::uint8_t* image, std::int32_t width_px, std::int32_t height_px,
+extern "C" int pharos_opencv_lsd(const std::uint8_t* image, std::int32_t width_px, std::int32_t height_px, double scale,
                                  float* segments, int most) {
   try {
     const cv::Mat grey(height_px, width_px, CV_8U, const_cast<std::uint8_t*>(image));
     std::vector<cv::Vec4f> found;
-    cv::createLineSegmentDetector(cv::LSD_REFINE_STD)->detect(grey, found);
+    cv::createLineSegmentDetector(cv::LSD_REFINE_STD, scale)->detect(grey, found);
     int count = 0;
     for (const cv::Vec4f& segment : found) {
       if (count == most) break;

@@ -21,11 +21,12 @@ constexpr int kLooks = 7;
 std::vector<std::uint8_t> clipped(ImageView<const std::uint16_t> image, const TargetMask& target) {
   const Box& box = target.box;
   const double scale = 127.5 / std::max(1.0, target.threshold - target.sky);
-  std::vector<std::uint8_t> grey;
-  grey.reserve(target.mask.size());
+  std::vector<std::uint8_t> grey(target.mask.size());
+  std::uint8_t* out = grey.data();
   for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
-    for (std::int32_t u = box.left; u < box.left + box.width; ++u) {
-      grey.push_back(static_cast<std::uint8_t>(std::clamp(scale * (image.at(u, v) - target.sky), 0.0, 255.0)));
+    const std::uint16_t* row = image.row(v) + box.left;
+    for (std::int32_t u = 0; u < box.width; ++u) {
+      *out++ = static_cast<std::uint8_t>(std::clamp(scale * (row[u] - target.sky), 0.0, 255.0));
     }
   }
   return grey;

@@ -24,45 +24,79 @@ struct Piece {
   double sum = 0.0;
 };
 
-// Pixels above the level in connected pieces (eight neighbours), numbered from 1.
-std::vector<Piece> pieces_above(ImageView<const std::uint16_t> image, double level, std::vector<std::int32_t>& labels) {
-  labels.assign(image.pixels(), 0);
-  const auto index = [&](std::int32_t u, std::int32_t v) {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(u);
-  };
-  std::vector<Piece> pieces;
-  std::vector<std::pair<std::int32_t, std::int32_t>> stack;
+// A stretch of one row above the level, and its piece.
+struct Run {
+  std::int32_t row = 0, left = 0, right = 0;
+  std::size_t piece = 0;
+};
+
+struct Pieces {
+  std::vector<Piece> all;
+  std::vector<Run> runs;
+};
+
+std::vector<Run> runs_above(ImageView<const std::uint16_t> image, double level) {
+  const auto least = static_cast<std::int32_t>(std::floor(level)) + 1;
+  std::vector<Run> runs;
   for (std::int32_t v = 0; v < image.height_px; ++v) {
     const std::uint16_t* row = image.row(v);
     for (std::int32_t u = 0; u < image.width_px; ++u) {
-      if (row[u] <= level || labels[index(u, v)] != 0) continue;
-      const auto label = static_cast<std::int32_t>(pieces.size()) + 1;
-      Piece piece{0, u, u, v, v, 0.0, 0.0};
-      stack.assign(1, {u, v});
-      labels[index(u, v)] = label;
-      while (!stack.empty()) {
-        const auto [x, y] = stack.back();
-        stack.pop_back();
-        const double value = image.at(x, y);
-        ++piece.pixels;
-        piece.sum += value;
-        piece.brightest = std::max(piece.brightest, value);
-        piece.left = std::min(piece.left, x);
-        piece.right = std::max(piece.right, x);
-        piece.top = std::min(piece.top, y);
-        piece.bottom = std::max(piece.bottom, y);
-        for (std::int32_t dy = -1; dy <= 1; ++dy) {
-          for (std::int32_t dx = -1; dx <= 1; ++dx) {
-            const std::int32_t nx = x + dx, ny = y + dy;
-            if (!image.contains(nx, ny) || image.at(nx, ny) <= level || labels[index(nx, ny)] != 0) continue;
-            labels[index(nx, ny)] = label;
-            stack.emplace_back(nx, ny);
-          }
-        }
-      }
-      pieces.push_back(piece);
+      if (row[u] < least) continue;
+      const std::int32_t left = u;
+      while (u < image.width_px && row[u] >= least) ++u;
+      runs.push_back({v, left, u - 1, runs.size()});
     }
   }
+  return runs;
+}
+
+std::size_t root_of(std::vector<Run>& runs, std::size_t k) {
+  while (runs[k].piece != k) k = runs[k].piece = runs[runs[k].piece].piece;
+  return k;
+}
+
+// Each run's piece becomes the first run that it hangs together with (eight neighbours).
+void join_runs(std::vector<Run>& runs) {
+  std::size_t above = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    while (runs[above].row < runs[k].row - 1 ||
+           (runs[above].row == runs[k].row - 1 && runs[above].right < runs[k].left - 1)) {
+      ++above;
+    }
+    for (std::size_t i = above; runs[i].row == runs[k].row - 1 && runs[i].left <= runs[k].right + 1; ++i) {
+      const std::size_t a = root_of(runs, i), b = root_of(runs, k);
+      runs[std::max(a, b)].piece = std::min(a, b);
+    }
+  }
+}
+
+void add_run(Piece& piece, const Run& run, const std::uint16_t* row) {
+  if (piece.pixels == 0) piece = {0, run.left, run.right, run.row, run.row, 0.0, 0.0};
+  piece.pixels += static_cast<std::size_t>(run.right - run.left + 1);
+  piece.left = std::min(piece.left, run.left);
+  piece.right = std::max(piece.right, run.right);
+  piece.bottom = run.row;
+  for (std::int32_t u = run.left; u <= run.right; ++u) {
+    piece.sum += row[u];
+    piece.brightest = std::max<double>(piece.brightest, row[u]);
+  }
+}
+
+// Pixels above the level in connected pieces.
+Pieces pieces_above(ImageView<const std::uint16_t> image, double level) {
+  Pieces pieces{{}, runs_above(image, level)};
+  std::vector<Run>& runs = pieces.runs;
+  join_runs(runs);
+  std::vector<std::size_t> number(runs.size());  // of a first run's piece
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const std::size_t root = root_of(runs, k);
+    if (root == k) {
+      number[k] = pieces.all.size();
+      pieces.all.emplace_back();
+    }
+    add_run(pieces.all[number[root]], runs[k], image.row(runs[k].row));
+  }
+  for (std::size_t k = runs.size(); k-- > 0;) runs[k].piece = number[root_of(runs, k)];
   return pieces;
 }
 
@@ -101,15 +135,18 @@ Sky sky_of(ImageView<const std::uint16_t> image) {
 // Square roots above the sky, in kBins steps up to the brightest.
 double otsu_threshold(ImageView<const std::uint16_t> image, const Box& box, double sky, double brightest,
                       const std::vector<std::uint8_t>& stars) {
-  const double scale = (kBins - 1) / std::sqrt(std::max(1.0, brightest - sky));
-  std::vector<std::uint32_t> histogram(kBins);
+  std::vector<std::uint32_t> values(65536);
   std::size_t i = 0;
   for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
-    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
-      if (stars[i] != 0) continue;
-      const double root = scale * std::sqrt(std::max(0.0, image.at(u, v) - sky));
-      ++histogram[static_cast<std::size_t>(std::min<double>(kBins - 1, root))];
-    }
+    const std::uint16_t* row = image.row(v) + box.left;
+    for (std::int32_t u = 0; u < box.width; ++u, ++i) values[row[u]] += stars[i] == 0 ? 1U : 0U;
+  }
+  const double scale = (kBins - 1) / std::sqrt(std::max(1.0, brightest - sky));
+  std::vector<std::uint32_t> histogram(kBins);
+  for (std::size_t value = 0; value < values.size(); ++value) {
+    if (values[value] == 0) continue;
+    const double root = scale * std::sqrt(std::max(0.0, static_cast<double>(value) - sky));
+    histogram[static_cast<std::size_t>(std::min<double>(kBins - 1, root))] += values[value];
   }
   const double root = (otsu(histogram) + 1) / scale;
   return sky + root * root;
@@ -140,6 +177,19 @@ Box box_around(const std::vector<Piece>& pieces, const Piece& main, ImageView<co
   return box;
 }
 
+// Within the box: what belongs to pieces that are not the target's.
+std::vector<std::uint8_t> stars_in(const Box& box, const Pieces& pieces, const Piece& main) {
+  std::vector<std::uint8_t> stars(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
+  for (const Run& run : pieces.runs) {
+    if (run.row < box.top || run.row >= box.top + box.height || belongs(pieces.all[run.piece], main)) continue;
+    const std::int32_t left = std::max(run.left, box.left) - box.left;
+    const std::int32_t right = std::min(run.right, box.left + box.width - 1) - box.left;
+    const auto row = stars.begin() + static_cast<std::ptrdiff_t>(run.row - box.top) * box.width;
+    if (left <= right) std::fill(row + left, row + right + 1, std::uint8_t{1});
+  }
+  return stars;
+}
+
 }  // namespace
 
 int otsu(const std::vector<std::uint32_t>& histogram) {
@@ -168,46 +218,36 @@ Result<TargetMask, LineRefusal> find_target(ImageView<const std::uint16_t> image
   const Sky sky = sky_of(image);
   if (sky.median >= kSaturatedValue) return LineRefusal::kSaturated;
   if (sky.brightest - sky.median < kBlack * sky.sigma) return LineRefusal::kBlack;
-  std::vector<std::int32_t> labels;
-  const std::vector<Piece> pieces = pieces_above(image, sky.median + kStandsOut * sky.sigma, labels);
-  if (pieces.empty()) return LineRefusal::kBlack;
-  const Piece& main = *std::max_element(pieces.begin(), pieces.end(),
+  const Pieces pieces = pieces_above(image, sky.median + kStandsOut * sky.sigma);
+  if (pieces.all.empty()) return LineRefusal::kBlack;
+  const Piece& main = *std::max_element(pieces.all.begin(), pieces.all.end(),
                                         [](const Piece& a, const Piece& b) { return a.pixels < b.pixels; });
   if (main.pixels < kLeastPixels) return LineRefusal::kStarsOnly;
   TargetMask target;
   target.sky = sky.median;
   target.noise = sky.sigma;
-  target.box = box_around(pieces, main, image);
+  target.box = box_around(pieces.all, main, image);
   const double mean = main.sum / static_cast<double>(main.pixels);
-  const Box& box = target.box;
-  std::vector<std::uint8_t> stars(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
   double brightest = 0.0;
-  for (const Piece& piece : pieces) {
+  for (const Piece& piece : pieces.all) {
     if (belongs(piece, main)) {
       brightest = std::max(brightest, piece.brightest);
     } else if (piece.brightest > mean) {
       target.outshone = true;
     }
   }
+  const Box& box = target.box;
+  const std::vector<std::uint8_t> stars = stars_in(box, pieces, main);
+  target.threshold = otsu_threshold(image, box, sky.median, brightest, stars);
   target.mask.resize(stars.size());
   std::size_t i = 0, of_target = 0, saturated = 0;
-  const auto label_at = [&](std::int32_t u, std::int32_t v) {
-    return labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(u)];
-  };
   for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
-    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
-      const std::int32_t label = label_at(u, v);
-      stars[i] = label != 0 && !belongs(pieces[static_cast<std::size_t>(label - 1)], main) ? 1 : 0;
-    }
-  }
-  target.threshold = otsu_threshold(image, box, sky.median, brightest, stars);
-  i = 0;
-  for (std::int32_t v = box.top; v < box.top + box.height; ++v) {
-    for (std::int32_t u = box.left; u < box.left + box.width; ++u, ++i) {
-      const bool inside = stars[i] == 0 && image.at(u, v) > target.threshold;
+    const std::uint16_t* row = image.row(v) + box.left;
+    for (std::int32_t u = 0; u < box.width; ++u, ++i) {
+      const bool inside = stars[i] == 0 && row[u] > target.threshold;
       target.mask[i] = inside ? 1 : 0;
       of_target += inside ? 1U : 0U;
-      saturated += inside && image.at(u, v) >= kSaturatedValue ? 1U : 0U;
+      saturated += inside && row[u] >= kSaturatedValue ? 1U : 0U;
     }
   }
   if (of_target < kLeastPixels) return target.outshone ? LineRefusal::kStarsBrighter : LineRefusal::kStarsOnly;

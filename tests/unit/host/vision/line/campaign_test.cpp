@@ -82,6 +82,7 @@ TEST(LineCampaign, AtAHundredMetresSingleImagesTellTheAxis) {
   EXPECT_LE(Figures::median(figures.plane_deg), 0.02);
   EXPECT_GE(figures.axis_rms(), 0.8);
   EXPECT_LE(figures.axis_rms(), 1.2);
+  EXPECT_LE(figures.plane_rms(), 1.2);
   EXPECT_LE(figures.most(figures.square_deg), 0.3);
 }
 
