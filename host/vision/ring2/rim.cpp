@@ -100,7 +100,8 @@ OtherEdges other_edges(const ring2::Rig& rig, const std::array<std::vector<Conto
   return edges;
 }
 
-// The radius becomes that of the wider edge. It is as well known as plane and centre are, and the contour itself.
+// The radius becomes that of the wider edge. It is as well known as plane and centre are, and the contour itself: which
+// errs in its size as much as in its shape, where shadow or body lent it edge points, however many it has.
 void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& edge, CirclesEstimate& estimate) {
   const ring2::RigView& view = rig.views[edge.view];
   ring2::Vector8 slope = ring2::Vector8::Zero();
@@ -113,7 +114,8 @@ void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& 
   }
   const double per_px = edge.seen.depth_m / view.optics.fx_px;
   const ring2::Vector8 shared = estimate.covariance * slope;
-  const double variance = slope.dot(shared) + per_px * per_px * growth_variance(*edge.contour);
+  const double variance =
+      slope.dot(shared) + per_px * per_px * growth_variance(*edge.contour) + edge.seen.scatter_m * edge.seen.scatter_m;
   estimate.covariance.row(unknown) = shared.transpose();
   estimate.covariance.col(unknown) = shared;
   estimate.covariance(unknown, unknown) = variance;

@@ -111,6 +111,23 @@ TEST_F(StereoCirclesTest, TheRingsOuterEdgeInOneImageIsEnoughForItsRadius) {
   }
 }
 
+TEST_F(StereoCirclesTest, AnOuterEdgeThatIsNoCircleAboutTheCentreSaysSoInItsRadius) {
+  const StereoCircles all = find(*images_);
+  ASSERT_TRUE(all.estimate.has_value());
+  auto found = without_ring_edges(all, 0.98, 1.2, true, false);
+  for (ellipse::DetectedEllipse& e : found[1]) {
+    if (e.ellipse.a_px < 0.98 * all.contours[1][0]->ellipse.a_px) continue;
+    e.ellipse.cy_px -= 0.6;
+    e.ellipse.a_px += 0.4;
+    e.ellipse.b_px += 0.4;
+  }
+  const StereoCircles circles = circles_among(ring2::core_rig(scenario_->rig), {}, found);
+  ASSERT_TRUE(circles.estimate.has_value()) << circles.refusal;
+  const double error_m = std::abs(circles.estimate->ring_radius_m - scenario_->target_at(0).ring_radius_m);
+  EXPECT_GT(error_m, 0.001);
+  EXPECT_LT(error_m, 2.0 * std::sqrt(circles.estimate->covariance(ring2::kRadius, ring2::kRadius)));
+}
+
 TEST_F(StereoCirclesTest, ALoneInnerEdgeSaysHowLittleItTellsOfTheRadius) {
   const StereoCircles all = find(*images_);
   ASSERT_TRUE(all.estimate.has_value());
