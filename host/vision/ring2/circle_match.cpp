@@ -64,7 +64,7 @@ std::optional<MatchedCircle> match_of(const Rig& rig, const Contour& left, const
   pair[1][0] = right;
   const auto fit = ring2::solve_circles(rig, pair);
   if (!fit) return std::nullopt;
-  return MatchedCircle{{}, fit->ring_centre_m, fit->normal, fit->ring_radius_m, 0.0};
+  return MatchedCircle{{}, fit->ring_centre_m, fit->normal, fit->ring_radius_m};
 }
 
 // How far along the ring's axis a circle's centre lies, where it may be the ring's nozzle.

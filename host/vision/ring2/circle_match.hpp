@@ -14,7 +14,6 @@ struct MatchedCircle {
   Vector3 centre_m = Vector3::Zero();
   Vector3 normal = -Vector3::UnitZ();
   double radius_m = 0.0;
-  double score = 0.0;  ///< the lower of both ellipses' scores
 };
 
 /// All such pairs: rays through the ellipses' middles that meet, sizes that agree, and a fit of the two that leaves no

@@ -2,8 +2,8 @@
 #include "host/vision/ring2/stereo_circles.hpp"
 
 #include <algorithm>
+#include <future>
 #include <memory>
-#include <thread>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/circle_match.hpp"
@@ -159,9 +159,9 @@ StereoCircles StereoCircleFinder::find(const StereoImages& images) {
                      std::to_string(optics.width_px) + " x " + std::to_string(optics.height_px) +
                      "; give the rig file of these cameras");
   }
-  std::thread right([&] { views_[1]->look(images[1], settings_.ellipses); });
+  auto right = std::async(std::launch::async, [&] { views_[1]->look(images[1], settings_.ellipses); });
   views_[0]->look(images[0], settings_.ellipses);
-  right.join();
+  right.get();
   for (std::size_t v = 0; v < ring2::kViews; ++v) {
     if (views_[v]->fault == ImageFault::kNone) continue;
     StereoCircles answer;
