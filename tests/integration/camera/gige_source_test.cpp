@@ -15,6 +15,7 @@
 namespace pharos::host {
 namespace {
 
+using ::testing::Each;
 using ::testing::HasSubstr;
 
 const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new OwnNetwork);
@@ -103,6 +104,19 @@ TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
   EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2], kRange_m, 1e-3);
   EXPECT_EQ(bad_pixels, 0);
   EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
+}
+
+TEST_F(GigeSourceTest, AGreyCamerasSixteenBitsComeThroughAndOfMono8TheUpperEight) {
+  play.grey = true;
+  for (sim::ReelFrame& frame : reel.frames) std::fill(frame.intensity.begin(), frame.intensity.end(), 0x1234);
+  serve();
+  for (const auto& [format, value] : {std::pair{CameraFormat::kMono16, 0x1234}, {CameraFormat::kMono8, 0x1212}}) {
+    settings.format = format;
+    GigeSource source(settings);
+    ASSERT_TRUE(frames_come(source, 2)) << source.status().trouble;
+    EXPECT_THAT(last.intensity, Each(value));
+    EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
+  }
 }
 
 TEST_F(GigeSourceTest, FindsACameraByItsSerialNumberOrSaysWhichThereAre) {

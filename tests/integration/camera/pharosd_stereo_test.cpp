@@ -32,14 +32,17 @@ Matrix3 rotation_of(const pose_t& pose) {
 
 class PharosdStereoTest : public ::testing::Test {
  protected:
-  void write_pairs(int count) {
+  /// `dimmer`: light is that many times less than what suits eight bits.
+  void write_pairs(int count, int bits = 8, std::uint16_t dimmer = 1) {
     fs::create_directories(pairs);
+    truths.clear();
     for (int k = 0; k < count; ++k) {
       truths.push_back(test::ring_at({0.02 * k, -0.01, 2.6}, 5.0 * k * kDeg, (10.0 - 8.0 * k) * kDeg));
       for (std::size_t side = 0; side < 2; ++side) {
-        const GreyImage image = painted.image(truths.back(), side, side);
+        GreyImage image = painted.image(truths.back(), side, side);
+        for (std::uint16_t& pixel : image.pixels) pixel = static_cast<std::uint16_t>(pixel / dimmer);
         const std::string name = "000" + std::to_string(k) + (side == 0 ? "_left.png" : "_right.png");
-        write_grey_png((pairs / name).string(), image.view(), 8);
+        write_grey_png((pairs / name).string(), image.view(), bits);
       }
     }
     std::ofstream(daemon.folder() / "rig.toml") << rig_text(painted.file());
@@ -102,6 +105,14 @@ TEST_F(PharosdStereoTest, FollowsATumblingTargetInRecordedPairs) {
   }
   ASSERT_TRUE(daemon.wait([&] { return daemon.counter("pairs_ok", "client") == static_cast<std::int64_t>(frames); }));
   EXPECT_GE(daemon.counter("slam.keyframes", "client"), 1);
+  ASSERT_EQ(daemon.spins().size(), 2U) << "once a second";
+  EXPECT_EQ(daemon.spins()[0].status, "refused_too_few");
+  const spin_t& spin = daemon.spins()[1];
+  EXPECT_EQ(spin.valid, 1);
+  EXPECT_EQ(spin.source, "slam/bow");
+  EXPECT_EQ(spin.utime, daemon.poses().back().utime);
+  EXPECT_NEAR(Vector3(spin.rate_rad_s).norm(), 20.0 * kDeg, 0.5 * kDeg) << "1 deg a pair, 20 pairs a second";
+  EXPECT_GT(Vector3(spin.axis).dot(sequence.pose(0).R.col(2)), std::cos(2.0 * kDeg));
 }
 
 TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
@@ -128,9 +139,7 @@ TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
 class TwoCamerasTest : public PharosdStereoTest {
  protected:
   TwoCamerasTest() {
-    write_pairs(1);
     for (std::size_t side = 0; side < 2; ++side) {
-      reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
       sim::CameraPlay& play = plays[side];
       play.grey = true;
       play.frame_rate_hz = 4.0;
@@ -140,6 +149,18 @@ class TwoCamerasTest : public PharosdStereoTest {
       play.clock_ppm = side == 0 ? 20.0 : -30.0;
       play.clock_jitter_s = 0.0005;
     }
+  }
+  void serve_pair(int bits, std::uint16_t dimmer = 1) {
+    write_pairs(1, bits, dimmer);
+    for (std::size_t side = 0; side < 2; ++side) {
+      reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
+      serve(side);
+    }
+  }
+  /// With a window for a busy machine: what arrives late is timed late.
+  void start_cameras(const std::string& more) {
+    start("systems = ['ring2']\npacket_size = 9000\npairing_window_ms = 100\n" + more +
+          "[stereo.left]\naddress = '127.0.0.1'\n[stereo.right]\naddress = '127.0.0.2'\n");
   }
   void serve(std::size_t side) { cameras[side].emplace(reels[side], plays[side], nullptr, monotonic_now_ns()); }
   bool poses_come(std::size_t count) {
@@ -153,12 +174,8 @@ class TwoCamerasTest : public PharosdStereoTest {
 };
 
 TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) {
-  serve(0);
-  serve(1);
-  // A window for a busy machine: what arrives late is timed late.
-  start(
-      "systems = ['ring2']\npacket_size = 9000\npairing_window_ms = 100\n[stereo.left]\naddress = '127.0.0.1'\n"
-      "[stereo.right]\naddress = '127.0.0.2'\n");
+  serve_pair(8);
+  start_cameras("");
   ASSERT_TRUE(poses_come(3)) << daemon.process().text();
   for (const pose_t& pose : daemon.poses()) {
     if (pose.valid != 0) expect_ring(pose, truths[0]);
@@ -180,6 +197,17 @@ TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) 
   EXPECT_GE(daemon.counter("right.camera_opened", "client"), 2);
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+TEST_F(TwoCamerasTest, SixteenBitsSeeARingInAnEighthOfTheLight) {
+  serve_pair(16, 8);
+  start_cameras("pixel_format = 'Mono16'\n");
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  for (const pose_t& pose : daemon.poses()) {
+    if (pose.valid != 0) expect_ring(pose, truths[0]);
+  }
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source("client") != nullptr; }, kStereoPatience_s));
+  EXPECT_THAT(daemon.source("client")->identity, HasSubstr("Mono16"));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "tests/integration/cli/program.hpp"
 
 namespace pharos::cli_test {
@@ -61,6 +63,35 @@ TEST(CliCircles, RefusedRowsKeepTheirPlaceWithEmptyFields) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].at("status"), "refused_too_few_ellipses");
   EXPECT_EQ(rows[0].at("theta_deg"), "");
+}
+
+TEST(CliCircles, LeftAndRightExchangedIsTheReasonOfEveryRow) {
+  const Folder folder;
+  const Sweep sweep(folder);
+  std::string table = content_of(sweep.ellipses);
+  for (const auto& [from, to] : {std::pair{",left,", ",other,"}, {",right,", ",left,"}, {",other,", ",right,"}}) {
+    table = std::regex_replace(table, std::regex(from), to);
+  }
+  const Outcome run = pharos("circles --ellipses - --rig " + sweep.rig, table);
+  EXPECT_EQ(run.exit_code, 1);
+  for (const Row& row : rows_of(run.out)) EXPECT_EQ(row.at("status"), "refused_left_right_exchanged");
+}
+
+TEST(CliCircles, AnImageOfNothingIsNamedWithItsSide) {
+  const Folder folder;
+  const Sweep sweep(folder);
+  // A grey image of the rig's 1280 x 1024 pixels, all of one value.
+  const auto even = [&](const std::string& name, char value) {
+    return folder.write(name, "P5\n1280 1024\n255\n" + std::string(std::size_t{1280} * 1024, value));
+  };
+  const std::string black = even("black.pgm", '\0'), white = even("white.pgm", '\xff');
+  for (const auto& [images, status] :
+       {std::pair{black + ' ' + white, "refused_left_black"}, {white + ' ' + black, "refused_left_saturated"}}) {
+    const Outcome run = pharos("circles " + images + " --rig " + sweep.rig);
+    EXPECT_EQ(run.exit_code, 1);
+    ASSERT_EQ(rows_of(run.out).size(), 1U) << run.err;
+    EXPECT_EQ(rows_of(run.out)[0].at("status"), status);
+  }
 }
 
 TEST(CliCircles, WrongUsageIsSaidInOneLine) {

@@ -105,6 +105,24 @@ TEST_F(CliLine, AWrongLawAndAGapInTheTrackAreRowsWithTheirReason) {
   EXPECT_THAT(run.err, HasSubstr("law_does_not_fit"));
 }
 
+TEST_F(CliLine, AnImageThatIsMissingOrBrokenIsARowOfThePassWithItsReason) {
+  std::string track = content_of(file("track.csv"));
+  const std::string first = rows_of(track)[0].at("image"), second = rows_of(track)[1].at("image");
+  track.replace(track.find(first), first.size(), "gone.png");
+  track.replace(track.find(second), second.size(), "broken.png");
+  folder_->write("pass/broken.png", "no image");
+  const Outcome run =
+      pharos("line --track " + folder_->write("pass/torn.csv", track) + " --camera " + file("camera.toml"));
+  EXPECT_EQ(run.exit_code, 0);
+  const auto rows = rows_of(run.out);
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[0].at("status"), "refused_unreadable");
+  EXPECT_EQ(rows[1].at("status"), "refused_unreadable");
+  EXPECT_EQ(rows[2].at("status"), "ok");
+  EXPECT_EQ(rows[5].at("status"), "ok") << "three images are a pass";
+  EXPECT_THAT(run.err, AllOf(HasSubstr("gone.png"), HasSubstr("broken.png")));
+}
+
 TEST_F(CliLine, OneImageNeedsItsDirectionInRange) {
   const std::string image = "line " + file("0000.png") + " --camera " + file("camera.toml");
   const auto complaint = [](const Outcome& run) {
