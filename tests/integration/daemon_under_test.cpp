@@ -40,6 +40,7 @@ DaemonUnderTest::DaemonUnderTest()
         ->setQueueCapacity(kMessages);
   }
   lcm_->subscribe("PHAROS_LINE_POINTING", &DaemonUnderTest::on_pointing, this);
+  lcm_->subscribe("PHAROS_SLAM_SPIN", &DaemonUnderTest::on_spin, this);
   lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
   listen(1);
 }

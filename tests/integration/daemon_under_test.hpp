@@ -13,6 +13,7 @@
 #include "integration/still_target.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 
 namespace lcm {
@@ -50,6 +51,7 @@ class DaemonUnderTest {
 
   const std::vector<pose_t>& poses() const { return poses_; }
   const std::vector<pointing_t>& pointings() const { return pointings_; }
+  const std::vector<spin_t>& spins() const { return spins_; }
   std::size_t valid_poses(const std::string& target = "dock") const;
   const std::optional<status_t>& status() const { return status_; }
   /// Of the last status: a source's state, message and counter.
@@ -62,6 +64,7 @@ class DaemonUnderTest {
   void on_pointing(const lcm::ReceiveBuffer*, const std::string&, const pointing_t* pointing) {
     pointings_.push_back(*pointing);
   }
+  void on_spin(const lcm::ReceiveBuffer*, const std::string&, const spin_t* spin) { spins_.push_back(*spin); }
   void on_status(const lcm::ReceiveBuffer*, const std::string&, const status_t* status) { status_ = *status; }
 
   std::filesystem::path folder_;
@@ -70,6 +73,7 @@ class DaemonUnderTest {
   std::unique_ptr<ChildProcess> process_;
   std::vector<pose_t> poses_;
   std::vector<pointing_t> pointings_;
+  std::vector<spin_t> spins_;
   std::optional<status_t> status_;
   std::int64_t target_clock_zero_ns_ = 0;
 };
