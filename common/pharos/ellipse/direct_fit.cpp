@@ -79,6 +79,39 @@ struct Scatter {
   }
 };
 
+// L L^T of a symmetric positive definite matrix, whose lower half is read. Eigen's own may take memory from the heap.
+class Root {
+ public:
+  // False where the matrix is none.
+  bool take(const Matrix3& m) {
+    if (!(m(0, 0) > 0.0)) return false;
+    l00_ = std::sqrt(m(0, 0));
+    l10_ = m(1, 0) / l00_;
+    l20_ = m(2, 0) / l00_;
+    const double second = m(1, 1) - l10_ * l10_;
+    if (!(second > 0.0)) return false;
+    l11_ = std::sqrt(second);
+    l21_ = (m(2, 1) - l20_ * l10_) / l11_;
+    const double third = m(2, 2) - (l20_ * l20_ + l21_ * l21_);
+    if (!(third > 0.0)) return false;
+    l22_ = std::sqrt(third);
+    return true;
+  }
+  // L x = b
+  Vector3 lower(const Vector3& b) const {
+    const double x = b[0] / l00_, y = (b[1] - l10_ * x) / l11_;
+    return {x, y, (b[2] - (l20_ * x + l21_ * y)) / l22_};
+  }
+  // L^T x = b
+  Vector3 upper(const Vector3& b) const {
+    const double z = b[2] / l22_, y = (b[1] - l21_ * z) / l11_;
+    return {(b[0] - (l10_ * y + l20_ * z)) / l00_, y, z};
+  }
+
+ private:
+  double l00_ = 1.0, l10_ = 0.0, l11_ = 1.0, l20_ = 0.0, l21_ = 0.0, l22_ = 1.0;
+};
+
 // A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is none.
 std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linear) {
   const double a = quadratic[0], b = quadratic[1], c = quadratic[2], d = linear[0], e = linear[1], f = linear[2];
@@ -120,16 +153,16 @@ std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
   Matrix3 scatter = s1 + s2 * eliminate;
   scatter.diagonal().array() += kRidge * s1.trace();
   // Largest mu of C q = mu S q; C has one positive eigenvalue, and S is positive: it is the ellipse's.
-  const Eigen::LLT<Matrix3> root(scatter);
-  if (root.info() != Eigen::Success) return std::nullopt;
+  Root root;
+  if (!root.take(scatter)) return std::nullopt;
   Matrix3 constraint;
   constraint << 0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0;
   Matrix3 half, reduced;
-  for (int k = 0; k < 3; ++k) half.col(k) = root.matrixL().solve(constraint.col(k));
-  for (int k = 0; k < 3; ++k) reduced.col(k) = root.matrixL().solve(half.row(k).transpose());
+  for (int k = 0; k < 3; ++k) half.col(k) = root.lower(constraint.col(k));
+  for (int k = 0; k < 3; ++k) reduced.col(k) = root.lower(half.row(k).transpose());
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (reduced + reduced.transpose()));
   if (eigen.info() != Eigen::Success) return std::nullopt;
-  Vector3 quadratic = root.matrixU().solve(eigen.eigenvectors().col(2).eval());
+  Vector3 quadratic = root.upper(eigen.eigenvectors().col(2));
   if (quadratic[0] + quadratic[2] < 0.0) quadratic = -quadratic;
   std::optional<Ellipse> ellipse = ellipse_of(quadratic, eliminate * quadratic);
   if (!ellipse) return std::nullopt;
