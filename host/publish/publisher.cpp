@@ -4,6 +4,14 @@
 #include "host/publish/messages.hpp"
 
 namespace pharos::host {
+namespace {
+
+bool counted(bool sent, std::int64_t& count) {
+  count += sent ? 1 : 0;
+  return sent;
+}
+
+}  // namespace
 
 Publisher::Publisher(MessageSink& sink, const std::string& prefix)
     : sink_(sink),
@@ -31,51 +39,35 @@ bool Publisher::send(const std::string& channel, const Message& message) {
 }
 
 bool Publisher::publish_pose(const CycleReport& report) {
-  const bool sent = send(pose_channel_, pose_message(report));
-  counters_.poses += sent ? 1 : 0;
-  return sent;
+  return counted(send(pose_channel_, pose_message(report)), counters_.poses);
 }
 
 bool Publisher::publish_board_pose(const CycleReport& report) {
-  const bool sent = send(board_pose_channel_, pose_message(report));
-  counters_.poses += sent ? 1 : 0;
-  return sent;
+  return counted(send(board_pose_channel_, pose_message(report)), counters_.poses);
 }
 
 bool Publisher::publish_pose(const TofReport& report) {
-  const bool sent = send(tof_channel_, pose_message(report));
-  counters_.poses += sent ? 1 : 0;
-  return sent;
+  return counted(send(tof_channel_, pose_message(report)), counters_.poses);
 }
 
 bool Publisher::publish_pose(const StereoReport& report) {
-  const bool sent = send(report.of_slam() ? slam_channel_ : ring2_channel_, pose_message(report));
-  counters_.poses += sent ? 1 : 0;
-  return sent;
+  return counted(send(report.of_slam() ? slam_channel_ : ring2_channel_, pose_message(report)), counters_.poses);
 }
 
 bool Publisher::publish_spin(const SpinReport& report) {
-  const bool sent = send(spin_channel_, spin_message(report));
-  counters_.spins += sent ? 1 : 0;
-  return sent;
+  return counted(send(spin_channel_, spin_message(report)), counters_.spins);
 }
 
 bool Publisher::publish_pointing(const LineReport& report) {
-  const bool sent = send(pointing_channel_, pointing_message(report));
-  counters_.pointings += sent ? 1 : 0;
-  return sent;
+  return counted(send(pointing_channel_, pointing_message(report)), counters_.pointings);
 }
 
 bool Publisher::publish_bearings(const CycleReport& report) {
-  const bool sent = send(bearings_channel_, bearings_message(report));
-  counters_.bearings += sent ? 1 : 0;
-  return sent;
+  return counted(send(bearings_channel_, bearings_message(report)), counters_.bearings);
 }
 
 bool Publisher::publish_health(const DaemonHealth& health) {
-  const bool sent = send(status_channel_, status_message(health, status_sequence_++));
-  counters_.status += sent ? 1 : 0;
-  return sent;
+  return counted(send(status_channel_, status_message(health, status_sequence_++)), counters_.status);
 }
 
 }  // namespace pharos::host
