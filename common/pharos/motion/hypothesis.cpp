@@ -41,6 +41,9 @@ void predict(MotionBank& bank, double dt_s) {
 constexpr int kEnoughToStartle = 4;
 // Chi-squared of a sweep (five degrees of freedom) that not even the wildest motion gives: one in ten million.
 constexpr double kStartling = 40.0;
+// A sweep that turns the belief by less is linear enough; how often one that turns it further is linearised again.
+constexpr double kStraight_rad = 0.02;
+constexpr int kFollowed = 3;
 
 bool surprises(const SweepFit& fit, const Belief& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
@@ -101,7 +104,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     prediction = honest(bank_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
-  surprise_ = innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2;
+  follow(bearings, axis, view, prediction, now);
   const int used = static_cast<int>(fit_.used.size());
   doubts_ = startled_ || used == 0 || 2 * used < fit_.sensors ? doubts_ + 1 : 0;
   cost_ += fit_.log_density;
@@ -117,6 +120,27 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   }
   belief_ = honest(bank_, observer);
   return fit_;
+}
+
+// What a sweep says to the prediction. One that turns the belief far is linearised again where it leads (iterated
+// extended Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
+void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                        const Belief& prediction, const SweepNoise& noise) {
+  Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
+  Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
+  for (int round = 0; round < kFollowed; ++round) {
+    const Vector6 shift = pose_shift(prediction.covariance, fit_.information, innovation);
+    if ((shift + offset).head<3>().norm() < kStraight_rad) break;
+    Belief there = prediction;
+    there.pose = prediction.pose.moved_by(shift);
+    const SweepFit again = fit_sweep(bearings, axis, view, there, time_ticks_, noise);
+    if (again.used.size() < fit_.used.size()) break;
+    fit_ = again;
+    offset = -shift;
+    innovation = innovation_of(fit_.information, prediction.covariance, offset);
+  }
+  surprise_ = innovation.chi2;
+  refuted_ = surprise_ > kStartling && innovation_of(fit_.information, prediction.widest, offset).chi2 > kStartling;
 }
 
 // A sweep of six hits and more shows their noise by itself. Five show it only together with the sweep before, and only

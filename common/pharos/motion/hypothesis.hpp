@@ -68,6 +68,8 @@ class Hypothesis {
   const SweepFit& last_fit() const { return fit_; }
   /// Chi-squared of what the last sweep said to the prediction; its degrees of freedom are the rank of last_fit().
   double last_surprise() const { return surprise_; }
+  /// Not even the wildest motion explains the last sweep: what is believed after it is no answer.
+  bool refuted() const { return refuted_; }
   /// -2 ln of the likelihood of all sweeps since reset_cost().
   double cost() const { return cost_; }
   void reset_cost() { cost_ = 0.0; }
@@ -91,6 +93,8 @@ class Hypothesis {
   Eye& eye(Observer observer) { return eyes_[static_cast<std::size_t>(observer)]; }
   const Eye& eye(Observer observer) const { return eyes_[static_cast<std::size_t>(observer)]; }
   Matrix6 systematic_covariance(const Eye& eye, double range_m, const AssumedNoise& noise) const;
+  void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& prediction,
+              const SweepNoise& noise);
   void learn_noise(Eye& eye, const CycleView::Misfit& cycle) const;
   void doubt_link(double dt_s);
   Matrix6 systematic_of(Observer observer) const;
@@ -109,6 +113,7 @@ class Hypothesis {
   int sweeps_ = 0;
   int doubts_ = 0;
   bool startled_ = false;
+  bool refuted_ = false;
 };
 
 /// Time of the last hit of the target's sensors; INT64_MIN where there is none.

@@ -15,7 +15,7 @@ constexpr std::size_t kMoving = MotionBank::kMoving;
 struct Jerk {
   double rotation, translation;
 };
-constexpr std::array<Jerk, kMoving> kJerk{{{0.001, 0.0003}, {0.1, 0.03}, {10.0, 6.0}, {500000.0, 5000.0}}};
+constexpr std::array<Jerk, kMoving> kJerk{{{0.003, 0.0003}, {0.1, 0.03}, {10.0, 6.0}, {2e6, 2e4}}};
 // A body at rest creeps (a table that gives, warmth): a random walk of 0.1 mm and 0.006 deg in three hours keeps the
 // belief from growing deaf.
 constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s, m^2/s
@@ -35,8 +35,10 @@ constexpr std::array<Onset, kMoving> kUnknown{
 constexpr double kChange[kModels][kModels] = {{0.0, 0.1, 0.1, 0.05, 0.01},
                                               {0.1, 0.0, 0.2, 0.05, 0.01},
                                               {0.1, 0.2, 0.0, 0.5, 0.02},
-                                              {0.01, 0.02, 1.0, 0.0, 0.2},
+                                              {0.01, 0.02, 1.0, 0.0, 1.0},
                                               {0.01, 0.01, 0.02, 1.0, 0.0}};
+// Only what hardly moves comes to rest between two sweeps: rates, 1 sigma, that friction takes away at once.
+constexpr double kHaltingRate_rad_s = 0.1, kHaltingVelocity_m_s = 0.03;
 // A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones. So does one
 // that nobody believes and whose rates are these squared sigmas from the next calmer one's: rates of whole turns a
 // sweep show the same poses, and no sweep would ever contradict them.
@@ -111,6 +113,19 @@ void blend(MovingState& into, const MovingState& other, double weight, bool link
   into.acceleration += weight * a;
 }
 
+// How probable it is that the rates believed in are small enough to end: the share of them, exp and volume of a
+// Gaussian.
+double may_halt(const MovingState& state) {
+  double volume = 1.0, square = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    const double halting = k < 3 ? kHaltingRate_rad_s : kHaltingVelocity_m_s;
+    const double variance = state.rr(k, k) + halting * halting;
+    volume *= halting * halting / variance;
+    square += state.rate[k] * state.rate[k] / variance;
+  }
+  return std::sqrt(volume) * std::exp(-0.5 * square);
+}
+
 }  // namespace
 
 void MotionBank::start(const LighthouseFromBody& pose, double sigma_rotation_rad, double sigma_position_m,
@@ -142,8 +157,9 @@ void MotionBank::interact(double dt_s) {
   for (std::size_t i = 0; i < kModels; ++i) {
     double stays = 1.0;
     for (std::size_t j = 0; j < kModels; ++j) {
-      flow[i][j] = probability_[i] * kChange[i][j] * dt;
-      stays -= kChange[i][j] * dt;
+      const double goes = i > 0 && j == 0 ? kChange[i][0] * may_halt(moving_[i - 1]) : kChange[i][j];
+      flow[i][j] = probability_[i] * goes * dt;
+      stays -= goes * dt;
     }
     flow[i][i] = probability_[i] * stays;
     for (std::size_t j = 0; j < kModels; ++j) next[j] += flow[i][j];

@@ -25,6 +25,8 @@ std::int64_t last_used_hit(const lighthouse::SweepBearings& bearings, const HitF
   return last;
 }
 
+bool answers(const Hypothesis& hypothesis) { return !hypothesis.last_fit().used.empty() && !hypothesis.refuted(); }
+
 double residual_rms(const HitFits& used, const Vector6& shift) {
   double square = 0.0;
   for (const HitFit& hit : used) {
@@ -110,11 +112,11 @@ const Hypothesis* MotionTracker::better_of(const Station& station, std::uint8_t 
   const Hypothesis* joint = pair_.joint();
   // A leader that has just begun from an older cycle has nothing to say of this sweep.
   if (own != nullptr && own->time_ticks() < time_ticks) own = nullptr;
-  if (joint == nullptr || joint->time_ticks() < time_ticks || joint->last_fit().used.empty() ||
+  if (joint == nullptr || joint->time_ticks() < time_ticks || !answers(*joint) ||
       joint->observer() != observer_of(slot)) {
     return own;
   }
-  if (own == nullptr || own->last_fit().used.empty()) return joint;
+  if (own == nullptr || !answers(*own)) return joint;
   const Matrix6 &of_own = own->belief().covariance, &of_joint = joint->belief().covariance;
   const bool knows_more = of_joint.topLeftCorner<3, 3>().trace() <= of_own.topLeftCorner<3, 3>().trace() &&
                           of_joint.bottomRightCorner<3, 3>().trace() <= of_own.bottomRightCorner<3, 3>().trace();
@@ -157,7 +159,7 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   const Observer observer = leader.observer();
   if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
   if (leader.own_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
-  if (fit.used.empty()) return pose::Refusal::kPoorFit;
+  if (!answers(leader)) return pose::Refusal::kPoorFit;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 

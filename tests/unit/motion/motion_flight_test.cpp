@@ -228,6 +228,29 @@ TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
   EXPECT_FALSE(tracker.predicted(0, last_ticks).has_value());
 }
 
+// A hand that shakes the target at 3 to 5 Hz: 30 rad/s and 2.5 m/s, reversed within four cycles of the station.
+TEST(MotionFlight, AShakenBodyIsKnownAsWellAsItSays) {
+  test::FlightScore score;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    sim::LighthouseScenario scenario = test::flight_scenario(6.0);
+    sim::RandomStream random(seed, "hand");
+    std::array<sim::Sine, 3> shift, turn;
+    for (std::size_t k = 0; k < 3; ++k) {
+      shift[k] = {0.08, random.uniform(3.0, 5.0), random.uniform(0.0, kTwoPi)};
+      turn[k] = {k == 2 ? 0.9 : 0.35, random.uniform(3.0, 5.0), random.uniform(0.0, kTwoPi)};
+    }
+    const sim::RoomFromBody centre{rotation_exp({kPi - 0.3, 0.0, 0.0}), {0.0, 0.0, 2.0}};
+    scenario.trajectory = std::make_shared<sim::SineTrajectory>(centre, shift, turn, 0.0);
+    test::fly(scenario, seed, [&](const test::FlightAnswer& answer) { score.add(answer); });
+  }
+  std::printf("shaken: NEES %.3f, RMS %.3f deg %.3f mm, max %.2f deg %.1f mm, %d answers, %d refused\n",
+              score.nees_per_freedom(), score.rotation_rms_deg(), score.position_rms_mm(), score.rotation_max_deg,
+              score.position_max_mm, score.answers, score.refused);
+  EXPECT_LT(score.nees_per_freedom(), 1.1);
+  EXPECT_LT(score.position_rms_mm(), 3.0);
+  EXPECT_LT(score.refused, score.answers / 100);
+}
+
 TEST(MotionFlight, PredictsAheadWithGrowingDoubtAndThenNotAtAll) {
   const sim::LighthouseScenario scenario = test::manoeuvre(3.0, 0.5, 60.0, 3);
   sim::LighthouseSimulator simulator(scenario, 3);

@@ -97,6 +97,13 @@ void print(const char* what, const PairScore& score) {
   }
 }
 
+void expect_honest(const std::array<FlightScore, kMaxStations>& fused) {
+  for (const FlightScore& score : fused) {
+    EXPECT_GT(score.nees_per_freedom(), 0.9);
+    EXPECT_LT(score.nees_per_freedom(), 1.1);
+  }
+}
+
 TEST(MotionPair, WithAKnownRelativePoseBothAreBetterThanEitherAlone) {
   PairScore score;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -112,6 +119,7 @@ TEST(MotionPair, WithAKnownRelativePoseBothAreBetterThanEitherAlone) {
     EXPECT_FALSE(flight.fused->pair().survey_refused());
   }
   print("known", score);
+  expect_honest(score.fused);
   for (std::size_t station = 0; station < kMaxStations; ++station) {
     EXPECT_GT(score.fused[station].answers, 2500);
     EXPECT_LT(score.fused[station].rotation_rms_deg(), 0.9 * score.alone[station].rotation_rms_deg());
@@ -133,6 +141,7 @@ TEST(MotionPair, LearnsWhereTheSecondStationStands) {
     EXPECT_LT(error.head<3>().norm(), 0.005) << seed;
   }
   print("learnt", score);
+  expect_honest(score.fused);
 }
 
 // A relative pose that somebody mistyped, or a station that was knocked since the calibration.
