@@ -169,9 +169,8 @@ SubPixel refine(const Feature& feature, double right_u, const std::vector<Pyrami
     return {};
   }
   std::array<int, 2 * kShift_px + 1> sums{};
-  for (int shift = -kShift_px; shift <= kShift_px; ++shift) {
-    sums[static_cast<std::size_t>(shift + kShift_px)] = difference(left, right, u, v, middle + shift);
-  }
+  int shifted = middle - kShift_px;
+  for (int& sum : sums) sum = difference(left, right, u, v, shifted++);
   const auto best = std::min_element(sums.begin(), sums.end());
   if (best == sums.begin() || best == sums.end() - 1) return {};
   const double column = middle + static_cast<double>(best - sums.begin()) - kShift_px;
