@@ -9,7 +9,7 @@ namespace pharos::tof {
 void BitImage::reset(std::int32_t width_px, std::int32_t height_px) {
   width_ = std::clamp<std::int32_t>(width_px, 0, kMaxWidth_px);
   height_ = std::clamp<std::int32_t>(height_px, 0, kMaxHeight_px);
-  std::fill_n(words_.begin(), static_cast<std::size_t>(height_ * kWords), std::uint64_t{0});
+  std::fill_n(words_.begin(), index(0, height_), std::uint64_t{0});
 }
 
 std::int32_t BitImage::next_set(std::int32_t u, std::int32_t v) const {
@@ -29,17 +29,16 @@ void BitImage::with_neighbours(BitImage& out, Join join) const {
   // Three rows joined; nothing beyond the image.
   const auto column = [&](std::int32_t k, std::int32_t v) -> std::uint64_t {
     if (k < 0 || k >= words) return 0;
-    const std::uint64_t above = v > 0 ? words_[static_cast<std::size_t>((v - 1) * kWords + k)] : 0;
-    const std::uint64_t below = v + 1 < height_ ? words_[static_cast<std::size_t>((v + 1) * kWords + k)] : 0;
-    return join(join(above, words_[static_cast<std::size_t>(v * kWords + k)]), below);
+    const std::uint64_t above = v > 0 ? words_[index(k, v - 1)] : 0;
+    const std::uint64_t below = v + 1 < height_ ? words_[index(k, v + 1)] : 0;
+    return join(join(above, words_[index(k, v)]), below);
   };
   for (std::int32_t v = 0; v < height_; ++v) {
     for (std::int32_t k = 0; k < words; ++k) {
       const std::uint64_t here = column(k, v);
       const std::uint64_t left = (here << 1U) | (column(k - 1, v) >> 63U);
       const std::uint64_t right = (here >> 1U) | (column(k + 1, v) << 63U);
-      out.words_[static_cast<std::size_t>(v * kWords + k)] =
-          join(join(left, here), right) & (k + 1 < words ? ~std::uint64_t{0} : last);
+      out.words_[index(k, v)] = join(join(left, here), right) & (k + 1 < words ? ~std::uint64_t{0} : last);
     }
   }
 }

@@ -35,10 +35,12 @@ class BitImage {
   static_assert(kWords * 64 == kMaxWidth_px);
 
   static unsigned bit(std::int32_t u) { return static_cast<unsigned>(u) & 63U; }
-  std::uint64_t& word(std::int32_t u, std::int32_t v) { return words_[static_cast<std::size_t>(v * kWords + u / 64)]; }
-  const std::uint64_t& word(std::int32_t u, std::int32_t v) const {
-    return words_[static_cast<std::size_t>(v * kWords + u / 64)];
+  // Of word k of row v.
+  static std::size_t index(std::int32_t k, std::int32_t v) {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(kWords) + static_cast<std::size_t>(k);
   }
+  std::uint64_t& word(std::int32_t u, std::int32_t v) { return words_[index(u / 64, v)]; }
+  const std::uint64_t& word(std::int32_t u, std::int32_t v) const { return words_[index(u / 64, v)]; }
   template <class Join>
   void with_neighbours(BitImage& out, Join join) const;
 

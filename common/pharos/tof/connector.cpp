@@ -326,8 +326,8 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   const ImageView<std::uint16_t> heights(workspace.heights.data(), rect.width_px, rect.height_px);
   make_connector_heights(frame, camera, rays, ring, rect, heights);
   const double radius_px = ring.radius_m[0] * camera.optics.fx_px / ring.centre_m.z();
-  const auto half_window =
-      std::max(settings.least_half_window_px, static_cast<std::int32_t>(settings.window_share * radius_px + 0.5));
+  const auto half_window = std::max(settings.least_half_window_px,
+                                    static_cast<std::int32_t>(std::lround(settings.window_share * radius_px)));
   local_threshold(heights, half_window, settings.form, workspace.threshold, workspace.mask);
   drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.mask);
   open_and_close(workspace.mask, workspace.scratch);

@@ -112,7 +112,7 @@ bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGri
     return false;
   }
   const InverseDepth inverse(rays, plane, middle);
-  const auto count = static_cast<std::size_t>(2 * (search_px + kProfileReach_px) + 1);
+  const std::size_t count = 2U * static_cast<std::size_t>(search_px + kProfileReach_px) + 1U;
   Places places;
   take_places(inverse, middle, direction, reach, count, places);
   if (!take_corners(frame, dark_counts, count, places)) return false;

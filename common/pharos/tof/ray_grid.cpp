@@ -11,11 +11,12 @@ bool RayGrid::prepare(const PinholeCamera& camera) {
   // One node beyond the last pixel, so that every pixel lies in a cell.
   columns_ = (camera.width_px - 1) / kStep_px + 2;
   rows_ = (camera.height_px - 1) / kStep_px + 2;
+  std::size_t count = 0;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const auto ray = undistort(camera, Vector2(column * kStep_px, row * kStep_px));
       if (!ray) return false;
-      nodes_[static_cast<std::size_t>(row * columns_ + column)] = {ray->x(), ray->y()};
+      nodes_[count++] = {ray->x(), ray->y()};
     }
   }
   ready_ = true;
@@ -26,7 +27,7 @@ void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<flo
   const double t = static_cast<double>(v % kStep_px) / kStep_px;
   const auto between = [t](double above, double below) { return static_cast<float>((1.0 - t) * above + t * below); };
   row.first_ = u % kStep_px;
-  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_ + u / kStep_px)];
+  const Node* node = node_at(u / kStep_px, v / kStep_px);
   const Node* below = node + columns_;
   float *out_x = row.x_.data(), *out_y = row.y_.data();
   float x = between(node[0].x, below[0].x), y = between(node[0].y, below[0].y);
@@ -48,7 +49,7 @@ void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<dou
   constexpr std::array<double, kStep_px> kShares = {0.0, 0.25, 0.5, 0.75};
   const double t = static_cast<double>(v % kStep_px) / kStep_px;
   row.first_ = u % kStep_px;
-  const Node* node = &nodes_[static_cast<std::size_t>(v / kStep_px * columns_ + u / kStep_px)];
+  const Node* node = node_at(u / kStep_px, v / kStep_px);
   const Node* below = node + columns_;
   double *out_x = row.x_.data(), *out_y = row.y_.data();
   for (std::int32_t k = -row.first_; k < count; k += kStep_px, ++node, ++below) {

@@ -49,6 +49,10 @@ class RayGrid {
     double x = 0.0;
     double y = 0.0;
   };
+  const Node* node_at(int column, int row) const {
+    return nodes_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
+  }
+
   PinholeCamera camera_;
   bool ready_ = false;
   int columns_ = 0;
@@ -63,7 +67,7 @@ inline Vector2 RayGrid::at(double u_px, double v_px) const {
   const int top = std::clamp(static_cast<int>(row), 0, rows_ - 2);
   const double s = column - left;
   const double t = row - top;
-  const Node* node = &nodes_[static_cast<std::size_t>(top * columns_ + left)];
+  const Node* node = node_at(left, top);
   const Node* below = node + columns_;
   return {(1.0 - t) * ((1.0 - s) * node[0].x + s * node[1].x) + t * ((1.0 - s) * below[0].x + s * below[1].x),
           (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y)};

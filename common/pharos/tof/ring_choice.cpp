@@ -29,8 +29,6 @@ constexpr double kLeastInliers = 0.35;
 constexpr double kMostScatter = 3.0;
 // The same of the ring's face alone, without walls and mixed pixels; tilt darkens it by a third.
 constexpr double kMostFaceScatter = 1.8;
-// On the plane: distance of the circles' centres, in outer radii.
-constexpr double kMostEccentricity = 0.03;
 constexpr double kLeastStepShare = 0.6;
 // Multipath in the ring and its walls' roundness, beyond noise.
 constexpr double kPlaneMargin_m = 0.004;
