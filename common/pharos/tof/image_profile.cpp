@@ -21,9 +21,10 @@ ProfileEdge steepest_of_samples(const std::array<double, kMostSamples>& profile,
     if (slope[static_cast<std::size_t>(k)] > slope[static_cast<std::size_t>(best)]) best = k;
   }
   if (best == 0 || best == 2 * search_px) return {};
-  const double left = slope[static_cast<std::size_t>(best - 1)];
-  const double top = slope[static_cast<std::size_t>(best)];
-  const double right = slope[static_cast<std::size_t>(best + 1)];
+  const auto at = static_cast<std::size_t>(best);
+  const double left = slope[at - 1];
+  const double top = slope[at];
+  const double right = slope[at + 1];
   const double bend = left - 2.0 * top + right;
   if (!(bend < 0.0) || !(top > 0.0)) return {};
   return {best - search_px + 0.5 * (left - right) / bend, top};
