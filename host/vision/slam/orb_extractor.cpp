@@ -131,11 +131,13 @@ struct OrbExtractor::Work {
     for (const Corner& corner : corners) {
       const int column = (static_cast<int>(corner.u_px) - kBorder_px) / kCell_px;
       const int row = (static_cast<int>(corner.v_px) - kBorder_px) / kCell_px;
-      has[static_cast<std::size_t>(row * columns + column)] = true;
+      const int cell = row * columns + column;
+      has[static_cast<std::size_t>(cell)] = true;
     }
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
-        if (has[static_cast<std::size_t>(row * columns + column)]) continue;
+        const int number = row * columns + column;
+        if (has[static_cast<std::size_t>(number)]) continue;
         const cv::Rect cell =
             cv::Rect(first + column * kCell_px, first + row * kCell_px, kCell_px + 6, kCell_px + 6) & inside;
         if (!allowed.any(cell)) continue;
