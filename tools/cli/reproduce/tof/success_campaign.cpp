@@ -77,7 +77,7 @@ CampaignResult run_campaign(const CampaignOptions& options, const std::function<
   CampaignResult result;
   std::vector<double> errors_mm;
   std::vector<double> errors_deg;
-  for (int number = 0; number < simulator.frames(); ++number) {
+  for (int number = options.first; number < simulator.frames(); ++number) {
     const sim::TofPixels pixels = simulator.pixels(number);
     const auto measured = tof::measure_tof_pose(frame_of(pixels), camera, {}, *workspace);
     CampaignFrame frame;
@@ -109,7 +109,7 @@ std::vector<ComparisonRow> reproduce_success(int frames, std::uint64_t seed) {
   for (const auto& [diameter_m, min_m, max_m, name] : {std::tuple{1.1, 2.5, 6.0, "ring of 1.1 m, 2.5 to 6 m"},
                                                        std::tuple{0.6, 1.5, 4.0, "ring of 0.6 m, 1.5 to 4 m"}}) {
     Progress progress(name, "frames", static_cast<std::size_t>(frames));
-    const CampaignOptions options{diameter_m, min_m, max_m, frames, seed};
+    const CampaignOptions options{diameter_m, min_m, max_m, frames, seed, true};
     const CampaignResult result = run_campaign(options, [&progress](const CampaignFrame&) { progress.step(); });
     const std::string what = std::string(name) + ", a third hidden: ";
     rows.push_back(

@@ -19,6 +19,7 @@ struct CampaignOptions {
   int frames = 100;
   std::uint64_t seed = 1;
   bool hidden_third = true;
+  int first = 0;  // of the frames; the poses before are drawn, not measured
 };
 
 /// What became of a frame. A pose is wrong when it is off by more than 10 mm or 2 deg.
