@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 #include <vector>
 
+#include "host/vision/enhance/alternate_bands.hpp"
 #include "host/vision/enhance/block_match.hpp"
 #include "host/vision/enhance/shrinkage.hpp"
 
@@ -85,24 +84,14 @@ void each_place(std::int32_t first, std::int32_t last, std::int32_t step, Each&&
   each(last);
 }
 
-// band(worker, first row of references, last row): the even bands on all threads, then the odd ones, so that no two of
-// them add to the same pixel at once and sums have one order.
+// band(worker, first row of references, last row), neighbours never at once: no two add to the same pixel together, and
+// sums have one order.
 template <class Band>
 void over_bands(std::int32_t height_px, int threads, Band&& band) {
   const std::int32_t references = height_px - kSide + 1;
-  const std::int32_t bands = (references + kBand_px - 1) / kBand_px;
-  const int workers = std::clamp(threads, 1, (bands + 1) / 2);
-  for (std::int32_t parity = 0; parity < 2; ++parity) {
-    std::atomic<std::int32_t> next = parity;
-    const auto work = [&](std::size_t worker) {
-      for (std::int32_t k = next.fetch_add(2); k < bands; k = next.fetch_add(2)) {
-        band(worker, k * kBand_px, std::min((k + 1) * kBand_px, references) - 1);
-      }
-    };
-    std::vector<std::jthread> others;
-    for (int k = 1; k < workers; ++k) others.emplace_back(work, static_cast<std::size_t>(k));
-    work(0);
-  }
+  alternate_bands((references + kBand_px - 1) / kBand_px, threads, [&](std::size_t worker, std::int32_t k) {
+    band(worker, k * kBand_px, std::min((k + 1) * kBand_px, references) - 1);
+  });
 }
 
 bool nothing_to_do(const FloatImage& image, double sigma) {

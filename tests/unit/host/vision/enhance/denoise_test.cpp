@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <latch>
 #include <random>
+#include <stdexcept>
 
+#include "host/vision/enhance/alternate_bands.hpp"
 #include "host/vision/enhance/block_transform.hpp"
 #include "host/vision/enhance/bm3d.hpp"
 #include "host/vision/enhance/noise_level.hpp"
@@ -31,6 +35,35 @@ void comes_back() {
   forward_transform<kind>(block.data(), kBlock_px, there.data());
   inverse_transform<kind>(there.data());
   for (std::size_t k = 0; k < kBlockPixels; ++k) EXPECT_NEAR(there[k], block[k], 1e-5F);
+}
+
+TEST(AlternateBands, AllAreDoneOnceAndEvenOnesFirst) {
+  for (const int threads : {0, 1, 2, 5}) {
+    std::array<std::atomic<int>, 7> done{};
+    alternate_bands(7, threads, [&](std::size_t, std::int32_t k) {
+      if (k % 2 == 1) {
+        for (std::size_t even = 0; even < 7; even += 2) EXPECT_EQ(done[even], 1) << k;
+      }
+      ++done[static_cast<std::size_t>(k)];
+    });
+    for (const auto& count : done) EXPECT_EQ(count, 1) << threads;
+  }
+  alternate_bands(0, 2, [](std::size_t, std::int32_t) { FAIL() << "no band there"; });
+}
+
+// The caller's own band does not end before the other thread's has begun, which throws.
+TEST(AlternateBands, WhatAnotherThreadThrowsComesToTheCaller) {
+  std::latch begun(1);
+  const auto band = [&begun](std::size_t worker, std::int32_t k) {
+    EXPECT_EQ(k % 2, 0) << "bands go on after a fault";
+    if (worker == 0) {
+      begun.wait();
+    } else {
+      begun.count_down();
+      throw std::runtime_error("no memory");
+    }
+  };
+  EXPECT_THROW(alternate_bands(4, 2, band), std::runtime_error);
 }
 
 TEST(BlockTransforms, ComeBack) {
