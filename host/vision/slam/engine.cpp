@@ -48,39 +48,30 @@ double quantile(std::vector<float> values, double share) {
 
 }  // namespace
 
-Engine::Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings)
+Engine::Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings, Watch watch)
     : settings_(settings),
       frontend_(std::move(rectification), settings),
       recognition_(std::move(vocabulary)),
       tracker_(frontend_.camera(), map_, &recognition_),
-      closer_(frontend_.camera(), map_, recognition_) {
+      closer_(frontend_.camera(), map_, recognition_),
+      watch_(std::move(watch)) {
   if (!settings_.threads) return;
-  mapping_ = std::thread([this] {
-    while (const auto id = to_map_.next()) {
-      map_keyframe(*id);
-      to_close_.push(*id);
-      to_map_.done();
-    }
-  });
-  closing_ = std::thread([this] {
-    while (const auto id = to_close_.next()) {
-      close_loop(*id);
-      to_close_.done();
-    }
+  closing_.emplace("closing a loop", [this](KeyframeId id) { close_loop(id); });
+  mapping_.emplace("mapping a keyframe", [this](KeyframeId id) {
+    map_keyframe(id);
+    closing_->push(id);
   });
 }
 
-Engine::~Engine() {
-  to_map_.close();
-  if (mapping_.joinable()) mapping_.join();
-  to_close_.close();
-  if (closing_.joinable()) closing_.join();
+void Engine::check_threads() const {
+  if (mapping_) mapping_->check();
+  if (closing_) closing_->check();
 }
 
 void Engine::wait_for_threads() const {
-  if (!settings_.threads) return;
-  to_map_.wait_until_idle();
-  to_close_.wait_until_idle();
+  if (mapping_) mapping_->wait_until_idle();
+  if (closing_) closing_->wait_until_idle();
+  check_threads();
 }
 
 Map Engine::adjusted(Map map) const {
@@ -164,7 +155,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
       }
     } else {
       // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
-      const bool idle = settings_.threads ? to_map_.idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
+      const bool idle = mapping_ ? mapping_->idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
       const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
       out.inliers = tracked.inliers;
       out.relocalised = tracked.relocalised;
@@ -181,8 +172,8 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
     if (settings_.keep_trajectory) log_.add(out, tracker_.reference(), relative);
   }
   if (made == kNone) return out;
-  if (settings_.threads) {
-    to_map_.push(made);
+  if (mapping_) {
+    mapping_->push(made);
   } else {
     map_keyframe(made);
     close_loop(made);
@@ -191,6 +182,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
 }
 
 TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) {
+  check_threads();
   const StereoCamera& camera = frontend_.camera();
   if (left.width_px != camera.width_px || left.height_px != camera.height_px || !left.same_size(right)) {
     throw host::InputError("a pair of " + std::to_string(left.width_px) + " x " + std::to_string(left.height_px) +
@@ -240,6 +232,7 @@ void Engine::note_figures(const TrackedFrame& out, const StereoFrontend::Result&
 }
 
 void Engine::map_keyframe(KeyframeId id) {
+  if (watch_) watch_(id);
   const Stopwatch watch;
   BundleProblem problem;
   std::int64_t corrections = 0;

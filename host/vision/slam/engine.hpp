@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
-#include <deque>
+#include <functional>
 #include <mutex>
-#include <thread>
+#include <optional>
 
+#include "host/vision/slam/keyframe_worker.hpp"
 #include "host/vision/slam/loop_closing.hpp"
 #include "host/vision/slam/pair_skew.hpp"
 #include "host/vision/slam/slam_system.hpp"
@@ -16,33 +15,15 @@
 
 namespace pharos::slam {
 
-/// Keyframes that wait for a thread, which works on one at a time.
-class KeyframeQueue {
- public:
-  void push(KeyframeId id);
-  /// Waits for the next one; empty when closed.
-  std::optional<KeyframeId> next();
-  /// The one that next() gave is done.
-  void done();
-  bool idle() const;
-  bool waiting() const;
-  void wait_until_idle() const;
-  void close();
-
- private:
-  mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
-  std::deque<KeyframeId> ids_;
-  bool busy_ = false, closed_ = false;
-};
-
 /// SlamSystem itself: tracking in the caller's thread, mapping and loop closing after it or in theirs.
 ///
 /// One mutex guards map, tracker and recognition; adjustments work on copies outside it.
 class Engine final : public SlamSystem {
  public:
-  Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings);
-  ~Engine() override;
+  /// Called with each keyframe when its mapping begins, in the thread that maps.
+  using Watch = std::function<void(KeyframeId)>;
+
+  Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings, Watch watch = {});
 
   TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) override;
   void finish() override;
@@ -55,6 +36,7 @@ class Engine final : public SlamSystem {
   ImageView<const std::uint8_t> last_mask() const override { return frontend_.mask(); }
 
  private:
+  void check_threads() const;
   void wait_for_threads() const;
   Map adjusted(Map map) const;
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen);
@@ -84,8 +66,9 @@ class Engine final : public SlamSystem {
   SlamReport report_;
   std::vector<float> features_, inliers_, tracking_ms_, mapping_ms_;
 
-  KeyframeQueue to_map_, to_close_;
-  std::thread mapping_, closing_;
+  Watch watch_;
+  // Last, for they use all the others; mapping ends first, for it feeds closing. Empty without threads.
+  std::optional<KeyframeWorker> closing_, mapping_;
 };
 
 }  // namespace pharos::slam

@@ -34,6 +34,9 @@ struct SlamPoint {
 
 /// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017). Lives in
 /// a module that make_slam() loads, as OpenCV and Ceres do.
+///
+/// Where one of its own threads has failed (no memory), push(), finish() and settled_trajectory() throw
+/// std::runtime_error from then on: the map may be half changed, and only another system has a whole one.
 class SlamSystem {
  public:
   virtual ~SlamSystem() = default;
