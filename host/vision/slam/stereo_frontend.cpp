@@ -6,6 +6,8 @@
 #include <future>
 #include <opencv2/imgproc.hpp>
 
+#include "host/vision/slam/exposure_ratio.hpp"
+
 namespace pharos::slam {
 namespace {
 
@@ -54,6 +56,7 @@ struct StereoFrontend::Work {
   Side left, right;
   Foreground foreground;
   StillFeatures still;
+  ExposureRatio exposure;
   ImageView<const std::uint8_t> mask;
   explicit Work(const OrbSettings& settings) : left(settings), right(settings) {}
 
@@ -106,8 +109,10 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   const Levels levels = levels_of(mat_of(left));
   result.saturated = levels.low >= kBright;
   result.dark = !result.saturated && levels.high - levels.low < kLeastContrast;
+  const double exposure = work.exposure.of(left, right);
   const auto do_right = [&] {
     Work::rectify(work.right, mat_of(right));
+    if (exposure != 1.0) work.right.image.convertTo(work.right.image, CV_8U, exposure);
     work.right.extractor.extract(view_of(work.right.image), {});
   };
   std::future<void> other;
@@ -125,6 +130,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   result.stats =
       match_stereo(result.features, right_features, work.left.extractor.pyramid(), work.right.extractor.pyramid(),
                    rectification_.camera, 3.0 * rectification_.camera.baseline_m, check_order);
+  work.exposure.learn(exposure, result.features, work.left.extractor.pyramid(), work.right.extractor.pyramid());
   if (settings_.scene == Scene::kTarget) work.still.remove_still(result.features);
   return result;
 }
