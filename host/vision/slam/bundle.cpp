@@ -13,6 +13,8 @@
 namespace pharos::slam {
 namespace {
 
+constexpr double kLeastDepth_m = 1e-3;
+
 // (12), one observation: rows are whitened.
 class Reprojection : public ceres::CostFunction {
  public:
@@ -25,7 +27,7 @@ class Reprojection : public ceres::CostFunction {
     const CameraFromTarget pose = slam::pose_of(parameters[0]);
     Observation at = seen_;
     at.point_m = Vector3(parameters[1]);
-    if (!((pose * at.point_m).z() > 1e-3)) return false;
+    if (!((pose * at.point_m).z() > kLeastDepth_m)) return false;
     const double weight = 1.0 / std::sqrt(seen_.variance_px2);
     const Vector3 e = weight * residual_of(at, camera_, pose);
     const int rows = num_residuals();
@@ -123,11 +125,16 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
   ceres::Solve(solver, &ceres, &summary);
 }
 
+bool in_front(const BundleObservation& observation, const Blocks& blocks) {
+  const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
+  return (pose * Vector3(blocks.points.at(observation.point))).z() > kLeastDepth_m;
+}
+
 bool fits(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
+  if (!in_front(observation, blocks)) return false;
   Observation at = observation.seen;
   at.point_m = Vector3(blocks.points.at(observation.point));
   const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
-  if (!((pose * at.point_m).z() > 1e-3)) return false;
   return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
 }
 
@@ -175,7 +182,9 @@ BundleProblem global_problem(const Map& map) {
 std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera,
                                        const BundleSettings& settings) {
   Blocks blocks(problem);
-  std::vector<bool> use(problem.observations.size(), true);
+  // A single point that starts behind a camera would end the adjustment before its first step.
+  std::vector<bool> use;
+  for (const BundleObservation& observation : problem.observations) use.push_back(in_front(observation, blocks));
   std::vector<std::size_t> rejected;
   solve(problem, blocks, camera, settings, use);
   for (std::size_t k = 0; k < use.size(); ++k) {

@@ -58,6 +58,30 @@ TEST(Bundle, RecoversPosesAndPointsOfExactObservations) {
   }
 }
 
+// One point that starts behind the cameras is not what the others wait for.
+TEST(Bundle, APointBehindTheCamerasIsLeftOut) {
+  std::mt19937_64 random(4);
+  std::vector<CameraFromTarget> poses;
+  std::vector<Vector3> points;
+  Map map = simulated_map(random, 0.0, poses, points);
+  for (auto& [id, keyframe] : map.keyframes) {
+    if (id == 0) continue;
+    Vector6 error;
+    error << random_vector(random, 0.01), random_vector(random, 0.03);
+    keyframe.pose = keyframe.pose.moved_by(error);
+  }
+  map.points.at(7).position_m -= map.keyframes.at(2).pose.R.transpose() * Vector3(0.0, 0.0, 100.0);
+  BundleProblem problem = global_problem(map);
+  const auto rejected = adjust_bundle(problem, kCamera, {30, nullptr});
+  EXPECT_EQ(rejected.size(), poses.size());
+  for (const std::size_t k : rejected) EXPECT_EQ(problem.observations[k].point, 7);
+  apply(problem, rejected, map);
+  EXPECT_FALSE(map.points.contains(7));
+  for (const auto& [id, keyframe] : map.keyframes) {
+    EXPECT_LT(rotation_angle_between(keyframe.pose.R, poses[static_cast<std::size_t>(id)].R), 1e-5);
+  }
+}
+
 TEST(Bundle, RejectsAFalseObservationAndKeepsTheFixedPose) {
   std::mt19937_64 random(2);
   std::vector<CameraFromTarget> poses;
