@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "tests/unit/host/config/made_up.hpp"
@@ -66,6 +67,7 @@ struct BadCamera {
   const char* name;
   const char* text;  // after kCamera
   const char* expected;
+  friend void PrintTo(const BadCamera& bad, std::ostream* out) { *out << bad.name; }
 };
 
 class CameraConfigRefuses : public ::testing::TestWithParam<BadCamera> {};

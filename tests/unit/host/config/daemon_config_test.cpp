@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 
 #include "pharos/base/units.hpp"
@@ -154,6 +155,7 @@ struct BadLine {
   const char* text;      // before the target
   const char* extra;     // inside the target
   const char* expected;  // start of the message
+  friend void PrintTo(const BadLine& bad, std::ostream* out) { *out << bad.name; }
 };
 
 class DaemonConfigRefuses : public ::testing::TestWithParam<BadLine> {};

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "tests/unit/host/config/made_up.hpp"
@@ -80,6 +81,7 @@ struct BadStereo {
   const char* name;
   std::string text;
   const char* expected;
+  friend void PrintTo(const BadStereo& bad, std::ostream* out) { *out << bad.name; }
 };
 
 class StereoConfigRefuses : public ::testing::TestWithParam<BadStereo> {};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "host/vision/enhance/smoothness.hpp"
@@ -20,6 +21,7 @@ struct Case {
   WeightStrategy strategy;
   float light;
   const char* name;
+  friend void PrintTo(const Case& it, std::ostream* out) { *out << it.name; }
 };
 
 class Illumination : public testing::TestWithParam<Case> {
