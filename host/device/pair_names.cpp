@@ -77,10 +77,63 @@ double half_step_ns(const std::vector<fs::path>& images) {
   return 0.5 * steps[steps.size() / 2];
 }
 
-std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights, double rate_hz) {
+// Images of two sides that belong together, in order, and where among all of both sides each pair lies.
+struct Matched {
+  std::vector<fs::path> lefts, rights;
+  std::vector<std::size_t> places;
+};
+
+// Leaves out, and names, who has no partner. `order` is below 0 where the left image comes before the right one, 0
+// where they are a pair.
+template <class Order>
+Matched match(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights, Order&& order,
+              std::vector<std::string>& alone) {
+  Matched matched;
+  std::size_t a = 0, b = 0, place = 0;
+  while (a < lefts.size() || b < rights.size()) {
+    const int which = a == lefts.size() ? 1 : b == rights.size() ? -1 : order(lefts[a], rights[b]);
+    if (which == 0) {
+      matched.lefts.push_back(lefts[a++]);
+      matched.rights.push_back(rights[b++]);
+      matched.places.push_back(place);
+    } else {
+      alone.push_back((which < 0 ? lefts[a++] : rights[b++]).string());
+    }
+    ++place;
+  }
+  return matched;
+}
+
+Matched matched_by_stamps(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights,
+                          std::vector<std::string>& alone) {
   const double tolerance_ns = half_step_ns(lefts);
-  const bool stamped =
-      std::all_of(lefts.begin(), lefts.end(), [](const auto& path) { return stamp_ns(path).has_value(); });
+  return match(
+      lefts, rights,
+      [tolerance_ns](const fs::path& l, const fs::path& r) {
+        const double off_ns = static_cast<double>(*stamp_ns(l) - *stamp_ns(r));
+        return std::abs(off_ns) <= tolerance_ns ? 0 : off_ns < 0.0 ? -1 : 1;
+      },
+      alone);
+}
+
+Matched matched_by_names(std::vector<fs::path> lefts, std::vector<fs::path> rights, std::vector<std::string>& alone) {
+  for (std::vector<fs::path>* side : {&lefts, &rights}) {
+    std::stable_sort(side->begin(), side->end(),
+                     [](const auto& a, const auto& b) { return name_of_pair(a) < name_of_pair(b); });
+  }
+  return match(
+      lefts, rights, [](const fs::path& l, const fs::path& r) { return name_of_pair(l).compare(name_of_pair(r)); },
+      alone);
+}
+
+bool all_stamped(const std::vector<fs::path>& images) {
+  return std::all_of(images.begin(), images.end(), [](const auto& path) { return stamp_ns(path).has_value(); });
+}
+
+std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights, double rate_hz,
+                             const std::vector<std::size_t>& places = {}) {
+  const double tolerance_ns = half_step_ns(lefts);
+  const bool stamped = all_stamped(lefts);
   std::vector<PairName> pairs;
   for (std::size_t k = 0; k < lefts.size(); ++k) {
     const auto a = stamp_ns(lefts[k]), b = stamp_ns(rights[k]);
@@ -88,7 +141,8 @@ std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vect
       throw InputError(lefts[k].string() + " and " + rights[k].string() +
                        " are no pair: left and right are out of step; remove those that have no partner");
     }
-    const double time_s = stamped ? static_cast<double>(*a) * 1e-9 : static_cast<double>(k) / rate_hz;
+    const std::size_t index = places.empty() ? k : places[k];
+    const double time_s = stamped ? static_cast<double>(*a) * 1e-9 : static_cast<double>(index) / rate_hz;
     if (!pairs.empty() && time_s <= pairs.back().time_s) {
       throw InputError(lefts[k].string() + ": its time is not after the image before it");
     }
@@ -99,8 +153,19 @@ std::vector<PairName> paired(const std::vector<fs::path>& lefts, const std::vect
 
 }  // namespace
 
-std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz) {
+std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz,
+                                 std::vector<std::string>* alone) {
   const auto lefts = images_in(left), rights = images_in(right);
+  const bool stamped = all_stamped(lefts) && all_stamped(rights);
+  if (alone != nullptr && (stamped || share_a_name(lefts, rights))) {
+    std::vector<std::string> left_out;
+    const Matched matched =
+        stamped ? matched_by_stamps(lefts, rights, left_out) : matched_by_names(lefts, rights, left_out);
+    if (matched.lefts.size() >= left_out.size() && !matched.lefts.empty()) {
+      alone->insert(alone->end(), left_out.begin(), left_out.end());
+      return paired(matched.lefts, matched.rights, rate_hz, matched.places);
+    }
+  }
   // Stamps of two cameras may differ by a little: those are held to half a frame below.
   if (!stamp_ns(lefts.front()) && share_a_name(lefts, rights)) refuse_lone(lefts, rights);
   if (lefts.size() != rights.size()) {

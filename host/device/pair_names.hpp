@@ -21,7 +21,11 @@ struct PairName {
 /// digits (ns), else index / rate. Throws InputError for a folder without images, for different numbers of images, for
 /// an image without a namesake where other names are those of both sides (stamps excepted), and for times that do not
 /// grow or of which left and right differ by more than half a frame.
-std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz);
+///
+/// With `alone`, images without a partner are named there and left out instead: an index counts them, stamps are paired
+/// within half a frame. Refused where fewer pairs than lone images remain, and where names differ and numbers too.
+std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz,
+                                 std::vector<std::string>* alone = nullptr);
 
 /// The same of one directory as `pharos sim stereo` writes it: left/ and right/ in it, or NAME_left.png beside
 /// NAME_right.png. Also throws for a left image without its right one, or the reverse.

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos slam: stereo pairs to the poses of a target without a model (paper 004).
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "host/cameras/rig_file.hpp"
-#include "host/device/pair_names.hpp"
-#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/enhance/eight_bits.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/slam/pair_files.hpp"
 #include "tools/slam/slam_files.hpp"
 
 namespace pharos::tools {
@@ -23,14 +23,16 @@ constexpr const char* kExample =
     "  pharos slam left right --rig rig.toml --report report.json --map map.ply > poses.tum\n"
     "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
     "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
-    "row. --scene static: nothing is masked, the camera moves.";
+    "row. --scene static: nothing is masked, the camera moves; --output camera tells its path.\n"
+    "Images: PNG or PGM, 8 or 16 bits (of which the upper 8 count, unless enhanced), of colour the luma. One without\n"
+    "partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
+    "--overlay: DIR/NAME_slam.png, green: of the map, yellow: with depth, red: without; what is masked is blue.";
 
 struct Options {
-  std::string left, right, rig;
+  PairChoice names;
+  std::string rig;
   std::string scene = "target", output = "target";
   std::string report, map, overlay;
-  double rate_hz = 20.0;
-  std::size_t pairs = 0;  // 0: all
   bool no_loops = false, threads = false;
   std::string enhance;  // empty, or the denoiser
   slam::SlamSettings settings;
@@ -39,25 +41,51 @@ struct Options {
 std::optional<enhance::EnhanceSettings> enhance_settings(const std::string& denoiser) {
   if (denoiser.empty()) return std::nullopt;
   enhance::EnhanceSettings settings;
+  if (denoiser == "bm3d-video") settings.bm3d = enhance::kVideoBm3d;
   if (denoiser == "fast") settings.denoiser = enhance::Denoiser::kFast;
   if (denoiser == "none") settings.denoiser = enhance::Denoiser::kNone;
   return settings;
 }
 
-// So many pairs: the first ones; of more than there are, all of them there and back again, at even times.
-std::vector<host::PairName> prolonged(const std::vector<host::PairName>& pairs, std::size_t wanted) {
-  if (wanted <= pairs.size()) return {pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted)};
-  if (pairs.size() < 2) throw host::InputError(pairs.front().left + ": one pair cannot be gone through there and back");
-  const std::size_t last = pairs.size() - 1;
-  const double step_s = (pairs.back().time_s - pairs.front().time_s) / static_cast<double>(last);
-  std::vector<host::PairName> out;
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const std::size_t place = k % (2 * last);
-    out.push_back(pairs[place <= last ? place : 2 * last - place]);
-    out.back().time_s = pairs.front().time_s + step_s * static_cast<double>(k);
+// Pushes pairs and says what becomes of them.
+class Feeder {
+ public:
+  Feeder(const Options& options, const host::RigFile& rig, slam::SlamSystem& system)
+      : options_(options), rig_(rig), system_(system), lit_(enhance_settings(options.enhance)) {}
+
+  /// A bad first pair is an error: so would all others be. Later ones are told and left out.
+  void feed(const host::PairName& pair, RunFigures& figures) {
+    try {
+      images_ = read_pair(pair, rig_);
+    } catch (const host::InputError& error) {
+      if (!any_) throw;
+      note(error.what());
+      ++figures.unreadable;
+      return;
+    }
+    any_ = true;
+    const auto start = std::chrono::steady_clock::now();
+    const auto ms = [&start] {
+      return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    };
+    const auto [left, right] = lit_.both(images_.left.view(), images_.right.view());
+    figures.light_ms.push_back(ms());
+    const slam::TrackedFrame frame = system_.push(pair.time_s, left, right);
+    figures.to_pose_ms.push_back(ms());
+    if (frame.lost && !lost_) note(pair.left + ": tracking is lost; looking for known views");
+    lost_ = frame.lost;
+    if (frame.relocalised) note(pair.left + ": found again");
+    if (!options_.overlay.empty()) write_slam_overlay(options_.overlay, pair.stem, system_);
   }
-  return out;
-}
+
+ private:
+  const Options& options_;
+  const host::RigFile& rig_;
+  slam::SlamSystem& system_;
+  enhance::EightBitPairs lit_;
+  PairImages images_;
+  bool any_ = false, lost_ = false;
+};
 
 int run(Options options) {
   options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
@@ -66,30 +94,24 @@ int run(Options options) {
   for (const std::string& file : {options.report, options.map}) {
     if (!file.empty()) require_writable(file);
   }
-  std::vector<host::PairName> pairs = host::pair_names(options.left, options.right, options.rate_hz);
-  if (options.pairs > 0) pairs = prolonged(pairs, options.pairs);
-  const auto system = slam::make_slam(host::read_rig_file(options.rig), options.rig, options.settings);
-  enhance::EightBitPairs lit(enhance_settings(options.enhance));
-  bool lost = false;
-  std::vector<MemoryAt> memory;
+  RunFigures figures;
+  const std::vector<host::PairName> pairs = wanted_pairs(options.names, figures);
+  const host::RigFile rig = host::read_rig_file(options.rig);
+  const auto system = slam::make_slam(rig, options.rig, options.settings);
+  Feeder feeder(options, rig, *system);
   Progress progress("slam", "pairs", pairs.size());
-  for (const host::PairName& pair : pairs) {
-    const host::GreyImage left = host::read_grey_image(pair.left), right = host::read_grey_image(pair.right);
-    const slam::TrackedFrame frame = system->push(pair.time_s, lit.of(left.view(), 0), lit.of(right.view(), 1));
-    if (frame.lost && !lost) note(pair.left + ": tracking is lost; looking for known views");
-    lost = frame.lost;
-    if (frame.relocalised) note(pair.left + ": found again");
-    if (!options.overlay.empty()) write_slam_overlay(options.overlay, pair.stem, *system);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    feeder.feed(pairs[k], figures);
     progress.step();
-    note_quarter(static_cast<std::size_t>(&pair - pairs.data()) + 1, pairs.size(), memory);
+    note_quarter(k + 1, pairs.size(), figures);
   }
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
   const int rows = write_tum(trajectory, options.output == "camera");
   if (!options.map.empty()) write_map_ply(options.map, system->points());
-  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, memory);
+  if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
   if (rows > 0) return kExitAnswered;
-  note(options.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
+  note(options.names.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
        " pairs, none with enough stereo features");
   return kExitNoAnswer;
 }
@@ -99,28 +121,35 @@ int run(Options options) {
 void add_slam(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("slam", "Stereo pairs to the poses of a target without a model");
   const auto options = std::make_shared<Options>();
-  command->add_option("LEFT", options->left, "Folder of left images, raw or rectified, in order of their names")
+  command->add_option("LEFT", options->names.left, "Folder of left images, raw or rectified, in order of their names")
       ->required();
-  command->add_option("RIGHT", options->right, "Folder of right images")->required();
+  command->add_option("RIGHT", options->names.right, "Folder of right images")->required();
   command->add_option("--rig", options->rig, "Rig file (TOML)")->required();
-  command->add_option("--scene", options->scene, "target: a body before dark or stillness; static: all of the image")
+  command
+      ->add_option("--scene", options->scene,
+                   "target (default): a body before dark or stillness; static: all of the image")
       ->check(CLI::IsMember({"target", "static"}));
-  command->add_option("--output", options->output, "Poses of the target in the camera, or of the camera")
+  command
+      ->add_option("--output", options->output,
+                   "Poses of the target in the camera (default), or of the camera in the scene")
       ->check(CLI::IsMember({"target", "camera"}));
-  command->add_option("--rate", options->rate_hz, "Pairs a second where names tell no time (default 20)")
+  command->add_option("--rate", options->names.rate_hz, "Pairs a second where names tell no time (default 20)")
       ->check(CLI::Range(0.001, 10'000.0));
-  command->add_option("--pairs", options->pairs, "Stop after so many; where there are fewer, there and back again")
+  command
+      ->add_option("--pairs", options->names.pairs, "Stop after so many; where there are fewer, there and back again")
       ->check(CLI::Range(1, 10'000'000));
   command->add_option("--report", options->report, "File for figures of the run (JSON)");
   command->add_option("--map", options->map, "File for the map's points (PLY)");
   command->add_option("--overlay", options->overlay, "Folder for pictures of the features");
   command
-      ->add_option("--enhance", options->enhance,
-                   "Enhance low light first (see `pharos enhance`); its denoiser: bm3d (default), fast or none")
+      ->add_option(
+          "--enhance", options->enhance,
+          "Enhance low light first (see `pharos enhance`); its denoiser: bm3d (default), bm3d-video (a fifth of its "
+          "time), fast or none; write --enhance=bm3d before a folder")
       ->type_name("[DENOISER]")
       ->expected(0, 1)
       ->default_str("bm3d")
-      ->check(CLI::IsMember({"bm3d", "fast", "none"}));
+      ->check(CLI::IsMember({"bm3d", "bm3d-video", "fast", "none"}));
   command->add_option("--features", options->settings.features, "Features a frame (default 1000)")
       ->check(CLI::Range(100, 10'000));
   command->add_option("--max-keyframes", options->settings.most_keyframes, "Limit of keyframes; the paper's is 20")

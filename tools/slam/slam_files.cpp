@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/slam/slam_files.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "host/daemon/process_usage.hpp"
 #include "host/images/canvas.hpp"
 #include "host/support/exact_number.hpp"
+#include "host/support/fixed_number.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/spin.hpp"
 
@@ -18,6 +20,13 @@ namespace {
 
 void finish(std::ofstream& file, const std::string& path) {
   if (!file.flush()) throw host::InputError(path + ": cannot be written");
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 nlohmann::ordered_json spin_json(const slam::Spin& spin) {
@@ -41,6 +50,21 @@ nlohmann::ordered_json spin_json(const slam::Spin& spin) {
 
 }  // namespace
 
+host::GreyImage read_luma(const std::string& path) {
+  host::Picture picture = host::read_picture(path);
+  host::GreyImage grey{picture.width_px, picture.height_px, picture.bits, {}};
+  if (picture.channels == 1) {
+    grey.pixels = std::move(picture.values);
+    return grey;
+  }
+  grey.pixels.reserve(picture.pixels());
+  for (std::size_t k = 0; k < picture.values.size(); k += 3) {
+    const std::uint32_t red = picture.values[k], green = picture.values[k + 1], blue = picture.values[k + 2];
+    grey.pixels.push_back(static_cast<std::uint16_t>((299 * red + 587 * green + 114 * blue + 500) / 1000));
+  }
+  return grey;
+}
+
 std::vector<std::uint8_t> eight_bits(const host::GreyImage& image) {
   std::vector<std::uint8_t> out;
   out.reserve(image.pixels.size());
@@ -56,7 +80,7 @@ int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera)
     const auto& pose = frame.placed->pose;
     const Vector3 t = of_camera ? pose.inverse().t : pose.t;
     const Quaternion q = canonical_quaternion(of_camera ? Matrix3(pose.R.transpose()) : pose.R);
-    text += host::exact_number(frame.time_s);
+    text += host::fixed_number(frame.time_s);
     for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
       text += ' ' + host::exact_number(value);
     text += '\n';
@@ -80,13 +104,13 @@ void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& 
   finish(file, path);
 }
 
-void note_quarter(std::size_t done, std::size_t all, std::vector<MemoryAt>& memory) {
+void note_quarter(std::size_t done, std::size_t all, RunFigures& figures) {
   if (4 * done / all == 4 * (done - 1) / all) return;
-  memory.push_back({done, host::process_usage().resident_kib});
+  figures.memory.push_back({done, host::process_usage().resident_kib});
 }
 
 void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory, const std::vector<MemoryAt>& memory) {
+                       const std::vector<slam::TrackedFrame>& trajectory, const RunFigures& figures) {
   nlohmann::ordered_json json;
   json["frames"] = report.frames;
   json["tracked"] = report.tracked;
@@ -95,6 +119,8 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["repeated"] = report.repeated;
   json["dark"] = report.dark;
   json["saturated"] = report.saturated;
+  json["unreadable"] = figures.unreadable;
+  json["without_partner"] = figures.without_partner;
   json["keyframes"] = report.keyframes;
   json["keyframes_made"] = report.keyframes_made;
   json["points"] = report.points;
@@ -106,7 +132,9 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["tracking_p95_ms"] = report.tracking_p95_ms;
   json["mapping_median_ms"] = report.mapping_median_ms;
   json["loop_max_ms"] = report.loop_max_ms;
-  for (const MemoryAt& at : memory) {
+  json["light_median_ms"] = median(figures.light_ms);
+  json["to_pose_median_ms"] = median(figures.to_pose_ms);
+  for (const MemoryAt& at : figures.memory) {
     json["memory"].push_back({{"pair", at.pair}, {"resident_mib", static_cast<double>(at.resident_kib) / 1024.0}});
   }
   json["memory_peak_mib"] = static_cast<double>(host::process_usage().peak_resident_kib) / 1024.0;

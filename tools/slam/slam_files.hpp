@@ -10,6 +10,10 @@
 
 namespace pharos::tools {
 
+/// Reads an image of `pharos slam`: grey as it is, of colour the luma (ITU-R BT.601). Throws InputError as
+/// host::read_picture does.
+host::GreyImage read_luma(const std::string& path);
+
 /// The upper 8 of 16 bits a pixel: what ORB works on.
 std::vector<std::uint8_t> eight_bits(const host::GreyImage& image);
 
@@ -26,12 +30,21 @@ struct MemoryAt {
   std::int64_t resident_kib = 0;
 };
 
-/// Adds to `memory` where `done` of `all` pairs are a quarter, a half, three quarters or all of them.
-void note_quarter(std::size_t done, std::size_t all, std::vector<MemoryAt>& memory);
+/// What the command itself counts and times.
+struct RunFigures {
+  int unreadable = 0;              // pairs that could not be read, or of another size
+  int without_partner = 0;         // images
+  std::vector<double> light_ms;    // of a pair: enhanced, or only to 8 bits
+  std::vector<double> to_pose_ms;  // the same and tracked, mapped where nothing runs beside
+  std::vector<MemoryAt> memory;
+};
+
+/// Adds to its memory where `done` of `all` pairs are a quarter, a half, three quarters or all of them.
+void note_quarter(std::size_t done, std::size_t all, RunFigures& figures);
 
 /// Figures of a run as one JSON object. Throws InputError where it cannot be written.
 void write_slam_report(const std::string& path, const slam::SlamReport& report,
-                       const std::vector<slam::TrackedFrame>& trajectory, const std::vector<MemoryAt>& memory);
+                       const std::vector<slam::TrackedFrame>& trajectory, const RunFigures& figures);
 
 /// DIR/STEM_slam.png: features of the last pair (mono, stereo, of the map) over the rectified left image, what is
 /// masked tinted.

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <memory>
 
-#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/cli/commands.hpp"
@@ -29,7 +28,7 @@ int run(const Options& options) {
   std::vector<std::vector<slam::Descriptor>> described;
   Progress progress("vocabulary", "images", options.images.size());
   for (const std::string& path : options.images) {
-    const host::GreyImage image = host::read_grey_image(path);
+    const host::GreyImage image = read_luma(path);
     const std::vector<std::uint8_t> pixels = eight_bits(image);
     described.push_back(slam::describe_image({pixels.data(), image.width_px, image.height_px}, options.features));
     progress.step();

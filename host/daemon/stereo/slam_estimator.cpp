@@ -53,8 +53,7 @@ PairAnswer SlamEstimator::measure(const StereoPair& pair) {
   if (!began_ns_) began_ns_ = pair.steady_ns;
   const double time_s = static_cast<double>(pair.steady_ns - *began_ns_) / kNsPerSecond;
   const std::int64_t start_ns = monotonic_now_ns();
-  const auto left = eight_bits_.of(pair.frames[0]->intensity_view(), 0);
-  const auto right = eight_bits_.of(pair.frames[1]->intensity_view(), 1);
+  const auto [left, right] = eight_bits_.both(pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view());
   const std::int64_t lit_ns = monotonic_now_ns();
   try {
     const slam::TrackedFrame frame = system_->push(time_s, left, right);

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/enhance/eight_bits.hpp"
 
+#include <future>
+
 namespace pharos::enhance {
 
 EightBitPairs::EightBitPairs(const std::optional<EnhanceSettings>& settings) : enhanced_(settings.has_value()) {
   if (!settings) return;
-  for (Enhancer& enhancer : enhancers_) enhancer = Enhancer(*settings);
+  EnhanceSettings one_core = *settings;
+  one_core.threads = 1;
+  for (Enhancer& enhancer : enhancers_) enhancer = Enhancer(one_core);
+}
+
+std::array<ImageView<const std::uint8_t>, 2> EightBitPairs::both(ImageView<const std::uint16_t> left,
+                                                                 ImageView<const std::uint16_t> right) {
+  if (!enhanced_) return {of(left, 0), of(right, 1)};
+  auto other = std::async(std::launch::async, [&] { return of(right, 1); });
+  const ImageView<const std::uint8_t> first = of(left, 0);
+  return {first, other.get()};
 }
 
 ImageView<const std::uint8_t> EightBitPairs::of(ImageView<const std::uint16_t> frame, std::size_t side) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `pharos slam` on what a user gives by mistake: one line that says what and where, exit code 2.
+// `pharos slam` on what a user gives by mistake: one line that says what and where, and exit code 2 where nothing can
+// be done. `pharos vocabulary`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,14 +88,52 @@ TEST_F(CliSlam, AnEmptyFolderIsNamed) {
   expect_refused(slam(), "holds no .png or .pgm image");
 }
 
-TEST_F(CliSlam, APairWithAMissingFileIsNamed) {
+// What is wrong with a later pair costs that pair alone; what is wrong with the first one is wrong with all.
+TEST_F(CliSlam, LaterPairsThatAreNoneAreToldCountedAndLeftOut) {
+  for (const char* side : {"left", "right"}) {
+    for (const char* name : {"3", "4", "5"}) black(side + std::string("/") + name + ".pgm", 64, 48);
+  }
   std::filesystem::remove(folder_.path("right/1.pgm"));
-  expect_refused(slam(), "1.pgm: has no partner");
+  folder_.write("right/3.pgm", "P5\n64 48\n255\nabc");
+  black("left/4.pgm", 32, 24);
+  const std::string report = folder_.path("report.json");
+  const Outcome run = slam(" --report " + report);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(count_lines(run.err), 4U) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("left/1.pgm: has no partner; left out"));
+  EXPECT_THAT(run.err, HasSubstr("right/3.pgm"));
+  EXPECT_THAT(run.err, HasSubstr("left/4.pgm: has 32 x 24 pixels; the rig's cameras have 64 x 48"));
+  EXPECT_THAT(run.err, HasSubstr("no frame could be placed: 3 pairs"));
+  const std::string text = content_of(report);
+  EXPECT_THAT(text, HasSubstr("\"frames\": 3"));
+  EXPECT_THAT(text, HasSubstr("\"unreadable\": 2"));
+  EXPECT_THAT(text, HasSubstr("\"without_partner\": 1"));
 }
 
-TEST_F(CliSlam, AnImageCutShortIsNamed) {
-  folder_.write("right/1.pgm", "P5\n64 48\n255\nabc");
-  expect_refused(slam(), "right/1.pgm");
+TEST_F(CliSlam, NumbersMissingOnBothSidesAreTold) {
+  for (const char* side : {"left", "right"}) black(side + std::string("/4.pgm"), 64, 48);
+  EXPECT_THAT(slam().err, HasSubstr("left/4.pgm: numbers are missing before it"));
+}
+
+TEST_F(CliSlam, AFirstImageCutShortIsNamed) {
+  folder_.write("right/0.pgm", "P5\n64 48\n255\nabc");
+  expect_refused(slam(), "right/0.pgm");
+}
+
+TEST_F(CliSlam, ImagesWithoutPartnersOnBothSidesAreNoPairs) {
+  for (const char* name : {"0", "1"}) std::filesystem::remove(folder_.path(std::string("left/") + name + ".pgm"));
+  expect_refused(slam(), "has no partner");
+}
+
+TEST_F(CliSlam, ARigFileWithoutNumbersIsNamed) {
+  std::string text = rig_text("0.5");
+  text.replace(text.find("64.0"), 4, "nan");
+  rig_ = folder_.write("rig.toml", text);
+  expect_refused(slam(), "rig.toml:4: left.fx_px");
+}
+
+TEST_F(CliSlam, AMapThatCannotBeWrittenIsNamedBeforeTheWork) {
+  expect_refused(slam(" --map /nowhere/map.ply"), "/nowhere/map.ply: cannot be written");
 }
 
 }  // namespace

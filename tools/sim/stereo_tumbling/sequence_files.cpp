@@ -2,6 +2,7 @@
 #include "tools/sim/stereo_tumbling/sequence_files.hpp"
 
 #include "host/support/exact_number.hpp"
+#include "host/support/fixed_number.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::sim {
@@ -12,7 +13,10 @@ SequenceFiles::SequenceFiles(const std::string& directory, const host::RigFile& 
     std::filesystem::create_directories(root_ / side, error);
     if (error) throw host::InputError((root_ / side).string() + ": cannot be made: " + error.message());
   }
-  std::ofstream(root_ / "rig.toml") << host::rig_text(rig);
+  std::ofstream rig_file(root_ / "rig.toml");
+  if (!(rig_file << host::rig_text(rig)).flush()) {
+    throw host::InputError((root_ / "rig.toml").string() + ": cannot be written");
+  }
   truth_.open(root_ / "truth.tum");
 }
 
@@ -21,7 +25,7 @@ void SequenceFiles::image(const std::string& stem, int side, const host::GreyIma
 }
 
 void SequenceFiles::truth(double time_s, const Vector3& t_m, const Quaternion& q) {
-  truth_ << host::exact_number(time_s);
+  truth_ << host::fixed_number(time_s);
   for (const double value : {t_m.x(), t_m.y(), t_m.z(), q.x(), q.y(), q.z(), q.w()}) {
     truth_ << ' ' << host::exact_number(value);
   }

@@ -33,6 +33,9 @@ class PairNames : public ::testing::Test {
     }
     return "no error";
   }
+  std::vector<PairName> pairs_without(std::vector<std::string>& alone) const {
+    return pair_names((root_ / "left").string(), (root_ / "right").string(), 20.0, &alone);
+  }
   void expect_refused(const std::string& word) const {
     try {
       pairs();
@@ -99,6 +102,40 @@ TEST_F(PairNames, AFrameMissingOnOneSideIsNamed) {
   for (const char* name : {"1.png", "2.png", "3.png"}) add("left", name);
   for (const char* name : {"1.png", "3.png"}) add("right", name);
   expect_refused("2.png: has no partner");
+}
+
+TEST_F(PairNames, ImagesWithoutPartnerAreLeftOutWhereTheyMayAndKeepTheirTime) {
+  for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) add("left", name);
+  for (const char* name : {"0.png", "1.png", "3.png", "4.png"}) add("right", name);
+  std::vector<std::string> alone;
+  const auto found = pairs_without(alone);
+  EXPECT_EQ(alone,
+            (std::vector<std::string>{(root_ / "right" / "0.png").string(), (root_ / "left" / "2.png").string()}));
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[1].left, (root_ / "left" / "3.png").string());
+  EXPECT_EQ(found[1].right, (root_ / "right" / "3.png").string());
+  EXPECT_DOUBLE_EQ(found[0].time_s, 0.05);
+  EXPECT_DOUBLE_EQ(found[1].time_s, 0.15);
+}
+
+// Cameras whose stamps differ by a little, and one frame that one of them lost.
+TEST_F(PairNames, StampsWithoutPartnerAreLeftOutWhereTheyMay) {
+  for (const int ms : {100, 150, 200, 250}) add("left", "1403715273" + std::to_string(ms) + "000000.png");
+  for (const int ms : {100, 200, 250}) add("right", "1403715273" + std::to_string(ms) + "300000.png");
+  std::vector<std::string> alone;
+  const auto found = pairs_without(alone);
+  EXPECT_EQ(alone, (std::vector<std::string>{(root_ / "left" / "1403715273150000000.png").string()}));
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[1].left, (root_ / "left" / "1403715273200000000.png").string());
+  EXPECT_EQ(found[1].right, (root_ / "right" / "1403715273200300000.png").string());
+}
+
+TEST_F(PairNames, FoldersThatShareHardlyAnyNameAreRefusedAllTheSame) {
+  for (const char* name : {"1.png", "2.png", "3.png"}) add("left", name);
+  for (const char* name : {"3.png", "4.png", "5.png"}) add("right", name);
+  std::vector<std::string> alone;
+  EXPECT_THROW(pairs_without(alone), InputError);
+  EXPECT_TRUE(alone.empty());
 }
 
 // Without names in common, numbers alone can tell.
