@@ -22,7 +22,7 @@ struct BundleProblem {
   std::map<KeyframeId, CameraFromTarget> poses;
   std::map<KeyframeId, bool> fixed;  ///< K_F: poses that stay
   std::map<PointId, Vector3> points;
-  std::vector<BundleObservation> observations;
+  std::vector<BundleObservation> observations;  ///< those of one point one after the other
 };
 
 struct BundleSettings {

@@ -2,11 +2,11 @@
 #include "host/vision/slam/engine.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/bundle.hpp"
+#include "host/vision/slam/keyframe_covariance.hpp"
 #include "host/vision/slam/mapping.hpp"
 
 namespace pharos::slam {
@@ -20,31 +20,6 @@ constexpr int kLocalSteps = 6;
 constexpr std::int64_t kMappingFrames = 4;
 constexpr int kGlobalSteps = 12;  // while tracking goes on
 constexpr int kFinalSteps = 40;
-
-class Stopwatch {
- public:
-  double ms() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// Of a run without end: the last ones, at least half of so many.
-constexpr std::size_t kMostFigures = 4096;
-
-void keep_last(std::vector<float>& figures) {
-  if (figures.size() < kMostFigures) return;
-  figures.erase(figures.begin(), figures.end() - static_cast<std::ptrdiff_t>(kMostFigures / 2));
-}
-
-double quantile(std::vector<float> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
 
 }  // namespace
 
@@ -79,6 +54,7 @@ Map Engine::adjusted(Map map) const {
   BundleProblem problem = global_problem(map);
   const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kFinalSteps, nullptr});
   apply_global(problem, rejected, map);
+  apply_covariances(keyframe_covariances(problem, rejected, frontend_.camera(), map.keyframes.begin()->first), map);
   return map;
 }
 
@@ -137,47 +113,48 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
   recognition_.add(keyframe);
   tracker_.became_keyframe(keyframe);
   last_keyframe_frame_ = frame.number;
-  ++report_.keyframes_made;
+  figures_.add_keyframe();
   return id;
 }
 
-TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen) {
+TrackedPose Engine::pose_of(const Tracked& tracked) const {
+  return {tracked.pose, turned(tracked.pose.R, map_.covariance_of(tracker_.reference())) + tracked.covariance,
+          tracked.rms_px};
+}
+
+TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made) {
   TrackedFrame out{
       frame.number, frame.time_s, std::nullopt, false, false, false, static_cast<int>(frame.features.size()), 0};
-  KeyframeId made = kNone;
-  {
-    const std::lock_guard lock(mutex_);
-    if (map_.keyframes.empty()) {
-      if (seen.stats.matched >= kLeastStart) {
-        frame.points.assign(frame.features.size(), kNone);
-        made = make_keyframe(frame);
-        out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
-      }
-    } else {
-      // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
-      const bool idle = mapping_ ? mapping_->idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
-      const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
-      out.inliers = tracked.inliers;
-      out.relocalised = tracked.relocalised;
-      out.lost = tracked.state == TrackState::kLost;
-      if (!out.lost) {
-        out.placed = TrackedPose{tracked.pose, tracked.covariance, tracked.rms_px};
-        note_skew(frame);
-      }
-      if (tracked.wants_keyframe) made = make_keyframe(frame);
+  const std::lock_guard lock(mutex_);
+  Matrix6 own = Matrix6::Zero();  // what its features leave open once its keyframe stands
+  if (map_.keyframes.empty()) {
+    if (seen.stats.matched >= kLeastStart) {
+      frame.points.assign(frame.features.size(), kNone);
+      made = make_keyframe(frame);
+      out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
     }
-    out.keyframe = made != kNone;
-    const Pose<frame::Camera, frame::Camera> relative =
-        out.placed ? frame.pose * map_.pose_of(tracker_.reference()).inverse() : Pose<frame::Camera, frame::Camera>{};
-    if (settings_.keep_trajectory) log_.add(out, tracker_.reference(), relative);
-  }
-  if (made == kNone) return out;
-  if (mapping_) {
-    mapping_->push(made);
   } else {
-    map_keyframe(made);
-    close_loop(made);
+    // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
+    const bool idle = mapping_ ? mapping_->idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
+    const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
+    out.inliers = tracked.inliers;
+    out.relocalised = tracked.relocalised;
+    out.lost = tracked.state == TrackState::kLost;
+    if (!out.lost) {
+      out.placed = pose_of(tracked);
+      own = tracked.covariance;
+      note_skew(frame);
+    }
+    if (tracked.wants_keyframe) {
+      made = make_keyframe(frame);
+      map_.keyframes.at(made).covariance = turned(tracked.pose.R.transpose(), out.placed->covariance);
+      own.setZero();
+    }
   }
+  out.keyframe = made != kNone;
+  const Pose<frame::Camera, frame::Camera> relative =
+      out.placed ? frame.pose * map_.pose_of(tracker_.reference()).inverse() : Pose<frame::Camera, frame::Camera>{};
+  if (settings_.keep_trajectory) log_.add(out, tracker_.reference(), relative, own);
   return out;
 }
 
@@ -194,17 +171,21 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
   StereoFrontend::Result seen = frontend_.push(left, right, pairs_checked_ < kPairsChecked);
   check_pair(seen);
   Frame frame;
-  frame.number = report_.frames;
+  frame.number = figures_.frames();
   frame.time_s = time_s;
   frame.features = std::move(seen.features);
   frame.grid = FeatureGrid(frame.features, camera.width_px, camera.height_px);
-  const double before_ms = watch.ms();
-  const std::size_t mapped_before = settings_.threads ? 0 : mapping_ms_.size();
-  TrackedFrame out = place(frame, seen);
-  double took_ms = watch.ms();
-  // Mapping is timed by itself.
-  if (!settings_.threads && mapping_ms_.size() > mapped_before) took_ms = before_ms;
-  note_figures(out, seen, took_ms);
+  KeyframeId made = kNone;
+  TrackedFrame out = place(frame, seen, made);
+  {
+    const std::lock_guard lock(mutex_);
+    figures_.add_frame(out, seen, watch.ms());
+  }
+  if (made != kNone && mapping_) mapping_->push(made);
+  if (made != kNone && !mapping_) {
+    map_keyframe(made);
+    close_loop(made);
+  }
   if (out.placed) out.placed = in_left_frame(*out.placed, frontend_.R_left_rectified());
   last_ = std::move(frame);
   if (const auto late = skew_.frames_late(); late && std::abs(*late) > kOutOfStep) {
@@ -213,22 +194,6 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
                            std::to_string(std::max(1L, std::lround(std::abs(*late)))) + " frame(s)");
   }
   return out;
-}
-
-void Engine::note_figures(const TrackedFrame& out, const StereoFrontend::Result& seen, double took_ms) {
-  const std::lock_guard lock(mutex_);
-  ++report_.frames;
-  report_.tracked += out.placed ? 1 : 0;
-  report_.lost += out.lost ? 1 : 0;
-  report_.relocalised += out.relocalised ? 1 : 0;
-  report_.repeated += seen.repeated ? 1 : 0;
-  report_.dark += seen.dark ? 1 : 0;
-  report_.saturated += seen.saturated ? 1 : 0;
-  features_.push_back(static_cast<float>(out.features));
-  tracking_ms_.push_back(static_cast<float>(took_ms));
-  if (out.placed) inliers_.push_back(static_cast<float>(out.inliers));
-  if (settings_.keep_trajectory) return;
-  for (std::vector<float>* figures : {&features_, &inliers_, &tracking_ms_, &mapping_ms_}) keep_last(*figures);
 }
 
 void Engine::map_keyframe(KeyframeId id) {
@@ -251,32 +216,40 @@ void Engine::map_keyframe(KeyframeId id) {
     corrections = corrections_;
   }
   const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kLocalSteps, nullptr});
+  const auto about = keyframe_covariances(problem, rejected, frontend_.camera(), id);
   const std::lock_guard lock(mutex_);
   // A loop that was closed meanwhile moved what this solution knows.
   if (corrections == corrections_) apply(problem, rejected, map_);
-  if (map_.keyframes.contains(id)) cull_keyframes(map_, id, &recognition_, settings_.most_keyframes);
-  mapping_ms_.push_back(static_cast<float>(watch.ms()));
+  if (map_.keyframes.contains(id)) {
+    chain_covariance(map_, id, about);
+    cull_keyframes(map_, id, &recognition_, settings_.most_keyframes);
+  }
+  if (!settings_.keep_trajectory) map_.forget_removed(tracker_.reference());
+  figures_.add_mapping(watch.ms());
 }
 
 void Engine::close_loop(KeyframeId id) {
   if (!settings_.close_loops) return;
   const Stopwatch watch;
   BundleProblem problem;
+  KeyframeId first = kNone;
   {
     const std::lock_guard lock(mutex_);
     const auto loop = closer_.find(id);
-    report_.loops_refused = closer_.refused();
+    figures_.set_loops_refused(closer_.refused());
     if (!loop) return;
     closer_.correct(*loop);
-    ++report_.loops;
     ++corrections_;
     problem = global_problem(map_);
+    first = map_.keyframes.begin()->first;
   }
   const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kGlobalSteps, nullptr});
+  const auto covariances = keyframe_covariances(problem, rejected, frontend_.camera(), first);
   const std::lock_guard lock(mutex_);
   apply_global(problem, rejected, map_);
+  apply_covariances(covariances, map_);
   ++corrections_;
-  report_.loop_max_ms = std::max(report_.loop_max_ms, watch.ms());
+  figures_.add_loop(watch.ms());
 }
 
 std::vector<TrackedFrame> Engine::trajectory() const {
@@ -295,14 +268,9 @@ std::vector<SlamPoint> Engine::points() const {
 
 SlamReport Engine::report() const {
   const std::lock_guard lock(mutex_);
-  SlamReport out = report_;
+  SlamReport out = figures_.report();
   out.keyframes = static_cast<int>(map_.keyframes.size());
   out.points = static_cast<int>(map_.points.size());
-  out.features_median = quantile(features_, 0.5);
-  out.inliers_median = quantile(inliers_, 0.5);
-  out.tracking_median_ms = quantile(tracking_ms_, 0.5);
-  out.tracking_p95_ms = quantile(tracking_ms_, 0.95);
-  out.mapping_median_ms = quantile(mapping_ms_, 0.5);
   return out;
 }
 

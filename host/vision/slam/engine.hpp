@@ -8,8 +8,7 @@
 #include "host/vision/slam/keyframe_worker.hpp"
 #include "host/vision/slam/loop_closing.hpp"
 #include "host/vision/slam/pair_skew.hpp"
-#include "host/vision/slam/slam_system.hpp"
-#include "host/vision/slam/stereo_frontend.hpp"
+#include "host/vision/slam/run_figures.hpp"
 #include "host/vision/slam/tracker.hpp"
 #include "host/vision/slam/trajectory_log.hpp"
 
@@ -39,13 +38,13 @@ class Engine final : public SlamSystem {
   void check_threads() const;
   void wait_for_threads() const;
   Map adjusted(Map map) const;
-  TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen);
+  TrackedPose pose_of(const Tracked& tracked) const;
+  TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made);
   KeyframeId make_keyframe(Frame& frame);
   void note_skew(const Frame& frame);
   void check_pair(const StereoFrontend::Result& seen);
   void map_keyframe(KeyframeId id);
   void close_loop(KeyframeId id);
-  void note_figures(const TrackedFrame& out, const StereoFrontend::Result& seen, double took_ms);
 
   SlamSettings settings_;
   StereoFrontend frontend_;
@@ -63,8 +62,7 @@ class Engine final : public SlamSystem {
   StereoMatchStats checked_;
   PairSkew skew_;
 
-  SlamReport report_;
-  std::vector<float> features_, inliers_, tracking_ms_, mapping_ms_;
+  RunFigures figures_;
 
   Watch watch_;
   // Last, for they use all the others; mapping ends first, for it feeds closing. Empty without threads.

@@ -183,6 +183,25 @@ CameraFromTarget Map::pose_of(KeyframeId id) const {
   return chain * keyframes.at(id).pose;
 }
 
+const Matrix6& Map::covariance_of(KeyframeId id) const {
+  for (auto at = removed_.find(id); at != removed_.end(); at = removed_.find(id)) id = at->second.parent;
+  return keyframes.at(id).covariance;
+}
+
+void Map::forget_removed(KeyframeId kept) {
+  std::set<KeyframeId> told;
+  const auto keep = [&](KeyframeId id) {
+    for (auto at = removed_.find(id); at != removed_.end() && told.insert(id).second; at = removed_.find(id)) {
+      id = at->second.parent;
+    }
+  };
+  keep(kept);
+  for (const auto& [id, point] : points) {
+    if (point.patch) keep(point.patch->keyframe);
+  }
+  std::erase_if(removed_, [&told](const auto& entry) { return !told.contains(entry.first); });
+}
+
 int Map::tracked_points(const Keyframe& keyframe, std::size_t observers) const {
   int count = 0;
   for (const PointId point : keyframe.points) {

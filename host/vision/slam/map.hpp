@@ -16,6 +16,8 @@ using WordVector = std::map<int, double>;
 /// A frame that the map remembers.
 struct Keyframe : Frame {
   KeyframeId id = kNone;
+  /// Of where it stands from the first one, as keyframe_covariances tells it.
+  Matrix6 covariance = Matrix6::Zero();
   WordVector words;
   /// The covisibility graph: how many points it shares with whom; at least kCovisible.
   std::map<KeyframeId, int> neighbours;
@@ -72,6 +74,11 @@ class Map {
   std::vector<KeyframeId> best_neighbours(KeyframeId keyframe, std::size_t count) const;
   /// The pose of a keyframe, also of a removed one.
   CameraFromTarget pose_of(KeyframeId keyframe) const;
+  /// Its covariance; of a removed one, that of the keyframe it is told from.
+  const Matrix6& covariance_of(KeyframeId keyframe) const;
+  /// Removed keyframes that neither a patch is of nor `kept` is, are no longer known.
+  void forget_removed(KeyframeId kept);
+  std::size_t removed() const { return removed_.size(); }
   /// Points of the keyframe that at least `observers` keyframes see.
   int tracked_points(const Keyframe& keyframe, std::size_t observers) const;
   const MapPoint* find_point(PointId point) const;

@@ -11,7 +11,8 @@ namespace pharos::slam {
 /// Where the target is: T_camera_target with the target's frame equal to the left camera's own at the first frame.
 struct TrackedPose {
   Pose<frame::Camera, frame::Target> pose;
-  /// Of delta in Pose::moved_by, from the frame's own features: what the map's errors add is not in it.
+  /// Of delta in Pose::moved_by: what the frame's own features leave open, and how well the keyframe that it is told
+  /// from stands relative to the first one. Of the first frame, which is where it is by definition, 0.
   Matrix6 covariance = Matrix6::Zero();
   double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each; of the first frame, which has none, 0
 };

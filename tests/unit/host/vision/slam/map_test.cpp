@@ -96,6 +96,22 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
   EXPECT_LT(pose_difference(map_.pose_of(4), before).norm(), 1e-9);
 }
 
+// What a run without end may not pile up.
+TEST_F(MapOfTurns, RemovedKeyframesThatNobodyIsToldFromAreForgotten) {
+  for (const KeyframeId id : {3, 4, 5}) map_.remove_keyframe(id);
+  map_.points.at(ids_[0]).patch = Patch{};
+  map_.points.at(ids_[0]).patch->keyframe = 5;
+  const CameraFromTarget of_patch = map_.pose_of(5), of_tracker = map_.pose_of(3);
+  EXPECT_EQ(map_.removed(), 3U);
+  map_.forget_removed(3);
+  EXPECT_EQ(map_.pose_of(5).R, of_patch.R);
+  EXPECT_EQ(map_.pose_of(3).R, of_tracker.R);
+  EXPECT_LE(map_.removed(), 3U);
+  map_.points.at(ids_[0]).patch.reset();
+  map_.forget_removed(7);
+  EXPECT_EQ(map_.removed(), 0U);
+}
+
 TEST_F(MapOfTurns, TheFirstKeyframeStays) {
   map_.remove_keyframe(0);
   EXPECT_TRUE(map_.keyframes.contains(0));

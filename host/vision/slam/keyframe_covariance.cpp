@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/keyframe_covariance.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <optional>
+#include <unordered_map>
+
+namespace pharos::slam {
+namespace {
+
+// Nothing stands worse than this, so that the normal equations can always be solved.
+constexpr double kMostTurn_rad = 1.0, kMostMove_m = 100.0;
+constexpr double kLeastInformation_m2 = 1e-6;  // of a point along a ray that no stereo depth ends: a kilometre
+
+using Arm = Eigen::Matrix<double, 3, 6>;
+
+// One keyframe's view of a point: what it knows of its place, about the target's axes.
+struct Sight {
+  int keyframe;
+  Matrix3 information;
+};
+
+// The normal equations of all keyframes but the root, points eliminated; blocks on and below the diagonal.
+class ReducedEquations {
+ public:
+  static constexpr int kRoot = -1;
+
+  explicit ReducedEquations(int keyframes) : keyframes_(keyframes) {}
+
+  // All that is known of one point.
+  void add(const Vector3& point_m, const std::vector<Sight>& sights) {
+    Matrix3 sum = kLeastInformation_m2 * Matrix3::Identity();
+    for (const Sight& sight : sights) sum += sight.information;
+    const Matrix3 spread = sum.inverse();
+    Arm arm;
+    arm << -skew(point_m), Matrix3::Identity();
+    for (const Sight& a : sights) {
+      if (a.keyframe == kRoot) continue;
+      for (const Sight& b : sights) {
+        if (b.keyframe == kRoot || b.keyframe > a.keyframe) continue;
+        Matrix3 shared = -a.information * spread * b.information;
+        if (a.keyframe == b.keyframe) shared += a.information;
+        block(a.keyframe, b.keyframe) += arm.transpose() * (shared * arm).eval();
+      }
+    }
+  }
+
+  // The inverse's blocks on the diagonal; nothing where the equations are no good (NaN).
+  std::vector<Matrix6> covariances() {
+    Eigen::SparseMatrix<double> H(6 * keyframes_, 6 * keyframes_);
+    fill(H);
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
+    std::vector<Matrix6> out;
+    if (factor.info() != Eigen::Success) return out;
+    const Eigen::VectorXd over_d = factor.vectorD().cwiseInverse();
+    Eigen::MatrixXd unit(6 * keyframes_, 6), column(6 * keyframes_, 6);
+    for (int k = 0; k < keyframes_; ++k) {
+      unit.setZero();
+      unit.middleRows<6>(6 * k).setIdentity();
+      column = factor.permutationP() * unit;
+      factor.matrixL().solveInPlace(column);
+      out.emplace_back(column.transpose() * over_d.asDiagonal() * column);
+    }
+    return out;
+  }
+
+ private:
+  Matrix6& block(int row, int column) {
+    const auto [at, is_new] = blocks_.try_emplace(static_cast<std::int64_t>(row) * keyframes_ + column);
+    if (is_new) at->second.setZero();
+    return at->second;
+  }
+
+  void fill(Eigen::SparseMatrix<double>& H) {
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const auto& [at, entries] : blocks_) {
+      const auto row = static_cast<int>(6 * (at / keyframes_)), column = static_cast<int>(6 * (at % keyframes_));
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) triplets.emplace_back(row + i, column + j, entries(i, j));
+      }
+    }
+    for (int k = 0; k < 6 * keyframes_; ++k) {
+      const double most = k % 6 < 3 ? kMostTurn_rad : kMostMove_m;
+      triplets.emplace_back(k, k, 1.0 / (most * most));
+    }
+    H.setFromTriplets(triplets.begin(), triplets.end());
+  }
+
+  int keyframes_;
+  std::unordered_map<std::int64_t, Matrix6> blocks_;
+};
+
+Matrix3 information_of(const Observation& seen, const Vector3& point_m, const StereoCamera& camera,
+                       const CameraFromTarget& pose) {
+  Observation at = seen;
+  at.point_m = point_m;
+  const Matrix3 J = residual_jacobian(at, camera, pose).rightCols<3>() * pose.R;
+  return J.transpose() * J / at.variance_px2;
+}
+
+}  // namespace
+
+std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
+                                                   const std::vector<std::size_t>& rejected, const StereoCamera& camera,
+                                                   KeyframeId root) {
+  std::map<KeyframeId, int> places;
+  int count = 0;
+  for (const auto& [id, pose] : problem.poses) places[id] = id == root ? ReducedEquations::kRoot : count++;
+  ReducedEquations equations(count);
+  std::vector<bool> use(problem.observations.size(), true);
+  for (const std::size_t k : rejected) use[k] = false;
+  std::vector<Sight> sights;
+  for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+    const BundleObservation& seen = problem.observations[k];
+    const Vector3& point_m = problem.points.at(seen.point);
+    const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
+    if (use[k] && (pose * point_m).z() > 0.0) {
+      sights.push_back({places.at(seen.keyframe), information_of(seen.seen, point_m, camera, pose)});
+    }
+    const bool last = k + 1 == problem.observations.size() || problem.observations[k + 1].point != seen.point;
+    if (!last) continue;
+    if (sights.size() > 1) equations.add(point_m, sights);
+    sights.clear();
+  }
+  const std::vector<Matrix6> solved = equations.covariances();
+  std::map<KeyframeId, Matrix6> out;
+  for (const auto& [id, place] : places) {
+    if (place == ReducedEquations::kRoot) {
+      out[id] = Matrix6::Zero();
+    } else if (!solved.empty()) {
+      out[id] = solved[static_cast<std::size_t>(place)];
+    }
+  }
+  return out;
+}
+
+void chain_covariance(Map& map, KeyframeId keyframe, const std::map<KeyframeId, Matrix6>& about) {
+  std::optional<Matrix6> best;
+  for (const auto& [id, between] : about) {
+    const auto other = map.keyframes.find(id);
+    if (id == keyframe || other == map.keyframes.end()) continue;
+    const Matrix6 sum = other->second.covariance + between;
+    if (!best || sum.topLeftCorner<3, 3>().trace() < best->topLeftCorner<3, 3>().trace()) best = sum;
+  }
+  if (best) map.keyframes.at(keyframe).covariance = *best;
+}
+
+void apply_covariances(const std::map<KeyframeId, Matrix6>& covariances, Map& map) {
+  for (const auto& [id, covariance] : covariances) {
+    if (const auto at = map.keyframes.find(id); at != map.keyframes.end()) at->second.covariance = covariance;
+  }
+}
+
+Matrix6 turned(const Matrix3& R, const Matrix6& covariance) {
+  Matrix6 turn = Matrix6::Zero();
+  turn.topLeftCorner<3, 3>() = R;
+  turn.bottomRightCorner<3, 3>() = R;
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace pharos::slam
