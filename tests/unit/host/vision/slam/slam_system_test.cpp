@@ -65,10 +65,48 @@ class SlamOfATurn : public ::testing::Test {
   }
 };
 
+// Squares of errors over what the covariances tell, a degree of freedom each, mean of the frames but the first.
+struct Honesty {
+  double attitude = 0.0, position = 0.0;
+};
+
+template <class Truth>
+Honesty honesty(const std::vector<TrackedFrame>& frames, Truth&& truth) {
+  Honesty mean;
+  const double share = 1.0 / (3.0 * static_cast<double>(frames.size() - 1));
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const TrackedPose& told = *frames[k].placed;
+    const Vector6 delta = pose_difference(truth(frames[k].number), told.pose);
+    const Vector3 turn = delta.head<3>(), move = delta.tail<3>();
+    mean.attitude += share * turn.dot(told.covariance.topLeftCorner<3, 3>().inverse() * turn);
+    mean.position += share * move.dot(told.covariance.bottomRightCorner<3, 3>().inverse() * move);
+  }
+  return mean;
+}
+
+// One short sequence errs much alike from frame to frame: a handful of independent numbers. Without drift in them the
+// covariances of a quarter turn would be three to thirteen times too small.
+void expect_honest(const Honesty& mean) {
+  EXPECT_GT(mean.attitude, 0.25);
+  EXPECT_LT(mean.attitude, 2.0);
+  EXPECT_GT(mean.position, 0.25);
+  EXPECT_LT(mean.position, 2.0);
+}
+
 TEST_F(SlamOfATurn, FollowsTheAttitude) {
   const auto slam = system();
-  for (int k = 0; k < kFrames; ++k) EXPECT_TRUE(push(*slam, k, k).placed) << k;
+  std::vector<TrackedFrame> live;
+  for (int k = 0; k < kFrames; ++k) {
+    live.push_back(push(*slam, k, k));
+    EXPECT_TRUE(live.back().placed) << k;
+  }
+  const auto truth = [](std::int64_t number) {
+    const auto at = footage().sequence.truth(static_cast<int>(number));
+    return Pose<frame::Camera, frame::Target>{at.R, at.t};
+  };
+  expect_honest(honesty(live, truth));
   slam->finish();
+  expect_honest(honesty(slam->trajectory(), truth));
   const auto trajectory = slam->trajectory();
   ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kFrames));
   for (int k = 0; k < kFrames; ++k) EXPECT_LT(error_deg(trajectory[static_cast<std::size_t>(k)], k), 0.5) << k;
