@@ -23,9 +23,12 @@ using evaluate::AlignMode;
 constexpr const char* kExample =
     "Example:\n"
     "  pharos evaluate poses.csv mocap.csv --align hand-eye --time-offset auto --plot errors.svg\n"
+    "  pharos evaluate path.tum mav0/state_groundtruth_estimate0/data.csv --align hand-eye\n"
     "poses.csv: a table of pharos track; mocap.csv: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m of the marker body.\n"
     "hand-eye finds the pose of the motion capture's frame in ESTIMATE's and that of ESTIMATE's body in the marker\n"
-    "body: T_estimate = world * T_truth * body. se3 finds the first only, from positions by least squares.\n"
+    "body: T_estimate = world * T_truth * body. se3 finds the first only, from positions by least squares: where "
+    "TRUTH\n"
+    "is of another body than ESTIMATE (EuRoC's is the IMU's, not the camera's), its ate_mm holds their lever arm.\n"
     "rot_* and pos_*: errors (25); spread_*: (23), errors about their mean; *_normalised_square is 1 where stated\n"
     "sigmas are honest. Refused and ambiguous rows are counted and left out.";
 
@@ -223,8 +226,9 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Poses against an outside truth: errors, one row");
   const auto options = std::make_shared<Options>();
   command
-      ->add_option("ESTIMATE", options->estimate,
-                   "Table with time_s (or utime, frame) and qw..tz_m, or TUM lines; .gz; - is standard input")
+      ->add_option(
+          "ESTIMATE", options->estimate,
+          "Table with time_s (or utime, frame) and qw..tz_m, TUM lines or EuRoC's CSV; .gz; - is standard input")
       ->required();
   command->add_option("TRUTH", options->truth, "The same forms; motion capture: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m")
       ->required();

@@ -2,8 +2,6 @@
 #include "tools/evaluate/trajectory_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "host/support/input_error.hpp"
 #include "host/table/table_reader.hpp"
 #include "pharos/base/units.hpp"
+#include "tools/evaluate/pose_lines.hpp"
 
 namespace pharos::evaluate {
 namespace {
@@ -18,21 +17,7 @@ namespace {
 constexpr double kQuaternionTolerance = 0.01;
 constexpr double kMicrosecond_s = 1e-6;
 constexpr double kLargestPosition_m = 1e6;
-constexpr std::size_t kTumFields = 8;
 constexpr std::size_t kPeek = 4096;
-constexpr const char* kBlank = " \t\r";
-
-/// A row of either form.
-struct RawRow {
-  double time_s = 0.0;
-  bool refused = false;
-  bool ambiguous = false;
-  std::string_view flags;
-  Quaternion q = Quaternion::Identity();
-  Vector3 t = Vector3::Zero();
-  std::optional<double> sigma_rot_deg;
-  std::optional<double> sigma_pos_mm;
-};
 
 bool has_word(std::string_view flags, const std::string& word) {
   while (!flags.empty()) {
@@ -161,46 +146,13 @@ class Table {
   std::optional<std::int64_t> seen_station_;
 };
 
-/// The numbers of a TUM line; none for a comment.
-std::optional<std::array<double, kTumFields>> tum_numbers(std::string_view line, const std::string& where) {
-  std::array<double, kTumFields> values{};
-  std::size_t count = 0;
-  for (;;) {
-    const std::size_t begin = line.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) break;
-    line.remove_prefix(begin);
-    if (count == 0 && line.front() == '#') return std::nullopt;
-    const std::size_t length = std::min(line.find_first_of(kBlank), line.size());
-    const char* const end = line.data() + length;
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(line.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
-      throw host::InputError(where + host::quoted(line.substr(0, length)) + " is not a number");
-    }
-    if (count == kTumFields) {
-      count = kTumFields + 1;
-      break;
-    }
-    values[count++] = value;
-    line.remove_prefix(length);
-  }
-  if (count == kTumFields) return values;
-  throw host::InputError(where + "a TUM line has 8 numbers: timestamp tx ty tz qx qy qz qw");
-}
-
-template <class WorldFromBody>
-TrajectoryFile<WorldFromBody> read_tum(host::ByteSource source, const TrajectoryChoice& choice) {
+template <class WorldFromBody, class RowOf>
+TrajectoryFile<WorldFromBody> read_lines(host::ByteSource source, const TrajectoryChoice& choice, RowOf&& row_of) {
   host::LineReader lines(std::move(source), host::LastLine::kAccept);
   Collector<WorldFromBody> collector(lines.name(), choice);
   while (const std::optional<std::string_view> line = lines.next()) {
     const std::string where = lines.name() + ": line " + std::to_string(lines.line_number()) + ": ";
-    const auto v = tum_numbers(*line, where);
-    if (!v) continue;
-    RawRow row;
-    row.time_s = (*v)[0];
-    row.t = {(*v)[1], (*v)[2], (*v)[3]};
-    row.q = Quaternion((*v)[7], (*v)[4], (*v)[5], (*v)[6]);
-    collector.take(row, lines.line_number());
+    if (const std::optional<RawRow> row = row_of(*line, where)) collector.take(*row, lines.line_number());
   }
   return std::move(collector).result();
 }
@@ -215,7 +167,9 @@ TrajectoryFile<WorldFromBody> read_trajectory(const std::string& path, const Tra
   head.remove_prefix(std::min(begin, head.size()));
   const std::string_view first = head.substr(0, head.find_first_of("\r\n"));
   const bool tum = first.starts_with('#') || (!first.empty() && first.find(',') == std::string_view::npos);
-  if (tum) return read_tum<WorldFromBody>(std::move(source), choice);
+  if (tum) {
+    return read_lines<WorldFromBody>(std::move(source), choice, looks_like_euroc(head) ? euroc_row : tum_row);
+  }
   const TimeColumn time = time_column(first, choice);
   Collector<WorldFromBody> collector(source.name(), choice);
   Table table(std::move(source), time);

@@ -30,7 +30,8 @@ struct TrajectoryFile {
   double last_s = 0.0;
 };
 
-/// Reads a trajectory: TUM (`timestamp tx ty tz qx qy qz qw`, blanks between, # comments) or a table with a header that
+/// Reads a trajectory: TUM (`timestamp tx ty tz qx qy qz qw`, blanks between, # comments), EuRoC's ground truth (a line
+/// of comment, then ns, x, y, z, qw, qx, qy, qz and what is passed over, commas between) or a table with a header that
 /// has `time_s`, `utime` (us) or `frame`, and qw,qx,qy,qz,tx_m,ty_m,tz_m (tables of pharos, motion capture; other
 /// columns are passed over, `station`, `status`, `flags`, `sigma_rot_deg`, `sigma_pos_mm` used). Told by content; .gz;
 /// -.

@@ -47,6 +47,28 @@ TEST(TrajectoryFile, TumAndTableSayTheSame) {
   }
 }
 
+// w first, times in ns, columns that are passed over, ends of lines as in the data set.
+TEST(TrajectoryFile, EurocGroundTruthSaysTheSame) {
+  const File euroc = read(
+      "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x\r\n"
+      "1403636580838555648,1,2,3,0.8,0,0.6,0,-0.02\r\n1403636580843555328,4,5,6,1,0,0,0,0.03\r\n");
+  const File tum = read("1403636580.838555648 1 2 3 0 0.6 0 0.8\n1403636580.843555328 4 5 6 0 0 0 1\n");
+  ASSERT_EQ(euroc.samples.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(euroc.samples[i].time_s, tum.samples[i].time_s, 1e-6);
+    EXPECT_TRUE(euroc.samples[i].pose.R.isApprox(tum.samples[i].pose.R));
+    EXPECT_EQ(euroc.samples[i].pose.t, tum.samples[i].pose.t);
+  }
+  expect_refused("#timestamp\n1403636580838555648,1,2,3,0.8,0,0.6\n", "8 numbers");
+  expect_refused("#timestamp\n1.5,1,2,3,0.8,0,0.6,0\n", "nanoseconds");
+  expect_refused("#timestamp\n1403636580838555648,1,2,x,0.8,0,0.6,0\n", "'x' is not a number");
+}
+
+// A comment with commas does not make a TUM file another one.
+TEST(TrajectoryFile, TumMayHaveAnyComment) {
+  EXPECT_EQ(read("# timestamp, tx, ty, tz, qx, qy, qz, qw\n1.5 1 2 3 0 0.6 0 0.8\n").samples.size(), 1u);
+}
+
 TEST(TrajectoryFile, CountsWhatItLeavesOut) {
   const std::string text =
       "time_s,station,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status,flags\n"
