@@ -125,6 +125,17 @@ TEST_F(CliSlam, ImagesWithoutPartnersOnBothSidesAreNoPairs) {
   expect_refused(slam(), "has no partner");
 }
 
+// Raw images of the EuRoC data set's rig, whose frame is an IMU's: taken, whatever there is to see.
+TEST_F(CliSlam, TheRigOfEurocIsTaken) {
+  for (const char* side : {"left", "right"}) {
+    for (const char* name : {"0", "1", "2"}) black(side + std::string("/") + name + ".pgm", 752, 480);
+  }
+  rig_ = PHAROS_EUROC_RIG;
+  const Outcome run = slam(" --scene static");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("no frame could be placed: 3 pairs"));
+}
+
 TEST_F(CliSlam, ARigFileWithoutNumbersIsNamed) {
   std::string text = rig_text("0.5");
   text.replace(text.find("64.0"), 4, "nan");
