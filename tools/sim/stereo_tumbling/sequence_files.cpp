@@ -17,7 +17,6 @@ SequenceFiles::SequenceFiles(const std::string& directory, const host::RigFile& 
   if (!(rig_file << host::rig_text(rig)).flush()) {
     throw host::InputError((root_ / "rig.toml").string() + ": cannot be written");
   }
-  truth_.open(root_ / "truth.tum");
 }
 
 void SequenceFiles::image(const std::string& stem, int side, const host::GreyImage& image) const {
@@ -25,6 +24,7 @@ void SequenceFiles::image(const std::string& stem, int side, const host::GreyIma
 }
 
 void SequenceFiles::truth(double time_s, const Vector3& t_m, const Quaternion& q) {
+  if (!truth_.is_open()) truth_.open(root_ / "truth.tum");
   truth_ << host::fixed_number(time_s);
   for (const double value : {t_m.x(), t_m.y(), t_m.z(), q.x(), q.y(), q.z(), q.w()}) {
     truth_ << ' ' << host::exact_number(value);

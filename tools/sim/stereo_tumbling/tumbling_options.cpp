@@ -56,12 +56,16 @@ std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI:
       ->check(CLI::Range(0.0, 7200.0));
   command.add_option("--step-deg", options->scenario.step_deg, "tumbling: a frame (default 0.5)")
       ->check(CLI::Range(0.01, 30.0));
-  command.add_option("--light", options->light, "tumbling: good (a lamp and ambient 0.1) or low (ambient alone)")
+  command
+      .add_option("--light", options->light,
+                  "tumbling: good (default; a lamp and the ambient light) or low (the ambient light alone)")
       ->check(CLI::IsMember({"good", "low"}));
   command.add_option("--ambient", options->scenario.ambient, "tumbling: ambient light (default 0.1)")
       ->check(CLI::Range(0.0, 1.0));
   command
-      .add_option("--renderer", options->renderer, "tumbling: povray, or rays: without gloss, in a third of the time")
+      .add_option(
+          "--renderer", options->renderer,
+          "tumbling: povray (default), or rays: without gloss, in a tenth of the time; boards and room are rays")
       ->check(CLI::IsMember({"povray", "rays"}));
   return [options](std::uint64_t seed, const std::string& directory) { return write_scene(*options, seed, directory); };
 }
