@@ -49,7 +49,8 @@ void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
       ->check(CLI::IsMember(table_one_runs()));
   command->add_option("--features", options->table.features, "Features a frame (default 1000)")
       ->check(CLI::Range(100, 10'000));
-  command->add_option("--renderer", options->renderer, "povray, or rays: without gloss, in a tenth of the time")
+  command
+      ->add_option("--renderer", options->renderer, "povray (default), or rays: without gloss, in a tenth of the time")
       ->check(CLI::IsMember({"povray", "rays"}));
   add_seed_option(*command, options->table.seed, "Of textures, stars and noise");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");

@@ -102,15 +102,17 @@ class Pictures {
   std::int32_t width_px_ = 0, height_px_ = 0;
 };
 
+// Errors are of frames with a pose.
 struct Outcome {
   double rmse_deg = 0.0, last_deg = 0.0;
-  int loops = 0, without_pose = 0;
+  int loops = 0, placed = 0, without_pose = 0;
+  bool last_placed = false;
 };
 
 Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& sequence) {
   Outcome outcome;
-  int placed = 0;
   for (const slam::TrackedFrame& frame : system.settled_trajectory()) {
+    outcome.last_placed = frame.placed.has_value();
     if (!frame.placed) {
       ++outcome.without_pose;
       continue;
@@ -118,9 +120,9 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
     const Matrix3 truth = sequence.truth(static_cast<int>(frame.number)).R;
     outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth);
     outcome.rmse_deg += outcome.last_deg * outcome.last_deg;
-    ++placed;
+    ++outcome.placed;
   }
-  outcome.rmse_deg = placed > 0 ? std::sqrt(outcome.rmse_deg / placed) : 0.0;
+  if (outcome.placed > 0) outcome.rmse_deg = std::sqrt(outcome.rmse_deg / outcome.placed);
   outcome.loops = system.report().loops;
   return outcome;
 }
@@ -134,9 +136,13 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
     rmse = host::exact_number(values[0]);
     last = host::exact_number(values[1]);
   }
-  rows.push_back({item, "attitude RMSE", "deg", rmse, outcome.rmse_deg, ""});
-  rows.push_back({item, "error of the last attitude", "deg", last, outcome.last_deg, ""});
-  rows.push_back({item, "frames without a pose", "", "", static_cast<double>(outcome.without_pose), ""});
+  if (outcome.placed > 0) {
+    rows.push_back({item, "attitude RMSE", "deg", rmse, outcome.rmse_deg, ""});
+    const char* remark = outcome.last_placed ? "" : "of the last frame with a pose; later ones have none";
+    rows.push_back({item, "error of the last attitude", "deg", last, outcome.last_deg, remark});
+  }
+  rows.push_back({item, "frames without a pose", "", "", static_cast<double>(outcome.without_pose),
+                  outcome.placed > 0 ? "" : "all of them"});
   if (turn_deg >= kLoopFrom_deg) {
     rows.push_back({item, "loops closed", "", "0", static_cast<double>(outcome.loops), ""});
   }
