@@ -2,7 +2,9 @@
 #include "host/vision/slam/keyframe_covariance.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 namespace pharos::slam {
@@ -90,6 +92,25 @@ class ReducedEquations {
   std::unordered_map<std::int64_t, Matrix6> blocks_;
 };
 
+// The root and those that see most of the points.
+std::set<KeyframeId> best_seeing(const BundleProblem& problem, KeyframeId root, std::size_t most) {
+  std::map<KeyframeId, int> seen;
+  for (const auto& [id, pose] : problem.poses) seen[id] = 0;
+  for (const BundleObservation& observation : problem.observations) ++seen[observation.keyframe];
+  std::vector<std::pair<int, KeyframeId>> sorted;
+  for (const auto& [id, count] : seen) {
+    if (id != root) sorted.emplace_back(-count, id);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::set<KeyframeId> out;
+  if (problem.poses.contains(root)) out.insert(root);
+  for (const auto& [count, id] : sorted) {
+    if (out.size() >= most) break;
+    out.insert(id);
+  }
+  return out;
+}
+
 Matrix3 information_of(const Observation& seen, const Vector3& point_m, const StereoCamera& camera,
                        const CameraFromTarget& pose) {
   Observation at = seen;
@@ -102,10 +123,12 @@ Matrix3 information_of(const Observation& seen, const Vector3& point_m, const St
 
 std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
                                                    const std::vector<std::size_t>& rejected, const StereoCamera& camera,
-                                                   KeyframeId root) {
+                                                   KeyframeId root, std::size_t most) {
   std::map<KeyframeId, int> places;
   int count = 0;
-  for (const auto& [id, pose] : problem.poses) places[id] = id == root ? ReducedEquations::kRoot : count++;
+  for (const KeyframeId id : best_seeing(problem, root, most)) {
+    places[id] = id == root ? ReducedEquations::kRoot : count++;
+  }
   ReducedEquations equations(count);
   std::vector<bool> use(problem.observations.size(), true);
   for (const std::size_t k : rejected) use[k] = false;
@@ -113,9 +136,12 @@ std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
   for (std::size_t k = 0; k < problem.observations.size(); ++k) {
     const BundleObservation& seen = problem.observations[k];
     const Vector3& point_m = problem.points.at(seen.point);
-    const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
-    if (use[k] && (pose * point_m).z() > 0.0) {
-      sights.push_back({places.at(seen.keyframe), information_of(seen.seen, point_m, camera, pose)});
+    const auto place = places.find(seen.keyframe);
+    if (use[k] && place != places.end()) {
+      const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
+      if ((pose * point_m).z() > 0.0) {
+        sights.push_back({place->second, information_of(seen.seen, point_m, camera, pose)});
+      }
     }
     const bool last = k + 1 == problem.observations.size() || problem.observations[k + 1].point != seen.point;
     if (!last) continue;

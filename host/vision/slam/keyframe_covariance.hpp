@@ -9,14 +9,17 @@
 
 namespace pharos::slam {
 
+inline constexpr std::size_t kAllKeyframes = static_cast<std::size_t>(-1);
+
 /// How far keyframes of a solved problem stand from one of them, `root`: what is left of (12)'s normal equations when
-/// the points are eliminated and `root` stays, inverted. Rejected observations do not count. Each is of zeta in
-/// T_camera_target exp(zeta), rotation (rad) before translation (m) about the target's axes: in these, what a whole
-/// part of the map errs alike is one and the same number for all its keyframes. A keyframe that shares nothing has 1
-/// rad and 100 m. 5 to 20 ms for 40 keyframes, some 0.1 s for 100.
+/// the points are eliminated and `root` stays, inverted. Rejected observations do not count, and of more than `most`
+/// keyframes only those that see most of the points. Each is of zeta in T_camera_target exp(zeta), rotation (rad)
+/// before translation (m) about the target's axes: in these, what a whole part of the map errs alike is one and the
+/// same number for all its keyframes. A keyframe that shares nothing has 1 rad and 100 m. Some 12 ms for 40 keyframes
+/// that see 17,000 points in all, 0.35 s for 157.
 std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
                                                    const std::vector<std::size_t>& rejected, const StereoCamera& camera,
-                                                   KeyframeId root);
+                                                   KeyframeId root, std::size_t most = kAllKeyframes);
 
 /// The covariance of a keyframe by the keyframe about it that has the least with what lies between: `about` is of
 /// keyframe_covariances with this one as root. Stays where nobody is about it.

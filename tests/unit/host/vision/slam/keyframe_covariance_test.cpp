@@ -54,7 +54,7 @@ TEST(KeyframeCovariances, AreWhatManySolutionsScatterBy) {
   for (int seed = 0; seed < kSeeds; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
     BundleProblem problem = chained_views(random);
-    const auto rejected = adjust_bundle(problem, kCamera, {20, nullptr});
+    const auto rejected = adjust_bundle(problem, kCamera, 20);
     const auto covariances = keyframe_covariances(problem, rejected, kCamera, 0);
     EXPECT_TRUE(covariances.at(0).isZero(0.0));
     for (int k = 1; k < kKeyframes; ++k) {
@@ -87,6 +87,18 @@ TEST(KeyframeCovariances, GrowWithWhatIsRejected) {
   const Matrix6 all = keyframe_covariances(problem, {}, kCamera, 0).at(5);
   const Matrix6 less = keyframe_covariances(problem, half, kCamera, 0).at(5);
   EXPECT_GT((less - all).ldlt().vectorD().minCoeff(), 0.0);
+}
+
+TEST(KeyframeCovariances, AreOfThoseThatSeeMostWhereTheyAreTooMany) {
+  std::mt19937_64 random(3);
+  const BundleProblem problem = chained_views(random);
+  const auto all = keyframe_covariances(problem, {}, kCamera, 0);
+  const auto few = keyframe_covariances(problem, {}, kCamera, 0, 4);
+  ASSERT_EQ(few.size(), 4U);
+  EXPECT_TRUE(few.contains(0));
+  for (const auto& [id, covariance] : few) {
+    EXPECT_GE((covariance - all.at(id)).trace(), 0.0) << id;  // less is known from fewer
+  }
 }
 
 TEST(KeyframeCovariances, SayNothingOfAKeyframeThatSharesNothing) {
