@@ -51,17 +51,6 @@ class Reprojection : public ceres::CostFunction {
   StereoCamera camera_;
 };
 
-class GiveUp : public ceres::IterationCallback {
- public:
-  explicit GiveUp(const std::atomic<bool>* flag) : flag_(flag) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return flag_ != nullptr && *flag_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const std::atomic<bool>* flag_;
-};
-
 // Ceres orders what it eliminates by address: blocks stand in one array in the order of their numbers, or the same
 // problem would be solved in another order each time.
 struct Blocks {
@@ -82,7 +71,7 @@ struct Blocks {
   std::map<PointId, double*> points;
 };
 
-void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& camera, const BundleSettings& settings,
+void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& camera, int iterations,
            const std::vector<bool>& use) {
   ceres::Problem::Options options;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -112,15 +101,13 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
   for (const auto& [id, block] : blocks.points) {
     if (ceres.HasParameterBlock(block)) ordering->AddElementToGroup(block, 0);
   }
-  GiveUp give_up(settings.give_up);
   ceres::Solver::Options solver;
   solver.linear_solver_ordering.reset(ordering);
   solver.linear_solver_type = moving <= 40 ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
-  solver.max_num_iterations = settings.iterations;
+  solver.max_num_iterations = iterations;
   solver.function_tolerance = 1e-5;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
-  solver.callbacks.push_back(&give_up);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres, &summary);
 }
@@ -147,8 +134,7 @@ void add_observations(const Map& map, BundleProblem& problem, const std::set<Key
       const Feature& seen = frame.features[static_cast<std::size_t>(feature)];
       problem.poses[keyframe] = frame.pose;
       problem.fixed[keyframe] = !moving.contains(keyframe);
-      problem.observations.push_back(
-          {keyframe, id, {Vector3::Zero(), seen.pixel, seen.stereo() ? seen.right_u_px : -1.0, seen.variance_px2()}});
+      problem.observations.push_back({keyframe, id, observation_of(seen, Vector3::Zero())});
     }
   }
 }
@@ -179,19 +165,17 @@ BundleProblem global_problem(const Map& map) {
   return problem;
 }
 
-std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera,
-                                       const BundleSettings& settings) {
+std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera, int iterations) {
   Blocks blocks(problem);
   // A single point that starts behind a camera would end the adjustment before its first step.
   std::vector<bool> use;
   for (const BundleObservation& observation : problem.observations) use.push_back(in_front(observation, blocks));
   std::vector<std::size_t> rejected;
-  solve(problem, blocks, camera, settings, use);
+  solve(problem, blocks, camera, iterations, use);
   for (std::size_t k = 0; k < use.size(); ++k) {
     use[k] = fits(problem.observations[k], blocks, camera);
   }
-  const bool stopped = settings.give_up != nullptr && *settings.give_up;
-  if (!stopped) solve(problem, blocks, camera, settings, use);
+  solve(problem, blocks, camera, iterations, use);
   for (std::size_t k = 0; k < use.size(); ++k) {
     if (!use[k] && !fits(problem.observations[k], blocks, camera)) rejected.push_back(k);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <map>
 #include <vector>
 
@@ -25,20 +24,15 @@ struct BundleProblem {
   std::vector<BundleObservation> observations;  ///< those of one point one after the other
 };
 
-struct BundleSettings {
-  int iterations = 10;
-  const std::atomic<bool>* give_up = nullptr;  ///< stops between iterations when set
-};
-
 /// Keyframes covisible with `keyframe` and it (K_L), the points they see, and who else sees those (K_F).
 BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t most_keyframes);
 /// All of the map; the first keyframe stays.
 BundleProblem global_problem(const Map& map);
 
-/// Solves (12) by Ceres (Levenberg and Marquardt, points eliminated first), in place; Huber's cost, and once more
-/// without what chi-squared rejects. Returns the rejected observations' numbers. Same input, same bits.
-std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera,
-                                       const BundleSettings& settings);
+/// Solves (12) by Ceres (Levenberg and Marquardt, points eliminated first, up to so many steps twice), in place;
+/// Huber's cost, and once more without what chi-squared rejects. Returns the rejected observations' numbers. Same
+/// input, same bits.
+std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera, int iterations);
 
 /// Puts a solution into the map: poses and points that are still there; rejected observations go.
 void apply(const BundleProblem& solved, const std::vector<std::size_t>& rejected, Map& map);

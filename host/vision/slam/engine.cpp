@@ -17,8 +17,10 @@ constexpr int kPairsChecked = 5;    // whether left is left
 constexpr double kOutOfStep = 0.6;  // frames between left and right: exposures at one time stay far below
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
+constexpr std::size_t kChainedKeyframes = 40;  // about a new one, from which its covariance may be told
 constexpr std::int64_t kMappingFrames = 4;
-constexpr int kGlobalSteps = 12;  // while tracking goes on
+constexpr std::size_t kMostWaiting = 3;  // keyframes, as in ORB-SLAM2
+constexpr int kGlobalSteps = 12;         // while tracking goes on
 constexpr int kFinalSteps = 40;
 
 }  // namespace
@@ -52,7 +54,7 @@ void Engine::wait_for_threads() const {
 Map Engine::adjusted(Map map) const {
   if (map.keyframes.size() < 2) return map;
   BundleProblem problem = global_problem(map);
-  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kFinalSteps, nullptr});
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), kFinalSteps);
   apply_global(problem, rejected, map);
   apply_covariances(keyframe_covariances(problem, rejected, frontend_.camera(), map.keyframes.begin()->first), map);
   return map;
@@ -145,7 +147,9 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
       own = tracked.covariance;
       note_skew(frame);
     }
-    if (tracked.wants_keyframe) {
+    // Mapping that is this far behind would fall behind ever more.
+    const bool behind = mapping_ && mapping_->waiting() >= kMostWaiting;
+    if (tracked.wants_keyframe && !behind) {
       made = make_keyframe(frame);
       map_.keyframes.at(made).covariance = turned(tracked.pose.R.transpose(), out.placed->covariance);
       own.setZero();
@@ -215,8 +219,8 @@ void Engine::map_keyframe(KeyframeId id) {
     problem = local_problem(map_, id, kLocalKeyframes);
     corrections = corrections_;
   }
-  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kLocalSteps, nullptr});
-  const auto about = keyframe_covariances(problem, rejected, frontend_.camera(), id);
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), kLocalSteps);
+  const auto about = keyframe_covariances(problem, rejected, frontend_.camera(), id, kChainedKeyframes);
   const std::lock_guard lock(mutex_);
   // A loop that was closed meanwhile moved what this solution knows.
   if (corrections == corrections_) apply(problem, rejected, map_);
@@ -243,7 +247,7 @@ void Engine::close_loop(KeyframeId id) {
     problem = global_problem(map_);
     first = map_.keyframes.begin()->first;
   }
-  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), {kGlobalSteps, nullptr});
+  const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), kGlobalSteps);
   const auto covariances = keyframe_covariances(problem, rejected, frontend_.camera(), first);
   const std::lock_guard lock(mutex_);
   apply_global(problem, rejected, map_);

@@ -30,6 +30,11 @@ bool KeyframeWorker::idle() const {
   return ids_.empty() && !busy_;
 }
 
+std::size_t KeyframeWorker::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return ids_.size();
+}
+
 void KeyframeWorker::wait_until_idle() const {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ids_.empty() && !busy_; });

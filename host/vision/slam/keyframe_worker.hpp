@@ -28,6 +28,7 @@ class KeyframeWorker {
   void push(KeyframeId id);
   /// None waits and none is in work.
   bool idle() const;
+  std::size_t waiting() const;
   void wait_until_idle() const;
   /// Throws std::runtime_error where `work` has thrown, each time it is asked.
   void check() const;

@@ -66,6 +66,10 @@ CameraFromTarget descend(const std::vector<Observation>& observations, const std
 
 }  // namespace
 
+Observation observation_of(const Feature& feature, const Vector3& point_m) {
+  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
+}
+
 Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose) {
   const Vector3 predicted = camera.project(pose * observation.point_m);
   const double disparity = observation.pixel.x() - observation.right_u_px, expected = predicted.x() - predicted.z();

@@ -17,6 +17,9 @@ struct Observation {
   bool stereo() const { return right_u_px >= 0.0; }
 };
 
+/// Where a frame's feature shows the point, with the feature's own variance.
+Observation observation_of(const Feature& feature, const Vector3& point_m);
+
 /// 95 % of chi-squared with two and three degrees of freedom: beyond it an observation is an outlier.
 inline constexpr double kMonoChi2 = 5.991;
 inline constexpr double kStereoChi2 = 7.815;

@@ -47,7 +47,7 @@ TEST(Bundle, RecoversPosesAndPointsOfExactObservations) {
   }
   for (auto& [id, point] : map.points) point.position_m += random_vector(random, 0.02);
   BundleProblem problem = global_problem(map);
-  EXPECT_TRUE(adjust_bundle(problem, kCamera, {30, nullptr}).empty());
+  EXPECT_TRUE(adjust_bundle(problem, kCamera, 30).empty());
   apply(problem, {}, map);
   for (const auto& [id, keyframe] : map.keyframes) {
     EXPECT_LT(rotation_angle_between(keyframe.pose.R, poses[static_cast<std::size_t>(id)].R), 1e-5);
@@ -72,7 +72,7 @@ TEST(Bundle, APointBehindTheCamerasIsLeftOut) {
   }
   map.points.at(7).position_m -= map.keyframes.at(2).pose.R.transpose() * Vector3(0.0, 0.0, 100.0);
   BundleProblem problem = global_problem(map);
-  const auto rejected = adjust_bundle(problem, kCamera, {30, nullptr});
+  const auto rejected = adjust_bundle(problem, kCamera, 30);
   EXPECT_EQ(rejected.size(), poses.size());
   for (const std::size_t k : rejected) EXPECT_EQ(problem.observations[k].point, 7);
   apply(problem, rejected, map);
@@ -89,7 +89,7 @@ TEST(Bundle, RejectsAFalseObservationAndKeepsTheFixedPose) {
   Map map = simulated_map(random, 0.3, poses, points);
   map.keyframes.at(3).features[7].pixel.x() += 60.0;
   BundleProblem problem = global_problem(map);
-  const auto rejected = adjust_bundle(problem, kCamera, {20, nullptr});
+  const auto rejected = adjust_bundle(problem, kCamera, 20);
   ASSERT_EQ(rejected.size(), 1U);
   EXPECT_EQ(problem.observations[rejected[0]].keyframe, 3);
   EXPECT_EQ(problem.observations[rejected[0]].point, 7);
@@ -107,7 +107,7 @@ TEST(Bundle, GivesTheSameBitsTwice) {
     std::vector<Vector3> points, solved;
     const Map map = simulated_map(random, 0.5, poses, points);
     BundleProblem problem = local_problem(map, 4, 10);
-    adjust_bundle(problem, kCamera, {10, nullptr});
+    adjust_bundle(problem, kCamera, 10);
     for (const auto& [id, point] : problem.points) solved.push_back(point);
     if (run == 0) first = solved;
     EXPECT_EQ(solved, first);

@@ -151,7 +151,7 @@ TEST_F(LoopOfATurn, TheCorrectionSpreadsOverAllKeyframesAndTheBundleEndsAtTheTru
   EXPECT_LT(map_.points.size(), doubled - 100);  // landmarks of both sides became one
   EXPECT_TRUE(map_.keyframes.at(loop->here).loops.contains(loop->there));
   BundleProblem problem = global_problem(map_);
-  const auto rejected = adjust_bundle(problem, kCamera, {20, nullptr});
+  const auto rejected = adjust_bundle(problem, kCamera, 20);
   apply_global(problem, rejected, map_);
   // 0.1 px in some 250 landmarks, seen from 5 m at 0.6 m from the axis, are 0.0001 rad a keyframe; a chain of half a
   // turn adds 18 of them up.
