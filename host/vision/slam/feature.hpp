@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/vision/slam/descriptor.hpp"
-#include "pharos/base/image_view.hpp"
+#include "host/vision/slam/pyramid.hpp"
 #include "pharos/geometry/pose.hpp"
 
 namespace pharos::slam {
@@ -37,28 +37,8 @@ struct StereoCamera {
   }
 };
 
-/// Scales of the image pyramid: each 1.2 times coarser (ORB's own default).
-inline constexpr int kLevels = 8;
-inline constexpr double kLevelScale = 1.2;
-inline constexpr std::array<double, kLevels> kScales = [] {
-  std::array<double, kLevels> scales{};
-  double scale = 1.0;
-  for (double& of_level : scales) {
-    of_level = scale;
-    scale *= kLevelScale;
-  }
-  return scales;
-}();
-inline double scale_of(int level) { return kScales[static_cast<std::size_t>(level)]; }
-
 /// A corner is found again to half a pixel of its level.
 inline constexpr double kCornerSigma_px = 0.5;
-
-/// A level of an image's pyramid; level 0 is the image itself. Pixel centres: x of a level covers the place
-/// (x + 0.5) s - 0.5 of the image, where s is the ratio of their widths (heights).
-struct PyramidLevel {
-  ImageView<const std::uint8_t> image;
-};
 
 /// One ORB feature of the left image, and where the right one has it.
 struct Feature {

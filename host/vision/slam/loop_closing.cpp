@@ -17,8 +17,11 @@ constexpr std::size_t kSurroundings = 10;
 constexpr double kRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
 
-Observation observation_of(const Feature& feature, const Vector3& point_m) {
-  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.corner_variance_px2()};
+// Whatever the feature was aligned with, it was not this point's patch.
+Observation corner_of(const Feature& feature, const Vector3& point_m) {
+  Observation at = observation_of(feature, point_m);
+  at.variance_px2 = feature.corner_variance_px2();
+  return at;
 }
 
 std::set<PointId> points_around(const Map& map, KeyframeId id) {
@@ -71,7 +74,7 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   for (const ProjectionMatch& match : match_by_likeness(there.features, known, here.features, {}, 0.85)) {
     const PointId point = there.points[static_cast<std::size_t>(match.candidate)];
     observations.push_back(
-        observation_of(here.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
+        corner_of(here.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
   }
   const auto placed = robust_pose(observations, camera_, kLeastByLikeness, static_cast<std::uint64_t>(here.id));
   if (!placed) return std::nullopt;
@@ -83,8 +86,8 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   const auto matches = match_by_projection(candidates, here, {}, camera_, placed->pose, {kMaybeSamePoint, 0.9, false});
   std::vector<Observation> all;
   for (const ProjectionMatch& match : matches) {
-    all.push_back(observation_of(here.features[static_cast<std::size_t>(match.feature)],
-                                 candidates[static_cast<std::size_t>(match.candidate)].position_m));
+    all.push_back(corner_of(here.features[static_cast<std::size_t>(match.feature)],
+                            candidates[static_cast<std::size_t>(match.candidate)].position_m));
   }
   const PoseOnly refined = adjust_pose(all, camera_, placed->pose);
   if (refined.inliers < kLeastInliers) return std::nullopt;

@@ -154,10 +154,8 @@ struct OrbExtractor::Work {
   void place(int level, const Corner& corner) {
     const cv::Mat& image = levels[static_cast<std::size_t>(level)];
     const int u = cvRound(corner.u_px), v = cvRound(corner.v_px);
-    const double scale_u = static_cast<double>(levels[0].cols) / image.cols;
-    const double scale_v = static_cast<double>(levels[0].rows) / image.rows;
     Feature feature;
-    feature.pixel = {(u + 0.5) * scale_u - 0.5, (v + 0.5) * scale_v - 0.5};
+    feature.pixel = LevelPlaces(views, level).in_image({u, v});
     feature.level = level;
     feature.angle_rad = direction_of(image, u, v);
     const double degrees = feature.angle_rad * 180.0 / std::numbers::pi;

@@ -20,16 +20,6 @@ constexpr double kLeastArea = 0.4, kMostArea = 2.5;  // of a pixel, here over th
 
 using Matrix2d = Eigen::Matrix2d;
 
-double width_scale(const std::vector<PyramidLevel>& pyramid, std::size_t level) {
-  return static_cast<double>(pyramid[0].image.width_px) / pyramid[level].image.width_px;
-}
-
-// A pixel of the image on its level.
-Vector2 on_level(const Vector2& pixel, const std::vector<PyramidLevel>& pyramid, std::size_t level) {
-  const double scale_v = static_cast<double>(pyramid[0].image.height_px) / pyramid[level].image.height_px;
-  return {(pixel.x() + 0.5) / width_scale(pyramid, level) - 0.5, (pixel.y() + 0.5) / scale_v - 0.5};
-}
-
 // How a step in the keyframe's image becomes one in the frame's, px.
 std::optional<Matrix2d> step_of(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                 const StereoCamera& camera) {
@@ -135,16 +125,16 @@ Eigen::Matrix4f squares_of(const Template& patch) {
 
 std::optional<Patch> cut_patch(KeyframeId keyframe, const Feature& feature, const std::vector<PyramidLevel>& pyramid) {
   if (!feature.stereo() || pyramid.empty()) return std::nullopt;
-  const auto level = static_cast<std::size_t>(feature.level);
-  const ImageView<const std::uint8_t> image = pyramid[level].image;
-  const Vector2 place = on_level(feature.pixel, pyramid, level);
+  const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
+  const LevelPlaces places(pyramid, feature.level);
+  const Vector2 place = places.on_level(feature.pixel);
   const auto u = static_cast<int>(std::lround(place.x())), v = static_cast<int>(std::lround(place.y()));
   constexpr int kReach = Patch::kReach_px;
   if (u < kReach || v < kReach || u + kReach >= image.width_px || v + kReach >= image.height_px) return std::nullopt;
   Patch patch;
   patch.keyframe = keyframe;
   patch.level = feature.level;
-  patch.scale_px = width_scale(pyramid, level);
+  patch.scale_px = places.scale();
   patch.pixel = feature.pixel;
   patch.disparity_px = feature.pixel.x() - feature.right_u_px;
   patch.disparity_slope = feature.disparity_slope;
@@ -159,8 +149,8 @@ std::optional<Patch> cut_patch(KeyframeId keyframe, const Feature& feature, cons
 std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                      const StereoCamera& camera, const Feature& feature,
                                      const std::vector<PyramidLevel>& pyramid) {
-  const auto level = static_cast<std::size_t>(feature.level);
-  const double scale = width_scale(pyramid, level);
+  const LevelPlaces places(pyramid, feature.level);
+  const double scale = places.scale();
   const auto step = step_of(patch, T_frame_keyframe, camera);
   if (!step) return std::nullopt;
   const Matrix2d to_patch = scale / patch.scale_px * step->inverse();
@@ -171,12 +161,13 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
   const float slopes = 0.5F * (H(0, 0) + H(1, 1) - std::hypot(H(0, 0) - H(1, 1), 2.0F * H(0, 1)));
   if (!(slopes > kLeastSlopes)) return std::nullopt;
   const Eigen::LDLT<Eigen::Matrix4f> solver(H);
-  const Vector2 start = on_level(feature.pixel, pyramid, level);
+  const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
+  const Vector2 start = places.on_level(feature.pixel);
   Eigen::Vector4f off(0.0F, 0.0F, 1.0F, 0.0F), gradient;
   float unlike = 0.0F, moved = kMostMove_px;
   for (int k = 0; k < kSteps && moved > kEnough_px; ++k) {
     const Vector2 place = start + off.head<2>().cast<double>();
-    if (!compare(seen, pyramid[level].image, place, off[2], off[3], gradient, unlike)) return std::nullopt;
+    if (!compare(seen, image, place, off[2], off[3], gradient, unlike)) return std::nullopt;
     const Eigen::Vector4f move = solver.solve(gradient);
     off -= move;
     moved = move.head<2>().norm();

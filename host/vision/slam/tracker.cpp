@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/vision/slam/local_map.hpp"
 #include "host/vision/slam/rigid_fit.hpp"
 
 namespace pharos::slam {
@@ -14,19 +15,12 @@ constexpr int kLeastByMotion = 20;
 constexpr int kLeastPlaced = 15;      // inliers of a first placement
 constexpr int kLeastInLocalMap = 30;  // inliers in the local map: below, the frame is lost
 constexpr int kLeastRelocalised = 50;
-constexpr std::size_t kMostLocalKeyframes = 40;
 constexpr std::size_t kMostCandidates = 5;  // keyframes tried to relocalise
-constexpr double kCosMostTurn = 0.5;        // a point seen from 60 deg aside looks like another
-constexpr double kCosFacing = 0.998;
-constexpr double kMostSteps = 20.0;  // missing frames that a prediction bridges
+constexpr double kMostSteps = 20.0;         // missing frames that a prediction bridges
 // Section 2.2, rules (1) to (4).
 constexpr std::int64_t kFramesBetween = 20;
 constexpr int kLeastTracked = 50;
 constexpr double kShareOfReference = 0.9;
-
-Observation observation_of(const Feature& feature, const Vector3& point_m) {
-  return {point_m, feature.pixel, feature.stereo() ? feature.right_u_px : -1.0, feature.variance_px2()};
-}
 
 }  // namespace
 
@@ -123,70 +117,12 @@ std::optional<PoseOnly> Tracker::relocalise(Frame& frame) {
   return std::nullopt;
 }
 
-std::vector<PointId> Tracker::local_points(const Frame& frame) {
-  std::map<KeyframeId, int> votes;
-  for (const PointId id : frame.points) {
-    const MapPoint* point = map_.find_point(id);
-    if (point == nullptr) continue;
-    for (const auto& [keyframe, feature] : point->seen_by) ++votes[keyframe];
-  }
-  std::set<KeyframeId> local;
-  int most = 0;
-  for (const auto& [id, count] : votes) {
-    local.insert(id);
-    if (count > most) {
-      most = count;
-      nearest_ = id;
-    }
-  }
-  for (const auto& [id, count] : votes) {
-    if (local.size() >= kMostLocalKeyframes) break;
-    for (const KeyframeId other : map_.best_neighbours(id, 5)) local.insert(other);
-    const Keyframe& keyframe = map_.keyframes.at(id);
-    if (keyframe.parent != kNone) local.insert(keyframe.parent);
-  }
-  std::vector<PointId> points;
-  for (const KeyframeId id : local) {
-    for (const PointId point : map_.keyframes.at(id).points) {
-      if (point != kNone) points.push_back(point);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
 std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& start, bool wide) {
-  const std::vector<PointId> local = local_points(frame);
-  std::vector<PointId> matched;
+  const LocalMap local = local_map(map_, frame);
+  if (local.nearest != kNone) nearest_ = local.nearest;
   std::vector<bool> free(frame.points.size());
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    free[k] = frame.points[k] == kNone;
-    if (!free[k]) matched.push_back(frame.points[k]);
-  }
-  std::sort(matched.begin(), matched.end());
-  const Vector3 eye = start.pose.inverse().t;
-  std::vector<Candidate> candidates;
-  for (const PointId id : local) {
-    MapPoint& point = map_.points.at(id);
-    const Vector3 p = start.pose * point.position_m;
-    if (p.z() <= 0.0) continue;
-    const Vector3 place = camera_.project(p);
-    if (!(place.x() >= 0.0 && place.x() < camera_.width_px && place.y() >= 0.0 && place.y() < camera_.height_px)) {
-      continue;
-    }
-    const double distance_m = p.norm();
-    if (distance_m < 0.8 * point.least_distance_m || distance_m > 1.2 * point.most_distance_m) continue;
-    const double facing = (point.position_m - eye).dot(point.normal) / distance_m;
-    if (facing < kCosMostTurn) continue;
-    ++point.visible;
-    if (std::binary_search(matched.begin(), matched.end(), id)) continue;
-    const int level = std::clamp(
-        static_cast<int>(std::ceil(std::log(point.most_distance_m / distance_m) / std::log(kLevelScale) - 0.5)), 0,
-        kLevels - 1);
-    const double radius = (facing > kCosFacing ? 2.5 : 4.0) * (wide ? 3.0 : 1.0);
-    candidates.push_back({id, point.position_m, point.descriptor, level, radius, 0.0});
-  }
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] = frame.points[k] == kNone;
+  const std::vector<Candidate> candidates = local_candidates(map_, local, frame, camera_, start.pose, wide ? 3.0 : 1.0);
   for (const ProjectionMatch& match :
        match_by_projection(candidates, frame, free, camera_, start.pose, {kMaybeSamePoint, 0.8, false})) {
     frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
