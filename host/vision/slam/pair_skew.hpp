@@ -17,7 +17,8 @@ class PairSkew {
   void add(double moved_px, double off_px);
   /// All points of a frame are in; what is old fades.
   void end_frame();
-  /// Frames by which the right images are late (early: below 0), where enough moved to tell it to a tenth of a frame.
+  /// Frames by which the right images are late (early: below 0), where enough moved to tell it to a tenth of a frame,
+  /// or where it is many sigmas from 0.
   std::optional<double> frames_late() const;
 
  private:

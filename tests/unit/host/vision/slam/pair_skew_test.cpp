@@ -34,6 +34,18 @@ TEST(PairSkew, TellsTheDelayInFrames) {
   }
 }
 
+// Several frames apart only points match that moved little, and they scatter more: no tenth of a frame then, but no
+// doubt.
+TEST(PairSkew, TellsSeveralFramesToo) {
+  for (const double late : {-3.0, 3.0}) {
+    const auto found = after(30, 0.2, late, 0.8).frames_late();
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(*found, late, 0.5);
+  }
+  EXPECT_FALSE(after(30, 0.2, 0.0, 0.8).frames_late());
+  EXPECT_FALSE(after(30, 0.1, 3.0, 0.8).frames_late());
+}
+
 TEST(PairSkew, RowsOffThatDoNotFollowTheMotionAreNoDelay) {
   const auto found = after(30, 1.0, 0.0, 0.5).frames_late();
   ASSERT_TRUE(found);
