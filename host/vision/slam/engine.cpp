@@ -13,7 +13,6 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kLeastStart = 60;     // stereo features of a first map
-constexpr int kPairsChecked = 5;    // whether left is left
 constexpr double kOutOfStep = 0.6;  // frames between left and right: exposures at one time stay far below
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
@@ -70,21 +69,6 @@ std::vector<TrackedFrame> Engine::settled_trajectory() const {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
   return log_.frames(adjusted(map_), frontend_.R_left_rectified());
-}
-
-void Engine::check_pair(const StereoFrontend::Result& seen) {
-  if (pairs_checked_ >= kPairsChecked || seen.features.size() < kLeastStart) return;
-  checked_.matched += seen.stats.matched;
-  checked_.swapped += seen.stats.swapped;
-  checked_.off_rows += seen.stats.off_rows;
-  if (++pairs_checked_ < kPairsChecked) return;
-  if (checked_.swapped > 2 * checked_.matched) {
-    throw host::InputError("left and right images seem to be exchanged: what both show lies on the wrong side");
-  }
-  if (checked_.off_rows > 2 * checked_.matched) {
-    throw host::InputError(
-        "the images' rows do not agree: left and right are out of step, or the rig file is of other cameras");
-  }
 }
 
 // Rows that the points of a frame moved since the one before, beside rows between left and right.
@@ -172,8 +156,8 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
                            std::to_string(camera.height_px));
   }
   const Stopwatch watch;
-  StereoFrontend::Result seen = frontend_.push(left, right, pairs_checked_ < kPairsChecked);
-  check_pair(seen);
+  StereoFrontend::Result seen = frontend_.push(left, right, !order_.known());
+  order_.add(seen.features.size(), seen.stats);
   Frame frame;
   frame.number = figures_.frames();
   frame.time_s = time_s;

@@ -7,6 +7,7 @@
 
 #include "host/vision/slam/keyframe_worker.hpp"
 #include "host/vision/slam/loop_closing.hpp"
+#include "host/vision/slam/pair_order.hpp"
 #include "host/vision/slam/pair_skew.hpp"
 #include "host/vision/slam/run_figures.hpp"
 #include "host/vision/slam/tracker.hpp"
@@ -42,7 +43,6 @@ class Engine final : public SlamSystem {
   TrackedFrame place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made);
   KeyframeId make_keyframe(Frame& frame);
   void note_skew(const Frame& frame);
-  void check_pair(const StereoFrontend::Result& seen);
   void map_keyframe(KeyframeId id);
   void close_loop(KeyframeId id);
 
@@ -58,8 +58,7 @@ class Engine final : public SlamSystem {
   Frame last_;
   std::vector<PointId> recent_;
   std::int64_t last_keyframe_frame_ = 0;
-  int pairs_checked_ = 0;
-  StereoMatchStats checked_;
+  PairOrder order_;
   PairSkew skew_;
 
   RunFigures figures_;

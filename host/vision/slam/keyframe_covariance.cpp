@@ -139,7 +139,7 @@ std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
     const auto place = places.find(seen.keyframe);
     if (use[k] && place != places.end()) {
       const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
-      if ((pose * point_m).z() > 0.0) {
+      if ((pose * point_m).z() > kLeastDepth_m) {
         sights.push_back({place->second, information_of(seen.seen, point_m, camera, pose)});
       }
     }

@@ -8,6 +8,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "host/vision/slam/level_mask.hpp"
 #include "host/vision/slam/quadtree.hpp"
 
 namespace pharos::slam {
@@ -54,33 +55,6 @@ double direction_of(const cv::Mat& image, int u, int v) {
   return std::atan2(m01, m10);
 }
 
-// Where a level may have features.
-class MaskOfLevel {
- public:
-  MaskOfLevel(ImageView<const std::uint8_t> mask, const cv::Mat& image, const cv::Mat& level)
-      : mask_(mask),
-        scale_u_(static_cast<float>(image.cols) / static_cast<float>(level.cols)),
-        scale_v_(static_cast<float>(image.rows) / static_cast<float>(level.rows)) {}
-  bool at(float u, float v) const {
-    if (mask_.empty()) return true;
-    const auto mu = static_cast<std::int32_t>(u * scale_u_), mv = static_cast<std::int32_t>(v * scale_v_);
-    return mask_.contains(mu, mv) && mask_.at(mu, mv) != 0;
-  }
-  // What is masked has no parts that slip between every fourth pixel.
-  bool any(const cv::Rect& cell) const {
-    for (int v = cell.y; v < cell.y + cell.height; v += 4) {
-      for (int u = cell.x; u < cell.x + cell.width; u += 4) {
-        if (at(static_cast<float>(u), static_cast<float>(v))) return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  ImageView<const std::uint8_t> mask_;
-  float scale_u_, scale_v_;
-};
-
 }  // namespace
 
 struct OrbExtractor::Work {
@@ -109,7 +83,7 @@ struct OrbExtractor::Work {
   }
 
   // Of the part of a level that begins at (u, v).
-  void keep_found(int u, int v, const MaskOfLevel& allowed, std::vector<Corner>& corners) const {
+  void keep_found(int u, int v, const LevelMask& allowed, std::vector<Corner>& corners) const {
     for (const cv::KeyPoint& point : found) {
       const float at_u = point.pt.x + static_cast<float>(u), at_v = point.pt.y + static_cast<float>(v);
       if (allowed.at(at_u, at_v)) corners.push_back({at_u, at_v, point.response});
@@ -119,7 +93,7 @@ struct OrbExtractor::Work {
   // FAST over the whole level; cells that have no corner are asked once more for faint ones.
   std::vector<Corner> corners_of(int level, ImageView<const std::uint8_t> mask) {
     const cv::Mat& image = levels[static_cast<std::size_t>(level)];
-    const MaskOfLevel allowed(mask, levels[0], image);
+    const LevelMask allowed(mask, levels[0], image);
     const int first = kBorder_px - 3;  // FAST's circle
     const cv::Rect inside(first, first, image.cols - 2 * first, image.rows - 2 * first);
     const int columns = (inside.width - 6 + kCell_px - 1) / kCell_px,

@@ -11,7 +11,6 @@ constexpr int kRounds = 4;
 constexpr int kMostSteps = 8;
 constexpr double kSmallStep = 1e-7;  // rad and m: nothing that a pixel shows
 constexpr int kLeastPoints = 3;
-constexpr double kLeastDepth_m = 1e-3;
 
 double limit_of(const Observation& observation) { return observation.stereo() ? kStereoChi2 : kMonoChi2; }
 

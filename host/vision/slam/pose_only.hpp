@@ -20,6 +20,9 @@ struct Observation {
 /// Where a frame's feature shows the point, with the feature's own variance.
 Observation observation_of(const Feature& feature, const Vector3& point_m);
 
+/// Nearer to the camera, or behind it, a point is not where it was seen.
+inline constexpr double kLeastDepth_m = 1e-3;
+
 /// 95 % of chi-squared with two and three degrees of freedom: beyond it an observation is an outlier.
 inline constexpr double kMonoChi2 = 5.991;
 inline constexpr double kStereoChi2 = 7.815;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/vision/slam/local_map.hpp"
+#include "host/vision/slam/patch_alignment.hpp"
 #include "host/vision/slam/rigid_fit.hpp"
 
 namespace pharos::slam {
@@ -127,37 +128,13 @@ std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& star
        match_by_projection(candidates, frame, free, camera_, start.pose, {kMaybeSamePoint, 0.8, false})) {
     frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
   }
-  align(frame, start.pose);
+  align_with_patches(frame, map_, camera_, start.pose, pyramid_);
   PoseOnly placed = adjust(frame, start.pose);
   for (const PointId id : frame.points) {
     if (id != kNone) ++map_.points.at(id).found;
   }
   if (placed.inliers < (wide ? kLeastRelocalised : kLeastInLocalMap)) return std::nullopt;
   return placed;
-}
-
-// Features that show points of the map go where the points' patches are seen.
-void Tracker::align(Frame& frame, const CameraFromTarget& pose) const {
-  if (pyramid_.empty()) return;
-  KeyframeId of = kNone;
-  Pose<frame::Camera, frame::Camera> T_frame_keyframe;
-  for (std::size_t k = 0; k < frame.points.size(); ++k) {
-    const MapPoint* point = map_.find_point(frame.points[k]);
-    if (point == nullptr || !point->patch) continue;
-    if (point->patch->keyframe != of) {
-      of = point->patch->keyframe;
-      T_frame_keyframe = pose * map_.pose_of(of).inverse();
-    }
-    Feature& feature = frame.features[k];
-    const auto found = find_patch(*point->patch, T_frame_keyframe, camera_, feature, pyramid_);
-    if (!found) continue;
-    const Vector2 move = found->pixel - feature.pixel;
-    feature.pixel = found->pixel;
-    feature.sigma_px = found->sigma_px;
-    if (!feature.stereo()) continue;
-    feature.right_u_px += move.x() - feature.disparity_slope.dot(move);
-    feature.depth_m = camera_.depth_m(feature.pixel.x() - feature.right_u_px);
-  }
 }
 
 bool Tracker::keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const {

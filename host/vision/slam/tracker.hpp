@@ -51,7 +51,6 @@ class Tracker {
   std::optional<PoseOnly> by_likeness(Frame& frame, KeyframeId keyframe, int least_inliers);
   std::optional<PoseOnly> relocalise(Frame& frame);
   std::optional<PoseOnly> in_local_map(Frame& frame, const PoseOnly& start, bool wide);
-  void align(Frame& frame, const CameraFromTarget& pose) const;
   PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
   bool keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const;
   CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }

@@ -14,7 +14,7 @@ constexpr std::size_t kTriangulateWith = 10;
 constexpr double kCosLeastParallax = 0.99985;  // 1 deg
 
 bool fits(const Feature& feature, const Vector3& point_m, const StereoCamera& camera, const CameraFromTarget& pose) {
-  if (!((pose * point_m).z() > 1e-3)) return false;
+  if (!((pose * point_m).z() > kLeastDepth_m)) return false;
   const Observation at = observation_of(feature, point_m);
   return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
 }

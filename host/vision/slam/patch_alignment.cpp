@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/slam/patch_alignment.hpp"
+
+namespace pharos::slam {
+
+void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,
+                        const std::vector<PyramidLevel>& pyramid) {
+  if (pyramid.empty()) return;
+  KeyframeId of = kNone;
+  Pose<frame::Camera, frame::Camera> T_frame_keyframe;
+  for (std::size_t k = 0; k < frame.points.size(); ++k) {
+    const MapPoint* point = map.find_point(frame.points[k]);
+    if (point == nullptr || !point->patch) continue;
+    if (point->patch->keyframe != of) {
+      of = point->patch->keyframe;
+      T_frame_keyframe = pose * map.pose_of(of).inverse();
+    }
+    Feature& feature = frame.features[k];
+    const auto found = find_patch(*point->patch, T_frame_keyframe, camera, feature, pyramid);
+    if (!found) continue;
+    const Vector2 move = found->pixel - feature.pixel;
+    feature.pixel = found->pixel;
+    feature.sigma_px = found->sigma_px;
+    if (!feature.stereo()) continue;
+    feature.right_u_px += move.x() - feature.disparity_slope.dot(move);
+    feature.depth_m = camera.depth_m(feature.pixel.x() - feature.right_u_px);
+  }
+}
+
+}  // namespace pharos::slam
