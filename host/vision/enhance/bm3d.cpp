@@ -111,13 +111,14 @@ struct Pass {
 template <BlockTransform kind, class Shrink>
 void run(const Pass<kind>& pass, std::vector<BlockMatcher>& matchers, Mosaic& mosaic, Shrink&& shrink) {
   const FloatImage& noisy = pass.noisy;
-  const auto [low, high] = std::minmax_element(pass.looked_at.values.begin(), pass.looked_at.values.end());
+  const auto extremes = std::minmax_element(pass.looked_at.values.begin(), pass.looked_at.values.end());
+  const float low = *extremes.first, high = *extremes.second;
   matchers.resize(std::max(matchers.size(), static_cast<std::size_t>(std::max(1, pass.threads))));
   mosaic.clear(noisy.width_px, noisy.height_px);
   over_bands(noisy.height_px, pass.threads, [&](std::size_t worker, std::int32_t first, std::int32_t last) {
     BlockMatcher& matcher = matchers[worker];
     matcher.look_at(pass.looked_at.view(), std::max(0, first - pass.match.reach_px),
-                    std::min(noisy.height_px, last + pass.match.reach_px + kSide), *low, *high);
+                    std::min(noisy.height_px, last + pass.match.reach_px + kSide), low, high);
     Stack stack, pilot;
     each_place(first, last, pass.step_px, [&](std::int32_t v) {
       each_place(0, noisy.width_px - kSide, pass.step_px, [&](std::int32_t u) {
