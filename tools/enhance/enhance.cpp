@@ -47,12 +47,13 @@ struct Options {
   bool json = false;
 };
 
-const std::vector<std::string> kColumns = {"image",    "width_px",    "height_px",  "channels", "bits",  "mean_in",
-                                           "mean_out", "noise_sigma", "iterations", "seconds",  "status"};
+const std::vector<std::string> kColumns = {"image",   "width_px", "height_px",   "channels",         "bits",
+                                           "mean_in", "mean_out", "noise_sigma", "reflectance_peak", "iterations",
+                                           "seconds", "status"};
 
 struct Outcome {
   host::Picture picture;  // what was read; empty where nothing could be
-  double mean_in = 0.0, mean_out = 0.0, noise_sigma = 0.0;
+  double mean_in = 0.0, mean_out = 0.0, noise_sigma = 0.0, peak = 1.0;
   int iterations = 0;
   double seconds = 0.0;
   std::string status = "ok";
@@ -101,6 +102,7 @@ class Worker {
   const enhance::FloatImage& brighten(const enhance::FloatImage& frame, Outcome& outcome) {
     steps_ = &enhancer_.enhance(frame);
     outcome.noise_sigma = steps_->noise_sigma;
+    outcome.peak = steps_->peak;
     outcome.iterations = steps_->iterations;
     return steps_->result;
   }
@@ -125,10 +127,10 @@ void write_row(const std::string& image, const Outcome& outcome, host::RowWriter
     rows.integer(picture.width_px).integer(picture.height_px).integer(picture.channels).integer(picture.bits);
   }
   if (outcome.status == "ok") {
-    rows.number(outcome.mean_in).number(outcome.mean_out).number(outcome.noise_sigma).integer(outcome.iterations);
-    rows.number(outcome.seconds);
+    rows.number(outcome.mean_in).number(outcome.mean_out).number(outcome.noise_sigma).number(outcome.peak);
+    rows.integer(outcome.iterations).number(outcome.seconds);
   } else {
-    rows.none(5);
+    rows.none(6);
   }
   rows.text(outcome.status).end_row();
 }
@@ -230,8 +232,11 @@ void add_enhance(CLI::App& app, int& exit_code) {
   command->add_option("--max-rgb", options->steps.start, "Write the illumination's start (2)");
   command->add_option("--refined", options->steps.refined, "Write the solution of (5)");
   command->add_option("--illumination", options->steps.illumination, "Write the illumination L, after (7)");
-  command->add_option("--reflectance", options->steps.reflectance, "Write the reflectance R, (3)");
-  command->add_option("--denoised", options->steps.denoised, "Write the denoised reflectance R_d");
+  command->add_option(
+      "--reflectance", options->steps.reflectance,
+      "Write the reflectance R, (3), as (8) uses it: divided by the report's reflectance_peak, cut at white");
+  command->add_option("--denoised", options->steps.denoised,
+                      "Write the denoised reflectance R_d: OUT is R L + R_d (1 - L), (8)");
   command->add_option("--report", options->report, "A row an image (CSV) into this file; - is standard output");
   command->add_flag("--json", options->json, "The report as one JSON object a line");
   add_settings(*command, *options);

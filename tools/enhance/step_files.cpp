@@ -46,6 +46,15 @@ std::vector<std::string> StepFiles::names() const {
   return given;
 }
 
+namespace {
+
+FloatImage divided(FloatImage image, float by) {
+  for (float& value : image.values) value /= by;
+  return image;
+}
+
+}  // namespace
+
 void StepFiles::write(const enhance::Enhanced& steps) const {
   const auto put = [](const std::string& path, const FloatImage& step) {
     if (!path.empty()) host::write_picture(path, picture_of(step, 16));
@@ -53,7 +62,7 @@ void StepFiles::write(const enhance::Enhanced& steps) const {
   put(start, steps.start);
   put(refined, steps.refined);
   put(illumination, steps.illumination);
-  put(reflectance, steps.reflectance);
+  if (!reflectance.empty()) put(reflectance, divided(steps.reflectance, steps.peak));
   put(denoised, steps.denoised);
 }
 

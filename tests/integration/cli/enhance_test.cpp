@@ -55,6 +55,30 @@ TEST(CliEnhance, WritesABrighterImageAndEveryStep) {
   for (const char* step : {"r.png", "d.png"}) EXPECT_EQ(host::read_picture(folder.path(step)).channels, 3) << step;
 }
 
+// (1) and (8) from the files, of a frame so dark that R lies above white before it is made to fit.
+TEST(CliEnhance, TheStepsMakeTheImage) {
+  const Folder folder;
+  const std::string in = folder.write("dark.pgm", dark_image(false, 6)), out = folder.path("bright.png");
+  const Outcome run =
+      pharos("enhance " + in + " " + out + " --illumination " + folder.path("l.png") + " --reflectance " +
+             folder.path("r.png") + " --denoised " + folder.path("d.png") + " --report -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const double peak = std::stod(rows_of(run.out).at(0).at("reflectance_peak"));
+  EXPECT_GT(peak, 1.2);
+  const host::Picture dark = host::read_picture(in), bright = host::read_picture(out),
+                      light = host::read_picture(folder.path("l.png")), r = host::read_picture(folder.path("r.png")),
+                      quiet = host::read_picture(folder.path("d.png"));
+  std::size_t white = 0;
+  for (std::size_t k = 0; k < bright.values.size(); ++k) {
+    const double L = light.values[k] / 65535.0, R = r.values[k] / 65535.0, R_d = quiet.values[k] / 65535.0;
+    ASSERT_NEAR(bright.values[k] / 65535.0, R * L + R_d * (1.0 - L), 0.51 / 255.0) << k;
+    white += r.values[k] == 65535 ? 1U : 0U;
+    if (r.values[k] == 65535) continue;
+    ASSERT_NEAR(dark.values[k] / 65535.0, R * L * peak, 2e-4) << k;
+  }
+  EXPECT_LT(white, bright.values.size() / 10);
+}
+
 TEST(CliEnhance, StandardInputToStandardOutput) {
   const Folder folder;
   const std::string file = folder.path("dark.pgm");
