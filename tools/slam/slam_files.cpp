@@ -2,6 +2,7 @@
 #include "tools/slam/slam_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -46,6 +47,23 @@ nlohmann::ordered_json spin_json(const slam::Spin& spin) {
   json["turned_deg"] = kDegrees * spin.turned_rad;
   json["residual_rms_deg"] = kDegrees * spin.residual_rms_rad;
   return json;
+}
+
+// Roots of the covariances' traces: of the last pose and of the least certain one.
+void add_sigmas(nlohmann::ordered_json& json, const std::vector<slam::TrackedFrame>& trajectory) {
+  double last_rad = -1.0, most_rad = 0.0, last_m = 0.0, most_m = 0.0;
+  for (const slam::TrackedFrame& frame : trajectory) {
+    if (!frame.placed) continue;
+    const Matrix6& covariance = frame.placed->covariance;
+    last_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+    last_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+    most_rad = std::max(most_rad, last_rad);
+    most_m = std::max(most_m, last_m);
+  }
+  if (last_rad < 0.0) return;
+  constexpr double kDegrees = 180.0 / std::numbers::pi, kMillimetres = 1e3;
+  json["sigma_rot_deg"] = {{"last", kDegrees * last_rad}, {"most", kDegrees * most_rad}};
+  json["sigma_pos_mm"] = {{"last", kMillimetres * last_m}, {"most", kMillimetres * most_m}};
 }
 
 }  // namespace
@@ -134,6 +152,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["loop_max_ms"] = report.loop_max_ms;
   json["light_median_ms"] = median(figures.light_ms);
   json["to_pose_median_ms"] = median(figures.to_pose_ms);
+  add_sigmas(json, trajectory);
   for (const MemoryAt& at : figures.memory) {
     json["memory"].push_back({{"pair", at.pair}, {"resident_mib", static_cast<double>(at.resident_kib) / 1024.0}});
   }

@@ -105,9 +105,14 @@ class Pictures {
 // Errors are of frames with a pose.
 struct Outcome {
   double rmse_deg = 0.0, last_deg = 0.0;
+  double attitude_square = 0.0, position_square = 0.0;  // over what the covariances say, a degree of freedom
   int loops = 0, placed = 0, without_pose = 0;
   bool last_placed = false;
 };
+
+double normalised_square(const Vector3& error, const Matrix3& covariance) {
+  return error.dot(covariance.inverse() * error) / 3.0;
+}
 
 Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& sequence) {
   Outcome outcome;
@@ -117,12 +122,20 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
       ++outcome.without_pose;
       continue;
     }
-    const Matrix3 truth = sequence.truth(static_cast<int>(frame.number)).R;
-    outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth);
+    const auto truth = sequence.truth(static_cast<int>(frame.number));
+    outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth.R);
     outcome.rmse_deg += outcome.last_deg * outcome.last_deg;
-    ++outcome.placed;
+    // The first one with a pose is where it is by definition.
+    if (outcome.placed++ == 0) continue;
+    const Matrix6& covariance = frame.placed->covariance;
+    outcome.attitude_square +=
+        normalised_square(rotation_log(truth.R * frame.placed->pose.R.transpose()), covariance.topLeftCorner<3, 3>());
+    outcome.position_square += normalised_square(truth.t - frame.placed->pose.t, covariance.bottomRightCorner<3, 3>());
   }
   if (outcome.placed > 0) outcome.rmse_deg = std::sqrt(outcome.rmse_deg / outcome.placed);
+  const int told = std::max(1, outcome.placed - 1);
+  outcome.attitude_square /= told;
+  outcome.position_square /= told;
   outcome.loops = system.report().loops;
   return outcome;
 }
@@ -140,6 +153,11 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
     rows.push_back({item, "attitude RMSE", "deg", rmse, outcome.rmse_deg, ""});
     const char* remark = outcome.last_placed ? "" : "of the last frame with a pose; later ones have none";
     rows.push_back({item, "error of the last attitude", "deg", last, outcome.last_deg, remark});
+  }
+  if (outcome.placed > 1) {
+    const char* remark = "1 where covariances are true";
+    rows.push_back({item, "attitude errors over stated ones, squared", "", "", outcome.attitude_square, remark});
+    rows.push_back({item, "position errors over stated ones, squared", "", "", outcome.position_square, remark});
   }
   rows.push_back({item, "frames without a pose", "", "", static_cast<double>(outcome.without_pose),
                   outcome.placed > 0 ? "" : "all of them"});

@@ -26,7 +26,8 @@ struct TableOneOptions {
 std::size_t table_one_pairs(const TableOneOptions& options);
 
 /// Table 1 of paper 004: each turn in good light, and in low light with and without enhancement; from 360 deg on also
-/// without loop closing. Rows: attitude RMSE, error of the last attitude, frames without a pose, loops closed.
+/// without loop closing. Rows: attitude RMSE, error of the last attitude, squares of errors over what the
+/// covariances say (mean, a degree of freedom), frames without a pose, loops closed.
 ///
 /// A shorter turn is the beginning of a longer one, picture by picture, so each run goes once through the longest and
 /// is asked at the end of each what it would have answered there (SlamSystem::settled_trajectory). Runs in the same
