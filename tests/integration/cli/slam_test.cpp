@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <regex>
+#include <sstream>
 
 #include "tests/integration/cli/program.hpp"
 
@@ -145,6 +147,103 @@ TEST_F(CliSlam, ARigFileWithoutNumbersIsNamed) {
 
 TEST_F(CliSlam, AMapThatCannotBeWrittenIsNamedBeforeTheWork) {
   expect_refused(slam(" --map /nowhere/map.ply"), "/nowhere/map.ply: cannot be written");
+}
+
+// Words of a checkered image's features, which pharos slam then takes.
+TEST_F(CliSlam, AVocabularyIsTrainedAndTaken) {
+  std::string checks = "P5\n320 240\n255\n";
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u)
+      checks.push_back(static_cast<char>(40 + (u / 9 * 31 + v / 7 * 17 + u * v / 600) % 9 * 20));
+  }
+  const std::string image = folder_.write("checks.pgm", checks), words = folder_.path("own.words"),
+                    again = folder_.path("again.words");
+  const std::string train = "vocabulary " + image + " --branches 4 --depth 2 --output ";
+  const Outcome run = pharos(train + words);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("16 words of 1 images"));
+  EXPECT_EQ(slam(" --vocabulary " + words).exit_code, 1) << "taken; the pairs are black";
+  EXPECT_EQ(pharos(train + again).exit_code, 0);
+  EXPECT_EQ(content_of(words), content_of(again));
+  expect_refused(pharos("vocabulary " + folder_.path("left/0.pgm") + " --output " + words), "no features");
+}
+
+std::vector<std::vector<double>> numbers_of(const std::string& text) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (double value = 0.0; fields >> value;) rows.back().push_back(value);
+  }
+  return rows;
+}
+
+// q = (x, y, z, w) as in the file.
+std::array<double, 3> turned(const std::vector<double>& row, double x, double y, double z) {
+  const double a = row[4], b = row[5], c = row[6], w = row[7];
+  const double i = b * z - c * y + w * x, j = c * x - a * z + w * y, k = a * y - b * x + w * z;
+  return {x + 2.0 * (b * k - c * j), y + 2.0 * (c * i - a * k), z + 2.0 * (a * j - b * i)};
+}
+
+double figure(const Outcome& evaluated, const std::string& column) {
+  EXPECT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  return std::stod(rows_of(evaluated.out).at(0).at(column));
+}
+
+TEST(CliSlamFiles, ATumblingTargetToPosesMapAndPictures) {
+  const Folder folder;
+  const std::string turn = folder.path("turn"), report = folder.path("report.json"), map = folder.path("map.ply");
+  ASSERT_EQ(pharos("sim stereo --scene tumbling --turn-deg 3 --renderer rays --output " + turn).exit_code, 0);
+  const std::string slam = "slam " + turn + "/left " + turn + "/right --rig " + turn + "/rig.toml";
+  const Outcome target = pharos(slam + " --report " + report + " --map " + map + " --overlay " + folder.path("seen"));
+  ASSERT_EQ(target.exit_code, 0) << target.err;
+  const auto rows = numbers_of(target.out);
+  ASSERT_EQ(rows.size(), 7U);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    ASSERT_EQ(rows[k].size(), 8U);
+    EXPECT_DOUBLE_EQ(rows[k][0], 0.05 * static_cast<double>(k));
+  }
+  const std::string against = " " + turn + "/truth.tum";
+  const Outcome evaluated = pharos("evaluate " + folder.write("turn.tum", target.out) + against);
+  EXPECT_EQ(figure(evaluated, "compared"), 7.0);
+  EXPECT_LT(figure(evaluated, "rot_max_deg"), 0.1);
+  EXPECT_LT(figure(evaluated, "pos_max_mm"), 10.0);
+
+  const auto camera = numbers_of(pharos(slam + " --output camera --rate 10").out);
+  ASSERT_EQ(camera.size(), rows.size());
+  EXPECT_DOUBLE_EQ(camera[6][0], 0.6);
+  const std::vector<double>&of_target = rows[6], &of_camera = camera[6];
+  const auto back = turned(of_target, of_camera[1], of_camera[2], of_camera[3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(back[k], -of_target[k + 1], 1e-9) << "R t' = -t";
+    EXPECT_NEAR(of_camera[k + 4], -of_target[k + 4], 1e-12);
+  }
+
+  const std::string text = content_of(report), cloud = content_of(map);
+  std::smatch points;
+  ASSERT_TRUE(std::regex_search(text, points, std::regex(R"("points": (\d+))")));
+  EXPECT_GT(std::stoi(points[1]), 100);
+  EXPECT_THAT(cloud, HasSubstr("element vertex " + points[1].str() + "\n"));
+  EXPECT_EQ(count_lines(cloud.substr(cloud.find("end_header"))), std::stoul(points[1]) + 1);
+  EXPECT_THAT(text, HasSubstr("\"tracked\": 7"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("seen/000006_slam.png")));
+}
+
+// Raw images of a distorting, turned rig whose names are stamps: the first decimetre of a walk.
+TEST(CliSlamFiles, ARawRoomToTheCamerasPath) {
+  const Folder folder;
+  const std::string room = folder.path("room");
+  ASSERT_EQ(pharos("sim stereo --scene room --path-m 0.14 --output " + room).exit_code, 0);
+  const Outcome path =
+      pharos("slam " + room + "/left " + room + "/right --rig " + room + "/rig.toml --scene static --output camera");
+  ASSERT_EQ(path.exit_code, 0) << path.err;
+  EXPECT_THAT(path.out, testing::StartsWith("1400000000.0 "));
+  EXPECT_THAT(path.out, HasSubstr("\n1400000000.05 "));
+  const Outcome evaluated = pharos("evaluate " + folder.write("path.tum", path.out) + " " + room + "/truth.tum");
+  EXPECT_EQ(figure(evaluated, "compared"), 4.0);
+  EXPECT_LT(figure(evaluated, "pos_max_mm"), 10.0);
+  EXPECT_LT(figure(evaluated, "rot_max_deg"), 0.2);
 }
 
 }  // namespace
