@@ -39,6 +39,7 @@ TEST(KeyframeWorker, LeavesThoseThatWaitWhereItEnds) {
     worker.push(1);
     begun.wait();
     EXPECT_FALSE(worker.idle());
+    EXPECT_EQ(worker.waiting(), 1U);
     late = std::thread([&go_on] { go_on.count_down(); });
   }
   late.join();
@@ -63,6 +64,27 @@ TEST(KeyframeWorker, TellsWhatItsWorkThrew) {
   worker.push(5);
   worker.wait_until_idle();
   EXPECT_TRUE(worker.idle());
+}
+
+TEST(RunFigures, CountAllAndTakeMediansOfTheLast) {
+  RunFigures figures;
+  TrackedFrame frame;
+  StereoFrontend::Result seen;
+  for (int k = 0; k < 20'000; ++k) {
+    frame.features = k < 15'000 ? 100 : 200;
+    frame.lost = k % 2 == 0;
+    figures.add_frame(frame, seen, k < 15'000 ? 1.0 : 3.0);
+  }
+  figures.add_loop(5.0);
+  figures.add_loop(4.0);
+  const SlamReport report = figures.report();
+  EXPECT_EQ(report.frames, 20'000);
+  EXPECT_EQ(report.lost, 10'000);
+  EXPECT_EQ(report.loops, 2);
+  EXPECT_EQ(report.features_median, 200.0);
+  EXPECT_EQ(report.tracking_median_ms, 3.0);
+  EXPECT_EQ(report.inliers_median, 0.0) << "none had a pose";
+  EXPECT_EQ(report.loop_max_ms, 5.0);
 }
 
 class EngineWithAFault : public ::testing::Test {
