@@ -115,6 +115,38 @@ TEST_F(PharosdStereoTest, FollowsATumblingTargetInRecordedPairs) {
   EXPECT_GT(Vector3(spin.axis).dot(sequence.pose(0).R.col(2)), std::cos(2.0 * kDeg));
 }
 
+// Three pairs without light and one that cannot be read: said, without a pose, and then it is found again.
+TEST_F(PharosdStereoTest, ALostTargetHasNoPoseUntilItIsFoundAgain) {
+  const sim::TumblingScenario scenario{
+      .turn_deg = 13.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
+  sim::write_tumbling(scenario, 5, pairs.string(), [] {});
+  fs::copy_file(pairs / "rig.toml", daemon.folder() / "rig.toml");
+  const std::vector<std::uint16_t> black(std::size_t{480} * 360, 0);
+  for (const char* name : {"000007.png", "000008.png", "000009.png"}) {
+    for (const char* side : {"left", "right"})
+      write_grey_png((pairs / side / name).string(), {black.data(), 480, 360}, 8);
+  }
+  std::ofstream(pairs / "right" / "000012.png") << "no image";
+  const sim::TumblingSequence sequence(scenario, 5);
+  ChildProcess& pharosd = start("systems = ['slam']\nframes = 'pairs'\n[stereo.slam]\nfeatures = 800\n", {"--fast"});
+  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << pharosd.text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= 13; }, kStereoPatience_s));
+  for (std::size_t k = 0; k < 13; ++k) {
+    const pose_t& pose = daemon.poses()[k];
+    if (k >= 7 && k <= 9) {
+      EXPECT_EQ(pose.valid, 0) << k;
+      EXPECT_EQ(pose.status, "refused_lost") << k;
+      continue;
+    }
+    EXPECT_EQ(pose.valid, 1) << k;
+    EXPECT_EQ(pose.flags, k == 0 ? "map_start" : k == 10 ? "relocalised" : "") << k;
+    const auto truth = sequence.truth(static_cast<int>(k < 12 ? k : 13));
+    EXPECT_LT(rotation_angle_between(rotation_of(pose), truth.R), 0.5 * kDeg) << k;
+  }
+  EXPECT_TRUE(daemon.wait([&] { return daemon.counter("refused.lost", "client") == 3; }));
+  EXPECT_EQ(daemon.counter("device.pairs_unreadable", "client"), 1);
+}
+
 TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
   write_pairs(1);
   sim::StereoRig other = painted.rig;
@@ -158,8 +190,8 @@ class TwoCamerasTest : public PharosdStereoTest {
     }
   }
   /// With a window for a busy machine: what arrives late is timed late.
-  void start_cameras(const std::string& more) {
-    start("systems = ['ring2']\npacket_size = 9000\npairing_window_ms = 100\n" + more +
+  void start_cameras(const std::string& more, const std::string& system = "ring2") {
+    start("systems = ['" + system + "']\npacket_size = 9000\npairing_window_ms = 100\n" + more +
           "[stereo.left]\naddress = '127.0.0.1'\n[stereo.right]\naddress = '127.0.0.2'\n");
   }
   void serve(std::size_t side) { cameras[side].emplace(reels[side], plays[side], nullptr, monotonic_now_ns()); }
@@ -197,6 +229,28 @@ TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) 
   EXPECT_GE(daemon.counter("right.camera_opened", "client"), 2);
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+// The same two cameras before a satellite that stands still: the turn since the first pair is none.
+TEST_F(TwoCamerasTest, FollowASatelliteWithoutAModel) {
+  const sim::TumblingScenario scenario{
+      .turn_deg = 0.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
+  sim::write_tumbling(scenario, 5, pairs.string(), [] {});
+  fs::copy_file(pairs / "rig.toml", daemon.folder() / "rig.toml");
+  for (std::size_t side = 0; side < 2; ++side) {
+    reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
+    serve(side);
+  }
+  start_cameras("[stereo.slam]\nfeatures = 800\n", "slam");
+  ASSERT_TRUE(poses_come(5)) << daemon.process().text();
+  for (const pose_t& pose : daemon.poses()) {
+    if (pose.valid == 0) continue;
+    EXPECT_EQ(pose.source, "slam/bow");
+    EXPECT_LT(rotation_angle_between(rotation_of(pose), Matrix3::Identity()), 0.1 * kDeg);
+    EXPECT_LT(Vector3(pose.position_m).norm(), 0.01);
+  }
+  EXPECT_GT(daemon.poses().back().observations, 100);
+  EXPECT_NEAR(static_cast<double>(daemon.poses().back().utime), static_cast<double>(utc_now_ns()) * 1e-3, 3e7);
 }
 
 TEST_F(TwoCamerasTest, SixteenBitsSeeARingInAnEighthOfTheLight) {
