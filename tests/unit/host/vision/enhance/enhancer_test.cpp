@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "host/vision/enhance/luma.hpp"
+#include "host/vision/enhance/smoothness.hpp"
+#include "tools/bench/exact_illumination.hpp"
 #include "unit/host/vision/enhance/test_images.hpp"
 
 namespace pharos::enhance {
@@ -47,6 +50,57 @@ TEST(Enhancer, StepsAreThoseOfThePaper) {
     }
     ASSERT_EQ(steps.start.values[k], most);  // (2)
   }
+}
+
+// Strategy III with alpha 0.15 and sigma 2 where nothing else is said; half or twice of either is another answer.
+TEST(Enhancer, DefaultsAreThoseOfThePaper) {
+  const FloatImage frame = test::painted_target(96, 64, 0.2F);
+  const auto off = [&](double alpha, double sigma_px) {
+    SmoothnessSystem system;
+    SmoothnessWeights().weigh(frame, WeightStrategy::kWindow, alpha, sigma_px, system);
+    Enhancer enhancer;
+    return tools::rms_of_range(enhancer.illuminate(frame).refined, tools::exact_illumination(system, frame));
+  };
+  const double ours = off(0.15, 2.0);
+  EXPECT_LT(ours, 5e-3);
+  for (const auto& [alpha, sigma_px] : {std::pair{0.3, 2.0}, {0.075, 2.0}, {0.15, 4.0}, {0.15, 1.0}}) {
+    EXPECT_GT(off(alpha, sigma_px), 2.0 * ours) << alpha << ' ' << sigma_px;
+  }
+}
+
+// Y of YCbCr by the weights of ITU-R BT.601.
+TEST(Luma, IsThatOfTheStandard) {
+  FloatImage colours, luma;
+  colours.shape(3, 1, 3);
+  std::fill(colours.values.begin(), colours.values.end(), 0.0F);
+  for (int c = 0; c < 3; ++c) colours.plane(c)[c] = 1.0F;
+  luma_of(colours, luma);
+  ASSERT_EQ(luma.values.size(), 3U);
+  EXPECT_NEAR(luma.values[0], 0.299F, 1e-6F);
+  EXPECT_NEAR(luma.values[1], 0.587F, 1e-6F);
+  EXPECT_NEAR(luma.values[2], 0.114F, 1e-6F);
+}
+
+// Only Y is denoised: what a pixel changes by is the same in red, green and blue, wherever nothing is cut.
+TEST(Luma, DenoisedColoursKeepTheirTint) {
+  FloatImage frame = coloured(3.0F, 2.0F, 1.5F);
+  for (float& value : frame.values) value += 0.1F;
+  test::add_noise(frame, 0.02, 4);
+  LumaDenoiser denoiser;
+  FloatImage quiet;
+  EXPECT_GT(denoiser.denoise(frame, 1.0F, with(Denoiser::kBm3d), quiet), 0.01);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < frame.pixels(); ++k) {
+    const float red = quiet.plane(0)[k] - frame.plane(0)[k];
+    bool cut = false;
+    for (int c = 0; c < 3; ++c)
+      cut = cut || quiet.plane(c)[k] <= 0.0F || quiet.plane(c)[k] >= 1.0F || frame.plane(c)[k] <= 0.0F ||
+            frame.plane(c)[k] >= 1.0F;
+    if (cut) continue;
+    for (int c = 1; c < 3; ++c) ASSERT_NEAR(quiet.plane(c)[k] - frame.plane(c)[k], red, 1e-5F) << k;
+    changed += std::abs(red) > 0.005F ? 1U : 0U;
+  }
+  EXPECT_GT(changed, frame.pixels() / 4);
 }
 
 TEST(Enhancer, DarkTargetBecomesBrightAndBlackStaysBlack) {

@@ -139,5 +139,24 @@ TEST_F(MapOfTurns, DoublePointsOfAKeyframeBecomeOne) {
   expect_whole(map_);
 }
 
+// All of these were born eight keyframes ago.
+TEST_F(MapOfTurns, PointsThatAreSeldomFoundOrSeenByTooFewGo) {
+  for (const std::size_t k : {0U, 1U}) map_.points.at(ids_[k]).visible = 100;
+  map_.points.at(ids_[0]).found = 24;
+  map_.points.at(ids_[1]).found = 26;
+  for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[2], id);
+  for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[3], id);
+  map_.points.at(ids_[3]).born_at = map_.newest() - 2;  // too young to be judged by how many see it
+  std::vector<PointId> recent(ids_.begin(), ids_.begin() + 5);
+  cull_points(map_, recent);
+  EXPECT_EQ(map_.find_point(ids_[0]), nullptr);
+  EXPECT_NE(map_.find_point(ids_[1]), nullptr);
+  EXPECT_EQ(map_.find_point(ids_[2]), nullptr);
+  EXPECT_NE(map_.find_point(ids_[3]), nullptr);
+  EXPECT_NE(map_.find_point(ids_[4]), nullptr);
+  EXPECT_EQ(recent, std::vector<PointId>{ids_[3]}) << "the others are no longer watched";
+  expect_whole(map_);
+}
+
 }  // namespace
 }  // namespace pharos::slam
