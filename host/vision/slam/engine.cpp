@@ -112,7 +112,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
   TrackedFrame out{
       frame.number, frame.time_s, std::nullopt, false, false, false, static_cast<int>(frame.features.size()), 0};
   const std::lock_guard lock(mutex_);
-  Matrix6 own = Matrix6::Zero();  // what its features leave open once its keyframe stands
+  Matrix6 own = Matrix6::Zero();
   if (map_.keyframes.empty()) {
     if (seen.stats.matched >= kLeastStart) {
       frame.points.assign(frame.features.size(), kNone);
@@ -136,7 +136,6 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
     if (tracked.wants_keyframe && !behind) {
       made = make_keyframe(frame);
       map_.keyframes.at(made).covariance = turned(tracked.pose.R.transpose(), out.placed->covariance);
-      own.setZero();
     }
   }
   out.keyframe = made != kNone;

@@ -48,7 +48,9 @@ std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R
                    entry.features, entry.inliers});
     if (!entry.placed) continue;
     const CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);
-    const Matrix6 covariance = turned(pose.R, map.covariance_of(entry.reference)) + matrix_of(entry.own);
+    Matrix6 covariance = turned(pose.R, map.covariance_of(entry.reference));
+    // A keyframe that still is one stands where the map says; its features' share is in that.
+    if (!entry.keyframe || !map.keyframes.contains(entry.reference)) covariance += matrix_of(entry.own);
     out.back().placed = in_left_frame({pose, covariance, static_cast<double>(entry.rms_px)}, R_left_rectified);
   }
   return out;

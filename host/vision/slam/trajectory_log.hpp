@@ -13,7 +13,8 @@ namespace pharos::slam {
 /// Every frame by its pose relative to a keyframe, so that what mends the map mends the trajectory.
 class TrajectoryLog {
  public:
-  /// `own`: the covariance that the frame has where `reference` stands for certain; 0 where it is that keyframe.
+  /// `own`: the covariance that the frame's features leave where `reference` stands for certain. A frame that is a
+  /// keyframe is told from itself, and has it once the map holds that keyframe no more.
   void add(const TrackedFrame& frame, KeyframeId reference, const Pose<frame::Camera, frame::Camera>& T_frame_reference,
            const Matrix6& own);
   /// Poses with the map as it stands; `R_left_rectified` takes them from the rectified camera's frame to the left

@@ -171,6 +171,16 @@ TEST(TrajectoryLog, AddsAKeyframesCovarianceToAFramesOwn) {
   ASSERT_TRUE(told);
   const Matrix6 expected = turned(R_left_rectified, turned(pose.R, spread.asDiagonal()) + own);
   EXPECT_LT((told->covariance - expected).norm(), 1e-6 * expected.norm());
+  frame.keyframe = true;
+  log.add(frame, 1, {}, own);
+  const Matrix6 of_keyframe = turned(R_left_rectified, turned(pose.R, spread.asDiagonal()));
+  EXPECT_LT((log.frames(map, R_left_rectified).at(1).placed->covariance - of_keyframe).norm(),
+            1e-12 * of_keyframe.norm());
+  map.keyframes.at(1).parent = 0;
+  map.remove_keyframe(1);
+  const Matrix6 alone = turned(R_left_rectified, own);
+  EXPECT_LT((log.frames(map, R_left_rectified).at(1).placed->covariance - alone).norm(), 1e-6 * alone.norm())
+      << "a keyframe that went is a frame like others";
   EXPECT_EQ(told->pose.t, R_left_rectified * pose.t);
   EXPECT_EQ(told->rms_px, 0.5);
 }
