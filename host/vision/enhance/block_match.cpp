@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "host/vision/enhance/wide_vectors.hpp"
+
 namespace pharos::enhance {
 namespace {
 
@@ -18,7 +20,8 @@ std::uint32_t difference(const std::uint8_t* a, const std::uint8_t* b) {
 
 }  // namespace
 
-void BlockMatcher::look_at(ImageView<const float> image, std::int32_t first, std::int32_t last, float low, float high) {
+PHAROS_WIDE_VECTORS void BlockMatcher::look_at(ImageView<const float> image, std::int32_t first, std::int32_t last,
+                                               float low, float high) {
   constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
   first_ = first;
   rows_ = last - first;
@@ -40,7 +43,8 @@ void BlockMatcher::look_at(ImageView<const float> image, std::int32_t first, std
   }
 }
 
-std::span<const BlockPlace> BlockMatcher::find(BlockPlace reference, const MatchSettings& settings) {
+PHAROS_WIDE_VECTORS std::span<const BlockPlace> BlockMatcher::find(BlockPlace reference,
+                                                                   const MatchSettings& settings) {
   const std::uint8_t* wanted = block(reference.u_px, reference.v_px);
   std::array<std::uint8_t, kBlockPixels> pattern;
   std::copy_n(wanted, kBlockPixels, pattern.begin());

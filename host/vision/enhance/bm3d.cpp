@@ -9,6 +9,7 @@
 #include "host/vision/enhance/alternate_bands.hpp"
 #include "host/vision/enhance/block_match.hpp"
 #include "host/vision/enhance/shrinkage.hpp"
+#include "host/vision/enhance/wide_vectors.hpp"
 
 namespace pharos::enhance {
 namespace {
@@ -51,7 +52,7 @@ class Mosaic {
     weights_.assign(pixels, 0.0F);
   }
 
-  void add(const Stack& stack, std::span<const BlockPlace> places, float weight) {
+  PHAROS_WIDE_VECTORS void add(const Stack& stack, std::span<const BlockPlace> places, float weight) {
     Window share;
     for (std::size_t k = 0; k < kBlockPixels; ++k) share[k] = weight * window_[k];
     const float* block = stack.data();
@@ -98,7 +99,6 @@ bool nothing_to_do(const FloatImage& image, double sigma) {
   return image.width_px < kSide || image.height_px < kSide || !(sigma > 0.0);
 }
 
-template <BlockTransform kind>
 struct Pass {
   const FloatImage& noisy;
   const FloatImage& looked_at;  // where blocks are compared
@@ -107,9 +107,35 @@ struct Pass {
   int threads;
 };
 
-// One step of BM3D; shrink(places, stack, pilot) returns the stack's weight.
-template <BlockTransform kind, class Shrink>
-void run(const Pass<kind>& pass, std::vector<BlockMatcher>& matchers, Mosaic& mosaic, Shrink&& shrink) {
+// What becomes of one stack, from and to pixels; its weight is returned.
+PHAROS_WIDE_VECTORS float hard_step(const FloatImage& noisy, std::span<const BlockPlace> places, float sigma,
+                                    Stack& stack) {
+  gather<BlockTransform::kWavelet>(noisy.view(), places, stack);
+  const float weight = shrink_hard(stack, places.size(), sigma);
+  back_to_pixels<BlockTransform::kWavelet>(stack, places.size());
+  return weight;
+}
+
+PHAROS_WIDE_VECTORS float wiener_step(const FloatImage& noisy, const FloatImage& first,
+                                      std::span<const BlockPlace> places, float sigma, Stack& stack, Stack& pilot) {
+  gather<BlockTransform::kCosine>(noisy.view(), places, stack);
+  gather<BlockTransform::kCosine>(first.view(), places, pilot);
+  const float weight = shrink_wiener(stack, pilot, places.size(), sigma);
+  back_to_pixels<BlockTransform::kCosine>(stack, places.size());
+  return weight;
+}
+
+PHAROS_WIDE_VECTORS float single_step(const FloatImage& noisy, std::span<const BlockPlace> place, float sigma,
+                                      Stack& stack) {
+  gather<BlockTransform::kCosine>(noisy.view(), place, stack);
+  const float weight = shrink_hard(stack, 1, sigma);
+  back_to_pixels<BlockTransform::kCosine>(stack, 1);
+  return weight;
+}
+
+// One step of BM3D; step(places, stack) leaves the stack's pixels and returns its weight.
+template <class Step>
+void run(const Pass& pass, std::vector<BlockMatcher>& matchers, Mosaic& mosaic, Step&& step) {
   const FloatImage& noisy = pass.noisy;
   const auto extremes = std::minmax_element(pass.looked_at.values.begin(), pass.looked_at.values.end());
   const float low = *extremes.first, high = *extremes.second;
@@ -119,13 +145,11 @@ void run(const Pass<kind>& pass, std::vector<BlockMatcher>& matchers, Mosaic& mo
     BlockMatcher& matcher = matchers[worker];
     matcher.look_at(pass.looked_at.view(), std::max(0, first - pass.match.reach_px),
                     std::min(noisy.height_px, last + pass.match.reach_px + kSide), low, high);
-    Stack stack, pilot;
+    Stack stack;
     each_place(first, last, pass.step_px, [&](std::int32_t v) {
       each_place(0, noisy.width_px - kSide, pass.step_px, [&](std::int32_t u) {
         const std::span<const BlockPlace> places = matcher.find({u, v}, pass.match);
-        gather<kind>(noisy.view(), places, stack);
-        const float weight = shrink(places, stack, pilot);
-        back_to_pixels<kind>(stack, places.size());
+        const float weight = step(places, stack);
         mosaic.add(stack, places, weight);
       });
     });
@@ -154,18 +178,17 @@ void BlockDenoiser::bm3d(const FloatImage& noisy, double sigma, const Bm3dSettin
   Buffers& b = *buffers_;
   const auto level = static_cast<float>(sigma);
   const std::int32_t reach_px = std::clamp(settings.reach_px, 1, kMostReach_px);
-  const Pass<BlockTransform::kWavelet> hard{
+  const Pass hard{
       noisy, noisy, {reach_px, settings.hard_blocks, 1.13F * level + kAlikeNoisy}, settings.hard_step_px, threads};
   run(hard, b.matchers, b.mosaic,
-      [level](auto places, Stack& stack, Stack&) { return shrink_hard(stack, places.size(), level); });
+      [&noisy, level](auto places, Stack& stack) { return hard_step(noisy, places, level, stack); });
   b.first.shape(noisy.width_px, noisy.height_px, 1);
   b.mosaic.mean(b.first);
 
-  const Pass<BlockTransform::kCosine> wiener{
-      noisy, b.first, {reach_px, settings.wiener_blocks, kAlikeClean}, settings.wiener_step_px, threads};
-  run(wiener, b.matchers, b.mosaic, [&b, level](auto places, Stack& stack, Stack& pilot) {
-    gather<BlockTransform::kCosine>(b.first.view(), places, pilot);
-    return shrink_wiener(stack, pilot, places.size(), level);
+  const Pass wiener{noisy, b.first, {reach_px, settings.wiener_blocks, kAlikeClean}, settings.wiener_step_px, threads};
+  run(wiener, b.matchers, b.mosaic, [&noisy, &b, level](auto places, Stack& stack) {
+    Stack pilot;
+    return wiener_step(noisy, b.first, places, level, stack, pilot);
   });
   out.shape(noisy.width_px, noisy.height_px, 1);
   b.mosaic.mean(out);
@@ -183,9 +206,7 @@ void BlockDenoiser::thresholds(const FloatImage& noisy, double sigma, int thread
     each_place(first, last, kFastStep_px, [&](std::int32_t v) {
       each_place(0, noisy.width_px - kSide, kFastStep_px, [&](std::int32_t u) {
         const std::array<BlockPlace, 1> here = {BlockPlace{u, v}};
-        gather<BlockTransform::kCosine>(noisy.view(), here, stack);
-        const float weight = shrink_hard(stack, 1, static_cast<float>(sigma));
-        back_to_pixels<BlockTransform::kCosine>(stack, 1);
+        const float weight = single_step(noisy, here, static_cast<float>(sigma), stack);
         mosaic.add(stack, here, weight);
       });
     });

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/vision/enhance/wide_vectors.hpp"
+
 namespace pharos::enhance {
 namespace {
 
@@ -38,7 +40,8 @@ std::vector<float> shares(const std::vector<float>& taps, Index size) {
   return found;
 }
 
-void gather_rows(const float* in, float* out, const std::vector<float>& taps, Index width, Index height) {
+PHAROS_WIDE_VECTORS void gather_rows(const float* in, float* out, const std::vector<float>& taps, Index width,
+                                     Index height) {
   const auto radius = static_cast<Index>(taps.size()) - 1;
   for (Index v = 0; v < height; ++v) {
     float* to = out + v * width;
@@ -52,7 +55,8 @@ void gather_rows(const float* in, float* out, const std::vector<float>& taps, In
   }
 }
 
-void gather_columns(const float* in, float* out, const std::vector<float>& taps, Index width, Index height) {
+PHAROS_WIDE_VECTORS void gather_columns(const float* in, float* out, const std::vector<float>& taps, Index width,
+                                        Index height) {
   const auto radius = static_cast<Index>(taps.size()) - 1;
   for (Index v = 0; v < height; ++v) {
     float* to = out + v * width;
@@ -82,8 +86,8 @@ void max_of_channels(const FloatImage& frame, FloatImage& start) {
   }
 }
 
-void SmoothnessWeights::weigh(const FloatImage& start, WeightStrategy strategy, double alpha, double sigma_px,
-                              SmoothnessSystem& system) {
+PHAROS_WIDE_VECTORS void SmoothnessWeights::weigh(const FloatImage& start, WeightStrategy strategy, double alpha,
+                                                  double sigma_px, SmoothnessSystem& system) {
   const Index width = start.width_px, height = start.height_px;
   const float weight = static_cast<float>(alpha);
   system.width_px = start.width_px;

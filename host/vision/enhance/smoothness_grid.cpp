@@ -5,6 +5,7 @@
 #include <array>
 
 #include "host/vision/enhance/block_transform.hpp"
+#include "host/vision/enhance/wide_vectors.hpp"
 
 namespace pharos::enhance {
 namespace {
@@ -32,7 +33,7 @@ void resize(SmoothnessGrid& grid, Index width, Index height) {
 
 // Pivots m = s + link of the tridiagonal systems, s = (links aside + mass) + link_before s_before / m_before: a sum of
 // positive terms, so that a mass of 1 beside links of 1e5 is not lost.
-void factor(SmoothnessGrid& grid) {
+PHAROS_WIDE_VECTORS void factor(SmoothnessGrid& grid) {
   const Index width = grid.width, height = grid.height;
   std::vector<float> before(static_cast<std::size_t>(width), 0.0F);
   for (Index v = 0; v < height; ++v) {
@@ -111,7 +112,7 @@ void apply_row(const SmoothnessGrid& grid, Index v, const float* above, const fl
 }
 
 // out = row v of b - A x; `above` is the row of x over it (row v itself at the upper border).
-void residual_row(const SmoothnessGrid& grid, Index v, const float* above, float* out) {
+PHAROS_WIDE_VECTORS void residual_row(const SmoothnessGrid& grid, Index v, const float* above, float* out) {
   const float* here = grid.x.data() + v * grid.width;
   const float* below = v + 1 < grid.height ? here + grid.width : here;
   const float* b = grid.b.data() + v * grid.width;
@@ -123,7 +124,7 @@ const float* row_above(const SmoothnessGrid& grid, Index v) {
 }
 
 // Each column's tridiagonal system, one row farther down: `here` holds its right-hand side.
-void eliminate_row(const SmoothnessGrid& grid, Index v, float* here) {
+PHAROS_WIDE_VECTORS void eliminate_row(const SmoothnessGrid& grid, Index v, float* here) {
   const Index width = grid.width;
   const float* inverse = grid.along_column.data() + v * width;
   if (v == 0) {
@@ -256,7 +257,7 @@ void solve_rows(SmoothnessGrid& grid, Index v) {
 
 }  // namespace
 
-void build_grids(const SmoothnessSystem& system, std::vector<SmoothnessGrid>& grids) {
+PHAROS_WIDE_VECTORS void build_grids(const SmoothnessSystem& system, std::vector<SmoothnessGrid>& grids) {
   Index width = system.width_px, height = system.height_px;
   std::size_t levels = 1;
   while (std::max(width, height) > kCoarsest_px) {
@@ -276,7 +277,7 @@ void build_grids(const SmoothnessSystem& system, std::vector<SmoothnessGrid>& gr
   }
 }
 
-void first_columns(SmoothnessGrid& grid) {
+PHAROS_WIDE_VECTORS void first_columns(SmoothnessGrid& grid) {
   for (Index v = 0; v < grid.height; ++v) {
     float* here = grid.residual.data() + v * grid.width;
     std::copy_n(grid.b.data() + v * grid.width, grid.width, here);
@@ -285,7 +286,7 @@ void first_columns(SmoothnessGrid& grid) {
   substitute_columns(grid, [](float& x, float solution) { x = solution; });
 }
 
-void sweep_columns(SmoothnessGrid& grid) {
+PHAROS_WIDE_VECTORS void sweep_columns(SmoothnessGrid& grid) {
   for (Index v = 0; v < grid.height; ++v) {
     float* here = grid.residual.data() + v * grid.width;
     residual_row(grid, v, row_above(grid, v), here);
@@ -295,7 +296,7 @@ void sweep_columns(SmoothnessGrid& grid) {
 }
 
 // All rows are solved from the same x: the row over a group, which is done by then, is kept as it was.
-void sweep_rows(SmoothnessGrid& grid) {
+PHAROS_WIDE_VECTORS void sweep_rows(SmoothnessGrid& grid) {
   const Index width = grid.width;
   for (Index v = 0; v < grid.height;) {
     const Index count = v + kTogether <= grid.height ? kTogether : 1;
@@ -313,7 +314,7 @@ void sweep_rows(SmoothnessGrid& grid) {
   }
 }
 
-void restrict_to(SmoothnessGrid& fine, SmoothnessGrid& coarse) {
+PHAROS_WIDE_VECTORS void restrict_to(SmoothnessGrid& fine, SmoothnessGrid& coarse) {
   std::fill(coarse.b.begin(), coarse.b.end(), 0.0F);
   float* from = fine.row.data();
   for (Index v = 0; v < fine.height; ++v) {
@@ -324,7 +325,7 @@ void restrict_to(SmoothnessGrid& fine, SmoothnessGrid& coarse) {
   }
 }
 
-void prolong(const SmoothnessGrid& coarse, SmoothnessGrid& fine) {
+PHAROS_WIDE_VECTORS void prolong(const SmoothnessGrid& coarse, SmoothnessGrid& fine) {
   for (Index v = 0; v < fine.height; ++v) {
     const float* from = coarse.x.data() + v / 2 * coarse.width;
     float* to = fine.x.data() + v * fine.width;
@@ -336,7 +337,7 @@ void prolong(const SmoothnessGrid& coarse, SmoothnessGrid& fine) {
   }
 }
 
-void apply(const SmoothnessGrid& grid, const float* x, float* out) {
+PHAROS_WIDE_VECTORS void apply(const SmoothnessGrid& grid, const float* x, float* out) {
   for (Index v = 0; v < grid.height; ++v) {
     const float* here = x + v * grid.width;
     const float* above = v > 0 ? here - grid.width : here;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "host/vision/enhance/wide_vectors.hpp"
+
 namespace pharos::enhance {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr double kLeastRatio = 0.4, kMostRatio = 0.9;
 // Frames by all strategies, dark and bright, cold and warm, came out 0.02 to 0.22 % off where 0.5 % was asked.
 constexpr double kSafety = 4.0;
 
-double dot(const std::vector<float>& a, const std::vector<float>& b) {
+PHAROS_WIDE_VECTORS double dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0.0;
   constexpr std::size_t kPiece = 1024;  // floats add up well over a thousand terms; doubles over the rest
   for (std::size_t k = 0; k < a.size(); k += kPiece) {
@@ -63,8 +65,8 @@ void SmoothnessSolver::cycle(std::size_t level) {
   }
 }
 
-int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& start, double tolerance,
-                            int most_iterations, FloatImage& refined) {
+PHAROS_WIDE_VECTORS int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& start,
+                                                double tolerance, int most_iterations, FloatImage& refined) {
   build_grids(system, grids_);
   SmoothnessGrid& fine = grids_.front();
   if (refined.width_px != start.width_px || refined.height_px != start.height_px || refined.channels != 1) {
