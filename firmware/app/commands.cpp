@@ -13,20 +13,20 @@ void Commands::push(std::uint8_t byte) {
     ++refused_;
     return;
   }
-  const Answer answer{static_cast<std::uint8_t>(frame->type), frame->sequence, std::nullopt, 0};
+  const Reply answer{static_cast<std::uint8_t>(frame->type), frame->sequence, std::nullopt, 0};
   if (frame->type != wire::MessageType::kCommand) {
     refuse(answer, wire::NakReason::kUnsupported);
     return;
   }
   const auto command = wire::decode_payload<wire::Command>(frame->payload);
   if (command) {
-    obey(*command, answer);
+    execute(*command, answer);
   } else {
     refuse(answer, wire::NakReason::kBadPayload);
   }
 }
 
-void Commands::obey(const wire::Command& command, Answer answer) {
+void Commands::execute(const wire::Command& command, Reply answer) {
   switch (command.code) {
     case wire::CommandCode::kIdentify:
       identify_ = true;
@@ -45,11 +45,11 @@ void Commands::obey(const wire::Command& command, Answer answer) {
       refuse(answer, wire::NakReason::kUnsupported);
       return;
   }
-  ++obeyed_;
+  ++executed_;
   answers_.push(answer);
 }
 
-void Commands::refuse(Answer answer, wire::NakReason reason) {
+void Commands::refuse(Reply answer, wire::NakReason reason) {
   ++refused_;
   answer.refused = reason;
   answers_.push(answer);

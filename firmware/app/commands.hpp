@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <optional>
 
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/wire/command_message.hpp"
 #include "pharos/wire/frame_decoder.hpp"
 
 namespace pharos::app {
 
 /// What to answer one frame of the host with.
-struct Answer {
+struct Reply {
   std::uint8_t for_type = 0;
   std::uint16_t for_sequence = 0;
   std::optional<wire::NakReason> refused;  // empty: Ack
@@ -34,26 +34,26 @@ class Commands {
   Restart restart() const { return answers_.empty() ? restart_ : Restart::kNone; }
 
   bool has_answer() const { return !answers_.empty(); }
-  Answer take_answer() { return answers_.pop(); }
+  Reply take_answer() { return answers_.pop(); }
 
-  std::uint32_t obeyed() const { return obeyed_; }
+  std::uint32_t executed() const { return executed_; }
   std::uint32_t refused() const { return refused_; }
   /// Frames of the host that did not arrive whole.
   std::uint32_t damaged() const;
 
  private:
-  void obey(const wire::Command& command, Answer answer);
-  void refuse(Answer answer, wire::NakReason reason);
+  void execute(const wire::Command& command, Reply answer);
+  void refuse(Reply answer, wire::NakReason reason);
 
   static constexpr std::size_t kAnswers = 4;  // a host waits for each; more at once are refused and counted
 
   wire::FrameDecoder frames_;
-  Ring<Answer, kAnswers> answers_;
+  RingBuffer<Reply, kAnswers> answers_;
   std::uint8_t can_;
   std::uint8_t modes_;
   bool identify_ = false;
   Restart restart_ = Restart::kNone;
-  std::uint32_t obeyed_ = 0;
+  std::uint32_t executed_ = 0;
   std::uint32_t refused_ = 0;
 };
 

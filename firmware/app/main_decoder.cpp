@@ -6,6 +6,6 @@
 int main() {
   static pharos::app::Program program(pharos::hal::start_board(), nullptr);
   for (;;) {
-    if (!program.poll()) pharos::hal::rest();
+    if (!program.poll()) pharos::hal::wait_for_event();
   }
 }

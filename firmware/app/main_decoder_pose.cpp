@@ -35,6 +35,6 @@ int main() {
   pharos::hal::call_every_millisecond([](void* context) { static_cast<pharos::app::Program*>(context)->poll(); },
                                       &program);
   for (;;) {
-    if (!poses.solve()) pharos::hal::rest();
+    if (!poses.solve()) pharos::hal::wait_for_event();
   }
 }

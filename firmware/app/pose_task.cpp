@@ -10,24 +10,24 @@ namespace pharos::app {
 namespace {
 
 /// Three times the noise's chi-squared has one cycle in some hundred, for the flash's jitter is common to all sensors.
-constexpr double kCredibleSlack = 4.0;
+constexpr double kChi2ThresholdFactor = 4.0;
 /// A search in double takes this core a tenth of a second for each start that it follows. In a second of rest behind
 /// one that found nothing the other station's cycles are answered.
 constexpr int kSearchStarts = 4;
-constexpr std::int64_t kSearchRest_ticks = kTicksPerSecond;
+constexpr std::int64_t kSearchCooldown_ticks = kTicksPerSecond;
 
 track::TrackOptions warm() {
   track::TrackOptions options;
   options.warm_start = true;
-  options.solve.credible_slack = kCredibleSlack;
+  options.solve.chi2_threshold_factor = kChi2ThresholdFactor;
   options.solve.max_search_starts = kSearchStarts;
-  options.search_rest_ticks = kSearchRest_ticks;
+  options.search_cooldown_ticks = kSearchCooldown_ticks;
   return options;
 }
 
 // The oldest entry of a ring that the interrupt fills.
 template <class T, std::size_t N>
-std::optional<T> take_oldest(Ring<T, N>& ring) {
+std::optional<T> take_oldest(RingBuffer<T, N>& ring) {
   const hal::NoInterrupts guard;
   if (ring.empty()) return std::nullopt;
   return ring.pop();

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "firmware/app/pose_desk.hpp"
+#include "firmware/app/pose_solver.hpp"
 #include "firmware/hal/system.hpp"
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
@@ -20,7 +20,7 @@ namespace pharos::app {
 ///
 /// take() and next_frame() run in the interrupt, solve() in the main loop; what passes between them is copied with
 /// interrupts off.
-class PoseTask final : public PoseDesk {
+class PoseTask final : public PoseSolver {
  public:
   PoseTask(hal::System& system, const Target& target);
 
@@ -47,9 +47,9 @@ class PoseTask final : public PoseDesk {
   /// Sweeps, dark ones among them, that come while a cycle is solved: four in two slots, and one.
   static constexpr std::size_t kWaiting = 5;
 
-  Ring<lighthouse::Sweep, kWaiting> sweeps_;
-  Ring<lighthouse::OotxPayload, 1> payloads_;
-  Ring<report::PoseReport, 1> answers_;
+  RingBuffer<lighthouse::Sweep, kWaiting> sweeps_;
+  RingBuffer<lighthouse::OotxPayload, 1> payloads_;
+  RingBuffer<report::PoseReport, 1> answers_;
   std::uint32_t missed_ = 0;
   std::uint32_t busy_cycles_ = 0;
   std::uint32_t counted_until_cycles_ = 0;  // of the solve under way

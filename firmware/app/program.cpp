@@ -24,16 +24,16 @@ constexpr std::int64_t kSolverStuck_ticks = 2 * kTicksPerSecond;
 /// Hello, counters and the time for a second: whoever has come so far is no silent image.
 constexpr std::uint32_t kConfirmed_frames = 12;
 
-constexpr std::uint8_t modes_of(const PoseDesk* desk) {
-  return static_cast<std::uint8_t>(wire::kModeSweeps | (desk != nullptr ? wire::kModePoses : 0));
+constexpr std::uint8_t modes_of(const PoseSolver* solver) {
+  return static_cast<std::uint8_t>(wire::kModeSweeps | (solver != nullptr ? wire::kModePoses : 0));
 }
 
 }  // namespace
 
-Program::Program(const hal::Board& board, PoseDesk* desk)
+Program::Program(const hal::Board& board, PoseSolver* solver)
     : board_(board),
-      desk_(desk),
-      commands_(static_cast<std::uint8_t>(modes_of(desk) | wire::kModeRawEdges), modes_of(desk)),
+      solver_(solver),
+      commands_(static_cast<std::uint8_t>(modes_of(solver) | wire::kModeRawEdges), modes_of(solver)),
       line_(board.line) {
   now_ticks_ = board_.capture.now_ticks();
   edges_.note_time(now_ticks_);
@@ -49,9 +49,9 @@ bool Program::poll() {
     served_ticks_ = now_ticks_;
     busy = receive() || busy;
     busy = send() || busy;
-    stay_alive();
+    kick_watchdog();
   }
-  const bool counted_there = desk_ != nullptr && desk_->solving();
+  const bool counted_there = solver_ != nullptr && solver_->solving();
   if (busy && !counted_there) busy_cycles_ += board_.system.cycles() - begin;
   return busy;
 }
@@ -72,8 +72,8 @@ bool Program::capture() {
     if (!board_.capture.read(record)) {
       if (now_ticks_ - advanced_ticks_ >= kAdvance_ticks) {
         advanced_ticks_ = now_ticks_;
-        edges_.note_time(now_ticks_ - hal::EdgeCapture::kSettleTicks);
-        decoder_.advance(now_ticks_ - hal::EdgeCapture::kSettleTicks);
+        edges_.note_time(now_ticks_ - hal::EdgeCapture::kSettle_ticks);
+        decoder_.advance(now_ticks_ - hal::EdgeCapture::kSettle_ticks);
       }
       return i != 0;
     }
@@ -119,29 +119,29 @@ report::Reporter::Bytes Program::next_frame() {
   if (commands_.take_identify()) schedule_.want_hello();
   if (commands_.has_answer() && line_.frames() != 0) return answer();  // Hello is the first frame of all
   // In turns, so that a Hello and two sets of counters in a row never hold up the few sweeps that can wait.
-  if (told_) {
-    told_ = false;
+  if (reported_) {
+    reported_ = false;
     if (const auto frame = next_result(); !frame.empty()) return frame;
   }
   const Due due = schedule_.next(now_ticks_);
-  told_ = due != Due::kNothing;
-  return told_ ? say(due) : next_result();
+  reported_ = due != Due::kNothing;
+  return reported_ ? say(due) : next_result();
 }
 
 report::Reporter::Bytes Program::next_result() {
   // What the host does not want is taken all the same: the decoder holds only four sweeps, and the solver wants them.
   while (const lighthouse::Sweep* sweep = decoder_.next_sweep()) {
-    const report::Reporter::Bytes frame = told(*sweep);
+    const report::Reporter::Bytes frame = reported(*sweep);
     decoder_.drop_sweep();
     if (has_mode(wire::kModeSweeps)) return frame;
   }
   while (const lighthouse::OotxPayload* payload = decoder_.next_ootx()) {
-    const report::Reporter::Bytes frame = told(*payload);
+    const report::Reporter::Bytes frame = reported(*payload);
     decoder_.drop_ootx();
     if (has_mode(wire::kModeSweeps)) return frame;
   }
-  if (desk_ != nullptr && has_mode(wire::kModePoses)) {
-    if (const auto frame = desk_->next_frame(reporter_); !frame.empty()) return frame;
+  if (solver_ != nullptr && has_mode(wire::kModePoses)) {
+    if (const auto frame = solver_->next_frame(reporter_); !frame.empty()) return frame;
   }
   if (now_ticks_ - flushed_ticks_ >= kRawEdges_ticks) {
     flushed_ticks_ = now_ticks_;
@@ -151,8 +151,8 @@ report::Reporter::Bytes Program::next_result() {
 }
 
 template <class Result>
-report::Reporter::Bytes Program::told(const Result& result) {
-  if (desk_ != nullptr) desk_->take(result);
+report::Reporter::Bytes Program::reported(const Result& result) {
+  if (solver_ != nullptr) solver_->take(result);
   return has_mode(wire::kModeSweeps) ? reporter_.report(result) : report::Reporter::Bytes{};
 }
 
@@ -192,14 +192,14 @@ report::Reporter::Bytes Program::hello() {
 
 report::Reporter::Bytes Program::device_counters() {
   if (board_.capture.take_overflow()) ++overflows_;
-  if (desk_ != nullptr) busy_cycles_ += desk_->take_busy_cycles();
+  if (solver_ != nullptr) busy_cycles_ += solver_->take_busy_cycles();
   wire::DeviceCounters counters;
   counters.capture_overflows = overflows_;
   counters.edges_lost = board_.capture.edges_lost();
   counters.frames_sent = line_.frames();
   counters.frames_skipped = schedule_.skipped() + decoder_.counters().outputs_overflow;
-  if (desk_ != nullptr) counters.poses_skipped = desk_->sweeps_missed();
-  counters.commands = commands_.obeyed();
+  if (solver_ != nullptr) counters.poses_skipped = solver_->sweeps_missed();
+  counters.commands = commands_.executed();
   counters.commands_refused = commands_.refused();
   counters.receive_errors = board_.line.receive_errors() + commands_.damaged();
   const auto elapsed = static_cast<std::uint32_t>(now_ticks_ - busy_since_ticks_);
@@ -211,17 +211,17 @@ report::Reporter::Bytes Program::device_counters() {
 }
 
 report::Reporter::Bytes Program::answer() {
-  const Answer answer = commands_.take_answer();
+  const Reply answer = commands_.take_answer();
   if (!answer.refused) return reporter_.send(wire::Ack{answer.for_type, answer.for_sequence, answer.value});
   return reporter_.send(wire::Nak{answer.for_type, answer.for_sequence, *answer.refused, answer.value});
 }
 
-void Program::stay_alive() {
+void Program::kick_watchdog() {
   const Commands::Restart wanted = commands_.restart();
   if (wanted != Commands::Restart::kNone && line_.silent()) {
     board_.system.restart(wanted == Commands::Restart::kLoader);
   }
-  if (desk_ == nullptr || desk_->take_alive()) solver_seen_ticks_ = now_ticks_;
+  if (solver_ == nullptr || solver_->take_alive()) solver_seen_ticks_ = now_ticks_;
   const bool line_moves = now_ticks_ - line_free_ticks_ < kLineStuck_ticks;
   const bool solver_moves = now_ticks_ - solver_seen_ticks_ < kSolverStuck_ticks;
   if (!line_moves || !solver_moves) return;

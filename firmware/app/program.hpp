@@ -6,7 +6,7 @@
 #include "firmware/app/commands.hpp"
 #include "firmware/app/edge_stream.hpp"
 #include "firmware/app/line_sender.hpp"
-#include "firmware/app/pose_desk.hpp"
+#include "firmware/app/pose_solver.hpp"
 #include "firmware/app/schedule.hpp"
 #include "firmware/hal/board.hpp"
 #include "pharos/lighthouse/sorted_decoder.hpp"
@@ -22,7 +22,7 @@ namespace pharos::app {
 class Program {
  public:
   /// `desk`: where sweeps go and poses come from, where the build solves them; else null.
-  Program(const hal::Board& board, PoseDesk* desk);
+  Program(const hal::Board& board, PoseSolver* solver);
 
   /// True when there was anything to do.
   bool poll();
@@ -37,16 +37,16 @@ class Program {
   report::Reporter::Bytes next_frame();
   report::Reporter::Bytes next_result();
   template <class Result>
-  report::Reporter::Bytes told(const Result& result);
+  report::Reporter::Bytes reported(const Result& result);
   report::Reporter::Bytes say(Due what);
   report::Reporter::Bytes hello();
   report::Reporter::Bytes device_counters();
   report::Reporter::Bytes answer();
-  void stay_alive();
+  void kick_watchdog();
   bool has_mode(wire::HelloMode mode) const { return (commands_.modes() & mode) != 0; }
 
   hal::Board board_;
-  PoseDesk* desk_;
+  PoseSolver* solver_;
   lighthouse::SortedDecoder decoder_;
   report::Reporter reporter_;
   Commands commands_;
@@ -59,7 +59,7 @@ class Program {
   std::int64_t flushed_ticks_ = 0;    // of the last frame of raw edges
   std::int64_t line_free_ticks_ = 0;  // when the line last took a whole frame
   std::int64_t solver_seen_ticks_ = 0;
-  bool told_ = false;  // the last frame was said by the clock
+  bool reported_ = false;  // the last frame was said by the clock
   std::uint32_t overflows_ = 0;
   std::uint32_t raw_edges_lost_ = 0;  // for want of line speed
   std::uint32_t busy_cycles_ = 0;     // since the last report

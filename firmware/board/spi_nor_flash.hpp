@@ -56,7 +56,7 @@ class SpiNorFlash {
   static constexpr std::uint8_t kBusy = 0x01;
   static constexpr std::uint8_t kWritable = 0x02;
   /// Looks at the status before a chip is given up. The slowest sector takes 3 s; a look takes at least a microsecond.
-  static constexpr std::uint32_t kMostLooks = 16'000'000;
+  static constexpr std::uint32_t kMaxPolls = 16'000'000;
 
   static void begin(std::uint8_t command, std::uint32_t offset) {
     Bus::select();
@@ -81,7 +81,7 @@ class SpiNorFlash {
   template <class Idle>
   static bool finish(Idle& idle) {
     Bus::deselect();
-    for (std::uint32_t looks = 0; looks < kMostLooks; ++looks) {
+    for (std::uint32_t polls = 0; polls < kMaxPolls; ++polls) {
       idle();
       if ((status() & kBusy) == 0) return true;
     }

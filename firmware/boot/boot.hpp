@@ -19,7 +19,7 @@ template <BootBoard Board>
       Board::start(loader.loaded()->entry_address);
     }
     if (turn == Turn::kRestart) {
-      forget_tries(Board::retained());
+      reset_boot_attempts(Board::retained());
       announce_reset(Board::retained(), wire::ResetCause::kCommand);
       Board::restart();
     }

@@ -9,7 +9,7 @@
 
 #include "firmware/boot/retained.hpp"
 #include "firmware/hal/flash.hpp"
-#include "pharos/image/slot.hpp"
+#include "pharos/boot_image/slot.hpp"
 
 namespace pharos::boot {
 

@@ -19,13 +19,13 @@ void FrameReceiver::store(std::uint8_t byte) {
 }
 
 bool FrameReceiver::is_good() const {
-  constexpr std::size_t kLeast = wire::kHeaderBytes + wire::kCrcBytes;
-  const bool possible = size_ - kLeast <= plain_.size() - kLeast;
+  constexpr std::size_t kMin = wire::kHeaderBytes + wire::kCrcBytes;
+  const bool possible = size_ - kMin <= plain_.size() - kMin;
   return begun_ && left_ == 0 && possible && crc_ == kResidue && plain_[0] == wire::kProtocolVersion;
 }
 
 bool FrameReceiver::push(std::uint8_t byte) {
-  if (byte == wire::kFrameBorder) {
+  if (byte == wire::kFrameDelimiter) {
     const bool good = is_good();
     begun_ = false;
     return good;

@@ -17,7 +17,7 @@ std::span<const std::uint8_t> FrameSender::encode(wire::MessageType type, std::s
   std::memcpy(line_.rest.data() + payload.size(), &crc, sizeof crc);
   // Stuffing in place (wire/cobs.hpp): each zero becomes the way to the next one.
   const std::size_t end = offsetof(Line, rest) + payload.size() + sizeof crc;
-  bytes[end] = wire::kFrameBorder;
+  bytes[end] = wire::kFrameDelimiter;
   std::size_t code_at = offsetof(Line, code);
   for (std::size_t at = offsetof(Line, version); at <= end; ++at) {
     if (bytes[at] != 0) continue;

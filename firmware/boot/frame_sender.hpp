@@ -26,7 +26,7 @@ class FrameSender {
 
   /// A frame as it goes out: border, first code of the stuffing, the stuffed bytes, border.
   struct Line {
-    std::uint8_t border;
+    std::uint8_t delimiter;
     std::uint8_t code;
     std::uint8_t version;
     std::uint8_t type;

@@ -19,10 +19,10 @@ namespace pharos::boot {
 inline constexpr std::uint16_t kLoaderVersion = 1;
 /// How long after every reset the line is listened to for a LoaderQuery: what gets a host in where the image itself no
 /// longer listens.
-inline constexpr std::uint32_t kWindowTicks = kTicksPerSecond / 5;
+inline constexpr std::uint32_t kWindow_ticks = kTicksPerSecond / 5;
 /// Silence after which the loader starts the image that it has: a host that went away leaves no target behind that
 /// waits for ever. Less than the 85.9 s of the tick counter.
-inline constexpr std::uint32_t kPatienceTicks = 60 * kTicksPerSecond;
+inline constexpr std::uint32_t kTimeout_ticks = 60 * kTicksPerSecond;
 
 /// What the loader wants after a turn.
 enum class Turn : std::uint8_t { kAgain, kStart, kRestart };
@@ -36,22 +36,22 @@ class Loader {
   /// Finds the image to be started and copies it to its place; once, before all else. `stay`: the loader was asked for.
   void prepare(bool stay);
   /// The image that was found; null when there is none.
-  const image::ImageHeader* loaded() const { return slots_.loaded(); }
+  const boot_image::BootImageHeader* loaded() const { return slots_.loaded(); }
   /// Does what there is to do at the moment. kStart: run loaded(). kRestart: begin anew with a reset.
   Turn turn();
 
  private:
   /// What the answer says: reason 0 is Ack.
-  struct Answer {
+  struct Reply {
     std::uint32_t reason;
     std::uint32_t value;
   };
-  static Answer done(std::uint32_t value) { return {0, value}; }
-  static Answer refused(wire::NakReason reason, std::uint32_t value = 0) {
+  static Reply done(std::uint32_t value) { return {0, value}; }
+  static Reply refused(wire::NakReason reason, std::uint32_t value = 0) {
     return {static_cast<std::uint32_t>(reason), value};
   }
   /// The image as it was sent does not go into this slot: the next begin starts anew.
-  Answer give_up(wire::NakReason reason, std::uint32_t value = 0) {
+  Reply give_up(wire::NakReason reason, std::uint32_t value = 0) {
     image_bytes_ = 0;
     return refused(reason, value);
   }
@@ -60,13 +60,13 @@ class Loader {
   Turn serve();
   /// Does what the line's frame asks and answers it. True: it asks for a start.
   bool answer();
-  Answer answer_to(const FrameReceiver& request);
-  Answer begin(const BeginPayload& request);
-  Answer take(std::uint32_t offset, std::span<const std::uint8_t> data);
-  Answer verify();
+  Reply answer_to(const FrameReceiver& request);
+  Reply begin(const BeginPayload& request);
+  Reply take(std::uint32_t offset, std::span<const std::uint8_t> data);
+  Reply verify();
   bool write_head();
-  void say_hello();
-  void say_info();
+  void send_hello();
+  void send_info();
 
   bool is_receiving() const { return image_bytes_ != 0; }
   /// What the flash calls while it works.
@@ -87,14 +87,14 @@ class Loader {
   bool verified_ = false;
   /// The image's first page, written last, with the mark in its place.
   union {
-    std::array<std::uint8_t, image::kPageBytes> page_{};
-    image::SlotHead head_;
+    std::array<std::uint8_t, boot_image::kPageBytes> page_{};
+    boot_image::SlotHead head_;
   };
 };
 
 template <BootBoard Board>
 void Loader<Board>::prepare(bool stay) {
-  slots_.find(had_its_tries(Board::retained()));
+  slots_.find(boot_attempts_exhausted(Board::retained()));
   hello_.role = wire::Role::kLoader;
   hello_.reset_cause = static_cast<std::uint8_t>(Board::retained().last_cause);
   hello_.start_count = static_cast<std::uint16_t>(Board::retained().start_count);
@@ -114,7 +114,7 @@ Turn Loader<Board>::turn() {
 template <BootBoard Board>
 Turn Loader<Board>::listen() {
   if (line_.next_frame() && line_.request().type() == wire::MessageType::kLoaderQuery) serving_ = true;
-  return Board::ticks() - last_frame_ < kWindowTicks || serving_ ? Turn::kAgain : Turn::kStart;
+  return Board::ticks() - last_frame_ < kWindow_ticks || serving_ ? Turn::kAgain : Turn::kStart;
 }
 
 template <BootBoard Board>
@@ -122,26 +122,26 @@ Turn Loader<Board>::serve() {
   const std::uint32_t now = Board::ticks();
   if (!is_receiving() && now - last_hello_ >= kTicksPerSecond) {
     last_hello_ = now;
-    say_hello();
+    send_hello();
   }
   if (line_.next_frame()) {
     last_frame_ = now;
     if (answer()) return Turn::kRestart;
   }
-  return loaded() != nullptr && now - last_frame_ >= kPatienceTicks ? Turn::kRestart : Turn::kAgain;
+  return loaded() != nullptr && now - last_frame_ >= kTimeout_ticks ? Turn::kRestart : Turn::kAgain;
 }
 
 template <BootBoard Board>
-void Loader<Board>::say_hello() {
+void Loader<Board>::send_hello() {
   hello_.time_ticks = Board::ticks();
   line_.send(wire::MessageType::kHello, bytes_of(hello_));
 }
 
 template <BootBoard Board>
-void Loader<Board>::say_info() {
+void Loader<Board>::send_info() {
   InfoPayload info;
   info.loader_version = kLoaderVersion;
-  info.block_bytes = image::kPageBytes;
+  info.block_bytes = boot_image::kPageBytes;
   info.slot_offset = slot_offset();
   info.capacity_bytes = Board::kSlotBytes;
   info.board = hello_.board;
@@ -153,11 +153,11 @@ bool Loader<Board>::answer() {
   const FrameReceiver& request = line_.request();
   const wire::MessageType type = request.type();
   if (type == wire::MessageType::kLoaderQuery) {
-    say_hello();
-    say_info();
+    send_hello();
+    send_info();
     return false;
   }
-  const Answer answer = answer_to(request);
+  const Reply answer = answer_to(request);
   const bool good = answer.reason == 0;
   NakPayload payload;
   payload.for_type = static_cast<std::uint8_t>(type);
@@ -171,7 +171,7 @@ bool Loader<Board>::answer() {
 }
 
 template <BootBoard Board>
-auto Loader<Board>::answer_to(const FrameReceiver& request) -> Answer {
+auto Loader<Board>::answer_to(const FrameReceiver& request) -> Reply {
   const std::uint8_t* payload = request.payload();
   const std::size_t size = request.payload_bytes();
   switch (request.type()) {
@@ -195,10 +195,10 @@ auto Loader<Board>::answer_to(const FrameReceiver& request) -> Answer {
 }
 
 template <BootBoard Board>
-auto Loader<Board>::begin(const BeginPayload& request) -> Answer {
+auto Loader<Board>::begin(const BeginPayload& request) -> Reply {
   if (!slots_.is_name(request.board)) return refused(wire::NakReason::kWrongBoard);
   if (request.image_bytes > Board::kSlotBytes) return refused(wire::NakReason::kTooLarge, Board::kSlotBytes);
-  if (request.image_bytes <= image::kPageBytes) return refused(wire::NakReason::kBadPayload);
+  if (request.image_bytes <= boot_image::kPageBytes) return refused(wire::NakReason::kBadPayload);
   if (request.image_bytes == image_bytes_ && request.image_crc32 == image_crc32_) return done(expected_);
   verified_ = false;
   expected_ = 0;
@@ -213,18 +213,18 @@ auto Loader<Board>::begin(const BeginPayload& request) -> Answer {
 }
 
 template <BootBoard Board>
-auto Loader<Board>::take(std::uint32_t offset, std::span<const std::uint8_t> data) -> Answer {
+auto Loader<Board>::take(std::uint32_t offset, std::span<const std::uint8_t> data) -> Reply {
   if (!is_receiving()) return refused(wire::NakReason::kOutOfOrder, wire::kNothingBegun);
   if (offset < expected_) return done(expected_);
   if (offset > expected_) return refused(wire::NakReason::kOutOfOrder, expected_);
   // Blocks are pages, the last one what is left.
-  if (data.size() != std::min<std::uint32_t>(image::kPageBytes, image_bytes_ - expected_)) {
+  if (data.size() != std::min<std::uint32_t>(boot_image::kPageBytes, image_bytes_ - expected_)) {
     return refused(wire::NakReason::kBadPayload);
   }
   if (offset == 0) {
     std::memcpy(page_.data(), data.data(), page_.size());
-    const bool good = image::fault_of(head_.header) == image::ImageFault::kNone &&
-                      head_.header.body_bytes == image_bytes_ - image::kPageBytes && slots_.fits(head_.header);
+    const bool good = boot_image::fault_of(head_.header) == boot_image::BootImageError::kNone &&
+                      head_.header.body_bytes == image_bytes_ - boot_image::kPageBytes && slots_.fits(head_.header);
     if (!good) return give_up(wire::NakReason::kBadPayload);
   } else if (!Board::flash().program(slot_offset() + offset, data, taking_bytes())) {
     return give_up(wire::NakReason::kWriteFailed, offset);
@@ -234,12 +234,12 @@ auto Loader<Board>::take(std::uint32_t offset, std::span<const std::uint8_t> dat
 }
 
 template <BootBoard Board>
-auto Loader<Board>::verify() -> Answer {
+auto Loader<Board>::verify() -> Reply {
   if (!is_receiving()) return refused(wire::NakReason::kOutOfOrder, wire::kNothingBegun);
   if (expected_ != image_bytes_) return refused(wire::NakReason::kOutOfOrder, expected_);
   if (verified_) return done(image_crc32_);
   // As at every start: what counts is what comes back from the flash.
-  const image::ImageHeader& header = head_.header;
+  const boot_image::BootImageHeader& header = head_.header;
   const bool good_body = slots_.load(slots_.spare(), header);
   const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
   const std::uint32_t crc = wire::crc32(body, wire::crc32(page_));
@@ -252,7 +252,7 @@ auto Loader<Board>::verify() -> Answer {
 
 template <BootBoard Board>
 bool Loader<Board>::write_head() {
-  head_.mark = image::make_mark(head_.header, slots_.next_sequence());
+  head_.mark = boot_image::make_mark(head_.header, slots_.next_sequence());
   return Board::flash().program(slot_offset(), std::span(page_).first(sizeof head_), taking_bytes()) &&
          slots_.read(slots_.spare(), head_) == slots_.next_sequence();
 }

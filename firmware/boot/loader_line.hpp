@@ -9,7 +9,7 @@
 #include "firmware/boot/boot_board.hpp"
 #include "firmware/boot/frame_receiver.hpp"
 #include "firmware/boot/frame_sender.hpp"
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/wire/frame.hpp"
 #include "pharos/wire/loader_messages.hpp"
 
@@ -53,7 +53,7 @@ class LoaderLine {
   static constexpr std::size_t kWaitingBytes = 1024;
   static_assert(wire::kLoaderWindow * wire::line_size(wire::LoaderData::kMaxBytes) <= kWaitingBytes);
 
-  Ring<std::uint8_t, kWaitingBytes> waiting_;
+  RingBuffer<std::uint8_t, kWaitingBytes> waiting_;
   FrameReceiver receiver_;
   FrameSender sender_;
 };

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the image that `pharos flash` takes (common/pharos/image/README.md) of a linked program."""
+"""Makes the image that `pharos flash` takes (common/pharos/boot_image/README.md) of a linked program."""
 
 import argparse
 import pathlib

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pharos/image/image_header.hpp"
+#include "pharos/boot_image/boot_image_header.hpp"
 #include "pharos/wire/command_message.hpp"
 #include "pharos/wire/hello_message.hpp"
 #include "pharos/wire/loader_messages.hpp"
@@ -19,7 +19,7 @@ struct [[gnu::packed, gnu::aligned(4)]] HelloPayload {
   wire::Role role;
   std::uint8_t reset_cause;
   std::uint8_t modes;
-  image::Version firmware;
+  boot_image::Version firmware;
   std::uint16_t start_count;
   std::uint32_t tick_rate_hz;
   std::uint32_t sensors;

@@ -16,7 +16,7 @@ struct Retained {
 
   /// Starts that an image has to confirm itself in; then the other slot's is started until power goes or the loader was
   /// asked to start.
-  static constexpr std::uint16_t kMostTries = 3;
+  static constexpr std::uint16_t kMaxBootAttempts = 3;
 
   std::uint32_t mark = 0;
   std::uint32_t announced = 0;  // wire::ResetCause of the reset that is about to come; 0: nobody said
@@ -58,8 +58,8 @@ inline void note_reset(volatile Retained& retained) {
 }
 
 /// Whether the newest image had its tries: then the other one is to be started.
-inline bool had_its_tries(const volatile Retained& retained) {
-  return retained.unconfirmed_starts >= Retained::kMostTries;
+inline bool boot_attempts_exhausted(const volatile Retained& retained) {
+  return retained.unconfirmed_starts >= Retained::kMaxBootAttempts;
 }
 
 /// The loader's, right before it starts an image.
@@ -68,11 +68,11 @@ inline void note_start(volatile Retained& retained) {
 }
 
 /// The loader's, before a reset that is to start the newest image: it may be another than the one that had its tries.
-inline void forget_tries(volatile Retained& retained) { retained.unconfirmed_starts = 0; }
+inline void reset_boot_attempts(volatile Retained& retained) { retained.unconfirmed_starts = 0; }
 
 /// The application's, once it does its work. An image that was fallen back on does not bring back the other one.
 inline void confirm_start(volatile Retained& retained) {
-  if (!had_its_tries(retained)) forget_tries(retained);
+  if (!boot_attempts_exhausted(retained)) reset_boot_attempts(retained);
 }
 
 /// Whether the program that ran before the reset asked for the loader. Asks once: the next start is an ordinary one.

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "firmware/boot/boot_board.hpp"
-#include "pharos/image/slot.hpp"
+#include "pharos/boot_image/slot.hpp"
 #include "pharos/wire/crc32.hpp"
 
 namespace pharos::boot {
@@ -20,7 +20,7 @@ class Slots {
  public:
   /// Reads what the slots say, and copies the newest whole image to its place; `older`: the other one, if it is whole.
   void find(bool older) {
-    for (std::size_t slot = 0; slot < image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
+    for (std::size_t slot = 0; slot < boot_image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
     const std::size_t newest = heads_[1].mark.sequence > heads_[0].mark.sequence ? 1 : 0;
     next_sequence_ = heads_[newest].mark.sequence + 1;
     const std::size_t first = older ? 1 - newest : newest;
@@ -28,7 +28,7 @@ class Slots {
   }
 
   /// The image that was copied to its place; null when no slot holds a whole one.
-  const image::ImageHeader* loaded() const { return loaded_; }
+  const boot_image::BootImageHeader* loaded() const { return loaded_; }
   /// The slot that does not hold it.
   std::size_t spare() const { return spare_; }
   /// Greater than any in the slots.
@@ -39,34 +39,34 @@ class Slots {
     return std::memcmp(board.data(), Board::kName.data(), board.size()) == 0;
   }
   /// Whether this board can hold and run what the header tells of.
-  static bool fits(const image::ImageHeader& header) {
-    return is_name(header.board) && header.body_bytes <= Board::kSlotBytes - image::kPageBytes &&
+  static bool fits(const boot_image::BootImageHeader& header) {
+    return is_name(header.board) && header.body_bytes <= Board::kSlotBytes - boot_image::kPageBytes &&
            Board::memory(header.load_address, header.body_bytes) != nullptr;
   }
   /// What a slot says: its sequence number, 0 when it holds nothing that can run here.
-  static std::uint32_t read(std::size_t slot, image::SlotHead& head) {
+  static std::uint32_t read(std::size_t slot, boot_image::SlotHead& head) {
     Board::flash().read(Board::slot_offset(slot), {reinterpret_cast<std::uint8_t*>(&head), sizeof head});
-    return fits(head.header) ? image::sequence_of(head) : 0;
+    return fits(head.header) ? boot_image::sequence_of(head) : 0;
   }
   /// Copies the body to its place and sums it up there: what was checked is what runs, even where the flash gives other
   /// bytes when read again.
-  static bool load(std::size_t slot, const image::ImageHeader& header) {
+  static bool load(std::size_t slot, const boot_image::BootImageHeader& header) {
     const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
-    Board::flash().read(Board::slot_offset(slot) + image::kPageBytes, body);
+    Board::flash().read(Board::slot_offset(slot) + boot_image::kPageBytes, body);
     return wire::crc32(body) == header.body_crc32;
   }
 
  private:
   bool take(std::size_t slot) {
-    const image::SlotHead& head = heads_[slot];
+    const boot_image::SlotHead& head = heads_[slot];
     if (head.mark.sequence == 0 || !load(slot, head.header)) return false;
     loaded_ = &head.header;
     spare_ = 1 - slot;
     return true;
   }
 
-  std::array<image::SlotHead, image::kSlots> heads_{};  // sequence 0: nothing there that can run
-  const image::ImageHeader* loaded_ = nullptr;
+  std::array<boot_image::SlotHead, boot_image::kSlots> heads_{};  // sequence 0: nothing there that can run
+  const boot_image::BootImageHeader* loaded_ = nullptr;
   std::size_t spare_ = 0;
   std::uint32_t next_sequence_ = 0;
 };

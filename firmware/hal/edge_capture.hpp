@@ -18,9 +18,9 @@ class EdgeCapture {
  public:
   /// The oldest record that waits, taken out of the FIFO; false when none does.
   virtual bool read(CaptureRecord& record) = 0;
-  /// The counter that stamps the records, 64 bits. Records stamped kSettleTicks before it or earlier can be read.
+  /// The counter that stamps the records, 64 bits. Records stamped kSettle_ticks before it or earlier can be read.
   virtual std::int64_t now_ticks() = 0;
-  static constexpr std::int64_t kSettleTicks = 8;  // what the block needs, two, and a bus read or two
+  static constexpr std::int64_t kSettle_ticks = 8;  // what the block needs, two, and a bus read or two
   /// Edges that the block dropped since it started.
   virtual std::uint32_t edges_lost() = 0;
   /// Whether it dropped any since last asked.

@@ -10,14 +10,14 @@
 #include <memory>
 
 #include "host/calibrate/cost_functions.hpp"
-#include "host/calibrate/layout.hpp"
 #include "host/calibrate/observability.hpp"
+#include "host/calibrate/parameter_blocks.hpp"
 
 namespace pharos::calibrate {
 namespace {
 
 constexpr double kHuber = 3.0;
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 
 // One adjustment: the rows, and which of them are what.
 class Adjustment {
@@ -26,13 +26,13 @@ class Adjustment {
     add_priors();
     add_frame();
     for (const MeasuredLength& length : problem.lengths) add_length(length);
-    for (std::size_t i = 0; i < problem.stills->size(); ++i) add_still(i);
+    for (std::size_t i = 0; i < problem.intervals->size(); ++i) add_interval(i);
   }
 
   bool solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = kMostSteps;
+    options.max_num_iterations = kMaxSteps;
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
     options.logging_type = ceres::SILENT;
@@ -107,34 +107,34 @@ class Adjustment {
              blocks_.sensor[index_in(problem_.nominal.target, length.b)].data()});
   }
 
-  void add_still(std::size_t index) {
-    const Still& still = (*problem_.stills)[index];
-    for (std::size_t v = 0; v < still.rotors.size(); ++v) {
-      const RotorView& view = still.rotors[v];
+  void add_interval(std::size_t index) {
+    const StationaryAverage& interval = (*problem_.intervals)[index];
+    for (std::size_t v = 0; v < interval.rotors.size(); ++v) {
+      const RotorView& view = interval.rotors[v];
       if (view.bearings.empty()) continue;
       for (std::size_t b = 0; b < view.bearings.size(); ++b) add_bearing(index, v, b);
       add_row(prior_cost({0.0}, {view.common_sigma_rad}), nullptr, {&blocks_.common[index][v]});
     }
   }
 
-  void add_bearing(std::size_t still, std::size_t view_index, std::size_t bearing_index) {
-    const RotorView& view = (*problem_.stills)[still].rotors[view_index];
+  void add_bearing(std::size_t interval, std::size_t view_index, std::size_t bearing_index) {
+    const RotorView& view = (*problem_.intervals)[interval].rotors[view_index];
     const MeanBearing& bearing = view.bearings[bearing_index];
     BearingRow row;
     row.axis = view.axis;
     row.form = problem_.form;
     row.raw_rad = bearing.raw_rad;
     row.sigma_rad = std::hypot(bearing.own_sigma_rad, problem_.unmodelled_rad);
-    row.T_home_body = problem_.nominal.T_home_body[still];
+    row.T_home_body = problem_.nominal.T_home_body[interval];
     std::vector<double*> parameters = {
         blocks_.rotor[view.station][static_cast<std::size_t>(index_of(view.axis))].data(),
-        blocks_.pose_delta[still].data(), blocks_.sensor[index_in(problem_.nominal.target, bearing.sensor)].data(),
-        &blocks_.common[still][view_index]};
-    if (view.station != problem_.home[still]) {
+        blocks_.pose_delta[interval].data(), blocks_.sensor[index_in(problem_.nominal.target, bearing.sensor)].data(),
+        &blocks_.common[interval][view_index]};
+    if (view.station != problem_.home[interval]) {
       row.T_reference_station = problem_.nominal.T_reference_station[view.station];
       parameters.push_back(blocks_.station_delta.data());
     }
-    bearings_.push_back({still, view_index, bearing_index, 0.0, row.sigma_rad, 0.0});
+    bearings_.push_back({interval, view_index, bearing_index, 0.0, row.sigma_rad, 0.0});
     bearing_rows_.push_back(scalar_rows_);
     add_row(bearing_cost(row), &loss_, parameters);
   }
@@ -148,8 +148,8 @@ class Adjustment {
     }
     if (blocks_.pair) order.push_back(blocks_.station_delta.data());
     for (auto& pose : blocks_.pose_delta) order.push_back(pose.data());
-    for (auto& still : blocks_.common) {
-      for (double& common : still) {
+    for (auto& interval : blocks_.common) {
+      for (double& common : interval) {
         if (ceres_.HasParameterBlock(&common)) order.push_back(&common);
       }
     }
@@ -179,7 +179,7 @@ class Adjustment {
   }
 
   const BundleProblem& problem_;
-  Blocks blocks_;
+  ParameterBlocks blocks_;
   ceres::HuberLoss loss_{kHuber};
   ceres::Problem ceres_{[] {
     ceres::Problem::Options options;

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "host/calibrate/still.hpp"
+#include "host/calibrate/stationary_average.hpp"
 #include "host/calibrate/unknowns.hpp"
 
 namespace pharos::calibrate {
 
 /// Everything that one adjustment starts from and is measured against.
 struct BundleProblem {
-  const std::vector<Still>* stills = nullptr;
+  const std::vector<StationaryAverage>* intervals = nullptr;
   Homes home;        // by still
   Unknowns nominal;  // prior means; poses and station poses are starting values
   PriorSigmas sigmas;
@@ -24,19 +24,19 @@ struct BundleProblem {
 
 /// One bearing after the adjustment.
 struct BearingResidual {
-  std::size_t still = 0;
-  std::size_t view = 0;       // index in Still::rotors
+  std::size_t interval = 0;
+  std::size_t view = 0;       // index in StationaryAverage::rotors
   std::size_t bearing = 0;    // index in RotorView::bearings
   double residual_rad = 0.0;  // measured minus model, the common part taken out
   double sigma_rad = 0.0;     // own part, unmodelled part included
-  /// Share of this bearing that the unknowns took up, 0 to 1: its residual's variance is sigma^2 (1 - leverage).
+  /// Fraction of this bearing that the unknowns took up, 0 to 1: its residual's variance is sigma^2 (1 - leverage).
   double leverage = 0.0;
 };
 
 /// What one length says beside everything else.
 struct LengthCheck {
-  double by_rest_m = 0.0;  // the distance that all the rest gives
-  double by_rest_sigma_m = 0.0;
+  double predicted_m = 0.0;  // the distance that all the rest gives
+  double predicted_sigma_m = 0.0;
   double sigmas_apart = 0.0;  // difference over the sigma of both
 };
 

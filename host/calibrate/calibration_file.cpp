@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host/config/strict_toml.hpp"
 #include "host/support/input_error.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::calibrate {
@@ -18,7 +18,7 @@ using host::TomlTable;
 
 constexpr Range kMetres{-12.0, 12.0};  // as in a target's table
 constexpr double kSamePlace_m = 1e-3;
-constexpr std::int64_t kMostParameters = 3 * kMaxSensors + kMaxStations * kAxes * kRotorParameters + 6;
+constexpr std::int64_t kMaxParameters = 3 * kMaxSensors + kMaxStations * kAxes * kRotorParameters + 6;
 
 Vector3 vector_of(const std::array<double, 3>& values) { return Vector3(values.data()); }
 
@@ -49,7 +49,7 @@ void read_summary(const TomlTable& table, CalibrationFile& file) {
   table.number_or("unmodelled_arcsec", 0.0, host::kNotNegative);
   table.text_or("body_frame", "");
   file.parameters = table.texts("parameters");
-  if (file.parameters.size() > static_cast<std::size_t>(kMostParameters)) {
+  if (file.parameters.size() > static_cast<std::size_t>(kMaxParameters)) {
     table.fail("parameters", "more than any calibration has");
   }
   file.covariance = table.rows("covariance", file.parameters.size());

@@ -29,7 +29,7 @@ std::string summary_text(const LighthouseCalibration& calibration) {
   out += "scale_sigma = " + exact_number(bundle.scale_sigma) +
          "  # relative, of the target's size: part of every range's sigma\n";
   out += "model_form = " + std::to_string(static_cast<int>(calibration.form)) + "\n";
-  out += "stills = " + std::to_string(calibration.stills) + "\n";
+  out += "stills = " + std::to_string(calibration.intervals) + "\n";
   out += "poses = " + std::to_string(calibration.poses) + "\n";
   out += "unmodelled_arcsec = " + exact_number(calibration.unmodelled_rad * kArcsecPerRad) +
          "  # left in every mean angle beyond its noise\n";

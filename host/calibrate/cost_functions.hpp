@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "host/calibrate/still.hpp"
+#include "host/calibrate/stationary_average.hpp"
 #include "host/calibrate/unknowns.hpp"
 
 namespace pharos::calibrate {

@@ -53,10 +53,11 @@ std::vector<std::size_t> stations_of(const RecordingLog& recording,
 }
 
 // Sensors of somebody else's body go.
-void remove_strangers(const Target& target, std::vector<Still>& stills, std::size_t& strangers) {
+void remove_unknown_sensors(const Target& target, std::vector<StationaryAverage>& intervals,
+                            std::size_t& unknown_sensors) {
   std::bitset<kMaxSensors> strange;
-  for (Still& still : stills) {
-    for (RotorView& view : still.rotors) {
+  for (StationaryAverage& interval : intervals) {
+    for (RotorView& view : interval.rotors) {
       std::erase_if(view.bearings, [&](const MeanBearing& bearing) {
         if (find_sensor(target, bearing.sensor) != nullptr) return false;
         strange.set(bearing.sensor);
@@ -64,53 +65,53 @@ void remove_strangers(const Target& target, std::vector<Still>& stills, std::siz
       });
     }
   }
-  strangers = strange.count();
+  unknown_sensors = strange.count();
 }
 
 void put_reference_first(Gathered& gathered) {
   if (gathered.stations.size() < 2) return;
   std::array<std::size_t, kMaxStations> seen{};
-  for (const Still& still : gathered.stills) {
+  for (const StationaryAverage& interval : gathered.intervals) {
     std::bitset<kMaxStations> here;
-    for (const RotorView& view : still.rotors) here.set(view.station);
+    for (const RotorView& view : interval.rotors) here.set(view.station);
     for (std::size_t s = 0; s < kMaxStations; ++s) seen[s] += here[s] ? 1U : 0U;
   }
   if (seen[0] >= seen[1]) return;
   std::swap(gathered.stations[0], gathered.stations[1]);
-  for (Still& still : gathered.stills) {
-    for (RotorView& view : still.rotors) view.station = 1 - view.station;
+  for (StationaryAverage& interval : gathered.intervals) {
+    for (RotorView& view : interval.rotors) view.station = 1 - view.station;
   }
 }
 
 }  // namespace
 
-Gathered gather(const LighthouseMaterial& material) {
+Gathered gather(const LighthouseCalibrationInput& input) {
   Gathered gathered;
   std::size_t sweeps = 0;
   std::size_t creeping = 0;
   std::size_t too_short = 0;
-  for (std::size_t i = 0; i < material.recordings.size(); ++i) {
-    const RecordingLog& recording = material.recordings[i];
+  for (std::size_t i = 0; i < input.recordings.size(); ++i) {
+    const RecordingLog& recording = input.recordings[i];
     sweeps += recording.sweeps.size();
     const std::vector<std::size_t> station_of_slot = stations_of(recording, gathered.stations);
-    const StillSearch search = find_stills(recording.sweeps);
+    const StationarySearch search = find_stationary_intervals(recording.sweeps);
     creeping += search.drifting;
     too_short += search.too_short;
-    for (const Stretch& stretch : search.stills) {
-      gathered.stills.push_back(average_still(recording, i, stretch, station_of_slot));
+    for (const StationaryInterval& interval : search.intervals) {
+      gathered.intervals.push_back(average_interval(recording, i, interval, station_of_slot));
     }
   }
-  const std::string names = names_of(material.recordings);
+  const std::string names = names_of(input.recordings);
   if (sweeps == 0) {
     throw InputError(names + ": no sweep of a station; `pharos decode EDGES --stats` says what became of its pulses");
   }
-  if (gathered.stills.empty()) {
+  if (gathered.intervals.empty()) {
     throw InputError(names + ": the target never rested (too short, below 0.7 s: " + std::to_string(too_short) +
                      "; creeping: " + std::to_string(creeping) +
                      "); set it down or clamp it for two seconds in each of at least six poses");
   }
-  remove_strangers(material.target, gathered.stills, gathered.strangers);
-  weigh(gathered.stills);
+  remove_unknown_sensors(input.target, gathered.intervals, gathered.unknown_sensors);
+  assign_sigmas(gathered.intervals);
   put_reference_first(gathered);
   return gathered;
 }

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "host/calibrate/gather.hpp"
-#include "host/calibrate/layout.hpp"
 #include "host/calibrate/noise_level.hpp"
+#include "host/calibrate/parameter_blocks.hpp"
 #include "host/calibrate/start_pose.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
@@ -31,14 +31,14 @@ constexpr double kContradiction = 5.0;
 
 class Calibration {
  public:
-  explicit Calibration(LighthouseMaterial material) : material_(std::move(material)) {
+  explicit Calibration(LighthouseCalibrationInput input) : input_(std::move(input)) {
     require_sensors();
-    Gathered gathered = gather(material_);
-    stills_ = std::move(gathered.stills);
-    result_.strangers = gathered.strangers;
-    result_.form = material_.form;
-    result_.scale_measured = !material_.lengths.empty();
-    nominal_.target = material_.target;
+    Gathered gathered = gather(input_);
+    intervals_ = std::move(gathered.intervals);
+    result_.unknown_sensors = gathered.unknown_sensors;
+    result_.form = input_.form;
+    result_.scale_measured = !input_.lengths.empty();
+    nominal_.target = input_.target;
     nominal_.station = std::move(gathered.stations);
   }
 
@@ -50,13 +50,13 @@ class Calibration {
     const BundleResult first = adjust(problem());
     refuse_contradiction(first);
     // Whoever stood in its mirror image, or was ambiguous, comes right with what was learnt.
-    stills_ = all_stills_;
+    intervals_ = all_intervals_;
     start(first.unknowns.target, first.unknowns.station, std::hypot(kCalibratedSigma_rad, unmodelled_of(first)));
     result_.bundle = settle();
     refuse_contradiction(result_.bundle);
-    fits_.add_after(stills_, result_.bundle.residuals);
+    fits_.add_after(intervals_, result_.bundle.residuals);
     result_.fits = fits_.table();
-    result_.stills = stills_.size();
+    result_.intervals = intervals_.size();
     result_.poses = distinct_poses();
     result_.unmodelled_rad = unmodelled_rad_;
     return std::move(result_);
@@ -64,9 +64,9 @@ class Calibration {
 
  private:
   void require_sensors() const {
-    for (const MeasuredLength& length : material_.lengths) {
+    for (const MeasuredLength& length : input_.lengths) {
       for (const std::uint8_t sensor : {length.a, length.b}) {
-        if (find_sensor(material_.target, sensor) != nullptr) continue;
+        if (find_sensor(input_.target, sensor) != nullptr) continue;
         throw InputError(text_of(length) + ": the target has no sensor " + std::to_string(sensor) +
                          "; give two numbers of its table");
       }
@@ -75,28 +75,28 @@ class Calibration {
 
   // A pose for every still and station that see each other; keeps the stills that have one.
   void start(const Target& target, const std::vector<lighthouse::StationCalibration>& stations, double sigma_rad) {
-    if (all_stills_.empty()) all_stills_ = stills_;
-    std::vector<Still> kept;
+    if (all_intervals_.empty()) all_intervals_ = intervals_;
+    std::vector<StationaryAverage> kept;
     std::vector<StationPoses> poses;
-    result_.stills_unsolved = 0;
-    for (Still& still : stills_) {
+    result_.intervals_unsolved = 0;
+    for (StationaryAverage& interval : intervals_) {
       StationPoses here;
       for (std::size_t s = 0; s < stations.size(); ++s) {
-        const auto found = start_pose(still, s, target, stations[s], material_.form, sigma_rad);
+        const auto found = start_pose(interval, s, target, stations[s], input_.form, sigma_rad);
         if (found && !found->ambiguous) {
           here[s] = found->pose;
         } else {
-          std::erase_if(still.rotors, [s](const RotorView& view) { return view.station == s; });
+          std::erase_if(interval.rotors, [s](const RotorView& view) { return view.station == s; });
         }
       }
-      if (still.rotors.empty()) {
-        ++result_.stills_unsolved;
+      if (interval.rotors.empty()) {
+        ++result_.intervals_unsolved;
         continue;
       }
-      kept.push_back(std::move(still));
+      kept.push_back(std::move(interval));
       poses.push_back(here);
     }
-    stills_ = std::move(kept);
+    intervals_ = std::move(kept);
     tie_stations(poses);
     place(poses);
     alone_ = std::move(poses);
@@ -110,12 +110,12 @@ class Calibration {
     for (const StationPoses& here : poses) {
       if (here[0] && here[1]) said.push_back(*here[0] * here[1]->inverse());
     }
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (const ReferenceFromStation& candidate : said) {
       double sum = 0.0;
       for (const ReferenceFromStation& other : said) sum += pose_difference(candidate, other).norm();
-      if (sum >= least) continue;
-      least = sum;
+      if (sum >= minimum) continue;
+      minimum = sum;
       nominal_.T_reference_station[1] = candidate;
     }
   }
@@ -136,7 +136,7 @@ class Calibration {
 
   std::size_t distinct_poses() const {
     std::vector<std::pair<std::size_t, LighthouseFromBody>> places;
-    for (std::size_t i = 0; i < stills_.size(); ++i) {
+    for (std::size_t i = 0; i < intervals_.size(); ++i) {
       const LighthouseFromBody& pose = nominal_.T_home_body[i];
       const bool known = std::any_of(places.begin(), places.end(), [&](const auto& place) {
         const Vector6 difference = pose_difference(pose, place.second);
@@ -150,28 +150,29 @@ class Calibration {
 
   void require_poses() const {
     const std::size_t poses = distinct_poses();
-    const std::size_t rests = stills_.size() + result_.stills_unsolved;
-    const std::string rested = std::to_string(rests) + (rests == 1 ? " rest" : " rests");
+    const std::size_t moved_intervals = intervals_.size() + result_.intervals_unsolved;
+    const std::string interval_count_text =
+        std::to_string(moved_intervals) + (moved_intervals == 1 ? " rest" : " rests");
     if (poses == 0) {
-      throw InputError("none of " + rested +
+      throw InputError("none of " + interval_count_text +
                        " gave a pose; is --target the table of this target? `pharos track` says why");
     }
     if (poses == 1) {
-      throw InputError("the target never moved: " + rested +
+      throw InputError("the target never moved: " + interval_count_text +
                        " in one pose; record rests in at least six poses that differ in place and attitude");
     }
     if (poses < kFewestPoses) {
       throw InputError("too few poses: " + std::to_string(poses) + " of the needed " + std::to_string(kFewestPoses) +
-                       " (" + rested + ", " + std::to_string(result_.stills_unsolved) +
+                       " (" + interval_count_text + ", " + std::to_string(result_.intervals_unsolved) +
                        " without a sure pose); record more, differing in place and attitude");
     }
   }
 
   void require_length_ends() const {
-    const Blocks blocks(problem());
-    for (const MeasuredLength& length : material_.lengths) {
+    const ParameterBlocks blocks(problem());
+    for (const MeasuredLength& length : input_.lengths) {
       for (const std::uint8_t sensor : {length.a, length.b}) {
-        if (blocks.hit[index_in(material_.target, sensor)]) continue;
+        if (blocks.hit[index_in(input_.target, sensor)]) continue;
         throw InputError(text_of(length) + ": sensor " + std::to_string(sensor) +
                          " was never hit at rest; record poses that show it, or give another length");
       }
@@ -180,26 +181,26 @@ class Calibration {
 
   BundleProblem problem() const {
     BundleProblem problem;
-    problem.stills = &stills_;
+    problem.intervals = &intervals_;
     problem.home = home_;
     problem.nominal = nominal_;
-    problem.sigmas = material_.sigmas;
-    problem.lengths = material_.lengths;
-    problem.form = material_.form;
+    problem.sigmas = input_.sigmas;
+    problem.lengths = input_.lengths;
+    problem.form = input_.form;
     problem.unmodelled_rad = unmodelled_rad_;
     return problem;
   }
 
   // Adjusts, strikes what fits no rigid body and sets the level of what the model does not explain, until both stay.
   BundleResult settle() {
-    constexpr int kMostRounds = 6;
+    constexpr int kMaxRounds = 6;
     for (int round = 0;; ++round) {
       BundleResult last = adjust(problem());
-      if (round == kMostRounds) return last;  // without what was struck before
-      const std::size_t struck = strike_outliers(last.residuals, stills_);
+      if (round == kMaxRounds) return last;  // without what was struck before
+      const std::size_t rejected = reject_outliers(last.residuals, intervals_);
       const double level = unmodelled_level(last.residuals, unmodelled_rad_);
-      const bool settled = struck == 0 && std::abs(level - unmodelled_rad_) < 0.02 * level + 0.02 * kRadPerArcsec;
-      result_.bearings_struck += struck;
+      const bool settled = rejected == 0 && std::abs(level - unmodelled_rad_) < 0.02 * level + 0.02 * kRadPerArcsec;
+      result_.bearings_rejected += rejected;
       if (settled) return last;
       unmodelled_rad_ = level;
       nominal_.T_home_body = last.unknowns.T_home_body;
@@ -219,20 +220,20 @@ class Calibration {
       if (bundle.lengths[i].sigmas_apart > bundle.lengths[worst].sigmas_apart) worst = i;
     }
     if (bundle.lengths.empty() || bundle.lengths[worst].sigmas_apart < kContradiction) return;
-    const MeasuredLength& length = material_.lengths[worst];
+    const MeasuredLength& length = input_.lengths[worst];
     std::array<char, 256> text{};
     std::snprintf(
         text.data(), text.size(),
         ": %.3f mm contradicts all the rest by %.1f sigma (%.3f +- %.3f mm); measure again, or correct the target's "
         "table",
-        length.length_m * kMmPerM, bundle.lengths[worst].sigmas_apart, bundle.lengths[worst].by_rest_m * kMmPerM,
-        bundle.lengths[worst].by_rest_sigma_m * kMmPerM);
+        length.length_m * kMmPerM, bundle.lengths[worst].sigmas_apart, bundle.lengths[worst].predicted_m * kMmPerM,
+        bundle.lengths[worst].predicted_sigma_m * kMmPerM);
     throw InputError(text_of(length) + text.data());
   }
 
-  LighthouseMaterial material_;
-  std::vector<Still> all_stills_;  // with every candidate
-  std::vector<Still> stills_;
+  LighthouseCalibrationInput input_;
+  std::vector<StationaryAverage> all_intervals_;  // with every candidate
+  std::vector<StationaryAverage> intervals_;
   Homes home_;
   std::vector<StationPoses> alone_;  // by still
   Unknowns nominal_;
@@ -243,8 +244,8 @@ class Calibration {
 
 }  // namespace
 
-LighthouseCalibration calibrate_lighthouse(LighthouseMaterial material) {
-  return Calibration(std::move(material)).run();
+LighthouseCalibration calibrate_lighthouse(LighthouseCalibrationInput input) {
+  return Calibration(std::move(input)).run();
 }
 
 }  // namespace pharos::calibrate

@@ -12,12 +12,12 @@ namespace {
 constexpr double kHuber = 3.0;  // residuals beyond it count as it: they are outliers, not the level
 constexpr double kOutlier = 6.0;
 constexpr double kMedianToSigma = 1.4826;
-constexpr double kMost_rad = 600.0 * kRadPerArcsec;
+constexpr double kMax_rad = 600.0 * kRadPerArcsec;
 
-double free_share(const BearingResidual& r) { return std::max(1.0 - r.leverage, 0.02); }
+double free_fraction(const BearingResidual& r) { return std::max(1.0 - r.leverage, 0.02); }
 
 // Residual in sigmas of its own, with what its leverage took away put back.
-double normalised(const BearingResidual& r) { return r.residual_rad / (r.sigma_rad * std::sqrt(free_share(r))); }
+double normalised(const BearingResidual& r) { return r.residual_rad / (r.sigma_rad * std::sqrt(free_fraction(r))); }
 
 double usual(const std::vector<BearingResidual>& residuals) {
   std::vector<double> sizes;
@@ -45,7 +45,7 @@ double unmodelled_level(const std::vector<BearingResidual>& residuals, double pr
   };
   if (freedom <= 0.0 || excess(0.0) < 3.0 * std::sqrt(2.0 * freedom)) return 0.0;
   double low = 0.0;
-  double high = kMost_rad;
+  double high = kMax_rad;
   constexpr int kHalvings = 50;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
@@ -54,17 +54,17 @@ double unmodelled_level(const std::vector<BearingResidual>& residuals, double pr
   return high;
 }
 
-std::size_t strike_outliers(const std::vector<BearingResidual>& residuals, std::vector<Still>& stills) {
+std::size_t reject_outliers(const std::vector<BearingResidual>& residuals, std::vector<StationaryAverage>& intervals) {
   const double limit = kOutlier * usual(residuals);
-  std::size_t struck = 0;
+  std::size_t rejected = 0;
   // From the back, so that indices in front keep their meaning.
   for (auto r = residuals.rbegin(); r != residuals.rend(); ++r) {
     if (std::abs(normalised(*r)) < limit) continue;
-    auto& bearings = stills[r->still].rotors[r->view].bearings;
+    auto& bearings = intervals[r->interval].rotors[r->view].bearings;
     bearings.erase(bearings.begin() + static_cast<std::ptrdiff_t>(r->bearing));
-    ++struck;
+    ++rejected;
   }
-  return struck;
+  return rejected;
 }
 
 }  // namespace pharos::calibrate

@@ -14,6 +14,6 @@ double unmodelled_level(const std::vector<BearingResidual>& residuals, double pr
 
 /// Takes bearings out of `stills` whose residual is beyond six of their own sigmas and six times the usual; returns how
 /// many. The indices of `residuals` no longer hold then.
-std::size_t strike_outliers(const std::vector<BearingResidual>& residuals, std::vector<Still>& stills);
+std::size_t reject_outliers(const std::vector<BearingResidual>& residuals, std::vector<StationaryAverage>& intervals);
 
 }  // namespace pharos::calibrate

@@ -10,7 +10,7 @@ namespace pharos::calibrate {
 namespace {
 
 // Of the sensors that keep the body frame.
-Vector3 middle_of_hit(const BundleProblem& problem, const Blocks& blocks) {
+Vector3 middle_of_hit(const BundleProblem& problem, const ParameterBlocks& blocks) {
   Vector3 sum = Vector3::Zero();
   double count = 0.0;
   for (std::size_t i = 0; i < blocks.hit.size(); ++i) {
@@ -23,7 +23,7 @@ Vector3 middle_of_hit(const BundleProblem& problem, const Blocks& blocks) {
 
 // What the sensors' prior says once the body frame is kept: an isotropic prior without the six rigid motions of the
 // sensors that keep the frame.
-Eigen::MatrixXd framed_prior(const BundleProblem& problem, const Blocks& blocks) {
+Eigen::MatrixXd framed_prior(const BundleProblem& problem, const ParameterBlocks& blocks) {
   const auto n = static_cast<Eigen::Index>(blocks.sensor.size());
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * n, 6);
   const Vector3 middle = middle_of_hit(problem, blocks);
@@ -40,7 +40,7 @@ Eigen::MatrixXd framed_prior(const BundleProblem& problem, const Blocks& blocks)
 }
 
 // Relative growth of the sensors that were hit as a linear function of all sensor coordinates.
-Eigen::VectorXd growth(const BundleProblem& problem, const Blocks& blocks) {
+Eigen::VectorXd growth(const BundleProblem& problem, const ParameterBlocks& blocks) {
   const std::size_t n = blocks.sensor.size();
   const Vector3 middle = middle_of_hit(problem, blocks);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * n));
@@ -56,7 +56,7 @@ Eigen::VectorXd growth(const BundleProblem& problem, const Blocks& blocks) {
 
 }  // namespace
 
-Information::Information(const SparseRows& jacobian, const BundleProblem& problem, const Blocks& blocks)
+Information::Information(const SparseRows& jacobian, const BundleProblem& problem, const ParameterBlocks& blocks)
     : jacobian_(jacobian), problem_(problem), blocks_(blocks) {
   // Scaled to a unit diagonal: metres and radians differ by orders of magnitude.
   Eigen::MatrixXd normal = Eigen::MatrixXd(SparseRows(jacobian.transpose() * jacobian));

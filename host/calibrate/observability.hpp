@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "host/calibrate/layout.hpp"
+#include "host/calibrate/parameter_blocks.hpp"
 
 namespace pharos::calibrate {
 
@@ -13,10 +13,10 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// What an adjustment knows of its parameters, from its whitened Jacobian.
 class Information {
  public:
-  /// `jacobian`: rows in any order, columns in the order of Blocks: calibration, poses, common parts.
-  Information(const SparseRows& jacobian, const BundleProblem& problem, const Blocks& blocks);
+  /// `jacobian`: rows in any order, columns in the order of ParameterBlocks: calibration, poses, common parts.
+  Information(const SparseRows& jacobian, const BundleProblem& problem, const ParameterBlocks& blocks);
 
-  /// Share of one row that the unknowns take up.
+  /// Fraction of one row that the unknowns take up.
   double leverage(std::size_t row) const;
   /// Sigmas before and after of every parameter and of the scale, and the calibration's covariance.
   void fill(BundleResult& result) const;
@@ -24,7 +24,7 @@ class Information {
  private:
   const SparseRows& jacobian_;
   const BundleProblem& problem_;
-  const Blocks& blocks_;
+  const ParameterBlocks& blocks_;
   Eigen::MatrixXd covariance_;  // of all unknowns
 };
 

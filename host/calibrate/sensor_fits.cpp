@@ -17,8 +17,8 @@ double SensorFits::Sum::rms() const { return std::sqrt(square / std::max(count, 
 
 void SensorFits::add_before(const BundleProblem& problem, const std::vector<StationPoses>& poses) {
   const Unknowns& nominal = problem.nominal;
-  for (std::size_t i = 0; i < problem.stills->size(); ++i) {
-    for (const RotorView& view : (*problem.stills)[i].rotors) {
+  for (std::size_t i = 0; i < problem.intervals->size(); ++i) {
+    for (const RotorView& view : (*problem.intervals)[i].rotors) {
       const std::optional<LighthouseFromBody>& T_station_body = poses[i][view.station];
       if (!T_station_body) continue;
       for (const MeanBearing& bearing : view.bearings) {
@@ -30,9 +30,10 @@ void SensorFits::add_before(const BundleProblem& problem, const std::vector<Stat
   }
 }
 
-void SensorFits::add_after(const std::vector<Still>& stills, const std::vector<BearingResidual>& residuals) {
+void SensorFits::add_after(const std::vector<StationaryAverage>& intervals,
+                           const std::vector<BearingResidual>& residuals) {
   for (const BearingResidual& residual : residuals) {
-    const RotorView& view = stills[residual.still].rotors[residual.view];
+    const RotorView& view = intervals[residual.interval].rotors[residual.view];
     const std::uint8_t sensor = view.bearings[residual.bearing].sensor;
     cells_[{view.station, view.axis, sensor}].after.add(residual.residual_rad);
   }

@@ -14,7 +14,7 @@ struct SensorFit {
   std::size_t station = 0;
   Axis axis = Axis::kX;
   std::uint8_t sensor = 0;
-  int stills = 0;
+  int intervals = 0;
   double before_rad = 0.0;  // nominal parameters, each still's pose solved alone
   double after_rad = 0.0;
 };
@@ -24,7 +24,7 @@ class SensorFits {
  public:
   /// Residuals of the nominal parameters at each still's and station's own pose (`poses`, by still).
   void add_before(const BundleProblem& problem, const std::vector<StationPoses>& poses);
-  void add_after(const std::vector<Still>& stills, const std::vector<BearingResidual>& residuals);
+  void add_after(const std::vector<StationaryAverage>& intervals, const std::vector<BearingResidual>& residuals);
   /// In the order of station, rotor, sensor.
   std::vector<SensorFit> table() const;
 

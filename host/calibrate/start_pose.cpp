@@ -12,14 +12,14 @@ namespace pharos::calibrate {
 namespace {
 
 // The still as one cycle of the tracker's. Where a bearing stands in the still goes along as its time.
-struct StillCycle {
+struct StationaryCycle {
   track::Cycle cycle;
   std::vector<MeanBearing*> place;
 };
 
-StillCycle cycle_of(Still& still, std::size_t station) {
-  StillCycle result;
-  for (RotorView& view : still.rotors) {
+StationaryCycle cycle_of(StationaryAverage& interval, std::size_t station) {
+  StationaryCycle result;
+  for (RotorView& view : interval.rotors) {
     if (view.station != station) continue;
     const auto axis = static_cast<std::size_t>(index_of(view.axis));
     result.cycle.has_sweep[axis] = true;
@@ -34,8 +34,8 @@ StillCycle cycle_of(Still& still, std::size_t station) {
   return result;
 }
 
-void strike_unused(Still& still, std::size_t station, const std::vector<const MeanBearing*>& used) {
-  for (RotorView& view : still.rotors) {
+void remove_unused(StationaryAverage& interval, std::size_t station, const std::vector<const MeanBearing*>& used) {
+  for (RotorView& view : interval.rotors) {
     if (view.station != station) continue;
     std::vector<MeanBearing> kept;
     for (const MeanBearing& bearing : view.bearings) {
@@ -47,10 +47,10 @@ void strike_unused(Still& still, std::size_t station, const std::vector<const Me
 
 }  // namespace
 
-std::optional<StartPose> start_pose(Still& still, std::size_t station, const Target& target,
+std::optional<StartPose> start_pose(StationaryAverage& interval, std::size_t station, const Target& target,
                                     const lighthouse::StationCalibration& calibration, lighthouse::ModelForm form,
                                     double sigma_rad) {
-  const StillCycle whole = cycle_of(still, station);
+  const StationaryCycle whole = cycle_of(interval, station);
   pose::SolveOptions options;
   options.sigma_rad = sigma_rad;
   auto ideal = std::make_unique<track::IdealObservations>(
@@ -66,7 +66,7 @@ std::optional<StartPose> start_pose(Still& still, std::size_t station, const Tar
   for (std::size_t i = 0; i < ideal->observations.size(); ++i) {
     if (solution->used[i]) used.push_back(whole.place[static_cast<std::size_t>(ideal->raw[i].time_ticks)]);
   }
-  strike_unused(still, station, used);
+  remove_unused(interval, station, used);
   return StartPose{solution->estimate.pose, solution->estimate.ambiguous()};
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "host/calibrate/still.hpp"
+#include "host/calibrate/stationary_average.hpp"
 #include "pharos/geometry/pose.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/station_calibration.hpp"
@@ -20,7 +20,7 @@ struct StartPose {
 /// Solves one still before one station, and strikes the candidates that the rigid body refuses (reflections) from
 /// `still`; `sigma_rad` is what the body's and the station's errors put on an angle. Empty, with the still unchanged,
 /// where no pose can be had (fewer than four sensors, …).
-std::optional<StartPose> start_pose(Still& still, std::size_t station, const Target& target,
+std::optional<StartPose> start_pose(StationaryAverage& interval, std::size_t station, const Target& target,
                                     const lighthouse::StationCalibration& calibration, lighthouse::ModelForm form,
                                     double sigma_rad);
 

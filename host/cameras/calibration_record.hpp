@@ -14,7 +14,7 @@ struct CalibrationRecord {
   double rms_px = 0.0;      // of the distances between found and predicted points
   std::vector<std::string> parameters;
   std::vector<std::vector<double>> covariance;  // of the parameters, in their order and units
-  std::vector<std::string> untold;              // what the images could not tell, in words
+  std::vector<std::string> unobservable;        // what the images could not tell, in words
 };
 
 }  // namespace pharos::host

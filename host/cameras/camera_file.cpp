@@ -16,7 +16,7 @@ constexpr Range kOffset_m{-1e4, 1e4};
 CameraFile read(const TomlTable& root) {
   CameraFile file;
   DepthCamera& camera = file.camera;
-  camera.optics = read_optics(root);
+  camera.intrinsics = read_intrinsics(root);
   camera.depth_scale_m = root.number_or("depth_scale_m", camera.depth_scale_m, kScale_m);
   camera.depth_origin_z_m = root.number_or("depth_origin_z_m", camera.depth_origin_z_m, kOrigin_m);
   camera.scale_m = root.vector_or<3>("scale_m", camera.scale_m, kScale_m);
@@ -50,7 +50,7 @@ CameraFile parse_camera(std::string_view text, const std::string& name) {
 }
 
 std::string camera_text(const CameraFile& file) {
-  std::string out = optics_text(file.camera.optics) + depth_text(file.camera);
+  std::string out = intrinsics_text(file.camera.intrinsics) + depth_text(file.camera);
   if (file.calibration) out += record_text(*file.calibration);
   return out;
 }

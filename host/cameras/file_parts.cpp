@@ -18,8 +18,8 @@ constexpr Range kFocalLength_px{1.0, 1e9};
 constexpr Range kPrincipalPoint_px{-1e6, 1e6};
 constexpr Range kDistortion{-1e12, 1e12};
 // Two cameras with nine values each and the pose between them.
-constexpr std::size_t kMostParameters = 24;
-constexpr std::int64_t kMostCounted = 1'000'000'000;
+constexpr std::size_t kMaxParameters = 24;
+constexpr std::int64_t kMaxCounted = 1'000'000'000;
 
 std::string toml_string(std::string_view text) {
   std::string out = "\"";
@@ -44,42 +44,42 @@ std::string toml_strings(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-PinholeCamera read_optics(const TomlTable& table) {
-  PinholeCamera optics;
-  optics.width_px = static_cast<std::int32_t>(table.integer("width_px", 1, kLargestSide_px));
-  optics.height_px = static_cast<std::int32_t>(table.integer("height_px", 1, kLargestSide_px));
-  optics.fx_px = table.number("fx_px", kFocalLength_px);
-  optics.fy_px = table.number("fy_px", kFocalLength_px);
-  optics.cx_px = table.number("cx_px", kPrincipalPoint_px);
-  optics.cy_px = table.number("cy_px", kPrincipalPoint_px);
-  optics.distortion = table.vector<5>("distortion", kDistortion);
-  return optics;
+PinholeCamera read_intrinsics(const TomlTable& table) {
+  PinholeCamera intrinsics;
+  intrinsics.width_px = static_cast<std::int32_t>(table.integer("width_px", 1, kLargestSide_px));
+  intrinsics.height_px = static_cast<std::int32_t>(table.integer("height_px", 1, kLargestSide_px));
+  intrinsics.fx_px = table.number("fx_px", kFocalLength_px);
+  intrinsics.fy_px = table.number("fy_px", kFocalLength_px);
+  intrinsics.cx_px = table.number("cx_px", kPrincipalPoint_px);
+  intrinsics.cy_px = table.number("cy_px", kPrincipalPoint_px);
+  intrinsics.distortion = table.vector<5>("distortion", kDistortion);
+  return intrinsics;
 }
 
-std::string optics_text(const PinholeCamera& optics) {
-  std::string out = "width_px = " + std::to_string(optics.width_px) + "\n";
-  out += "height_px = " + std::to_string(optics.height_px) + "\n";
-  out += "fx_px = " + exact_number(optics.fx_px) + "\n";
-  out += "fy_px = " + exact_number(optics.fy_px) + "\n";
-  out += "cx_px = " + exact_number(optics.cx_px) + "\n";
-  out += "cy_px = " + exact_number(optics.cy_px) + "\n";
-  return out + "distortion = " + exact_list(optics.distortion) + "  # k1, k2, p1, p2, k3\n";
+std::string intrinsics_text(const PinholeCamera& intrinsics) {
+  std::string out = "width_px = " + std::to_string(intrinsics.width_px) + "\n";
+  out += "height_px = " + std::to_string(intrinsics.height_px) + "\n";
+  out += "fx_px = " + exact_number(intrinsics.fx_px) + "\n";
+  out += "fy_px = " + exact_number(intrinsics.fy_px) + "\n";
+  out += "cx_px = " + exact_number(intrinsics.cx_px) + "\n";
+  out += "cy_px = " + exact_number(intrinsics.cy_px) + "\n";
+  return out + "distortion = " + exact_list(intrinsics.distortion) + "  # k1, k2, p1, p2, k3\n";
 }
 
 std::optional<CalibrationRecord> read_record(const TomlTable& root) {
   if (!root.has("calibration")) return std::nullopt;
   const TomlTable table = root.table("calibration");
   CalibrationRecord record;
-  record.images = table.integer("images", 0, kMostCounted);
-  record.points = table.integer("points", 0, kMostCounted);
+  record.images = table.integer("images", 0, kMaxCounted);
+  record.points = table.integer("points", 0, kMaxCounted);
   record.rms_px = table.number("rms_px", kNotNegative);
   record.parameters = table.texts("parameters");
-  if (record.parameters.size() > kMostParameters) table.fail("parameters", "more than two cameras have");
+  if (record.parameters.size() > kMaxParameters) table.fail("parameters", "more than two cameras have");
   record.covariance = table.rows("covariance", record.parameters.size());
   if (record.covariance.size() != record.parameters.size()) {
     table.fail("covariance", "must have a row for each of the parameters");
   }
-  record.untold = table.texts("untold");
+  record.unobservable = table.texts("untold");
   return record;
 }
 
@@ -89,7 +89,7 @@ std::string record_text(const CalibrationRecord& record) {
   out += "rms_px = " + exact_number(record.rms_px) + "\n";
   out += "parameters = " + toml_strings(record.parameters) + "\ncovariance = [\n";
   for (const std::vector<double>& row : record.covariance) out += "  " + exact_list(row) + ",\n";
-  return out + "]\nuntold = " + toml_strings(record.untold) + "\n";
+  return out + "]\nuntold = " + toml_strings(record.unobservable) + "\n";
 }
 
 }  // namespace pharos::host

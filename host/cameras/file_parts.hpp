@@ -5,14 +5,14 @@
 #include <string>
 
 #include "host/cameras/calibration_record.hpp"
-#include "host/config/strict_toml.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "pharos/camera/pinhole_camera.hpp"
 
 // What camera files and rig files have in common.
 namespace pharos::host {
 
-PinholeCamera read_optics(const TomlTable& table);
-std::string optics_text(const PinholeCamera& optics);
+PinholeCamera read_intrinsics(const TomlTable& table);
+std::string intrinsics_text(const PinholeCamera& intrinsics);
 
 /// [calibration], where there is one.
 std::optional<CalibrationRecord> read_record(const TomlTable& root);

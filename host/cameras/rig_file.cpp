@@ -14,7 +14,7 @@ constexpr Range kQuaternion{-1.001, 1.001};
 // Four digits after the point, as people write a quaternion, make its length wrong by 1e-4.
 constexpr double kLengthTolerance = 1e-3;
 // Nearer than any two lenses: nothing could be told from such a pair.
-constexpr double kLeastBaseline_m = 1e-6;
+constexpr double kMinBaseline_m = 1e-6;
 
 double length_of(const std::array<double, 4>& q) {
   return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -22,7 +22,7 @@ double length_of(const std::array<double, 4>& q) {
 
 RigCamera read_camera(const TomlTable& table) {
   RigCamera camera;
-  camera.optics = read_optics(table);
+  camera.intrinsics = read_intrinsics(table);
   camera.rotation_wxyz = table.vector<4>("rotation_wxyz", kQuaternion);
   if (std::abs(length_of(camera.rotation_wxyz) - 1.0) > kLengthTolerance) {
     table.fail("rotation_wxyz", "is no rotation: the four numbers' squares must add up to 1");
@@ -38,14 +38,14 @@ RigFile read(const TomlTable& root) {
   file.right = read_camera(right);
   file.calibration = read_record(root);
   root.reject_unknown();
-  if ((file.left.pose().t - file.right.pose().t).norm() < kLeastBaseline_m) {
+  if ((file.left.pose().t - file.right.pose().t).norm() < kMinBaseline_m) {
     right.fail("position_m", "is the left camera's: two cameras in one place see no depth");
   }
   return file;
 }
 
 std::string camera_table(const char* name, const RigCamera& camera) {
-  return std::string("\n[") + name + "]\n" + optics_text(camera.optics) +
+  return std::string("\n[") + name + "]\n" + intrinsics_text(camera.intrinsics) +
          "rotation_wxyz = " + exact_list(camera.rotation_wxyz) + "\nposition_m = " + exact_list(camera.position_m) +
          "\n";
 }

@@ -14,7 +14,7 @@ namespace pharos::host {
 
 /// One camera of a rig: its optics and its pose in the rig's frame, as they stand in the file.
 struct RigCamera {
-  PinholeCamera optics;
+  PinholeCamera intrinsics;
   std::array<double, 4> rotation_wxyz{1.0, 0.0, 0.0, 0.0};  // length 1 within 1e-3
   std::array<double, 3> position_m{};
 

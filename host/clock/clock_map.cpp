@@ -11,28 +11,28 @@ namespace pharos::host {
 namespace {
 
 /// Bytes that waited in the kernel before the port was opened all arrive at once: no mapping before that is over.
-constexpr std::int64_t kLeastArrivalSpanNs = 200'000'000;
+constexpr std::int64_t kMinArrivalSpan_ns = 200'000'000;
 /// A pair this far under the line is no better latency but another mapping...
-constexpr double kLargestDropNs = 50e6;
+constexpr double kLargestDrop_ns = 50e6;
 /// ...unless the mapping is younger than this and may have been late as a whole, and two pairs in a row say so.
-constexpr double kYoungS = 2.0;
+constexpr double kYoung_s = 2.0;
 /// Frames come in the order of sending, and speak of instants of the last few slots; older ones are another counter's.
-constexpr std::int64_t kLargestDisorderTicks = kTicksPerSecond / 4;
+constexpr std::int64_t kLargestDisorder_ticks = kTicksPerSecond / 4;
 /// The host may stall; longer than this, the line's buffers would have overflown.
-constexpr double kLargestStallNs = 5e9;
+constexpr double kLargestStall_ns = 5e9;
 /// A rival mapping wins with this many pairs over this time, that agree to this.
-constexpr int kRivalPairs = 3;
-constexpr std::int64_t kRivalSpanNs = 300'000'000;
-constexpr double kRivalAgreementNs = 0.5e9;
+constexpr int kCandidatePairs = 3;
+constexpr std::int64_t kCandidateSpan_ns = 300'000'000;
+constexpr double kCandidateAgreement_ns = 0.5e9;
 /// A change of UTC against the monotonic clock above this is a step, once three pairs in a row say so.
-constexpr std::int64_t kStepNs = 1'000'000;
+constexpr std::int64_t kStep_ns = 1'000'000;
 constexpr int kStepPairs = 3;
 /// Latency to be expected of what is not known yet: half of the 10 ms that serial adapters hold bytes back.
-constexpr double kExpectedExcessNs = 5e6;
+constexpr double kExpectedExcess_ns = 5e6;
 /// How many pairs the average latency remembers.
 constexpr double kExcessMemory = 1000.0;
 /// Reading two clocks and being woken up.
-constexpr double kFloorNs = 2e3;
+constexpr double kFloor_ns = 2e3;
 constexpr double kUnknownDrift = 100e-6;
 
 double seconds_between(std::int64_t later_ticks, std::int64_t earlier_ticks) {
@@ -50,7 +50,7 @@ void ClockMap::begin(std::int64_t ticks, std::int64_t monotonic_ns, std::int64_t
   first_monotonic_ns_ = monotonic_ns;
   first_arrival_ns_ = arrival_monotonic_ns;
   excess_sum_ns_ = excess_count_ = 0.0;
-  rival_pairs_ = 0;
+  candidate_pairs_ = 0;
   drop_ns_.reset();
   line_ = {};
 }
@@ -63,25 +63,25 @@ void ClockMap::restart() {
 }
 
 bool ClockMap::fits(std::int64_t ticks, double delay_ns, double time_s) {
-  if (ticks < newest_ticks_ - kLargestDisorderTicks) return false;
+  if (ticks < newest_ticks_ - kLargestDisorder_ticks) return false;
   const double above_ns = delay_ns - line_.value(time_s);
-  if (above_ns > -kLargestDropNs) {
+  if (above_ns > -kLargestDrop_ns) {
     drop_ns_.reset();
-    return above_ns < kLargestStallNs;
+    return above_ns < kLargestStall_ns;
   }
-  const bool second_in_a_row = drop_ns_ && std::abs(*drop_ns_ - delay_ns) < kRivalAgreementNs;
+  const bool second_in_a_row = drop_ns_ && std::abs(*drop_ns_ - delay_ns) < kCandidateAgreement_ns;
   drop_ns_ = delay_ns;
-  return line_.span_s < kYoungS && above_ns > -kLargestStallNs && second_in_a_row;
+  return line_.span_s < kYoung_s && above_ns > -kLargestStall_ns && second_in_a_row;
 }
 
 bool ClockMap::repeats(double delay_ns, std::int64_t arrival_monotonic_ns) {
-  if (rival_pairs_ == 0 || std::abs(delay_ns - rival_delay_ns_) > kRivalAgreementNs) {
-    rival_pairs_ = 0;
-    rival_since_ns_ = arrival_monotonic_ns;
+  if (candidate_pairs_ == 0 || std::abs(delay_ns - candidate_delay_ns_) > kCandidateAgreement_ns) {
+    candidate_pairs_ = 0;
+    candidate_since_ns_ = arrival_monotonic_ns;
   }
-  rival_delay_ns_ = delay_ns;
-  ++rival_pairs_;
-  return rival_pairs_ >= kRivalPairs && arrival_monotonic_ns - rival_since_ns_ >= kRivalSpanNs;
+  candidate_delay_ns_ = delay_ns;
+  ++candidate_pairs_;
+  return candidate_pairs_ >= kCandidatePairs && arrival_monotonic_ns - candidate_since_ns_ >= kCandidateSpan_ns;
 }
 
 void ClockMap::follow_utc(std::int64_t offset_ns) {
@@ -89,17 +89,17 @@ void ClockMap::follow_utc(std::int64_t offset_ns) {
   if (!offset_known_) {
     offset_known_ = true;
     offset_ns_ = offset_ns;
-  } else if (std::abs(change_ns) < kStepNs) {
+  } else if (std::abs(change_ns) < kStep_ns) {
     offset_ns_ += change_ns / 4;
-    offset_doubts_ = 0;
-  } else if (++offset_doubts_ >= kStepPairs) {
+    offset_outliers_ = 0;
+  } else if (++offset_outliers_ >= kStepPairs) {
     offset_ns_ = offset_ns;
-    offset_doubts_ = 0;
+    offset_outliers_ = 0;
     ++counters_.host_steps;
     if (!utc_.would_jump(change_ns)) return;
     ++counters_.host_jumps;
     last_jump_ns_ = change_ns;
-    utc_.begin_anew();
+    utc_.reset();
   }
 }
 
@@ -119,7 +119,7 @@ bool ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t
     begin(ticks, sent_ns, arrival_monotonic_ns);
     time_s = delay_ns = 0.0;
   }
-  rival_pairs_ = 0;
+  candidate_pairs_ = 0;
   ++counters_.pairs;
   envelope_.add(time_s, delay_ns);
   line_ = *envelope_.fit();
@@ -130,7 +130,7 @@ bool ClockMap::add(std::int64_t ticks, std::int64_t arrival_utc_ns, std::int64_t
   excess_sum_ns_ += std::max(0.0, delay_ns - line_.value(time_s));
   excess_count_ += 1.0;
   newest_ticks_ = std::max(newest_ticks_, ticks);
-  synchronised_ = synchronised_ || arrival_monotonic_ns - first_arrival_ns_ >= kLeastArrivalSpanNs;
+  synchronised_ = synchronised_ || arrival_monotonic_ns - first_arrival_ns_ >= kMinArrivalSpan_ns;
   if (synchronised_) {
     utc_.steer(ticks_to_nanoseconds(newest_ticks_), monotonic_of(newest_ticks_) + offset_ns_,
                1.0 + line_.drift_ns_per_s * 1e-9);
@@ -146,14 +146,14 @@ std::int64_t ClockMap::monotonic_of(std::int64_t ticks) const {
 std::int64_t ClockMap::sigma_ns() const {
   if (!synchronised_) return -1;
   // The line touches its lowest points: what the floor lies above the truth goes down with the number of pairs.
-  const double excess_ns = (excess_sum_ns_ + kExpectedExcessNs) / (excess_count_ * excess_count_);
+  const double excess_ns = (excess_sum_ns_ + kExpectedExcess_ns) / (excess_count_ * excess_count_);
   const double drift_ns = line_.drift_ns_per_s == 0.0 ? kUnknownDrift * line_.span_s * 1e9 : 0.0;
   const double steering_ns = std::abs(static_cast<double>(utc_.remaining_ns()));
-  return std::llround(steering_ns + line_.scatter_ns + excess_ns + drift_ns + kFloorNs);
+  return std::llround(steering_ns + line_.scatter_ns + excess_ns + drift_ns + kFloor_ns);
 }
 
 std::optional<MappedTime> ClockMap::map(std::int64_t ticks) {
-  if (!synchronised_ || rival_pairs_ > 0) return std::nullopt;
+  if (!synchronised_ || candidate_pairs_ > 0) return std::nullopt;
   const auto utc_ns = utc_.read(ticks_to_nanoseconds(ticks));
   if (!utc_ns) return std::nullopt;
   return MappedTime{*utc_ns, monotonic_of(ticks), sigma_ns()};

@@ -74,14 +74,14 @@ class ClockMap {
   double excess_sum_ns_ = 0.0;  // of delays above the line
   double excess_count_ = 0.0;
   // A mapping that may replace the present one: pairs that fit each other and not it.
-  double rival_delay_ns_ = 0.0;
-  std::int64_t rival_since_ns_ = 0;
-  int rival_pairs_ = 0;
+  double candidate_delay_ns_ = 0.0;
+  std::int64_t candidate_since_ns_ = 0;
+  int candidate_pairs_ = 0;
   std::optional<double> drop_ns_;  // delay of the last pair, where it lay far under the line
   // UTC minus monotonic.
   bool offset_known_ = false;
   std::int64_t offset_ns_ = 0;
-  int offset_doubts_ = 0;
+  int offset_outliers_ = 0;
   std::int64_t last_jump_ns_ = 0;
   ClockCounters counters_;
 };

@@ -9,13 +9,13 @@
 namespace pharos::host {
 namespace {
 
-constexpr double kBinS = 0.5;
+constexpr double kBin_s = 0.5;
 /// Long enough for 0.1 ms of jitter to become 2 ppm of drift, short enough to follow a crystal that warms up.
 constexpr std::int64_t kWindowBins = 120;
 /// Below this span the drift is not measured but taken as zero: two bins make any slope.
-constexpr double kLeastSpanS = 2.0;
+constexpr double kMinSpan_s = 2.0;
 /// Two crystals of 100 ppm each.
-constexpr double kLargestDriftNsPerS = 200e3;
+constexpr double kLargestDrift_ns_per_s = 200e3;
 
 /// A least delay further under the second least of its bin than so many times what is usual stands alone: exponential
 /// gaps reach that in 1 of 250 bins, where using the second costs next to nothing.
@@ -56,15 +56,15 @@ double hull_drift(const Points& points) {
 }  // namespace
 
 void LowerEnvelope::add(double time_s, double delay_ns) {
-  const auto number = static_cast<std::int64_t>(std::floor(time_s / kBinS));
+  const auto number = static_cast<std::int64_t>(std::floor(time_s / kBin_s));
   auto bin = bins_.end();
   while (bin != bins_.begin() && std::prev(bin)->number >= number) --bin;
   const Point point{time_s, delay_ns};
   if (bin == bins_.end() || bin->number != number) {
     bins_.insert(bin, {number, point, std::nullopt});
-  } else if (delay_ns < bin->least.delay_ns) {
-    bin->second = bin->least;
-    bin->least = point;
+  } else if (delay_ns < bin->minimum.delay_ns) {
+    bin->second = bin->minimum;
+    bin->minimum = point;
   } else if (!bin->second || delay_ns < bin->second->delay_ns) {
     bin->second = point;
   }
@@ -75,13 +75,13 @@ std::vector<LowerEnvelope::Point> LowerEnvelope::points() const {
   std::vector<Point> points;
   std::vector<double> gaps;
   for (const Bin& bin : bins_) {
-    if (bin.second) gaps.push_back(bin.second->delay_ns - bin.least.delay_ns);
+    if (bin.second) gaps.push_back(bin.second->delay_ns - bin.minimum.delay_ns);
   }
   const double credible_gap_ns = gaps.size() < kBinsForGap ? 0.0 : kCredibleGaps * median(gaps);
   for (const Bin& bin : bins_) {
     if (!bin.second && !gaps.empty()) continue;
-    const bool alone = bin.second && bin.second->delay_ns - bin.least.delay_ns > credible_gap_ns;
-    points.push_back(alone ? *bin.second : bin.least);
+    const bool alone = bin.second && bin.second->delay_ns - bin.minimum.delay_ns > credible_gap_ns;
+    points.push_back(alone ? *bin.second : bin.minimum);
   }
   return points;
 }
@@ -92,8 +92,8 @@ std::optional<LowerEnvelope::Line> LowerEnvelope::fit() const {
   Line line;
   line.at_s = all.back().time_s;
   line.span_s = line.at_s - all.front().time_s;
-  if (line.span_s >= kLeastSpanS) {
-    line.drift_ns_per_s = std::clamp(hull_drift(all), -kLargestDriftNsPerS, kLargestDriftNsPerS);
+  if (line.span_s >= kMinSpan_s) {
+    line.drift_ns_per_s = std::clamp(hull_drift(all), -kLargestDrift_ns_per_s, kLargestDrift_ns_per_s);
   }
   line.delay_ns = std::numeric_limits<double>::max();
   for (const Point& point : all) {

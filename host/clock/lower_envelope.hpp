@@ -40,7 +40,7 @@ class LowerEnvelope {
   };
   struct Bin {
     std::int64_t number = 0;
-    Point least;
+    Point minimum;
     std::optional<Point> second;
   };
 

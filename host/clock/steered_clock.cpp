@@ -9,11 +9,11 @@ namespace pharos::host {
 namespace {
 
 /// An error is worked off with this time constant: within seconds, yet slowly enough to smooth the estimate.
-constexpr double kSteeringNs = 0.5e9;
+constexpr double kSteering_ns = 0.5e9;
 constexpr double kLargestRateChange = 0.5;
 /// More than this is not worked off but made good at once (of itself only forwards).
-constexpr std::int64_t kJumpNs = 1'000'000'000;
-constexpr std::int64_t kLeastKnotDistanceNs = 20'000'000;
+constexpr std::int64_t kJump_ns = 1'000'000'000;
+constexpr std::int64_t kMinKnotDistance_ns = 20'000'000;
 
 }  // namespace
 
@@ -33,17 +33,17 @@ void SteeredClock::steer(std::int64_t time_ns, std::int64_t wanted_ns, double ra
   const Knot& last = knots_.back();
   const std::int64_t shown_ns = last.at(time_ns);
   remaining_ns_ = wanted_ns - shown_ns;
-  if (time_ns - last.time_ns < kLeastKnotDistanceNs) return;
+  if (time_ns - last.time_ns < kMinKnotDistance_ns) return;
   Knot next{time_ns, shown_ns, rate};
-  if (remaining_ns_ > kJumpNs) {
+  if (remaining_ns_ > kJump_ns) {
     next.shown_ns = wanted_ns;
     remaining_ns_ = 0;
   } else {
-    const double change = static_cast<double>(remaining_ns_) / kSteeringNs;
+    const double change = static_cast<double>(remaining_ns_) / kSteering_ns;
     next.rate *= 1.0 + std::clamp(change, -kLargestRateChange, kLargestRateChange);
   }
   knots_.push_back(next);
-  while (knots_.size() > 1 && knots_[1].time_ns < time_ns - kMemoryNs) knots_.pop_front();
+  while (knots_.size() > 1 && knots_[1].time_ns < time_ns - kMemory_ns) knots_.pop_front();
 }
 
 const SteeredClock::Knot& SteeredClock::knot_for(std::int64_t time_ns) const {
@@ -54,7 +54,7 @@ const SteeredClock::Knot& SteeredClock::knot_for(std::int64_t time_ns) const {
 }
 
 std::optional<std::int64_t> SteeredClock::read(std::int64_t time_ns) {
-  if (knots_.empty() || std::abs(time_ns - knots_.back().time_ns) > kMemoryNs) return std::nullopt;
+  if (knots_.empty() || std::abs(time_ns - knots_.back().time_ns) > kMemory_ns) return std::nullopt;
   std::int64_t shown_ns = knot_for(time_ns).at(time_ns);
   if (time_ns >= latest_read_time_ns_) {
     shown_ns = std::max(shown_ns, latest_shown_ns_);
@@ -64,9 +64,9 @@ std::optional<std::int64_t> SteeredClock::read(std::int64_t time_ns) {
   return shown_ns;
 }
 
-bool SteeredClock::would_jump(std::int64_t change_ns) const { return std::abs(remaining_ns_ + change_ns) > kJumpNs; }
+bool SteeredClock::would_jump(std::int64_t change_ns) const { return std::abs(remaining_ns_ + change_ns) > kJump_ns; }
 
-void SteeredClock::begin_anew() {
+void SteeredClock::reset() {
   restart();
   latest_shown_ns_ = std::numeric_limits<std::int64_t>::min();
   remaining_ns_ = 0;

@@ -15,18 +15,18 @@ class SteeredClock {
  public:
   /// What the clock should show at `time_ns` of the target, and the rate (1 + drift) that is known for it.
   void steer(std::int64_t time_ns, std::int64_t wanted_ns, double rate);
-  /// What it shows; empty for times more than kMemoryNs before the newest steering, or after it.
+  /// What it shows; empty for times more than kMemory_ns before the newest steering, or after it.
   std::optional<std::int64_t> read(std::int64_t time_ns);
   /// How far it is from what it should show, ns (positive: behind), at the last steering.
   std::int64_t remaining_ns() const { return remaining_ns_; }
   /// Whether what it should show, changed by `change_ns`, is more than a second away: too far to be worked off.
   bool would_jump(std::int64_t change_ns) const;
   /// Forgets all that was shown: the next steering sets it, backwards too.
-  void begin_anew();
+  void reset();
   /// The target's time began anew. What was shown is not taken back: the clock goes on from there at the least.
   void restart();
 
-  static constexpr std::int64_t kMemoryNs = 5'000'000'000;
+  static constexpr std::int64_t kMemory_ns = 5'000'000'000;
 
  private:
   struct Knot {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/config/strict_toml.hpp"
+#include "host/toml/strict_toml.hpp"
 
 namespace pharos::host {
 

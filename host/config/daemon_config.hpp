@@ -43,7 +43,7 @@ struct TargetConfig {
   motion::SystematicErrors systematic = motion::kUncalibratedErrors;
   TrackMethod method = TrackMethod::kMotion;
   track::TrackOptions track;
-  motion::AnswerLimits limits;  // of method motion
+  motion::UncertaintyLimits limits;  // of method motion
   /// Keep accepted station calibrations in the state directory and use them after a restart.
   bool remember_calibrations = true;
 
@@ -53,7 +53,7 @@ struct TargetConfig {
 };
 
 /// One depth camera and the docking ring before it.
-struct CameraConfig {
+struct TofConfig {
   /// Told in every message, as `tof/NAME`: letters, digits, `-` and `_`; no two cameras share one.
   std::string name;
   /// Of what it looks at; told in every message.
@@ -72,7 +72,7 @@ struct CameraConfig {
 };
 
 /// One telescope whose images arrive as files, and the panels before it.
-struct TelescopeConfig {
+struct PointingConfig {
   /// Told in every message, as `line/NAME`: letters, digits, `-` and `_`; no two telescopes share one.
   std::string name;
   /// Of what it looks at; told in every message.
@@ -167,8 +167,8 @@ struct DaemonConfig {
   std::optional<RecordingConfig> recording;
   LogConfig log;
   std::vector<TargetConfig> targets;
-  std::vector<CameraConfig> cameras;
-  std::vector<TelescopeConfig> telescopes;
+  std::vector<TofConfig> cameras;
+  std::vector<PointingConfig> telescopes;
   std::vector<StereoConfig> stereos;
 };
 

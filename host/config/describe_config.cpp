@@ -55,7 +55,7 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
       << " mm (1 sigma, method motion)\n  remembers calibrations: " << yes_no(target.remember_calibrations) << '\n';
 }
 
-void describe_camera(std::ostream& out, const CameraConfig& camera) {
+void describe_camera(std::ostream& out, const TofConfig& camera) {
   const CameraSettings& device = camera.device;
   out << "camera " << camera.name << " (target " << camera.target << "):\n  ";
   if (camera.is_recorded()) {
@@ -67,9 +67,9 @@ void describe_camera(std::ostream& out, const CameraConfig& camera) {
         << ", follows PTP: " << yes_no(device.ptp);
   }
   if (device.frame_rate_hz > 0.0) out << ", " << device.frame_rate_hz << " frames/s";
-  out << "\n  lens: " << camera.camera.optics.width_px << " x " << camera.camera.optics.height_px << " pixels from "
-      << camera.camera_file.string() << "\n  ring: outer radius " << camera.tof.ring.least_outer_radius_m << " to "
-      << camera.tof.ring.most_outer_radius_m << " m\n  poses: "
+  out << "\n  lens: " << camera.camera.intrinsics.width_px << " x " << camera.camera.intrinsics.height_px
+      << " pixels from " << camera.camera_file.string() << "\n  ring: outer radius "
+      << camera.tof.ring.min_outer_radius_m << " to " << camera.tof.ring.max_outer_radius_m << " m\n  poses: "
       << (camera.average_frames == 1 ? "of every frame"
                                      : "means of " + std::to_string(camera.average_frames) + " frames")
       << '\n';
@@ -106,21 +106,21 @@ void describe_stereo(std::ostream& out, const StereoConfig& stereo) {
         << " ms";
   }
   if (rate_hz > 0.0) out << ", " << rate_hz << " frames/s";
-  out << "\n  rig: " << stereo.rig.left.optics.width_px << " x " << stereo.rig.left.optics.height_px << " pixels from "
-      << stereo.rig_file.string() << '\n';
+  out << "\n  rig: " << stereo.rig.left.intrinsics.width_px << " x " << stereo.rig.left.intrinsics.height_px
+      << " pixels from " << stereo.rig_file.string() << '\n';
   if (stereo.ring2) out << "  ring2: docking ring and nozzle of every pair\n";
   if (!stereo.slam) return;
   const slam::SlamSettings& slam = stereo.slam->settings;
   out << "  slam: scene " << (slam.scene == slam::Scene::kStatic ? "static" : "target") << ", " << slam.features
       << " features, "
-      << (slam.most_keyframes == 0 ? "keyframes without limit"
-                                   : "at most " + std::to_string(slam.most_keyframes) + " keyframes")
+      << (slam.max_keyframes == 0 ? "keyframes without limit"
+                                  : "at most " + std::to_string(slam.max_keyframes) + " keyframes")
       << ", closes loops: " << yes_no(slam.close_loops) << ", vocabulary "
       << (slam.vocabulary.empty() ? "as it ships" : slam.vocabulary) << ", images "
       << describe_low_light(stereo.slam->enhance) << '\n';
 }
 
-void describe_telescope(std::ostream& out, const TelescopeConfig& telescope) {
+void describe_telescope(std::ostream& out, const PointingConfig& telescope) {
   out << "telescope " << telescope.name << " (target " << telescope.target
       << "):\n  images: " << telescope.directory.string() << ", track " << telescope.track_file.string()
       << "\n  lens: " << telescope.camera.width_px << " x " << telescope.camera.height_px << " pixels from "
@@ -159,9 +159,9 @@ std::string describe(const DaemonConfig& config) {
   describe_recording(out, config.recording);
   describe_log(out, config.log);
   for (const TargetConfig& target : config.targets) describe_target(out, target);
-  for (const CameraConfig& camera : config.cameras) describe_camera(out, camera);
+  for (const TofConfig& camera : config.cameras) describe_camera(out, camera);
   for (const StereoConfig& stereo : config.stereos) describe_stereo(out, stereo);
-  for (const TelescopeConfig& telescope : config.telescopes) describe_telescope(out, telescope);
+  for (const PointingConfig& telescope : config.telescopes) describe_telescope(out, telescope);
   return out.str();
 }
 

@@ -47,7 +47,7 @@ bool is_multicast(const std::string& address) {
   return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 && IN_MULTICAST(ntohl(parsed.s_addr));
 }
 
-std::string udpm_trouble(std::string_view network, const std::vector<Option>& options) {
+std::string udpm_error(std::string_view network, const std::vector<Option>& options) {
   const bool has_port = network.find(':') != std::string_view::npos;
   const std::string address(cut(network, ':'));
   if (!address.empty() && !is_multicast(address)) {
@@ -69,7 +69,7 @@ std::string udpm_trouble(std::string_view network, const std::vector<Option>& op
   return "";
 }
 
-std::string file_trouble(std::string_view path, const std::vector<Option>& options) {
+std::string file_url_error(std::string_view path, const std::vector<Option>& options) {
   if (path.empty()) return "names no file: file:///path/to/log?mode=w";
   for (const Option& option : options) {
     if (option.key == "mode" && (option.value == "w" || option.value == "a")) return "";
@@ -79,7 +79,7 @@ std::string file_trouble(std::string_view path, const std::vector<Option>& optio
 
 }  // namespace
 
-std::string lcm_url_trouble(const std::string& url) {
+std::string lcm_url_error(const std::string& url) {
   constexpr std::string_view kUdpm = "udpm://";
   constexpr std::string_view kFile = "file://";
   constexpr std::string_view kTcpq = "tcpq://";
@@ -93,7 +93,7 @@ std::string lcm_url_trouble(const std::string& url) {
   rest.remove_prefix(is_udpm ? kUdpm.size() : kFile.size());
   const std::string_view network = cut(rest, '?');
   const std::vector<Option> options = options_of(rest);
-  return is_udpm ? udpm_trouble(network, options) : file_trouble(network, options);
+  return is_udpm ? udpm_error(network, options) : file_url_error(network, options);
 }
 
 }  // namespace pharos::host

@@ -11,6 +11,6 @@ namespace pharos::host {
 /// `file://PATH?mode=w` (or `a`). LCM itself takes nearly anything: a misspelt address becomes 0.0.0.0, an unknown
 /// option is ignored. Not taken: `tcpq://`, whose send waits for the server and would hold up the poll loop, and
 /// `memq://`, which nobody outside this process can hear.
-std::string lcm_url_trouble(const std::string& url);
+std::string lcm_url_error(const std::string& url);
 
 }  // namespace pharos::host

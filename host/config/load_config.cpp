@@ -8,10 +8,10 @@
 
 #include "host/config/config_parts.hpp"
 #include "host/config/lcm_url.hpp"
-#include "host/config/load_camera.hpp"
+#include "host/config/load_pointing.hpp"
 #include "host/config/load_stereo.hpp"
-#include "host/config/load_telescope.hpp"
-#include "host/config/strict_toml.hpp"
+#include "host/config/load_tof.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::host {
@@ -26,7 +26,7 @@ constexpr double kSecondsPerMinute = 60.0;
 LcmConfig read_lcm(const TomlTable& table) {
   LcmConfig lcm;
   lcm.url = table.text_or("url", lcm.url);
-  if (const std::string trouble = lcm_url_trouble(lcm.url); !trouble.empty()) table.fail("url", trouble);
+  if (const std::string error = lcm_url_error(lcm.url); !error.empty()) table.fail("url", error);
   lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
   if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
     table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
@@ -79,8 +79,8 @@ track::TrackOptions read_solve(const TomlTable& table) {
   return options;
 }
 
-motion::AnswerLimits read_limits(const TomlTable& table) {
-  motion::AnswerLimits limits;
+motion::UncertaintyLimits read_limits(const TomlTable& table) {
+  motion::UncertaintyLimits limits;
   limits.rotation_rad =
       table.number_or("largest_sigma_deg", limits.rotation_rad * kDegPerRad, {0.001, 180.0}) * kRadPerDeg;
   limits.position_m = table.number_or("largest_sigma_mm", limits.position_m * kMmPerM, {0.01, 1e4}) / kMmPerM;
@@ -88,12 +88,12 @@ motion::AnswerLimits read_limits(const TomlTable& table) {
 }
 
 // Sensor positions and stations as calibrated.
-void read_calibration(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
+void read_calibration(const TomlTable& table, const fs::path& folder, const Environment& environment,
                       TargetConfig& target) {
   if (!table.has("calibration_file")) return;
   target.calibration_file = read_path(table, "calibration_file", folder);
   try {
-    const calibrate::CalibrationFile file = surroundings.read_calibration(target.calibration_file.string());
+    const calibrate::CalibrationFile file = environment.read_calibration(target.calibration_file.string());
     target.target = calibrate::calibrated_target(file, target.target);
     target.scale_sigma = file.scale_sigma;
     target.systematic = calibrate::systematic_errors(file);
@@ -111,7 +111,7 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Surr
   }
 }
 
-TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings) {
+TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Environment& environment) {
   TargetConfig target;
   target.name = read_name(table, "name", table.text("name"));
   target.port = table.text("port");
@@ -122,7 +122,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
     if (target.replay_file().is_relative())
       target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
     try {
-      surroundings.check_recording(target.replay_file());
+      environment.check_recording(target.replay_file());
     } catch (const InputError& error) {
       table.fail("port", error.what());
     }
@@ -136,27 +136,26 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   target.limits = read_limits(solve);
   target.target_file = read_path(table, "target_file", folder);
   try {
-    const TargetFile file = surroundings.read_target(target.target_file.string());
+    const TargetFile file = environment.read_target(target.target_file.string());
     target.target = file.target;
     target.shape = file.shape;
   } catch (const InputError& error) {
     table.fail("target_file", error.what());
   }
-  read_calibration(table, folder, surroundings, target);
+  read_calibration(table, folder, environment, target);
   return target;
 }
 
-std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder,
-                                       const Surroundings& surroundings) {
+std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   std::vector<TargetConfig> targets;
   std::set<std::string> names;
   std::map<std::string, std::string> ports;  // identity -> spelling
   for (const TomlTable& table : root.tables("target")) {
-    targets.push_back(read_target_table(table, folder, surroundings));
+    targets.push_back(read_target_table(table, folder, environment));
     const TargetConfig& target = targets.back();
     if (!names.insert(target.name).second) table.fail("name", "\"" + target.name + "\" is taken by another target");
     const std::string path = target.is_replay() ? target.replay_file().string() : target.port;
-    const auto [taken, is_free] = ports.emplace(surroundings.identity(path), target.port);
+    const auto [taken, is_free] = ports.emplace(environment.identity(path), target.port);
     if (!is_free) {
       table.fail("port", "\"" + target.port + "\" is taken by another target" +
                              (taken->second == target.port ? "" : ", as \"" + taken->second + "\""));
@@ -165,7 +164,7 @@ std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& fo
   return targets;
 }
 
-DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surroundings& surroundings) {
+DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   DaemonConfig config;
   config.source = read_name(root, "source", root.text_or("source", config.source));
   if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
@@ -173,10 +172,10 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surr
   config.publish = read_publish(root.table_or_empty("publish"));
   if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
   config.log = read_log(root.table_or_empty("log"), folder);
-  config.targets = read_targets(root, folder, surroundings);
-  config.cameras = read_cameras(root, folder, surroundings);
-  config.telescopes = read_telescopes(root, folder, surroundings);
-  config.stereos = read_stereos(root, folder, surroundings, config.cameras);
+  config.targets = read_targets(root, folder, environment);
+  config.cameras = read_tof(root, folder, environment);
+  config.telescopes = read_pointing(root, folder, environment);
+  config.stereos = read_stereos(root, folder, environment, config.cameras);
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",
               "is missing; add a [[target]] with name, port and target_file, or a [[camera]] with name, target, "
@@ -189,12 +188,12 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Surr
 }  // namespace
 
 DaemonConfig load_daemon_config(const fs::path& file) {
-  return read_root(TomlTable::parse_file(file), file.parent_path(), this_computer());
+  return read_root(TomlTable::parse_file(file), file.parent_path(), host_environment());
 }
 
 DaemonConfig parse_daemon_config(std::string_view text, const std::string& name, const fs::path& folder,
-                                 const Surroundings& surroundings) {
-  return read_root(TomlTable::parse_text(text, name), folder, surroundings);
+                                 const Environment& environment) {
+  return read_root(TomlTable::parse_text(text, name), folder, environment);
 }
 
 }  // namespace pharos::host

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "host/config/daemon_config.hpp"
-#include "host/config/surroundings.hpp"
+#include "host/config/environment.hpp"
 
 namespace pharos::host {
 
@@ -19,7 +19,7 @@ DaemonConfig load_daemon_config(const std::filesystem::path& file);
 
 /// The same from text. `name` stands for the file in messages; relative paths start at `folder`.
 DaemonConfig parse_daemon_config(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                                 const Surroundings& surroundings);
+                                 const Environment& environment);
 
 /// What was understood, for people: every setting with its unit, defaults included.
 std::string describe(const DaemonConfig& config);

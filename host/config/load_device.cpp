@@ -10,9 +10,9 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kLeastPacket = 576;  // what every IPv4 network passes
-constexpr std::int64_t kMostPacket = 65'000;
-constexpr std::size_t kMostSerial = 16;  // of GigE Vision
+constexpr std::int64_t kMinPacket = 576;  // what every IPv4 network passes
+constexpr std::int64_t kMaxPacket = 65'000;
+constexpr std::size_t kMaxSerial = 16;  // of GigE Vision
 
 bool is_address(const std::string& text) {
   in_addr parsed{};
@@ -25,8 +25,8 @@ void read_which_camera(const TomlTable& table, const char* instead, CameraSettin
   device.serial = table.text_or("serial", "");
   device.address = table.text_or("address", "");
   if (table.has("serial") &&
-      (device.serial.size() > kMostSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
-    table.fail("serial", "must be 1 to " + std::to_string(kMostSerial) + " letters, digits, - or _");
+      (device.serial.size() > kMaxSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
+    table.fail("serial", "must be 1 to " + std::to_string(kMaxSerial) + " letters, digits, - or _");
   }
   if (table.has("address") && !is_address(device.address)) {
     table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
@@ -37,7 +37,7 @@ void read_which_camera(const TomlTable& table, const char* instead, CameraSettin
 }
 
 void read_transport(const TomlTable& table, CameraSettings& device) {
-  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kLeastPacket, kMostPacket));
+  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kMinPacket, kMaxPacket));
   device.ptp = table.boolean_or("ptp", device.ptp);
 }
 

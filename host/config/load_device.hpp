@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <initializer_list>
 
-#include "host/config/strict_toml.hpp"
 #include "host/device/camera_settings.hpp"
+#include "host/toml/strict_toml.hpp"
 
 namespace pharos::host {
 

@@ -44,38 +44,37 @@ void read_slam(const TomlTable& table, const fs::path& folder, SlamConfig& slam)
   const std::string scene = table.choice_or("scene", "target", {"target", "static"});
   settings.scene = scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
   settings.features = static_cast<int>(table.integer_or("features", settings.features, 100, 10'000));
-  settings.most_keyframes = static_cast<std::size_t>(
+  settings.max_keyframes = static_cast<std::size_t>(
       table.has("max_keyframes") ? table.integer("max_keyframes", 5, 100'000) : std::int64_t{0});
   settings.close_loops = table.boolean_or("close_loops", settings.close_loops);
   if (table.has("vocabulary")) settings.vocabulary = read_path(table, "vocabulary", folder).string();
   slam.enhance = read_enhance(table);
 }
 
-void read_rig(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings, StereoConfig& stereo) {
+void read_rig(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo) {
   stereo.rig_file = read_path(table, "rig_file", folder);
   try {
-    stereo.rig = surroundings.read_rig(stereo.rig_file.string());
-    if (stereo.ring2) surroundings.check_ring2(stereo.rig);
-    if (stereo.slam) surroundings.check_slam(stereo.rig, stereo.rig_file.string());
+    stereo.rig = environment.read_rig(stereo.rig_file.string());
+    if (stereo.ring2) environment.check_ring2(stereo.rig);
+    if (stereo.slam) environment.check_slam(stereo.rig, stereo.rig_file.string());
   } catch (const InputError& error) {
     table.fail("rig_file", error.what());
   }
 }
 
-void check_vocabulary(const TomlTable& table, const Surroundings& surroundings, const SlamConfig& slam) {
+void check_vocabulary(const TomlTable& table, const Environment& environment, const SlamConfig& slam) {
   try {
-    surroundings.check_vocabulary(slam.settings.vocabulary);
+    environment.check_vocabulary(slam.settings.vocabulary);
   } catch (const InputError& error) {
     table.fail("vocabulary", error.what());
   }
 }
 
-void read_frames(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings,
-                 StereoConfig& stereo) {
+void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo) {
   refuse_beside_frames(table, {"left", "right", "pixel_format", "packet_size", "ptp", "pairing_window_ms"});
   stereo.frames = read_path(table, "frames", folder);
   try {
-    surroundings.check_pairs(stereo.frames, stereo.rig);
+    environment.check_pairs(stereo.frames, stereo.rig);
   } catch (const InputError& error) {
     table.fail("frames", error.what());
   }
@@ -102,7 +101,7 @@ void read_devices(const TomlTable& table, StereoConfig& stereo) {
   }
 }
 
-StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const Surroundings& surroundings) {
+StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const Environment& environment) {
   StereoConfig stereo;
   stereo.name = read_name(table, "name", table.text("name"));
   stereo.target = read_name(table, "target", table.text("target"));
@@ -111,20 +110,20 @@ StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const S
   if (stereo.slam) {
     const TomlTable slam = table.table_or_empty("slam");
     read_slam(slam, folder, *stereo.slam);
-    check_vocabulary(slam, surroundings, *stereo.slam);
+    check_vocabulary(slam, environment, *stereo.slam);
   }
-  read_rig(table, folder, surroundings, stereo);
+  read_rig(table, folder, environment, stereo);
   if (table.has("frames")) {
-    read_frames(table, folder, surroundings, stereo);
+    read_frames(table, folder, environment, stereo);
   } else {
     read_devices(table, stereo);
   }
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     CameraSettings& device = stereo.devices[side];
-    const PinholeCamera& optics = side == 0 ? stereo.rig.left.optics : stereo.rig.right.optics;
+    const PinholeCamera& intrinsics = side == 0 ? stereo.rig.left.intrinsics : stereo.rig.right.intrinsics;
     read_frame_rate(table, device);
-    device.width_px = optics.width_px;
-    device.height_px = optics.height_px;
+    device.width_px = intrinsics.width_px;
+    device.height_px = intrinsics.height_px;
   }
   if (!stereo.is_recorded()) read_window(table, stereo);
   return stereo;
@@ -140,15 +139,15 @@ std::vector<std::string> marks_of(const CameraSettings& device) {
 
 }  // namespace
 
-std::vector<StereoConfig> read_stereos(const TomlTable& root, const fs::path& folder, const Surroundings& surroundings,
-                                       const std::vector<CameraConfig>& cameras) {
+std::vector<StereoConfig> read_stereos(const TomlTable& root, const fs::path& folder, const Environment& environment,
+                                       const std::vector<TofConfig>& cameras) {
   std::vector<StereoConfig> stereos;
   std::set<std::string> names, taken;
-  for (const CameraConfig& camera : cameras) {
+  for (const TofConfig& camera : cameras) {
     for (const std::string& mark : marks_of(camera.device)) taken.insert(mark);
   }
   for (const TomlTable& table : root.tables("stereo")) {
-    stereos.push_back(read_stereo(table, folder, surroundings));
+    stereos.push_back(read_stereo(table, folder, environment));
     const StereoConfig& stereo = stereos.back();
     if (!names.insert(stereo.name).second) table.fail("name", "\"" + stereo.name + "\" is taken by another rig");
     for (std::size_t side = 0; side < kSides.size(); ++side) {

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/config/strict_toml.hpp"
-#include "host/config/surroundings.hpp"
+#include "host/config/environment.hpp"
+#include "host/toml/strict_toml.hpp"
 
 namespace pharos::host {
 
 /// Every [[stereo]] of the configuration, with its rig file; `cameras` are those of the [[camera]] tables, which no rig
 /// may share. Throws InputError naming file, line and key.
 std::vector<StereoConfig> read_stereos(const TomlTable& root, const std::filesystem::path& folder,
-                                       const Surroundings& surroundings, const std::vector<CameraConfig>& cameras);
+                                       const Environment& environment, const std::vector<TofConfig>& cameras);
 
 }  // namespace pharos::host

@@ -46,7 +46,7 @@ void CalibrationMemory::load() {
     stations.push_back(entry.calibration);
   }
   stations_ = std::move(stations);
-  while (stations_.size() > kMostStations) drop_oldest();
+  while (stations_.size() > kMaxStations) drop_oldest();
 }
 
 void CalibrationMemory::drop_oldest() {
@@ -56,20 +56,20 @@ void CalibrationMemory::drop_oldest() {
 
 void CalibrationMemory::keep(const StationCalibration& calibration) {
   if (!stations_.empty() && stations_.back() == calibration) return;
-  if (!is_believable(calibration)) {  // one such entry, and the next start could read none
+  if (!is_plausible(calibration)) {  // one such entry, and the next start could read none
     ++counters_.dropped;
     return;
   }
   std::erase_if(stations_, [&](const StationCalibration& station) { return station.id == calibration.id; });
-  if (stations_.size() == kMostStations) drop_oldest();
+  if (stations_.size() == kMaxStations) drop_oldest();
   stations_.push_back(calibration);
   unsaved_ = !file_.empty();
 }
 
 void CalibrationMemory::save(std::int64_t monotonic_ns) {
-  if (!unsaved_ || (!trouble_.empty() && monotonic_ns < retry_at_ns_)) return;
+  if (!unsaved_ || (!error_.empty() && monotonic_ns < retry_at_ns_)) return;
   write();
-  retry_at_ns_ = monotonic_ns + kRetryNs;
+  retry_at_ns_ = monotonic_ns + kRetry_ns;
 }
 
 void CalibrationMemory::save_at_last() {
@@ -84,9 +84,9 @@ void CalibrationMemory::write() {
   const std::filesystem::path aside = file_.string() + ".new";
   UniqueFd fd(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   unsaved_ = !fd.valid() || !write_all(fd.get(), text) || ::rename(aside.c_str(), file_.c_str()) != 0;
-  trouble_ = unsaved_ ? file_.string() + ": cannot be written: " + std::strerror(errno) +
-                            "; calibrations are not kept across a restart"
-                      : "";
+  error_ = unsaved_ ? file_.string() + ": cannot be written: " + std::strerror(errno) +
+                          "; calibrations are not kept across a restart"
+                    : "";
   if (!unsaved_) return;
   ++counters_.write_failures;
   if (fd.valid()) (void)::unlink(aside.c_str());

@@ -25,9 +25,9 @@ class CalibrationMemory {
  public:
   /// More stations than a site has, and each target's own store takes only the newest eight; ids are what a target says
   /// they are, so there must be an end. The file stays below 32 KiB.
-  static constexpr std::size_t kMostStations = 64;
+  static constexpr std::size_t kMaxStations = 64;
   /// After a failure the file is tried again so much later.
-  static constexpr std::int64_t kRetryNs = 10'000'000'000;
+  static constexpr std::int64_t kRetry_ns = 10'000'000'000;
 
   /// An empty `directory` keeps nothing.
   explicit CalibrationMemory(const std::filesystem::path& directory);
@@ -40,13 +40,13 @@ class CalibrationMemory {
   /// Puts `calibration` last, in the place of the one of the same id; the first makes room where there is none. Writes
   /// nothing: cheap between two cycles.
   void keep(const lighthouse::StationCalibration& calibration);
-  /// Writes the file where it does not hold what was kept; after a failure only once kRetryNs have passed.
+  /// Writes the file where it does not hold what was kept; after a failure only once kRetry_ns have passed.
   void save(std::int64_t monotonic_ns);
   /// The same without waiting: there is no later time.
   void save_at_last();
 
   /// Why the file does not hold what was kept, one line for a person; empty when all is well.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
   const MemoryCounters& counters() const { return counters_; }
   const std::filesystem::path& file() const { return file_; }
 
@@ -58,7 +58,7 @@ class CalibrationMemory {
   std::vector<lighthouse::StationCalibration> stations_;
   bool unsaved_ = false;
   std::int64_t retry_at_ns_ = 0;
-  std::string trouble_;
+  std::string error_;
   MemoryCounters counters_;
 };
 

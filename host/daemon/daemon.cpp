@@ -9,9 +9,9 @@
 #include <chrono>
 #include <cstring>
 
-#include "host/daemon/now.hpp"
 #include "host/daemon/port_feed.hpp"
-#include "host/daemon/process_usage.hpp"
+#include "host/runtime/now.hpp"
+#include "host/runtime/process_usage.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -19,7 +19,7 @@ namespace {
 
 // Ports are tried again at their own pace, twice a second.
 constexpr std::chrono::milliseconds kAttendPeriod{100};
-constexpr std::int64_t kLogPeriodNs = 10'000'000'000;
+constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
 
 std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
@@ -36,8 +36,8 @@ std::string host_name() {
 struct Daemon::Channel {
   std::string name;
   std::optional<StreamRecorder> recorder;
-  std::unique_ptr<TargetLine> line;
-  std::unique_ptr<LineFeed> feed;
+  std::unique_ptr<LighthousePipeline> line;
+  std::unique_ptr<SerialFeed> feed;
 };
 
 Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed)
@@ -45,13 +45,13 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
       signals_(signals),
       publisher_(sink, config.lcm.channel_prefix),
       memory_(config.state_directory),
-      log_limit_(kLogPeriodNs),
+      log_limit_(kLogPeriod_ns),
       started_ns_(monotonic_now_ns()) {
   load_memory();
   for (const TargetConfig& target : config_.targets) add_channel(target, replay_speed);
-  for (const CameraConfig& camera : config_.cameras) add_camera(camera, replay_speed);
-  for (const TelescopeConfig& telescope : config_.telescopes) {
-    telescopes_.push_back(std::make_unique<TelescopeFeed>(loop_, telescope, publisher_));
+  for (const TofConfig& camera : config_.cameras) add_camera(camera, replay_speed);
+  for (const PointingConfig& telescope : config_.telescopes) {
+    telescopes_.push_back(std::make_unique<PointingFeed>(loop_, telescope, publisher_));
   }
   for (const StereoConfig& stereo : config_.stereos) {
     stereos_.push_back(std::make_unique<StereoFeed>(loop_, stereo, config_.publish, publisher_,
@@ -86,13 +86,13 @@ void Daemon::add_channel(const TargetConfig& target, ReplaySpeed replay_speed) {
   int baud = target.baud;
   if (target.is_replay()) baud = static_cast<int>(static_cast<const ReplayFeed&>(*channel.feed).header().baud);
   const std::string source = "lighthouse/" + config_.source + (target.is_replay() ? "/replay" : "");
-  channel.line = std::make_unique<TargetLine>(target, config_.publish, source, publisher_, memory_, baud);
+  channel.line = std::make_unique<LighthousePipeline>(target, config_.publish, source, publisher_, memory_, baud);
 }
 
-void Daemon::add_camera(const CameraConfig& camera, ReplaySpeed replay_speed) {
-  cameras_.push_back(std::make_unique<CameraFeed>(loop_, camera, config_.publish, publisher_,
-                                                  replay_speed == ReplaySpeed::kFastest,
-                                                  [this] { stop_when_all_ended(); }));
+void Daemon::add_camera(const TofConfig& camera, ReplaySpeed replay_speed) {
+  cameras_.push_back(std::make_unique<TofFeed>(loop_, camera, config_.publish, publisher_,
+                                               replay_speed == ReplaySpeed::kFastest,
+                                               [this] { stop_when_all_ended(); }));
 }
 
 void Daemon::stop_when_all_ended() {
@@ -104,8 +104,8 @@ void Daemon::stop_when_all_ended() {
   }
 }
 
-std::unique_ptr<LineFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
-  LineFeedEvents events;
+std::unique_ptr<SerialFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
+  SerialFeedEvents events;
   // Poses first: they are what somebody waits for.
   events.bytes = [&channel](std::span<const std::uint8_t> bytes, const Arrival& arrival) {
     channel.line->push(bytes, arrival);
@@ -148,18 +148,18 @@ void Daemon::attend() {
   for (const auto& stereo : stereos_) stereo->attend(now_ns);
   // Poses first, files when no bytes are in hand.
   memory_.save(now_ns);
-  warn("calibrations", memory_.trouble(), now_ns);
-  warn("recording", recording_trouble(), now_ns);
+  warn("calibrations", memory_.error(), now_ns);
+  warn("recording", recording_error(), now_ns);
   const std::int64_t failed = publisher_.counters().failed;
-  if (failed > failed_told_ && log_limit_.pass("lcm", now_ns)) {
+  if (failed > failures_logged_ && log_limit_.pass("lcm", now_ns)) {
     spdlog::warn("{} messages could not be sent over LCM: is there still a route for multicast?",
-                 failed - failed_told_);
-    failed_told_ = failed;
+                 failed - failures_logged_);
+    failures_logged_ = failed;
   }
 }
 
-void Daemon::warn(const char* kind, const std::string& trouble, std::int64_t now_ns) {
-  if (!trouble.empty() && log_limit_.pass(kind, now_ns)) spdlog::warn("{}", trouble);
+void Daemon::warn(const char* kind, const std::string& error, std::int64_t now_ns) {
+  if (!error.empty() && log_limit_.pass(kind, now_ns)) spdlog::warn("{}", error);
 }
 
 void Daemon::on_signal() {
@@ -167,15 +167,15 @@ void Daemon::on_signal() {
   loop_.stop();
 }
 
-std::string Daemon::recording_trouble() const {
+std::string Daemon::recording_error() const {
   for (const auto& channel : channels_) {
-    if (channel->recorder && !channel->recorder->trouble().empty()) return channel->recorder->trouble();
+    if (channel->recorder && !channel->recorder->error().empty()) return channel->recorder->error();
   }
   return "";
 }
 
 // What is wrong beside the sources, the first thing first; empty when nothing is.
-std::string Daemon::trouble() const {
+std::string Daemon::error() const {
   if (!message_.empty()) return message_;
   for (const auto& channel : channels_) {
     const std::string notice = channel->line->clock_notice(channel->feed->monotonic_now());
@@ -189,8 +189,8 @@ std::string Daemon::trouble() const {
     const std::string notice = stereo->clock_notice(monotonic_now_ns());
     if (!notice.empty()) return stereo->name() + ": " + notice;
   }
-  const std::string recording = recording_trouble();
-  return recording.empty() ? memory_.trouble() : recording;
+  const std::string recording = recording_error();
+  return recording.empty() ? memory_.error() : recording;
 }
 
 void Daemon::publish_health() {
@@ -200,11 +200,11 @@ void Daemon::publish_health() {
   health.uptime_ns = monotonic_now_ns() - started_ns_;
   health.host = host_name();
   health.version = PHAROS_VERSION;
-  health.message = trouble();
+  health.message = error();
   health.counters = named_counts();
   for (const auto& channel : channels_) {
-    const LineFeed& feed = *channel->feed;
-    health.sources.push_back(channel->line->health(feed.device(), feed.state(), feed.trouble(), feed.monotonic_now()));
+    const SerialFeed& feed = *channel->feed;
+    health.sources.push_back(channel->line->health(feed.device(), feed.state(), feed.error(), feed.monotonic_now()));
     NamedCounts& counts = health.sources.back().counters;
     const NamedCounts of_feed = feed.counters();
     counts.insert(counts.end(), of_feed.begin(), of_feed.end());

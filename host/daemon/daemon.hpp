@@ -8,18 +8,18 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
-#include "host/daemon/camera_feed.hpp"
-#include "host/daemon/event_loop.hpp"
-#include "host/daemon/line_feed.hpp"
-#include "host/daemon/log_limit.hpp"
+#include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/daemon/pointing_feed.hpp"
 #include "host/daemon/replay_feed.hpp"
-#include "host/daemon/signals.hpp"
+#include "host/daemon/serial_feed.hpp"
 #include "host/daemon/stereo/stereo_feed.hpp"
-#include "host/daemon/target_line.hpp"
-#include "host/daemon/telescope_feed.hpp"
-#include "host/daemon/timer.hpp"
+#include "host/daemon/tof_feed.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/record/stream_recorder.hpp"
+#include "host/runtime/event_loop.hpp"
+#include "host/runtime/log_rate_limiter.hpp"
+#include "host/runtime/signals.hpp"
+#include "host/runtime/timer.hpp"
 
 namespace pharos::host {
 
@@ -38,17 +38,17 @@ class Daemon {
   struct Channel;
 
   void add_channel(const TargetConfig& target, ReplaySpeed replay_speed);
-  std::unique_ptr<LineFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
-  void add_camera(const CameraConfig& camera, ReplaySpeed replay_speed);
+  std::unique_ptr<SerialFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
+  void add_camera(const TofConfig& camera, ReplaySpeed replay_speed);
   void stop_when_all_ended();
   void load_memory();
   void attend();
   void on_signal();
   void publish_health();
   NamedCounts named_counts() const;
-  std::string recording_trouble() const;
-  std::string trouble() const;
-  void warn(const char* kind, const std::string& trouble, std::int64_t now_ns);
+  std::string recording_error() const;
+  std::string error() const;
+  void warn(const char* kind, const std::string& error, std::int64_t now_ns);
 
   DaemonConfig config_;
   EventLoop loop_;
@@ -57,13 +57,13 @@ class Daemon {
   Timer status_timer_;
   Publisher publisher_;
   CalibrationMemory memory_;
-  LogLimit log_limit_;
+  LogRateLimiter log_limit_;
   std::vector<std::unique_ptr<Channel>> channels_;
-  std::vector<std::unique_ptr<CameraFeed>> cameras_;
-  std::vector<std::unique_ptr<TelescopeFeed>> telescopes_;
+  std::vector<std::unique_ptr<TofFeed>> cameras_;
+  std::vector<std::unique_ptr<PointingFeed>> telescopes_;
   std::vector<std::unique_ptr<StereoFeed>> stereos_;
   std::int64_t started_ns_ = 0;
-  std::int64_t failed_told_ = 0;
+  std::int64_t failures_logged_ = 0;
   std::string message_;
 };
 

@@ -21,7 +21,7 @@ void DirectoryWatch::attend() {
   if (watching()) return;
   watch_ = ::inotify_add_watch(inotify_.get(), directory_.c_str(),
                                IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
-  trouble_ = watching() ? "" : directory_.string() + ": cannot be watched: " + std::strerror(errno);
+  error_ = watching() ? "" : directory_.string() + ": cannot be watched: " + std::strerror(errno);
 }
 
 std::vector<std::string> DirectoryWatch::take() {
@@ -42,7 +42,7 @@ std::vector<std::string> DirectoryWatch::take() {
       if ((event.mask & IN_MOVE_SELF) != 0) ::inotify_rm_watch(inotify_.get(), watch_);
       if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) != 0) {
         watch_ = -1;
-        trouble_ = directory_.string() + ": is gone";
+        error_ = directory_.string() + ": is gone";
       }
     }
   }

@@ -26,7 +26,7 @@ class DirectoryWatch {
 
   bool watching() const { return watch_ >= 0; }
   /// Why it is not watched, for a person; empty when it is.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
   /// How often the kernel's queue overflowed: names were lost.
   int overflows() const { return overflows_; }
 
@@ -34,7 +34,7 @@ class DirectoryWatch {
   std::filesystem::path directory_;
   UniqueFd inotify_;
   int watch_ = -1;
-  std::string trouble_;
+  std::string error_;
   int overflows_ = 0;
 };
 

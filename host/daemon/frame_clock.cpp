@@ -28,12 +28,12 @@ std::optional<MappedTime> FrameClock::time_of(const DepthFrame& frame) {
   if (!mapped || frame.clock != CameraClock::kPtp) return mapped;
   const std::int64_t ahead_ns = frame.camera_ns - mapped->utc_ns;
   const std::int64_t early_ns = ahead_ns - nearest_second_ns(ahead_ns);  // negative: before what the arrival says
-  if (std::abs(early_ns) > kLargestPtpDoubtNs) {
-    ++ptp_doubted_;
+  if (std::abs(early_ns) > kMaxPtpDisagreement_ns) {
+    ++ptp_rejected_;
     return mapped;
   }
   by_ptp_ = true;
-  return MappedTime{mapped->utc_ns + early_ns, mapped->monotonic_ns + early_ns, kPtpSigmaNs};
+  return MappedTime{mapped->utc_ns + early_ns, mapped->monotonic_ns + early_ns, kPtpSigma_ns};
 }
 
 }  // namespace pharos::host

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "host/clock/clock_map.hpp"
-#include "host/daemon/latency_histogram.hpp"
 #include "host/device/frame_source.hpp"
 #include "host/publish/health.hpp"
+#include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {
 

@@ -48,18 +48,18 @@ void replay_instead(host::DaemonConfig& config, const std::string& file) {
 
 int run(const Options& options) {
   host::DaemonConfig config = host::load_daemon_config(options.config);
-  const std::vector<std::string> troubles = host::directory_troubles(config);
+  const std::vector<std::string> errors = host::directory_errors(config);
   if (options.check) {
     std::fputs(host::describe(config).c_str(), stdout);
-    for (const std::string& trouble : troubles) {
-      std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), trouble.c_str());
+    for (const std::string& error : errors) {
+      std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), error.c_str());
     }
-    return troubles.empty() ? 0 : kExitUsage;
+    return errors.empty() ? 0 : kExitUsage;
   }
   if (!options.replay.empty()) replay_instead(config, options.replay);
   host::set_up_log(config.log);
   // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
-  for (const std::string& trouble : troubles) spdlog::warn("{}", trouble);
+  for (const std::string& error : errors) spdlog::warn("{}", error);
   // A limit on file sizes then fails the write, as a full disk does, instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);

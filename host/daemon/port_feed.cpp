@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::size_t kReadBytes = 16 * 1024;
 
 }  // namespace
 
-PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, LineFeedEvents events)
+PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, SerialFeedEvents events)
     : loop_(loop), log_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
 
 PortFeed::~PortFeed() {
@@ -53,7 +53,7 @@ SourceState PortFeed::state() const {
   return error == OpenError::kNone || error == OpenError::kMissing ? SourceState::kGone : SourceState::kError;
 }
 
-std::string PortFeed::trouble() const {
+std::string PortFeed::error() const {
   if (port_.is_open()) return "";
   if (!port_.failure().message.empty()) return port_.failure().message;
   return port_.path() + (was_lost_ ? ": unplugged; waiting for it" : ": not opened yet");
@@ -64,7 +64,7 @@ std::int64_t PortFeed::monotonic_now() const { return monotonic_now_ns(); }
 NamedCounts PortFeed::counters() const {
   return {{"port.opened", static_cast<std::int64_t>(port_.times_opened())},
           {"port.lost", static_cast<std::int64_t>(port_.times_lost())},
-          {"port.log_lines_held_back", static_cast<std::int64_t>(log_.held_back())}};
+          {"port.log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())}};
 }
 
 }  // namespace pharos::host

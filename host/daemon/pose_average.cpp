@@ -8,10 +8,10 @@
 namespace pharos::host {
 
 std::optional<WindowMean> PoseAverage::push(const AveragedFrame& frame) {
-  const bool continues =
-      window_.empty() || (window_.back().flags == frame.flags && frame.utc_ns - window_.back().utc_ns <= kLongestGapNs);
+  const bool continues = window_.empty() || (window_.back().flags == frame.flags &&
+                                             frame.utc_ns - window_.back().utc_ns <= kLongestGap_ns);
   if (!continues) {
-    given_up_ += static_cast<std::int64_t>(window_.size());
+    discarded_ += static_cast<std::int64_t>(window_.size());
     window_.clear();
   }
   window_.push_back(frame);

@@ -38,9 +38,9 @@ class PoseAverage {
   /// The mean, when this frame fills the window.
   std::optional<WindowMean> push(const AveragedFrame& frame);
   /// Frames that were in a window that was given up.
-  std::int64_t given_up() const { return given_up_; }
+  std::int64_t discarded() const { return discarded_; }
 
-  static constexpr std::int64_t kLongestGapNs = 1'000'000'000;
+  static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
   /// Reduced chi-squared: with 100 frames chance reaches 1.2.
   static constexpr double kMovingChi2 = 4.0;
 
@@ -49,7 +49,7 @@ class PoseAverage {
 
   std::size_t frames_;
   std::vector<AveragedFrame> window_;
-  std::int64_t given_up_ = 0;
+  std::int64_t discarded_ = 0;
 };
 
 }  // namespace pharos::host

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "host/table/byte_source.hpp"
 
 namespace pharos::host {
@@ -17,12 +17,12 @@ constexpr std::int64_t kNsPerS = 1'000'000'000;
 // At full speed: so many chunks, then the loop looks at signals and status again.
 constexpr int kChunksPerTurn = 64;
 // A silence of the recording lasts no longer at real speed: nobody waits a week for a replay.
-constexpr std::int64_t kLongestWaitNs = 10'000'000'000;
+constexpr std::int64_t kLongestWait_ns = 10'000'000'000;
 
 }  // namespace
 
 ReplayFeed::ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed,
-                       LineFeedEvents events)
+                       SerialFeedEvents events)
     : loop_(loop),
       name_(name),
       log_(std::move(name)),
@@ -68,14 +68,14 @@ void ReplayFeed::on_timer() {
 std::int64_t ReplayFeed::wait_for_next() {
   if (speed_ == ReplaySpeed::kFastest) return 0;
   const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - monotonic_now_ns();
-  if (wait_ns <= kLongestWaitNs) return wait_ns;
-  shift_ns_ -= wait_ns - kLongestWaitNs;
+  if (wait_ns <= kLongestWait_ns) return wait_ns;
+  shift_ns_ -= wait_ns - kLongestWait_ns;
   ++silences_cut_;
   log_.info("silence",
             "a silence of " + std::to_string(wait_ns / kNsPerS) + " s in the recording is cut to " +
-                std::to_string(kLongestWaitNs / kNsPerS) + " s",
+                std::to_string(kLongestWait_ns / kNsPerS) + " s",
             monotonic_now_ns());
-  return kLongestWaitNs;
+  return kLongestWait_ns;
 }
 
 void ReplayFeed::play(const StreamChunk& chunk) {

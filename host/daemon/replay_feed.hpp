@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/event_loop.hpp"
-#include "host/daemon/limited_log.hpp"
-#include "host/daemon/line_feed.hpp"
-#include "host/daemon/timer.hpp"
+#include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/serial_feed.hpp"
 #include "host/record/stream_reader.hpp"
+#include "host/runtime/event_loop.hpp"
+#include "host/runtime/timer.hpp"
 
 namespace pharos::host {
 
@@ -19,16 +19,16 @@ enum class ReplaySpeed : std::uint8_t { kReal, kFastest };
 
 /// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then. At
 /// real speed a silence lasts ten seconds at the most.
-class ReplayFeed : public LineFeed {
+class ReplayFeed : public SerialFeed {
  public:
   /// Throws InputError when the file is no recording. `loop` must outlive this.
-  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, LineFeedEvents events);
+  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, SerialFeedEvents events);
   ~ReplayFeed() override;
 
   const StreamHeader& header() const { return reader_.header(); }
   void attend(std::int64_t monotonic_ns) override;
   SourceState state() const override { return finished_ ? SourceState::kStale : SourceState::kOk; }
-  std::string trouble() const override { return finished_ ? "the recording has come to its end" : ""; }
+  std::string error() const override { return finished_ ? "the recording has come to its end" : ""; }
   std::string device() const override { return TargetConfig::kReplayPrefix + reader_.name(); }
   bool finished() const override { return finished_; }
   std::int64_t monotonic_now() const override { return played_ns_; }
@@ -43,10 +43,10 @@ class ReplayFeed : public LineFeed {
 
   EventLoop& loop_;
   std::string name_;
-  LimitedLog log_;
+  RateLimitedLog log_;
   StreamReader reader_;
   ReplaySpeed speed_;
-  LineFeedEvents events_;
+  SerialFeedEvents events_;
   Timer timer_;
   std::optional<StreamChunk> next_;
   bool started_ = false;

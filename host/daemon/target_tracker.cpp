@@ -43,7 +43,7 @@ track::TrackedBearing TargetTracker::bearing(std::size_t index) const {
   return std::visit([&](const auto& tracker) { return tracker.bearing(index); }, *tracker_);
 }
 
-bool TargetTracker::relative_refused() const {
+bool TargetTracker::relative_pose_rejected() const {
   const auto* motion = std::get_if<motion::MotionTracker>(tracker_.get());
   return motion != nullptr && motion->pair().survey_refused();
 }

@@ -27,7 +27,7 @@ class TargetTracker {
   std::size_t bearing_count() const;
   track::TrackedBearing bearing(std::size_t index) const;
   /// What both stations see contradicts how they stand by the calibration, which is not used.
-  bool relative_refused() const;
+  bool relative_pose_rejected() const;
 
  private:
   using Either = std::variant<track::EpochTracker, motion::MotionTracker>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/tof_estimator.hpp"
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "pharos/tof/tof_pose.hpp"
 
@@ -42,8 +42,8 @@ DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file) {
   return camera;
 }
 
-TofAnswer TofEstimator::measure(const DepthFrame& frame) {
-  TofAnswer answer;
+TofResult TofEstimator::measure(const DepthFrame& frame) {
+  TofResult answer;
   StageClock clock(answer.stage_ns);
   const auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_),
                                           settings_, *workspace_, &clock);

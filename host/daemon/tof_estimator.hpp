@@ -19,7 +19,7 @@ struct TofWorkspace;
 namespace pharos::host {
 
 /// What became of one frame.
-struct TofAnswer {
+struct TofResult {
   std::string refusal;  // tof::name_of(TofFailure); empty where there is a pose
   std::string advice;   // the same for people, with what to do
   TofPoseEstimate estimate;
@@ -36,7 +36,7 @@ class TofEstimator {
   ~TofEstimator();
 
   /// Scale and offset of the frame go before those of the camera file.
-  TofAnswer measure(const DepthFrame& frame);
+  TofResult measure(const DepthFrame& frame);
 
  private:
   DepthCamera camera_;

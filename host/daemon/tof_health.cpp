@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of TofLine that tells how it fares.
+// The part of TofPipeline that tells how it fares.
 #include "host/daemon/health_parts.hpp"
-#include "host/daemon/tof_line.hpp"
+#include "host/daemon/tof_pipeline.hpp"
 
 namespace pharos::host {
 namespace {
 
 // Thirty times a second, or three in turns: as long without any is silence.
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 }  // namespace
 
-SourceHealth TofLine::health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns) {
+SourceHealth TofPipeline::health(const std::string& device, const FrameSourceStatus& camera,
+                                 std::int64_t monotonic_ns) {
   SourceHealth health;
   health.source = source_;
   health.target = config_.target;
@@ -20,23 +21,23 @@ SourceHealth TofLine::health(const std::string& device, const FrameSourceStatus&
   pace_.tell(health, monotonic_ns);
   const ClockMap& map = clock_.map();
   health.clock_sigma_ns = map.synchronised() ? static_cast<double>(map.sigma_ns()) : 0.0;
-  if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigmaNs);
+  if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigma_ns);
   health.clock_drift_ppm = map.drift_ppm();
   health.counters = named_counts(camera);
-  judge(health, camera, monotonic_ns);
+  assess(health, camera, monotonic_ns);
   return health;
 }
 
 // From the camera upwards: the lowest thing that is wrong is the one to tell.
-void TofLine::judge(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t now_ns) const {
-  const std::int64_t pose_wait_ns = kSilenceNs + config_.average_frames * kSilenceNs / 10;
+void TofPipeline::assess(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t now_ns) const {
+  const std::int64_t pose_wait_ns = kSilence_ns + config_.average_frames * kSilence_ns / 10;
   health.state = state_of(camera.state);
-  health.message = camera.trouble;
+  health.message = camera.error;
   if (health.state != SourceState::kOk) return;
   if (pace_.pose_within(pose_wait_ns, now_ns)) return;
   health.state = SourceState::kWaiting;
   const FrameSourceCounters& counters = camera.counters;
-  if (!pace_.data_within(kSilenceNs, now_ns)) {
+  if (!pace_.data_within(kSilence_ns, now_ns)) {
     health.message = counters.frames_incomplete > 0
                          ? "only incomplete frames come: is packet_size more than the network passes?"
                          : "no frame came yet";
@@ -45,14 +46,14 @@ void TofLine::judge(SourceHealth& health, const FrameSourceStatus& camera, std::
   }
 }
 
-NamedCounts TofLine::named_counts(const FrameSourceStatus& camera) const {
+NamedCounts TofPipeline::named_counts(const FrameSourceStatus& camera) const {
   NamedCounts counts;
   for_each_counter(counters_, [&](const char* name, std::int64_t value) { counts.push_back({name, value}); });
   for (const auto& [reason, count] : counters_.refused) counts.push_back({"refused." + reason, count});
   for_each_counter(camera.counters, [&](const char* name, std::int64_t value) {
     counts.push_back({std::string("device.") + name, value});
   });
-  counts.push_back({"frames_in_broken_means", average_.given_up()});
+  counts.push_back({"frames_in_broken_means", average_.discarded()});
   add_times(counts, "transport", transport_);
   add_times(counts, "waiting", waiting_);
   add_times(counts, "estimator", estimator_);
@@ -63,7 +64,7 @@ NamedCounts TofLine::named_counts(const FrameSourceStatus& camera) const {
   add_clock(counts, clock_.map().counters());
   counts.push_back({"clock.by_ptp", clock_.by_ptp() ? 1 : 0});
   counts.push_back({"clock.ptp_doubted", clock_.ptp_doubted()});
-  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
+  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())});
   return counts;
 }
 

@@ -20,8 +20,8 @@ class FrameNumbers {
       missing = static_cast<std::int64_t>(number + kNumbers16 - *last_ - 1);
     }
     // A late frame looks like nearly a whole round: frames are never that late, and a stop of a minute is no loss.
-    constexpr std::int64_t kMostMissing = 32'768;
-    if (missing >= kMostMissing) return 0;
+    constexpr std::int64_t kMaxMissing = 32'768;
+    if (missing >= kMaxMissing) return 0;
     last_ = number;
     return missing;
   }

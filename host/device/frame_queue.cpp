@@ -7,18 +7,18 @@ namespace pharos::host {
 
 DepthFramePtr FrameQueue::blank() {
   const std::lock_guard lock(mutex_);
-  if (blanks_.empty()) return std::make_unique<DepthFrame>();
-  DepthFramePtr frame = std::move(blanks_.back());
-  blanks_.pop_back();
+  if (free_frames_.empty()) return std::make_unique<DepthFrame>();
+  DepthFramePtr frame = std::move(free_frames_.back());
+  free_frames_.pop_back();
   return frame;
 }
 
 bool FrameQueue::push(DepthFramePtr frame) {
   const std::lock_guard lock(mutex_);
   waiting_.push_back(std::move(frame));
-  const bool dropped = waiting_.size() > kMostWaiting;
+  const bool dropped = waiting_.size() > kMaxWaiting;
   if (dropped) {
-    blanks_.push_back(std::move(waiting_.front()));
+    free_frames_.push_back(std::move(waiting_.front()));
     waiting_.pop_front();
   }
   event_.set();
@@ -34,9 +34,9 @@ DepthFramePtr FrameQueue::take() {
   return frame;
 }
 
-void FrameQueue::give_back(DepthFramePtr frame) {
+void FrameQueue::recycle(DepthFramePtr frame) {
   const std::lock_guard lock(mutex_);
-  if (frame) blanks_.push_back(std::move(frame));
+  if (frame) free_frames_.push_back(std::move(frame));
 }
 
 }  // namespace pharos::host

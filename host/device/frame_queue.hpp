@@ -22,7 +22,7 @@ class FrameQueue {
  public:
   /// Frames that may wait: one is worked on while the next comes, and a hiccup of the loop as long as a frame costs
   /// none.
-  static constexpr std::size_t kMostWaiting = 2;
+  static constexpr std::size_t kMaxWaiting = 2;
 
   /// Of the camera's thread: a frame to fill, with the buffers of one that went before.
   DepthFramePtr blank();
@@ -34,12 +34,12 @@ class FrameQueue {
   /// The oldest that waits, or null.
   DepthFramePtr take();
   /// A frame that was worked on, or a blank that is not needed (any thread).
-  void give_back(DepthFramePtr frame);
+  void recycle(DepthFramePtr frame);
 
  private:
   std::mutex mutex_;
   std::deque<DepthFramePtr> waiting_;
-  std::vector<DepthFramePtr> blanks_;
+  std::vector<DepthFramePtr> free_frames_;
   ReadyEvent event_;
 };
 

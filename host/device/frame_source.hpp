@@ -45,7 +45,7 @@ enum class CameraState : std::uint8_t {
 /// How a source of frames or of pairs fares.
 struct SourceStatus {
   CameraState state = CameraState::kGone;
-  std::string trouble;        // what is wrong and what to do; empty when open
+  std::string error;          // what is wrong and what to do; empty when open
   std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets
   std::uint32_t session = 0;  // grows with every opening of a camera
   bool finished = false;      // a recording has come to its end
@@ -62,7 +62,7 @@ class FrameSource {
   /// Readable while frames wait.
   virtual int fd() const = 0;
   virtual DepthFramePtr take() = 0;
-  virtual void give_back(DepthFramePtr frame) = 0;
+  virtual void recycle(DepthFramePtr frame) = 0;
   virtual FrameSourceStatus status() const = 0;
   /// What it reads from, for people.
   virtual std::string device() const = 0;

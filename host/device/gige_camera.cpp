@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/now.hpp"
 #include "host/device/find_camera.hpp"
 #include "host/device/frame_numbers.hpp"
 #include "host/device/gobject.hpp"
 #include "host/device/pixel_format.hpp"
+#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
@@ -85,7 +85,7 @@ struct GigeCamera::Parts {
   void describe();
 
   GObjectPtr<ArvBuffer> pop(std::chrono::milliseconds timeout) const;
-  void give_back(GObjectPtr<ArvBuffer> buffer) const;
+  void recycle(GObjectPtr<ArvBuffer> buffer) const;
   FrameOutcome outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame, std::int64_t& missing);
   bool unpack(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame) const;
   FrameOutcome intensity_of(DepthFrame& frame);
@@ -245,7 +245,7 @@ GObjectPtr<ArvBuffer> GigeCamera::Parts::pop(std::chrono::milliseconds timeout) 
       arv_stream_timeout_pop_buffer(stream.get(), static_cast<guint64>(std::chrono::microseconds(timeout).count())));
 }
 
-void GigeCamera::Parts::give_back(GObjectPtr<ArvBuffer> buffer) const {
+void GigeCamera::Parts::recycle(GObjectPtr<ArvBuffer> buffer) const {
   arv_stream_push_buffer(stream.get(), buffer.release());
 }
 
@@ -298,7 +298,7 @@ FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& frame) {
     if (arv_buffer_get_status(buffer.get()) == ARV_BUFFER_STATUS_SUCCESS && unpack(buffer.get(), kMono16, frame)) {
       outcome = FrameOutcome::kFrame;
     }
-    give_back(std::move(buffer));
+    recycle(std::move(buffer));
   }
   stop();
   set_word("PixelFormat", "Coord3D_C16", "the pixel format");
@@ -311,12 +311,12 @@ FrameOutcome GigeCamera::next(DepthFrame& frame, std::chrono::milliseconds timeo
   GObjectPtr<ArvBuffer> buffer = parts_->pop(timeout);
   if (!buffer) return FrameOutcome::kNone;
   if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the camera changed
-    parts_->give_back(std::move(buffer));
+    parts_->recycle(std::move(buffer));
     return FrameOutcome::kNone;
   }
   const std::uint32_t format = parts_->in_turns ? kCoord3dC16 : code_of(parts_->settings.format);
   const FrameOutcome outcome = parts_->outcome(buffer.get(), format, frame, missing);
-  parts_->give_back(std::move(buffer));
+  parts_->recycle(std::move(buffer));
   return outcome == FrameOutcome::kFrame && parts_->in_turns ? parts_->intensity_of(frame) : outcome;
 }
 

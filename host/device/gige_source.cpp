@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
@@ -16,14 +16,14 @@ constexpr milliseconds kWait{100};
 // A wait that ends much sooner without a frame (the camera's socket is gone) must not turn the thread into a spinner.
 constexpr milliseconds kBreath{20};
 // Frames come every 33 ms, in turns every 0.3 s: as long without any is a camera that was lost.
-constexpr std::int64_t kSilenceNs = 1'000'000'000;
+constexpr std::int64_t kSilence_ns = 1'000'000'000;
 // PTP's state changes within seconds; asking costs the camera a packet.
-constexpr std::int64_t kAskPtpNs = 1'000'000'000;
+constexpr std::int64_t kAskPtp_ns = 1'000'000'000;
 
 }  // namespace
 
 GigeSource::GigeSource(const CameraSettings& settings) : settings_(settings) {
-  status_.trouble = "not opened yet";
+  status_.error = "not opened yet";
   thread_ = std::thread([this] { run(); });
 }
 
@@ -45,10 +45,10 @@ FrameSourceStatus GigeSource::status() const {
   return status_;
 }
 
-void GigeSource::set_state(CameraState state, const std::string& trouble) {
+void GigeSource::set_state(CameraState state, const std::string& error) {
   const std::lock_guard lock(mutex_);
   status_.state = state;
-  status_.trouble = trouble;
+  status_.error = error;
 }
 
 /// True unless the source is to end.
@@ -79,7 +79,7 @@ void GigeSource::look_for_camera() {
       ++status_.counters.camera_opened;
       status_.identity = camera.identity();
       status_.state = CameraState::kOpen;
-      status_.trouble.clear();
+      status_.error.clear();
     }
     stream(camera);
   } catch (const CameraError& error) {
@@ -102,17 +102,17 @@ void GigeSource::stream(GigeCamera& camera) {
     if (outcome == FrameOutcome::kFrame) {
       hand_over(std::move(frame), camera);
     } else {
-      queue_.give_back(std::move(frame));
+      queue_.recycle(std::move(frame));
     }
     if (outcome != FrameOutcome::kNone) last_ns = now_ns;
-    if (now_ns - last_ns > kSilenceNs) break;
+    if (now_ns - last_ns > kSilence_ns) break;
     if (outcome == FrameOutcome::kNone && now_ns - began_ns < std::chrono::nanoseconds(kBreath).count()) pause(kBreath);
   }
   const bool lost = !camera.is_controller();
   const std::lock_guard lock(mutex_);
   ++(lost ? status_.counters.camera_lost : status_.counters.camera_silences);
   status_.state = lost ? CameraState::kGone : CameraState::kSilent;
-  status_.trouble = lost ? "the camera was lost; looking for it" : "no frame comes from the camera; opening it anew";
+  status_.error = lost ? "the camera was lost; looking for it" : "no frame comes from the camera; opening it anew";
 }
 
 void GigeSource::count(FrameOutcome outcome, std::int64_t missing) {
@@ -126,7 +126,7 @@ void GigeSource::count(FrameOutcome outcome, std::int64_t missing) {
 }
 
 void GigeSource::hand_over(DepthFramePtr frame, const GigeCamera& camera) {
-  if (frame->complete_monotonic_ns - ptp_asked_ns_ > kAskPtpNs) {
+  if (frame->complete_monotonic_ns - ptp_asked_ns_ > kAskPtp_ns) {
     follows_ptp_ = camera.follows_ptp();
     ptp_asked_ns_ = frame->complete_monotonic_ns;
   }

@@ -26,7 +26,7 @@ class GigeSource : public FrameSource {
 
   int fd() const override { return queue_.fd(); }
   DepthFramePtr take() override { return queue_.take(); }
-  void give_back(DepthFramePtr frame) override { queue_.give_back(std::move(frame)); }
+  void recycle(DepthFramePtr frame) override { queue_.recycle(std::move(frame)); }
   FrameSourceStatus status() const override;
   std::string device() const override;
 
@@ -36,7 +36,7 @@ class GigeSource : public FrameSource {
   void stream(GigeCamera& camera);
   void count(FrameOutcome outcome, std::int64_t missing);
   void hand_over(DepthFramePtr frame, const GigeCamera& camera);
-  void set_state(CameraState state, const std::string& trouble);
+  void set_state(CameraState state, const std::string& error);
   bool pause(std::chrono::milliseconds duration);
 
   CameraSettings settings_;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -39,7 +39,7 @@ DepthFramePtr RecordedSource::take() {
     timer_.stop();
     status_.finished = true;
     status_.state = CameraState::kSilent;
-    status_.trouble = "the recorded frames have come to their end";
+    status_.error = "the recorded frames have come to their end";
     return nullptr;
   }
   DepthFramePtr frame = blank_ ? std::exchange(blank_, nullptr) : std::make_unique<DepthFrame>();
@@ -48,8 +48,8 @@ DepthFramePtr RecordedSource::take() {
     ++status_.counters.frames_received;
   } catch (const InputError& error) {
     ++status_.counters.frames_wrong_size;
-    status_.trouble = error.what();
-    give_back(std::move(frame));
+    status_.error = error.what();
+    recycle(std::move(frame));
   }
   ++next_;
   arm();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/daemon/timer.hpp"
 #include "host/device/frame_directory.hpp"
 #include "host/device/frame_source.hpp"
+#include "host/runtime/timer.hpp"
 
 namespace pharos::host {
 
@@ -16,7 +16,7 @@ class RecordedSource : public FrameSource {
 
   int fd() const override { return timer_.fd(); }
   DepthFramePtr take() override;
-  void give_back(DepthFramePtr frame) override { blank_ = std::move(frame); }
+  void recycle(DepthFramePtr frame) override { blank_ = std::move(frame); }
   FrameSourceStatus status() const override { return status_; }
   std::string device() const override { return path_; }
 

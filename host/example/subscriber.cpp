@@ -15,7 +15,7 @@ namespace {
 constexpr double kMmPerM = 1000.0;
 constexpr double kDegPerRad = 57.29577951308232;
 // Older than this is no basis for steering; pick your own.
-constexpr double kTooOldSeconds = 0.5;
+constexpr double kTooOld_s = 0.5;
 
 double seconds_since(std::int64_t utime) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -29,7 +29,7 @@ class Subscriber {
       std::printf("%s: %s\n", pose->target.c_str(), pose->status.c_str());
       return;
     }
-    if (seconds_since(pose->utime) > kTooOldSeconds) return;  // the network held it back
+    if (seconds_since(pose->utime) > kTooOld_s) return;  // the network held it back
     const double* t = pose->position_m;
     std::printf("%s: %.1f mm away (sigma %.1f mm, %.2f deg)%s\n", pose->target.c_str(),
                 kMmPerM * std::hypot(t[0], t[1], t[2]), kMmPerM * pose->sigma_pos_m, kDegPerRad * pose->sigma_rot_rad,

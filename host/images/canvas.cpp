@@ -15,8 +15,8 @@ constexpr double kBrightest = 200.0;  // of the grey ground
 constexpr double kAway = 30000.0;     // nothing is drawn from or to farther places
 
 // The value that `share` of the pixels stay below.
-std::uint16_t percentile(const std::vector<std::uint16_t>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+std::uint16_t percentile(const std::vector<std::uint16_t>& sorted, double fraction) {
+  return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
 }
 
 struct Stretch {
@@ -62,9 +62,9 @@ Colour Canvas::pixel(std::int32_t x, std::int32_t y) const {
   return {rgb_[at], rgb_[at + 1], rgb_[at + 2]};
 }
 
-void Canvas::blend(std::int32_t x, std::int32_t y, Colour colour, double share) {
-  if (x < 0 || y < 0 || x >= width_ || y >= height_ || share <= 0.0) return;
-  const double kept = 1.0 - std::min(1.0, share);
+void Canvas::blend(std::int32_t x, std::int32_t y, Colour colour, double fraction) {
+  if (x < 0 || y < 0 || x >= width_ || y >= height_ || fraction <= 0.0) return;
+  const double kept = 1.0 - std::min(1.0, fraction);
   const std::size_t at =
       3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
   const std::array<std::uint8_t, 3> over = {colour.red, colour.green, colour.blue};
@@ -143,9 +143,9 @@ void Canvas::cross(Place at, Colour colour, double half) {
   stroke({s.x, s.y - half}, {s.x, s.y + half}, colour, 1.5);
 }
 
-void Canvas::tint(std::int32_t u, std::int32_t v, Colour colour, double share) {
+void Canvas::tint(std::int32_t u, std::int32_t v, Colour colour, double fraction) {
   for (int dy = 0; dy < zoom_; ++dy) {
-    for (int dx = 0; dx < zoom_; ++dx) blend(u * zoom_ + dx, v * zoom_ + dy, colour, share);
+    for (int dx = 0; dx < zoom_; ++dx) blend(u * zoom_ + dx, v * zoom_ + dy, colour, fraction);
   }
 }
 

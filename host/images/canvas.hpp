@@ -47,7 +47,7 @@ class Canvas {
   void dot(Place at, Colour colour, double radius = 2.0);
   void cross(Place at, Colour colour, double half = 5.0);
   /// One pixel of the image, tinted: share 1 covers it. For masks of regions.
-  void tint(std::int32_t u, std::int32_t v, Colour colour, double share);
+  void tint(std::int32_t u, std::int32_t v, Colour colour, double fraction);
   /// Printable ASCII in letters of 6 x 8 times `size`, on a dark ground; the place is its upper left corner.
   void text(Place at, std::string_view words, Colour colour, int size = 2);
 
@@ -63,7 +63,7 @@ class Canvas {
     double x, y;
   };
   Spot spot(Place place) const { return {(place.u_px + 0.5) * zoom_ - 0.5, (place.v_px + 0.5) * zoom_ - 0.5}; }
-  void blend(std::int32_t x, std::int32_t y, Colour colour, double share);
+  void blend(std::int32_t x, std::int32_t y, Colour colour, double fraction);
   void stroke(Spot from, Spot to, Colour colour, double width);
 
   std::int32_t width_ = 0, height_ = 0;

@@ -15,9 +15,9 @@ namespace pharos::host {
 namespace {
 
 // A progressive file of a few bytes a scan would keep the decoder busy for minutes; cameras make ten scans.
-constexpr int kMostScans = 100;
+constexpr int kMaxScans = 100;
 // A block of 8 x 8 takes one bit at least.
-constexpr std::size_t kMostPixelsPerByte = 8 * 64;
+constexpr std::size_t kMaxPixelsPerByte = 8 * 64;
 
 struct Trouble {
   jpeg_error_mgr manager{};  // first: libjpeg hands out its address
@@ -26,47 +26,47 @@ struct Trouble {
   bool damaged = false;
 };
 
-Trouble& trouble_of(j_common_ptr jpeg) { return *reinterpret_cast<Trouble*>(jpeg->err); }
+Trouble& error_of(j_common_ptr jpeg) { return *reinterpret_cast<Trouble*>(jpeg->err); }
 
 [[noreturn]] void on_error(j_common_ptr jpeg) {
-  Trouble& trouble = trouble_of(jpeg);
-  jpeg->err->format_message(jpeg, trouble.text.data());
-  trouble.damaged = true;
-  std::longjmp(trouble.way_out, 1);
+  Trouble& error = error_of(jpeg);
+  jpeg->err->format_message(jpeg, error.text.data());
+  error.damaged = true;
+  std::longjmp(error.way_out, 1);
 }
 
 // libjpeg makes up what is missing and warns (level -1); here that is a damaged file.
 void on_message(j_common_ptr jpeg, int level) {
-  if (level >= 0 || trouble_of(jpeg).damaged) return;
-  jpeg->err->format_message(jpeg, trouble_of(jpeg).text.data());
-  trouble_of(jpeg).damaged = true;
+  if (level >= 0 || error_of(jpeg).damaged) return;
+  jpeg->err->format_message(jpeg, error_of(jpeg).text.data());
+  error_of(jpeg).damaged = true;
 }
 
 struct Reader {
   explicit Reader(std::span<const std::uint8_t> all) : bytes(all) {
-    jpeg.err = jpeg_std_error(&trouble.manager);
-    trouble.manager.error_exit = on_error;
-    trouble.manager.emit_message = on_message;
-    trouble.manager.output_message = [](j_common_ptr) {};
+    jpeg.err = jpeg_std_error(&error.manager);
+    error.manager.error_exit = on_error;
+    error.manager.emit_message = on_message;
+    error.manager.output_message = [](j_common_ptr) {};
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
   ~Reader() { jpeg_destroy_decompress(&jpeg); }
 
   std::span<const std::uint8_t> bytes;
-  Trouble trouble;
+  Trouble error;
   jpeg_progress_mgr progress{};
   jpeg_decompress_struct jpeg{};
 };
 
 bool read_header(Reader& reader) {
-  if (setjmp(reader.trouble.way_out) != 0) return false;
+  if (setjmp(reader.error.way_out) != 0) return false;
   jpeg_create_decompress(&reader.jpeg);
   reader.progress.progress_monitor = [](j_common_ptr jpeg) {
-    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMostScans) return;
-    std::snprintf(trouble_of(jpeg).text.data(), trouble_of(jpeg).text.size(), "more than %d scans", kMostScans);
-    trouble_of(jpeg).damaged = true;
-    std::longjmp(trouble_of(jpeg).way_out, 1);
+    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMaxScans) return;
+    std::snprintf(error_of(jpeg).text.data(), error_of(jpeg).text.size(), "more than %d scans", kMaxScans);
+    error_of(jpeg).damaged = true;
+    std::longjmp(error_of(jpeg).way_out, 1);
   };
   reader.jpeg.progress = &reader.progress;
   jpeg_mem_src(&reader.jpeg, reader.bytes.data(), reader.bytes.size());
@@ -75,19 +75,19 @@ bool read_header(Reader& reader) {
 }
 
 bool read_rows(Reader& reader, std::uint8_t* rows, std::size_t stride) {
-  if (setjmp(reader.trouble.way_out) != 0) return false;
+  if (setjmp(reader.error.way_out) != 0) return false;
   jpeg_start_decompress(&reader.jpeg);
   while (reader.jpeg.output_scanline < reader.jpeg.output_height) {
     JSAMPROW row = rows + reader.jpeg.output_scanline * stride;
     jpeg_read_scanlines(&reader.jpeg, &row, 1);
-    if (reader.trouble.damaged) return false;
+    if (reader.error.damaged) return false;
   }
   jpeg_finish_decompress(&reader.jpeg);
-  return !reader.trouble.damaged;
+  return !reader.error.damaged;
 }
 
-[[noreturn]] void damaged(const std::string& name, const Trouble& trouble) {
-  throw InputError(name + ": damaged JPEG (" + trouble.text.data() + "); save or copy it again");
+[[noreturn]] void damaged(const std::string& name, const Trouble& error) {
+  throw InputError(name + ": damaged JPEG (" + error.text.data() + "); save or copy it again");
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ bool is_jpeg(std::span<const std::uint8_t> bytes) {
 
 Picture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name) {
   Reader reader(bytes);
-  if (!read_header(reader)) damaged(name, reader.trouble);
+  if (!read_header(reader)) damaged(name, reader.error);
   const jpeg_decompress_struct& jpeg = reader.jpeg;
   require_readable_size(jpeg.image_width, jpeg.image_height, name);
   Picture picture{static_cast<std::int32_t>(jpeg.image_width),
@@ -110,13 +110,13 @@ Picture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name
     throw InputError(name + ": has " + std::to_string(jpeg.num_components) +
                      " colours; grey or red, green and blue are needed (convert IN -colorspace sRGB OUT)");
   }
-  if (picture.pixels() > kMostPixelsPerByte * bytes.size()) {
+  if (picture.pixels() > kMaxPixelsPerByte * bytes.size()) {
     throw InputError(name + ": damaged JPEG (less data than its header says); save or copy it again");
   }
   reader.jpeg.out_color_space = picture.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
   const std::size_t stride = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.channels);
   std::vector<std::uint8_t> rows(stride * static_cast<std::size_t>(picture.height_px));
-  if (!read_rows(reader, rows.data(), stride)) damaged(name, reader.trouble);
+  if (!read_rows(reader, rows.data(), stride)) damaged(name, reader.error);
   picture.values.reserve(rows.size());
   for (const std::uint8_t value : rows) picture.values.push_back(static_cast<std::uint16_t>(value * 257));
   return picture;

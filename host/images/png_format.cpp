@@ -28,10 +28,10 @@ struct Trouble {
   void say(const char* message) { std::snprintf(text.data(), text.size(), "%s", message); }
 };
 
-Trouble& trouble_of(png_structp png) { return *static_cast<Trouble*>(png_get_error_ptr(png)); }
+Trouble& error_of(png_structp png) { return *static_cast<Trouble*>(png_get_error_ptr(png)); }
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  trouble_of(png).say(message);
+  error_of(png).say(message);
   png_longjmp(png, 1);
 }
 
@@ -40,7 +40,7 @@ void on_warning(png_structp png, png_const_charp message) {
   const std::string_view text = message;
   if (text.find("Extra compressed data") != std::string_view::npos ||
       text.find("Too much image data") != std::string_view::npos) {
-    trouble_of(png).too_much_data = true;
+    error_of(png).too_much_data = true;
   }
 }
 
@@ -65,7 +65,7 @@ struct Header {
 // A reader whose ends are freed however it is left.
 struct Reader {
   explicit Reader(std::span<const std::uint8_t> all) : bytes{all.data(), all.size()} {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &trouble, on_error, on_warning);
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_error, on_warning);
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) return;
     png_set_read_fn(png, &bytes, take);
@@ -76,7 +76,7 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 
   Bytes bytes;
-  Trouble trouble;
+  Trouble error;
   png_structp png = nullptr;
   png_infop info = nullptr;
 };
@@ -113,8 +113,8 @@ void check(const Header& header, bool transparent_colour, const std::string& nam
 }
 
 struct Writer {
-  explicit Writer(Trouble& trouble) {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &trouble, on_error, nullptr);
+  explicit Writer(Trouble& error) {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, on_error, nullptr);
     if (png != nullptr) info = png_create_info_struct(png);
   }
   Writer(const Writer&) = delete;
@@ -151,14 +151,14 @@ Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name)
   Reader reader(bytes);
   if (reader.info == nullptr) throw InputError(name + ": no memory to read it");
   Header header;
-  if (!read_header(reader, header)) damaged(name, reader.trouble.text.data());
+  if (!read_header(reader, header)) damaged(name, reader.error.text.data());
   check(header, png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0, name);
   const std::size_t pixels = static_cast<std::size_t>(header.width) * header.height;
   const bool palette = header.colour == PNG_COLOR_TYPE_PALETTE;
   const std::size_t file_channels = header.colour == PNG_COLOR_TYPE_RGB ? 3 : 1;
   // No row of deflated data shrinks to less than a thousandth: a claim beyond is told before memory is taken.
-  constexpr std::size_t kMostDeflation = 1100;
-  if (pixels * file_channels * static_cast<std::size_t>(header.bits) / 8 > kMostDeflation * bytes.size()) {
+  constexpr std::size_t kMaxDeflation = 1100;
+  if (pixels * file_channels * static_cast<std::size_t>(header.bits) / 8 > kMaxDeflation * bytes.size()) {
     damaged(name, "less data than its header says");
   }
   Picture picture;
@@ -172,8 +172,8 @@ Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name)
   auto* all = reinterpret_cast<png_bytep>(picture.values.data());
   std::vector<png_bytep> rows(header.height);
   for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = all + v * header.width * channels * value_bytes;
-  if (!read_rows(reader, rows.data(), header.bits == 16)) damaged(name, reader.trouble.text.data());
-  if (reader.trouble.too_much_data) damaged(name, "more data than its header says");
+  if (!read_rows(reader, rows.data(), header.bits == 16)) damaged(name, reader.error.text.data());
+  if (reader.error.too_much_data) damaged(name, "more data than its header says");
   if (value_bytes == 1) {  // widened in place, from the end
     for (std::size_t k = picture.values.size(); k-- > 0;) picture.values[k] = static_cast<std::uint16_t>(all[k] * 257);
   }
@@ -187,16 +187,16 @@ void write_png(const std::string& path, std::int32_t width_px, std::int32_t heig
     throw InputError((path == "-" ? "standard output" : path) + ": cannot be written: " + why);
   };
   if (file == nullptr) refuse(std::strerror(errno));
-  Trouble trouble;
+  Trouble error;
   bool written = false;
   {
-    Writer writer(trouble);
+    Writer writer(error);
     const std::size_t stride = rows.size() / static_cast<std::size_t>(std::max(1, height_px));
     written = writer.info != nullptr && write_all(writer, file, static_cast<png_uint_32>(width_px),
                                                   static_cast<png_uint_32>(height_px), pixels, rows.data(), stride);
   }
   const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
-  if (!written) refuse(trouble.text.data());
+  if (!written) refuse(error.text.data());
   if (!closed) refuse(std::strerror(errno));
 }
 

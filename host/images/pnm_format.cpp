@@ -53,14 +53,14 @@ Picture decode_pnm(Bytes bytes, const std::string& name) {
   const bool grey = bytes[1] == '5';
   const std::string kind = grey ? "PGM" : "PPM";
   PnmHeader header(bytes);
-  const auto width = header.number(), height = header.number(), most = header.number();
-  if (!width || !height || !most || *width == 0 || *height == 0 || *most == 0 || *most > 65535) {
+  const auto width = header.number(), height = header.number(), maximum = header.number();
+  if (!width || !height || !maximum || *width == 0 || *height == 0 || *maximum == 0 || *maximum > 65535) {
     throw InputError(name + ": no " + kind + " header (" + (grey ? "P5" : "P6") +
                      ", width, height, greatest value up to 65535)");
   }
   require_readable_size(*width, *height, name);
   Picture picture{
-      static_cast<std::int32_t>(*width), static_cast<std::int32_t>(*height), grey ? 1 : 3, *most > 255 ? 16 : 8, {}};
+      static_cast<std::int32_t>(*width), static_cast<std::int32_t>(*height), grey ? 1 : 3, *maximum > 255 ? 16 : 8, {}};
   const std::size_t values = picture.pixels() * static_cast<std::size_t>(picture.channels);
   const std::size_t value_bytes = picture.bits == 16 ? 2 : 1;
   const Bytes data = header.rest();

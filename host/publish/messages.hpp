@@ -3,7 +3,7 @@
 
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
-#include "host/publish/line_report.hpp"
+#include "host/publish/pointing_report.hpp"
 #include "host/publish/spin_report.hpp"
 #include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
@@ -20,7 +20,7 @@ namespace pharos::host {
 pose_t pose_message(const CycleReport& report);
 pose_t pose_message(const TofReport& report);
 pose_t pose_message(const StereoReport& report);
-pointing_t pointing_message(const LineReport& report);
+pointing_t pointing_message(const PointingReport& report);
 spin_t spin_message(const SpinReport& report);
 bearings_t bearings_message(const CycleReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);

@@ -15,7 +15,7 @@ void fill(const Vector3& v, double (&out)[3]) {
 
 }  // namespace
 
-pointing_t pointing_message(const LineReport& report) {
+pointing_t pointing_message(const PointingReport& report) {
   pointing_t message{};
   message.utime = report.utc_ns / kNsPerUs;
   message.sequence = report.sequence;

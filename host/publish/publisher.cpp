@@ -58,7 +58,7 @@ bool Publisher::publish_spin(const SpinReport& report) {
   return counted(send(spin_channel_, spin_message(report)), counters_.spins);
 }
 
-bool Publisher::publish_pointing(const LineReport& report) {
+bool Publisher::publish_pointing(const PointingReport& report) {
   return counted(send(pointing_channel_, pointing_message(report)), counters_.pointings);
 }
 

@@ -7,8 +7,8 @@
 
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
-#include "host/publish/line_report.hpp"
 #include "host/publish/message_sink.hpp"
+#include "host/publish/pointing_report.hpp"
 #include "host/publish/spin_report.hpp"
 #include "host/publish/stereo_report.hpp"
 #include "host/publish/tof_report.hpp"
@@ -43,7 +43,7 @@ class Publisher {
   /// spin_t of slam's target; why there is none is told too.
   bool publish_spin(const SpinReport& report);
   /// pointing_t of a telescope; refused images and passes are told as refused cycles are.
-  bool publish_pointing(const LineReport& report);
+  bool publish_pointing(const PointingReport& report);
   /// bearings_t of the same cycle.
   bool publish_bearings(const CycleReport& report);
   /// status_t.

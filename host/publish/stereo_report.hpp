@@ -9,14 +9,14 @@
 namespace pharos::host {
 
 /// Of the docking ring, before the rig (system ring2). residual_rms is an angle: pixels over the focal length.
-using RingPoseEstimate = PoseEstimate<frame::Rig, frame::Target>;
+using Ring2PoseEstimate = PoseEstimate<frame::Rig, frame::Target>;
 /// Of a target without a model, before the left camera (system slam): where it is relative to the first pair of the
 /// map, T_C_T with T equal to C then. residual_rms as above.
 using SlamPoseEstimate = PoseEstimate<frame::Camera, frame::Target>;
 
 /// A pair of images of a rig: what pose_t is made of. Which system it is of, its pose's frames tell.
 struct StereoReport : CameraReport {
-  std::variant<RingPoseEstimate, SlamPoseEstimate> pose;
+  std::variant<Ring2PoseEstimate, SlamPoseEstimate> pose;
 
   bool of_slam() const { return std::holds_alternative<SlamPoseEstimate>(pose); }
 };

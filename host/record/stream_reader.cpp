@@ -14,9 +14,9 @@ using namespace stream_format;
 
 constexpr std::size_t kReadBytes = 128 * 1024;
 /// Half of what 64 bits hold, year 2116: sums and differences of such times cannot overflow.
-constexpr std::int64_t kLatestNs = std::int64_t{1} << 62;
+constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62;
 
-bool in_bounds(std::int64_t time_ns) { return time_ns >= 0 && time_ns < kLatestNs; }
+bool in_bounds(std::int64_t time_ns) { return time_ns >= 0 && time_ns < kLatest_ns; }
 
 bool has_good_crc(std::span<const std::uint8_t> bytes) {
   const auto crc = wire::ByteReader(bytes.last(kCrcBytes)).get<std::uint32_t>();
@@ -95,7 +95,7 @@ std::size_t StreamReader::whole_chunk_size() {
 
 bool StreamReader::credible(const StreamChunk& chunk) const {
   return in_bounds(chunk.utc_ns) && in_bounds(chunk.monotonic_ns) && chunk.monotonic_ns >= last_monotonic_ns_ &&
-         chunk.monotonic_ns - last_monotonic_ns_ <= kLongestSilenceNs;
+         chunk.monotonic_ns - last_monotonic_ns_ <= kLongestSilence_ns;
 }
 
 std::optional<StreamChunk> StreamReader::next() {

@@ -17,7 +17,7 @@ namespace pharos::host {
 ///
 /// Damage costs the chunks that it hits and no other; dropped_bytes() counts it. A recording cut off in the middle of a
 /// chunk (power lost, disk full) gives all before and says so. Times are believed within bounds: a chunk whose
-/// monotonic time lies before the last one's or more than kLongestSilenceNs after it, or whose clocks show no time of
+/// monotonic time lies before the last one's or more than kLongestSilence_ns after it, or whose clocks show no time of
 /// this century, counts as lost.
 class StreamReader {
  public:
@@ -25,7 +25,7 @@ class StreamReader {
   explicit StreamReader(ByteSource source);
 
   /// No recorder leaves a longer hole in a file: a new one begins after a week at the latest.
-  static constexpr std::int64_t kLongestSilenceNs = 8 * std::int64_t{86'400} * 1'000'000'000;
+  static constexpr std::int64_t kLongestSilence_ns = 8 * std::int64_t{86'400} * 1'000'000'000;
 
   const StreamHeader& header() const { return header_; }
   /// The next chunk; its bytes hold until the next call. Empty at the end.

@@ -15,10 +15,10 @@ namespace pharos::host {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
-constexpr std::int64_t kRetryNs = kNsPerS;
+constexpr std::int64_t kRetry_ns = kNsPerS;
 constexpr int kFilePermissions = 0644;
 /// Files of one target begun within one second.
-constexpr int kMostNamesakes = 1000;
+constexpr int kMaxNamesakes = 1000;
 
 std::string utc_word(std::int64_t utc_ns) {
   const std::time_t seconds = utc_ns / kNsPerS;
@@ -49,7 +49,7 @@ void StreamRecorder::append_chunk(std::span<const std::uint8_t> bytes, std::int6
       file_bytes_ += scratch_.size();
       counters_.bytes_recorded += bytes.size();
       lost_before_ = 0;
-      trouble_.clear();
+      error_.clear();
       return;
     }
     fail(file_.string() + ": cannot be written", errno, monotonic_ns);
@@ -64,7 +64,7 @@ bool StreamRecorder::ready(std::int64_t utc_ns, std::int64_t monotonic_ns) {
     if (file_bytes_ < options_.rotate_bytes && age_s < options_.rotate_s) return true;
     close_file();
   }
-  if (!trouble_.empty() && monotonic_ns < retry_at_ns_) return false;
+  if (!error_.empty() && monotonic_ns < retry_at_ns_) return false;
   return open_file(utc_ns, monotonic_ns);
 }
 
@@ -72,7 +72,7 @@ bool StreamRecorder::open_file(std::int64_t utc_ns, std::int64_t monotonic_ns) {
   std::error_code ignored;  // if the folder cannot be made, opening says why
   std::filesystem::create_directories(options_.directory, ignored);
   const std::string stem = options_.target + "_" + utc_word(utc_ns);
-  for (int namesake = 0; namesake < kMostNamesakes && !fd_.valid(); ++namesake) {
+  for (int namesake = 0; namesake < kMaxNamesakes && !fd_.valid(); ++namesake) {
     file_ = options_.directory / (stem + (namesake == 0 ? "" : "_" + std::to_string(namesake)) + ".phraw");
     fd_.reset(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kFilePermissions));
     if (!fd_.valid() && errno != EEXIST) break;
@@ -106,8 +106,8 @@ bool StreamRecorder::write_all(std::span<const std::uint8_t> bytes) {
 
 void StreamRecorder::fail(const std::string& doing, int error, std::int64_t monotonic_ns) {
   ++counters_.failures;
-  trouble_ = doing + ": " + std::strerror(error) + "; the stream is not being recorded";
-  retry_at_ns_ = monotonic_ns + kRetryNs;
+  error_ = doing + ": " + std::strerror(error) + "; the stream is not being recorded";
+  retry_at_ns_ = monotonic_ns + kRetry_ns;
   // What was written of the broken chunk goes, and with it a file that would hold nothing but its head: on a full disk
   // every attempt would leave another one.
   if (fd_.valid()) {
@@ -115,7 +115,7 @@ void StreamRecorder::fail(const std::string& doing, int error, std::int64_t mono
         holds_chunks_ ? ::ftruncate(fd_.get(), static_cast<off_t>(file_bytes_)) == 0 : ::unlink(file_.c_str()) == 0;
     if (!cleaned) {
       ++counters_.failures;
-      trouble_ += "; " + file_.string() + (holds_chunks_ ? " ends with a broken chunk" : " is left without content");
+      error_ += "; " + file_.string() + (holds_chunks_ ? " ends with a broken chunk" : " is left without content");
     }
   }
   close_file();

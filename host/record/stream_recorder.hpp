@@ -43,7 +43,7 @@ class StreamRecorder {
 
   const RecorderCounters& counters() const { return counters_; }
   /// Why nothing is recorded at the moment, one line for a person; empty when all is well.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
   /// The file that is being written; empty when none is.
   const std::filesystem::path& file() const { return file_; }
 
@@ -57,7 +57,7 @@ class StreamRecorder {
 
   RecorderOptions options_;
   RecorderCounters counters_;
-  std::string trouble_;
+  std::string error_;
   UniqueFd fd_;
   std::filesystem::path file_;
   std::uint64_t file_bytes_ = 0;  // head and whole chunks only

@@ -16,7 +16,7 @@ ReopeningPort::Attempt ReopeningPort::try_open(std::int64_t now_ns) {
     return Attempt::kOpened;
   }
   waiting_ = true;
-  next_attempt_ns_ = now_ns + kReopenPeriodNs;
+  next_attempt_ns_ = now_ns + kReopenPeriod_ns;
   OpenFailure now = opened.error();
   const bool told = now.message == failure_.message;
   failure_ = std::move(now);
@@ -27,7 +27,7 @@ Transfer ReopeningPort::checked(Transfer transfer, std::int64_t now_ns) {
   if (!transfer.gone) return transfer;
   port_ = SerialPort();
   waiting_ = true;
-  next_attempt_ns_ = now_ns + kReopenPeriodNs;
+  next_attempt_ns_ = now_ns + kReopenPeriod_ns;
   ++times_lost_;
   return transfer;
 }

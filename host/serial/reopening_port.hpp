@@ -10,7 +10,7 @@
 namespace pharos::host {
 
 /// Time between two attempts to open a port that is gone: short for a person who replugs, nothing for the processor.
-inline constexpr std::int64_t kReopenPeriodNs = 500'000'000;
+inline constexpr std::int64_t kReopenPeriod_ns = 500'000'000;
 
 /// A port that comes back after it was unplugged. No thread and no timer of its own: the poll loop's timer calls
 /// try_open() at least twice a second; time is what the caller says (monotonic ns).

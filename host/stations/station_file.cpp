@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cstdio>
 
-#include "host/config/strict_toml.hpp"
 #include "host/support/exact_number.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "pharos/base/capacity.hpp"
 
 namespace pharos::host {
@@ -76,7 +76,7 @@ std::vector<StationEntry> read_station_file(const std::string& path) {
   return entries;
 }
 
-bool is_believable(const lighthouse::StationCalibration& station) {
+bool is_plausible(const lighthouse::StationCalibration& station) {
   for (const Field& field : kFields) {
     for (const RotorCalibration& rotor : station.rotor) {
       const double value = rotor.*field.member;

@@ -32,7 +32,7 @@ std::vector<StationEntry> read_stations(const TomlTable& root);
 
 /// Whether read_station_file takes what station_text makes of it: a station's own word may be finite and still no angle
 /// of any station.
-bool is_believable(const lighthouse::StationCalibration& station);
+bool is_plausible(const lighthouse::StationCalibration& station);
 
 /// One [[station]] by id, which read_station_file reads back exactly.
 std::string station_text(const lighthouse::StationCalibration& station);

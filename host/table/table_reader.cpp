@@ -105,13 +105,13 @@ std::optional<double> TableReader::optional_number(std::size_t column) const {
   return number(column);
 }
 
-std::int64_t TableReader::integer(std::size_t column, std::int64_t least, std::int64_t most) const {
+std::int64_t TableReader::integer(std::size_t column, std::int64_t minimum, std::int64_t maximum) const {
   const std::string_view field = text(column);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size() || value < least || value > most) {
+  if (error != std::errc{} || end != field.data() + field.size() || value < minimum || value > maximum) {
     fail(column,
-         quoted(field) + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+         quoted(field) + " is not a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
   }
   return value;
 }

@@ -33,7 +33,7 @@ class TableReader {
   double number(std::size_t column) const;
   /// Empty field: no value.
   std::optional<double> optional_number(std::size_t column) const;
-  std::int64_t integer(std::size_t column, std::int64_t least, std::int64_t most) const;
+  std::int64_t integer(std::size_t column, std::int64_t minimum, std::int64_t maximum) const;
 
   /// An InputError about `column` of the present row: "FILE: line N: column 'c': WHAT".
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;

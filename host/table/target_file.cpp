@@ -66,13 +66,13 @@ void check_against_earlier(const TableReader& table, const std::map<int, std::si
 }
 
 std::string closest_pair(const Target& target) {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   std::string pair;
   for (std::size_t i = 0; i < target.size(); ++i) {
     for (std::size_t j = i + 1; j < target.size(); ++j) {
       const double distance = (target[i].position_m - target[j].position_m).norm();
-      if (distance >= least) continue;
-      least = distance;
+      if (distance >= minimum) continue;
+      minimum = distance;
       pair = std::to_string(target[i].sensor) + " and " + std::to_string(target[j].sensor);
     }
   }

@@ -54,7 +54,7 @@ class Includes(ScratchTree):
 
     def test_base_may_not_reach_geometry(self):
         self.plant("common/pharos/geometry/pose.hpp", "")
-        self.refused("common/pharos/base/ring.hpp", '"pharos/geometry/pose.hpp"', "may not reach common/pharos/geometry")
+        self.refused("common/pharos/base/ring_buffer.hpp", '"pharos/geometry/pose.hpp"', "may not reach common/pharos/geometry")
 
     def test_wire_may_not_reach_lighthouse(self):
         self.plant("common/pharos/lighthouse/sweep.hpp", "")
@@ -65,8 +65,8 @@ class Includes(ScratchTree):
         self.refused("common/pharos/pose/solve.cpp", '"pharos/lighthouse/sweep.hpp"', "may not reach")
 
     def test_host_may_not_reach_tools(self):
-        self.plant("tools/cli/commands.hpp", "")
-        self.refused("host/daemon/loop.cpp", '"tools/cli/commands.hpp"', "may not reach tools")
+        self.plant("tools/support/commands.hpp", "")
+        self.refused("host/daemon/loop.cpp", '"tools/support/commands.hpp"', "may not reach tools")
 
     def test_firmware_may_not_reach_the_host(self):
         self.plant("host/clock/clock.hpp", "")
@@ -75,7 +75,7 @@ class Includes(ScratchTree):
     def test_core_may_not_use_the_heap_s_containers(self):
         for header in ("vector", "string", "functional", "memory", "map", "new", "iostream", "chrono", "thread", "mutex"):
             with self.subTest(header):
-                self.refused("common/pharos/base/ring.hpp", f"<{header}>", "portable core")
+                self.refused("common/pharos/base/ring_buffer.hpp", f"<{header}>", "portable core")
 
     def test_core_may_not_use_the_operating_system(self):
         self.refused("common/pharos/wire/port.cpp", "<unistd.h>", "portable core")
@@ -89,9 +89,9 @@ class Includes(ScratchTree):
                 (self.root / file).unlink()
 
     def test_what_the_rules_allow_passes(self):
-        self.plant("common/pharos/base/ring.hpp", "#include <array>\n")
+        self.plant("common/pharos/base/ring_buffer.hpp", "#include <array>\n")
         self.plant("host/config/load.cpp", '#include <toml++/toml.h>\n#include <string>\n')
-        self.allowed("common/pharos/geometry/pose.hpp", '"pharos/base/ring.hpp"')
+        self.allowed("common/pharos/geometry/pose.hpp", '"pharos/base/ring_buffer.hpp"')
 
 
 class CoreSymbols(ScratchTree):

@@ -24,7 +24,7 @@ def main():
     failed = False
     print("| image | code and constants | hot code | variables | stack | variables + stack | with loader | of 36,864 |")
     print("|---|---|---|---|---|---|---|---|")
-    for name, (most_ram, most_all) in LIMITS.items():
+    for name, (max_ram, max_all) in LIMITS.items():
         elf = images / f"{name}.elf"
         if not elf.exists():
             continue
@@ -32,11 +32,11 @@ def main():
         code = size[".text"] + size[".rodata"]
         variables = size[".data"] + size[".bss"] + RETAINED
         ram = variables + size[".stack"]
-        on_chip = ram + size[".hot"] + LOADER + (code if most_all else 0)
+        on_chip = ram + size[".hot"] + LOADER + (code if max_all else 0)
         print(f"| {name} | {code:,} | {size['.hot']:,} | {variables:,} | {size['.stack']:,} | {ram:,} | {on_chip:,} | "
               f"{CHIP - on_chip:+,} |")
-        if ram > most_ram or on_chip > (most_all or CHIP):
-            print(f"FAILED: {name} is over its budget of {most_ram:,} variables and stack, {most_all or CHIP:,} in all")
+        if ram > max_ram or on_chip > (max_all or CHIP):
+            print(f"FAILED: {name} is over its budget of {max_ram:,} variables and stack, {max_all or CHIP:,} in all")
             failed = True
     for image in sorted(images.glob("decoder*.image")):
         print(f"{image.name}: {image.stat().st_size:,} bytes of the {SLOT:,} of a slot")

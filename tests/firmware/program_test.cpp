@@ -88,7 +88,7 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
 };
 
 // A solver that comes by and is behind.
-class LateSolver final : public PoseDesk {
+class LateSolver final : public PoseSolver {
  public:
   void take(const lighthouse::Sweep&) override {}
   void take(const lighthouse::OotxPayload&) override {}

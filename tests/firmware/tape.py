@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tapes of the capture block's words (firmware/board/qemu_virt/capture_tape.hpp), the decoder image that hears them, and the
+"""Tapes of the capture block's words (firmware/board/qemu_virt/capture_replay.hpp), the decoder image that hears them, and the
 frames that it says. As a program: records without times (edges_through_capture) on standard input become a whole tape."""
 
 import pathlib

@@ -71,7 +71,7 @@ class Watched {
     const std::size_t rotor = std::size_t{2} * flash.station + static_cast<std::size_t>(index_of(flash.axis));
     const SmoothedFlash smoothed = smoother_[rotor].push(sweep);
     require(std::isfinite(smoothed.offset_ticks) && std::abs(smoothed.offset_ticks) < 1000.0);
-    require(std::abs(smoothed.period_ticks / kNominalPeriodTicks - 1.0) < 0.03);
+    require(std::abs(smoothed.period_ticks / kNominalPeriod_ticks - 1.0) < 0.03);
     for (const Bearing& bearing : bearings_of(sweep, smoothed)) {
       require(std::isfinite(bearing.theta_rad) && bearing.theta_rad > 0.0 && bearing.theta_rad < 3.2);
       require(bearing.sensor < 32);

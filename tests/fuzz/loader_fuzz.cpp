@@ -24,7 +24,7 @@ const Bytes& good_image() {
 }
 
 /// Time is not what matters here.
-void hurry(VirtualTarget& target) {
+void set_fast_flash(VirtualTarget& target) {
   target.turn_ticks = boot::kTicksPerSecond / 1000;
   target.machine.byte_ticks = 1;
   target.machine.uart_holds = 1 << 16;
@@ -34,7 +34,7 @@ void hurry(VirtualTarget& target) {
 const std::vector<std::uint8_t>& flash_with_image() {
   static const std::vector<std::uint8_t> bytes = [] {
     VirtualTarget target;
-    hurry(target);
+    set_fast_flash(target);
     Host host(target);
     start_with(target, host, good_image());
     return target.machine.flash.bytes;
@@ -58,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   Input input(data + 1, size - 1);
   VirtualTarget target;
-  hurry(target);
+  set_fast_flash(target);
   target.machine.flash.bytes = flash_with_image();
   target.power_on();
   boot::announce_reset(target.machine.retained, wire::ResetCause::kCommand, true);

@@ -43,8 +43,8 @@ void check_stream(Input bytes) {
   require(frames.counters().garbage_bytes <= bytes.size());
   FrameEncoder encoder;
   std::array<std::uint8_t, kMaxLineFrame> line{};
-  const std::array<std::uint8_t, 76> greeting{};
-  const std::size_t size = encoder.encode(MessageType::kHello, greeting, line);
+  const std::array<std::uint8_t, 76> hello{};
+  const std::size_t size = encoder.encode(MessageType::kHello, hello, line);
   const std::uint64_t repeated = frames.counters().repeated;
   bool came = false;
   for (const std::uint8_t byte : std::span(line).first(size)) came = frames.push(byte).has_value();

@@ -12,12 +12,12 @@
 #include <csignal>
 #include <system_error>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
 
-constexpr int kSliceMs = 20;
+constexpr int kSlice_ms = 20;
 
 std::int64_t deadline_ns(double seconds) { return monotonic_now_ns() + static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -71,7 +71,7 @@ bool ChildProcess::wait_for(const std::string& words, double seconds) {
   while (text().find(words) == std::string::npos) {
     if (monotonic_now_ns() > deadline) return false;
     if (wait_exit(0.0) >= 0) return text().find(words) != std::string::npos;
-    read_available(kSliceMs);
+    read_available(kSlice_ms);
   }
   return true;
 }
@@ -90,7 +90,7 @@ int ChildProcess::wait_exit(double seconds) {
       break;
     }
     if (monotonic_now_ns() > deadline) return -1;
-    read_available(seconds > 0.0 ? kSliceMs : 0);
+    read_available(seconds > 0.0 ? kSlice_ms : 0);
   }
   return exit_code_;
 }

@@ -10,7 +10,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <thread>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "pharos/base/ticks.hpp"
 
 namespace pharos::host {
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The target's clock at the test's start: any, far from zero.
-constexpr std::int64_t kFirstTicks = 1000 * kTicksPerSecond;
+constexpr std::int64_t kFirst_ticks = 1000 * kTicksPerSecond;
 
 std::string own_url() { return "udpm://239.255.76.68:" + std::to_string(20'000 + ::getpid() % 20'000) + "?ttl=0"; }
 
@@ -29,9 +29,9 @@ DaemonUnderTest::DaemonUnderTest()
     : folder_(fs::path(::testing::TempDir()) / ("pharosd_" + std::to_string(::getpid()))), url_(own_url()) {
   fs::remove_all(folder_);
   fs::create_directories(folder_);
-  std::ofstream(folder_ / "dock.csv") << StillTarget::target_table();
+  std::ofstream(folder_ / "dock.csv") << StationaryTarget::target_table();
   lcm_ = std::make_unique<lcm::LCM>(url_);
-  target_clock_zero_ns_ = monotonic_now_ns() - ticks_to_nanoseconds(kFirstTicks);
+  target_clock_zero_ns_ = monotonic_now_ns() - ticks_to_nanoseconds(kFirst_ticks);
   if (!lcm_->good()) return;  // start() says so
   // LCM keeps 30 messages for whoever does not ask: fewer than a daemon sends while a test waits for its end.
   constexpr int kMessages = 10'000;
@@ -91,14 +91,14 @@ bool DaemonUnderTest::wait(const std::function<bool()>& done, double seconds) {
   return true;
 }
 
-bool DaemonUnderTest::play(StillTarget& target, const PseudoTerminal& line, const std::function<bool()>& done,
+bool DaemonUnderTest::play(StationaryTarget& target, const PseudoTerminal& line, const std::function<bool()>& done,
                            double seconds) {
   const std::int64_t end_ns = monotonic_now_ns() + static_cast<std::int64_t>(seconds * 1e9);
   const auto now_ticks = [&] { return (monotonic_now_ns() - target_clock_zero_ns_) / kNanosecondsPerTick; };
   std::int64_t ticks = now_ticks();
   while (!done()) {
     if (monotonic_now_ns() > end_ns) return false;
-    ticks += StillTarget::kTurnTicks;
+    ticks += StationaryTarget::kTurn_ticks;
     while (now_ticks() < ticks) listen(static_cast<int>((ticks - now_ticks()) / (kTicksPerSecond / 1000)));
     line.write(target.cycle(ticks));
     line.write(target.time(now_ticks()));

@@ -10,7 +10,7 @@
 
 #include "integration/child_process.hpp"
 #include "integration/pseudo_terminal.hpp"
-#include "integration/still_target.hpp"
+#include "integration/stationary_target.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
@@ -45,7 +45,8 @@ class DaemonUnderTest {
 
   /// Plays cycles of `target` into `line` at real speed until `done` or `seconds` are over; true when done. The
   /// target's clock goes on from call to call.
-  bool play(StillTarget& target, const PseudoTerminal& line, const std::function<bool()>& done, double seconds = 8.0);
+  bool play(StationaryTarget& target, const PseudoTerminal& line, const std::function<bool()>& done,
+            double seconds = 8.0);
   /// Listens without playing.
   bool wait(const std::function<bool()>& done, double seconds = 8.0);
 

@@ -18,11 +18,11 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+LighthouseFromBody some_pose() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
 // True poses of a target at rest, from long before to long after this test.
 void write_truth(const std::filesystem::path& file) {
-  const Quaternion q = somewhere().quaternion();
+  const Quaternion q = some_pose().quaternion();
   std::ofstream out(file);
   out.precision(17);
   out << "utime,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
@@ -40,7 +40,7 @@ TEST(Listen, SummarisesPosesAgainstTheTruthAndEndsWith0) {
   write_truth(daemon.folder() / "truth.csv");
   ChildProcess listen({PHAROS, "listen", "--url", daemon.url(), "--truth", (daemon.folder() / "truth.csv").string(),
                        "--summary", "--count", "20"});
-  StillTarget target(somewhere());
+  StationaryTarget target(some_pose());
   int exit_code = -1;
   daemon.play(
       target, line, [&] { return (exit_code = listen.wait_exit(0.0)) >= 0; }, 20.0);
@@ -106,7 +106,7 @@ TEST(Listen, ListenersStartedAtOnceAllHear) {
     return std::all_of(listeners.begin(), listeners.end(),
                        [](auto& listener) { return listener->wait_exit(0.0) >= 0; });
   };
-  StillTarget target(somewhere());
+  StationaryTarget target(some_pose());
   EXPECT_TRUE(daemon.play(target, line, all_ended, 20.0));
   for (const auto& listener : listeners) EXPECT_EQ(listener->wait_exit(0.0), 0) << listener->text();
 }

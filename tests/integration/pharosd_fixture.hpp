@@ -12,7 +12,7 @@ namespace pharos::host {
 /// A daemon, a line that ends at its port and a target before its station: what nearly every test of pharosd needs.
 class PharosdTest : public ::testing::Test {
  protected:
-  static LighthouseFromBody somewhere() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
+  static LighthouseFromBody some_pose() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
   /// Plugs the line in, writes the configuration (see DaemonUnderTest::write_config) and starts the daemon.
   void start(const std::string& more = "", const std::string& head = "", unsigned long file_size_limit = 0) {
@@ -37,7 +37,7 @@ class PharosdTest : public ::testing::Test {
 
   DaemonUnderTest daemon;
   PseudoTerminal line;
-  StillTarget target{somewhere()};
+  StationaryTarget target{some_pose()};
 };
 
 }  // namespace pharos::host

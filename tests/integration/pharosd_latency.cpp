@@ -13,11 +13,11 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 
-#include "host/daemon/latency_histogram.hpp"
-#include "host/daemon/now.hpp"
+#include "host/runtime/latency_histogram.hpp"
+#include "host/runtime/now.hpp"
 #include "integration/child_process.hpp"
 #include "integration/pseudo_terminal.hpp"
-#include "integration/still_target.hpp"
+#include "integration/stationary_target.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/status_t.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Ear {
+struct Subscriber {
   LatencyHistogram latency;
   std::int64_t written_ns = 0;
   std::int64_t poses = 0;
@@ -56,48 +56,48 @@ int measure(double seconds) {
   fs::create_directories(folder);
   const std::string url = "udpm://239.255.76.68:" + std::to_string(20'000 + ::getpid() % 20'000) + "?ttl=0";
   PseudoTerminal line;
-  std::ofstream(folder / "target.csv") << StillTarget::target_table(12);
+  std::ofstream(folder / "target.csv") << StationaryTarget::target_table(12);
   std::ofstream(folder / "p.toml") << "[lcm]\nurl = '" << url << "'\n[[target]]\nname = 'dock'\nport = '" << line.path()
                                    << "'\ntarget_file = 'target.csv'\n";
   lcm::LCM lcm(url);
-  Ear ear;
-  lcm.subscribe("PHAROS_LIGHTHOUSE_POSE", &Ear::on_pose, &ear);
-  lcm.subscribe("PHAROS_STATUS", &Ear::on_status, &ear);
+  Subscriber subscriber;
+  lcm.subscribe("PHAROS_LIGHTHOUSE_POSE", &Subscriber::on_pose, &subscriber);
+  lcm.subscribe("PHAROS_STATUS", &Subscriber::on_status, &subscriber);
   ChildProcess daemon({PHAROSD, (folder / "p.toml").string()});
   if (!daemon.wait_for("is open")) {
     std::fprintf(stderr, "pharosd did not start:\n%s", daemon.text().c_str());
     return 1;
   }
-  StillTarget target({rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}, 12);
+  StationaryTarget target({rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}, 12);
   const std::int64_t start_ns = monotonic_now_ns();
   const auto ticks_now = [&] { return (monotonic_now_ns() - start_ns) / kNanosecondsPerTick + kTicksPerSecond; };
   std::int64_t ticks = ticks_now();
   while (static_cast<double>(monotonic_now_ns() - start_ns) < seconds * 1e9) {
-    ticks += StillTarget::kTurnTicks;
+    ticks += StationaryTarget::kTurn_ticks;
     hear_until(lcm, start_ns + (ticks - kTicksPerSecond) * kNanosecondsPerTick);
-    const StillTarget::Bytes cycle = target.cycle(ticks);
-    ear.written_ns = monotonic_now_ns();
+    const StationaryTarget::Bytes cycle = target.cycle(ticks);
+    subscriber.written_ns = monotonic_now_ns();
     if (!line.write(cycle)) return 1;
     line.write(target.time(ticks_now()));
   }
   hear_until(lcm, monotonic_now_ns() + 1'100'000'000);
-  const auto us = [&](double q) { return static_cast<double>(ear.latency.quantile_ns(q)) * 1e-3; };
-  std::printf("poses                      %lld in %.1f s\n", static_cast<long long>(ear.poses), seconds);
+  const auto us = [&](double q) { return static_cast<double>(subscriber.latency.quantile_ns(q)) * 1e-3; };
+  std::printf("poses                      %lld in %.1f s\n", static_cast<long long>(subscriber.poses), seconds);
   std::printf("last byte in -> pose heard p50 %.0f us, p99 %.0f us, largest %.0f us\n", us(0.5), us(0.99), us(1.0));
   std::printf("of that inside pharosd     p50 %lld us, p99 %lld us\n",
-              static_cast<long long>(ear.counters["latency_p50_us"]),
-              static_cast<long long>(ear.counters["latency_p99_us"]));
+              static_cast<long long>(subscriber.counters["latency_p50_us"]),
+              static_cast<long long>(subscriber.counters["latency_p99_us"]));
   std::printf("pharosd                    %.2f %% of one core, %.1f MiB resident\n",
-              static_cast<double>(ear.counters["process_cpu_us"]) * 1e-6 / (seconds + 1.1) * 100.0,
-              static_cast<double>(ear.counters["process_resident_kib"]) / 1024.0);
+              static_cast<double>(subscriber.counters["process_cpu_us"]) * 1e-6 / (seconds + 1.1) * 100.0,
+              static_cast<double>(subscriber.counters["process_resident_kib"]) / 1024.0);
   fs::remove_all(folder);
-  return ear.poses > 0 ? 0 : 1;
+  return subscriber.poses > 0 ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace pharos::host
 
 int main(int argc, char** argv) {
-  constexpr double kDefaultSeconds = 20.0;
-  return pharos::host::measure(argc > 1 ? std::atof(argv[1]) : kDefaultSeconds);
+  constexpr double kDefault_s = 20.0;
+  return pharos::host::measure(argc > 1 ? std::atof(argv[1]) : kDefault_s);
 }

@@ -70,7 +70,7 @@ TEST_F(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
 TEST_F(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
   start();
   ASSERT_TRUE(daemon.process().wait_for("is open"));
-  for (std::uint16_t i = 0; i < 5; ++i) line.write(foreign_frame(7, i));
+  for (std::uint16_t i = 0; i < 5; ++i) line.write(frame_of_unsupported_version(7, i));
   ASSERT_TRUE(daemon.wait([&] { return daemon.source() != nullptr && daemon.source()->state == "error"; }))
       << daemon.process().text();
   EXPECT_THAT(daemon.source()->message, HasSubstr("speaks version 7"));

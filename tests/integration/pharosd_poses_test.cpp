@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "integration/pharosd_fixture.hpp"
 #include "pharos/base/units.hpp"
 
@@ -12,7 +12,7 @@ namespace pharos::host {
 namespace {
 
 using Pharosd = PharosdTest;
-LighthouseFromBody elsewhere() { return {rotation_exp(Vector3(-0.1, 0.2, 0.0)), Vector3(-0.5, 0.1, 3.0)}; }
+LighthouseFromBody other_pose() { return {rotation_exp(Vector3(-0.1, 0.2, 0.0)), Vector3(-0.5, 0.1, 3.0)}; }
 
 Vector6 error_of(const pose_t& pose, const LighthouseFromBody& truth) {
   const Quaternion q(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
@@ -31,7 +31,7 @@ TEST_F(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
     EXPECT_EQ(pose.status, "ok");
     EXPECT_EQ(pose.target, "dock");
     EXPECT_EQ(pose.source, "lighthouse/pharosd");
-    const Vector6 error = error_of(pose, somewhere());
+    const Vector6 error = error_of(pose, some_pose());
     EXPECT_LT(error.head<3>().norm(), 0.05 * kRadPerDeg);
     EXPECT_LT(error.tail<3>().norm(), 1e-3);
     EXPECT_GT(pose.utime, last_utime);
@@ -47,8 +47,8 @@ TEST_F(Pharosd, TwoTargetsAreToldApart) {
   daemon.plug_in(second_line, "second");
   daemon.write_config("[[target]]\nname = 'free'\nport = '" + daemon.port("second") + "'\ntarget_file = 'dock.csv'\n");
   daemon.start();
-  StillTarget here(somewhere());
-  StillTarget there(elsewhere());
+  StationaryTarget here(some_pose());
+  StationaryTarget there(other_pose());
   for (int i = 0; i < 400 && (daemon.valid_poses("dock") < 10 || daemon.valid_poses("free") < 10); ++i) {
     int cycles = 0;
     daemon.play(here, line, [&] { return cycles++ == 1; });
@@ -58,7 +58,7 @@ TEST_F(Pharosd, TwoTargetsAreToldApart) {
   ASSERT_GE(daemon.valid_poses("dock"), 10u) << daemon.process().text();
   ASSERT_GE(daemon.valid_poses("free"), 10u);
   for (const pose_t& pose : daemon.poses()) {
-    EXPECT_LT(error_of(pose, pose.target == "dock" ? somewhere() : elsewhere()).tail<3>().norm(), 2e-3);
+    EXPECT_LT(error_of(pose, pose.target == "dock" ? some_pose() : other_pose()).tail<3>().norm(), 2e-3);
   }
 }
 
@@ -99,7 +99,7 @@ TEST_F(Pharosd, CalibrationsAreKeptAcrossARestart) {
   EXPECT_EQ(stop(), 0);
   ASSERT_TRUE(std::filesystem::exists(daemon.folder() / "state" / "stations.toml"));
   daemon.start();
-  StillTarget again(somewhere());
+  StationaryTarget again(some_pose());
   line.write(again.ootx(0, 0xBEC08E38));  // once is enough now
   EXPECT_TRUE(daemon.process().wait_for("calibration of station 0 (BEC08E38) in use")) << daemon.process().text();
 }

@@ -38,10 +38,10 @@ class PseudoTerminal {
 
   /// Writes all of it, waiting for the reader where the line's buffer is full; false after five seconds without room.
   bool write(std::span<const std::uint8_t> bytes) const {
-    constexpr int kPatienceMs = 5000;
+    constexpr int kTimeout_ms = 5000;
     while (!bytes.empty()) {
       pollfd room{fd_.get(), POLLOUT, 0};
-      if (::poll(&room, 1, kPatienceMs) <= 0) return false;
+      if (::poll(&room, 1, kTimeout_ms) <= 0) return false;
       const ssize_t written = ::write(fd_.get(), bytes.data(), bytes.size());
       if (written <= 0) return false;
       bytes = bytes.subspan(static_cast<std::size_t>(written));

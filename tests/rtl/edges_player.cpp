@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kSensors = 32;
 // From a pin's change until its record is counted in STATUS, and as much again for certainty.
-constexpr std::uint64_t kSettleTicks = 2 * (PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS);
+constexpr std::uint64_t kSettle_ticks = 2 * (PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS);
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 struct PinEdge {
@@ -46,7 +46,7 @@ class Player {
   Player(std::vector<PinEdge> edges, const PlayOptions& options, PlayedEdges& played)
       : edges_(std::move(edges)), options_(options), played_(played) {
     device_->reset(0);
-    start_ = edges_.front().tick - PHAROS_CAPTURE_LATENCY_TICKS - static_cast<std::int64_t>(kSettleTicks);
+    start_ = edges_.front().tick - PHAROS_CAPTURE_LATENCY_TICKS - static_cast<std::int64_t>(kSettle_ticks);
     device_->set_ticks(static_cast<std::uint64_t>(start_));
     tick({BusRequest::Kind::kWrite, PHAROS_CAPTURE_CONTROL_OFFSET, PHAROS_CAPTURE_CONTROL_ENABLE});
   }
@@ -60,7 +60,7 @@ class Player {
       next_look_ = now_ + options_.service_ticks;
       const std::uint64_t looked_at = now_;
       if (take_record()) continue;
-      if (looked_at < last_edge_ + kSettleTicks) continue;
+      if (looked_at < last_edge_ + kSettle_ticks) continue;
       const std::uint64_t edge = next_edge();
       if (edge == kNever) break;
       if (options_.skip_idle && edge > now_) jump(edge);

@@ -51,14 +51,14 @@ std::size_t worst_fill(std::span<const std::int64_t> records, std::int64_t servi
   return worst;
 }
 
-std::size_t most_in_window(std::span<const std::int64_t> records, std::int64_t absent_ticks) {
-  std::size_t most = 0;
+std::size_t max_in_window(std::span<const std::int64_t> records, std::int64_t absent_ticks) {
+  std::size_t maximum = 0;
   std::size_t first = 0;
   for (std::size_t last = 0; last < records.size(); ++last) {
     while (records[last] - records[first] > absent_ticks) ++first;
-    most = std::max(most, last - first + 1);
+    maximum = std::max(maximum, last - first + 1);
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace pharos::rtl

@@ -21,6 +21,6 @@ std::uint32_t busiest_sensors(std::span<const lighthouse::RawPulse> pulses, std:
 std::size_t worst_fill(std::span<const std::int64_t> records, std::int64_t service_ticks);
 
 /// Most records that come while nobody reads for `absent_ticks`.
-std::size_t most_in_window(std::span<const std::int64_t> records, std::int64_t absent_ticks);
+std::size_t max_in_window(std::span<const std::int64_t> records, std::int64_t absent_ticks);
 
 }  // namespace pharos::rtl

@@ -15,11 +15,11 @@ constexpr std::size_t kDepth = 512;
 constexpr std::size_t kFlyingSensors = 12;
 constexpr std::size_t kAllSensors = 32;
 // 250 instructions an edge at 3 cycles each are 15 us: the slowest core that the decoder is meant for.
-constexpr std::int64_t kServiceUs[] = {5, 15, 20, 30};
-constexpr std::int64_t kSlowestServiceUs = 20;
-constexpr std::int64_t kAbsentUs[] = {1'000, 8'333, 16'667, 33'333, 50'000};
+constexpr std::int64_t kService_us[] = {5, 15, 20, 30};
+constexpr std::int64_t kSlowestService_us = 20;
+constexpr std::int64_t kAbsent_us[] = {1'000, 8'333, 16'667, 33'333, 50'000};
 // Longest time for which the reader may be away: 3 turns of a rotor.
-constexpr std::int64_t kLongestAbsenceUs = 50'000;
+constexpr std::int64_t kLongestAbsence_us = 50'000;
 
 class RealLight : public testing::TestWithParam<const char*> {};
 
@@ -27,12 +27,12 @@ void print_and_check(const char* name, std::size_t sensors, bool must_fit) {
   const auto pulses = test::recorded_pulses(name);
   const auto records = record_ticks(pulses, busiest_sensors(pulses, sensors));
   std::printf("| %s | %zu |", name, sensors);
-  for (const std::int64_t us : kServiceUs) std::printf(" %zu |", worst_fill(records, microseconds_to_ticks(us)));
-  for (const std::int64_t us : kAbsentUs) std::printf(" %zu |", most_in_window(records, microseconds_to_ticks(us)));
+  for (const std::int64_t us : kService_us) std::printf(" %zu |", worst_fill(records, microseconds_to_ticks(us)));
+  for (const std::int64_t us : kAbsent_us) std::printf(" %zu |", max_in_window(records, microseconds_to_ticks(us)));
   std::printf("\n");
   if (!must_fit) return;
-  EXPECT_LE(worst_fill(records, microseconds_to_ticks(kSlowestServiceUs)), kDepth / 2);
-  EXPECT_LE(most_in_window(records, microseconds_to_ticks(kLongestAbsenceUs)), kDepth);
+  EXPECT_LE(worst_fill(records, microseconds_to_ticks(kSlowestService_us)), kDepth / 2);
+  EXPECT_LE(max_in_window(records, microseconds_to_ticks(kLongestAbsence_us)), kDepth);
 }
 
 TEST_P(RealLight, OnTwelveSensorsNeverFillsTheFifoHoweverSlowTheReader) {

@@ -29,9 +29,9 @@ TEST(FifoFill, AReaderFasterThanTheRecordsNeverLetsTwoWait) {
 
 TEST(FifoFill, TheDensestWindowIsFound) {
   const std::vector<std::int64_t> records{0, 10, 20, 500, 505, 508, 509};
-  EXPECT_EQ(most_in_window(records, 9), 4u);
-  EXPECT_EQ(most_in_window(records, 4), 3u);
-  EXPECT_EQ(most_in_window(records, 1000), 7u);
+  EXPECT_EQ(max_in_window(records, 9), 4u);
+  EXPECT_EQ(max_in_window(records, 4), 3u);
+  EXPECT_EQ(max_in_window(records, 1000), 7u);
 }
 
 }  // namespace

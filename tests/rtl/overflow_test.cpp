@@ -23,7 +23,7 @@ bool overflow(CaptureRig& rig) {
   return (rig.read(PHAROS_CAPTURE_STATUS_OFFSET) & PHAROS_CAPTURE_STATUS_OVERFLOW) != 0;
 }
 
-std::uint32_t most_lost(const CaptureRig& rig) {
+std::uint32_t max_lost(const CaptureRig& rig) {
   return static_cast<std::uint32_t>((std::uint64_t{1} << rig.build().lost_width) - 1);
 }
 
@@ -37,7 +37,7 @@ TEST(Overflow, CountsEveryEdgeThatFoundNoRoom) {
     toggle(rig, 1);
     rig.ticks(kSettle);
     EXPECT_TRUE(overflow(rig));
-    EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(beyond * rig.build().inputs, most_lost(rig)));
+    EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(beyond * rig.build().inputs, max_lost(rig)));
   }
 }
 
@@ -48,7 +48,7 @@ TEST(Overflow, FarBeyondLeavesTheOldestRecordsWhole) {
   const unsigned extra = 50 * rig.build().depth;
   toggle(rig, rig.build().depth + extra);
   rig.ticks(kSettle);
-  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(extra * rig.build().inputs, most_lost(rig)));
+  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(extra * rig.build().inputs, max_lost(rig)));
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), rig.build().depth);
   for (unsigned i = 0; i < records.size(); ++i) {
@@ -60,9 +60,9 @@ TEST(Overflow, FarBeyondLeavesTheOldestRecordsWhole) {
 TEST(Overflow, StopsCountingAtItsLargestNumberInsteadOfStartingAnew) {
   CaptureRig rig;
   rig.enable();
-  toggle(rig, rig.build().depth + most_lost(rig) + 40);
+  toggle(rig, rig.build().depth + max_lost(rig) + 40);
   rig.ticks(kSettle);
-  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), most_lost(rig));
+  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), max_lost(rig));
 }
 #endif
 
@@ -119,7 +119,7 @@ TEST(Overflow, LeavesEveryEdgeEitherRecordedOrCounted) {
   std::uint64_t recorded = 0;
   std::uint64_t made = 0;
   // A reader that keeps up only with some of it, over many fillings.
-  for (unsigned round = 0; round < 40 && made < most_lost(rig); ++round) {
+  for (unsigned round = 0; round < 40 && made < max_lost(rig); ++round) {
     toggle(rig, 1 + (round * 7) % 5);
     made += (1 + (round * 7) % 5) * rig.build().inputs;
     rig.ticks(kSettle);

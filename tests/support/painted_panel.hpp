@@ -45,14 +45,14 @@ struct PaintedPanel {
     std::normal_distribution<double> normal(0.0, noise);
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
-        double share = 1.0;
+        double fraction = 1.0;
         for (std::size_t k = 0; k < 4; ++k) {
           const Vector2 along = (corners[(k + 1) % 4] - corners[k]).normalized(), across(-along.y(), along.x());
           const double inward = across.dot(centre - corners[k]) > 0.0 ? 1.0 : -1.0;
           const double off = inward * across.dot(Vector2(u, v) - corners[k]);
-          share *= 0.5 * std::erfc(-off / (blur_px * std::sqrt(2.0)));
+          fraction *= 0.5 * std::erfc(-off / (blur_px * std::sqrt(2.0)));
         }
-        const double value = sky + light * share + normal(random);
+        const double value = sky + light * fraction + normal(random);
         picture.pixels.push_back(static_cast<std::uint16_t>(std::clamp(value, 0.0, 65535.0)));
       }
     }

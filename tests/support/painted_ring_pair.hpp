@@ -10,8 +10,8 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/images/grey_image.hpp"
-#include "tools/problems/painted_scene.hpp"
-#include "tools/sim/stereo/stereo_rig.hpp"
+#include "tools/evaluation/problems/painted_scene.hpp"
+#include "tools/sim/ring2/stereo_rig.hpp"
 
 namespace pharos::test {
 
@@ -24,8 +24,8 @@ struct PaintedRig {
     for (std::size_t side = 0; side < 2; ++side) {
       const sim::StereoCamera& camera = rig[side];
       host::RigCamera& target = side == 0 ? out.left : out.right;
-      target.optics = {camera.width_px, camera.height_px, camera.fx_px,     camera.fy_px,
-                       camera.cx_px,    camera.cy_px,     camera.distortion};
+      target.intrinsics = {camera.width_px, camera.height_px, camera.fx_px,     camera.fy_px,
+                           camera.cx_px,    camera.cy_px,     camera.distortion};
       const Quaternion q = canonical_quaternion(camera.R_rig_camera);
       target.rotation_wxyz = {q.w(), q.x(), q.y(), q.z()};
       const Vector3& t = camera.t_rig_camera_m;
@@ -37,11 +37,11 @@ struct PaintedRig {
   host::GreyImage image(const sim::RingAndNozzle& target, std::size_t side, std::uint64_t seed) const {
     const sim::StereoCamera& camera = rig[side];
     PaintedScene scene({camera.width_px, camera.height_px, camera.fx_px}, 0.12);
-    const auto add = [&](const sim::SpaceCircle& circle, double share, double value) {
+    const auto add = [&](const sim::SpaceCircle& circle, double fraction, double value) {
       const Vector3 centre = camera.R_rig_camera.transpose() * (circle.centre_m - camera.t_rig_camera_m);
       const Vector3 normal = camera.R_rig_camera.transpose() * circle.normal;
       scene.add(
-          {Disc{{centre.x(), centre.y(), centre.z()}, {normal.x(), normal.y(), normal.z()}, share * circle.radius_m},
+          {Disc{{centre.x(), centre.y(), centre.z()}, {normal.x(), normal.y(), normal.z()}, fraction * circle.radius_m},
            value});
     };
     add(target.ring(), 1.0, 0.8);

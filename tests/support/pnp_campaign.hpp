@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::test {
 

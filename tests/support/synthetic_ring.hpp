@@ -41,7 +41,7 @@ struct SyntheticFrame {
 /// 320 x 240 pixels, a lens with some distortion: half the Helios, for speed.
 inline DepthCamera small_camera() {
   DepthCamera camera;
-  camera.optics = {320, 240, 304.3, 302.5, 160.9, 119.5, {-0.1991, 0.0809, 0.0021, -0.0002, 0.0}};
+  camera.intrinsics = {320, 240, 304.3, 302.5, 160.9, 119.5, {-0.1991, 0.0809, 0.0021, -0.0002, 0.0}};
   return camera;
 }
 
@@ -88,15 +88,15 @@ inline SyntheticFrame render(const SyntheticRing& scene, const CameraFromTarget&
   const Pose<frame::Target, frame::Camera> inverse = T_camera_target.inverse();
   const CameraFromTarget T_target_camera{inverse.R, inverse.t};
   SyntheticFrame frame;
-  frame.width_px = camera.optics.width_px;
-  frame.height_px = camera.optics.height_px;
+  frame.width_px = camera.intrinsics.width_px;
+  frame.height_px = camera.intrinsics.height_px;
   for (std::int32_t v = 0; v < frame.height_px; ++v) {
     for (std::int32_t u = 0; u < frame.width_px; ++u) {
       double grey = 0.0;
       double moment = 0.0;
       for (int k = 0; k < kSide * kSide; ++k) {
         const Vector2 pixel(u + (k % kSide + 0.5) / kSide - 0.5, v + (k / kSide + 0.5) / kSide - 0.5);
-        const Vector2 ray = *undistort(camera.optics, pixel);
+        const Vector2 ray = *undistort(camera.intrinsics, pixel);
         const synthetic::Light light = synthetic::trace(scene, T_target_camera, {ray.x(), ray.y(), 1.0});
         grey += light.grey;
         moment += light.grey * light.z_m;

@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
-#include "tools/cli/commands.hpp"
-#include "tools/cli/output.hpp"
 #include "tools/cli/usage.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
 
 int main(int argc, char** argv) {
   using namespace pharos::tools;
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   int exit_code = kExitAnswered;
   add_commands(app, exit_code);
   const NamedCommand named = named_command(app, {argv + std::min(argc, 1), argv + argc});
-  speak_as(named.name);
+  set_message_prefix(named.name);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,12 +8,12 @@
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/ellipse/detect.hpp"
-#include "tools/bench/stopwatch.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/number_option.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/ellipses/overlay.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/number_option.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
+#include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -77,7 +77,7 @@ void time_image(const std::string& name, const host::GreyImage& image, const Opt
   std::fprintf(stderr, "%s: median %.3f ms (%d times)\n", name.c_str(), 1e3 * middle_of(times_s), options.repeats);
 }
 
-void tell_limits(const std::string& name, const host::GreyImage& image, const EllipseWorkspace& workspace) {
+void print_limits(const std::string& name, const host::GreyImage& image, const EllipseWorkspace& workspace) {
   if (std::min(image.width_px, image.height_px) < ellipse::kMinSide_px) {
     note(name + ": " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
          " pixels are too few for an ellipse");
@@ -108,7 +108,7 @@ int run(const Options& options) {
     for (const DetectedEllipse& e : found) write_row(name, e, output.rows());
     ellipses += found.size();
     if (found.empty()) note(name + ": no ellipse");
-    tell_limits(name, image, detector.workspace());
+    print_limits(name, image, detector.workspace());
     if (!options.overlay.empty()) {
       host::Canvas canvas(image.view(), host::Canvas::zoom_for(image.width_px));
       draw_arcs(detector.workspace(), canvas);

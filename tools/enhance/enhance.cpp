@@ -9,12 +9,12 @@
 
 #include "host/support/input_error.hpp"
 #include "host/vision/enhance/luma.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/number_option.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/enhance/image_files.hpp"
 #include "tools/enhance/step_files.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/number_option.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -34,7 +34,7 @@ constexpr const char* kExample =
     "--report writes a row an image: its mean before and after, the noise found, and what became of it.";
 
 // The steps keep some thirty floats a pixel.
-constexpr std::size_t kMostPixels = std::size_t{1} << 24;
+constexpr std::size_t kMaxPixels = std::size_t{1} << 24;
 
 struct Options {
   std::string in, out;
@@ -74,9 +74,9 @@ class Worker {
     Outcome outcome;
     outcome.picture = host::read_picture(from);
     const std::string name = from == "-" ? "standard input" : from;
-    if (outcome.picture.pixels() > kMostPixels) {
+    if (outcome.picture.pixels() > kMaxPixels) {
       throw host::InputError(name + ": has " + std::to_string(outcome.picture.pixels()) + " pixels; at most " +
-                             std::to_string(kMostPixels) + " are enhanced: cut it or scale it down");
+                             std::to_string(kMaxPixels) + " are enhanced: cut it or scale it down");
     }
     const auto [low, high] = std::minmax_element(outcome.picture.values.begin(), outcome.picture.values.end());
     if (*high == 0) return refused(std::move(outcome), name, "black", "every pixel is black: nothing to enhance");

@@ -26,12 +26,12 @@ host::Picture picture_of(const FloatImage& light, int bits) {
   host::Picture picture{light.width_px, light.height_px, light.channels, bits, {}};
   picture.values.resize(light.values.size());
   const auto channels = static_cast<std::size_t>(light.channels);
-  const float most = bits == 16 ? 65535.0F : 255.0F;
+  const float maximum = bits == 16 ? 65535.0F : 255.0F;
   const int widen = bits == 16 ? 1 : 257;
   for (std::size_t c = 0; c < channels; ++c) {
     const float* plane = light.plane(static_cast<int>(c));
     for (std::size_t k = 0; k < light.pixels(); ++k) {
-      const int value = static_cast<int>(std::clamp(plane[k], 0.0F, 1.0F) * most + 0.5F);
+      const int value = static_cast<int>(std::clamp(plane[k], 0.0F, 1.0F) * maximum + 0.5F);
       picture.values[k * channels + c] = static_cast<std::uint16_t>(value * widen);
     }
   }

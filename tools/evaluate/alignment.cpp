@@ -18,14 +18,14 @@ using Vector13 = Eigen::Matrix<double, kParameters, 1>;
 using Matrix13 = Eigen::Matrix<double, kParameters, kParameters>;
 using Jacobian = Eigen::Matrix<double, 6, kParameters>;
 
-constexpr std::size_t kMostPairs = 4000;
+constexpr std::size_t kMaxPairs = 4000;
 constexpr double kIndependentPairs = 100.0;
 constexpr double kMedianOfChi3 = 1.538;
-constexpr double kCauchy = 4.0;        // in one-dimensional sigmas of a 3-vector: 95 % efficient
-constexpr double kLeastSpread = 1e-4;  // rad and m: below that the two sides' own resolution decides
-constexpr int kMostSteps = 60;
-constexpr int kMostHalvings = 8;
-constexpr double kUnitRotation_rad = 1.0 * kRadPerDeg;  // what counts as known: OpenDirection
+constexpr double kCauchy = 4.0;      // in one-dimensional sigmas of a 3-vector: 95 % efficient
+constexpr double kMinSpread = 1e-4;  // rad and m: below that the two sides' own resolution decides
+constexpr int kMaxSteps = 60;
+constexpr int kMaxHalvings = 8;
+constexpr double kUnitRotation_rad = 1.0 * kRadPerDeg;  // what counts as known: UnobservableDirection
 constexpr double kUnitOffset_m = 0.02;
 constexpr double kUnitTime_s = 0.02;
 constexpr double kPartShown = 0.2;
@@ -62,8 +62,8 @@ Jacobian jacobian_of(const Pair& pair, const Alignment& a) {
 }
 
 struct Spread {
-  double rotation_rad = kLeastSpread;
-  double position_m = kLeastSpread;
+  double rotation_rad = kMinSpread;
+  double position_m = kMinSpread;
 };
 
 double median(std::vector<double> values) {
@@ -80,8 +80,8 @@ Spread spread_of(const std::vector<Pair>& pairs, const Alignment& a) {
     rotation.push_back(r.head<3>().norm());
     position.push_back(r.tail<3>().norm());
   }
-  return {std::max(kLeastSpread, median(std::move(rotation)) / kMedianOfChi3),
-          std::max(kLeastSpread, median(std::move(position)) / kMedianOfChi3)};
+  return {std::max(kMinSpread, median(std::move(rotation)) / kMedianOfChi3),
+          std::max(kMinSpread, median(std::move(position)) / kMedianOfChi3)};
 }
 
 double square(double x) { return x * x; }
@@ -115,9 +115,9 @@ Normal normal_of(const std::vector<Pair>& pairs, const Alignment& a, const Sprea
     normal.N += J.transpose() * weights.asDiagonal() * J;
     normal.g += J.transpose() * weights.asDiagonal() * r;
   }
-  const double share = std::min(1.0, kIndependentPairs / static_cast<double>(pairs.size()));
-  normal.N *= share;
-  normal.g *= share;
+  const double fraction = std::min(1.0, kIndependentPairs / static_cast<double>(pairs.size()));
+  normal.N *= fraction;
+  normal.g *= fraction;
   return normal;
 }
 
@@ -131,7 +131,7 @@ std::vector<int> parameters_of(FreeParts free) {
 
 struct Step {
   Vector13 delta = Vector13::Zero();
-  std::vector<OpenDirection> open;
+  std::vector<UnobservableDirection> open;
 };
 
 Step step_of(const Normal& normal, FreeParts free) {
@@ -157,7 +157,7 @@ Step step_of(const Normal& normal, FreeParts free) {
 
 std::vector<Pair> some_pairs(const Trajectory<EstimatePose>& estimate, const Trajectory<TruthPose>& truth,
                              double time_offset_s, double max_gap_s) {
-  const std::size_t count = std::min(kMostPairs, estimate.size());
+  const std::size_t count = std::min(kMaxPairs, estimate.size());
   Trajectory<EstimatePose> chosen;
   for (std::size_t i = 0; i < count; ++i) chosen.push_back(estimate[i * estimate.size() / count]);
   return pair_up(chosen, truth, time_offset_s, max_gap_s).pairs;
@@ -172,9 +172,9 @@ std::string axis_words(const Vector3& axis) {
 
 }  // namespace
 
-bool OpenDirection::turns() const { return std::max(world_rotation.norm(), body_rotation.norm()) > kPartShown; }
+bool UnobservableDirection::turns() const { return std::max(world_rotation.norm(), body_rotation.norm()) > kPartShown; }
 
-std::string OpenDirection::parts() const {
+std::string UnobservableDirection::parts() const {
   std::string text;
   const auto add = [&text](const char* name, double size) {
     if (size > kPartShown) text += (text.empty() ? "" : "|") + std::string(name);
@@ -187,7 +187,7 @@ std::string OpenDirection::parts() const {
   return text;
 }
 
-std::string OpenDirection::words() const {
+std::string UnobservableDirection::words() const {
   std::string text;
   const auto add = [&text](const std::string& what, double size) {
     if (size > kPartShown) text += (text.empty() ? "" : " together with ") + what;
@@ -204,7 +204,7 @@ std::string OpenDirection::words() const {
 Aligned align(const Trajectory<EstimatePose>& estimate, const Trajectory<TruthPose>& truth, const Alignment& start,
               FreeParts free, double max_gap_s) {
   Aligned result{start, {}, 0.0};
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     Alignment& present = result.alignment;
     const std::vector<Pair> pairs = some_pairs(estimate, truth, present.time_offset_s, max_gap_s);
     if (pairs.empty()) return result;
@@ -214,13 +214,13 @@ Aligned align(const Trajectory<EstimatePose>& estimate, const Trajectory<TruthPo
     const Step step = step_of(normal_of(pairs, present, spread), free);
     result.open = step.open;
     const double before = cost_of(pairs, present, spread);
-    double share = 1.0;
-    for (int halving = 0; halving < kMostHalvings; ++halving, share *= 0.5) {
-      const Alignment next = moved(present, share * step.delta);
+    double fraction = 1.0;
+    for (int halving = 0; halving < kMaxHalvings; ++halving, fraction *= 0.5) {
+      const Alignment next = moved(present, fraction * step.delta);
       const auto there = free.time ? some_pairs(estimate, truth, next.time_offset_s, max_gap_s) : pairs;
       if (!there.empty() && cost_of(there, next, spread) <= before) break;
     }
-    const Vector13 delta = share * step.delta;
+    const Vector13 delta = fraction * step.delta;
     present = moved(present, delta);
     if (delta.cwiseQuotient(units()).norm() < 1e-6) break;
   }

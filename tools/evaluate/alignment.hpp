@@ -27,7 +27,7 @@ struct FreeParts {
 
 /// A direction in the space of what was to be found that the motion leaves open: no worse fit within 1 deg, 20 mm or
 /// 20 ms along it. The fitted poses are what they would be with any value there.
-struct OpenDirection {
+struct UnobservableDirection {
   Vector3 world_rotation = Vector3::Zero();  // in ESTIMATE's world; unit length over all parts together,
   Vector3 world_offset = Vector3::Zero();    // one being 1 deg, 20 mm or 20 ms
   Vector3 body_rotation = Vector3::Zero();   // in TRUTH's body
@@ -44,7 +44,7 @@ struct OpenDirection {
 
 struct Aligned {
   Alignment alignment;
-  std::vector<OpenDirection> open;
+  std::vector<UnobservableDirection> open;
   double cost = 0.0;  // robust, for comparing starts
 };
 

@@ -10,8 +10,8 @@ namespace pharos::evaluate {
 namespace {
 
 constexpr double kGapIntervals = 3.5;  // two lost samples are bridged
-constexpr double kLeastExtent_m = 1e-3;
-constexpr std::size_t kLeastPairsToAlign = 10;
+constexpr double kMinExtent_m = 1e-3;
+constexpr std::size_t kMinPairsToAlign = 10;
 
 using EstimateTrajectory = Trajectory<EstimatePose>;
 using TruthTrajectory = Trajectory<TruthPose>;
@@ -64,9 +64,9 @@ Aligned aligned_as_asked(const EstimateTrajectory& estimate, const TruthTrajecto
 std::string too_little_motion(const Comparison& c, const ComparisonOptions& options) {
   if (options.mode == AlignMode::kSe3) {
     const double across = se3_of_positions(c.pairs.pairs, c.aligned.alignment).second_extent_m;
-    if (across < kLeastExtent_m) return "TRUTH's positions lie on one line or point: the turn about it is open";
+    if (across < kMinExtent_m) return "TRUTH's positions lie on one line or point: the turn about it is open";
   }
-  for (const OpenDirection& open : c.aligned.open) {
+  for (const UnobservableDirection& open : c.aligned.open) {
     if (open.turns() || std::abs(open.time) > 0.5) return "the motion leaves open " + open.words();
   }
   return {};
@@ -114,7 +114,7 @@ Comparison compare(const TrajectoryFile<EstimatePose>& estimate, const Trajector
                        "); give --time-offset auto or SECONDS to add to ESTIMATE's times");
   }
   const bool aligning = options.mode != AlignMode::kNone || !options.time_offset_s;
-  if (aligning && c.pairs.pairs.size() < kLeastPairsToAlign) {
+  if (aligning && c.pairs.pairs.size() < kMinPairsToAlign) {
     return refusal(c, "refused_too_few_poses", "fewer than 10 poses of ESTIMATE meet TRUTH: too few to align");
   }
   c.aligned = aligned_as_asked(estimate.samples, truth.samples, offset_s, options, c.max_gap_s);

@@ -31,25 +31,25 @@ double spread_of(const std::vector<Vector3>& errors) {
   return std::sqrt(sum / n);
 }
 
-std::optional<Honesty> honesty_of(const Half& half) {
+std::optional<Consistency> consistency_of(const Half& half) {
   if (half.sigmas.size() != half.errors.size()) return std::nullopt;
-  Honesty honesty;
+  Consistency consistency;
   const double each = 1.0 / static_cast<double>(half.errors.size());
   for (std::size_t i = 0; i < half.errors.size(); ++i) {
     const double ratio = half.errors[i].norm() / half.sigmas[i];
-    honesty.normalised_square += each * square(ratio);
-    for (std::size_t k = 0; k < honesty.within.size(); ++k) {
-      if (ratio <= static_cast<double>(k + 1)) honesty.within[k] += each;
+    consistency.normalised_square += each * square(ratio);
+    for (std::size_t k = 0; k < consistency.within.size(); ++k) {
+      if (ratio <= static_cast<double>(k + 1)) consistency.within[k] += each;
     }
   }
-  return honesty;
+  return consistency;
 }
 
 Figures figures_of_half(const Half& half) {
   Figures figures;
   figures.error = distribution_of(norms_of(half.errors));
   figures.spread = spread_of(half.errors);
-  figures.honesty = honesty_of(half);
+  figures.consistency = consistency_of(half);
   return figures;
 }
 
@@ -116,8 +116,8 @@ Distribution distribution_of(std::vector<double> norms) {
   double sum = 0.0;
   for (const double norm : norms) sum += square(norm);
   // The smallest value that is not exceeded by the share.
-  const auto quantile = [&norms](double share) {
-    const double rank = std::ceil(share * static_cast<double>(norms.size()));
+  const auto quantile = [&norms](double fraction) {
+    const double rank = std::ceil(fraction * static_cast<double>(norms.size()));
     return norms[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
   };
   return {std::sqrt(sum / static_cast<double>(norms.size())), quantile(0.5), quantile(0.95), quantile(0.99),

@@ -32,7 +32,7 @@ struct Distribution {
 Distribution distribution_of(std::vector<double> norms);
 
 /// Stated sigma (square root of a trace) against real errors.
-struct Honesty {
+struct Consistency {
   std::array<double, 3> within{};  // share of errors up to 1, 2 and 3 sigma
   double normalised_square =
       0.0;  // mean of (error / sigma)^2: 1 where sigmas are honest, more where they are too small
@@ -40,10 +40,10 @@ struct Honesty {
 
 /// One side, rotation (rad) or position (m).
 struct Figures {
-  Distribution error;              // (25)
-  double spread = 0.0;             // (23): rms of errors about their mean, which a constant offset leaves alone
-  std::optional<Honesty> honesty;  // where every compared pose states a sigma
-  std::optional<double> relative;  // RPE: rms error of the motion over a time
+  Distribution error;                      // (25)
+  double spread = 0.0;                     // (23): rms of errors about their mean, which a constant offset leaves alone
+  std::optional<Consistency> consistency;  // where every compared pose states a sigma
+  std::optional<double> relative;          // RPE: rms error of the motion over a time
 };
 
 struct AllFigures {
@@ -53,7 +53,7 @@ struct AllFigures {
   /// ATE.
   double ate_m = 0.0;
   std::size_t relative_pairs = 0;
-  /// Share of the time common to both recordings in which compared poses are no further apart than the gap allowed.
+  /// Fraction of the time common to both recordings in which compared poses are no further apart than the gap allowed.
   double coverage = 0.0;
 };
 

@@ -15,7 +15,7 @@ using tools::Axes;
 using tools::PlotPoint;
 using tools::Svg;
 
-constexpr std::size_t kMostPoints = 2000;
+constexpr std::size_t kMaxPoints = 2000;
 constexpr double kWidth = 960.0, kPanelHeight = 240.0, kLeft = 70.0, kTop = 40.0, kPitch = 320.0;
 constexpr const char* kErrorColour = "#1f5fa8";
 constexpr const char* kSigmaColour = "#d9893b";
@@ -27,7 +27,7 @@ struct PanelPoint {
 };
 
 std::vector<PanelPoint> thinned(const std::vector<PanelPoint>& points) {
-  const std::size_t stretch = points.size() / kMostPoints + 1;
+  const std::size_t stretch = points.size() / kMaxPoints + 1;
   std::vector<PanelPoint> kept;
   for (std::size_t i = 0; i < points.size(); i += stretch) {
     const auto begin = points.begin() + static_cast<std::ptrdiff_t>(i);

@@ -8,12 +8,12 @@
 
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/number_option.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/standard_input.hpp"
 #include "tools/evaluate/comparison.hpp"
 #include "tools/evaluate/error_plot.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/number_option.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/standard_input.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -110,12 +110,12 @@ void write_half(host::RowWriter& rows, const evaluate::Figures& figures, double 
   } else {
     rows.none();
   }
-  if (!figures.honesty) {
+  if (!figures.consistency) {
     rows.none(4);
     return;
   }
-  for (const double share : figures.honesty->within) rows.number(share);
-  rows.number(figures.honesty->normalised_square);
+  for (const double fraction : figures.consistency->within) rows.number(fraction);
+  rows.number(figures.consistency->normalised_square);
 }
 
 template <class AnyPose>
@@ -126,7 +126,7 @@ void write_any_pose(host::RowWriter& rows, const AnyPose& pose) {
 
 std::string open_parts(const evaluate::Aligned& aligned) {
   std::string text;
-  for (const evaluate::OpenDirection& open : aligned.open) text += (text.empty() ? "" : "; ") + open.parts();
+  for (const evaluate::UnobservableDirection& open : aligned.open) text += (text.empty() ? "" : "; ") + open.parts();
   return text;
 }
 
@@ -186,7 +186,7 @@ void remark(const Options& options, const evaluate::Comparison& c) {
     note(options.estimate + " against " + options.truth + ": " + c.why);
     return;
   }
-  for (const evaluate::OpenDirection& open : c.aligned.open) {
+  for (const evaluate::UnobservableDirection& open : c.aligned.open) {
     note("the motion leaves open " + open.words() + "; the errors do not depend on it");
   }
 }

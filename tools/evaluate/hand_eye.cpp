@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kKeyPoses = 80;  // 3160 relative motions
 constexpr int kTrimRounds = 6;
 constexpr double kTrim = 3.0;  // times the median residual
-constexpr double kLeastTurn_rad = 0.02;
-constexpr double kMostTurn_rad = 3.0;  // nearer to a half turn the rotation vector may take either sign
-constexpr double kLeastSwing = 0.03;   // a lever turned by less tells nothing of its length
+constexpr double kMinTurn_rad = 0.02;
+constexpr double kMaxTurn_rad = 3.0;  // nearer to a half turn the rotation vector may take either sign
+constexpr double kMinSwing = 0.03;    // a lever turned by less tells nothing of its length
 
 std::vector<Pair> spread(const std::vector<Pair>& pairs) {
   std::vector<Pair> chosen;
@@ -78,8 +78,8 @@ Matrix3 body_rotation(const std::vector<Pair>& key) {
     for (std::size_t j = 0; j < i; ++j) {
       const Vector3 a = rotation_log(key[j].truth.pose.R.transpose() * key[i].truth.pose.R);
       const Vector3 b = rotation_log(key[j].estimate.pose.R.transpose() * key[i].estimate.pose.R);
-      const double least = std::min(a.norm(), b.norm());
-      if (least < kLeastTurn_rad || std::max(a.norm(), b.norm()) > kMostTurn_rad) continue;
+      const double minimum = std::min(a.norm(), b.norm());
+      if (minimum < kMinTurn_rad || std::max(a.norm(), b.norm()) > kMaxTurn_rad) continue;
       of_truth.push_back(a);
       of_estimate.push_back(b);
     }
@@ -109,7 +109,7 @@ void fill_offsets(const std::vector<Pair>& key, Alignment& alignment) {
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(N);
     alignment.body.t.setZero();
     for (int k = 0; k < 3; ++k) {
-      if (eigen.eigenvalues()[k] < kLeastSwing * kLeastSwing) continue;
+      if (eigen.eigenvalues()[k] < kMinSwing * kMinSwing) continue;
       const Vector3 axis = eigen.eigenvectors().col(k);
       alignment.body.t += axis * (axis.dot(g) / eigen.eigenvalues()[k]);
     }

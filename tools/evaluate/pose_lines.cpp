@@ -13,7 +13,7 @@ namespace pharos::evaluate {
 namespace {
 
 constexpr double kNanosecond_s = 1e-9;
-constexpr double kLeastStamp_ns = 1e15;  // 16 digits: 1970-01-12
+constexpr double kMinStamp_ns = 1e15;  // 16 digits: 1970-01-12
 constexpr std::size_t kTumFields = 8;
 constexpr const char* kBlank = " \t\r";
 
@@ -72,7 +72,7 @@ std::optional<RawRow> euroc_row(std::string_view line, const std::string& where)
     v[k] = number_of(line.substr(begin, comma - begin), where);
     line.remove_prefix(std::min(comma + 1, line.size()));
   }
-  if (v[0] < kLeastStamp_ns) throw host::InputError(where + "it does not begin with nanoseconds since 1970");
+  if (v[0] < kMinStamp_ns) throw host::InputError(where + "it does not begin with nanoseconds since 1970");
   RawRow row;
   row.time_s = v[0] * kNanosecond_s;
   row.t = {v[1], v[2], v[3]};

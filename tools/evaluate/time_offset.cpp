@@ -9,15 +9,15 @@
 namespace pharos::evaluate {
 namespace {
 
-constexpr double kLeastStep_s = 0.005;
-constexpr double kMostSamples = 8192.0;   // 0.1 s of work
+constexpr double kMinStep_s = 0.005;
+constexpr double kMaxSamples = 8192.0;    // 0.1 s of work
 constexpr double kSpeedBaseline_s = 0.2;  // noise of 0.1 deg is then 0.7 deg/s
 constexpr double kGapIntervals = 10.0;    // a lost cycle or two leaves the speed over the baseline as it is
 constexpr double kClipQuantile = 0.98;    // wrong minima are spikes
-constexpr double kLeastCorrelation = 0.6;
-constexpr double kRivalShare = 0.95;
-constexpr double kLeastOverlap = 0.5;
-constexpr std::size_t kLeastSamples = 20;
+constexpr double kMinCorrelation = 0.6;
+constexpr double kSecondPeakFraction = 0.95;
+constexpr double kMinOverlap = 0.5;
+constexpr std::size_t kMinSamples = 20;
 
 /// Speeds at equal steps; nan where there is none.
 struct Profile {
@@ -63,7 +63,8 @@ Profiles profiles_of(const Trajectory<WorldFromBody>& trajectory, double step_s)
 }
 
 /// Normalised correlation of a[i] with b[i + lag] over what both know; -1 where that is too little.
-double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t lag, std::size_t least) {
+double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t lag,
+                   std::size_t minimum) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, -lag);
   const auto end = std::min(std::ssize(a), std::ssize(b) - lag);
@@ -73,7 +74,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, s
     if (!std::isfinite(x + y)) continue;
     n += 1, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
   }
-  if (n < static_cast<double>(least)) return -1.0;
+  if (n < static_cast<double>(minimum)) return -1.0;
   const double spread = (saa - sa * sa / n) * (sbb - sb * sb / n);
   const double scale = saa * sbb;
   return spread > 1e-12 * scale ? (sab - sa * sb / n) / std::sqrt(spread) : -1.0;
@@ -81,7 +82,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, s
 
 struct Peak {
   double correlation = -1.0;
-  double rival = -1.0;  // greatest correlation away from the peak's own hill
+  double second_peak = -1.0;  // greatest correlation away from the peak's own hill
   std::ptrdiff_t lag = 0;
 };
 
@@ -91,11 +92,11 @@ std::size_t known(const std::vector<double>& values) {
 }
 
 Peak best_lag(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto share = static_cast<std::size_t>(kLeastOverlap * static_cast<double>(std::min(known(a), known(b))));
-  const std::size_t least = std::max(kLeastSamples, share);
+  const auto fraction = static_cast<std::size_t>(kMinOverlap * static_cast<double>(std::min(known(a), known(b))));
+  const std::size_t minimum = std::max(kMinSamples, fraction);
   const std::ptrdiff_t first = -std::ssize(a);
   std::vector<double> all;
-  for (std::ptrdiff_t lag = first; lag <= std::ssize(b); ++lag) all.push_back(correlation(a, b, lag, least));
+  for (std::ptrdiff_t lag = first; lag <= std::ssize(b); ++lag) all.push_back(correlation(a, b, lag, minimum));
   const auto top = std::max_element(all.begin(), all.end());
   Peak peak{*top, -1.0, first + (top - all.begin())};
   // Down the hill on both sides, then whatever comes.
@@ -103,8 +104,8 @@ Peak best_lag(const std::vector<double>& a, const std::vector<double>& b) {
   while (right != all.end() && *right > 0.5 * *top) ++right;
   auto left = top;
   while (left != all.begin() && *left > 0.5 * *top) --left;
-  if (right != all.end()) peak.rival = *std::max_element(right, all.end());
-  if (left != all.begin()) peak.rival = std::max(peak.rival, *std::max_element(all.begin(), left));
+  if (right != all.end()) peak.second_peak = *std::max_element(right, all.end());
+  if (left != all.begin()) peak.second_peak = std::max(peak.second_peak, *std::max_element(all.begin(), left));
   return peak;
 }
 
@@ -114,17 +115,17 @@ CoarseOffset coarse_time_offset(const Trajectory<EstimatePose>& estimate, const 
   if (estimate.size() < 2 || truth.size() < 2) return {{}, "fewer than two poses on one side", 0.0};
   const double longest_s =
       std::max(estimate.back().time_s - estimate.front().time_s, truth.back().time_s - truth.front().time_s);
-  const double step_s = std::max(kLeastStep_s, longest_s / kMostSamples);
+  const double step_s = std::max(kMinStep_s, longest_s / kMaxSamples);
   const Profiles e = profiles_of(estimate, step_s);
   const Profiles t = profiles_of(truth, step_s);
   const Peak turning = best_lag(e.turning.values, t.turning.values);
   const Peak moving = best_lag(e.moving.values, t.moving.values);
   const Peak& best = turning.correlation >= moving.correlation ? turning : moving;
   CoarseOffset result{{}, "", best.correlation};
-  if (best.correlation < kLeastCorrelation) {
+  if (best.correlation < kMinCorrelation) {
     result.why = "the two neither turn nor move alike at any offset (correlation " +
                  std::to_string(std::max(best.correlation, 0.0)) + ")";
-  } else if (best.rival > kRivalShare * best.correlation) {
+  } else if (best.second_peak > kSecondPeakFraction * best.correlation) {
     result.why = "the motion repeats itself, several offsets fit alike";
   } else {
     result.offset_s = truth.front().time_s + static_cast<double>(best.lag) * step_s - estimate.front().time_s;

@@ -23,9 +23,9 @@ std::optional<Moving<WorldFromBody>> pose_at(const Trajectory<WorldFromBody>& tr
   const auto before = after - 1;
   const double gap_s = after->time_s - before->time_s;
   if (gap_s > max_gap_s) return at_sample ? std::optional(Moving<WorldFromBody>{after->pose}) : std::nullopt;
-  const double share = (time_s - before->time_s) / gap_s;
+  const double fraction = (time_s - before->time_s) / gap_s;
   const Vector6 step = pose_difference(after->pose, before->pose);
-  const Vector6 part = share * step;
+  const Vector6 part = fraction * step;
   return Moving<WorldFromBody>{before->pose.moved_by(part), step.head<3>() / gap_s, step.tail<3>() / gap_s};
 }
 

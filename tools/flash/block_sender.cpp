@@ -16,7 +16,7 @@ void BlockSender::fill_window() {
     wire::LoaderData block;
     block.offset = next_;
     for (const std::uint8_t byte : image_.subspan(next_, bytes)) block.data.push_back(byte);
-    const std::uint16_t sequence = talk_.send(block);
+    const std::uint16_t sequence = session_.send(block);
     if (!first_since_back_) first_since_back_ = sequence;
     next_ += static_cast<std::uint32_t>(bytes);
     ++blocks_sent_;
@@ -69,25 +69,25 @@ void BlockSender::take(const wire::Frame& frame) {
 
 void BlockSender::send_from(std::uint32_t offset, const std::function<void(std::size_t)>& progress) {
   go_back(offset);
-  int silences = 0;
-  std::int64_t deadline = talk_.now_ns() + patience_ns_;
+  int timeouts = 0;
+  std::int64_t deadline = session_.now_ns() + timeout_ns_;
   while (arrived_ < image_.size()) {
     fill_window();
     const std::uint32_t before = arrived_;
-    const auto frame = talk_.receive(deadline);
+    const auto frame = session_.receive(deadline);
     if (frame) take(*frame);
     if (arrived_ > before) {
-      silences = 0;
-      deadline = talk_.now_ns() + patience_ns_;
+      timeouts = 0;
+      deadline = session_.now_ns() + timeout_ns_;
       progress(arrived_);
     } else if (!frame) {
-      if (++silences == kMostSilences) {
+      if (++timeouts == kMaxTimeouts) {
         throw FlashError("the target fell silent at byte " + std::to_string(arrived_) + " of " +
                          std::to_string(image_.size()) + "; what ran before is still there: run this again");
       }
-      talk_.end_what_was_begun();
+      session_.end_partial_frame();
       go_back(arrived_);
-      deadline = talk_.now_ns() + patience_ns_;
+      deadline = session_.now_ns() + timeout_ns_;
     }
   }
 }

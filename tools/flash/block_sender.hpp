@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "tools/flash/conversation.hpp"
+#include "tools/flash/flash_session.hpp"
 
 namespace pharos::tools {
 
@@ -21,9 +21,9 @@ class TransferLost : public std::runtime_error {
 class BlockSender {
  public:
   /// `line_time_ns`: what a full window takes on the line.
-  BlockSender(Conversation& talk, std::span<const std::uint8_t> image, std::uint32_t block_bytes,
+  BlockSender(FlashSession& session, std::span<const std::uint8_t> image, std::uint32_t block_bytes,
               std::int64_t line_time_ns)
-      : talk_(talk), image_(image), block_bytes_(block_bytes), patience_ns_(kAnswerNs + 2 * line_time_ns) {}
+      : session_(session), image_(image), block_bytes_(block_bytes), timeout_ns_(kReplyTimeout_ns + 2 * line_time_ns) {}
 
   /// From `offset` to the end; `progress` is told the bytes that have arrived. Throws FlashError when the target falls
   /// silent or refuses, TransferLost when all must begin anew.
@@ -33,19 +33,19 @@ class BlockSender {
 
  private:
   /// For the target to write a page and for an adapter to hand on what came.
-  static constexpr std::int64_t kAnswerNs = 300'000'000;
+  static constexpr std::int64_t kReplyTimeout_ns = 300'000'000;
   /// Times in a row that the answer to the same block fails to come.
-  static constexpr int kMostSilences = 20;
+  static constexpr int kMaxTimeouts = 20;
 
   void fill_window();
   void take(const wire::Frame& frame);
   void refused(const NumberedReply& answer);
   void go_back(std::uint32_t offset);
 
-  Conversation& talk_;
+  FlashSession& session_;
   std::span<const std::uint8_t> image_;
   std::uint32_t block_bytes_;
-  std::int64_t patience_ns_;
+  std::int64_t timeout_ns_;
   std::uint32_t arrived_ = 0;                      // all before it
   std::uint32_t next_ = 0;                         // to be sent
   std::optional<std::uint16_t> first_since_back_;  // answers to frames before it are of blocks sent again

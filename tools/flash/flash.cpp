@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
-#include "tools/cli/commands.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/flash/flasher.hpp"
 #include "tools/flash/serial_flash_line.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -34,7 +34,7 @@ struct Options {
 };
 
 /// Asks on the terminal; where there is none to ask, no.
-bool ask_about_older(const image::Version& image, const image::Version& running) {
+bool ask_about_older(const boot_image::Version& image, const boot_image::Version& running) {
   if (isatty(STDIN_FILENO) == 0) return false;
   std::cerr << "the image is version " << to_text(image) << ", older than " << to_text(running)
             << " that is there: write it? [y/N] " << std::flush;
@@ -46,7 +46,7 @@ bool ask_about_older(const image::Version& image, const image::Version& running)
 const std::vector<std::string> kColumns = {"board",       "name",        "version", "version_before",
                                            "image_bytes", "slot_offset", "line_s"};
 
-void write_row(const ImageFile& image, const Flashed& flashed, host::RowWriter& rows) {
+void write_row(const BootImageFile& image, const FlashResult& flashed, host::RowWriter& rows) {
   rows.text(flashed.running.board.view()).text(view(image.header.name)).text(to_text(image.header.version));
   flashed.before ? rows.text(to_text(*flashed.before)) : rows.none();
   rows.integer(static_cast<std::int64_t>(image.bytes.size())).integer(flashed.slot_offset);
@@ -54,7 +54,7 @@ void write_row(const ImageFile& image, const Flashed& flashed, host::RowWriter& 
 }
 
 int run(Options options) {
-  const ImageFile image = read_image(options.image);
+  const BootImageFile image = read_image(options.image);
   options.flash.wait_ns = static_cast<std::int64_t>(options.wait_s * 1e9);
   SerialFlashLine line(options.port, options.flash.baud);
   std::unique_ptr<Progress> progress;
@@ -72,11 +72,11 @@ int run(Options options) {
     progress->step(bytes - arrived);
     arrived = bytes;
   };
-  reports.allow_older = [&](const image::Version& running) {
+  reports.allow_older = [&](const boot_image::Version& running) {
     return options.allow_older || ask_about_older(image.header.version, running);
   };
   try {
-    const Flashed flashed = Flasher(line, reports, options.flash).flash(image);
+    const FlashResult flashed = Flasher(line, reports, options.flash).flash(image);
     progress.reset();
     Output output(options.output, kColumns);
     write_row(image, flashed, output.rows());

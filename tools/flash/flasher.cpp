@@ -12,40 +12,40 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 /// Between two calls of a silent target: shorter than the loader's window of 200 ms after a reset.
-constexpr std::int64_t kCallNs = 80 * kMs;
-constexpr std::int64_t kHintNs = 2000 * kMs;
-constexpr std::int64_t kAnswerNs = 500 * kMs;
+constexpr std::int64_t kCall_ns = 80 * kMs;
+constexpr std::int64_t kHint_ns = 2000 * kMs;
+constexpr std::int64_t kReplyTimeout_ns = 500 * kMs;
 constexpr int kAttempts = 10;
 /// A sector of serial flash takes up to 3 s, an image up to four of them.
-constexpr std::int64_t kEraseNs = 2000 * kMs;
+constexpr std::int64_t kErase_ns = 2000 * kMs;
 constexpr int kEraseAttempts = 15;
-constexpr std::int64_t kVerifyNs = 5000 * kMs;
+constexpr std::int64_t kVerify_ns = 5000 * kMs;
 constexpr int kVerifyAttempts = 3;
 /// From the loader's window to the program's first words.
-constexpr std::int64_t kStartNs = 10'000 * kMs;
+constexpr std::int64_t kStart_ns = 10'000 * kMs;
 /// Times that all is begun anew after the target was reset.
 constexpr int kBeginnings = 4;
 
-image::Version version_of(const wire::Hello& hello) {
+boot_image::Version version_of(const wire::Hello& hello) {
   return {hello.firmware_major, hello.firmware_minor, hello.firmware_patch};
 }
 
 /// A loader without an image says 0.0.0.
 bool has_image(const wire::Hello& hello) {
-  return hello.role != wire::Role::kLoader || version_of(hello) != image::Version{0, 0, 0};
+  return hello.role != wire::Role::kLoader || version_of(hello) != boot_image::Version{0, 0, 0};
 }
 
 }  // namespace
 
 Flasher::Flasher(FlashLine& line, const FlashReports& reports, const FlashOptions& options)
-    : talk_(line), reports_(reports), options_(options) {}
+    : session_(line), reports_(reports), options_(options) {}
 
-bool Flasher::look_once(Peer& peer) {
-  talk_.end_what_was_begun();
-  talk_.send(wire::LoaderQuery{});
-  talk_.send(wire::Command{wire::CommandCode::kIdentify, 0});
-  const std::int64_t deadline = talk_.now_ns() + kCallNs;
-  while (const auto frame = talk_.receive(deadline)) {
+bool Flasher::probe(Peer& peer) {
+  session_.end_partial_frame();
+  session_.send(wire::LoaderQuery{});
+  session_.send(wire::Command{wire::CommandCode::kIdentify, 0});
+  const std::int64_t deadline = session_.now_ns() + kCall_ns;
+  while (const auto frame = session_.receive(deadline)) {
     if (frame->type == wire::MessageType::kHello) {
       const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
       if (hello) peer.hello = *hello;
@@ -58,13 +58,13 @@ bool Flasher::look_once(Peer& peer) {
   return peer.hello && peer.hello->role != wire::Role::kLoader;
 }
 
-void Flasher::nobody_there() {
-  if (const auto version = talk_.foreign_version()) {
+void Flasher::no_reply_text() {
+  if (const auto version = session_.unsupported_version()) {
     throw FlashError("the target speaks version " + std::to_string(*version) +
                      " of the protocol, this pharos version " + std::to_string(wire::kProtocolVersion) +
                      "; use the pharos that came with it");
   }
-  if (talk_.counters().frames == 0 && talk_.counters().garbage_bytes > 0) {
+  if (session_.counters().frames == 0 && session_.counters().garbage_bytes > 0) {
     throw FlashError("bytes come, but no frame among them; is " + std::to_string(options_.baud) +
                      " baud the speed of the line (--baud)?");
   }
@@ -72,17 +72,17 @@ void Flasher::nobody_there() {
 }
 
 Flasher::Peer Flasher::find(std::int64_t wait_ns) {
-  talk_.forget_received();
-  const std::int64_t start = talk_.now_ns();
+  session_.forget_received();
+  const std::int64_t start = session_.now_ns();
   bool hinted = false;
   Peer peer;
-  while (!look_once(peer)) {
-    const std::int64_t waited = talk_.now_ns() - start;
-    if (waited > wait_ns) nobody_there();
-    if (!hinted && waited > kHintNs) {
+  while (!probe(peer)) {
+    const std::int64_t waited = session_.now_ns() - start;
+    if (waited > wait_ns) no_reply_text();
+    if (!hinted && waited > kHint_ns) {
       hinted = true;
       reports_.note("no answer yet; switch the target off and on again");
-      talk_.skip_numbers();
+      session_.skip_numbers();
     }
   }
   return peer;
@@ -92,15 +92,15 @@ Flasher::Peer Flasher::enter_loader(const Peer& program) {
   if (program.hello->role == wire::Role::kSimulator) {
     throw FlashError("at the other end is a simulator: nothing can be flashed there");
   }
-  const auto reply = talk_.request(wire::Command{wire::CommandCode::kEnterLoader, 0}, kAnswerNs, kAttempts);
+  const auto reply = session_.request(wire::Command{wire::CommandCode::kEnterLoader, 0}, kReplyTimeout_ns, kAttempts);
   if (reply && reply->refusal) {
     throw FlashError(
         "the program that runs does not start the loader; switch the target off, run this, and switch it on");
   }
-  const std::int64_t deadline = talk_.now_ns() + kStartNs;
-  while (talk_.now_ns() < deadline) {
+  const std::int64_t deadline = session_.now_ns() + kStart_ns;
+  while (session_.now_ns() < deadline) {
     Peer peer;
-    if (look_once(peer) && peer.loader) {
+    if (probe(peer) && peer.loader) {
       if (!peer.hello) peer.hello = program.hello;
       return peer;
     }
@@ -108,8 +108,8 @@ Flasher::Peer Flasher::enter_loader(const Peer& program) {
   throw FlashError("the target does not start its loader; switch it off and on while this runs again");
 }
 
-void Flasher::check(const ImageFile& image, const Peer& peer) {
-  const image::ImageHeader& header = image.header;
+void Flasher::check(const BootImageFile& image, const Peer& peer) {
+  const boot_image::BootImageHeader& header = image.header;
   const std::string_view board = peer.loader ? peer.loader->board.view() : peer.hello->board.view();
   if (board != view(header.board)) {
     throw host::InputError("the image is for the board '" + std::string(view(header.board)) + "', the target is a '" +
@@ -120,7 +120,7 @@ void Flasher::check(const ImageFile& image, const Peer& peer) {
                            std::to_string(peer.loader->capacity_bytes));
   }
   if (older_allowed_ || !peer.hello || !has_image(*peer.hello)) return;
-  const image::Version running = version_of(*peer.hello);
+  const boot_image::Version running = version_of(*peer.hello);
   if (header.version < running && !reports_.allow_older(running)) {
     throw FlashError("the image is version " + to_text(header.version) + ", older than " + to_text(running) +
                      " that is there; --allow-older writes it all the same");
@@ -128,12 +128,12 @@ void Flasher::check(const ImageFile& image, const Peer& peer) {
   older_allowed_ = true;
 }
 
-std::uint32_t Flasher::begin(const ImageFile& image) {
+std::uint32_t Flasher::begin(const BootImageFile& image) {
   wire::LoaderBegin request;
   request.image_bytes = static_cast<std::uint32_t>(image.bytes.size());
   request.image_crc32 = wire::crc32(image.bytes);
   request.board.characters = image.header.board;
-  const auto reply = talk_.request(request, kEraseNs, kEraseAttempts);
+  const auto reply = session_.request(request, kErase_ns, kEraseAttempts);
   if (!reply)
     throw FlashError("the target does not answer while it erases; what ran before is still there: run this again");
   if (reply->refusal == wire::NakReason::kUnsupported) throw TransferLost("the target was reset and runs its program");
@@ -145,8 +145,8 @@ std::uint32_t Flasher::begin(const ImageFile& image) {
   return reply->value;
 }
 
-void Flasher::verify(const ImageFile& image) {
-  const auto reply = talk_.request(wire::LoaderVerify{}, kVerifyNs, kVerifyAttempts);
+void Flasher::verify(const BootImageFile& image) {
+  const auto reply = session_.request(wire::LoaderVerify{}, kVerify_ns, kVerifyAttempts);
   if (!reply)
     throw FlashError("the target does not answer while it verifies; what ran before is still there: run this again");
   if (!reply->refusal && reply->value == wire::crc32(image.bytes)) return;
@@ -159,16 +159,16 @@ void Flasher::verify(const ImageFile& image) {
 }
 
 void Flasher::start() {
-  const auto reply = talk_.request(wire::LoaderStart{}, kAnswerNs, kAttempts);
+  const auto reply = session_.request(wire::LoaderStart{}, kReplyTimeout_ns, kAttempts);
   if (reply && reply->refusal && *reply->refusal != wire::NakReason::kUnsupported) {
     throw FlashError("the target does not start what was written; run this again");
   }
   // No answer, or a program that does not know the request: the Ack got lost and the program runs already.
 }
 
-wire::Hello Flasher::await_program(const image::ImageHeader& header) {
-  const std::int64_t deadline = talk_.now_ns() + kStartNs;
-  while (const auto frame = talk_.receive(deadline)) {
+wire::Hello Flasher::await_program(const boot_image::BootImageHeader& header) {
+  const std::int64_t deadline = session_.now_ns() + kStart_ns;
+  while (const auto frame = session_.receive(deadline)) {
     if (frame->type != wire::MessageType::kHello) continue;
     const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
     if (!hello) continue;
@@ -186,22 +186,22 @@ wire::Hello Flasher::await_program(const image::ImageHeader& header) {
       "this and switch the target off and on");
 }
 
-void Flasher::transfer(const ImageFile& image, const wire::LoaderInfo& loader, Flashed& result) {
+void Flasher::transfer(const BootImageFile& image, const wire::LoaderInfo& loader, FlashResult& result) {
   const std::uint32_t offset = begin(image);
   if (offset > 0) reports_.note("going on at byte " + std::to_string(offset) + ", where it was broken off");
   const std::int64_t window_bytes =
       static_cast<std::int64_t>(wire::kLoaderWindow * wire::line_size(wire::LoaderData::kMaxBytes));
-  BlockSender blocks(talk_, image.bytes, loader.block_bytes, window_bytes * 10'000 * kMs / options_.baud);
-  const std::int64_t first = talk_.now_ns();
+  BlockSender blocks(session_, image.bytes, loader.block_bytes, window_bytes * 10'000 * kMs / options_.baud);
+  const std::int64_t first = session_.now_ns();
   blocks.send_from(offset, reports_.progress);
-  result.line_ns = talk_.now_ns() - first;
+  result.line_ns = session_.now_ns() - first;
   result.blocks_sent = blocks.blocks_sent();
   result.slot_offset = loader.slot_offset;
   verify(image);
 }
 
-Flashed Flasher::flash(const ImageFile& image) {
-  Flashed result;
+FlashResult Flasher::flash(const BootImageFile& image) {
+  FlashResult result;
   for (int beginning = 1;; ++beginning) {
     Peer peer = find(options_.wait_ns);
     if (!result.before && peer.hello && has_image(*peer.hello)) result.before = version_of(*peer.hello);

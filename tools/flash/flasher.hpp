@@ -9,8 +9,8 @@
 
 #include "pharos/wire/hello_message.hpp"
 #include "pharos/wire/loader_messages.hpp"
-#include "tools/flash/conversation.hpp"
-#include "tools/flash/image_file.hpp"
+#include "tools/flash/boot_image_file.hpp"
+#include "tools/flash/flash_session.hpp"
 
 namespace pharos::tools {
 
@@ -21,7 +21,7 @@ struct FlashReports {
   /// Bytes of the image that have arrived.
   std::function<void(std::size_t)> progress;
   /// Whether an image older than what runs may be written. `running`: its version.
-  std::function<bool(const image::Version& running)> allow_older;
+  std::function<bool(const boot_image::Version& running)> allow_older;
 };
 
 struct FlashOptions {
@@ -31,9 +31,9 @@ struct FlashOptions {
 };
 
 /// What came of it.
-struct Flashed {
-  std::optional<image::Version> before;  // what ran, where something did
-  wire::Hello running;                   // what runs now, in its own words
+struct FlashResult {
+  std::optional<boot_image::Version> before;  // what ran, where something did
+  wire::Hello running;                        // what runs now, in its own words
   std::uint32_t slot_offset = 0;
   std::int64_t line_ns = 0;  // from the first block to the last answer
   std::uint64_t blocks_sent = 0;
@@ -47,7 +47,7 @@ class Flasher {
 
   /// Throws FlashError when it does not work out and host::InputError when the image is not for this target. In either
   /// case what ran before still starts.
-  Flashed flash(const ImageFile& image);
+  FlashResult flash(const BootImageFile& image);
 
  private:
   /// Who answers.
@@ -57,17 +57,17 @@ class Flasher {
   };
 
   Peer find(std::int64_t wait_ns);
-  bool look_once(Peer& peer);
-  [[noreturn]] void nobody_there();
+  bool probe(Peer& peer);
+  [[noreturn]] void no_reply_text();
   Peer enter_loader(const Peer& program);
-  void check(const ImageFile& image, const Peer& peer);
-  void transfer(const ImageFile& image, const wire::LoaderInfo& loader, Flashed& result);
-  std::uint32_t begin(const ImageFile& image);
-  void verify(const ImageFile& image);
+  void check(const BootImageFile& image, const Peer& peer);
+  void transfer(const BootImageFile& image, const wire::LoaderInfo& loader, FlashResult& result);
+  std::uint32_t begin(const BootImageFile& image);
+  void verify(const BootImageFile& image);
   void start();
-  wire::Hello await_program(const image::ImageHeader& header);
+  wire::Hello await_program(const boot_image::BootImageHeader& header);
 
-  Conversation talk_;
+  FlashSession session_;
   const FlashReports& reports_;
   FlashOptions options_;
   bool older_allowed_ = false;

@@ -13,7 +13,7 @@ namespace pharos::tools {
 namespace {
 
 constexpr std::int64_t kNsPerMs = 1'000'000;
-constexpr std::int64_t kWritePatienceNs = 5000 * kNsPerMs;
+constexpr std::int64_t kWriteTimeout_ns = 5000 * kNsPerMs;
 
 host::SerialPort opened(const std::string& path, int baud) {
   auto port = host::SerialPort::open(path, baud);
@@ -43,7 +43,7 @@ std::size_t SerialFlashLine::checked(host::Transfer transfer) const {
 }
 
 void SerialFlashLine::write(std::span<const std::uint8_t> bytes) {
-  const std::int64_t deadline = now_ns() + kWritePatienceNs;
+  const std::int64_t deadline = now_ns() + kWriteTimeout_ns;
   while (!bytes.empty()) {
     if (!wait(POLLOUT, deadline)) throw FlashError(path_ + ": takes no bytes; check the cable");
     bytes = bytes.subspan(checked(port_.write(bytes)));

@@ -16,12 +16,12 @@
 namespace pharos::layout {
 namespace {
 
-constexpr double kLeastSize_m = 0.005;
-constexpr double kMostSize_m = 12.0;  // as for targets: beyond it are millimetres given by mistake
-constexpr double kFlatness = 1e-4;    // of the body's size: printed coordinates are rounded
+constexpr double kMinSize_m = 0.005;
+constexpr double kMaxSize_m = 12.0;  // as for targets: beyond it are millimetres given by mistake
+constexpr double kFlatness = 1e-4;   // of the body's size: printed coordinates are rounded
 constexpr double kSameDirection = 1.0 - 1e-8;
-constexpr std::size_t kMostVertices = 2000;  // a housing, not a scan: every face is held against every vertex
-constexpr std::size_t kMostFaces = 4000;
+constexpr std::size_t kMaxVertices = 2000;  // a housing, not a scan: every face is held against every vertex
+constexpr std::size_t kMaxFaces = 4000;
 constexpr const char* kBlank = " \t\r";
 
 using Face = std::vector<std::size_t>;
@@ -51,11 +51,11 @@ class Words {
     return word;
   }
   double number(const char* wanted) { return parsed<double>(next(wanted), wanted); }
-  std::size_t count(const char* wanted, std::size_t least, std::size_t most) {
+  std::size_t count(const char* wanted, std::size_t minimum, std::size_t maximum) {
     const auto value = parsed<std::size_t>(next(wanted), wanted);
-    if (value < least || value > most) {
-      fail(std::string(wanted) + ": " + std::to_string(value) + " is not from " + std::to_string(least) + " to " +
-           std::to_string(most));
+    if (value < minimum || value > maximum) {
+      fail(std::string(wanted) + ": " + std::to_string(value) + " is not from " + std::to_string(minimum) + " to " +
+           std::to_string(maximum));
     }
     return value;
   }
@@ -83,8 +83,8 @@ class Words {
 
 Mesh read_mesh(Words& words) {
   if (words.next("OFF") != "OFF") words.fail("not an OFF file: it starts with the word OFF");
-  const std::size_t vertices = words.count("the number of vertices", 4, kMostVertices);
-  const std::size_t faces = words.count("the number of faces", 4, kMostFaces);
+  const std::size_t vertices = words.count("the number of vertices", 4, kMaxVertices);
+  const std::size_t faces = words.count("the number of faces", 4, kMaxFaces);
   words.next("the number of edges");
   Mesh mesh;
   for (std::size_t i = 0; i < vertices; ++i) {
@@ -151,9 +151,9 @@ Facet facet_of(const Mesh& mesh, const Vector3& normal, double offset_m, double 
   }
   facet.origin.setZero();
   for (const Vector3& p : points) facet.origin += p / static_cast<double>(points.size());
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  facet.u = normal.cross(Vector3::Unit(least)).normalized();
+  Eigen::Index minimum = 0;
+  normal.cwiseAbs().minCoeff(&minimum);
+  facet.u = normal.cross(Vector3::Unit(minimum)).normalized();
   facet.v = normal.cross(facet.u);
   for (const Vector3& p : points)
     facet.corners.emplace_back(facet.u.dot(p - facet.origin), facet.v.dot(p - facet.origin));
@@ -195,7 +195,7 @@ ConvexBody read_body(const std::string& path) {
   body.low = body.high = mesh.vertices.front();
   for (const Vector3& p : mesh.vertices) body.low = body.low.cwiseMin(p), body.high = body.high.cwiseMax(p);
   const double size_m = (body.high - body.low).maxCoeff();
-  if (size_m < kLeastSize_m || size_m > kMostSize_m) {
+  if (size_m < kMinSize_m || size_m > kMaxSize_m) {
     refuse(path, "the body is " + std::to_string(size_m) + " m long; 0.005 to 12 m can be: give metres");
   }
   check_closed(path, mesh);

@@ -10,14 +10,14 @@
 #include "host/table/target_file.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/pose/precision.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/number_option.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
-#include "tools/cli/seed_option.hpp"
-#include "tools/cli/standard_input.hpp"
 #include "tools/layout/layout_plot.hpp"
 #include "tools/layout/layout_search.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/number_option.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
+#include "tools/support/seed_option.hpp"
+#include "tools/support/standard_input.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -33,7 +33,7 @@ constexpr const char* kExample =
     "give the sensors' normals, and being convex it casts no shadow on a sensor that faces the station.";
 
 // Layouts are judged at this many of the poses, spread over the file; at all of them where single poses decide.
-constexpr std::size_t kMostPoses = 400;
+constexpr std::size_t kMaxPoses = 400;
 
 struct Options {
   std::string body;
@@ -91,9 +91,9 @@ std::vector<LighthouseFromBody> poses_in(const std::string& path) {
 }
 
 std::vector<LighthouseFromBody> some(const std::vector<LighthouseFromBody>& poses, const Objective& objective) {
-  if (objective.kind != Objective::Kind::kMean || poses.size() <= kMostPoses) return poses;
+  if (objective.kind != Objective::Kind::kMean || poses.size() <= kMaxPoses) return poses;
   std::vector<LighthouseFromBody> chosen;
-  for (std::size_t i = 0; i < kMostPoses; ++i) chosen.push_back(poses[i * poses.size() / kMostPoses]);
+  for (std::size_t i = 0; i < kMaxPoses; ++i) chosen.push_back(poses[i * poses.size() / kMaxPoses]);
   return chosen;
 }
 
@@ -189,7 +189,7 @@ int run(const Options& options) {
   if (!options.present.empty()) present = assessed(host::read_target(options.present).target, poses, options);
   const layout::LayoutSearch search(body, layout::seen_facets(body, poses, options.sight().incidence_rad),
                                     options.rules(), options.seed);
-  const std::optional<layout::Seats> spread = search.spread();
+  const std::optional<layout::MountPoints> spread = search.spread();
   if (!spread) {
     note(options.body + ": no room for " + std::to_string(options.sensors) +
          " sensors on the faces that are seen; lower --sensors, --spacing-mm or --edge-mm");
@@ -200,11 +200,12 @@ int run(const Options& options) {
     note(options.poses + ": at no pose are three sensors seen, however they are spread; give more --sensors");
     return kExitNoAnswer;
   }
-  layout::Seats best;
+  layout::MountPoints best;
   {
     Progress progress("layout", "rounds of moves");
-    const layout::Judge judge(some(poses, objective), options.sight(), objective, options.attitude_weight, reference);
-    best = search.best(judge, options.starts, [&progress] { progress.step(); });
+    const layout::LayoutEvaluator evaluator(some(poses, objective), options.sight(), objective, options.attitude_weight,
+                                            reference);
+    best = search.best(evaluator, options.starts, [&progress] { progress.step(); });
   }
   const layout::Assessed found = assessed(layout::target_of(body, best), poses, options);
   write_target(options.target, found.target);

@@ -26,8 +26,8 @@ std::string shown(double value) {
 }
 
 /// Blue (good) over white to red (bad).
-std::string colour_of(double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
+std::string colour_of(double fraction) {
+  const double s = std::clamp(fraction, 0.0, 1.0);
   const auto mix = [s](double blue, double white, double red) {
     return static_cast<int>(s < 0.5 ? blue + (white - blue) * 2.0 * s : white + (red - white) * (2.0 * s - 1.0));
   };

@@ -54,15 +54,15 @@ Score score_of(const Dops& dops, const Objective& objective) {
   return {statistic(std::move(adops), objective), statistic(std::move(pdops), objective), measured};
 }
 
-Judge::Judge(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective, double attitude_weight,
-             const Score& reference)
+LayoutEvaluator::LayoutEvaluator(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective,
+                                 double attitude_weight, const Score& reference)
     : poses_(std::move(poses)),
       sight_(sight),
       objective_(objective),
       attitude_weight_(attitude_weight),
       reference_(reference) {}
 
-double Judge::operator()(const Target& target) const {
+double LayoutEvaluator::operator()(const Target& target) const {
   std::vector<double> adops;
   std::vector<double> pdops;
   for (const auto& dop : dops_of(target, poses_, sight_)) {

@@ -45,11 +45,11 @@ Score score_of(const Dops& dops, const Objective& objective);
 
 /// Judges layouts by one number: weight * ADOP / reference + (1 - weight) * PDOP / reference, 1 for the reference
 /// itself. A pose that cannot be measured counts as a hundred times the reference, worse than any that can.
-class Judge {
+class LayoutEvaluator {
  public:
   /// `reference` has measured at least one pose.
-  Judge(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective, double attitude_weight,
-        const Score& reference);
+  LayoutEvaluator(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective, double attitude_weight,
+                  const Score& reference);
   double operator()(const Target& target) const;
 
  private:

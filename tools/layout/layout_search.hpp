@@ -18,14 +18,14 @@ struct Rules {
 };
 
 /// A place on a body.
-struct Seat {
+struct MountPoint {
   std::size_t facet = 0;
   Vector2 xy = Vector2::Zero();
 };
-using Seats = std::vector<Seat>;
+using MountPoints = std::vector<MountPoint>;
 
 /// Sensors 0, 1, … on their seats, normals those of the faces; positions on whole 0.01 mm.
-Target target_of(const ConvexBody& body, const Seats& seats);
+Target target_of(const ConvexBody& body, const MountPoints& mount_points);
 
 /// Facets that a sensor on them could see the station from, at one of the poses at least.
 std::vector<std::size_t> seen_facets(const ConvexBody& body, const std::vector<LighthouseFromBody>& poses,
@@ -39,21 +39,21 @@ class LayoutSearch {
   LayoutSearch(const ConvexBody& body, const std::vector<std::size_t>& facets, Rules rules, std::uint64_t seed);
 
   /// A first layout, spread as far as it goes; none where the sensors have no room.
-  std::optional<Seats> spread() const;
+  std::optional<MountPoints> spread() const;
   /// Needs spread() to have an answer. Every so often `tick` is called.
-  Seats best(const Judge& judge, int starts, const std::function<void()>& tick) const;
+  MountPoints best(const LayoutEvaluator& evaluator, int starts, const std::function<void()>& tick) const;
 
  private:
-  Seats scattered(std::uint64_t seed) const;
-  bool has_room(const Seats& seats, std::size_t except, const Seat& seat) const;
-  double exchange(Seats& seats, const Judge& judge, const std::function<void()>& tick) const;
-  void polish(Seats& seats, const Judge& judge, const std::function<void()>& tick) const;
+  MountPoints scattered(std::uint64_t seed) const;
+  bool has_room(const MountPoints& mount_points, std::size_t except, const MountPoint& mount_point) const;
+  double exchange(MountPoints& mount_points, const LayoutEvaluator& evaluator, const std::function<void()>& tick) const;
+  void polish(MountPoints& mount_points, const LayoutEvaluator& evaluator, const std::function<void()>& tick) const;
 
   const ConvexBody& body_;
   Rules rules_;
   std::uint64_t seed_;
   std::vector<std::vector<Vector2>> insets_;  // by facet of the body; empty: no seats there
-  std::vector<Seat> grid_;
+  std::vector<MountPoint> grid_;
   double step_m_ = 0.0;
 };
 

@@ -39,7 +39,7 @@ std::vector<Vector2> inset(const std::vector<Vector2>& corners, double margin_m)
 Vector2 nearest_within(const std::vector<Vector2>& corners, const Vector2& xy) {
   bool inside = true;
   Vector2 nearest = corners.front();
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2& a = corners[i];
     const Vector2 side = corners[(i + 1) % corners.size()] - a;
@@ -47,7 +47,7 @@ Vector2 nearest_within(const std::vector<Vector2>& corners, const Vector2& xy) {
     if (!(length2 > 0.0)) continue;
     inside = inside && side.x() * (xy - a).y() - side.y() * (xy - a).x() >= 0.0;
     const Vector2 p = a + side * std::clamp(side.dot(xy - a) / length2, 0.0, 1.0);
-    if ((p - xy).squaredNorm() < least) least = (p - xy).squaredNorm(), nearest = p;
+    if ((p - xy).squaredNorm() < minimum) minimum = (p - xy).squaredNorm(), nearest = p;
   }
   return inside && corners.size() > 2 ? xy : nearest;
 }

@@ -5,14 +5,14 @@
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 
-#include "host/daemon/event_loop.hpp"
-#include "host/daemon/now.hpp"
-#include "host/daemon/signals.hpp"
-#include "host/daemon/timer.hpp"
+#include "host/runtime/event_loop.hpp"
+#include "host/runtime/now.hpp"
+#include "host/runtime/signals.hpp"
+#include "host/runtime/timer.hpp"
 #include "host/support/input_error.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/number_option.hpp"
 #include "tools/listen/listener.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/number_option.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -85,8 +85,8 @@ int listen(const ListenOptions& options) {
   listener.finish();
   const std::string text = summary_text(listener.summary().sources());
   std::fputs(text.c_str(), options.summary ? stdout : stderr);
-  if (listener.foreign() > 0) {
-    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.foreign()));
+  if (listener.other_types() > 0) {
+    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.other_types()));
   }
   if (options.csv && listener.other_messages() > 0) {
     std::fprintf(stderr, "%lld status or pointing messages not shown: they are no rows of this table; use --json\n",

@@ -12,7 +12,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kMsPerNs = 1e-6;
 
 double root_mean(double sum, std::int64_t count) {
@@ -67,7 +67,7 @@ double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
   summary.seconds = static_cast<double>(pose.utime_us - stream.first_utime_us) * 1e-6;
   summary.age.add(static_cast<std::int64_t>(pose.age_s * 1e9));
   stream.arrivals_ns.push_back(monotonic_ns);
-  while (stream.arrivals_ns.front() <= monotonic_ns - kSecondNs) stream.arrivals_ns.pop_front();
+  while (stream.arrivals_ns.front() <= monotonic_ns - kSecond_ns) stream.arrivals_ns.pop_front();
   return static_cast<double>(stream.arrivals_ns.size());
 }
 

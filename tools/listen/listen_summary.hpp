@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "host/daemon/latency_histogram.hpp"
+#include "host/runtime/latency_histogram.hpp"
 #include "tools/listen/received_pose.hpp"
 
 namespace pharos::tools {

@@ -18,9 +18,9 @@ namespace pharos::tools {
 namespace {
 
 // Poses without a truth yet that are kept for the end: ten minutes at 60 Hz.
-constexpr std::size_t kMostNotCompared = 36'000;
+constexpr std::size_t kMaxNotCompared = 36'000;
 // A pose waits this long for its truth, which a simulator writes up to a frame later; then it is printed without.
-constexpr std::int64_t kLongestWaitNs = 500'000'000;
+constexpr std::int64_t kLongestWait_ns = 500'000'000;
 
 template <class Message>
 bool decode(Message& message, const void* data, int size) {
@@ -80,7 +80,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
     print_those_known(monotonic_ns);
     take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });
   } else {
-    ++foreign_;
+    ++other_types_;
   }
 }
 
@@ -96,8 +96,8 @@ void Listener::print_those_known(std::int64_t monotonic_ns) {
   for (; !waiting_.empty(); waiting_.pop_front()) {
     auto& [pose, arrival_ns] = waiting_.front();
     if (truth_ && pose.pose && !compare(pose)) {
-      if (monotonic_ns - arrival_ns < kLongestWaitNs) return;
-      if (not_compared_.size() < kMostNotCompared) not_compared_.push_back(pose);
+      if (monotonic_ns - arrival_ns < kLongestWait_ns) return;
+      if (not_compared_.size() < kMaxNotCompared) not_compared_.push_back(pose);
     }
     print(pose);
   }

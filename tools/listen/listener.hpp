@@ -38,7 +38,7 @@ class Listener {
   void finish();
 
   const ListenSummary& summary() const { return summary_; }
-  std::int64_t foreign() const { return foreign_; }
+  std::int64_t other_types() const { return other_types_; }
   /// Status, spin and pointing messages.
   std::int64_t other_messages() const { return other_messages_; }
 
@@ -62,7 +62,7 @@ class Listener {
   std::vector<ReceivedPose> not_compared_;  // printed without an error
   std::unique_ptr<host::RowWriter> rows_;   // of CSV and JSON
   ListenSummary summary_;
-  std::int64_t foreign_ = 0;
+  std::int64_t other_types_ = 0;
   std::int64_t other_messages_ = 0;
 };
 

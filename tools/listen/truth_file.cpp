@@ -15,7 +15,7 @@ namespace {
 constexpr double kUsPerSecond = 1e6;
 constexpr double kMaxNormError = 0.01;
 // A time_s below this is no UTC but a recording's own counter: 1 January 2001.
-constexpr double kEarliestUtcSeconds = 978'307'200.0;
+constexpr double kEarliestUtc_s = 978'307'200.0;
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -75,7 +75,7 @@ void TruthFile::read_row(const std::string& line) {
   if (time_in_seconds_) {
     double seconds = 0.0;
     if (!parse(field(time_column_), seconds)) fail("time_s is not a number");
-    if (seconds < kEarliestUtcSeconds)
+    if (seconds < kEarliestUtc_s)
       fail("time_s is not UTC (seconds since 1970); poses on LCM cannot be compared with it");
     row.utc_us = static_cast<std::int64_t>(std::llround(seconds * kUsPerSecond));
   } else if (!parse(field(time_column_), row.utc_us)) {
@@ -122,9 +122,10 @@ std::optional<LighthouseFromBody> TruthFile::at(int station, std::int64_t utc_us
   if (after == rows.end() || (after == rows.begin() && after->utc_us != utc_us)) return std::nullopt;
   if (after->utc_us == utc_us) return LighthouseFromBody{after->orientation.toRotationMatrix(), after->position_m};
   const Row& before = *(after - 1);
-  const double share = static_cast<double>(utc_us - before.utc_us) / static_cast<double>(after->utc_us - before.utc_us);
-  return LighthouseFromBody{before.orientation.slerp(share, after->orientation).toRotationMatrix(),
-                            before.position_m + share * (after->position_m - before.position_m)};
+  const double fraction =
+      static_cast<double>(utc_us - before.utc_us) / static_cast<double>(after->utc_us - before.utc_us);
+  return LighthouseFromBody{before.orientation.slerp(fraction, after->orientation).toRotationMatrix(),
+                            before.position_m + fraction * (after->position_m - before.position_m)};
 }
 
 }  // namespace pharos::tools

@@ -14,7 +14,7 @@ enum Column : std::size_t { kView, kFeature, kCx, kCy, kA, kB, kTheta };
 
 // Sizes and places beyond these are no image's; squares of them stay numbers.
 constexpr double kLargest_px = 1e6;
-constexpr double kLeast_px = 1e-3;
+constexpr double kMin_px = 1e-3;
 
 std::size_t choice(const host::TableReader& table, Column column, const char* first, const char* second) {
   const std::string_view word = host::trimmed(table.text(column));
@@ -23,9 +23,9 @@ std::size_t choice(const host::TableReader& table, Column column, const char* fi
   table.fail(column, host::quoted(word) + " is neither " + first + " nor " + second);
 }
 
-double within(const host::TableReader& table, std::size_t column, double least, double most, const char* what) {
+double within(const host::TableReader& table, std::size_t column, double minimum, double maximum, const char* what) {
   const double value = table.number(column);
-  if (!(value >= least && value <= most)) table.fail(column, what);
+  if (!(value >= minimum && value <= maximum)) table.fail(column, what);
   return value;
 }
 
@@ -34,8 +34,8 @@ ring2::Contour contour_in(const host::TableReader& table, std::optional<std::siz
   ellipse::Ellipse e;
   e.cx_px = within(table, kCx, -kLargest_px, kLargest_px, "is outside of any image");
   e.cy_px = within(table, kCy, -kLargest_px, kLargest_px, "is outside of any image");
-  e.a_px = within(table, kA, kLeast_px, kLargest_px, "must be a semi-axis of more than 0.001 px");
-  e.b_px = within(table, kB, kLeast_px, kLargest_px, "must be a semi-axis of more than 0.001 px");
+  e.a_px = within(table, kA, kMin_px, kLargest_px, "must be a semi-axis of more than 0.001 px");
+  e.b_px = within(table, kB, kMin_px, kLargest_px, "must be a semi-axis of more than 0.001 px");
   e.theta_rad = within(table, kTheta, -10.0, 10.0, "must be an angle in radians");
   e = ellipse::normalised(e);
   double sigma_px = kUsualSigma_px;

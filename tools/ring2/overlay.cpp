@@ -42,7 +42,7 @@ class Half {
   }
   std::optional<host::Place> place_of(const Vector3& point_m) const {
     const Pose<frame::Camera, frame::Rig> T_camera_rig = view_.T_rig_camera.inverse();
-    const auto pixel = project(view_.optics, T_camera_rig * point_m);
+    const auto pixel = project(view_.intrinsics, T_camera_rig * point_m);
     if (!pixel) return std::nullopt;
     return host::Place{pixel->x() + shift_px_, pixel->y()};
   }
@@ -69,17 +69,17 @@ class Half {
   double shift_px_;
 };
 
-void draw_estimate(Half& half, const ring2::CirclesEstimate& e) {
-  if ((e.untold & ring2::kUntoldScale) != 0) return;
-  const bool ring = (e.untold & ring2::kUntoldRing) == 0;
-  const bool nozzle = (e.untold & ring2::kUntoldNozzle) == 0;
+void draw_estimate(Half& half, const ring2::Ring2Estimate& e) {
+  if ((e.unobservable & ring2::kUnobservableScale) != 0) return;
+  const bool ring = (e.unobservable & ring2::kUnobservableRing) == 0;
+  const bool nozzle = (e.unobservable & ring2::kUnobservableNozzle) == 0;
   if (ring) half.circle(e.ring_centre_m, e.normal, e.ring_radius_m, colours::kGreen);
   if (nozzle) half.circle(e.nozzle_centre_m, e.normal, e.nozzle_radius_m, colours::kYellow);
   const Vector3& foot = ring ? e.ring_centre_m : e.nozzle_centre_m;
   half.arrow(foot, foot + e.normal * (ring ? e.ring_radius_m : 3.0 * e.nozzle_radius_m), colours::kOrange);
 }
 
-std::string words_of(const host::StereoCircles& circles) {
+std::string words_of(const host::Ring2Detection& circles) {
   if (!circles.estimate) return "refused_" + circles.refusal;
   const ring2::Attitude attitude = ring2::attitude_of(circles.estimate->normal);
   return fmt::format("theta {:.3f} gamma {:.3f} deg, sigma {:.3f} deg{}", attitude.theta_rad * kDegPerRad,
@@ -89,8 +89,8 @@ std::string words_of(const host::StereoCircles& circles) {
 
 }  // namespace
 
-void write_circles_overlay(const std::string& path, const std::array<host::GreyImage, 2>& images, const ring2::Rig& rig,
-                           const host::StereoCircles& circles) {
+void write_ring2_overlay(const std::string& path, const std::array<host::GreyImage, 2>& images, const ring2::Rig& rig,
+                         const host::Ring2Detection& circles) {
   const host::GreyImage joined = side_by_side(images);
   host::Canvas canvas(joined.view(), host::Canvas::zoom_for(joined.width_px));
   for (std::size_t v = 0; v < ring2::kViews; ++v) {

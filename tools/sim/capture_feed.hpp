@@ -13,7 +13,7 @@
 namespace pharos::sim {
 
 /// What a capture block on the photodiodes' pins would give its firmware: pulses in, the words of its registers out, as
-/// the emulated board reads them (firmware/board/qemu_virt/capture_tape.hpp). A FIFO that is always read in time: no
+/// the emulated board reads them (firmware/board/qemu_virt/capture_replay.hpp). A FIFO that is always read in time: no
 /// gap but the first, no edge lost. The Verilated block itself is played by tests/rtl/edges_through_capture.
 class CaptureFeed {
  public:

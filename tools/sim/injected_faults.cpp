@@ -22,7 +22,7 @@ void LighthouseSimulator::draw_hands() {
     const double from_s = fault_random_.uniform(0.0, scenario_.duration_s);
     Hand hand{{from_s, from_s + faults.hand_s}, {}};
     for (const SensorPlacement& sensor : true_target_) {
-      hand.covered.push_back(fault_random_.chance(faults.hand_share));
+      hand.covered.push_back(fault_random_.chance(faults.hand_fraction));
       if (hand.covered.back()) note(from_s, "hand", -1, sensor.sensor, faults.hand_s);
     }
     hands_.push_back(std::move(hand));

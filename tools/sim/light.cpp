@@ -58,8 +58,8 @@ double flash_excess_ticks(const Illumination& seen, const LightScenario& light) 
 }
 
 double hit_width_ticks(const Illumination& seen, const LightScenario& light) {
-  const double least = min_cosine(light);
-  const double square_on = std::sqrt(std::max((seen.cosine - least) / (1.0 - least), 0.0));
+  const double minimum = min_cosine(light);
+  const double square_on = std::sqrt(std::max((seen.cosine - minimum) / (1.0 - minimum), 0.0));
   const double width = 200.0 * kTicksPer48 * (2.9 / seen.range_m) * (0.15 + 0.85 * square_on);
   return std::clamp(width, 27.0 * kTicksPer48, 1326.0 * kTicksPer48);
 }

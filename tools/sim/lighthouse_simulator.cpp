@@ -232,7 +232,7 @@ void LighthouseSimulator::queue_hits(std::size_t station, const Slot& slot) {
   if (!timing.on || timing.skip) return;
   const NoiseScenario& noise = scenario_.noise;
   const double sigma_s = noise.sigma_arcsec * kRadPerArcsec * timing.period_s / kTwoPi;
-  const double common_s = sigma_s * std::sqrt(noise.rho * (1.0 - noise.flash_share)) * hit_noise_.normal();
+  const double common_s = sigma_s * std::sqrt(noise.rho * (1.0 - noise.flash_fraction)) * hit_noise_.normal();
   const double own_s = sigma_s * std::sqrt(1.0 - noise.rho);
   const double narrow_s = noise.narrow_sigma_arcsec * kRadPerArcsec * timing.period_s / kTwoPi;
   for (std::size_t i = 0; i < true_target_.size(); ++i) {

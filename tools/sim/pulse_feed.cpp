@@ -22,7 +22,7 @@ void PulseFeed::fill() {
   }
 }
 
-bool PulseFeed::has_company(std::size_t index) const {
+bool PulseFeed::has_simultaneous(std::size_t index) const {
   const std::size_t end = std::min(ahead_.size(), index + 1 + kFollowers);
   std::size_t near = 0;
   for (std::size_t i = index + 1; i < end; ++i) {
@@ -34,7 +34,7 @@ bool PulseFeed::has_company(std::size_t index) const {
 std::optional<std::int64_t> PulseFeed::first_ticks() {
   fill();
   for (std::size_t i = 0; i < ahead_.size(); ++i) {
-    if (has_company(i)) return ahead_[i].fall_ticks;
+    if (has_simultaneous(i)) return ahead_[i].fall_ticks;
   }
   return std::nullopt;
 }
@@ -45,7 +45,7 @@ const PulseFeed::Due* PulseFeed::peek() {
   fill();
   if (ahead_.empty()) return nullptr;
   const lighthouse::RawPulse& pulse = ahead_.front();
-  if (has_company(0)) now_ticks_ = std::max(*now_ticks_, pulse.fall_ticks);
+  if (has_simultaneous(0)) now_ticks_ = std::max(*now_ticks_, pulse.fall_ticks);
   next_ = Due{pulse, now_ticks_.value_or(pulse.fall_ticks)};
   return &*next_;
 }

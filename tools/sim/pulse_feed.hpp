@@ -40,7 +40,7 @@ class PulseFeed {
 
  private:
   void fill();
-  bool has_company(std::size_t index) const;
+  bool has_simultaneous(std::size_t index) const;
 
   Source source_;
   std::deque<lighthouse::RawPulse> ahead_;

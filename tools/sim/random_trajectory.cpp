@@ -139,8 +139,8 @@ std::unique_ptr<Trajectory> make_random_manoeuvre(const ManoeuvreLimits& limits,
   return trajectory;
 }
 
-std::vector<RoomFromBody> random_rest_poses(const RandomRest& limits, const Target& target, double max_incidence_deg,
-                                            RandomStream random) {
+std::vector<RoomFromBody> random_stationary_poses(const RandomStationaryPoses& limits, const Target& target,
+                                                  double max_incidence_deg, RandomStream random) {
   const double min_cosine = std::cos(max_incidence_deg * kRadPerDeg);
   std::vector<RoomFromBody> poses;
   for (int i = 0; i < limits.count; ++i) {

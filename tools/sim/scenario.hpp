@@ -48,7 +48,7 @@ struct RotorScenario {
 struct NoiseScenario {
   double sigma_arcsec = 8.8;          // of one sensor's angle in one sweep
   double rho = 0.8717;                // correlation of two sensors of one rotor
-  double flash_share = 0.6;           // of the common variance: from the flash; the rest from the rotor
+  double flash_fraction = 0.6;        // of the common variance: from the flash; the rest from the rotor
   double narrow_sigma_arcsec = 25.0;  // added for hits of 52 ticks and below, none from 104 ticks
   double flash_rise_ticks = 0.3;      // own noise of a sensor's flash edges
   double width_ticks = 2.0;           // own noise of a pulse's width
@@ -93,7 +93,7 @@ struct FaultScenario {
   double merged_flash_rate = 0.0;        // of slots of two stations: one pulse from first rise to second fall
   double hands_per_s = 0.0;              // mean number of times a hand is put over sensors
   double hand_s = 0.5;                   // how long it stays
-  double hand_share = 0.3;               // of the sensors that it covers
+  double hand_fraction = 0.3;            // of the sensors that it covers
   std::vector<ReflectionScenario> reflections;
   int stale_pulses = 0;  // first pulses off by stale_s (positive: ahead) and saturated in length
   double stale_s = 14.2;

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "host/config/strict_toml.hpp"
 #include "host/table/target_file.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/sim/scenario.hpp"
 
@@ -108,7 +108,7 @@ NoiseScenario read_noise(const TomlTable& table) {
   NoiseScenario noise;
   noise.sigma_arcsec = table.number_or("sigma_arcsec", noise.sigma_arcsec, {0.0, 1000.0});
   noise.rho = table.number_or("rho", noise.rho, kFraction);
-  noise.flash_share = table.number_or("flash_share", noise.flash_share, kFraction);
+  noise.flash_fraction = table.number_or("flash_share", noise.flash_fraction, kFraction);
   noise.narrow_sigma_arcsec = table.number_or("narrow_sigma_arcsec", noise.narrow_sigma_arcsec, {0.0, 1000.0});
   noise.flash_rise_ticks = table.number_or("flash_rise_ticks", noise.flash_rise_ticks, {0.0, 100.0});
   noise.width_ticks = table.number_or("width_ticks", noise.width_ticks, {0.0, 100.0});
@@ -163,7 +163,7 @@ FaultScenario read_faults(const TomlTable& table, const LighthouseScenario& scen
   f.merged_flash_rate = table.number_or("merged_flash_rate", 0.0, kFraction);
   f.hands_per_s = table.number_or("hands_per_s", 0.0, {0.0, 100.0});
   f.hand_s = table.number_or("hand_s", f.hand_s, kSeconds);
-  f.hand_share = table.number_or("hand_share", f.hand_share, kFraction);
+  f.hand_fraction = table.number_or("hand_share", f.hand_fraction, kFraction);
   f.stale_pulses = static_cast<int>(table.integer_or("stale_pulses", 0, 0, 1000));
   f.stale_s = table.number_or("stale_s", f.stale_s, {-42.0, 42.0});
   const double first_s = static_cast<double>(scenario.clock.start_ticks) * 20e-9;
@@ -210,21 +210,21 @@ std::shared_ptr<const Trajectory> read_rest(const TomlTable& table, const Lighth
     check_quaternion(table, row, 0);
     poses.push_back(pose_of_row(row, 0));
   }
-  RandomRest random;
+  RandomStationaryPoses random;
   random.count = static_cast<int>(table.integer_or("random_poses", 0, 0, 100'000));
   random.min_range_m = table.number_or("min_range_m", random.min_range_m, {0.1, 100.0});
   random.max_range_m = table.number_or("max_range_m", random.max_range_m, {random.min_range_m, 100.0});
   random.max_angle_deg = table.number_or("max_angle_deg", random.max_angle_deg, {0.0, 80.0});
   random.min_lit = static_cast<int>(table.integer_or("min_lit", random.min_lit, 0, 32));
-  for (const RoomFromBody& pose :
-       random_rest_poses(random, scenario.target, scenario.light.max_incidence_deg, RandomStream(seed, "rest poses"))) {
+  for (const RoomFromBody& pose : random_stationary_poses(random, scenario.target, scenario.light.max_incidence_deg,
+                                                          RandomStream(seed, "rest poses"))) {
     poses.push_back(pose);
   }
   if (poses.empty()) table.fail("poses", "give poses, or random_poses above 0");
   const double hold = table.number_or("hold_s", scenario.duration_s / static_cast<double>(poses.size()), {0.01, 1e6});
   const double gap = table.number_or("gap_s", 0.0, {0.0, hold});
   const double move = table.number_or("move_s", 0.0, {0.0, hold});
-  if (move == 0.0) return std::make_shared<RestTrajectory>(std::move(poses), hold, gap);
+  if (move == 0.0) return std::make_shared<StationaryTrajectory>(std::move(poses), hold, gap);
   if (gap > 0.0)
     table.fail("move_s", "and gap_s exclude each other: the target is carried in the light or in the dark");
   return std::make_shared<CarriedTrajectory>(std::move(poses), hold, move);

@@ -43,7 +43,7 @@ void SimulatedTarget::advance(std::int64_t now_ticks) {
     next_second_ticks_ = now_ticks;
   }
   give_out_edges(now_ticks - kEdgeHold_ticks);
-  say_periodic();
+  send_periodic();
 }
 
 void SimulatedTarget::restart_line() {
@@ -59,7 +59,7 @@ void SimulatedTarget::finish() {
   give_out_edges(INT64_MAX);
   if ((identity_.modes & wire::kModeRawEdges) != 0) queue(reporter_.flush_edges());
   next_second_ticks_ = now_ticks_;
-  say_periodic();
+  send_periodic();
 }
 
 void SimulatedTarget::take_decoded() {
@@ -81,7 +81,7 @@ void SimulatedTarget::give_out_edges(std::int64_t until_ticks) {
   }
 }
 
-void SimulatedTarget::say_hello() {
+void SimulatedTarget::send_hello() {
   wire::Hello hello;
   hello.role = wire::Role::kSimulator;
   hello.reset_cause = wire::ResetCause::kPowerOn;
@@ -96,10 +96,10 @@ void SimulatedTarget::say_hello() {
   queue(reporter_.send(hello));
 }
 
-void SimulatedTarget::say_periodic() {
+void SimulatedTarget::send_periodic() {
   if (now_ticks_ >= next_second_ticks_) {
     next_second_ticks_ = now_ticks_ + kTicksPerSecond;
-    say_hello();
+    send_hello();
     queue(reporter_.report(report::DecoderReport{now_ticks_, decoder_.counters()}));
     queue(reporter_.report(report::DeviceReport{now_ticks_, device_}));
   }
@@ -134,7 +134,7 @@ void SimulatedTarget::answer(const wire::Command& command, std::uint16_t sequenc
     case wire::CommandCode::kIdentify:
       ++device_.commands;
       queue(reporter_.send(wire::Ack{type, sequence, 0}));
-      say_hello();
+      send_hello();
       return;
     case wire::CommandCode::kSetModes:
       ++device_.commands;

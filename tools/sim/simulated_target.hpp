@@ -55,8 +55,8 @@ class SimulatedTarget {
     }
   };
   void queue(report::Reporter::Bytes bytes);
-  void say_hello();
-  void say_periodic();
+  void send_hello();
+  void send_periodic();
   void take_decoded();
   void give_out_edges(std::int64_t until_ticks);
   void answer(const wire::Command& command, std::uint16_t sequence);

@@ -35,7 +35,7 @@ SlotTiming::SlotTiming(const LighthouseScenario& scenario, std::uint64_t seed)
       turn_jitter_s_(scenario.rotor.turn_jitter_ticks * kTick_s) {
   const double sigma = scenario.noise.sigma_arcsec * kRadPerArcsec;
   flash_jitter_s_ =
-      sigma * std::sqrt(std::max(scenario.noise.rho, 0.0) * scenario.noise.flash_share) * period_s_ / kTwoPi;
+      sigma * std::sqrt(std::max(scenario.noise.rho, 0.0) * scenario.noise.flash_fraction) * period_s_ / kTwoPi;
   for (std::size_t station = 0; station < 2; ++station) {
     for (std::size_t rotor = 0; rotor < 2; ++rotor) {
       wander_[station][rotor] =

@@ -10,17 +10,17 @@ namespace pharos::sim {
 
 bool Trajectory::lit(double) const { return true; }
 
-RestTrajectory::RestTrajectory(std::vector<RoomFromBody> poses, double hold_s, double gap_s)
+StationaryTrajectory::StationaryTrajectory(std::vector<RoomFromBody> poses, double hold_s, double gap_s)
     : poses_(std::move(poses)), hold_s_(hold_s), gap_s_(gap_s) {}
 
-std::size_t RestTrajectory::index_at(double time_s) const {
+std::size_t StationaryTrajectory::index_at(double time_s) const {
   if (time_s <= 0.0) return 0;
   return std::min(static_cast<std::size_t>(time_s / hold_s_), poses_.size() - 1);
 }
 
-RoomFromBody RestTrajectory::at(double time_s) const { return poses_[index_at(time_s)]; }
+RoomFromBody StationaryTrajectory::at(double time_s) const { return poses_[index_at(time_s)]; }
 
-bool RestTrajectory::lit(double time_s) const {
+bool StationaryTrajectory::lit(double time_s) const {
   const std::size_t index = index_at(time_s);
   return index + 1 == poses_.size() || time_s < static_cast<double>(index + 1) * hold_s_ - gap_s_;
 }

@@ -28,9 +28,9 @@ class Trajectory {
 };
 
 /// At rest in one pose after the other, `hold_s` each, the last `gap_s` of each without light.
-class RestTrajectory final : public Trajectory {
+class StationaryTrajectory final : public Trajectory {
  public:
-  RestTrajectory(std::vector<RoomFromBody> poses, double hold_s, double gap_s);
+  StationaryTrajectory(std::vector<RoomFromBody> poses, double hold_s, double gap_s);
   RoomFromBody at(double time_s) const override;
   bool lit(double time_s) const override;
 
@@ -112,7 +112,7 @@ std::unique_ptr<Trajectory> make_random_manoeuvre(const ManoeuvreLimits& limits,
                                                   RandomStream random);
 
 /// Where random poses at rest may lie.
-struct RandomRest {
+struct RandomStationaryPoses {
   int count = 1;
   double min_range_m = 1.0;
   double max_range_m = 4.0;
@@ -122,8 +122,8 @@ struct RandomRest {
 
 /// Random poses at rest: direction and range uniform, attitude uniform among those that show enough sensors. Throws
 /// host::InputError when no attitude in 10,000 shows as many.
-std::vector<RoomFromBody> random_rest_poses(const RandomRest& limits, const Target& target, double max_incidence_deg,
-                                            RandomStream random);
+std::vector<RoomFromBody> random_stationary_poses(const RandomStationaryPoses& limits, const Target& target,
+                                                  double max_incidence_deg, RandomStream random);
 
 /// Rotation uniform over all attitudes.
 Matrix3 random_rotation(RandomStream& random);

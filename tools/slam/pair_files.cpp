@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/support/input_error.hpp"
-#include "tools/cli/output.hpp"
+#include "tools/support/output.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -62,12 +62,12 @@ std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& f
 
 PairImages read_pair(const host::PairName& pair, const host::RigFile& rig) {
   PairImages images{read_luma(pair.left), read_luma(pair.right)};
-  const PinholeCamera& optics = rig.left.optics;
+  const PinholeCamera& intrinsics = rig.left.intrinsics;
   for (const auto& [image, path] : {std::pair{&images.left, &pair.left}, {&images.right, &pair.right}}) {
-    if (image->width_px == optics.width_px && image->height_px == optics.height_px) continue;
+    if (image->width_px == intrinsics.width_px && image->height_px == intrinsics.height_px) continue;
     throw host::InputError(*path + ": has " + std::to_string(image->width_px) + " x " +
                            std::to_string(image->height_px) + " pixels; the rig's cameras have " +
-                           std::to_string(optics.width_px) + " x " + std::to_string(optics.height_px));
+                           std::to_string(intrinsics.width_px) + " x " + std::to_string(intrinsics.height_px));
   }
   return images;
 }

@@ -9,11 +9,11 @@
 #include "host/support/input_error.hpp"
 #include "host/vision/enhance/eight_bits.hpp"
 #include "host/vision/slam/slam_system.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/slam/pair_files.hpp"
 #include "tools/slam/slam_files.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -152,7 +152,7 @@ void add_slam(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"bm3d", "bm3d-video", "fast", "none"}));
   command->add_option("--features", options->settings.features, "Features a frame (default 1000)")
       ->check(CLI::Range(100, 10'000));
-  command->add_option("--max-keyframes", options->settings.most_keyframes, "Limit of keyframes; the paper's is 20")
+  command->add_option("--max-keyframes", options->settings.max_keyframes, "Limit of keyframes; the paper's is 20")
       ->check(CLI::Range(5, 100'000));
   command->add_option("--vocabulary", options->settings.vocabulary, "Visual words (default: those that ship)");
   command->add_flag("--no-loops", options->no_loops, "Do not close loops, as in the paper");

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "host/daemon/process_usage.hpp"
 #include "host/images/canvas.hpp"
+#include "host/runtime/process_usage.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/support/fixed_number.hpp"
 #include "host/support/input_error.hpp"
@@ -51,19 +51,19 @@ nlohmann::ordered_json spin_json(const slam::Spin& spin) {
 
 // Roots of the covariances' traces: of the last pose and of the least certain one.
 void add_sigmas(nlohmann::ordered_json& json, const std::vector<slam::TrackedFrame>& trajectory) {
-  double last_rad = -1.0, most_rad = 0.0, last_m = 0.0, most_m = 0.0;
+  double last_rad = -1.0, max_rad = 0.0, last_m = 0.0, max_m = 0.0;
   for (const slam::TrackedFrame& frame : trajectory) {
     if (!frame.placed) continue;
     const Matrix6& covariance = frame.placed->covariance;
     last_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
     last_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
-    most_rad = std::max(most_rad, last_rad);
-    most_m = std::max(most_m, last_m);
+    max_rad = std::max(max_rad, last_rad);
+    max_m = std::max(max_m, last_m);
   }
   if (last_rad < 0.0) return;
   constexpr double kDegrees = 180.0 / std::numbers::pi, kMillimetres = 1e3;
-  json["sigma_rot_deg"] = {{"last", kDegrees * last_rad}, {"most", kDegrees * most_rad}};
-  json["sigma_pos_mm"] = {{"last", kMillimetres * last_m}, {"most", kMillimetres * most_m}};
+  json["sigma_rot_deg"] = {{"last", kDegrees * last_rad}, {"most", kDegrees * max_rad}};
+  json["sigma_pos_mm"] = {{"last", kMillimetres * last_m}, {"most", kMillimetres * max_m}};
 }
 
 }  // namespace

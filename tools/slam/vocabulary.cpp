@@ -8,10 +8,10 @@
 
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/slam_system.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
 #include "tools/slam/slam_files.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -51,9 +51,9 @@ void add_vocabulary(CLI::App& app, int& exit_code) {
   command->add_option("IMAGE", options->images, "Images, far apart from each other in what they show")->required();
   command->add_option("--output", options->output, "Vocabulary file to write")->required();
   command->add_option("--branches", options->branches, "Children of a node (default 8)")
-      ->check(CLI::Range(2, slam::Vocabulary::kMostBranches));
+      ->check(CLI::Range(2, slam::Vocabulary::kMaxBranches));
   command->add_option("--depth", options->depth, "Levels of the tree (default 4)")
-      ->check(CLI::Range(1, slam::Vocabulary::kMostDepth));
+      ->check(CLI::Range(1, slam::Vocabulary::kMaxDepth));
   command->add_option("--seed", options->seed, "Of the start values");
   command->footer("Example: pharos vocabulary frames/left/*0.png --output orb.words");
   command->callback([options, &exit_code] { exit_code = run(*options); });

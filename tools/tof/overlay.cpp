@@ -20,7 +20,7 @@ using host::Place;
 namespace colours = host::colours;
 
 std::optional<Place> place_of(const DepthCamera& camera, const Vector3& point_camera_m) {
-  const auto pixel = project(camera.optics, point_camera_m);
+  const auto pixel = project(camera.intrinsics, point_camera_m);
   if (!pixel) return std::nullopt;
   return Place{pixel->x(), pixel->y()};
 }

@@ -89,9 +89,9 @@ PoseNumbers PoseSummary::deviation() const {
   return deviation;
 }
 
-PoseNumbers PoseSummary::foretold() const {
-  PoseNumbers foretold{};
-  for (std::size_t k = 0; k < foretold.size(); ++k) {
+PoseNumbers PoseSummary::predicted() const {
+  PoseNumbers predicted{};
+  for (std::size_t k = 0; k < predicted.size(); ++k) {
     double squares = 0.0;
     double count = 0.0;
     for (const Entry& entry : poses_) {
@@ -99,9 +99,9 @@ PoseNumbers PoseSummary::foretold() const {
       squares += entry.sigmas[k] * entry.sigmas[k];
       count += 1.0;
     }
-    foretold[k] = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+    predicted[k] = count > 0.0 ? std::sqrt(squares / count) : 0.0;
   }
-  return foretold;
+  return predicted;
 }
 
 }  // namespace pharos::tools

@@ -29,7 +29,7 @@ class PoseSummary {
   /// With count - 1; 0 of a single frame.
   PoseNumbers deviation() const;
   /// Root mean square of the frames' own sigmas.
-  PoseNumbers foretold() const;
+  PoseNumbers predicted() const;
 
  private:
   struct Entry {

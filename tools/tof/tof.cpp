@@ -8,9 +8,9 @@
 #include "host/device/frame_directory.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/tof/tof_pose.hpp"
-#include "tools/cli/commands.hpp"
-#include "tools/cli/output.hpp"
-#include "tools/cli/progress.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
 #include "tools/tof/overlay.hpp"
 #include "tools/tof/quantise.hpp"
 #include "tools/tof/tof_rows.hpp"
@@ -34,8 +34,8 @@ struct Options {
   int window = 1;
   int depth_bits = 16;
   tof::TofSettings settings;
-  double least_diameter_mm = 0.0;
-  double most_diameter_mm = 0.0;
+  double min_diameter_mm = 0.0;
+  double max_diameter_mm = 0.0;
   OutputOptions output;
 };
 
@@ -59,7 +59,7 @@ class Measurer {
   Outcome measure(std::size_t index) {
     host::DepthFrame frame;
     try {
-      frames_.read(index, camera_.optics.width_px, camera_.optics.height_px, frame);
+      frames_.read(index, camera_.intrinsics.width_px, camera_.intrinsics.height_px, frame);
     } catch (const host::InputError& error) {
       note(error.what());
       return {std::nullopt, "unreadable"};
@@ -120,8 +120,8 @@ class Rows {
 };
 
 int run(Options options) {
-  if (options.least_diameter_mm > 0.0) options.settings.ring.least_outer_radius_m = 0.0005 * options.least_diameter_mm;
-  if (options.most_diameter_mm > 0.0) options.settings.ring.most_outer_radius_m = 0.0005 * options.most_diameter_mm;
+  if (options.min_diameter_mm > 0.0) options.settings.ring.min_outer_radius_m = 0.0005 * options.min_diameter_mm;
+  if (options.max_diameter_mm > 0.0) options.settings.ring.max_outer_radius_m = 0.0005 * options.max_diameter_mm;
   Measurer measurer(options);
   if (!options.overlay.empty()) {
     std::error_code error;
@@ -158,9 +158,9 @@ void add_tof(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 100'000));
   command->add_option("--depth-bits", options->depth_bits, "Round depths to 2^N grey values first, as the paper (8)")
       ->check(CLI::Range(4, 16));
-  command->add_option("--least-diameter-mm", options->least_diameter_mm, "No ring is smaller (default 500)")
+  command->add_option("--least-diameter-mm", options->min_diameter_mm, "No ring is smaller (default 500)")
       ->check(CLI::Range(50.0, 5000.0));
-  command->add_option("--most-diameter-mm", options->most_diameter_mm, "No ring is larger (default 1500)")
+  command->add_option("--most-diameter-mm", options->max_diameter_mm, "No ring is larger (default 1500)")
       ->check(CLI::Range(50.0, 5000.0));
   command
       ->add_option("--connectors", options->settings.connector.expected,

@@ -102,7 +102,7 @@ void write_summary(host::RowWriter& rows, const PoseSummary& summary) {
   };
   write("mean", summary.mean());
   write("sigma", summary.deviation());
-  write("foretold_sigma", summary.foretold());
+  write("foretold_sigma", summary.predicted());
 }
 
 }  // namespace pharos::tools

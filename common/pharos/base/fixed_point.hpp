@@ -42,13 +42,13 @@ constexpr std::int64_t shifted(std::int64_t a, int places) {
 }
 
 /// Binary places of |a|: 0 for 0, 1 for 1, 2 for 2 and 3, …
-constexpr int places_of(std::int64_t a) {
+constexpr int bits_of(std::int64_t a) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a < 0 ? -a : a)));
 }
 
 /// The most binary places of any of them.
 template <class Range>
-constexpr int most_places_of(const Range& range) {
+constexpr int max_bits_of(const Range& range) {
   std::uint64_t all = 0;
   for (const std::int64_t a : range) all |= static_cast<std::uint64_t>(a < 0 ? -a : a);
   return static_cast<int>(std::bit_width(all));
@@ -102,13 +102,13 @@ constexpr std::int32_t reciprocal(Q30 a) {
 struct Root {
   Q30 root;               // of value times 4^doublings, in [1/2, 1)
   std::uint32_t inverse;  // of that root, Q30, in (1, 2]
-  int doublings;
+  int binary_exponent;
 };
 
 /// Of a value in units of 2^-60, above 0 and below 1; to 2^-30.
 constexpr Root root_of(std::int64_t value) {
-  const int doublings = (60 - places_of(value)) / 2;
-  const auto x = static_cast<std::uint32_t>(shifted(value, 2 * doublings) >> 29);  // Q31, [1/4, 1)
+  const int binary_exponent = (60 - bits_of(value)) / 2;
+  const auto x = static_cast<std::uint32_t>(shifted(value, 2 * binary_exponent) >> 29);  // Q31, [1/4, 1)
   constexpr auto times_unsigned = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} * b; };
   // Q30: within 11 % of the inverse root.
   std::uint32_t y = 2'330'000'000U - static_cast<std::uint32_t>(times_unsigned(x, 1'310'000'000U) >> 31U);
@@ -118,7 +118,7 @@ constexpr Root root_of(std::int64_t value) {
     y = static_cast<std::uint32_t>(times_unsigned(y, 3U * kOne - unit) >> 31U);
   }
   const auto root = static_cast<std::uint32_t>(times_unsigned(x, y) >> 31U);
-  return {static_cast<Q30>(std::min<std::uint32_t>(root, kOne - 1)), y, doublings};
+  return {static_cast<Q30>(std::min<std::uint32_t>(root, kOne - 1)), y, binary_exponent};
 }
 
 struct SineCosine {

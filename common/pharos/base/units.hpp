@@ -13,7 +13,7 @@ inline constexpr double kArcsecPerRad = 1.0 / kRadPerArcsec;
 inline constexpr double kMmPerM = 1000.0;
 
 /// Standard deviation of one sweep angle that the paper measured (002, section 4.2): 8.8 arcsec.
-inline constexpr double kPaperSigmaRad = 8.8 * kRadPerArcsec;
+inline constexpr double kPaperSigma_rad = 8.8 * kRadPerArcsec;
 /// Correlation between sensors of one rotor that the paper measured (002, section 4.2).
 inline constexpr double kPaperRho = 0.8717;
 

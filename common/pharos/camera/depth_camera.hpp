@@ -10,7 +10,7 @@ namespace pharos {
 
 /// A camera whose pixels also measure Cartesian depth Z, in the raw (distorted) pixel grid.
 struct DepthCamera {
-  PinholeCamera optics;
+  PinholeCamera intrinsics;
   /// Metres per count of depth; the Helios' own unit is 0.25 mm.
   double depth_scale_m = 0.00025;
   /// Where depth counts from, on frame C's z axis: 0 is the optical centre, the Helios counts from its front.

@@ -7,10 +7,10 @@ namespace pharos {
 namespace {
 
 // Newton's method doubles its digits: a lens that needs more steps has no such pixel.
-constexpr int kMostSteps = 20;
+constexpr int kMaxSteps = 20;
 constexpr double kConverged = 1e-12;
-// Share of a lens without distortion below which the Jacobian's determinant counts as a fold.
-constexpr double kLeastStretch = 1e-3;
+// Fraction of a lens without distortion below which the Jacobian's determinant counts as a fold.
+constexpr double kMinStretch = 1e-3;
 
 Vector2 distorted(const std::array<double, 5>& d, const Vector2& ray) {
   const auto [k1, k2, p1, p2, k3] = d;
@@ -36,7 +36,7 @@ Matrix2 distorted_jacobian(const std::array<double, 5>& d, const Vector2& ray) {
   return jacobian;
 }
 
-bool folds(const Matrix2& jacobian) { return !(jacobian.determinant() > kLeastStretch && jacobian.trace() > 0.0); }
+bool folds(const Matrix2& jacobian) { return !(jacobian.determinant() > kMinStretch && jacobian.trace() > 0.0); }
 
 }  // namespace
 
@@ -71,7 +71,7 @@ Matrix2 distort_jacobian(const PinholeCamera& camera, const Vector2& ray) {
 Result<Vector2, CameraFailure> undistort(const PinholeCamera& camera, const Vector2& pixel) {
   const Vector2 bent((pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px);
   Vector2 ray = bent;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Matrix2 jacobian = distorted_jacobian(camera.distortion, ray);
     if (folds(jacobian)) return CameraFailure::kOutsideModel;
     const Vector2 change = jacobian.inverse() * (bent - distorted(camera.distortion, ray));

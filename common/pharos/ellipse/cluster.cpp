@@ -8,7 +8,7 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr double kShare = 0.1;
+constexpr double kFraction = 0.1;
 constexpr double kRound = 0.9;
 // Two contours nearer than this along half of their length cannot both have edges of their own after a filter of
 // sigma = 1 px.
@@ -18,14 +18,15 @@ constexpr int kPlaces = 32;
 }  // namespace
 
 bool similar(const Ellipse& one, const Ellipse& other) {
-  const double least = std::min(one.b_px, other.b_px);
-  if (std::abs(one.cx_px - other.cx_px) > kShare * least || std::abs(one.cy_px - other.cy_px) > kShare * least)
+  const double minimum = std::min(one.b_px, other.b_px);
+  if (std::abs(one.cx_px - other.cx_px) > kFraction * minimum ||
+      std::abs(one.cy_px - other.cy_px) > kFraction * minimum)
     return false;
-  if (std::abs(one.a_px - other.a_px) > kShare * std::max(one.a_px, other.a_px)) return false;
-  if (std::abs(one.b_px - other.b_px) > kShare * std::max(one.b_px, other.b_px)) return false;
+  if (std::abs(one.a_px - other.a_px) > kFraction * std::max(one.a_px, other.a_px)) return false;
+  if (std::abs(one.b_px - other.b_px) > kFraction * std::max(one.b_px, other.b_px)) return false;
   if (one.b_px >= kRound * one.a_px && other.b_px >= kRound * other.a_px) return true;
   const double turn = std::abs(std::remainder(one.theta_rad - other.theta_rad, std::numbers::pi));
-  return turn <= kShare * std::numbers::pi;
+  return turn <= kFraction * std::numbers::pi;
 }
 
 bool same_ellipse(const DetectedEllipse& one, const DetectedEllipse& other) {

@@ -127,7 +127,7 @@ class Combiner {
   }
 
   // Or more than `most`, as soon as that is sure: most fits come to nothing.
-  static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points, double most) {
+  static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points, double maximum) {
     constexpr double kSure = 1.000001;  // beyond rounding
     const auto count = static_cast<double>(points.size());
     const EllipseDistance distance(ellipse);
@@ -135,7 +135,7 @@ class Combiner {
     for (const PointF& p : points) {
       const double d = distance.px({static_cast<double>(p.u), static_cast<double>(p.v)});
       squares += d * d;
-      if (squares > kSure * most * count) break;
+      if (squares > kSure * maximum * count) break;
     }
     return squares / count;
   }
@@ -169,7 +169,7 @@ class Combiner {
     found.covariance = fit->covariance;
     found.score = score_of(fit->ellipse, support_, settings_).value();
     found.rms_px = std::sqrt(support_.squared_sum_px2 / support_.count);
-    found.coverage = support_.length_share;
+    found.coverage = support_.length_fraction;
     found.points = static_cast<std::int32_t>(support_.count);
     found.arcs = static_cast<std::int32_t>(support_.arcs);
     found.bright_inside = bright_inside;

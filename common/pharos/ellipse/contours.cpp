@@ -27,7 +27,7 @@ std::uint16_t neighbour(const EllipseWorkspace& workspace, ImageView<const std::
   const float length = std::sqrt(dot(gradient, gradient));
   const Step along{-gradient.v * ahead / length, gradient.u * ahead / length};
   std::uint16_t best = 0;
-  float least = 1e9F;
+  float minimum = 1e9F;
   for (std::int32_t dv = -1; dv <= 1; ++dv) {
     const std::uint16_t* row = places.row(p.row + dv) + p.column;  // no edge point lies on the border
     for (std::int32_t du = -1; du <= 1; ++du) {
@@ -36,11 +36,12 @@ std::uint16_t neighbour(const EllipseWorkspace& workspace, ImageView<const std::
       const EdgePoint& q = workspace.edges[place - 1U];
       const Step step{q.u_px - p.u_px, q.v_px - p.v_px};
       const float squared = dot(step, step), forward = dot(step, along);
-      if (forward <= 0.0F || forward * forward < kMinAlignment * kMinAlignment * squared || squared >= least) continue;
+      if (forward <= 0.0F || forward * forward < kMinAlignment * kMinAlignment * squared || squared >= minimum)
+        continue;
       const Step other = gradient_of(q);
       const float alike = dot(gradient, other);
       if (alike < 0.0F || alike * alike < kMinAlignment * kMinAlignment * length * length * dot(other, other)) continue;
-      least = squared;
+      minimum = squared;
       best = place;
     }
   }
@@ -123,7 +124,7 @@ class Joiner {
     const EdgePoint& end = finish(k);
     const Step direction = finish_direction(k);
     constexpr auto kReach = static_cast<std::int32_t>(kMaxGap_px);
-    float least = kMaxGap_px * kMaxGap_px;
+    float minimum = kMaxGap_px * kMaxGap_px;
     std::uint16_t best = kNone;
     for (std::int32_t v = end.row - kReach; v <= end.row + kReach; ++v) {
       for (std::int32_t u = end.column - kReach; u <= end.column + kReach; ++u) {
@@ -132,9 +133,9 @@ class Joiner {
         if (other == k || previous_[other] != kNone) continue;
         const Step gap = between(end, start(other));
         const float squared = dot(gap, gap);
-        if (squared >= least || dot(direction, start_direction(other)) < kMinJoinAlignment) continue;
+        if (squared >= minimum || dot(direction, start_direction(other)) < kMinJoinAlignment) continue;
         if (squared > kTouching_px * kTouching_px && dot(unit(gap), direction) < kMinJoinAlignment) continue;
-        least = squared;
+        minimum = squared;
         best = other;
       }
     }

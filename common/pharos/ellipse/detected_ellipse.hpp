@@ -16,7 +16,7 @@ struct DetectedEllipse {
   Matrix5 covariance = Matrix5::Zero();
   double score = 0.0;   ///< F_val = S1 sqrt(S2 S3), (2)-(4) of paper 000: at most 1
   double rms_px = 0.0;  ///< of the edge points' distances from the contour
-  /// Share of the contour, 0 to 1, along which edge points lie on it.
+  /// Fraction of the contour, 0 to 1, along which edge points lie on it.
   double coverage = 0.0;
   std::int32_t points = 0;     ///< edge points on the contour
   std::int32_t arcs = 0;       ///< arcs that they come from

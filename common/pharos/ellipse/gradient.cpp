@@ -22,8 +22,8 @@ constexpr float kSigmaOfMedian = 1.0F / 1.177F;
 constexpr float kHighSigmas = 5.5F;
 constexpr float kLowSigmas = 2.75F;
 // Beside the strongest edges these are texture: shares of the magnitude that 2 of 1000 pixels exceed.
-constexpr float kHighShare = 0.06F;
-constexpr float kLowShare = 0.03F;
+constexpr float kHighFraction = 0.06F;
+constexpr float kLowFraction = 0.03F;
 constexpr std::uint32_t kStrongest = 500;
 // An edge is one or two points wide; its slopes above the threshold are about three times as many pixels.
 constexpr std::uint32_t kPixelsPerPoint = 2;
@@ -90,16 +90,16 @@ void gradient_magnitude(ImageView<const std::uint16_t> smoothed, ImageView<std::
   }
 }
 
-EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std::uint32_t most_points) {
+EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std::uint32_t max_points) {
   const Histogram histogram = histogram_of(magnitude);
   const std::uint32_t counted = std::accumulate(histogram.begin(), histogram.end(), 0U);
   const float sigma =
       kSigmaOfMedian * static_cast<float>(exceeded_by(histogram, std::max<std::uint32_t>(1, counted / 2)));
   const auto strong = static_cast<float>(exceeded_by(histogram, std::max<std::uint32_t>(1, counted / kStrongest)));
   const auto crowded = static_cast<float>(exceeded_by(
-      histogram, std::max<std::uint32_t>(1, kPixelsPerPoint * most_points / static_cast<std::uint32_t>(kRowStep))));
-  const float low = std::max({kLowSigmas * sigma, kLowShare * strong, crowded, 1.0F});
-  const float high = std::max({kHighSigmas * sigma, kHighShare * strong, low + 1.0F});
+      histogram, std::max<std::uint32_t>(1, kPixelsPerPoint * max_points / static_cast<std::uint32_t>(kRowStep))));
+  const float low = std::max({kLowSigmas * sigma, kLowFraction * strong, crowded, 1.0F});
+  const float high = std::max({kHighSigmas * sigma, kHighFraction * strong, low + 1.0F});
   const auto limited = [](float value) { return static_cast<std::uint16_t>(std::min(value, 65535.0F)); };
   return {limited(low), limited(high)};
 }

@@ -30,7 +30,7 @@ struct EdgeThresholds {
 };
 
 /// Thresholds for this image: above its noise, told by the median magnitude (most of an image is no edge), and above a
-/// share of its strongest edges. They rise until no more than `most_points` pixels can pass the lower one.
-EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std::uint32_t most_points);
+/// share of its strongest edges. They rise until no more than `max_points` pixels can pass the lower one.
+EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std::uint32_t max_points);
 
 }  // namespace pharos::ellipse

@@ -13,14 +13,14 @@ std::uint16_t farthest(std::span<const EdgePoint> points, std::uint16_t first, s
   const float chord = du * du + dv * dv;
   // A contour that closes has no chord: distances from its start serve.
   const bool closed = chord < 4.0F * tolerance * tolerance;
-  float most = tolerance * tolerance * (closed ? 1.0F : chord);
+  float maximum = tolerance * tolerance * (closed ? 1.0F : chord);
   std::uint16_t place = 0;
   for (auto k = static_cast<std::uint16_t>(first + 1); k < last; ++k) {
     const float u = points[k].u_px - a.u_px, v = points[k].v_px - a.v_px;
     const float across = u * dv - v * du;
     const float squared = closed ? u * u + v * v : across * across;
-    if (squared <= most) continue;
-    most = squared;
+    if (squared <= maximum) continue;
+    maximum = squared;
     place = k;
   }
   return place;

@@ -15,7 +15,7 @@ constexpr double kConverged_px = 1e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
 constexpr double kSigmaOfMedian = 1.4826;
 // No edge is known better than this, however few points agree by chance.
-constexpr double kLeastSigma_px = 0.02;
+constexpr double kMinSigma_px = 0.02;
 // Blur moves the edge of a disc of radius r inwards by sigma^2 / 2r (the steepest place of a blurred disc: its profile
 // falls as r^-1/2 exp(-(r - R)^2 / 2 sigma^2)). The variances that edges are found through: the filter 1, the central
 // difference 1/3, the pixel 1/12, and a lens of 0.7 px.
@@ -94,7 +94,7 @@ double scatter_of(const Column& distances, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) sizes[k] = static_cast<float>(std::abs(distances[k]));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kLeastSigma_px, kSigmaOfMedian * static_cast<double>(*middle));
+  return std::max(kMinSigma_px, kSigmaOfMedian * static_cast<double>(*middle));
 }
 
 struct Normal {

@@ -20,8 +20,8 @@ Score score_of(const Ellipse& ellipse, const Support& support, const EllipseSett
   score.shape = ellipse.a_px < settings.max_axis_ratio * ellipse.b_px ? 1.0 : 0.0;
   score.accuracy = std::max(0.0, 1.0 - kPerDistance * support.distance_sum_px / n);
   // Where edges lie twice, N would make up for missing ones: no more counts than the sectors that have points.
-  const double length_share = std::min(n / perimeter_px(ellipse), support.length_share);
-  score.fullness = 0.5 * length_share + 0.5 * support.turn_share;
+  const double length_fraction = std::min(n / perimeter_px(ellipse), support.length_fraction);
+  score.fullness = 0.5 * length_fraction + 0.5 * support.turn_fraction;
   return score;
 }
 

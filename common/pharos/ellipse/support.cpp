@@ -26,10 +26,10 @@ class Contact {
         sign_(bright_inside ? -1.0F : 1.0F),
         gate_(static_cast<float>(gate_px)) {
     // |q^2 - 1| <= gate |slope| and |slope| <= 2 |q| / b bound the size of q.
-    const double share = gate_px / e.b_px;
-    const double root = std::sqrt(1.0 + share * share);
-    least_size_ = static_cast<float>(root - share);
-    most_size_ = static_cast<float>(root + share);
+    const double fraction = gate_px / e.b_px;
+    const double root = std::sqrt(1.0 + fraction * fraction);
+    min_size_ = static_cast<float>(root - fraction);
+    max_size_ = static_cast<float>(root + fraction);
   }
 
   // In units of the axes: on the unit circle where the point is on the contour.
@@ -43,7 +43,7 @@ class Contact {
     const PointF q = scaled(about);
     const float size = std::sqrt(q.u * q.u + q.v * q.v);
     const float reach = radius_px * over_b_ + kRounding * (1.0F + size);
-    return size - reach <= most_size_ && size + reach >= least_size_;
+    return size - reach <= max_size_ && size + reach >= min_size_;
   }
   // False for most points, without a root or a branch.
   bool may_touch(PointF p) const {
@@ -68,7 +68,7 @@ class Contact {
 
  private:
   float cx_, cy_, cos_, sin_, over_a_, over_b_, sign_, gate_;
-  float least_size_, most_size_;  // of q where it touches
+  float min_size_, max_size_;  // of q where it touches
 };
 
 // Points looked at together, as many as an arc has samples.
@@ -127,19 +127,19 @@ class Sectors {
     const float across = std::abs(p.u) + std::abs(p.v);
     if (!(across > 0.0F)) return;
     const bool odd = (p.u < 0.0F) != (p.v < 0.0F);  // the step runs from the x axis to the y axis, or back
-    const float share = (odd ? std::abs(p.u) : std::abs(p.v)) / across;
+    const float fraction = (odd ? std::abs(p.u) : std::abs(p.v)) / across;
     const int quadrant = p.v >= 0.0F ? (p.u >= 0.0F ? 0 : 1) : (p.u < 0.0F ? 2 : 3);
-    const int step = std::min(quarter_ - 1, static_cast<int>(share * static_cast<float>(quarter_)));
+    const int step = std::min(quarter_ - 1, static_cast<int>(fraction * static_cast<float>(quarter_)));
     marked_ |= std::uint64_t{1} << (quadrant * quarter_ + step);
   }
 
-  void shares(Support& support) const {
+  void fractions(Support& support) const {
     // Of a quarter from the x axis to the y axis, then of one back: each comes twice.
     std::array<double, kMaxSectors / 2> lengths, turns;
     for (int k = 0; k < 2 * quarter_; ++k) {
       const bool odd = k >= quarter_;
-      const double share = ((odd ? k - quarter_ : k) + 0.5) / quarter_;
-      const double x = odd ? share : 1.0 - share, y = 1.0 - x;  // on the diamond; |x + y| = 1 there
+      const double fraction = ((odd ? k - quarter_ : k) + 0.5) / quarter_;
+      const double x = odd ? fraction : 1.0 - fraction, y = 1.0 - x;  // on the diamond; |x + y| = 1 there
       const double squared = x * x + y * y;
       const double anomaly = 1.0 / squared;  // dt a step, but for a factor: dt = (x^2 + y^2)^-1 dshare
       const double slant = (e_.a_px * e_.a_px * y * y + e_.b_px * e_.b_px * x * x) / squared;
@@ -155,8 +155,8 @@ class Sectors {
       length += lengths[step];
       turn += turns[step];
     }
-    support.length_share = length / all_length;
-    support.turn_share = turn / all_turn;
+    support.length_fraction = length / all_length;
+    support.turn_fraction = turn / all_turn;
   }
 
  private:
@@ -191,7 +191,7 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
     });
     if (count > 0) ++support.arcs;
   }
-  sectors.shares(support);
+  sectors.fractions(support);
 }
 
 std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,

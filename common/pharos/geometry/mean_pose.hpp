@@ -27,11 +27,11 @@ MeanPose(const Pose<Parent, Child>&) -> MeanPose<Parent, Child>;
 /// steps over all of them.
 template <class Estimates>
 auto mean_of_poses(const Estimates& estimates) {
-  constexpr int kMostSteps = 10;
+  constexpr int kMaxSteps = 10;
   constexpr double kSmallStep_rad = 1e-12;
   const auto count = static_cast<double>(estimates.size());
   MeanPose result{estimates.front().pose};
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     Vector6 sum = Vector6::Zero();
     for (const auto& one : estimates) sum += pose_difference(one.pose, result.pose);
     result.pose = result.pose.moved_by(sum / count);

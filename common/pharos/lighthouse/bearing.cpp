@@ -31,8 +31,8 @@ SweepBearings bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
 
 SweepBearings fixed_bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
   // Turns are to within 1 % of nominal, or else no integers' business; offsets are some hundred ticks.
-  constexpr double kSlack = 0.01 * kNominalPeriodTicks, kLargestOffset = 1000.0;
-  const double beyond = smoothed.period_ticks - kNominalPeriodTicks;
+  constexpr double kSlack = 0.01 * kNominalPeriod_ticks, kLargestOffset = 1000.0;
+  const double beyond = smoothed.period_ticks - kNominalPeriod_ticks;
   if (!(beyond > -kSlack && beyond < kSlack && smoothed.offset_ticks > -kLargestOffset &&
         smoothed.offset_ticks < kLargestOffset)) {
     return bearings_of(sweep, smoothed);

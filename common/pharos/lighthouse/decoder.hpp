@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pharos/lighthouse/event_order.hpp"
 #include "pharos/lighthouse/light_decoder.hpp"
+#include "pharos/lighthouse/reorder_buffer.hpp"
 
 namespace pharos::lighthouse {
 
@@ -28,19 +28,19 @@ class Decoder : public LightDecoder {
   void flush();
 
  private:
-  bool admit_at_once(LightEvent event);
+  bool accept_in_order(LightEvent event);
   void admit_other(const Edge& edge);
   void admit(LightEvent event);
-  void judge(LightEvent event);
+  void classify(LightEvent event);
   void time_moved(std::int64_t newest_before);
   void sort_in(const LightEvent& event);
-  void give_out_until(std::int64_t stamp_ticks);
-  void give_out(std::uint32_t until_stamp, std::size_t keep);
+  void release_until(std::int64_t stamp_ticks);
+  void release(std::uint32_t until_stamp, std::size_t keep);
   void refresh_quiet();
 
   /// Nothing leaves the order and no deadline passes until the newest stamp lies behind this.
   std::int64_t quiet_until_ticks_ = INT64_MIN;
-  EventOrder order_;
+  ReorderBuffer order_;
 };
 
 }  // namespace pharos::lighthouse

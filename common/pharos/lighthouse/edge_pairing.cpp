@@ -6,7 +6,7 @@
 namespace pharos::lighthouse {
 
 void EdgePairing::count_missing_fall(std::int64_t apart, DecoderCounters& counters) {
-  ++(apart > kLongestPulseTicks ? counters.edges_never_ended : counters.edges_doubled);
+  ++(apart > kLongestPulse_ticks ? counters.edges_never_ended : counters.edges_doubled);
 }
 
 void EdgePairing::end(DecoderCounters& counters) {

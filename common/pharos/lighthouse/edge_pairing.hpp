@@ -31,7 +31,7 @@ class EdgePairing {
     }
     high_ ^= bit;
     const auto width = static_cast<std::uint64_t>(stamp_ticks - rise_ticks_[sensor]);
-    if (width > kLongestPulseTicks) {  // or negative
+    if (width > kLongestPulse_ticks) {  // or negative
       counters.edges_never_ended += 2;
       return -1;
     }

@@ -22,7 +22,7 @@ class FlashGroup {
   std::size_t longest() const;
   /// Whether it rises with the others; the first of a group always does.
   bool rises_with(const Pulse& pulse) const {
-    constexpr auto kSpread = static_cast<std::uint64_t>(kFlashRiseSpreadTicks);
+    constexpr auto kSpread = static_cast<std::uint64_t>(kFlashRiseSpread_ticks);
     return static_cast<std::uint64_t>(pulse.rise_ticks - first_rise_ticks_) + kSpread <= 2 * kSpread;
   }
   /// `pulse` rises with the others, or is the first; false when full.
@@ -37,13 +37,13 @@ class FlashGroup {
   }
   void clear() { size_ = 0; }
   /// No pulse of this group can fall later.
-  std::int64_t deadline_ticks() const { return first_rise_ticks_ + kFlashRiseSpreadTicks + kLongestPulseTicks; }
+  std::int64_t deadline_ticks() const { return first_rise_ticks_ + kFlashRiseSpread_ticks + kLongestPulse_ticks; }
 
  private:
   std::int64_t first_rise_ticks_ = 0;
   std::size_t size_ = 0;
   // Of each pulse; apart, for a whole one has five bytes.
-  std::array<std::int16_t, kMaxSensors> rise_after_first_{};  // within +-kFlashRiseSpreadTicks
+  std::array<std::int16_t, kMaxSensors> rise_after_first_{};  // within +-kFlashRiseSpread_ticks
   std::array<std::uint16_t, kMaxSensors> width_ticks_{};
   std::array<std::uint8_t, kMaxSensors> sensor_{};
 };

@@ -14,35 +14,35 @@ using fixed::times;
 using fixed::times_wide;
 
 constexpr Q16 ticks(double value) { return static_cast<Q16>(value * 65536.0); }
-constexpr Q30 share(double value) { return static_cast<Q30>(value * kOne); }
+constexpr Q30 fraction(double value) { return static_cast<Q30>(value * kOne); }
 
 // Chosen on three recordings of still targets before two pairs of stations, with none kept aside as a check; all of
 // them are flat optima (half or twice the value costs 1-3 % of the noise).
-constexpr std::int32_t kUsualLengthFlashes = 48;  // over which a code's usual length is averaged
-constexpr Q16 kLargestStep = ticks(32);           // by which one flash may move it
-constexpr Q16 kLargestDeviation = ticks(100);     // beyond, the flash was weak, not late
-constexpr Q16 kShortBegin = ticks(12);            // deviations between here ...
-constexpr Q16 kShortFull = ticks(24);             // ... and here go from the common slope to that of short flashes
-constexpr Q30 kCommonWeight = share(1.0 / 128);   // of a flash in the slopes learnt
-constexpr Q30 kShortWeight = share(1.0 / 16);
-constexpr Q30 kLowestCommonSlope = share(0.1);
-constexpr Q30 kHighestSlope = share(0.75);
+constexpr std::int32_t kMeanLengthFlashes = 48;     // over which a code's usual length is averaged
+constexpr Q16 kLargestStep = ticks(32);             // by which one flash may move it
+constexpr Q16 kLargestDeviation = ticks(100);       // beyond, the flash was weak, not late
+constexpr Q16 kShortBegin = ticks(12);              // deviations between here ...
+constexpr Q16 kShortFull = ticks(24);               // ... and here go from the common slope to that of short flashes
+constexpr Q30 kCommonWeight = fraction(1.0 / 128);  // of a flash in the slopes learnt
+constexpr Q30 kShortWeight = fraction(1.0 / 16);
+constexpr Q30 kLowestCommonSlope = fraction(0.1);
+constexpr Q30 kHighestSlope = fraction(0.75);
 
-constexpr Q30 kPeriodGainRatio = share(0.7);
-constexpr Q30 kPeriodMemory = share(0.85);  // of a turn's departure from the mean, per turn
+constexpr Q30 kPeriodGainRatio = fraction(0.7);
+constexpr Q30 kPeriodMemory = fraction(0.85);  // of a turn's departure from the mean, per turn
 constexpr std::int32_t kMeanPeriodFlashes = 64;
 constexpr std::int32_t kVarianceFlashes = 64;
-constexpr Q30 kGainStep = share(0.01);
-constexpr Q30 kLowestGain = share(0.6);
+constexpr Q30 kGainStep = fraction(0.01);
+constexpr Q30 kLowestGain = fraction(0.6);
 constexpr Q30 kHighestGain = kOne;
-constexpr Q30 kAsymmetry = share(0.2);        // of what exceeds one standard deviation
+constexpr Q30 kAsymmetry = fraction(0.2);     // of what exceeds one standard deviation
 constexpr Q16 kOutlier = ticks(150);          // an innovation beyond starts anew
 constexpr std::int32_t kLongestGapTurns = 8;  // after more the last flash predicts nothing useful
 constexpr int kWarmUp = 8;                    // flashes before anything is learnt
 constexpr int kSettled = 16;
-constexpr Q16 kPeriodSlack = ticks(0.001 * kNominalPeriodTicks);  // rotors are held to 60 Hz
+constexpr Q16 kPeriodSlack = ticks(0.001 * kNominalPeriod_ticks);  // rotors are held to 60 Hz
 constexpr Q16 kWidestPeriod = ticks(16'000);  // what a sweep may tell of its turn; far beyond all that is believed
-constexpr auto kNominalPeriod = static_cast<std::int64_t>(kNominalPeriodTicks * 65536.0);
+constexpr auto kNominalPeriod = static_cast<std::int64_t>(kNominalPeriod_ticks * 65536.0);
 
 std::size_t code_index(const Flash& flash) { return (flash.data ? 1U : 0U) + (flash.skip ? 2U : 0U); }
 
@@ -58,7 +58,7 @@ Q16 square(Q16 a, Q16 b) { return static_cast<Q16>(fixed::product(a, b) >> 16); 
 // The root of a number of square ticks.
 Q16 root(Q16 square_ticks) {
   const fixed::Root root = fixed::root_of(std::int64_t{square_ticks} << 28);
-  return root.root >> (root.doublings + 6);
+  return root.root >> (root.binary_exponent + 6);
 }
 
 Q30 ratio(std::int64_t a, std::int32_t b) { return static_cast<Q30>(std::clamp<std::int64_t>(a / b, -kOne, kOne)); }
@@ -66,15 +66,15 @@ Q30 ratio(std::int64_t a, std::int32_t b) { return static_cast<Q30>(std::clamp<s
 }  // namespace
 
 Q16 FlashLateness::length_deviation(const Flash& flash) {
-  Usual& usual = usual_[code_index(flash)];
+  MeanExcess& usual = mean_excess_[code_index(flash)];
   const std::int32_t excess_ticks =
-      flash.length_ticks - kFlashLengthTicks[flash_code(flash.axis, flash.data, flash.skip)];
+      flash.length_ticks - kFlashLength_ticks[flash_code(flash.axis, flash.data, flash.skip)];
   // A flash is no longer than some thousand ticks: what is not is none.
   const Q16 excess = std::clamp<std::int32_t>(excess_ticks, -10'000, 10'000) * 65536;
   if (usual.count == 0) {
     std::int64_t sum = 0;
     std::int32_t known = 0;
-    for (const Usual& other : usual_) {
+    for (const MeanExcess& other : mean_excess_) {
       if (other.count == 0) continue;
       sum += other.excess;
       ++known;
@@ -82,7 +82,7 @@ Q16 FlashLateness::length_deviation(const Flash& flash) {
     usual.excess = known > 0 ? static_cast<Q16>(sum / known) : excess;
   }
   const std::int64_t deviation = std::int64_t{excess} - usual.excess;
-  if (usual.count < kUsualLengthFlashes) ++usual.count;
+  if (usual.count < kMeanLengthFlashes) ++usual.count;
   usual.excess += fixed::clamped(deviation, kLargestStep) / usual.count;
   return fixed::clamped(deviation, kLargestDeviation);
 }
@@ -136,8 +136,8 @@ void FlashSmoother::correct(Q16 innovation) {
     innovation_variance_ += (square(clipped, clipped) - innovation_variance_) / kVarianceFlashes;
     innovation_variance_ = std::max(innovation_variance_, ticks(1));
     // 2^-24: neither exceeds three standard deviations.
-    const std::int64_t likeness = (fixed::product(clipped, last_innovation_) * 256) / innovation_variance_;
-    gain_ += static_cast<Q30>((likeness * kGainStep) >> 24);
+    const std::int64_t similarity = (fixed::product(clipped, last_innovation_) * 256) / innovation_variance_;
+    gain_ += static_cast<Q30>((similarity * kGainStep) >> 24);
     gain_ = std::clamp(gain_, kLowestGain, kHighestGain);
     last_innovation_ = clipped;
     if (flashes_ >= kSettled) {
@@ -150,14 +150,14 @@ void FlashSmoother::correct(Q16 innovation) {
   mean_period_ += (period_ - mean_period_) / std::min(flashes_, kMeanPeriodFlashes);
 }
 
-SmoothedFlash FlashSmoother::answer(const Sweep& sweep) const {
+SmoothedFlash FlashSmoother::filtered(const Sweep& sweep) const {
   SmoothedFlash smoothed{fixed::to_double(phase_, 16), 0.0};
   if (flashes_ >= 3 && period_ < kPeriodSlack && period_ > -kPeriodSlack) {
     smoothed.period_ticks = fixed::to_double(kNominalPeriod + period_, 16);
   } else if (sweep.period_sixteenth_ticks > 0) {
     smoothed.period_ticks = fixed::to_double(sweep.period_sixteenth_ticks, 4);
   } else {
-    smoothed.period_ticks = kNominalPeriodTicks;
+    smoothed.period_ticks = kNominalPeriod_ticks;
   }
   return smoothed;
 }
@@ -168,11 +168,11 @@ SmoothedFlash FlashSmoother::push(const Sweep& sweep) {
   const std::int64_t elapsed = sweep.flash.start_ticks - last_start_ticks_;
   const bool first = flashes_ == 0;
   last_start_ticks_ = sweep.flash.start_ticks;
-  if (first || elapsed <= 0 || elapsed > std::int64_t{kLongestGapTurns + 1} * kTurnTicks) {
+  if (first || elapsed <= 0 || elapsed > std::int64_t{kLongestGapTurns + 1} * kTurn_ticks) {
     restart(sweep, correction);
-    return answer(sweep);
+    return filtered(sweep);
   }
-  const std::int32_t turns = (static_cast<std::int32_t>(elapsed) + kTurnTicks / 2) / kTurnTicks;
+  const std::int32_t turns = (static_cast<std::int32_t>(elapsed) + kTurn_ticks / 2) / kTurn_ticks;
   for (std::int32_t turn = 0; turn < turns; ++turn) {
     period_ = mean_period_ + times(period_ - mean_period_, kPeriodMemory);
   }
@@ -180,13 +180,13 @@ SmoothedFlash FlashSmoother::push(const Sweep& sweep) {
   const std::int64_t innovation = correction - phase;
   if (turns == 0 || innovation > kOutlier || innovation < -kOutlier) {
     restart(sweep, correction);
-    return answer(sweep);
+    return filtered(sweep);
   }
   phase_ = static_cast<Q16>(phase);
   if (flashes_ > kWarmUp) lateness_.learn(deviation, -phase_);
   flashes_ = std::min<std::int32_t>(flashes_ + 1, 1000);
   correct(static_cast<Q16>(innovation));
-  return answer(sweep);
+  return filtered(sweep);
 }
 
 }  // namespace pharos::lighthouse

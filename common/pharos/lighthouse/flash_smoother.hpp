@@ -13,7 +13,7 @@ namespace pharos::lighthouse {
 struct SmoothedFlash {
   /// Smoothed time zero minus the flash's start_ticks, ticks.
   double offset_ticks = 0.0;
-  double period_ticks = kNominalPeriodTicks;
+  double period_ticks = kNominalPeriod_ticks;
 };
 
 /// Ticks in units of 2^-16: what the smoothing counts in, so that it tells the same on every processor and costs a core
@@ -39,11 +39,12 @@ class FlashLateness {
     fixed::Q30 value(fixed::Q30 lowest) const;
     void learn(Q16 deviation, Q16 lateness, fixed::Q30 weight);
   };
-  struct Usual {
+  struct MeanExcess {
     Q16 excess = 0;
     std::int32_t count = 0;
   };
-  std::array<Usual, 4> usual_;  // by data and skip: stations are off nominal by some ticks, differently for each code
+  std::array<MeanExcess, 4>
+      mean_excess_;  // by data and skip: stations are off nominal by some ticks, differently for each code
   Slope common_{18 << 16, 60 << 16};
   Slope short_{240 << 16, 600 << 16};
 };
@@ -62,7 +63,7 @@ class FlashSmoother {
  private:
   void restart(const Sweep& sweep, Q16 correction);
   void correct(Q16 innovation);
-  SmoothedFlash answer(const Sweep& sweep) const;
+  SmoothedFlash filtered(const Sweep& sweep) const;
 
   FlashLateness lateness_;
   std::int64_t last_start_ticks_ = 0;

@@ -27,7 +27,7 @@ void LightDecoder::refresh_deadline() {
 
 void LightDecoder::close(FlashGroup& group) {
   const FlashCandidate candidate = candidate_of(group);
-  if (candidate.length_ticks < kShortestFlashTicks) {
+  if (candidate.length_ticks < kShortestFlash_ticks) {
     for (std::size_t k = 0; k < group.size(); ++k) collector_.push(group[k], counters_);
   } else {
     const auto flash = tracker_.push(candidate, counters_);
@@ -51,11 +51,11 @@ void LightDecoder::finish() {
   refresh_deadline();
 }
 
-void LightDecoder::count_given_up(const TimeBase::GivenUp& given_up) {
-  counters_.pulses_late += given_up.late_pulses;
-  counters_.pulses_off_time += given_up.off_time_pulses;
-  counters_.edges_late += given_up.late_edges;
-  counters_.edges_off_time += given_up.off_time_edges;
+void LightDecoder::count_discarded(const TimeBase::Discarded& discarded) {
+  counters_.pulses_late += discarded.late_pulses;
+  counters_.pulses_off_time += discarded.off_time_pulses;
+  counters_.edges_late += discarded.late_edges;
+  counters_.edges_off_time += discarded.off_time_edges;
 }
 
 std::optional<Sweep> LightDecoder::take_sweep() {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/lighthouse/decoder_counters.hpp"
 #include "pharos/lighthouse/edge_pairing.hpp"
 #include "pharos/lighthouse/flash_grouping.hpp"
@@ -60,7 +60,7 @@ class LightDecoder {
   void pass_time(std::int64_t now_ticks);
   /// The input is at its end: what waits for more is given out.
   void finish();
-  void count_given_up(const TimeBase::GivenUp& given_up);
+  void count_discarded(const TimeBase::Discarded& discarded);
   std::int64_t decoded_ticks() const { return tracker_.last_flash_ticks(); }
 
   static LightEvent event_of(const Edge& edge) {
@@ -83,7 +83,7 @@ class LightDecoder {
   }
 
   void handle(const Pulse& pulse, std::int64_t fall_ticks) {
-    if (pulse.width_ticks < kShortestPulseTicks) {
+    if (pulse.width_ticks < kShortestPulse_ticks) {
       ++counters_.pulses_glitch;
       return;
     }
@@ -91,12 +91,12 @@ class LightDecoder {
     std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
     // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
     const auto overlap = static_cast<std::uint64_t>(last_fall - pulse.rise_ticks);
-    if (overlap - 1 < kLongestPulseTicks) {
+    if (overlap - 1 < kLongestPulse_ticks) {
       ++counters_.pulses_doubled;
       return;
     }
     last_fall = fall_ticks;
-    if (pulse.width_ticks < kShortestFlashPulseTicks) {
+    if (pulse.width_ticks < kShortestFlashPulse_ticks) {
       collector_.push(pulse, counters_);
     } else if (!grouping_.join(pulse)) {
       handle_long(pulse.rise_ticks, pulse.width_ticks, pulse.sensor);
@@ -113,7 +113,7 @@ class LightDecoder {
   SlotTracker tracker_;
   SweepCollector collector_;
   std::array<OotxFrames, kMaxStations> ootx_;
-  Ring<OotxPayload, kHeldPayloads> payloads_;
+  RingBuffer<OotxPayload, kHeldPayloads> payloads_;
 };
 
 }  // namespace pharos::lighthouse

@@ -10,7 +10,7 @@ struct LightEvent {
   enum class Kind : std::uint8_t { kPulse, kRise, kFall };
 
   std::int64_t stamp_ticks = 0;
-  std::uint16_t width_ticks = 0;  // of a pulse; at most kLongestPulseTicks
+  std::uint16_t width_ticks = 0;  // of a pulse; at most kLongestPulse_ticks
   std::uint8_t sensor = 0;
   Kind kind = Kind::kPulse;
 };

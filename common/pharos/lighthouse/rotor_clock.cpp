@@ -9,16 +9,16 @@ namespace {
 /// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %). In 1/256 tick.
 constexpr std::int32_t kPeriodSlackUnits = 833 * 256;
 /// Longest gap over which extrapolate() answers.
-constexpr std::int64_t kLongestExtrapolationTicks = 300 * kTicksPerSecond;
+constexpr std::int64_t kLongestExtrapolation_ticks = 300 * kTicksPerSecond;
 /// That many turns, and a power of two.
 constexpr std::int32_t kLongestExtrapolationDigit = 1 << 14;
-static_assert(kLongestExtrapolationTicks / kTurnTicks < kLongestExtrapolationDigit * 2 - 40);
+static_assert(kLongestExtrapolation_ticks / kTurn_ticks < kLongestExtrapolationDigit * 2 - 40);
 
 }  // namespace
 
 RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   const std::int64_t elapsed = start_ticks - last_ticks_;
-  if (!known() || elapsed < -kLongestExtrapolationTicks || elapsed > kLongestExtrapolationTicks) return {};
+  if (!known() || elapsed < -kLongestExtrapolation_ticks || elapsed > kLongestExtrapolation_ticks) return {};
   // Whole turns nearest to it. Digit by digit: a 64-bit division is a kilobyte of code on a 32-bit core.
   const std::uint64_t period = period_;
   std::uint64_t rest = static_cast<std::uint64_t>(elapsed < 0 ? -elapsed : elapsed) * kUnits + period / 2;

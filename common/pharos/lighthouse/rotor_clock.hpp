@@ -41,8 +41,8 @@ class RotorClock {
  private:
   // Measured: 99 % of same-rotor flashes within 40 ticks of the prediction after one turn. Three times that, and 40
   // more for every turn not seen.
-  static constexpr std::int32_t kToleranceTicks = 120;
-  static constexpr std::int32_t kToleranceGrowthTicks = 40;
+  static constexpr std::int32_t kTolerance_ticks = 120;
+  static constexpr std::int32_t kToleranceGrowth_ticks = 40;
   // Turns are noisy by 10 ticks and far steadier than that: 16 of them are averaged.
   static constexpr std::uint32_t kAveragedTurns = 16;
   static constexpr int kUnitBits = 8;
@@ -57,11 +57,11 @@ class RotorClock {
 
 inline RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
   const auto elapsed = static_cast<std::uint64_t>(start_ticks - last_ticks_);
-  if (!known() || elapsed > std::uint64_t{kLongestGapTurns + 1} * kTurnTicks) return {};  // or negative
+  if (!known() || elapsed > std::uint64_t{kLongestGapTurns + 1} * kTurn_ticks) return {};  // or negative
   const auto ticks = static_cast<std::uint32_t>(elapsed);
   // The nominal turn, from which none is off by more than 0.1 %, gives the turns but for one. What is left over is so
   // far from 32 bits that the products may lose what is above them.
-  std::int32_t turns = static_cast<std::int32_t>((ticks + kTurnTicks / 2) / kTurnTicks);
+  std::int32_t turns = static_cast<std::int32_t>((ticks + kTurn_ticks / 2) / kTurn_ticks);
   auto rest = static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(turns) * period_);
   const auto half = static_cast<std::int32_t>(period_ / 2);
   if (rest < -half) {
@@ -75,7 +75,7 @@ inline RotorClock::Fit RotorClock::fit(std::int64_t start_ticks) const {
   Fit fit;
   fit.turns = turns;
   fit.residual_ticks = -((static_cast<std::int32_t>(kUnits) / 2 - rest) >> kUnitBits);
-  const std::int32_t tolerance = kToleranceTicks + kToleranceGrowthTicks * turns;
+  const std::int32_t tolerance = kTolerance_ticks + kToleranceGrowth_ticks * turns;
   fit.within = fit.residual_ticks <= tolerance && fit.residual_ticks >= -tolerance;
   return fit;
 }

@@ -7,26 +7,26 @@ namespace pharos::lighthouse {
 namespace {
 
 /// Flashes of one station's two rotors are within 470 ticks of half a turn apart (99 %), and drift on over a few turns.
-constexpr std::int32_t kTrainToleranceTicks = 1000;
+constexpr std::int32_t kTrainTolerance_ticks = 1000;
 /// Extremes of the second station's lag are within 700 of the median; the rotors' own spread comes on top.
-constexpr std::int32_t kCompanionToleranceTicks = 1700;
+constexpr std::int32_t kCompanionTolerance_ticks = 1700;
 /// Real lengths are off nominal by -47..+78 on a strong sensor, less on a weak one; half a step of axis is 260.
-constexpr std::int32_t kLengthToleranceTicks = 259;
+constexpr std::int32_t kLengthTolerance_ticks = 259;
 constexpr std::uint32_t kRecent = 12;
 /// Groups older than this say nothing: rotors drift out of the tolerances above.
 constexpr std::int32_t kOldestSlots = 24;
 
 bool length_fits(std::int32_t length, Axis axis, bool skip) {
   for (const bool data : {false, true}) {
-    const std::int32_t off = length - kFlashLengthTicks[flash_code(axis, data, skip)];
-    if (off <= kLengthToleranceTicks && off >= -kLengthToleranceTicks) return true;
+    const std::int32_t off = length - kFlashLength_ticks[flash_code(axis, data, skip)];
+    if (off <= kLengthTolerance_ticks && off >= -kLengthTolerance_ticks) return true;
   }
   return false;
 }
 
 std::uint32_t nearest_code(std::int32_t length) {
   std::uint32_t code = 0;
-  while (code < 7 && length > (kFlashLengthTicks[code] + kFlashLengthTicks[code + 1]) / 2) ++code;
+  while (code < 7 && length > (kFlashLength_ticks[code] + kFlashLength_ticks[code + 1]) / 2) ++code;
   return code;
 }
 
@@ -53,13 +53,13 @@ std::optional<SlotPlace> SlotSearch::place(std::size_t age, const SlotPattern& p
   for (const std::uint8_t position : {std::uint8_t{0}, std::uint8_t{1}}) {
     const bool companion = position != pattern.newest.position;
     if (companion && pattern.kind != SlotPattern::Kind::kBoth) continue;
-    const std::int64_t lag = std::int64_t{position - pattern.newest.position} * kSecondFlashTicks;
+    const std::int64_t lag = std::int64_t{position - pattern.newest.position} * kSecondFlash_ticks;
     const std::int64_t whole = before + lag;
-    const std::int32_t tolerance = companion ? kCompanionToleranceTicks : kTrainToleranceTicks;
-    if (whole < -tolerance || whole > kOldestSlots * kSlotTicks + tolerance) continue;
+    const std::int32_t tolerance = companion ? kCompanionTolerance_ticks : kTrainTolerance_ticks;
+    if (whole < -tolerance || whole > kOldestSlots * kSlot_ticks + tolerance) continue;
     const auto ticks = static_cast<std::int32_t>(whole);
-    const std::int32_t slots = (ticks + kSlotTicks / 2) / kSlotTicks;
-    const std::int32_t off = ticks - slots * kSlotTicks;
+    const std::int32_t slots = (ticks + kSlot_ticks / 2) / kSlot_ticks;
+    const std::int32_t off = ticks - slots * kSlot_ticks;
     if (off <= tolerance && off >= -tolerance) {
       return SlotPlace{position, pattern.newest.slot - static_cast<std::uint32_t>(slots)};
     }

@@ -10,18 +10,18 @@ namespace {
 /// Once place and so axis and skip are known only the data bit is open. Lengths vary by 80 around a station's usual
 /// one; half of the data bit's step is 521, and at 521 lies the other axis: what is so far off belongs to another
 /// cycle.
-constexpr std::int32_t kLengthMarginTicks = 350;
+constexpr std::int32_t kLengthMargin_ticks = 350;
 /// A station's usual length is off nominal by -47..+78 (measured).
-constexpr std::int32_t kLargestExcessTicks = 150;
+constexpr std::int32_t kLargestExcess_ticks = 150;
 /// Half a turn after the station's other rotor: 470 ticks cover 99 %; drift over some turns comes on top.
-constexpr std::int32_t kOtherRotorToleranceTicks = 1000;
+constexpr std::int32_t kOtherRotorTolerance_ticks = 1000;
 /// The other station's lag varies by 700 around its median.
-constexpr std::int32_t kOtherStationToleranceTicks = 1700;
+constexpr std::int32_t kOtherStationTolerance_ticks = 1700;
 /// A pattern must explain this many more groups than the present lock did before it replaces it.
 constexpr std::uint32_t kSupersedesBy = 3;
 constexpr std::uint32_t kSuspiciousRejections = 5;
 /// Two stations' flashes are 20,400 ticks apart: nearer than half of that is the same station.
-constexpr std::int32_t kSamePhaseTicks = kSecondFlashTicks / 2 - 200;
+constexpr std::int32_t kSamePhase_ticks = kSecondFlash_ticks / 2 - 200;
 /// Slots of which at least 12 must have been seen for an untroubled lock.
 constexpr std::uint32_t kQualitySlots = 16;
 constexpr int kGoodQuality = 12;
@@ -29,14 +29,14 @@ constexpr int kGoodQuality = 12;
 constexpr std::uint32_t kFirstSlot = 1024;
 
 /// A weak sensor sees a flash late by 0.55-0.95 of the length that it misses, up to 670 ticks (measured).
-constexpr std::int32_t kLatestTicks = 750;
-constexpr std::int32_t kLeastLatenessPercent = 55;
-constexpr std::int32_t kMostLatenessPercent = 95;
+constexpr std::int32_t kLatest_ticks = 750;
+constexpr std::int32_t kMinLatenessPercent = 55;
+constexpr std::int32_t kMaxLatenessPercent = 95;
 /// Flashes are as strong as usual within this; the strongest sensor varies by 45.
-constexpr std::int32_t kWeakTicks = 100;
+constexpr std::int32_t kWeak_ticks = 100;
 constexpr std::int32_t kExcessUnits = 64;
 constexpr std::uint32_t kExcessFlashes = 64;
-constexpr std::int32_t kLargestExcessStepTicks = 32;
+constexpr std::int32_t kLargestExcessStep_ticks = 32;
 
 std::uint32_t recent(std::uint32_t seen) { return seen & ((1U << kQualitySlots) - 1U); }
 
@@ -59,7 +59,7 @@ SlotTracker::Place SlotTracker::expected_place(std::int64_t start_ticks) const {
       if (fit.within && residual < best_residual) {
         best_residual = residual;
         best = {place, fit.residual_ticks, true, true};
-      } else if (fit.residual_ticks > 0 && fit.residual_ticks <= kLatestTicks) {
+      } else if (fit.residual_ticks > 0 && fit.residual_ticks <= kLatest_ticks) {
         late = {place, fit.residual_ticks, true, true};
       }
     }
@@ -69,18 +69,18 @@ SlotTracker::Place SlotTracker::expected_place(std::int64_t start_ticks) const {
 }
 
 SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const {
-  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurnTicks;
+  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurn_ticks;
   for (std::uint8_t position = 0; position < kMaxStations; ++position) {
     for (std::uint8_t other = 0; other < kMaxStations; ++other) {
       if (other != position && kind_ != SlotPattern::Kind::kBoth) continue;
-      const std::int64_t lag = std::int64_t{position - other} * kSecondFlashTicks;
-      const std::int32_t tolerance = other == position ? kOtherRotorToleranceTicks : kOtherStationToleranceTicks;
+      const std::int64_t lag = std::int64_t{position - other} * kSecondFlash_ticks;
+      const std::int32_t tolerance = other == position ? kOtherRotorTolerance_ticks : kOtherStationTolerance_ticks;
       for (const RotorClock& sibling : station_[other].rotor) {
         const std::int64_t elapsed = start_ticks - sibling.last_ticks() - lag;
-        if (!sibling.known() || elapsed < -kSlotTicks / 2 || elapsed > kLongestGap) continue;
+        if (!sibling.known() || elapsed < -kSlot_ticks / 2 || elapsed > kLongestGap) continue;
         const auto ticks = static_cast<std::int32_t>(elapsed);
-        const std::int32_t slots = (ticks + kSlotTicks / 2) / kSlotTicks;
-        const std::int32_t residual = ticks - slots * kSlotTicks;
+        const std::int32_t slots = (ticks + kSlot_ticks / 2) / kSlot_ticks;
+        const std::int32_t residual = ticks - slots * kSlot_ticks;
         if (residual > tolerance || residual < -tolerance) continue;
         const std::uint32_t slot = sibling.last_slot() + static_cast<std::uint32_t>(slots);
         const Station& station = station_[position];
@@ -100,10 +100,10 @@ SlotTracker::Reading SlotTracker::read_length(std::int32_t length, const Place& 
   // What a flash so late has lost in length, by the middle of the measured range.
   const std::int32_t expected_missing = place.predicted && place.late_ticks > 0 ? place.late_ticks * 4 / 3 : 0;
   Reading best;
-  std::int32_t best_error = kLengthMarginTicks;
+  std::int32_t best_error = kLengthMargin_ticks;
   for (const bool data : {false, true}) {
     const std::uint32_t code = flash_code(axis_of_slot(place.place.slot), data, skips(place.place));
-    const std::int32_t missing = kFlashLengthTicks[code] + excess - length;
+    const std::int32_t missing = kFlashLength_ticks[code] + excess - length;
     const std::int32_t error = missing < expected_missing ? expected_missing - missing : missing - expected_missing;
     if (error >= best_error) continue;
     best_error = error;
@@ -125,11 +125,11 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& w
   flash.skip = skips(place);
   flash.data = reading.data;
   flash.sensors = static_cast<std::uint8_t>(candidate.sensors);
-  if (reading.missing_ticks > kWeakTicks) {
+  if (reading.missing_ticks > kWeak_ticks) {
     tracked.flags |= kSweepFlashWeak;
-    const std::int32_t least = reading.missing_ticks * kLeastLatenessPercent / 100;
-    const std::int32_t most = reading.missing_ticks * kMostLatenessPercent / 100;
-    flash.start_ticks -= where.predicted ? std::clamp(where.late_ticks, least, most) : (least + most) / 2;
+    const std::int32_t minimum = reading.missing_ticks * kMinLatenessPercent / 100;
+    const std::int32_t maximum = reading.missing_ticks * kMaxLatenessPercent / 100;
+    flash.start_ticks -= where.predicted ? std::clamp(where.late_ticks, minimum, maximum) : (minimum + maximum) / 2;
   }
 
   const std::uint32_t slots = place.slot - station.last_slot;
@@ -139,9 +139,9 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& w
   station.last_slot = place.slot;
   station.known = true;
   if (station.excess_count < kExcessFlashes) ++station.excess_count;
-  const std::int32_t step = std::clamp(-reading.missing_ticks, -kLargestExcessStepTicks, kLargestExcessStepTicks);
+  const std::int32_t step = std::clamp(-reading.missing_ticks, -kLargestExcessStep_ticks, kLargestExcessStep_ticks);
   station.excess = std::clamp(station.excess + step * kExcessUnits / static_cast<std::int32_t>(station.excess_count),
-                              -kLargestExcessTicks * kExcessUnits, kLargestExcessTicks * kExcessUnits);
+                              -kLargestExcess_ticks * kExcessUnits, kLargestExcess_ticks * kExcessUnits);
   last_flash_ticks_ = std::max(last_flash_ticks_, flash.start_ticks);
 
   RotorClock& rotor = station.rotor[static_cast<std::size_t>(index_of(flash.axis))];
@@ -161,7 +161,7 @@ void SlotTracker::assign_numbers(SlotPattern& pattern) {
     for (std::size_t before = 0; before < kMaxStations; ++before) {
       const RotorClock& rotor = station_[before].rotor[place->slot & 1U];
       const RotorClock::Fit fit = rotor.extrapolate(search_.candidate(age).start_ticks);
-      if (!fit.within || fit.residual_ticks > kSamePhaseTicks || fit.residual_ticks < -kSamePhaseTicks) continue;
+      if (!fit.within || fit.residual_ticks > kSamePhase_ticks || fit.residual_ticks < -kSamePhase_ticks) continue;
       const std::uint32_t slot_then = rotor.last_slot() + 2U * static_cast<std::uint32_t>(fit.turns);
       const bool one_of_two = pattern.kind == SlotPattern::Kind::kOneOfTwo && kind_ != SlotPattern::Kind::kNeverSkips;
       const bool same_skip =
@@ -203,7 +203,7 @@ std::optional<TrackedFlash> SlotTracker::adopt(SlotPattern pattern, DecoderCount
     if (!place) continue;
     const Place where{*place, 0, false, true};
     const Reading reading = read_length(search_.candidate(age).length_ticks, where);
-    if (!reading.credible) continue;
+    if (!reading.plausible) continue;
     const TrackedFlash flash = accept(search_.candidate(age), where, reading, counters);
     if (age == 0) newest = flash;
   }
@@ -225,7 +225,7 @@ bool SlotTracker::supersedes(const SlotPattern& pattern) const {
 }
 
 std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, DecoderCounters& counters) {
-  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurnTicks;
+  constexpr std::int64_t kLongestGap = std::int64_t{RotorClock::kLongestGapTurns} * kTurn_ticks;
   if (locked_ && candidate.start_ticks - last_flash_ticks_ > kLongestGap) {
     lose(counters);
   }
@@ -235,7 +235,7 @@ std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, D
   if (locked_ && in_order) expected = expected_place(candidate.start_ticks);
   Reading reading;
   if (expected.found) reading = read_length(candidate.length_ticks, expected);
-  const bool accepted = expected.found && reading.credible;
+  const bool accepted = expected.found && reading.plausible;
   search_.push(candidate, accepted);
   if (accepted) {
     ++counters.flashes;
@@ -262,7 +262,7 @@ LockState SlotTracker::lock(std::int64_t now_ticks) const {
     const Station& station = station_[position];
     if (!locked_ || !station.known) continue;
     const RotorClock& rotor = station.rotor[station.last_slot & 1U];
-    const std::int64_t gone = std::max<std::int64_t>(0, now_ticks - rotor.last_ticks()) / kSlotTicks;
+    const std::int64_t gone = std::max<std::int64_t>(0, now_ticks - rotor.last_ticks()) / kSlot_ticks;
     const std::uint32_t seen = gone < 32 ? station.seen << static_cast<std::uint32_t>(gone) : 0U;
     LockState::Station& out = state.station[number_[position]];
     out.quality = static_cast<std::uint8_t>(std::popcount(recent(seen)));

@@ -53,7 +53,7 @@ class SlotTracker {
     std::uint32_t last_slot = 0;
     std::uint32_t seen = 0;  // bit 0: slot last_slot, bit n: n slots earlier
     bool known = false;      // has flashed under the present lock
-    /// Usual length of this station's flashes minus nominal, in 1/64 tick: it depends on distance and receiver.
+    /// MeanExcess length of this station's flashes minus nominal, in 1/64 tick: it depends on distance and receiver.
     std::int32_t excess = 0;
     std::uint32_t excess_count = 0;
   };
@@ -67,7 +67,7 @@ class SlotTracker {
   };
   /// What its length says then.
   struct Reading {
-    bool credible = false;
+    bool plausible = false;
     bool data = false;
     std::int32_t missing_ticks = 0;  // of the station's usual length
   };

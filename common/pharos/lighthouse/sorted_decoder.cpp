@@ -3,10 +3,10 @@
 
 namespace pharos::lighthouse {
 
-[[gnu::noinline]] void SortedDecoder::judge(std::int64_t stamp_ticks, std::uint8_t sensor, bool rising) {
+[[gnu::noinline]] void SortedDecoder::classify(std::int64_t stamp_ticks, std::uint8_t sensor, bool rising) {
   LightEvent event = event_of({stamp_ticks, sensor, rising});
-  TimeBase::GivenUp given_up;
-  switch (time_base_.judge(event, decoded_ticks(), given_up)) {
+  TimeBase::Discarded discarded;
+  switch (time_base_.classify(event, decoded_ticks(), discarded)) {
     case TimeBase::Verdict::kFits:
       take(event);
       break;
@@ -15,11 +15,11 @@ namespace pharos::lighthouse {
     case TimeBase::Verdict::kMoved:
       take_held();
       break;
-    case TimeBase::Verdict::kAbsurd:
-      ++given_up.off_time_edges;
+    case TimeBase::Verdict::kOutOfRange:
+      ++discarded.off_time_edges;
       break;
   }
-  count_given_up(given_up);
+  count_discarded(discarded);
 }
 
 void SortedDecoder::take_held() {
@@ -29,9 +29,9 @@ void SortedDecoder::take_held() {
 }
 
 void SortedDecoder::flush() {
-  TimeBase::GivenUp given_up;
-  if (time_base_.end(given_up) == TimeBase::Verdict::kMoved) take_held();
-  count_given_up(given_up);
+  TimeBase::Discarded discarded;
+  if (time_base_.end(discarded) == TimeBase::Verdict::kMoved) take_held();
+  count_discarded(discarded);
   finish();
 }
 

@@ -8,7 +8,7 @@
 namespace pharos::lighthouse {
 
 /// Decoder for edges that come in the order of their stamps, as the capture block gives them: what Decoder makes of
-/// the same edges, at two thirds of the work and without a kilobyte of elders that might still come (EventOrder).
+/// the same edges, at two thirds of the work and without a kilobyte of elders that might still come (ReorderBuffer).
 ///
 /// Stamps are 64-bit ticks of 20 ns; they may be stale or future: what is dropped is counted by cause. One that breaks
 /// the promise costs the pulses that it belongs to and no more. Time given out never runs backwards (TimeBase).
@@ -21,7 +21,7 @@ class SortedDecoder : public LightDecoder {
       return;
     }
     LightEvent event = event_of(edge);
-    if (!time_base_.fits_at_once(event)) return judge(edge.stamp_ticks, edge.sensor, edge.rising);
+    if (!time_base_.fits_at_once(event)) return classify(edge.stamp_ticks, edge.sensor, edge.rising);
     if (edge.rising) {
       rise(edge.sensor, event.stamp_ticks);
     } else {
@@ -39,7 +39,7 @@ class SortedDecoder : public LightDecoder {
 
  private:
   // In registers: an edge in memory would be written there for every one that fits.
-  void judge(std::int64_t stamp_ticks, std::uint8_t sensor, bool rising);
+  void classify(std::int64_t stamp_ticks, std::uint8_t sensor, bool rising);
   void take_held();
 };
 

@@ -58,6 +58,6 @@ struct Sweep {
 };
 
 /// Nominal turn of a Lighthouse 1.0 rotor (60 Hz), 20 ns ticks.
-inline constexpr double kNominalPeriodTicks = 50e6 / 60.0;
+inline constexpr double kNominalPeriod_ticks = 50e6 / 60.0;
 
 }  // namespace pharos::lighthouse

@@ -9,8 +9,8 @@ namespace pharos::lighthouse {
 namespace {
 
 /// Wide hits are held back with what may be a flash, at most this long.
-constexpr std::int64_t kSweepDoneTicks =
-    std::int64_t{kSweepWindowEndTicks} + kFlashRiseSpreadTicks + 2 * kLongestPulseTicks;
+constexpr std::int64_t kSweepDone_ticks =
+    std::int64_t{kSweepWindowEnd_ticks} + kFlashRiseSpread_ticks + 2 * kLongestPulse_ticks;
 
 }  // namespace
 
@@ -36,15 +36,15 @@ void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) 
   sweep.period_sixteenth_ticks = flash.period_sixteenth_ticks;
   sweep.flags = flash.flags;
   sweep.hits.clear();
-  deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDoneTicks);
+  deadline_ = std::min(deadline_, flash.flash.start_ticks + kSweepDone_ticks);
 }
 
 void SweepCollector::pass_time(std::int64_t now_ticks, DecoderCounters& counters) {
   if (now_ticks < deadline_) return;
-  finish_until(now_ticks - kSweepDoneTicks, counters);
+  finish_until(now_ticks - kSweepDone_ticks, counters);
   deadline_ = INT64_MAX;
   for (const Open& open : open_) {
-    if (open.open) deadline_ = std::min(deadline_, open.start_ticks + kSweepDoneTicks);
+    if (open.open) deadline_ = std::min(deadline_, open.start_ticks + kSweepDone_ticks);
   }
 }
 

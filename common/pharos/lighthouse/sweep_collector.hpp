@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/lighthouse/decoder_counters.hpp"
 #include "pharos/lighthouse/optical_timing.hpp"
 #include "pharos/lighthouse/pulse.hpp"
@@ -29,11 +29,11 @@ class SweepCollector {
     for (Open& open : open_) {
       if (!open.ever || open.skip) continue;
       const auto after_flash = static_cast<std::uint64_t>(hit.rise_ticks - open.start_ticks);
-      if (after_flash >= kNextWindowTicks) continue;  // or before it
+      if (after_flash >= kNextWindow_ticks) continue;  // or before it
       flash_seen = true;
       if (!open.open) continue;
       const std::int32_t centre_half_ticks = 2 * static_cast<std::int32_t>(after_flash) + hit.width_ticks;
-      if (centre_half_ticks < 2 * kSweepWindowBeginTicks || centre_half_ticks > 2 * kSweepWindowEndTicks) continue;
+      if (centre_half_ticks < 2 * kSweepWindowBegin_ticks || centre_half_ticks > 2 * kSweepWindowEnd_ticks) continue;
       const bool kept = places_[open.place].hits.push_back(
           {hit.sensor, static_cast<std::uint16_t>(hit.width_ticks), centre_half_ticks});
       ++(kept ? counters.hits : counters.hits_overflow);
@@ -54,7 +54,7 @@ class SweepCollector {
 
  private:
   /// Before the next slot's hits can begin, a stray pulse is not for want of a flash.
-  static constexpr std::uint64_t kNextWindowTicks = kSlotTicks + kSweepWindowBeginTicks;
+  static constexpr std::uint64_t kNextWindow_ticks = kSlot_ticks + kSweepWindowBegin_ticks;
 
   /// A station's last sweep, open or not.
   struct Open {
@@ -74,7 +74,7 @@ class SweepCollector {
   // waits or is open.
   static constexpr std::size_t kPlaces = kHeld + kMaxStations;
   std::uint32_t free_ = (1U << kPlaces) - 1U;  // bit per place
-  Ring<std::uint8_t, kHeld> finished_;         // places, oldest sweep first
+  RingBuffer<std::uint8_t, kHeld> finished_;   // places, oldest sweep first
   std::array<Sweep, kPlaces> places_;
 };
 

@@ -7,10 +7,10 @@ namespace pharos::lighthouse {
 namespace {
 
 constexpr std::size_t kAgreeing = 4;
-constexpr std::int64_t kAgreeingSpanTicks = 1'000'000;   // 20 ms
-constexpr std::int64_t kShortStepBackTicks = 2'500'000;  // 50 ms
+constexpr std::int64_t kAgreeingSpan_ticks = 1'000'000;   // 20 ms
+constexpr std::int64_t kShortStepBack_ticks = 2'500'000;  // 50 ms
 /// Stamps beyond are no clock (91 years of ticks); sums of a few of them still fit 64 bits.
-constexpr std::int64_t kAbsurdTicks = std::int64_t{1} << 57;
+constexpr std::int64_t kMaxStamp_ticks = std::int64_t{1} << 57;
 /// Only nonsense makes the offset grow so far; it stays there rather than overflow.
 constexpr std::uint32_t kLargestOffsetSpans = std::uint32_t{1} << 28U;
 
@@ -18,25 +18,25 @@ constexpr std::uint32_t kLargestOffsetSpans = std::uint32_t{1} << 28U;
 
 bool TimeBase::fits(std::int64_t stamp) const {
   const std::int64_t ahead = stamp - raw_newest();
-  return started_ && ahead <= kMaxAheadTicks && ahead >= -kMaxBehindTicks;
+  return started_ && ahead <= kMaxAhead_ticks && ahead >= -kMaxBehind_ticks;
 }
 
 bool TimeBase::agrees_with_held(std::int64_t stamp) const {
   const std::int64_t ahead = stamp - held_newest_;
-  return ahead <= kMaxAheadTicks && ahead >= -kMaxBehindTicks;
+  return ahead <= kMaxAhead_ticks && ahead >= -kMaxBehind_ticks;
 }
 
 bool TimeBase::confirmed(std::int64_t decoded_ticks) const {
   if (held_.size() < kAgreeing) return false;
   const std::int64_t step = held_newest_ - raw_newest();
-  const bool short_step_back = step < 0 && step > -kShortStepBackTicks;
+  const bool short_step_back = step < 0 && step > -kShortStepBack_ticks;
   if (!started_ || decoded_ticks == kNothingDecoded || short_step_back) return true;
-  return held_.full() || held_newest_ - held_oldest_ >= kAgreeingSpanTicks;
+  return held_.full() || held_newest_ - held_oldest_ >= kAgreeingSpan_ticks;
 }
 
 void TimeBase::move_to_held(std::int64_t decoded_ticks) {
   const std::int64_t step = held_newest_ - raw_newest();
-  const bool short_step_back = started_ && step < 0 && step > -kShortStepBackTicks;
+  const bool short_step_back = started_ && step < 0 && step > -kShortStepBack_ticks;
   if (decoded_ticks != kNothingDecoded && !short_step_back) {
     const std::int64_t missing = decoded_ticks - (held_oldest_ + offset_ticks());
     if (missing > 0 && offset_counter_spans_ < kLargestOffsetSpans)
@@ -47,27 +47,27 @@ void TimeBase::move_to_held(std::int64_t decoded_ticks) {
   for (LightEvent& event : held_) event.stamp_ticks += offset_ticks();
 }
 
-void TimeBase::give_up(GivenUp& given_up) {
+void TimeBase::discard_held(Discarded& discarded) {
   for (const LightEvent& event : held_) {
     const std::int64_t behind = raw_newest() - event.stamp_ticks;
-    const bool late = behind > 0 && behind < kShortStepBackTicks;
+    const bool late = behind > 0 && behind < kShortStepBack_ticks;
     const bool pulse = event.kind == LightEvent::Kind::kPulse;
-    ++(late ? (pulse ? given_up.late_pulses : given_up.late_edges)
-            : (pulse ? given_up.off_time_pulses : given_up.off_time_edges));
+    ++(late ? (pulse ? discarded.late_pulses : discarded.late_edges)
+            : (pulse ? discarded.off_time_pulses : discarded.off_time_edges));
   }
   forget_held();
 }
 
-TimeBase::Verdict TimeBase::judge(LightEvent& event, std::int64_t decoded_ticks, GivenUp& given_up) {
+TimeBase::Verdict TimeBase::classify(LightEvent& event, std::int64_t decoded_ticks, Discarded& discarded) {
   const std::int64_t stamp = event.stamp_ticks;
-  if (stamp > kAbsurdTicks || stamp < -kAbsurdTicks) return Verdict::kAbsurd;
+  if (stamp > kMaxStamp_ticks || stamp < -kMaxStamp_ticks) return Verdict::kOutOfRange;
   if (fits(stamp)) {
-    give_up(given_up);
+    discard_held(discarded);
     event.stamp_ticks += offset_ticks();
     newest_ = std::max(newest_, event.stamp_ticks);
     return Verdict::kFits;
   }
-  if (!held_.empty() && !agrees_with_held(stamp)) give_up(given_up);
+  if (!held_.empty() && !agrees_with_held(stamp)) discard_held(discarded);
   if (held_.empty()) held_newest_ = held_oldest_ = stamp;
   held_newest_ = std::max(held_newest_, stamp);
   held_oldest_ = std::min(held_oldest_, stamp);
@@ -78,10 +78,10 @@ TimeBase::Verdict TimeBase::judge(LightEvent& event, std::int64_t decoded_ticks,
   return Verdict::kMoved;
 }
 
-TimeBase::Verdict TimeBase::end(GivenUp& given_up) {
+TimeBase::Verdict TimeBase::end(Discarded& discarded) {
   if (held_.empty()) return Verdict::kHeld;
   if (started_) {
-    give_up(given_up);
+    discard_held(discarded);
     return Verdict::kHeld;
   }
   move_to_held(kNothingDecoded);

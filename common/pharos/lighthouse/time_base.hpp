@@ -23,13 +23,13 @@ namespace pharos::lighthouse {
 class TimeBase {
  public:
   enum class Verdict : std::uint8_t {
-    kFits,    // on the base: pass it on
-    kHeld,    // kept back until others agree
-    kMoved,   // the base has moved to the held ones, which include this one: pass on held(), then forget_held()
-    kAbsurd,  // outside any clock: drop
+    kFits,        // on the base: pass it on
+    kHeld,        // kept back until others agree
+    kMoved,       // the base has moved to the held ones, which include this one: pass on held(), then forget_held()
+    kOutOfRange,  // outside any clock: drop
   };
   /// Held events that were given up.
-  struct GivenUp {
+  struct Discarded {
     std::uint8_t late_pulses = 0, late_edges = 0, off_time_pulses = 0, off_time_edges = 0;
   };
   static constexpr std::size_t kMaxHeld = 24;
@@ -40,16 +40,16 @@ class TimeBase {
     const std::uint64_t stamp =
         static_cast<std::uint64_t>(event.stamp_ticks) + (std::uint64_t{offset_counter_spans_} << 32U);
     const std::uint64_t ahead = stamp - static_cast<std::uint64_t>(newest_);
-    constexpr auto kBehind = static_cast<std::uint64_t>(kMaxBehindTicks);
-    if (!steady_ || ahead + kBehind > kBehind + static_cast<std::uint64_t>(kMaxAheadTicks)) return false;
+    constexpr auto kBehind = static_cast<std::uint64_t>(kMaxBehind_ticks);
+    if (!steady_ || ahead + kBehind > kBehind + static_cast<std::uint64_t>(kMaxAhead_ticks)) return false;
     event.stamp_ticks = static_cast<std::int64_t>(stamp);
     if (static_cast<std::int32_t>(ahead) > 0) newest_ = event.stamp_ticks;
     return true;
   }
   /// Everything else. `decoded_ticks`: time of the last thing decoded, or kNothingDecoded.
-  Verdict judge(LightEvent& event, std::int64_t decoded_ticks, GivenUp& given_up);
+  Verdict classify(LightEvent& event, std::int64_t decoded_ticks, Discarded& discarded);
   /// End of the input: takes what is held if there was no base before, gives it up otherwise.
-  Verdict end(GivenUp& given_up);
+  Verdict end(Discarded& discarded);
 
   const StaticVector<LightEvent, kMaxHeld>& held() const { return held_; }
   void forget_held() {
@@ -65,9 +65,9 @@ class TimeBase {
   std::int64_t offset_ticks() const { return std::int64_t{offset_counter_spans_} << 32U; }
 
   static constexpr std::int64_t kNothingDecoded = INT64_MIN;
-  static constexpr std::int64_t kMaxAheadTicks = 1'250'000;  // 25 ms: three slots
+  static constexpr std::int64_t kMaxAhead_ticks = 1'250'000;  // 25 ms: three slots
   /// Pulses are stamped at their fall: a stream sorted by rise is out of order by as much as a pulse is long.
-  static constexpr std::int64_t kMaxBehindTicks = kReorderTicks + kLongestPulseTicks;
+  static constexpr std::int64_t kMaxBehind_ticks = kReorder_ticks + kLongestPulse_ticks;
 
  private:
   std::int64_t raw_newest() const { return newest_ - offset_ticks(); }
@@ -75,7 +75,7 @@ class TimeBase {
   bool agrees_with_held(std::int64_t stamp) const;
   bool confirmed(std::int64_t decoded_ticks) const;
   void move_to_held(std::int64_t decoded_ticks);
-  void give_up(GivenUp& given_up);
+  void discard_held(Discarded& discarded);
 
   std::int64_t newest_ = 0;
   std::uint32_t offset_counter_spans_ = 0;  // 2^32 ticks each

@@ -14,7 +14,7 @@ constexpr double kStartRotation_rad = 0.06, kStartPosition_m = 0.1;
 // Longest single prediction: a body that turns at 10 rad/s stays within what one step is good for.
 constexpr double kLongestStep_s = 0.01;
 // Range of the learnt own variance over the assumed one, and how many degrees of freedom it remembers.
-constexpr double kLeastLevel = 0.8, kMostLevel = 1e4;
+constexpr double kMinLevel = 0.8, kMaxLevel = 1e4;
 constexpr double kLevelFreedom = 200.0, kLevelPrior = 2.0;
 // Up to here the learnt variance may be noise alone: narrow hits, a noisier rotor.
 constexpr double kWhiteLevel = 2.0;
@@ -29,25 +29,25 @@ constexpr double kFresh_s = 0.1;
 // One sweep moves it by no more than this many times its expectation.
 constexpr double kLargestRatio = 9.0;
 
-void predict(MotionBank& bank, double dt_s) {
+void predict(ImmFilter& filter, double dt_s) {
   while (dt_s > 1.5 * kLongestStep_s) {
-    bank.predict(kLongestStep_s);
+    filter.predict(kLongestStep_s);
     dt_s -= kLongestStep_s;
   }
-  if (dt_s > 0.0) bank.predict(dt_s);
+  if (dt_s > 0.0) filter.predict(dt_s);
 }
 
 // Sensors that must agree with one another before a sweep may overthrow every belief.
-constexpr int kEnoughToStartle = 4;
+constexpr int kMinSensorsForRateReset = 4;
 // Chi-squared of a sweep (five degrees of freedom) that not even the wildest motion gives: one in ten million.
-constexpr double kStartling = 40.0;
+constexpr double kRateResetChi2 = 40.0;
 // A sweep that turns the belief by less is linear enough; how often one that turns it further is linearised again.
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
 
-bool surprises(const SweepFit& fit, const Belief& prediction) {
+bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
-  return innovation_of(fit.information, prediction.widest, Vector6::Zero()).chi2 > kStartling;
+  return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
 }
 
 }  // namespace
@@ -60,13 +60,13 @@ std::int64_t last_hit_ticks(const lighthouse::SweepBearings& bearings, const Tar
   return last;
 }
 
-Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double own_scale,
-                       const StationView& view, const AssumedNoise& noise) {
+Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate,
+                       double noise_scale, const StationView& view, const AssumedNoise& noise) {
   LighthouseFromBody start = pose;
   for (int round = 0; round < 2; ++round) {
     *this = Hypothesis();
-    bank_.start(start, kStartRotation_rad, kStartPosition_m, rate);
-    eyes_[0].level = std::clamp(own_scale * own_scale, kLeastLevel, kMostLevel);
+    filter_.start(start, kStartRotation_rad, kStartPosition_m, rate);
+    station_states_[0].level = std::clamp(noise_scale * noise_scale, kMinLevel, kMaxLevel);
     std::int64_t begun_ticks = INT64_MIN;
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       const std::int64_t last = last_hit_ticks(cycle[axis], *view.target);
@@ -79,59 +79,60 @@ Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose
 }
 
 void Hypothesis::link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed) {
-  bank_.link(T_second_reference, covariance);
+  filter_.link(T_second_reference, covariance);
   surveyed_ = surveyed;
-  eyes_[1] = {};
+  station_states_[1] = {};
 }
 
 const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                                  const AssumedNoise& noise, Observer observer) {
   const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
   const double since_s = ticks_to_seconds(time - time_ticks_);
-  predict(bank_, since_s);
-  if (bank_.linked() && !surveyed_) doubt_link(since_s);
+  predict(filter_, since_s);
+  if (filter_.linked() && !surveyed_) inflate_relative_covariance(since_s);
   time_ticks_ = time;
   observer_ = observer;
   ++sweeps_;
-  Eye& eye = this->eye(observer);
-  const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * eye.level),
+  StationState& station_state = this->station_state(observer);
+  const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * station_state.level),
                        noise.sigma_rad * std::sqrt(noise.rho)};
-  Belief prediction = honest(bank_, observer);
+  StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
-  startled_ = fit_.sensors >= kEnoughToStartle && surprises(fit_, prediction);
-  if (startled_) {
-    bank_.startle(since_s);
-    prediction = honest(bank_, observer);
+  rates_reset_ = fit_.sensors >= kMinSensorsForRateReset && exceeds_rate_reset_gate(fit_, prediction);
+  if (rates_reset_) {
+    filter_.reset_rates(since_s);
+    prediction = with_systematics(filter_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
   follow(bearings, axis, view, prediction, now);
   const int used = static_cast<int>(fit_.used.size());
-  doubts_ = startled_ || used == 0 || 2 * used < fit_.sensors ? doubts_ + 1 : 0;
+  consecutive_rejections_ = rates_reset_ || used == 0 || 2 * used < fit_.sensors ? consecutive_rejections_ + 1 : 0;
   cost_ += fit_.log_density;
   if (used > 0) {
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
-    const CycleView::Misfit misfit = eye.view.set(axis, fit_.used, eye.level * own_variance, time);
-    cost_ += bank_.correct(fit_.information, fit_.pose, observer);
-    const LighthouseFromBody corrected = bank_.belief(observer).pose;
-    eye.view.shifted(axis, pose_difference(corrected, fit_.pose));
-    eye.seen_ticks = last_used_ticks_ = time;
-    learn_noise(eye, misfit);
-    eye.systematic = systematic_covariance(eye, corrected.t.norm(), noise);
+    const CycleInformation::ResidualChi2 residual_chi2 =
+        station_state.view.set(axis, fit_.used, station_state.level * own_variance, time);
+    cost_ += filter_.correct(fit_.information, fit_.pose, observer);
+    const LighthouseFromBody corrected = filter_.state_estimate(observer).pose;
+    station_state.view.shifted(axis, pose_difference(corrected, fit_.pose));
+    station_state.seen_ticks = last_used_ticks_ = time;
+    learn_noise(station_state, residual_chi2);
+    station_state.systematic = systematic_covariance(station_state, corrected.t.norm(), noise);
   }
-  belief_ = honest(bank_, observer);
+  state_estimate_ = with_systematics(filter_, observer);
   return fit_;
 }
 
 // What a sweep says to the prediction. One that turns the belief far is linearised again where it leads (iterated
 // extended Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
 void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
-                        const Belief& prediction, const SweepNoise& noise) {
+                        const StateEstimate& prediction, const SweepNoise& noise) {
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
   Innovation innovation = innovation_of(fit_.information, prediction.covariance, offset);
   for (int round = 0; round < kFollowed; ++round) {
     const Vector6 shift = pose_shift(prediction.covariance, fit_.information, innovation);
     if ((shift + offset).head<3>().norm() < kStraight_rad) break;
-    Belief there = prediction;
+    StateEstimate there = prediction;
     there.pose = prediction.pose.moved_by(shift);
     const SweepFit again = fit_sweep(bearings, axis, view, there, time_ticks_, noise);
     if (again.used.size() < fit_.used.size()) break;
@@ -139,33 +140,36 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     offset = -shift;
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
   }
-  surprise_ = innovation.chi2;
-  refuted_ = surprise_ > kStartling && innovation_of(fit_.information, prediction.widest, offset).chi2 > kStartling;
+  nis_ = innovation.chi2;
+  diverged_ = nis_ > kRateResetChi2 &&
+              innovation_of(fit_.information, prediction.gate_covariance, offset).chi2 > kRateResetChi2;
 }
 
 // A sweep of six hits and more shows their noise by itself. Five show it only together with the sweep before, and only
 // while the body rests: what a wrong rate does between two sweeps is not noise, and a filter that took it for noise
 // would grow deaf and its rates worse.
-void Hypothesis::learn_noise(Eye& eye, const CycleView::Misfit& cycle) const {
-  CycleView::Misfit seen = {fit_.information.misfit,
-                            static_cast<double>(fit_.information.hits - fit_.information.rank)};
+void Hypothesis::learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const {
+  CycleInformation::ResidualChi2 seen = {fit_.information.residual_chi2,
+                                         static_cast<double>(fit_.information.hits - fit_.information.rank)};
   // Each sweep is looked at twice, with the one before and the one after.
-  if (!(seen.freedom > 0.0) && bank_.probability().front() > kSurelyResting)
+  if (!(seen.freedom > 0.0) && filter_.probability().front() > kSurelyResting)
     seen = {0.5 * cycle.square, 0.5 * cycle.freedom};
   if (!(seen.freedom > 0.0)) return;
   const double ratio = std::min(seen.square / seen.freedom, kLargestRatio);
-  eye.level_freedom = std::min(eye.level_freedom + seen.freedom, kLevelFreedom);
-  const double gain = seen.freedom / (eye.level_freedom + kLevelPrior);
-  eye.level = std::clamp(eye.level * (1.0 + gain * (ratio - 1.0)), kLeastLevel, kMostLevel);
+  station_state.noise_degrees_of_freedom =
+      std::min(station_state.noise_degrees_of_freedom + seen.freedom, kLevelFreedom);
+  const double gain = seen.freedom / (station_state.noise_degrees_of_freedom + kLevelPrior);
+  station_state.level = std::clamp(station_state.level * (1.0 + gain * (ratio - 1.0)), kMinLevel, kMaxLevel);
 }
 
-Matrix6 Hypothesis::systematic_covariance(const Eye& eye, double range_m, const AssumedNoise& noise) const {
+Matrix6 Hypothesis::systematic_covariance(const StationState& station_state, double range_m,
+                                          const AssumedNoise& noise) const {
   const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
   const double sensor_rad = noise.systematic.sensor_position_m / range_m;
   // What the residuals show of the sensors is not counted twice.
-  const double of_sensors = std::max((eye.level - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
+  const double of_sensors = std::max((station_state.level - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
   const double of_rotors = noise.systematic.rotor_rad * noise.systematic.rotor_rad;
-  Matrix6 carried = eye.view.covariance_of(std::max(0.0, of_sensors), of_rotors);
+  Matrix6 carried = station_state.view.covariance_of(std::max(0.0, of_sensors), of_rotors);
   // Two sweeps that hardly tell the pose hardly move the belief either.
   const double rotation = carried.topLeftCorner<3, 3>().trace() / (kCarriedRotation_rad * kCarriedRotation_rad);
   const double position = carried.bottomRightCorner<3, 3>().trace() / (kCarriedPosition_m * kCarriedPosition_m);
@@ -175,24 +179,27 @@ Matrix6 Hypothesis::systematic_covariance(const Eye& eye, double range_m, const 
 
 // What two stations see wrong of a body differs with the body's place: where it was learnt from one another, the second
 // station's pose is no better than that, and grows as uncertain again while the body goes on.
-void Hypothesis::doubt_link(double dt_s) {
-  const SecondStation& second = bank_.second();
-  const SecondView view(bank_.belief().pose, second.pose);
-  const Matrix6 seen = eyes_[1].systematic +
-                       view.by_body.lazyProduct(Matrix6(eyes_[0].systematic.lazyProduct(view.by_body.transpose())));
+void Hypothesis::inflate_relative_covariance(double dt_s) {
+  const SecondStation& second = filter_.second();
+  const SecondView view(filter_.state_estimate().pose, second.pose);
+  const Matrix6 seen =
+      station_states_[1].systematic +
+      view.by_body.lazyProduct(Matrix6(station_states_[0].systematic.lazyProduct(view.by_body.transpose())));
   Matrix6 back = view.by_second;
   back.bottomLeftCorner<3, 3>() *= -1.0;  // its inverse
-  bank_.doubt_link((dt_s / kLinkForgets_s) * back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))));
+  filter_.inflate_relative_covariance((dt_s / kLinkForgets_s) *
+                                      back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))));
 }
 
 // Where both stations see the body, the errors that stay are no larger than those before the better one alone.
 Matrix6 Hypothesis::systematic_of(Observer observer) const {
-  const Matrix6& own = eye(observer).systematic;
-  if (!bank_.linked()) return own;
-  const Eye& other = eye(observer == Observer::kReference ? Observer::kSecond : Observer::kReference);
+  const Matrix6& own = station_state(observer).systematic;
+  if (!filter_.linked()) return own;
+  const StationState& other =
+      station_state(observer == Observer::kReference ? Observer::kSecond : Observer::kReference);
   if (other.seen_ticks == INT64_MIN || ticks_to_seconds(time_ticks_ - other.seen_ticks) > kFresh_s) return own;
-  const bool own_fresh = ticks_to_seconds(time_ticks_ - eye(observer).seen_ticks) <= kFresh_s;
-  const Matrix3 turn = bank_.second().pose.R;
+  const bool own_fresh = ticks_to_seconds(time_ticks_ - station_state(observer).seen_ticks) <= kFresh_s;
+  const Matrix3 turn = filter_.second().pose.R;
   Matrix6 by = Matrix6::Zero();
   by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() =
       observer == Observer::kSecond ? turn : Matrix3(turn.transpose());
@@ -203,26 +210,26 @@ Matrix6 Hypothesis::systematic_of(Observer observer) const {
 
 // What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the
 // same in every sweep of a view, so no averaging removes it: it is added to what the sweeps say together.
-Belief Hypothesis::honest(const MotionBank& bank, Observer observer) const {
-  Belief belief = bank.belief(observer);
+StateEstimate Hypothesis::with_systematics(const ImmFilter& filter, Observer observer) const {
+  StateEstimate state_estimate = filter.state_estimate(observer);
   const Matrix6 systematic = systematic_of(observer);
-  belief.covariance += systematic;
-  belief.widest += systematic;
-  return belief;
+  state_estimate.covariance += systematic;
+  state_estimate.gate_covariance += systematic;
+  return state_estimate;
 }
 
-double Hypothesis::own_scale(Observer observer) const { return std::sqrt(eye(observer).level); }
+double Hypothesis::noise_scale(Observer observer) const { return std::sqrt(station_state(observer).level); }
 
-Belief Hypothesis::predicted(std::int64_t time_ticks, Observer observer) const {
+StateEstimate Hypothesis::predicted(std::int64_t time_ticks, Observer observer) const {
   const double dt_s = ticks_to_seconds(time_ticks - time_ticks_);
-  if (dt_s == 0.0) return observer == observer_ ? belief_ : honest(bank_, observer);
-  MotionBank bank = bank_;
+  if (dt_s == 0.0) return observer == observer_ ? state_estimate_ : with_systematics(filter_, observer);
+  ImmFilter filter = filter_;
   if (dt_s < 0.0) {
-    bank.predict_mean(dt_s);
+    filter.predict_mean(dt_s);
   } else {
-    predict(bank, dt_s);
+    predict(filter, dt_s);
   }
-  return honest(bank, observer);
+  return with_systematics(filter, observer);
 }
 
 }  // namespace pharos::motion

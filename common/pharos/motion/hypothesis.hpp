@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "pharos/lighthouse/bearing.hpp"
-#include "pharos/motion/cycle_view.hpp"
-#include "pharos/motion/motion_bank.hpp"
+#include "pharos/motion/cycle_information.hpp"
+#include "pharos/motion/imm_filter.hpp"
 #include "pharos/motion/sweep_fit.hpp"
 #include "pharos/track/cycle.hpp"
 
@@ -40,80 +40,84 @@ inline constexpr double kNoisy = 3.0;
 class Hypothesis {
  public:
   /// From a single-cycle solution and that cycle's sweeps. The solution serves as the place to linearise at: its hits
-  /// are taken anew, each at its own instant, twice. `own_scale`: own noise over the assumed one, as a first guess;
+  /// are taken anew, each at its own instant, twice. `noise_scale`: own noise over the assumed one, as a first guess;
   /// what leaves the assumed noise no chance (a target or station that nobody calibrated) must be told here.
   /// `rate`: where one is roughly known, else null.
-  Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double own_scale,
+  Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double noise_scale,
              const StationView& view, const AssumedNoise& noise);
 
   /// Moves on to the sweep and adds it. A sweep none of whose hits fits changes nothing but the time. `observer`: whose
   /// sweep; the second station's only once linked.
   const SweepFit& push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                        const AssumedNoise& noise, Observer observer = Observer::kReference);
-  /// From here on sweeps of a second station count too (MotionBank::link). `surveyed`: where it stands was measured,
+  /// From here on sweeps of a second station count too (ImmFilter::link). `surveyed`: where it stands was measured,
   /// and is no better or worse known as the body goes on.
   void link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed);
 
-  const MotionBank& bank() const { return bank_; }
+  const ImmFilter& filter() const { return filter_; }
   /// Whose the last sweep was.
   Observer observer() const { return observer_; }
   /// The belief after the last sweep, at time_ticks(), in the frame of that sweep's station; what stays wrong with the
   /// sensors included.
-  const Belief& belief() const { return belief_; }
-  const CycleView& cycle_view(Observer observer = Observer::kReference) const { return eye(observer).view; }
+  const StateEstimate& state_estimate() const { return state_estimate_; }
+  const CycleInformation& cycle_information(Observer observer = Observer::kReference) const {
+    return station_state(observer).view;
+  }
   /// What is believed of any time, from what is known now; up to kLost_s ahead.
-  Belief predicted(std::int64_t time_ticks, Observer observer = Observer::kReference) const;
+  StateEstimate predicted(std::int64_t time_ticks, Observer observer = Observer::kReference) const;
   std::int64_t time_ticks() const { return time_ticks_; }
   std::int64_t last_used_ticks() const { return last_used_ticks_; }
   const SweepFit& last_fit() const { return fit_; }
   /// Chi-squared of what the last sweep said to the prediction; its degrees of freedom are the rank of last_fit().
-  double last_surprise() const { return surprise_; }
+  double nis() const { return nis_; }
   /// Not even the wildest motion explains the last sweep: what is believed after it is no answer.
-  bool refuted() const { return refuted_; }
+  bool diverged() const { return diverged_; }
   /// -2 ln of the likelihood of all sweeps since reset_cost().
   double cost() const { return cost_; }
   void reset_cost() { cost_ = 0.0; }
   int sweeps() const { return sweeps_; }
   /// Sweeps in a row that mostly contradicted it.
-  int doubts() const { return doubts_; }
+  int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as learnt.
-  double own_scale(Observer observer = Observer::kReference) const;
+  double noise_scale(Observer observer = Observer::kReference) const;
 
  private:
   // What one station's sweeps show beyond the body's motion.
-  struct Eye {
-    CycleView view;
+  struct StationState {
+    CycleInformation view;
     Matrix6 systematic = Matrix6::Zero();  // of the pose it sees, from errors that do not average out
     std::int64_t seen_ticks = INT64_MIN;
-    double level = 1.0;          // own variance over the assumed one
-    double level_freedom = 0.0;  // degrees of freedom that it was learnt from
+    double level = 1.0;                     // own variance over the assumed one
+    double noise_degrees_of_freedom = 0.0;  // degrees of freedom that it was learnt from
   };
 
   Hypothesis() = default;
-  Eye& eye(Observer observer) { return eyes_[static_cast<std::size_t>(observer)]; }
-  const Eye& eye(Observer observer) const { return eyes_[static_cast<std::size_t>(observer)]; }
-  Matrix6 systematic_covariance(const Eye& eye, double range_m, const AssumedNoise& noise) const;
-  void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& prediction,
-              const SweepNoise& noise);
-  void learn_noise(Eye& eye, const CycleView::Misfit& cycle) const;
-  void doubt_link(double dt_s);
+  StationState& station_state(Observer observer) { return station_states_[static_cast<std::size_t>(observer)]; }
+  const StationState& station_state(Observer observer) const {
+    return station_states_[static_cast<std::size_t>(observer)];
+  }
+  Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
+  void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+              const StateEstimate& prediction, const SweepNoise& noise);
+  void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
+  void inflate_relative_covariance(double dt_s);
   Matrix6 systematic_of(Observer observer) const;
-  Belief honest(const MotionBank& bank, Observer observer) const;
+  StateEstimate with_systematics(const ImmFilter& filter, Observer observer) const;
 
-  MotionBank bank_;
-  Belief belief_;
+  ImmFilter filter_;
+  StateEstimate state_estimate_;
   Observer observer_ = Observer::kReference;  // of the last sweep
   SweepFit fit_;
-  std::array<Eye, 2> eyes_;
+  std::array<StationState, 2> station_states_;
   bool surveyed_ = false;
   std::int64_t time_ticks_ = 0;
   std::int64_t last_used_ticks_ = 0;
   double cost_ = 0.0;
-  double surprise_ = 0.0;
+  double nis_ = 0.0;
   int sweeps_ = 0;
-  int doubts_ = 0;
-  bool startled_ = false;
-  bool refuted_ = false;
+  int consecutive_rejections_ = 0;
+  bool rates_reset_ = false;
+  bool diverged_ = false;
 };
 
 /// Time of the last hit of the target's sensors; INT64_MIN where there is none.

@@ -48,7 +48,7 @@ struct SecondView {
 /// Covariance of the pose seen from the second station.
 Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second);
 
-/// Belief that the body rests: a pose and the covariance of its error (Pose::moved_by).
+/// StateEstimate that the body rests: a pose and the covariance of its error (Pose::moved_by).
 struct RestingState {
   LighthouseFromBody pose;
   Matrix6 covariance = Matrix6::Zero();

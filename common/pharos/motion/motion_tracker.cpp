@@ -25,7 +25,7 @@ std::int64_t last_used_hit(const lighthouse::SweepBearings& bearings, const HitF
   return last;
 }
 
-bool answers(const Hypothesis& hypothesis) { return !hypothesis.last_fit().used.empty() && !hypothesis.refuted(); }
+bool answers(const Hypothesis& hypothesis) { return !hypothesis.last_fit().used.empty() && !hypothesis.diverged(); }
 
 double residual_rms(const HitFits& used, const Vector6& shift) {
   double square = 0.0;
@@ -39,7 +39,7 @@ double residual_rms(const HitFits& used, const Vector6& shift) {
 }  // namespace
 
 MotionOptions motion_options(const track::TrackOptions& same, const SystematicErrors& systematic,
-                             const AnswerLimits& limits) {
+                             const UncertaintyLimits& limits) {
   MotionOptions options;
   options.solve = same.solve;
   options.form = same.form;
@@ -65,7 +65,7 @@ void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::Stat
 void MotionTracker::set_relative(const std::optional<StationRelative>& relative) { pair_.survey(relative); }
 
 bool MotionTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
-  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > track::kLongestDarkTicks;
+  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > track::kLongestDark_ticks;
 }
 
 void MotionTracker::forget_stations() {
@@ -89,8 +89,8 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   const lighthouse::SweepBearings bearings =
       options_.smooth_flashes ? lighthouse::bearings_of(sweep, smoothed) : lighthouse::bearings_of(sweep);
 
-  const Hypothesis* leader = station.track.leader();
-  if (leader != nullptr && ticks_to_seconds(sweep.flash.start_ticks - leader->last_used_ticks()) > kLost_s) {
+  const Hypothesis* best = station.track.best();
+  if (best != nullptr && ticks_to_seconds(sweep.flash.start_ticks - best->last_used_ticks()) > kLost_s) {
     station.track.lose();
   }
   const bool lit = last_hit_ticks(bearings, target_) != INT64_MIN;
@@ -108,7 +108,7 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
 
 // Of the station's own track and of what both stations say together that which took the sweep and knows more.
 const Hypothesis* MotionTracker::better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const {
-  const Hypothesis* own = station.track.leader();
+  const Hypothesis* own = station.track.best();
   const Hypothesis* joint = pair_.joint();
   // A leader that has just begun from an older cycle has nothing to say of this sweep.
   if (own != nullptr && own->time_ticks() < time_ticks) own = nullptr;
@@ -117,7 +117,7 @@ const Hypothesis* MotionTracker::better_of(const Station& station, std::uint8_t 
     return own;
   }
   if (own == nullptr || !answers(*own)) return joint;
-  const Matrix6 &of_own = own->belief().covariance, &of_joint = joint->belief().covariance;
+  const Matrix6 &of_own = own->state_estimate().covariance, &of_joint = joint->state_estimate().covariance;
   const bool knows_more = of_joint.topLeftCorner<3, 3>().trace() <= of_own.topLeftCorner<3, 3>().trace() &&
                           of_joint.bottomRightCorner<3, 3>().trace() <= of_own.bottomRightCorner<3, 3>().trace();
   return knows_more ? joint : own;
@@ -138,42 +138,42 @@ track::EpochResult MotionTracker::answer(Station& station, const lighthouse::Swe
     keep_bearings(bearings, sweep.flash.axis, nullptr);
     return result;
   }
-  const Hypothesis* leader = better_of(station, result.station, result.time_ticks);
-  keep_bearings(bearings, sweep.flash.axis, leader != nullptr ? &leader->last_fit() : nullptr);
-  if (leader == nullptr) {
+  const Hypothesis* best = better_of(station, result.station, result.time_ticks);
+  keep_bearings(bearings, sweep.flash.axis, best != nullptr ? &best->last_fit() : nullptr);
+  if (best == nullptr) {
     result.pose = station.track.last_refusal() == pose::Refusal::kNone ? pose::Refusal::kTooFewSensors
                                                                        : station.track.last_refusal();
     return result;
   }
-  if (leader == pair_.joint()) result.flags |= track::kEpochFused;
-  const SweepInformation& information = leader->last_fit().information;
-  innovation_ = {leader->last_surprise(), information.rank, information.misfit, information.hits - information.rank};
-  result.pose = estimate(station, *leader, bearings, result);
+  if (best == pair_.joint()) result.flags |= track::kEpochFused;
+  const SweepInformation& information = best->last_fit().information;
+  innovation_ = {best->nis(), information.rank, information.residual_chi2, information.hits - information.rank};
+  result.pose = estimate(station, *best, bearings, result);
   return result;
 }
 
-Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Station& station, const Hypothesis& leader,
+Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Station& station, const Hypothesis& best,
                                                                       const lighthouse::SweepBearings& bearings,
                                                                       track::EpochResult& result) const {
-  const SweepFit& fit = leader.last_fit();
-  const Observer observer = leader.observer();
+  const SweepFit& fit = best.last_fit();
+  const Observer observer = best.observer();
   if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
-  if (leader.own_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
-  if (!answers(leader)) return pose::Refusal::kPoorFit;
+  if (best.noise_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
+  if (!answers(best)) return pose::Refusal::kPoorFit;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 
-  const Belief belief = leader.predicted(result.time_ticks, observer);
+  const StateEstimate state_estimate = best.predicted(result.time_ticks, observer);
   LighthousePoseEstimate e;
   e.time_ns = ticks_to_nanoseconds(result.time_ticks);
-  e.pose = belief.pose;
-  e.pose.R = orthonormalised(belief.pose.R);
-  e.covariance = belief.covariance;
+  e.pose = state_estimate.pose;
+  e.pose.R = orthonormalised(state_estimate.pose.R);
+  e.covariance = state_estimate.covariance;
   e.observations = result.observations;
   e.iterations = 1;
-  e.residual_rms = residual_rms(fit.used, pose_difference(leader.belief().pose, fit.pose));
-  if (leader.cycle_view(observer).known()) {
-    const Matrix6 unit = leader.cycle_view(observer).covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
+  e.residual_rms = residual_rms(fit.used, pose_difference(best.state_estimate().pose, fit.pose));
+  if (best.cycle_information(observer).known()) {
+    const Matrix6 unit = best.cycle_information(observer).covariance_of(1.0 - options_.solve.rho, options_.solve.rho);
     e.adop_deg_per_rad = pose::adop_of(unit);
     e.pdop_m_per_rad = pose::pdop_of(unit);
   } else {
@@ -183,9 +183,9 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   if (e.sigma_rotation_rad() > options_.limits.rotation_rad || e.sigma_position_m() > options_.limits.position_m) {
     return pose::Refusal::kTooUncertain;
   }
-  if (const Hypothesis* rival = station.track.rival(); rival != nullptr && &leader != pair_.joint()) {
+  if (const Hypothesis* alternative = station.track.alternative(); alternative != nullptr && &best != pair_.joint()) {
     const double delta = station.track.delta_chi2();
-    if (delta < kAmbiguousDeltaChi2) e.second = {rival->belief().pose, std::max(0.0, delta)};
+    if (delta < kAmbiguousDeltaChi2) e.second = {alternative->state_estimate().pose, std::max(0.0, delta)};
   }
   return e;
 }
@@ -203,14 +203,14 @@ void MotionTracker::keep_bearings(const lighthouse::SweepBearings& bearings, Axi
   }
 }
 
-std::optional<Belief> MotionTracker::predicted(std::uint8_t station, std::int64_t time_ticks) const {
+std::optional<StateEstimate> MotionTracker::predicted(std::uint8_t station, std::int64_t time_ticks) const {
   if (station >= kMaxStations) return std::nullopt;
   const auto alive = [&](const Hypothesis* h) {
     return h != nullptr && ticks_to_seconds(time_ticks - h->last_used_ticks()) <= kLost_s;
   };
   if (const Hypothesis* joint = pair_.joint(); alive(joint)) return joint->predicted(time_ticks, observer_of(station));
-  const Hypothesis* leader = stations_[station].track.leader();
-  return alive(leader) ? std::optional(leader->predicted(time_ticks)) : std::nullopt;
+  const Hypothesis* best = stations_[station].track.best();
+  return alive(best) ? std::optional(best->predicted(time_ticks)) : std::nullopt;
 }
 
 }  // namespace pharos::motion

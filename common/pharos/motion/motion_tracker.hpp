@@ -13,7 +13,7 @@ namespace pharos::motion {
 
 /// Stated sigmas (square roots of the traces) beyond which an answer is none (too_uncertain). As they stand: a body
 /// seen so badly is as good as lost. Who needs every valid pose to be good sets what good is.
-struct AnswerLimits {
+struct UncertaintyLimits {
   double rotation_rad = 20.0 * kRadPerDeg;
   double position_m = 0.3;
 };
@@ -22,24 +22,24 @@ struct MotionOptions {
   pose::SolveOptions solve;  // of the cycles solved alone; its sigma is the noise of one bearing, its rho that of ADOP
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
   bool smooth_flashes = true;
-  /// Share of a bearing's variance that rotor and flash give to all sensors of one sweep alike: 0.87 in the paper, 0.96
-  /// to 0.99 in recordings.
+  /// Fraction of a bearing's variance that rotor and flash give to all sensors of one sweep alike: 0.87 in the paper,
+  /// 0.96 to 0.99 in recordings.
   double rho = kPaperRho;
   /// What is known to be wrong with target and stations, for every answer's covariance.
   SystematicErrors systematic;
-  AnswerLimits limits;
+  UncertaintyLimits limits;
 };
 
 /// The noise and station model of a tracker of single cycles; a rho of 0 there was not told, and is the paper's here.
 MotionOptions motion_options(const track::TrackOptions& same, const SystematicErrors& systematic,
-                             const AnswerLimits& limits = {});
+                             const UncertaintyLimits& limits = {});
 
 /// What the last sweep said of the tracker's own honesty.
 struct InnovationStatistics {
-  double surprise = 0.0;  // chi-squared of what it said to the prediction
-  int surprise_freedom = 0;
-  double misfit = 0.0;  // chi-squared of what no pose explains
-  int misfit_freedom = 0;
+  double nis = 0.0;  // chi-squared of what it said to the prediction
+  int nis_degrees_of_freedom = 0;
+  double residual_chi2 = 0.0;  // chi-squared of what no pose explains
+  int residual_degrees_of_freedom = 0;
 };
 
 /// Sweeps of one target in, a pose after every sweep out: motion-aware, each hit taken at its own instant. Up to two
@@ -66,7 +66,7 @@ class MotionTracker {
 
   /// Pose, rates and covariance at any time from what is known now: up to kLost_s ahead of the last hit (then empty, as
   /// where nothing is tracked); backwards the mean is moved and the covariance stays that of now.
-  std::optional<Belief> predicted(std::uint8_t station, std::int64_t time_ticks) const;
+  std::optional<StateEstimate> predicted(std::uint8_t station, std::int64_t time_ticks) const;
 
   /// The bearings of the sweep last answered, hit by hit, those left out too.
   std::size_t bearing_count() const { return bearings_.size(); }
@@ -90,7 +90,7 @@ class MotionTracker {
   const Hypothesis* better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const;
   track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,
                             const lighthouse::SweepBearings& bearings);
-  Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station, const Hypothesis& leader,
+  Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station, const Hypothesis& best,
                                                          const lighthouse::SweepBearings& bearings,
                                                          track::EpochResult& result) const;
   void keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit);

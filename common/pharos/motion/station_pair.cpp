@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "pharos/base/ticks.hpp"
-#include "pharos/motion/disagreement.hpp"
+#include "pharos/motion/mahalanobis.hpp"
 
 namespace pharos::motion {
 namespace {
@@ -29,21 +29,23 @@ double rotation_variance(const Matrix6& covariance) { return covariance.topLeftC
 double position_variance(const Matrix6& covariance) { return covariance.bottomRightCorner<3, 3>().trace(); }
 
 bool settled(const StationTrack& track) {
-  const Hypothesis* leader = track.leader();
-  if (leader == nullptr || track.has_rival() || leader->sweeps() < kSettledSweeps || leader->doubts() > 0) return false;
-  const Matrix6& covariance = leader->belief().covariance;
+  const Hypothesis* best = track.best();
+  if (best == nullptr || track.has_alternative() || best->sweeps() < kSettledSweeps ||
+      best->consecutive_rejections() > 0)
+    return false;
+  const Matrix6& covariance = best->state_estimate().covariance;
   return rotation_variance(covariance) < kSettledRotation_rad * kSettledRotation_rad &&
          position_variance(covariance) < kSettledPosition_m * kSettledPosition_m;
 }
 
 bool settled_together(const StationPair::Tracks& tracks) {
   if (!settled(*tracks[0]) || !settled(*tracks[1])) return false;
-  const std::int64_t apart = tracks[0]->leader()->last_used_ticks() - tracks[1]->leader()->last_used_ticks();
+  const std::int64_t apart = tracks[0]->best()->last_used_ticks() - tracks[1]->best()->last_used_ticks();
   return std::abs(ticks_to_seconds(apart)) < kFresh_s;
 }
 
 std::int64_t now_of(const StationPair::Tracks& tracks) {
-  return std::max(tracks[0]->leader()->time_ticks(), tracks[1]->leader()->time_ticks());
+  return std::max(tracks[0]->best()->time_ticks(), tracks[1]->best()->time_ticks());
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ void StationPair::forget_learnt() {
 
 std::optional<StationRelative> StationPair::relative() const {
   if (!joint_) return std::nullopt;
-  const SecondStation& second = joint_->bank().second();
+  const SecondStation& second = joint_->filter().second();
   return StationRelative{second.pose, second.ss}.seen_from_the_other();
 }
 
@@ -94,7 +96,7 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
     return;
   }
   joint_->push(bearings, axis, view, noise, observer_of(station));
-  const Matrix6& covariance = joint_->belief().covariance;
+  const Matrix6& covariance = joint_->state_estimate().covariance;
   if (!(rotation_variance(covariance) < kLostRotation_rad * kLostRotation_rad) ||
       !(position_variance(covariance) < kLostPosition_m * kLostPosition_m)) {
     remember();
@@ -107,10 +109,10 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
 // The relative pose against what both tracks say now.
 bool StationPair::fits(const Known& known, const Tracks& tracks) const {
   const std::int64_t now = now_of(tracks);
-  const Belief first = tracks[0]->leader()->predicted(now), second = tracks[1]->leader()->predicted(now);
+  const StateEstimate first = tracks[0]->best()->predicted(now), second = tracks[1]->best()->predicted(now);
   const SecondView view(first.pose, known.T_1_0);
   const Matrix6 allowed = seen_covariance(view, first.covariance, {known.T_1_0, known.covariance}) + second.covariance;
-  return disagreement(second.pose, view.pose, allowed) < kContradiction;
+  return mahalanobis_squared(second.pose, view.pose, allowed) < kContradiction;
 }
 
 const StationPair::Known* StationPair::known() const {
@@ -129,7 +131,7 @@ void StationPair::start(const Tracks& tracks) {
   }
   if (const Known* there = known(); there != nullptr) {
     if (!settled(*tracks[0])) return;
-    joint_ = *tracks[0]->leader();
+    joint_ = *tracks[0]->best();
     joint_->link(there->T_1_0, there->covariance, surveyed_ && there == &*surveyed_);
   } else if (together) {
     start_from_both(tracks);
@@ -139,8 +141,8 @@ void StationPair::start(const Tracks& tracks) {
 
 void StationPair::start_from_both(const Tracks& tracks) {
   const std::int64_t now = now_of(tracks);
-  const LighthouseFromBody first = tracks[0]->leader()->predicted(now).pose;
-  const LighthouseFromBody second = tracks[1]->leader()->predicted(now).pose;
+  const LighthouseFromBody first = tracks[0]->best()->predicted(now).pose;
+  const LighthouseFromBody second = tracks[1]->best()->predicted(now).pose;
   const StationFromStation T_1_0 = second * first.inverse();
   // As loose in what the second station sees of the body.
   Matrix6 seen = Matrix6::Zero();
@@ -148,7 +150,7 @@ void StationPair::start_from_both(const Tracks& tracks) {
   seen.diagonal().tail<3>().setConstant(kLoosePosition_m * kLoosePosition_m);
   Matrix6 back = SecondView(first, T_1_0).by_second;
   back.bottomLeftCorner<3, 3>() *= -1.0;  // its inverse
-  joint_ = *tracks[0]->leader();
+  joint_ = *tracks[0]->best();
   joint_->link(T_1_0, back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))), false);
 }
 
@@ -158,9 +160,10 @@ void StationPair::watch(std::uint8_t station, const Tracks& tracks) {
   int& contradictions = contradictions_[station];
   bool apart = false;
   if (settled(*tracks[station])) {
-    const Belief own = tracks[station]->leader()->predicted(joint_->time_ticks());
-    const Belief& belief = joint_->belief();
-    apart = disagreement(own.pose, belief.pose, belief.covariance + own.covariance) > kContradiction;
+    const StateEstimate own = tracks[station]->best()->predicted(joint_->time_ticks());
+    const StateEstimate& state_estimate = joint_->state_estimate();
+    apart =
+        mahalanobis_squared(own.pose, state_estimate.pose, state_estimate.covariance + own.covariance) > kContradiction;
   }
   contradictions = apart ? contradictions + 1 : 0;
   if (contradictions < kContradictions) return;
@@ -169,7 +172,7 @@ void StationPair::watch(std::uint8_t station, const Tracks& tracks) {
 }
 
 void StationPair::remember() {
-  const SecondStation& second = joint_->bank().second();
+  const SecondStation& second = joint_->filter().second();
   learnt_ = {second.pose, second.ss};
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pharos/base/ticks.hpp"
-#include "pharos/motion/disagreement.hpp"
+#include "pharos/motion/mahalanobis.hpp"
 #include "pharos/track/ideal_observations.hpp"
 
 namespace pharos::motion {
@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a leader that does well
 // While a leader is young or its hits are noisier than assumed (kNoisy), it may have started from a false hit.
-constexpr int kUneasyCycles = 2;
-constexpr int kYoungSweeps = 32;
-constexpr int kDoubts = 2;  // sweeps in a row that contradict a leader; one makes a check due at once
+constexpr int kCheckCyclesUnconfirmed = 2;
+constexpr int kMinConfirmedSweeps = 32;
+constexpr int kMaxConsecutiveRejections = 2;  // sweeps in a row that contradict a leader; one makes a check due at once
 // Chi-squared by which one of two must be better to be the only one: e^9 to one.
 constexpr double kDecided = 18.0;
 // Sweeps that a rival from mid-flight needs to learn its rates before it is compared.
@@ -31,10 +31,10 @@ constexpr double kLongestBetween_s = 0.07;
 constexpr double kCycle_s = 0.01;
 
 // No sensor has this number.
-constexpr std::uint8_t kNobody = 255;
+constexpr std::uint8_t kNoSensor = 255;
 
 // The cycle with the bearings that the solution left out given to nobody, in their places.
-track::Cycle believed_part(const track::Cycle& cycle, const track::IdealObservations& ideal,
+track::Cycle estimate_part(const track::Cycle& cycle, const track::IdealObservations& ideal,
                            const pose::Solution& solution) {
   track::Cycle part = cycle;
   const auto was_used = [&](Axis axis, const lighthouse::Bearing& bearing) {
@@ -48,7 +48,7 @@ track::Cycle believed_part(const track::Cycle& cycle, const track::IdealObservat
   };
   for (const Axis axis : {Axis::kX, Axis::kY}) {
     for (lighthouse::Bearing& bearing : part.bearings[static_cast<std::size_t>(index_of(axis))]) {
-      if (!was_used(axis, bearing)) bearing.sensor = kNobody;
+      if (!was_used(axis, bearing)) bearing.sensor = kNoSensor;
     }
   }
   return part;
@@ -57,55 +57,57 @@ track::Cycle believed_part(const track::Cycle& cycle, const track::IdealObservat
 }  // namespace
 
 void StationTrack::lose() {
-  leader_.reset();
-  rival_.reset();
+  best_.reset();
+  alternative_.reset();
   refusal_ = pose::Refusal::kTooFewSensors;
 }
 
 void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                         const AssumedNoise& noise) {
-  if (!leader_) return;
-  leader_->push(bearings, axis, view, noise);
-  const Matrix6& covariance = leader_->belief().covariance;
+  if (!best_) return;
+  best_->push(bearings, axis, view, noise);
+  const Matrix6& covariance = best_->state_estimate().covariance;
   if (!(covariance.topLeftCorner<3, 3>().trace() < kLostRotation_rad * kLostRotation_rad) ||
       !(covariance.bottomRightCorner<3, 3>().trace() < kLostPosition_m * kLostPosition_m)) {
     lose();
     return;
   }
-  if (!rival_) return;
-  rival_->push(bearings, axis, view, noise);
+  if (!alternative_) return;
+  alternative_->push(bearings, axis, view, noise);
   decide();
 }
 
 void StationTrack::decide() {
-  if (!rival_settled_) {
-    if (rival_->sweeps() < kSettleSweeps) return;
-    rival_settled_ = true;
-    leader_->reset_cost();
-    rival_->reset_cost();
+  if (!alternative_settled_) {
+    if (alternative_->sweeps() < kSettleSweeps) return;
+    alternative_settled_ = true;
+    best_->reset_cost();
+    alternative_->reset_cost();
     return;
   }
-  if (rival_->cost() < leader_->cost()) std::swap(leader_, rival_);
-  if (delta_chi2() > kDecided) rival_.reset();
+  if (alternative_->cost() < best_->cost()) std::swap(best_, alternative_);
+  if (delta_chi2() > kDecided) alternative_.reset();
 }
 
 bool StationTrack::due() const {
-  if (!leader_) return true;
-  if (leader_->doubts() >= kDoubts) return true;
-  if (rival_) return false;
-  const bool uneasy = leader_->sweeps() < kYoungSweeps || leader_->own_scale() > kNoisy;
-  return leader_->doubts() > 0 || cycles_unchecked_ >= (uneasy ? kUneasyCycles : kCheckCycles);
+  if (!best_) return true;
+  if (best_->consecutive_rejections() >= kMaxConsecutiveRejections) return true;
+  if (alternative_) return false;
+  const bool unconfirmed = best_->sweeps() < kMinConfirmedSweeps || best_->noise_scale() > kNoisy;
+  return best_->consecutive_rejections() > 0 ||
+         cycles_unchecked_ >= (unconfirmed ? kCheckCyclesUnconfirmed : kCheckCycles);
 }
 
 bool StationTrack::agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const {
-  const Belief& belief = leader_->belief();
-  Matrix6 allowed = belief.covariance + covariance;
-  const double turned = belief.rate.head<3>().norm() * kCycle_s, moved = belief.rate.tail<3>().norm() * kCycle_s;
+  const StateEstimate& state_estimate = best_->state_estimate();
+  Matrix6 allowed = state_estimate.covariance + covariance;
+  const double turned = state_estimate.rate.head<3>().norm() * kCycle_s,
+               moved = state_estimate.rate.tail<3>().norm() * kCycle_s;
   for (int k = 0; k < 3; ++k) {
     allowed(k, k) += turned * turned;
     allowed(k + 3, k + 3) += moved * moved;
   }
-  return disagreement(pose, belief.pose, allowed) < kContradiction;
+  return mahalanobis_squared(pose, state_estimate.pose, allowed) < kContradiction;
 }
 
 void StationTrack::check(const track::Cycle& cycle, const StationView& view, const AssumedNoise& noise,
@@ -127,7 +129,7 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
   const int freedom = std::max(1, e.observations - 6);
   const double own_sigma = noise.sigma_rad * std::sqrt(1.0 - noise.rho);
   const double left = e.residual_rms * std::sqrt(static_cast<double>(e.observations) / freedom);
-  const double own_scale = std::max(1.0, left / own_sigma);
+  const double noise_scale = std::max(1.0, left / own_sigma);
   // Two solutions in a row, as long as a leader is in doubt, also tell how fast it goes.
   Vector6 between;
   const Vector6* rate = nullptr;
@@ -141,22 +143,22 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
     solved_ = e.pose;
     solved_flash_ticks_ = cycle.last_flash_ticks;
   }
-  const track::Cycle believed = believed_part(cycle, ideal, *solution);
+  const track::Cycle believed = estimate_part(cycle, ideal, *solution);
   const auto begin = [&](std::optional<Hypothesis>& hypothesis, const LighthouseFromBody& pose) {
-    hypothesis.emplace(believed, pose, rate, own_scale, view, noise);
+    hypothesis.emplace(believed, pose, rate, noise_scale, view, noise);
   };
   // Where sweep after sweep contradicts the leader while a whole cycle has an answer of its own, it is over.
-  if (!leader_ || leader_->doubts() >= kDoubts) {
-    begin(leader_, e.pose);
-    rival_.reset();
-    if (e.second) begin(rival_, e.second->pose);
-    rival_settled_ = true;
-    if (rival_) decide();
+  if (!best_ || best_->consecutive_rejections() >= kMaxConsecutiveRejections) {
+    begin(best_, e.pose);
+    alternative_.reset();
+    if (e.second) begin(alternative_, e.second->pose);
+    alternative_settled_ = true;
+    if (alternative_) decide();
     return;
   }
   if (agrees(e.pose, e.covariance) || (e.second && agrees(e.second->pose, e.covariance))) return;
-  begin(rival_, e.pose);
-  rival_settled_ = false;
+  begin(alternative_, e.pose);
+  alternative_settled_ = false;
 }
 
 }  // namespace pharos::motion

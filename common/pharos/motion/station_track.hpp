@@ -24,11 +24,11 @@ class StationTrack {
              const pose::SolveOptions& options);
   void lose();
 
-  const Hypothesis* leader() const { return leader_ ? &*leader_ : nullptr; }
+  const Hypothesis* best() const { return best_ ? &*best_ : nullptr; }
   /// The rival once it may be compared with the leader, else null; its chi-squared minus the leader's.
-  const Hypothesis* rival() const { return rival_ && rival_settled_ ? &*rival_ : nullptr; }
-  bool has_rival() const { return rival_.has_value(); }
-  double delta_chi2() const { return rival_->cost() - leader_->cost(); }
+  const Hypothesis* alternative() const { return alternative_ && alternative_settled_ ? &*alternative_ : nullptr; }
+  bool has_alternative() const { return alternative_.has_value(); }
+  double delta_chi2() const { return alternative_->cost() - best_->cost(); }
   pose::Refusal last_refusal() const { return refusal_; }
 
  private:
@@ -36,8 +36,8 @@ class StationTrack {
   bool agrees(const LighthouseFromBody& pose, const Matrix6& covariance) const;
   void decide();
 
-  std::optional<Hypothesis> leader_, rival_;
-  bool rival_settled_ = false;
+  std::optional<Hypothesis> best_, alternative_;
+  bool alternative_settled_ = false;
   int cycles_unchecked_ = 0;
   // The last cycle solved alone without a rival.
   std::optional<LighthouseFromBody> solved_;

@@ -20,7 +20,7 @@ constexpr double kStrayLogDensity = -9.7;
 
 // What a narrow pulse adds to a hit's own noise: 5 arcsec at 52 ticks, as one over the width's square, 25 arcsec at
 // most (still sensors in recordings: README). From 150 ticks on it is nothing.
-constexpr double kNarrow_rad = 5.0 * kRadPerArcsec, kNarrow_ticks = 52.0, kMostNarrow_rad = 25.0 * kRadPerArcsec;
+constexpr double kNarrow_rad = 5.0 * kRadPerArcsec, kNarrow_ticks = 52.0, kMaxNarrow_rad = 25.0 * kRadPerArcsec;
 
 using Candidates = StaticVector<HitFit, kMaxHitsPerSweep>;
 
@@ -28,7 +28,7 @@ using Candidates = StaticVector<HitFit, kMaxHitsPerSweep>;
 double narrow_variance(std::uint16_t width_ticks) {
   if (width_ticks == 0) return 0.0;
   const double narrowness = kNarrow_ticks / width_ticks;
-  const double added_rad = std::min(kNarrow_rad * narrowness * narrowness, kMostNarrow_rad);
+  const double added_rad = std::min(kNarrow_rad * narrowness * narrowness, kMaxNarrow_rad);
   return added_rad * added_rad;
 }
 
@@ -37,14 +37,20 @@ double quadratic(const Vector6& h, const Matrix6& m) { return h.dot(m.lazyProduc
 // What a belief says of points at instants near its own.
 class Linearisation {
  public:
-  Linearisation(Axis axis, const StationView& view, const Belief& belief, std::int64_t time_ticks, double own_variance)
-      : axis_(axis), view_(view), belief_(belief), time_ticks_(time_ticks), own_variance_(own_variance) {}
+  Linearisation(Axis axis, const StationView& view, const StateEstimate& state_estimate, std::int64_t time_ticks,
+                double own_variance)
+      : axis_(axis),
+        view_(view),
+        state_estimate_(state_estimate),
+        time_ticks_(time_ticks),
+        own_variance_(own_variance) {}
 
   // False where the point would be behind the station.
   bool hit(const lighthouse::Bearing& bearing, const Vector3& body_m, HitFit& fit) const {
     const double dt_s = ticks_to_seconds(bearing.time_ticks - time_ticks_);
-    const Vector3 q = belief_.pose.R * body_m;
-    const Vector3 p = q + belief_.pose.t + dt_s * (belief_.rate.tail<3>() + belief_.rate.head<3>().cross(q));
+    const Vector3 q = state_estimate_.pose.R * body_m;
+    const Vector3 p =
+        q + state_estimate_.pose.t + dt_s * (state_estimate_.rate.tail<3>() + state_estimate_.rate.head<3>().cross(q));
     const double along = p[index_of(axis_)], ahead = p.z();
     if (!(ahead > kNearest_m)) return false;
     const double inverse_square = 1.0 / (along * along + ahead * ahead);
@@ -59,15 +65,15 @@ class Linearisation {
     // The unknown part of the rates moves the point between this hit and the belief's instant.
     fit.variance = own_variance_ + narrow_variance(bearing.width_ticks) +
                    dt_s * dt_s *
-                       (inverse_square * belief_.velocity_variance +
-                        fit.jacobian.head<3>().squaredNorm() * belief_.rotation_rate_variance);
+                       (inverse_square * state_estimate_.velocity_variance +
+                        fit.jacobian.head<3>().squaredNorm() * state_estimate_.rotation_rate_variance);
     return true;
   }
 
  private:
   Axis axis_;
   const StationView& view_;
-  const Belief& belief_;
+  const StateEstimate& state_estimate_;
   std::int64_t time_ticks_;
   double own_variance_;
 };
@@ -92,8 +98,9 @@ HitFits nearest_to(double centre, const Candidates& candidates, const lighthouse
       chosen.push_back(candidate);
       continue;
     }
-    HitFit& rival = chosen[static_cast<std::size_t>(at)];
-    if (std::abs(candidate.residual_rad - centre) < std::abs(rival.residual_rad - centre)) rival = candidate;
+    HitFit& alternative = chosen[static_cast<std::size_t>(at)];
+    if (std::abs(candidate.residual_rad - centre) < std::abs(alternative.residual_rad - centre))
+      alternative = candidate;
   }
   return chosen;
 }
@@ -151,17 +158,17 @@ std::size_t worst_of(const HitFits& hits, const SweepInformation& information, c
 }
 
 bool credible(const SweepInformation& information) {
-  return information.misfit <= pose::credible_chi2(information.hits - information.rank);
+  return information.residual_chi2 <= pose::chi2_threshold(information.hits - information.rank);
 }
 
 }  // namespace
 
-SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& belief,
-                   std::int64_t time_ticks, const SweepNoise& noise) {
+SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                   const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise) {
   SweepFit fit;
-  fit.pose = belief.pose;
+  fit.pose = state_estimate.pose;
   const double common_variance = noise.common_rad * noise.common_rad;
-  const Linearisation linearisation(axis, view, belief, time_ticks, noise.own_rad * noise.own_rad);
+  const Linearisation linearisation(axis, view, state_estimate, time_ticks, noise.own_rad * noise.own_rad);
   Candidates candidates;
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     const SensorPlacement* sensor = find_sensor(*view.target, bearings[i].sensor);
@@ -176,11 +183,11 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   fit.sensors = static_cast<int>(fit.used.size());
   const double centre = median_residual(fit.used);
   if (candidates.size() > fit.used.size()) fit.used = nearest_to(centre, candidates, bearings);
-  gate(fit.used, centre, belief.widest, common_variance);
+  gate(fit.used, centre, state_estimate.gate_covariance, common_variance);
   fit.information = summed(fit.used, common_variance);
   while (!credible(fit.information)) {
     double deviations = 0.0;
-    const std::size_t worst = worst_of(fit.used, fit.information, belief.widest, deviations);
+    const std::size_t worst = worst_of(fit.used, fit.information, state_estimate.gate_covariance, deviations);
     if (deviations < kHitGate) break;
     fit.used.erase_unordered(worst);
     fit.information = summed(fit.used, common_variance);

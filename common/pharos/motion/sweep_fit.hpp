@@ -4,7 +4,7 @@
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/station_calibration.hpp"
-#include "pharos/motion/motion_bank.hpp"
+#include "pharos/motion/imm_filter.hpp"
 #include "pharos/motion/sweep_information.hpp"
 
 namespace pharos::motion {
@@ -53,7 +53,7 @@ inline constexpr double kHitGate = 5.0;
 /// Of a sensor's candidates that one is taken whose residual is nearest to the median residual of the sweep: what all
 /// share (an unforeseen shift, the flash's jitter) must not decide. Left out is what departs from that median by more
 /// than the belief and the noise allow, and then, one by one, what a common pose cannot explain.
-SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const Belief& belief,
-                   std::int64_t time_ticks, const SweepNoise& noise);
+SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
+                   const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 
 }  // namespace pharos::motion

@@ -27,12 +27,12 @@ void InformationSums::add(const Vector6& jacobian, double residual_rad, double w
 SweepInformation InformationSums::close(double common_variance) const {
   SweepInformation out;
   out.hits = hits_;
-  const double share = common_variance / (1.0 + common_variance * weight_);
+  const double fraction = common_variance / (1.0 + common_variance * weight_);
   Matrix6 a;
   for (int j = 0; j < 6; ++j) {
-    for (int i = j; i < 6; ++i) a(i, j) = square_(i, j) - share * sum_[i] * sum_[j];
+    for (int i = j; i < 6; ++i) a(i, j) = square_(i, j) - fraction * sum_[i] * sum_[j];
   }
-  const Vector6 right = by_residual_ - share * residual_sum_ * sum_;
+  const Vector6 right = by_residual_ - fraction * residual_sum_ * sum_;
   double explained = 0.0;
   // Cholesky's factor of a semidefinite matrix, and forward substitution with it.
   for (int j = 0; j < 6; ++j) {
@@ -54,8 +54,8 @@ SweepInformation InformationSums::close(double common_variance) const {
       out.factor(i, j) = sum / root;
     }
   }
-  const double total = residual_square_ - share * residual_sum_ * residual_sum_;
-  out.misfit = total > explained ? total - explained : 0.0;
+  const double total = residual_square_ - fraction * residual_sum_ * residual_sum_;
+  out.residual_chi2 = total > explained ? total - explained : 0.0;
   return out;
 }
 

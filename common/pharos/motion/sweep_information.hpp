@@ -13,7 +13,7 @@ namespace pharos::motion {
 struct SweepInformation {
   Matrix6 factor = Matrix6::Zero();
   Vector6 whitened = Vector6::Zero();
-  double misfit = 0.0;
+  double residual_chi2 = 0.0;
   int rank = 0;
   int hits = 0;
 };

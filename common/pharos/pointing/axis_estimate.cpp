@@ -18,11 +18,11 @@ constexpr int kRounds = 8;
 constexpr int kDirections = 2048;
 // The linear answer holds while its own curvature changes it by less than a tenth of itself.
 constexpr double kLinearLimit = 0.1;
-constexpr double kLeastVariance = 1e-30;
+constexpr double kMinVariance = 1e-30;
 constexpr double kUnitTolerance = 1e-6;
 
 double variance_of(const AxisPlane& plane, const Vector3& direction) {
-  return std::max(kLeastVariance, direction.dot(plane.covariance * direction));
+  return std::max(kMinVariance, direction.dot(plane.covariance * direction));
 }
 
 // The planes' common frame: `up` is normal to what they have in common, `first` and `second` lie in it.
@@ -58,7 +58,7 @@ CommonPlane common_plane(std::span<const AxisPlane> planes) {
     Matrix3 sum = Matrix3::Zero();
     for (const AxisPlane& plane : planes) {
       const double worst = plane.worst_sigma_rad();
-      const double variance = round == 0 ? std::max(kLeastVariance, worst * worst) : variance_of(plane, direction);
+      const double variance = round == 0 ? std::max(kMinVariance, worst * worst) : variance_of(plane, direction);
       sum += plane.normal * plane.normal.transpose() / variance;
     }
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(sum / sum.trace());
@@ -74,7 +74,7 @@ AxisPlane mean_plane(std::span<const AxisPlane> planes, const Vector3& up) {
   Matrix3 covariance = Matrix3::Zero();
   for (const AxisPlane& plane : planes) {
     const double worst = plane.worst_sigma_rad();
-    const double weight = 1.0 / std::max(kLeastVariance, worst * worst);
+    const double weight = 1.0 / std::max(kMinVariance, worst * worst);
     normal += (plane.normal.dot(up) < 0.0 ? -weight : weight) * plane.normal;
     covariance += weight * weight * plane.covariance;
   }
@@ -120,12 +120,12 @@ Along mean_over_directions(std::span<const AxisPlane> planes, const CommonPlane&
   for (int k = 0; k < kDirections; ++k) {
     likelihood[static_cast<std::size_t>(k)] = candidate_at(planes, common, common.direction(angle_of(k))).chi2;
   }
-  const double least = *std::min_element(likelihood.begin(), likelihood.end());
+  const double minimum = *std::min_element(likelihood.begin(), likelihood.end());
   // Twice the angle turns once around where the axis' half circle closes.
   double sum = 0.0, cosine = 0.0, sine = 0.0;
   for (int k = 0; k < kDirections; ++k) {
     double& weight = likelihood[static_cast<std::size_t>(k)];
-    weight = std::exp(-0.5 * (weight - least));
+    weight = std::exp(-0.5 * (weight - minimum));
     sum += weight;
     cosine += weight * std::cos(2.0 * angle_of(k));
     sine += weight * std::sin(2.0 * angle_of(k));

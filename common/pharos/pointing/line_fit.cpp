@@ -8,7 +8,7 @@ namespace pharos::pointing {
 namespace {
 
 constexpr int kRounds = 6;
-constexpr std::size_t kMostLags = 24;
+constexpr std::size_t kMaxLags = 24;
 constexpr std::size_t kPointsPerLag = 10;
 // Mean absolute deviation to standard deviation, of a normal distribution.
 constexpr double kSigmaPerMeanDeviation = 1.2533141373155003;
@@ -53,12 +53,12 @@ Straight straight_through(std::span<const EdgePoint> points, Used used) {
 // Integrated correlation of the residuals along the line, lags weighted down to the longest (Bartlett): negative ones
 // count too, for errors that swing to and fro along an edge average out.
 template <class Used>
-double correlated_points(std::span<const EdgePoint> points, const Straight& straight, Used used) {
+double variance_inflation(std::span<const EdgePoint> points, const Straight& straight, Used used) {
   const auto residual = [&](const EdgePoint& p) { return used(p) ? straight.offset(p.place_px) / p.sigma_px : 0.0; };
   double square = 0.0;
   for (const EdgePoint& point : points) square += residual(point) * residual(point);
   if (square <= 0.0) return 1.0;
-  const std::size_t lags = std::min(kMostLags, points.size() / kPointsPerLag);
+  const std::size_t lags = std::min(kMaxLags, points.size() / kPointsPerLag);
   double sum = 1.0;
   for (std::size_t lag = 1; lag <= lags; ++lag) {
     double product = 0.0;
@@ -104,7 +104,7 @@ bool undo_distortion(std::span<EdgePoint> points, const PinholeCamera& camera) {
 }
 
 Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
-  if (points.size() < kLeastEdgePoints) return LineFailure::kTooFewPoints;
+  if (points.size() < kMinEdgePoints) return LineFailure::kTooFewPoints;
   Straight straight = straight_through(points, [](const EdgePoint&) { return true; });
   double limit = 0.0, scale = 0.0;
   for (int round = 0; round < kRounds; ++round) {
@@ -117,15 +117,15 @@ Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
       deviation += e;
       ++used;
     }
-    if (used < kLeastEdgePoints) return LineFailure::kNotALine;
+    if (used < kMinEdgePoints) return LineFailure::kNotALine;
     scale = kSigmaPerMeanDeviation * deviation / static_cast<double>(used);
-    limit = std::max(kOutlierSigmas * scale, kLeastSigma_px / points.front().sigma_px);
+    limit = std::max(kOutlierSigmas * scale, kMinSigma_px / points.front().sigma_px);
     straight = straight_through(
         points, [&](const EdgePoint& p) { return std::abs(before.offset(p.place_px)) <= limit * p.sigma_px; });
     if (straight.weight <= 0.0) return LineFailure::kNotALine;
   }
   const auto used = [&](const EdgePoint& p) { return std::abs(straight.offset(p.place_px)) <= limit * p.sigma_px; };
-  double square = 0.0, square_px = 0.0, least = 0.0, most = 0.0;
+  double square = 0.0, square_px = 0.0, minimum = 0.0, maximum = 0.0;
   std::size_t count = 0;
   for (const EdgePoint& point : points) {
     if (!used(point)) continue;
@@ -133,23 +133,23 @@ Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
     square += e * e * weight_of(point);
     square_px += e * e;
     const double x = straight.along.dot(point.place_px - straight.centre);
-    least = std::min(least, x);
-    most = std::max(most, x);
+    minimum = std::min(minimum, x);
+    maximum = std::max(maximum, x);
     ++count;
   }
   const auto n = static_cast<double>(count);
-  if (count < kLeastEdgePoints || n < (1.0 - kMostLeftOut) * static_cast<double>(points.size()) ||
+  if (count < kMinEdgePoints || n < (1.0 - kMaxLeftOut) * static_cast<double>(points.size()) ||
       !(straight.spread > 0.0)) {
     return LineFailure::kNotALine;
   }
-  const double floor = kLeastSigma_px * kLeastSigma_px * straight.weight / n;
-  const double correlated = correlated_points(points, straight, used);
+  const double floor = kMinSigma_px * kMinSigma_px * straight.weight / n;
+  const double correlated = variance_inflation(points, straight, used);
   LineFit fit = fit_of(straight, std::max(square / (n - 2.0), floor) * correlated);
   fit.rms_px = std::sqrt(square_px / n);
-  fit.correlated_points = correlated;
+  fit.variance_inflation = correlated;
   fit.points = count;
-  fit.begin_px = straight.centre + least * straight.along;
-  fit.end_px = straight.centre + most * straight.along;
+  fit.begin_px = straight.centre + minimum * straight.along;
+  fit.end_px = straight.centre + maximum * straight.along;
   return fit;
 }
 

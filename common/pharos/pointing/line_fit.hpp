@@ -21,17 +21,17 @@ struct EdgePoint {
 bool undo_distortion(std::span<EdgePoint> points, const PinholeCamera& camera);
 
 /// Fewest points of a line: with fewer the scatter says nothing about itself.
-inline constexpr std::size_t kLeastEdgePoints = 8;
+inline constexpr std::size_t kMinEdgePoints = 8;
 /// Points farther than this from the line, in units of the points' own scatter, are left out.
 inline constexpr double kOutlierSigmas = 3.5;
 /// Largest share of points that may be left out.
-inline constexpr double kMostLeftOut = 0.25;
+inline constexpr double kMaxLeftOut = 0.25;
 /// What no edge point is better than: a floor for the scatter of noise-free input.
-inline constexpr double kLeastSigma_px = 1e-4;
+inline constexpr double kMinSigma_px = 1e-4;
 
 enum class LineFailure : std::uint8_t {
   kTooFewPoints,
-  kNotALine,  // more than kMostLeftOut of the points lie off, or all in one place
+  kNotALine,  // more than kMaxLeftOut of the points lie off, or all in one place
 };
 const char* name_of(LineFailure failure);
 
@@ -40,7 +40,7 @@ struct LineFit {
   double rms_px = 0.0;  ///< of the points used, across the line
   /// How many neighbouring points err alike (1: independent): points a pixel apart share pixels, and a lens' or a
   /// renderer's errors run along the edge. The covariance is larger by this.
-  double correlated_points = 1.0;
+  double variance_inflation = 1.0;
   std::size_t points = 0;              ///< used
   Vector2 begin_px = Vector2::Zero();  ///< where the used points begin and end, on the line
   Vector2 end_px = Vector2::Zero();

@@ -12,16 +12,16 @@ constexpr double kHighest_m = 60'000e3;
 constexpr int kHalvings = 60;
 
 // Place in I; on the sphere of `radius_m` where the sighting's own range is not to be used.
-Vector3 place_inertial(const Sighting& sighting, const Geodetic& station, double epoch_s, double radius_m,
+Vector3 place_inertial(const Observation& observation, const Geodetic& station, double epoch_s, double radius_m,
                        bool by_range) {
   const Vector3 base = station_place_earth_m(station);
-  const Vector3 ahead = station_to_earth(station) * direction_station(sighting.sight);
-  double range_m = sighting.range_m;
+  const Vector3 ahead = station_to_earth(station) * direction_station(observation.sight);
+  double range_m = observation.range_m;
   if (!by_range) {
     const double along = base.dot(ahead);
     range_m = -along + std::sqrt(std::max(0.0, along * along + radius_m * radius_m - base.squaredNorm()));
   }
-  return earth_to_inertial(sighting.time_s - epoch_s) * (base + range_m * ahead);
+  return earth_to_inertial(observation.time_s - epoch_s) * (base + range_m * ahead);
 }
 
 struct Motion {
@@ -31,25 +31,25 @@ struct Motion {
   double radius_m = 0.0;
 };
 
-Motion motion_of(std::span<const Sighting> sightings, const Geodetic& station, double epoch_s, double radius_m,
+Motion motion_of(std::span<const Observation> observations, const Geodetic& station, double epoch_s, double radius_m,
                  bool by_range) {
-  const auto place = [&](const Sighting& s) { return place_inertial(s, station, epoch_s, radius_m, by_range); };
+  const auto place = [&](const Observation& s) { return place_inertial(s, station, epoch_s, radius_m, by_range); };
   Motion motion;
-  Vector3 before = place(sightings.front());
+  Vector3 before = place(observations.front());
   const Vector3 first = before.normalized();
-  for (const Sighting& sighting : sightings) {
-    const Vector3 now = place(sighting);
+  for (const Observation& observation : observations) {
+    const Vector3 now = place(observation);
     motion.normal += before.cross(now);
-    motion.radius_m += now.norm() / static_cast<double>(sightings.size());
+    motion.radius_m += now.norm() / static_cast<double>(observations.size());
     before = now;
   }
   motion.normal.normalize();
   // Slope of the angle in the orbit's plane over time.
   const Vector3 ahead = motion.normal.cross(first);
   double n = 0.0, t = 0.0, a = 0.0, tt = 0.0, ta = 0.0;
-  for (const Sighting& sighting : sightings) {
-    const Vector3 now = place(sighting);
-    const double angle = std::atan2(now.dot(ahead), now.dot(first)), time = sighting.time_s - epoch_s;
+  for (const Observation& observation : observations) {
+    const Vector3 now = place(observation);
+    const double angle = std::atan2(now.dot(ahead), now.dot(first)), time = observation.time_s - epoch_s;
     motion.arc_rad = std::max(motion.arc_rad, std::abs(angle));
     n += 1.0;
     t += time;
@@ -68,15 +68,16 @@ double circular_rate_rad_s(double radius_m) {
 
 }  // namespace
 
-Result<Orbit, OrbitFailure> find_orbit(std::span<const Sighting> sightings, const Geodetic& station, double epoch_s) {
-  if (sightings.size() < 3) return OrbitFailure::kTooShort;
+Result<Orbit, OrbitFailure> find_orbit(std::span<const Observation> observations, const Geodetic& station,
+                                       double epoch_s) {
+  if (observations.size() < 3) return OrbitFailure::kTooShort;
   const bool by_range =
-      std::all_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.range_m > 0.0; });
+      std::all_of(observations.begin(), observations.end(), [](const Observation& s) { return s.range_m > 0.0; });
   double low_m = station_place_earth_m(station).norm() + kLowest_m, high_m = kEarthRadius_m + kHighest_m;
   if (!by_range) {
     // Higher up the same lines of sight mean a faster target, and an orbit a slower one: one crossing.
     const auto too_high = [&](double radius_m) {
-      return motion_of(sightings, station, epoch_s, radius_m, false).rate_rad_s > circular_rate_rad_s(radius_m);
+      return motion_of(observations, station, epoch_s, radius_m, false).rate_rad_s > circular_rate_rad_s(radius_m);
     };
     if (too_high(low_m) || !too_high(high_m)) return OrbitFailure::kNotAnOrbit;
     for (int k = 0; k < kHalvings; ++k) {
@@ -84,15 +85,16 @@ Result<Orbit, OrbitFailure> find_orbit(std::span<const Sighting> sightings, cons
       (too_high(middle_m) ? high_m : low_m) = middle_m;
     }
   }
-  const Motion motion = motion_of(sightings, station, epoch_s, low_m, by_range);
-  if (!(motion.arc_rad > kLeastArc_rad) || !motion.normal.allFinite()) return OrbitFailure::kTooShort;
+  const Motion motion = motion_of(observations, station, epoch_s, low_m, by_range);
+  if (!(motion.arc_rad > kMinArc_rad) || !motion.normal.allFinite()) return OrbitFailure::kTooShort;
   // Ranges of something that stands on or hovers over the ground make no orbit.
   if (by_range && motion.radius_m < low_m) return OrbitFailure::kNotAnOrbit;
   return Orbit{motion.normal, motion.radius_m, by_range};
 }
 
-Matrix3 inertial_to_orbital(const Orbit& orbit, const Sighting& sighting, const Geodetic& station, double epoch_s) {
-  const Vector3 place = place_inertial(sighting, station, epoch_s, orbit.radius_m, orbit.from_ranges);
+Matrix3 inertial_to_orbital(const Orbit& orbit, const Observation& observation, const Geodetic& station,
+                            double epoch_s) {
+  const Vector3 place = place_inertial(observation, station, epoch_s, orbit.radius_m, orbit.from_ranges);
   const Vector3& h = orbit.normal_inertial;
   const Vector3 up = (place - h.dot(place) * h).normalized();
   Matrix3 R;

@@ -10,7 +10,7 @@
 namespace pharos::pointing {
 
 /// One line of sight of a pass as the station knows it: when, where to, and how far where that was measured.
-struct Sighting {
+struct Observation {
   double time_s = 0.0;
   LineOfSight sight;
   double range_m = 0.0;  ///< 0: not measured, as for most optical stations
@@ -24,19 +24,21 @@ struct Orbit {
 };
 
 enum class OrbitFailure : std::uint8_t {
-  kTooShort,    // fewer than three sightings, or the target moves by less than kLeastArc_rad around the Earth
+  kTooShort,    // fewer than three sightings, or the target moves by less than kMinArc_rad around the Earth
   kNotAnOrbit,  // no circular orbit moves so fast or so slowly as these lines of sight
 };
 
 /// Below this arc around the Earth's centre the flight direction is noise.
-inline constexpr double kLeastArc_rad = 1e-3;
+inline constexpr double kMinArc_rad = 1e-3;
 
 /// The orbit's plane and radius. Where every sighting has a range, from the places; else the circular orbit whose
 /// speed, sqrt(mu / r^3), is that of the lines of sight cut with the sphere of radius r. Inertial frame I is E at
 /// `epoch_s`. An orbit of eccentricity e is off by about e r: 7 km at 500 km for 0.001, 0.1 deg of nadir.
-Result<Orbit, OrbitFailure> find_orbit(std::span<const Sighting> sightings, const Geodetic& station, double epoch_s);
+Result<Orbit, OrbitFailure> find_orbit(std::span<const Observation> observations, const Geodetic& station,
+                                       double epoch_s);
 
 /// R_O_I at a sighting: O is the orbital frame, x along flight, y against the orbit's normal, z to nadir.
-Matrix3 inertial_to_orbital(const Orbit& orbit, const Sighting& sighting, const Geodetic& station, double epoch_s);
+Matrix3 inertial_to_orbital(const Orbit& orbit, const Observation& observation, const Geodetic& station,
+                            double epoch_s);
 
 }  // namespace pharos::pointing

@@ -14,7 +14,7 @@ constexpr int kRounds = 6;
 constexpr double kContradiction = 25.0;
 // Standard normal deviate of 99.99 %.
 constexpr double kQuantile = 3.72;
-constexpr std::size_t kLeastImages = 3;
+constexpr std::size_t kMinImages = 3;
 
 // The planes that the law's own fit looks at, and what it made of them.
 struct Fit {
@@ -29,7 +29,7 @@ struct Fit {
 
 struct Law {
   AttitudeLaw kind = AttitudeLaw::kInertial;
-  double most_spin_rad_s = 0.0;
+  double max_spin_rad_s = 0.0;
 };
 
 Result<Fit, PassFailure> fit_planes(const PassWorkspace& workspace, const Law& law) {
@@ -42,7 +42,7 @@ Result<Fit, PassFailure> fit_planes(const PassWorkspace& workspace, const Law& l
     return fit;
   }
   const std::span<const double> seconds(workspace.seconds.data(), workspace.seconds.size());
-  const auto spin = fit_spin(planes, seconds, law.most_spin_rad_s);
+  const auto spin = fit_spin(planes, seconds, law.max_spin_rad_s);
   if (!spin) return spin.error() == SpinFailure::kNotSeen ? PassFailure::kSpinNotSeen : PassFailure::kTooFewImages;
   fit = {spin->spin.axis, spin->axis_covariance, spin->chi2, spin->degrees_of_freedom, *spin};
   return fit;
@@ -54,9 +54,9 @@ double misfit(const AxisPlane& plane, const Vector3& direction) {
 }
 
 // Takes the images out that contradict the fit, the worst first, up to `most` of them; returns how many.
-int set_aside(PassWorkspace& workspace, const Fit& fit, int most) {
+int rejected(PassWorkspace& workspace, const Fit& fit, int maximum) {
   int taken = 0;
-  while (taken < most) {
+  while (taken < maximum) {
     double worst = kContradiction;
     std::int32_t image = -1;
     for (std::size_t i = 0; i < workspace.planes.size(); ++i) {
@@ -78,12 +78,12 @@ int set_aside(PassWorkspace& workspace, const Fit& fit, int most) {
 }
 
 // A half turn between two images looks like none: the axis has no sign.
-double tellable_spin(const PassWorkspace& workspace, double most_spin_rad_s) {
+double tellable_spin(const PassWorkspace& workspace, double max_spin_rad_s) {
   double longest = 0.0;
   for (std::size_t i = 1; i < workspace.seconds.size(); ++i) {
     longest = std::max(longest, workspace.seconds[i] - workspace.seconds[i - 1]);
   }
-  return longest > 0.0 ? std::min(most_spin_rad_s, 0.25 * kTwoPi / longest) : most_spin_rad_s;
+  return longest > 0.0 ? std::min(max_spin_rad_s, 0.25 * kTwoPi / longest) : max_spin_rad_s;
 }
 
 struct Gathered {
@@ -97,18 +97,18 @@ Gathered gather(std::span<const PassImage> images, const PassOptions& options, P
   workspace.planes.clear();
   workspace.seconds.clear();
   workspace.image.clear();
-  workspace.sightings.clear();
+  workspace.observations.clear();
   Gathered gathered;
   for (const PassImage& image : images) {
     if (image.planes_station.empty()) continue;
-    if (!workspace.sightings.push_back(image.sighting)) gathered.failure = PassFailure::kTooManyImages;
+    if (!workspace.observations.push_back(image.observation)) gathered.failure = PassFailure::kTooManyImages;
   }
-  if (workspace.sightings.size() < kLeastImages) gathered.failure = PassFailure::kTooFewImages;
+  if (workspace.observations.size() < kMinImages) gathered.failure = PassFailure::kTooFewImages;
   if (gathered.failure) return gathered;
-  const auto& sightings = workspace.sightings;
-  gathered.epoch_s = sightings[0].time_s + 0.5 * (sightings.back().time_s - sightings[0].time_s);
+  const auto& observations = workspace.observations;
+  gathered.epoch_s = observations[0].time_s + 0.5 * (observations.back().time_s - observations[0].time_s);
   if (options.law == AttitudeLaw::kNadir) {
-    const auto orbit = find_orbit({sightings.data(), sightings.size()}, options.station, gathered.epoch_s);
+    const auto orbit = find_orbit({observations.data(), observations.size()}, options.station, gathered.epoch_s);
     if (!orbit) {
       gathered.failure = PassFailure::kNoOrbit;
       return gathered;
@@ -118,9 +118,10 @@ Gathered gather(std::span<const PassImage> images, const PassOptions& options, P
   const Matrix3 R_earth_station = station_to_earth(options.station);
   for (const PassImage& image : images) {
     if (image.planes_station.empty()) continue;
-    const double seconds = image.sighting.time_s - gathered.epoch_s;
+    const double seconds = image.observation.time_s - gathered.epoch_s;
     Matrix3 R = earth_to_inertial(seconds) * R_earth_station;
-    if (gathered.orbit) R = inertial_to_orbital(*gathered.orbit, image.sighting, options.station, gathered.epoch_s) * R;
+    if (gathered.orbit)
+      R = inertial_to_orbital(*gathered.orbit, image.observation, options.station, gathered.epoch_s) * R;
     for (const AxisPlane& plane : image.planes_station) {
       if (!workspace.planes.push_back(rotated(plane, R))) gathered.failure = PassFailure::kTooManyImages;
       workspace.seconds.push_back(seconds);
@@ -132,7 +133,7 @@ Gathered gather(std::span<const PassImage> images, const PassOptions& options, P
 }
 
 // R_S_law in the middle of the pass.
-Matrix3 law_to_station(const Gathered& gathered, const PassOptions& options, const Sighting& middle) {
+Matrix3 law_to_station(const Gathered& gathered, const PassOptions& options, const Observation& middle) {
   const Matrix3 R_station_inertial = station_to_earth(options.station).transpose();
   if (!gathered.orbit) return R_station_inertial;
   return R_station_inertial *
@@ -140,15 +141,15 @@ Matrix3 law_to_station(const Gathered& gathered, const PassOptions& options, con
 }
 
 // Between the two sightings around the middle of the pass, as a line of sight goes in so short a time.
-Sighting middle_sighting(const PassWorkspace& workspace, double epoch_s) {
-  const auto& sightings = workspace.sightings;
+Observation middle_observation(const PassWorkspace& workspace, double epoch_s) {
+  const auto& observations = workspace.observations;
   std::size_t after = 1;
-  while (after + 1 < sightings.size() && sightings[after].time_s < epoch_s) ++after;
-  const Sighting &from = sightings[after - 1], &to = sightings[after];
-  const double share = to.time_s > from.time_s ? (epoch_s - from.time_s) / (to.time_s - from.time_s) : 0.0;
-  const Vector3 d = (1.0 - share) * direction_station(from.sight) + share * direction_station(to.sight);
-  Sighting middle{epoch_s, {std::atan2(d.x(), d.y()), std::atan2(d.z(), std::hypot(d.x(), d.y()))}, 0.0};
-  if (from.range_m > 0.0 && to.range_m > 0.0) middle.range_m = (1.0 - share) * from.range_m + share * to.range_m;
+  while (after + 1 < observations.size() && observations[after].time_s < epoch_s) ++after;
+  const Observation &from = observations[after - 1], &to = observations[after];
+  const double fraction = to.time_s > from.time_s ? (epoch_s - from.time_s) / (to.time_s - from.time_s) : 0.0;
+  const Vector3 d = (1.0 - fraction) * direction_station(from.sight) + fraction * direction_station(to.sight);
+  Observation middle{epoch_s, {std::atan2(d.x(), d.y()), std::atan2(d.z(), std::hypot(d.x(), d.y()))}, 0.0};
+  if (from.range_m > 0.0 && to.range_m > 0.0) middle.range_m = (1.0 - fraction) * from.range_m + fraction * to.range_m;
   return middle;
 }
 
@@ -190,8 +191,8 @@ bool is_fitting(double chi2, int degrees_of_freedom) {
   return (std::cbrt(chi2 / k) - (1.0 - spread)) / std::sqrt(spread) <= kQuantile;
 }
 
-PassAnswer estimate_pass(std::span<const PassImage> images, const PassOptions& options, PassWorkspace& workspace) {
-  PassAnswer answer;
+PassSolution estimate_pass(std::span<const PassImage> images, const PassOptions& options, PassWorkspace& workspace) {
+  PassSolution answer;
   PassEstimate& estimate = answer.estimate;
   const Gathered gathered = gather(images, options, workspace);
   estimate.time_s = gathered.epoch_s;
@@ -199,20 +200,20 @@ PassAnswer estimate_pass(std::span<const PassImage> images, const PassOptions& o
   estimate.orbit = gathered.orbit;
   answer.failure = gathered.failure;
   if (answer.failure) return answer;
-  const Law law{options.law, tellable_spin(workspace, options.most_spin_rad_s)};
-  const int most_aside = static_cast<int>(kMostSetAside * gathered.images);
+  const Law law{options.law, tellable_spin(workspace, options.max_spin_rad_s)};
+  const int max_rejected = static_cast<int>(kMaxRejectedFraction * gathered.images);
   auto fit = fit_planes(workspace, law);
   for (int round = 0; round < kRounds && fit && !is_fitting(fit->chi2, fit->degrees_of_freedom); ++round) {
-    const int taken = set_aside(workspace, *fit, std::min(most_aside - estimate.set_aside, 1 + most_aside / kRounds));
+    const int taken = rejected(workspace, *fit, std::min(max_rejected - estimate.rejected, 1 + max_rejected / kRounds));
     if (taken == 0) break;
-    estimate.set_aside += taken;
+    estimate.rejected += taken;
     fit = fit_planes(workspace, law);
   }
   if (!fit) {
     answer.failure = fit.error();
     return answer;
   }
-  estimate.images -= estimate.set_aside;
+  estimate.images -= estimate.rejected;
   estimate.chi2 = fit->chi2;
   estimate.degrees_of_freedom = fit->degrees_of_freedom;
   if (!is_fitting(fit->chi2, fit->degrees_of_freedom)) {
@@ -220,7 +221,7 @@ PassAnswer estimate_pass(std::span<const PassImage> images, const PassOptions& o
     return answer;
   }
   const double widening = fit->degrees_of_freedom > 0 ? std::max(1.0, fit->chi2 / fit->degrees_of_freedom) : 1.0;
-  const Matrix3 R = law_to_station(gathered, options, middle_sighting(workspace, gathered.epoch_s));
+  const Matrix3 R = law_to_station(gathered, options, middle_observation(workspace, gathered.epoch_s));
   estimate.axis_law = fit->axis;
   estimate.axis_station = signed_axis(R * fit->axis);
   if (estimate.axis_station.dot(R * fit->axis) < 0.0) estimate.axis_law = -fit->axis;

@@ -23,7 +23,7 @@ const char* name_of(AttitudeLaw law);
 
 /// One image of a pass.
 struct PassImage {
-  Sighting sighting;
+  Observation observation;
   AxisPlanes planes_station;
 };
 
@@ -31,13 +31,13 @@ struct PassOptions {
   Geodetic station;
   AttitudeLaw law = AttitudeLaw::kInertial;
   /// Fastest turn that is looked for, rad/s. Cut to what the images' spacing tells from a slower one.
-  double most_spin_rad_s = 0.0872664625997164788;  // 5 deg/s
+  double max_spin_rad_s = 0.0872664625997164788;  // 5 deg/s
 };
 
 /// Most planes of a pass: 2000 images of a panel's two edges.
 inline constexpr std::size_t kMaxPassPlanes = 4096;
-/// Share of images that may contradict the rest and be set aside (another edge taken for the panel's).
-inline constexpr double kMostSetAside = 0.05;
+/// Fraction of images that may contradict the rest and be set aside (another edge taken for the panel's).
+inline constexpr double kMaxRejectedFraction = 0.05;
 /// Chi-squared per degree of freedom up to which a law fits however many images there are: edges have small errors of
 /// their own that no noise tells (README).
 inline constexpr double kFittingChi2 = 2.0;
@@ -61,7 +61,7 @@ struct PassEstimate {
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
   int images = 0;                              ///< used
-  int set_aside = 0;                           ///< contradict the rest
+  int rejected = 0;                            ///< contradict the rest
   std::optional<Orbit> orbit;                  ///< kNadir
   std::optional<SpinEstimate> spin;            ///< kSpin, in I
   std::optional<Vector3> second_axis_station;  ///< kSpin: another answer that fits nearly as well
@@ -70,7 +70,7 @@ struct PassEstimate {
 };
 
 /// What came of a pass. Where the law does not fit, the estimate still tells chi2, images and degrees of freedom.
-struct PassAnswer {
+struct PassSolution {
   std::optional<PassFailure> failure;
   PassEstimate estimate;
 };
@@ -80,13 +80,13 @@ struct PassWorkspace {
   StaticVector<AxisPlane, kMaxPassPlanes> planes;
   StaticVector<double, kMaxPassPlanes> seconds;
   StaticVector<std::int32_t, kMaxPassPlanes> image;
-  StaticVector<Sighting, kMaxPassPlanes> sightings;
+  StaticVector<Observation, kMaxPassPlanes> observations;
 };
 
 /// One axis from many images under a stated law, with the test whether the law fits: planes that contradict the rest
-/// are set aside, a few (kMostSetAside), and then chi-squared must be what the planes' sigmas say (99.99 %) or below
-/// kFittingChi2 per degree of freedom. Covariances grow by chi2 per degree of freedom where that is above 1.
-PassAnswer estimate_pass(std::span<const PassImage> images, const PassOptions& options, PassWorkspace& workspace);
+/// are set aside, a few (kMaxRejectedFraction), and then chi-squared must be what the planes' sigmas say (99.99 %) or
+/// below kFittingChi2 per degree of freedom. Covariances grow by chi2 per degree of freedom where that is above 1.
+PassSolution estimate_pass(std::span<const PassImage> images, const PassOptions& options, PassWorkspace& workspace);
 
 /// Whether chi2 of so many degrees of freedom is what noise does (99.99 %; Wilson and Hilferty 1931), or small enough
 /// (kFittingChi2).

@@ -22,7 +22,7 @@ constexpr std::size_t kStarts = 24;        // best of the search, each refined
 constexpr int kSteps = 40;
 constexpr double kSmallStep = 1e-10;
 // What is left of one parameter's information once all others are free too: below it nothing is known of it.
-constexpr double kLeastCondition = 1e-14;
+constexpr double kMinCondition = 1e-14;
 constexpr double kSameAxis = 5.0;  // sigmas
 // Spin axis and rate are three unknowns more than an axis that stands still has. What they must make better of chi2 to
 // be seen: its 99.99 % quantile for three.
@@ -44,18 +44,18 @@ void keep(Starts& starts, const Start& start) {
   if (start.cost < worst->cost) *worst = start;
 }
 
-struct Material {
+struct SpinProblem {
   std::span<const AxisPlane> planes;
   std::span<const double> seconds;
 };
 
 // For a given motion the axis is the direction that all planes, turned back, have in common.
-Start best_axis(const Material& material, const Vector3& spin, double rate) {
-  const std::size_t count = material.planes.size(), stride = (count + kSearchPlanes - 1) / kSearchPlanes;
+Start best_axis(const SpinProblem& problem, const Vector3& spin, double rate) {
+  const std::size_t count = problem.planes.size(), stride = (count + kSearchPlanes - 1) / kSearchPlanes;
   Matrix3 sum = Matrix3::Zero();
   for (std::size_t i = 0; i < count; i += stride) {
-    const double angle = -rate * material.seconds[i], c = std::cos(angle), s = std::sin(angle);
-    const Vector3& n = material.planes[i].normal;
+    const double angle = -rate * problem.seconds[i], c = std::cos(angle), s = std::sin(angle);
+    const Vector3& n = problem.planes[i].normal;
     const Vector3 back = c * n + s * spin.cross(n) + (1.0 - c) * spin.dot(n) * spin;
     sum += back * back.transpose();
   }
@@ -63,10 +63,10 @@ Start best_axis(const Material& material, const Vector3& spin, double rate) {
   return {{eigen.eigenvectors().col(0), spin, rate}, eigen.eigenvalues()[0]};
 }
 
-Starts search(const Material& material, double most_rate) {
-  const auto [first, last] = std::minmax_element(material.seconds.begin(), material.seconds.end());
+Starts search(const SpinProblem& problem, double max_rate) {
+  const auto [first, last] = std::minmax_element(problem.seconds.begin(), problem.seconds.end());
   const double duration = std::max(1e-9, *last - *first);
-  const int rates = std::max(1, static_cast<int>(std::ceil(most_rate * duration)));
+  const int rates = std::max(1, static_cast<int>(std::ceil(max_rate * duration)));
   Starts starts;
   for (int k = 0; k < kSpinDirections; ++k) {
     // Points of equal area along a spiral over the upper half of the sphere.
@@ -75,7 +75,7 @@ Starts search(const Material& material, double most_rate) {
     const Vector3 spin(out * std::cos(turn), out * std::sin(turn), z);
     Start best;
     for (int r = -rates; r <= rates; ++r) {
-      const Start start = best_axis(material, spin, most_rate * r / rates);
+      const Start start = best_axis(problem, spin, max_rate * r / rates);
       if (r == -rates || start.cost < best.cost) best = start;
     }
     keep(starts, best);
@@ -89,13 +89,13 @@ struct Normal {
   double chi2 = 0.0;
 };
 
-Normal normal_equations(const Material& material, const Spin& spin) {
+Normal normal_equations(const SpinProblem& problem, const Spin& spin) {
   Normal normal;
-  for (std::size_t i = 0; i < material.planes.size(); ++i) {
-    const AxisPlane& plane = material.planes[i];
-    const Vector3 d = spin.at(material.seconds[i]);
+  for (std::size_t i = 0; i < problem.planes.size(); ++i) {
+    const AxisPlane& plane = problem.planes[i];
+    const Vector3 d = spin.at(problem.seconds[i]);
     const double weight = 1.0 / variance_of(plane, d), residual = plane.normal.dot(d);
-    const Row5 J = spin_jacobian(spin, plane.normal, material.seconds[i]);
+    const Row5 J = spin_jacobian(spin, plane.normal, problem.seconds[i]);
     normal.information += weight * J.transpose() * J;
     normal.gradient += weight * residual * J.transpose();
     normal.chi2 += weight * residual * residual;
@@ -104,16 +104,16 @@ Normal normal_equations(const Material& material, const Spin& spin) {
 }
 
 // Levenberg-Marquardt; parameters scaled by the information's own diagonal.
-Start refined(const Material& material, Spin spin) {
+Start refined(const SpinProblem& problem, Spin spin) {
   double damping = 1e-3;
-  Normal normal = normal_equations(material, spin);
+  Normal normal = normal_equations(problem, spin);
   for (int step = 0; step < kSteps && damping < 1e10; ++step) {
     Matrix5 damped = normal.information;
     damped.diagonal() *= 1.0 + damping;
     damped.diagonal().array() += 1e-12 * normal.information.trace();
     const Eigen::Matrix<double, 5, 1> delta = -damped.ldlt().solve(normal.gradient);
     const Spin moved = spin.moved_by(delta);
-    const Normal after = normal_equations(material, moved);
+    const Normal after = normal_equations(problem, moved);
     if (!(after.chi2 < normal.chi2)) {
       damping *= 10.0;
       continue;
@@ -133,7 +133,7 @@ bool is_inverse_sound(const Matrix5& information, Matrix5& covariance) {
   if (!(scale.minCoeff() > 0.0)) return false;
   const Matrix5 scales = scale * scale.transpose();
   const Eigen::LDLT<Matrix5> factors(information.cwiseQuotient(scales));
-  if (!(factors.vectorD().minCoeff() > kLeastCondition)) return false;
+  if (!(factors.vectorD().minCoeff() > kMinCondition)) return false;
   // Column by column: Eigen's solver for matrices keeps a static of cache sizes.
   for (Eigen::Index k = 0; k < 5; ++k) {
     const Eigen::Matrix<double, 5, 1> unit = Eigen::Matrix<double, 5, 1>::Unit(k);
@@ -171,14 +171,14 @@ Row5 spin_jacobian(const Spin& spin, const Vector3& normal, double seconds) {
 }
 
 Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, std::span<const double> seconds,
-                                           double most_rate_rad_s) {
-  if (planes.size() < kLeastSpinPlanes || seconds.size() != planes.size()) return SpinFailure::kTooFewPlanes;
-  const Material material{planes, seconds};
-  Starts starts = search(material, most_rate_rad_s);
+                                           double max_rate_rad_s) {
+  if (planes.size() < kMinSpinPlanes || seconds.size() != planes.size()) return SpinFailure::kTooFewPlanes;
+  const SpinProblem problem{planes, seconds};
+  Starts starts = search(problem, max_rate_rad_s);
   Start best;
   best.cost = -1.0;
   for (Start& start : starts) {
-    start = refined(material, start.spin);
+    start = refined(problem, start.spin);
     if (best.cost < 0.0 || start.cost < best.cost) best = start;
   }
   SpinEstimate estimate;
@@ -188,7 +188,7 @@ Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, st
   const auto still = estimate_axis(planes);
   const double per_freedom = std::max(1.0, best.cost / estimate.degrees_of_freedom);
   if (still && still->chi2 - best.cost < kSeenChi2 * per_freedom) return SpinFailure::kNotSeen;
-  if (!is_inverse_sound(normal_equations(material, best.spin).information, estimate.covariance)) {
+  if (!is_inverse_sound(normal_equations(problem, best.spin).information, estimate.covariance)) {
     return SpinFailure::kNotSeen;
   }
   const Tangent tangent = tangent_of(best.spin.axis);

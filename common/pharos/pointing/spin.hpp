@@ -45,11 +45,11 @@ enum class SpinFailure : std::uint8_t {
   kNotSeen,       // an axis that stands still fits as well, or rate and spin axis cannot be told
 };
 
-inline constexpr std::size_t kLeastSpinPlanes = 8;
+inline constexpr std::size_t kMinSpinPlanes = 8;
 
-/// Least squares over axis, spin axis and rate from a search over all spin axes and rates up to `most_rate_rad_s`
+/// Least squares over axis, spin axis and rate from a search over all spin axes and rates up to `max_rate_rad_s`
 /// (either way). Planes are of an inertial frame, `seconds` their times. Cost: some 1e8 floating-point operations.
 Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, std::span<const double> seconds,
-                                           double most_rate_rad_s);
+                                           double max_rate_rad_s);
 
 }  // namespace pharos::pointing

@@ -14,9 +14,9 @@ struct Tangent {
 
 inline Tangent tangent_of(const Vector3& direction) {
   // The coordinate axis farthest from it: never parallel.
-  Eigen::Index least = 0;
-  direction.cwiseAbs().minCoeff(&least);
-  const Vector3 first = direction.cross(Vector3(Vector3::Unit(least))).normalized();
+  Eigen::Index minimum = 0;
+  direction.cwiseAbs().minCoeff(&minimum);
+  const Vector3 first = direction.cross(Vector3(Vector3::Unit(minimum))).normalized();
   return {first, direction.cross(first)};
 }
 

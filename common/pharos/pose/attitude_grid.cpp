@@ -21,14 +21,14 @@ bool attitude_of(int code, Quaternion& attitude) {
 }
 
 // Translation that brings the turned sensors nearest to their planes.
-Vector3 translation_for(const Sightings& s, const Matrix3& R) {
+Vector3 translation_for(const ObservationTable& s, const Matrix3& R) {
   PackedSymmetric<3> normal;
   std::array<double, 3> right{};
   for (int i = 0; i < s.count; ++i) {
     const Vector3 q = R * s.body(i);
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       if (!s.seen(i, axis)) continue;
-      const Sightings::AxisColumns& c = s.axis[static_cast<std::size_t>(index_of(axis))];
+      const ObservationTable::AxisColumns& c = s.axis[static_cast<std::size_t>(index_of(axis))];
       Vector3 plane = Vector3::Zero();
       plane[index_of(axis)] = c.sine[static_cast<std::size_t>(i)];
       plane.z() = -c.cosine[static_cast<std::size_t>(i)];
@@ -44,7 +44,7 @@ Vector3 translation_for(const Sightings& s, const Matrix3& R) {
 
 }  // namespace
 
-StartPoses attitude_grid(const Sightings& sightings) {
+StartPoses attitude_grid(const ObservationTable& table) {
   StartPoses poses;
   std::array<double, StartPoses::kCapacity> costs{};
   for (int code = 0; code < kCodes; ++code) {
@@ -52,8 +52,8 @@ StartPoses attitude_grid(const Sightings& sightings) {
     if (!attitude_of(code, attitude)) continue;
     LighthouseFromBody pose;
     pose.R = attitude.toRotationMatrix();
-    pose.t = translation_for(sightings, pose.R);
-    const double cost = cost_of(sightings, pose, Residual::kAngle);
+    pose.t = translation_for(table, pose.R);
+    const double cost = cost_of(table, pose, Residual::kAngle);
     if (!(pose.t.z() > 0.0) || !pose.is_finite() || !(cost < 1e300)) continue;
     if (poses.full() && costs[poses.size() - 1] <= cost) continue;
     if (!poses.full()) poses.push_back(pose);

@@ -22,21 +22,21 @@ Matrix6 inverse_of(const PackedSymmetric<6>& matrix) {
 }
 
 // How one bearing's noise comes out in its residual: D of the sandwich.
-double noise_gain(const Sightings& sightings, int sensor, int axis, Residual residual) {
+double noise_gain(const ObservationTable& table, int sensor, int axis, Residual residual) {
   if (residual == Residual::kAngle) return 1.0;
-  const double sine = sightings.axis[static_cast<std::size_t>(axis)].sine[static_cast<std::size_t>(sensor)];
+  const double sine = table.axis[static_cast<std::size_t>(axis)].sine[static_cast<std::size_t>(sensor)];
   return 1.0 / (sine * sine);
 }
 
 // J^T D R_theta D J = (1 - rho) sum d^2 j j^T + rho (s_x s_x^T + s_y s_y^T), s = sum of d j over a rotor's rows.
-Matrix6 middle_of(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual, double rho) {
+Matrix6 middle_of(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual, double rho) {
   Matrix6 middle = Matrix6::Zero();
   for (int a = 0; a < kAxes; ++a) {
     Vector6 sum = Vector6::Zero();
-    for (int i = 0; i < sightings.count; ++i) {
+    for (int i = 0; i < table.count; ++i) {
       const Axis axis = static_cast<Axis>(a);
-      if (!sightings.seen(i, axis)) continue;
-      const Vector6 row = noise_gain(sightings, i, a, residual) * row_of(sightings, i, axis, pose, residual).jacobian;
+      if (!table.seen(i, axis)) continue;
+      const Vector6 row = noise_gain(table, i, a, residual) * row_of(table, i, axis, pose, residual).jacobian;
       middle += (1.0 - rho) * row * row.transpose();
       sum += row;
     }
@@ -47,11 +47,11 @@ Matrix6 middle_of(const Sightings& sightings, const LighthouseFromBody& pose, Re
 
 }  // namespace
 
-Matrix6 unit_covariance(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual, double rho,
+Matrix6 unit_covariance(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual, double rho,
                         const NormalEquations& normal) {
   const Matrix6 inverse = inverse_of(normal.matrix);
   if (residual == Residual::kAngle && rho == 0.0) return inverse;
-  const Matrix6 sandwich = inverse * middle_of(sightings, pose, residual, rho) * inverse;
+  const Matrix6 sandwich = inverse * middle_of(table, pose, residual, rho) * inverse;
   return 0.5 * (sandwich + sandwich.transpose());
 }
 

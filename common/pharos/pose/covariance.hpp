@@ -10,7 +10,7 @@ namespace pharos::pose {
 /// (J^T J)^-1 J^T D R_theta D J (J^T J)^-1 with R_theta of (19): correlation rho between sensors of one rotor, none
 /// across rotors. D is the unit matrix for Residual::kAngle; for Residual::kTangent it carries the bearing's noise to
 /// the tangent, 1/sin^2(theta). With rho = 0 and angles it is (J^T J)^-1. `normal` is the fit's.
-Matrix6 unit_covariance(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual, double rho,
+Matrix6 unit_covariance(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual, double rho,
                         const NormalEquations& normal);
 
 /// A pivot of J^T J below this share of its diagonal means that the rows leave a direction open: rounding alone leaves

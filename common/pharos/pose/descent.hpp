@@ -13,9 +13,9 @@ struct Descent {
   double smallest_pivot_ratio = 1.0;  // of the last step's normal matrix
   int iterations = 0;
   bool converged = false;
-  bool hopeless = false;  // given up: see RefineLimits, or `in_known_valley` said so
+  bool abandoned = false;  // given up: see RefineLimits, or `in_known_basin` said so
   /// Where it ends is not known: steps ran out, or the system's numbers could not follow.
-  bool undecided() const { return !converged && !hopeless; }
+  bool undecided() const { return !converged && !abandoned; }
 };
 
 struct RefineLimits {
@@ -23,7 +23,7 @@ struct RefineLimits {
   /// Stop when a step's predicted decrease of r^T r falls below this (rad^2).
   double tolerance = 0.0;
   /// Give up (not converged) when a step shows that r^T r will stay above this.
-  double hopeless_cost = 1e300;
+  double abandon_cost = 1e300;
 };
 
 /// Nielsen's rule (IMM-REP-1999-05) for the damping, and where it starts and ends.
@@ -55,11 +55,11 @@ class Damping {
 /// Levenberg-Marquardt on the left error of the pose. The first step is undamped (Gauss-Newton); damping enters only
 /// where a step fails to lower the cost, so a good start costs about three linearisations.
 ///
-/// `in_known_valley(pose, cost)`: asked after every step that lowered the cost; true ends the descent. `fit`: where the
+/// `in_known_basin(pose, cost)`: asked after every step that lowered the cost; true ends the descent. `fit`: where the
 /// descent is followed, whatever it holds.
-template <class System, class InKnownValley>
+template <class System, class InKnownBasin>
 void descend(const System& system, const typename System::Pose& start, const RefineLimits& limits,
-             InKnownValley in_known_valley, Descent<System>& fit) {
+             InKnownBasin in_known_basin, Descent<System>& fit) {
   // A fit is given up only when even thrice the decrease that the linear model predicts would leave it hopeless, and
   // only after this many steps: far from a minimum the model's prediction is worth little.
   constexpr double kOptimism = 3.0;
@@ -68,7 +68,7 @@ void descend(const System& system, const typename System::Pose& start, const Ref
   fit.normal = system.linearise(start);
   fit.smallest_pivot_ratio = 1.0;
   fit.iterations = 0;
-  fit.converged = fit.hopeless = false;
+  fit.converged = fit.abandoned = false;
   if (!(fit.normal.cost < 1e300)) return;
   Damping damping;
   while (fit.iterations < limits.max_iterations) {
@@ -87,8 +87,8 @@ void descend(const System& system, const typename System::Pose& start, const Ref
       damping = {};  // whether this is the minimum, only an undamped step can tell
       continue;
     }
-    if (fit.iterations > kStepsBeforeGivingUp && fit.normal.cost - kOptimism * step.decrease > limits.hopeless_cost) {
-      fit.hopeless = true;
+    if (fit.iterations > kStepsBeforeGivingUp && fit.normal.cost - kOptimism * step.decrease > limits.abandon_cost) {
+      fit.abandoned = true;
       return;
     }
     const typename System::Pose trial = system.stepped(fit.pose, step);
@@ -97,8 +97,8 @@ void descend(const System& system, const typename System::Pose& start, const Ref
       damping.succeeded((fit.normal.cost - at_trial.cost) / step.decrease);
       fit.pose = trial;
       fit.normal = at_trial;
-      if (in_known_valley(fit.pose, fit.normal.cost)) {
-        fit.hopeless = true;
+      if (in_known_basin(fit.pose, fit.normal.cost)) {
+        fit.abandoned = true;
         return;
       }
     } else if (!damping.failed()) {

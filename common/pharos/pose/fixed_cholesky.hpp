@@ -25,13 +25,13 @@ class FixedCholesky {
   };
   /// L^-1 S right, below 2^50.
   Vector half_solved(const std::array<std::int64_t, 6>& right) const;
-  /// The rest: S L^-T of it, by elements in their own units: element i times 2^(places + places_of_unknown(i)).
+  /// The rest: S L^-T of it, by elements in their own units: element i times 2^(places + exponent_of_unknown(i)).
   Vector solved(const Vector& half) const;
-  int places_of_unknown(std::size_t i) const { return -places_[i]; }
-  /// Columns of L^-1 in units of 2^-kInversePlaces: column a times column b, scaled by S, is the inverse matrix' (a,
+  int exponent_of_unknown(std::size_t i) const { return -places_[i]; }
+  /// Columns of L^-1 in units of 2^-kInverseExponent: column a times column b, scaled by S, is the inverse matrix' (a,
   /// b). False where one does not fit.
   bool inverse_columns(std::array<std::array<std::int32_t, 6>, 6>& columns) const;
-  static constexpr int kInversePlaces = 18;
+  static constexpr int kInverseExponent = 18;
 
  private:
   fixed::Q30& l(std::size_t row, std::size_t column) { return below_[row * (row - 1) / 2 + column]; }
@@ -39,7 +39,7 @@ class FixedCholesky {
 
   std::array<fixed::Q30, 15> below_;      // the diagonal
   std::array<std::uint32_t, 6> inverse_;  // of the diagonal's mantissa, Q30
-  std::array<int, 6> doublings_;          // and its exponent
+  std::array<int, 6> exponents_;          // and its exponent
   std::array<int, 6> places_;             // of 1/S
   bool good_ = true;
 };

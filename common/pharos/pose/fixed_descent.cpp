@@ -17,7 +17,7 @@ constexpr int kGradientPlaces = 55;
 /// Sums of 128 rows stay within 64 bits while no residual exceeds 1/8 rad and no sensor is nearer to the station's
 /// plane than 1/8 of the unit of length.
 constexpr Q30 kLargestTangent = fixed::kOne / 8;
-constexpr Q30 kLeastDepth = fixed::kOne / 8;
+constexpr Q30 kMinDepth = fixed::kOne / 8;
 constexpr Q30 kLongestStep = fixed::kOne / 2;
 
 constexpr Q30 q30(double value) { return static_cast<Q30>(value * fixed::kOne); }
@@ -31,7 +31,7 @@ struct AxisTerms {
 PHAROS_HOT bool axis_terms(Q30 along, Q30 ahead, Q30 cosine, Q30 sine, AxisTerms& terms) {
   const auto opposite = static_cast<Q30>((product(ahead, cosine) - product(along, sine)) >> 30);
   const std::int64_t adjacent = (product(along, cosine) + product(ahead, sine)) >> 30;
-  if (adjacent < kLeastDepth || !fixed::is_narrow(adjacent)) return false;
+  if (adjacent < kMinDepth || !fixed::is_narrow(adjacent)) return false;
   const std::int32_t inverse = fixed::reciprocal(static_cast<Q30>(adjacent));
   const std::int64_t tangent = product(opposite, inverse) >> 27;
   if (tangent > kLargestTangent || tangent < -kLargestTangent) return false;
@@ -72,10 +72,10 @@ void add(const std::array<std::int32_t, 3>& r, const AxisTerms& t, FixedNormal& 
   square_sum += product(t.residual, t.residual);
 }
 
-bool add_sensor(const FixedSightings& s, const FixedSightings::Sensor& sensor, const FixedPose& pose, FixedNormal& n,
-                std::int64_t& square_sum) {
+bool add_sensor(const FixedObservationTable& s, const FixedObservationTable::Sensor& sensor, const FixedPose& pose,
+                FixedNormal& n, std::int64_t& square_sum) {
   const FixedVector q = turned(pose, sensor.body);
-  const int places = s.length_places - s.body_places;
+  const int places = s.length_exponent - s.body_exponent;
   FixedVector p;
   for (std::size_t k = 0; k < 3; ++k) {
     if (__builtin_add_overflow(pose.centroid[k], q[k] >> places, &p[k])) return false;
@@ -104,10 +104,10 @@ FixedVector cross(const FixedVector& a, const FixedVector& b) {
 // The damping that DoubleSystem applies; false where a sum does not fit.
 bool damp(FixedMatrix& matrix, double damping) {
   constexpr double kRoom = 1e18;
-  const auto share = [&](std::int64_t diagonal) { return fixed::to_double(diagonal, 0) * damping; };
-  const double turn = share(std::max({matrix(0, 0), matrix(1, 1), matrix(2, 2)}));
+  const auto fraction = [&](std::int64_t diagonal) { return fixed::to_double(diagonal, 0) * damping; };
+  const double turn = fraction(std::max({matrix(0, 0), matrix(1, 1), matrix(2, 2)}));
   for (std::size_t i = 0; i < 6; ++i) {
-    const double more = i < 3 ? turn : share(matrix(i, i));
+    const double more = i < 3 ? turn : fraction(matrix(i, i));
     if (!(more < kRoom)) return false;
     matrix(i, i) += fixed::from_double(more, 0);
   }
@@ -119,8 +119,8 @@ bool damp(FixedMatrix& matrix, double damping) {
 PHAROS_HOT FixedNormal FixedSystem::linearise(const FixedPose& pose) const {
   FixedNormal normal;
   std::int64_t square_sum = 0;
-  for (int i = 0; i < sightings_.count; ++i) {
-    if (!add_sensor(sightings_, sightings_.sensor[static_cast<std::size_t>(i)], pose, normal, square_sum)) {
+  for (int i = 0; i < table_.count; ++i) {
+    if (!add_sensor(table_, table_.sensor[static_cast<std::size_t>(i)], pose, normal, square_sum)) {
       normal.cost = std::numeric_limits<double>::infinity();
       return normal;
     }
@@ -139,7 +139,7 @@ FixedStep FixedSystem::step(const FixedNormal& normal, double damping) const {
   const FixedCholesky::Vector full = factor.solved(half);
   step.solved = true;
   // g^T A^-1 g is the square of the half-solved vector.
-  const int largest = fixed::most_places_of(half.element);
+  const int largest = fixed::max_bits_of(half.element);
   std::int64_t square = 0;
   for (const std::int64_t y : half.element) {
     const std::int64_t cut = fixed::shifted(y, 30 - largest);
@@ -147,9 +147,9 @@ FixedStep FixedSystem::step(const FixedNormal& normal, double damping) const {
   }
   step.decrease = fixed::to_double(square, 2 * (30 - largest - half.places + kGradientPlaces));
   for (std::size_t i = 0; i < 6; ++i) {
-    const int unit = i < 3 ? sightings_.length_places - sightings_.body_places : 0;
-    const int places = full.places + factor.places_of_unknown(i) + unit - kGradientPlaces + 30;
-    const bool too_long = fixed::places_of(full.element[i]) + places > 30;
+    const int unit = i < 3 ? table_.length_exponent - table_.body_exponent : 0;
+    const int places = full.places + factor.exponent_of_unknown(i) + unit - kGradientPlaces + 30;
+    const bool too_long = fixed::bits_of(full.element[i]) + places > 30;
     const std::int64_t delta =
         too_long ? (full.element[i] < 0 ? -fixed::kOne : fixed::kOne) : fixed::shifted(full.element[i], places);
     step.delta[i] = -fixed::clamped(delta, kLongestStep);
@@ -190,14 +190,14 @@ double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal
   // 1 + 2 cos: beyond half a radian the two are never the same.
   if (cosine < q30(0.87) + std::int64_t{fixed::kOne} + q30(0.87)) return 1e300;
   // All in units of 2^-31, the turn in those of the normal equations too.
-  const int unit = sightings_.length_places - sightings_.body_places;
+  const int unit = table_.length_exponent - table_.body_exponent;
   for (std::size_t i = 0; i < 3; ++i) {
     d[i] = fixed::shifted(d[i], -std::min(unit, 30));
     d[i + 3] = (std::int64_t{b.centroid[i]} - a.centroid[i]) * 2;
   }
   // Vector and matrix scaled to 30 places each; so the sum of 36 products of three stays within 64 bits.
-  const int vector_cut = 30 - fixed::most_places_of(d);
-  const int matrix_cut = 30 - fixed::most_places_of(normal.matrix.lower);
+  const int vector_cut = 30 - fixed::max_bits_of(d);
+  const int matrix_cut = 30 - fixed::max_bits_of(normal.matrix.lower);
   std::array<std::int32_t, 6> v{};
   for (std::size_t i = 0; i < 6; ++i) v[i] = static_cast<std::int32_t>(fixed::shifted(d[i], vector_cut));
   std::int64_t square = 0;

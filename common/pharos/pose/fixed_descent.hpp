@@ -4,12 +4,12 @@
 #include <array>
 
 #include "pharos/pose/fixed_cholesky.hpp"
-#include "pharos/pose/fixed_sightings.hpp"
+#include "pharos/pose/fixed_observation_table.hpp"
 
 namespace pharos::pose {
 
 /// Sums of one linearisation in integers, as NormalEquations. Unknowns: the turn about the centroid in units of
-/// 2^(length_places - body_places) rad, the centroid's move in units of length; both in the lighthouse frame.
+/// 2^(length_exponent - body_exponent) rad, the centroid's move in units of length; both in the lighthouse frame.
 struct FixedNormal {
   FixedMatrix matrix;                      // Q50
   std::array<std::int64_t, 6> gradient{};  // Q55
@@ -30,12 +30,12 @@ class FixedSystem {
   using Pose = FixedPose;
   using Normal = FixedNormal;
   using Step = FixedStep;
-  /// As kConvergedShare; residuals are rounded to 1e-9 rad, which hides a decrease of 3e-4.
+  /// As kConvergedFraction; residuals are rounded to 1e-9 rad, which hides a decrease of 3e-4.
   static constexpr double kConverged = 1e-3;
   /// A linearisation costs more than to ask whether the next ones are worth it.
-  static constexpr bool kAsksForValley = true;
+  static constexpr bool kChecksBasin = true;
 
-  explicit FixedSystem(const FixedSightings& sightings) : sightings_(sightings) {}
+  explicit FixedSystem(const FixedObservationTable& table) : table_(table) {}
 
   /// Cost: some 700 instructions a sensor on RV32IM.
   FixedNormal linearise(const FixedPose& pose) const;
@@ -45,10 +45,10 @@ class FixedSystem {
   FixedPose mirrored(const FixedPose& pose) const;
   bool ahead(const FixedPose& pose) const { return pose.centroid[2] > 0; }
   double square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const;
-  int rows() const { return sightings_.rows; }
+  int rows() const { return table_.rows; }
 
  private:
-  const FixedSightings& sightings_;
+  const FixedObservationTable& table_;
 };
 
 }  // namespace pharos::pose

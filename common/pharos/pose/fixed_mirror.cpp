@@ -13,7 +13,7 @@ using Symmetric = std::array<std::int64_t, 6>;
 
 // Scaled by the power of two that makes the largest element fill 29 places.
 std::array<std::int32_t, 6> normalised(const Symmetric& m) {
-  const int largest = fixed::most_places_of(m);
+  const int largest = fixed::max_bits_of(m);
   std::array<std::int32_t, 6> out;
   for (std::size_t k = 0; k < 6; ++k) out[k] = static_cast<std::int32_t>(fixed::shifted(m[k], 29 - largest));
   return out;
@@ -34,7 +34,7 @@ Symmetric squared(const std::array<std::int32_t, 6>& m) {
 
 // Unit vector along v, whose elements stay below 2^30.
 FixedVector unit(const FixedVector& v) {
-  const int largest = fixed::most_places_of(v);
+  const int largest = fixed::max_bits_of(v);
   std::array<std::int64_t, 3> scaled{};
   std::int64_t square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -45,13 +45,13 @@ FixedVector unit(const FixedVector& v) {
   const fixed::Root root = fixed::root_of(square);
   FixedVector out;
   for (std::size_t k = 0; k < 3; ++k) {
-    out[k] = static_cast<Q30>(fixed::shifted((scaled[k] * root.inverse) >> 30, root.doublings));
+    out[k] = static_cast<Q30>(fixed::shifted((scaled[k] * root.inverse) >> 30, root.binary_exponent));
   }
   return out;
 }
 
 // The direction of least variance, as PlaneFit::normal.
-FixedVector plane_normal(const FixedSightings& s) {
+FixedVector plane_normal(const FixedObservationTable& s) {
   constexpr int kSquarings = 4;
   Symmetric scatter{};
   for (int k = 0; k < s.count; ++k) {
@@ -75,7 +75,7 @@ Q30 dot(const FixedVector& a, const FixedVector& b) {
 }  // namespace
 
 FixedPose FixedSystem::mirrored(const FixedPose& pose) const {
-  const FixedVector n_body = plane_normal(sightings_);
+  const FixedVector n_body = plane_normal(table_);
   const FixedVector n = turned(pose, n_body);
   const FixedVector s = unit({pose.centroid[0] / 2, pose.centroid[1] / 2, pose.centroid[2] / 2});
   FixedPose out = pose;

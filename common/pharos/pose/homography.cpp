@@ -9,7 +9,7 @@
 namespace pharos::pose {
 namespace {
 
-constexpr int kLeastRays = 4;
+constexpr int kMinRays = 4;
 
 struct PlaneFrame {
   Vector3 centre;
@@ -59,7 +59,7 @@ PackedSymmetric<9> equations(const RaySet& set, const PlaneFrame& frame, double 
 
 StartPoses homography(const RaySet& set) {
   StartPoses poses;
-  if (set.count < kLeastRays) return poses;
+  if (set.count < kMinRays) return poses;
   const PlaneFrame frame = plane_of(set);
   if (frame.thickness_m > kCoplanarThickness_m) return poses;
   const double size_m = size_of(set, frame);

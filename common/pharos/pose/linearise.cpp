@@ -8,8 +8,8 @@ namespace {
 
 // Two sensors at a time: one SSE2 register; plain scalars where there is none.
 using Lane = Eigen::Array<double, 2, 1>;
-// Sightings' columns are 16-byte aligned and read from even places.
-Lane load(const Sightings::Column& column, int i) {
+// ObservationTable' columns are 16-byte aligned and read from even places.
+Lane load(const ObservationTable::Column& column, int i) {
   return Eigen::Map<const Lane, Eigen::Aligned16>(column.data() + i);
 }
 
@@ -31,7 +31,7 @@ struct AxisTerms {
 };
 
 struct AngleTerms {
-  AxisTerms operator()(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+  AxisTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
     const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
     const Lane scale = weight / (along * along + ahead * ahead);
     return {weight * arctangent(ahead * cosine - along * sine, along * cosine + ahead * sine), -ahead * scale,
@@ -40,7 +40,7 @@ struct AngleTerms {
 };
 
 struct TangentTerms {
-  AxisTerms operator()(const Sightings::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+  AxisTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
     const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
     const Lane inverse = weight / ahead;
     return {along * inverse - weight * cosine / sine, inverse, -along * inverse / ahead};
@@ -52,7 +52,7 @@ struct Points {
   Lane px, py, pz;  // R b + t
 };
 
-Points points_at(const Sightings& s, int i, const LighthouseFromBody& T) {
+Points points_at(const ObservationTable& s, int i, const LighthouseFromBody& T) {
   const Lane bx = load(s.body_x, i), by = load(s.body_y, i), bz = load(s.body_z, i);
   Points p;
   p.qx = T.R(0, 0) * bx + T.R(0, 1) * by + T.R(0, 2) * bz;
@@ -128,7 +128,7 @@ NormalEquations joined(const AxisSums& x, const AxisSums& y) {
 }
 
 template <class Terms>
-NormalEquations linearise_with(const Sightings& s, const LighthouseFromBody& T, Terms terms_of) {
+NormalEquations linearise_with(const ObservationTable& s, const LighthouseFromBody& T, Terms terms_of) {
   AxisSums sum_x, sum_y;
   for (int i = 0; i < s.count; i += 2) {
     const Points p = points_at(s, i, T);
@@ -141,7 +141,7 @@ NormalEquations linearise_with(const Sightings& s, const LighthouseFromBody& T, 
 }
 
 template <class Terms>
-double cost_with(const Sightings& s, const LighthouseFromBody& T, Terms terms_of) {
+double cost_with(const ObservationTable& s, const LighthouseFromBody& T, Terms terms_of) {
   Lane sum = Lane::Zero();
   for (int i = 0; i < s.count; i += 2) {
     const Points p = points_at(s, i, T);
@@ -154,14 +154,13 @@ double cost_with(const Sightings& s, const LighthouseFromBody& T, Terms terms_of
 
 }  // namespace
 
-NormalEquations linearise(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
-  return residual == Residual::kAngle ? linearise_with(sightings, pose, AngleTerms{})
-                                      : linearise_with(sightings, pose, TangentTerms{});
+NormalEquations linearise(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual) {
+  return residual == Residual::kAngle ? linearise_with(table, pose, AngleTerms{})
+                                      : linearise_with(table, pose, TangentTerms{});
 }
 
-double cost_of(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
-  return residual == Residual::kAngle ? cost_with(sightings, pose, AngleTerms{})
-                                      : cost_with(sightings, pose, TangentTerms{});
+double cost_of(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual) {
+  return residual == Residual::kAngle ? cost_with(table, pose, AngleTerms{}) : cost_with(table, pose, TangentTerms{});
 }
 
 double angle_residual(double along, double ahead, double cosine, double sine) {
@@ -181,13 +180,13 @@ Vector6 jacobian_of(const Vector3& body_m, Axis axis, const LighthouseFromBody& 
   return jacobian;
 }
 
-Row row_of(const Sightings& sightings, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual) {
+Row row_of(const ObservationTable& table, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual) {
   const auto k = static_cast<std::size_t>(sensor);
-  const Sightings::AxisColumns& c = sightings.axis[static_cast<std::size_t>(index_of(axis))];
-  const Vector3 p = pose * sightings.body(sensor);
+  const ObservationTable::AxisColumns& c = table.axis[static_cast<std::size_t>(index_of(axis))];
+  const Vector3 p = pose * table.body(sensor);
   const double along = p[index_of(axis)], ahead = p.z();
   Row row;
-  row.jacobian = jacobian_of(sightings.body(sensor), axis, pose);
+  row.jacobian = jacobian_of(table.body(sensor), axis, pose);
   if (residual == Residual::kAngle) {
     row.residual = angle_residual(along, ahead, c.cosine[k], c.sine[k]);
   } else {

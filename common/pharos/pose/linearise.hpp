@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "pharos/pose/observation_table.hpp"
 #include "pharos/pose/packed_symmetric.hpp"
-#include "pharos/pose/sightings.hpp"
 #include "pharos/pose/solve.hpp"
 
 namespace pharos::pose {
@@ -19,17 +19,17 @@ struct NormalEquations {
 };
 
 /// Cost: about 25 ns a sensor.
-NormalEquations linearise(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual);
+NormalEquations linearise(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual);
 
 /// r^T r alone.
-double cost_of(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual);
+double cost_of(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual);
 
 /// One row: its residual and its derivatives by delta.
 struct Row {
   double residual;
   Vector6 jacobian;
 };
-Row row_of(const Sightings& sightings, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual);
+Row row_of(const ObservationTable& table, int sensor, Axis axis, const LighthouseFromBody& pose, Residual residual);
 
 /// Derivatives of one bearing theta of a body point by delta.
 Vector6 jacobian_of(const Vector3& body_m, Axis axis, const LighthouseFromBody& pose);

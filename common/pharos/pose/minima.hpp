@@ -22,19 +22,19 @@ struct Minima {
 
 // The mirror image of the best minimum as its rival; the better of the two first.
 template <class System>
-void find_rival(const System& system, int max_iterations, double variance, Minima<System>& m) {
+void find_second_minimum(const System& system, int max_iterations, double variance, Minima<System>& m) {
   // Two fits nearer than this (squared, in sigmas, by the first one's information) are one and the same minimum.
   constexpr double kSameMinimum = 1.0;
   // Where cost has risen from the best minimum as its own parabola does, what follows leads back to it.
   constexpr double kParabola = 0.15;
-  const auto in_first_valley = [&](const typename System::Pose& pose, double cost) {
-    if constexpr (!System::kAsksForValley) return false;
+  const auto in_first_basin = [&](const typename System::Pose& pose, double cost) {
+    if constexpr (!System::kChecksBasin) return false;
     const double square = system.square_between(m.best.pose, m.best.normal, pose);
     return std::fabs(cost - m.best.normal.cost - square) < kParabola * square;
   };
   const RefineLimits limits{max_iterations, System::kConverged * variance,
                             m.best.normal.cost + kAmbiguousDeltaChi2 * variance};
-  descend(system, system.mirrored(m.best.pose), limits, in_first_valley, m.second);
+  descend(system, system.mirrored(m.best.pose), limits, in_first_basin, m.second);
   m.iterations += m.second.iterations;
   m.undecided = m.undecided || m.second.undecided();
   const bool usable = m.second.converged && system.ahead(m.second.pose);
@@ -60,7 +60,7 @@ void both_minima(const System& system, const typename System::Pose& start, int m
   m.undecided = m.best.undecided();
   for (int round = 0; round < kRounds; ++round) {
     const double cost_before = m.best.normal.cost;
-    find_rival(system, max_iterations, variance, m);
+    find_second_minimum(system, max_iterations, variance, m);
     // Where the start led to no valley of the pair, the better one's own mirror image is still to be seen.
     if (!(m.best.normal.cost + kAmbiguousDeltaChi2 * variance < cost_before)) break;
   }

@@ -8,13 +8,14 @@ namespace pharos::pose {
 namespace {
 
 constexpr int kCoreNumerator = 2, kCoreDenominator = 3;
-constexpr int kLeastCore = kPoseUnknowns + 1;
+constexpr int kMinCore = kPoseUnknowns + 1;
 // Stands for the tangent of a residual beyond 90 deg.
 constexpr double kOppositeSide = 1e6;
 
-PlaceResidual best_hit(const Hits& hits, int sensor, Axis axis, double along, double ahead) {
-  PlaceResidual best{2.0 * kOppositeSide, Hits::kNone, static_cast<std::uint8_t>(sensor), axis};
-  for (std::int16_t o = hits.at(sensor, axis).first; o != Hits::kNone; o = hits.next[static_cast<std::size_t>(o)]) {
+PlaceResidual best_hit(const HitCandidates& hits, int sensor, Axis axis, double along, double ahead) {
+  PlaceResidual best{2.0 * kOppositeSide, HitCandidates::kNone, static_cast<std::uint8_t>(sensor), axis};
+  for (std::int16_t o = hits.at(sensor, axis).first; o != HitCandidates::kNone;
+       o = hits.next[static_cast<std::size_t>(o)]) {
     const auto k = static_cast<std::size_t>(o);
     const double adjacent = along * hits.cosine[k] + ahead * hits.sine[k];
     const double opposite = std::fabs(ahead * hits.cosine[k] - along * hits.sine[k]);
@@ -29,35 +30,35 @@ PlaceResidual best_hit(const Hits& hits, int sensor, Axis axis, double along, do
 
 }  // namespace
 
-void sort_places(const Hits& hits, const LighthouseFromBody& pose, PlaceResiduals& residuals) {
+void sort_places(const HitCandidates& hits, const LighthouseFromBody& pose, PlaceResiduals& residuals) {
   residuals.clear();
   for (int i = 0; i < hits.sensors(); ++i) {
-    const Vector3 p = pose * hits.sightings.body(i);
+    const Vector3 p = pose * hits.table.body(i);
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       const PlaceResidual best = best_hit(hits, i, axis, p[index_of(axis)], p.z());
-      if (best.observation != Hits::kNone) residuals.push_back(best);
+      if (best.observation != HitCandidates::kNone) residuals.push_back(best);
     }
   }
   std::sort(residuals.begin(), residuals.end(),
             [](const PlaceResidual& a, const PlaceResidual& b) { return a.size < b.size; });
 }
 
-double choose_first(Hits& hits, const PlaceResiduals& residuals, int count) {
+double choose_first(HitCandidates& hits, const PlaceResiduals& residuals, int count) {
   double sum = 0.0;
   for (int k = 0; k < static_cast<int>(residuals.size()); ++k) {
     const PlaceResidual& r = residuals[static_cast<std::size_t>(k)];
-    hits.choose(r.sensor, r.axis, k < count ? r.observation : Hits::kNone);
+    hits.choose(r.sensor, r.axis, k < count ? r.observation : HitCandidates::kNone);
     if (k < count) sum += r.size * r.size;
   }
   return sum;
 }
 
 int core_size(int places) {
-  const int share = (kCoreNumerator * places + kCoreDenominator - 1) / kCoreDenominator;
-  return std::min(places, std::max(kLeastCore, share));
+  const int fraction = (kCoreNumerator * places + kCoreDenominator - 1) / kCoreDenominator;
+  return std::min(places, std::max(kMinCore, fraction));
 }
 
-double credible_chi2(int degrees_of_freedom) {
+double chi2_threshold(int degrees_of_freedom) {
   const double n = std::max(0, degrees_of_freedom);
   return n + 4.0 * std::sqrt(2.0 * n) + 8.0;
 }

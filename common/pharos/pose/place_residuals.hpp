@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pharos/base/static_vector.hpp"
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 
 namespace pharos::pose {
 
@@ -21,10 +21,10 @@ struct PlaceResidual {
 using PlaceResiduals = StaticVector<PlaceResidual, kMaxPlaces>;
 
 /// The best hit of every place that has one, best places first.
-void sort_places(const Hits& hits, const LighthouseFromBody& pose, PlaceResiduals& residuals);
+void sort_places(const HitCandidates& hits, const LighthouseFromBody& pose, PlaceResiduals& residuals);
 
 /// Puts the first `count` places into the sightings and leaves the others out; the sum of the squares of those put in.
-double choose_first(Hits& hits, const PlaceResiduals& residuals, int count);
+double choose_first(HitCandidates& hits, const PlaceResiduals& residuals, int count);
 
 /// Places that the core of a trimmed fit keeps: two thirds, since up to a third may be reflections, but at least one
 /// more than unknowns, the least that can contradict itself.
@@ -32,6 +32,6 @@ int core_size(int places);
 
 /// Largest chi-squared that white noise of sigma gives a sound fit of so many degrees of freedom, but for one in ten
 /// thousand: what needs no search for outliers.
-double credible_chi2(int degrees_of_freedom);
+double chi2_threshold(int degrees_of_freedom);
 
 }  // namespace pharos::pose

@@ -30,9 +30,9 @@ double gate_for(const Gates& gates, int degrees_of_freedom) {
 }
 
 // Residual of a place that is not in the fit over what the pose's own uncertainty adds to the hit's.
-double studentised(const Hits& hits, const PlaceResidual& place, const LighthouseFromBody& pose,
+double studentised(const HitCandidates& hits, const PlaceResidual& place, const LighthouseFromBody& pose,
                    const Factorisation<6>& factor) {
-  const Vector6 j = jacobian_of(hits.sightings.body(place.sensor), place.axis, pose);
+  const Vector6 j = jacobian_of(hits.table.body(place.sensor), place.axis, pose);
   const std::array<double, 6> x = factor.solve({j[0], j[1], j[2], j[3], j[4], j[5]});
   double leverage = 0.0;
   for (int i = 0; i < 6; ++i) leverage += j[i] * x[static_cast<std::size_t>(i)];
@@ -44,7 +44,7 @@ double scale_of(const Fit& fit, int freedom, double sigma_rad) {
 }
 
 // Puts in what passes the gate and takes out what does not; how many are in, or -1 where nothing changed.
-int regate(Hits& hits, const Fit& fit, double gate) {
+int regate(HitCandidates& hits, const Fit& fit, double gate) {
   PlaceResiduals residuals;
   sort_places(hits, fit.pose, residuals);
   const Factorisation<6> factor(fit.normal.matrix);
@@ -55,21 +55,21 @@ int regate(Hits& hits, const Fit& fit, double gate) {
     const bool passes = (was_in ? r.size : studentised(hits, r, fit.pose, factor)) <= gate;
     changed = changed || passes != was_in;
     in += passes ? 1 : 0;
-    hits.choose(r.sensor, r.axis, passes ? r.observation : Hits::kNone);
+    hits.choose(r.sensor, r.axis, passes ? r.observation : HitCandidates::kNone);
   }
   return changed ? in : -1;
 }
 
 // From the core of a pose to the hits that pass the gates; the scale of the fit to them.
-double readmit_by(const Gates& gates, Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
+double readmit_by(const Gates& gates, HitCandidates& hits, const SolveOptions& options, LighthouseFromBody& pose) {
   PlaceResiduals residuals;
   sort_places(hits, pose, residuals);
   int in = core_size(static_cast<int>(residuals.size()));
   choose_first(hits, residuals, in);
-  const RefineLimits limits{options.max_iterations, kConvergedShare * options.sigma_rad * options.sigma_rad, 1e300};
+  const RefineLimits limits{options.max_iterations, kConvergedFraction * options.sigma_rad * options.sigma_rad, 1e300};
   double scale = options.sigma_rad;
   for (int round = 0; round < kMaxRounds && in > 0; ++round) {
-    const Fit fit = refine(hits.sightings, pose, Residual::kAngle, limits);
+    const Fit fit = refine(hits.table, pose, Residual::kAngle, limits);
     pose = fit.pose;
     const int freedom = in - kPoseUnknowns;
     scale = scale_of(fit, freedom, options.sigma_rad);
@@ -80,7 +80,7 @@ double readmit_by(const Gates& gates, Hits& hits, const SolveOptions& options, L
 
 }  // namespace
 
-void readmit(Hits& hits, const SolveOptions& options, LighthouseFromBody& pose) {
+void readmit_inliers(HitCandidates& hits, const SolveOptions& options, LighthouseFromBody& pose) {
   const LighthouseFromBody core = pose;
   if (readmit_by(kWideGates, hits, options, pose) <= std::fmax(kLargestSystematic_rad, options.sigma_rad)) return;
   pose = core;

@@ -52,7 +52,7 @@ DoubleStep DoubleSystem::step(const NormalEquations& normal, double damping) con
 }
 
 LighthouseFromBody DoubleSystem::mirrored(const LighthouseFromBody& pose) const {
-  return mirrored_in_depth(sightings_, pose);
+  return mirrored_in_depth(table_, pose);
 }
 
 double DoubleSystem::square_between(const LighthouseFromBody& a, const NormalEquations& normal,
@@ -65,14 +65,15 @@ double DoubleSystem::square_between(const LighthouseFromBody& a, const NormalEqu
   return square;
 }
 
-LighthouseFromBody gauss_newton_step(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual) {
-  const DoubleSystem system(sightings, residual);
+LighthouseFromBody gauss_newton_step(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual) {
+  const DoubleSystem system(table, residual);
   return system.stepped(pose, system.step(system.linearise(pose), 0.0));
 }
 
-Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual residual, const RefineLimits& limits) {
+Fit refine(const ObservationTable& table, const LighthouseFromBody& start, Residual residual,
+           const RefineLimits& limits) {
   Fit fit;
-  descend(DoubleSystem(sightings, residual), start, limits, fit);
+  descend(DoubleSystem(table, residual), start, limits, fit);
   return fit;
 }
 

@@ -6,8 +6,8 @@
 
 namespace pharos::pose {
 
-/// Share of sigma^2 by which a last step may still lower r^T r: the pose then is within 0.01 sigma of the minimum.
-inline constexpr double kConvergedShare = 1e-4;
+/// Fraction of sigma^2 by which a last step may still lower r^T r: the pose then is within 0.01 sigma of the minimum.
+inline constexpr double kConvergedFraction = 1e-4;
 
 /// The pose moved by delta. The rotation uses Cayley's map, which agrees with exp to the third order and needs neither
 /// sine nor cosine; only the size of a step depends on it, never the minimum.
@@ -27,30 +27,31 @@ class DoubleSystem {
   using Pose = LighthouseFromBody;
   using Normal = NormalEquations;
   using Step = DoubleStep;
-  static constexpr double kConverged = kConvergedShare;
-  static constexpr bool kAsksForValley = false;
+  static constexpr double kConverged = kConvergedFraction;
+  static constexpr bool kChecksBasin = false;
 
-  DoubleSystem(const Sightings& sightings, Residual residual) : sightings_(sightings), residual_(residual) {}
+  DoubleSystem(const ObservationTable& table, Residual residual) : table_(table), residual_(residual) {}
 
-  NormalEquations linearise(const Pose& pose) const { return pose::linearise(sightings_, pose, residual_); }
+  NormalEquations linearise(const Pose& pose) const { return pose::linearise(table_, pose, residual_); }
   DoubleStep step(const NormalEquations& normal, double damping) const;
   Pose stepped(const Pose& pose, const DoubleStep& step) const { return pose::stepped(pose, step.delta); }
   Pose mirrored(const Pose& pose) const;
-  bool ahead(const Pose& pose) const { return (pose * sightings_.body_centroid()).z() > 0.0; }
+  bool ahead(const Pose& pose) const { return (pose * table_.body_centroid()).z() > 0.0; }
   /// Squared distance of two poses, d^T N d, by the first one's information.
   double square_between(const Pose& a, const NormalEquations& normal, const Pose& b) const;
-  int rows() const { return sightings_.rows(); }
+  int rows() const { return table_.rows(); }
 
  private:
-  const Sightings& sightings_;
+  const ObservationTable& table_;
   Residual residual_;
 };
 
 using Fit = Descent<DoubleSystem>;
 
-Fit refine(const Sightings& sightings, const LighthouseFromBody& start, Residual residual, const RefineLimits& limits);
+Fit refine(const ObservationTable& table, const LighthouseFromBody& start, Residual residual,
+           const RefineLimits& limits);
 
 /// One undamped step from the pose.
-LighthouseFromBody gauss_newton_step(const Sightings& sightings, const LighthouseFromBody& pose, Residual residual);
+LighthouseFromBody gauss_newton_step(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual);
 
 }  // namespace pharos::pose

@@ -18,7 +18,7 @@ constexpr double kWorthAFit = 100.0;
 
 class TrimmedSearch {
  public:
-  TrimmedSearch(Hits& hits, const SolveOptions& options) : hits_(hits), options_(options) {}
+  TrimmedSearch(HitCandidates& hits, const SolveOptions& options) : hits_(hits), options_(options) {}
 
   /// Concentration: pick the core, take a Gauss-Newton step, pick again.
   void consider(const LighthouseFromBody& start);
@@ -36,10 +36,10 @@ class TrimmedSearch {
   void consider_triplet(const Triplet& sensors);
   RaySet rays_of_hits(const Triplet& sensors, const std::array<std::int16_t, 6>& hit) const;
   bool next_combination(const Triplet& sensors, std::array<std::int16_t, 6>& hit) const;
-  double credible_cost(int places) const;
+  double cost_threshold(int places) const;
   bool all_places_agree(const PlaceResiduals& residuals, const LighthouseFromBody& pose);
 
-  Hits& hits_;
+  HitCandidates& hits_;
   const SolveOptions& options_;
   LighthouseFromBody best_;
   double best_cost_ = 1e300;
@@ -47,20 +47,20 @@ class TrimmedSearch {
   int starts_ = 0;
 };
 
-double TrimmedSearch::credible_cost(int places) const {
-  return credible_chi2(places - kPoseUnknowns) * options_.sigma_rad * options_.sigma_rad;
+double TrimmedSearch::cost_threshold(int places) const {
+  return chi2_threshold(places - kPoseUnknowns) * options_.sigma_rad * options_.sigma_rad;
 }
 
 bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals, const LighthouseFromBody& pose) {
   const int places = static_cast<int>(residuals.size());
   const double variance = options_.sigma_rad * options_.sigma_rad;
-  const double credible = credible_cost(places);
+  const double credible = cost_threshold(places);
   double cost = 0.0;
   for (const PlaceResidual& r : residuals) cost += r.size * r.size;
   if (cost > kWorthAFit * credible) return false;
   choose_first(hits_, residuals, places);
   const Fit fit =
-      refine(hits_.sightings, pose, Residual::kAngle, {options_.max_iterations, kConvergedShare * variance, 1e300});
+      refine(hits_.table, pose, Residual::kAngle, {options_.max_iterations, kConvergedFraction * variance, 1e300});
   if (!fit.converged || fit.normal.cost > credible) return false;
   best_ = fit.pose;
   return true;
@@ -79,12 +79,12 @@ void TrimmedSearch::consider(const LighthouseFromBody& start) {
     // places of twelve can fit a wrong pose as well as the true one.
     const bool best = cost < best_cost_;
     if (best) best_ = pose, best_cost_ = cost;
-    if (step > 0 && (best || cost <= credible_cost(core))) {
+    if (step > 0 && (best || cost <= cost_threshold(core))) {
       complete_ = all_places_agree(residuals, pose);
       if (!complete_) choose_first(hits_, residuals, core);  // the next step is the core's
     }
     if (complete_ || step == kConcentrationSteps || cost > kNotWorthSteps * best_cost_) return;
-    pose = gauss_newton_step(hits_.sightings, pose, Residual::kAngle);
+    pose = gauss_newton_step(hits_.table, pose, Residual::kAngle);
   }
 }
 
@@ -93,7 +93,7 @@ RaySet TrimmedSearch::rays_of_hits(const Triplet& sensors, const std::array<std:
   set.count = 3;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto x = static_cast<std::size_t>(hit[2 * k]), y = static_cast<std::size_t>(hit[2 * k + 1]);
-    set.body[k] = hits_.sightings.body(sensors[k]);
+    set.body[k] = hits_.table.body(sensors[k]);
     set.ray[k] = ray_of(hits_.cosine[x], hits_.sine[x], hits_.cosine[y], hits_.sine[y]);
   }
   return set;
@@ -103,7 +103,7 @@ RaySet TrimmedSearch::rays_of_hits(const Triplet& sensors, const std::array<std:
 bool TrimmedSearch::next_combination(const Triplet& sensors, std::array<std::int16_t, 6>& hit) const {
   for (std::size_t digit = 0; digit < 6; ++digit) {
     hit[digit] = hits_.next[static_cast<std::size_t>(hit[digit])];
-    if (hit[digit] != Hits::kNone) return true;
+    if (hit[digit] != HitCandidates::kNone) return true;
     hit[digit] = hits_.at(sensors[digit / 2], static_cast<Axis>(digit % 2)).first;
   }
   return false;
@@ -121,7 +121,8 @@ void TrimmedSearch::consider_triplet(const Triplet& sensors) {
 void TrimmedSearch::consider_triplets() {
   StaticVector<int, kMaxSensors> full;
   for (int i = 0; i < hits_.sensors(); ++i) {
-    const bool both = hits_.at(i, Axis::kX).first != Hits::kNone && hits_.at(i, Axis::kY).first != Hits::kNone;
+    const bool both =
+        hits_.at(i, Axis::kX).first != HitCandidates::kNone && hits_.at(i, Axis::kY).first != HitCandidates::kNone;
     if (both) full.push_back(i);
   }
   const std::size_t n = full.size();
@@ -139,14 +140,15 @@ void TrimmedSearch::consider_triplets() {
 
 }  // namespace
 
-Search fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose) {
+Search fit_rigid_body(HitCandidates& hits, const StartPoses& starts, const SolveOptions& options,
+                      LighthouseFromBody& pose) {
   TrimmedSearch search(hits, options);
   for (const LighthouseFromBody& start : starts) search.consider(start);
   search.consider_triplets();
   if (!search.found()) return search.cut_short() ? Search::kCutShort : Search::kNoStart;
   pose = search.best();
   if (search.complete()) return Search::kDone;
-  readmit(hits, options, pose);
+  readmit_inliers(hits, options, pose);
   return search.cut_short() ? Search::kCutShort : Search::kDone;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 #include "pharos/pose/start_poses.hpp"
 
 namespace pharos::pose {
@@ -17,11 +17,12 @@ enum class Search : std::uint8_t { kDone, kNoStart, kCutShort };
 /// sensors and the hits of each: no product over all sensors. The search ends at the first pose that all places agree
 /// on, or after options.max_search_starts. Leaves the choice in `hits` and the best pose in `pose`. Cost: 5 us where
 /// the first start serves, some 100 us where hits must be left out.
-Search fit_rigid_body(Hits& hits, const StartPoses& starts, const SolveOptions& options, LighthouseFromBody& pose);
+Search fit_rigid_body(HitCandidates& hits, const StartPoses& starts, const SolveOptions& options,
+                      LighthouseFromBody& pose);
 
 /// Second half of it: from a pose and its core, lets hits in while they lie within a gate relative to the larger of
 /// sigma and the fit's own scale, because real data has systematic errors of twenty sigma that are no reason to throw
 /// a hit away.
-void readmit(Hits& hits, const SolveOptions& options, LighthouseFromBody& pose);
+void readmit_inliers(HitCandidates& hits, const SolveOptions& options, LighthouseFromBody& pose);
 
 }  // namespace pharos::pose

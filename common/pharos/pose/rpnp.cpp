@@ -21,12 +21,12 @@ struct Ends {
 // The two rays farthest apart.
 Ends widest_pair(const RaySet& set) {
   Ends ends;
-  double least_cosine = 2.0;
+  double min_cosine = 2.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(set.count); ++i) {
     for (std::size_t j = i + 1; j < static_cast<std::size_t>(set.count); ++j) {
       const double cosine = set.ray[i].dot(set.ray[j]);
-      if (cosine < least_cosine) {
-        least_cosine = cosine;
+      if (cosine < min_cosine) {
+        min_cosine = cosine;
         ends = {i, j};
       }
     }

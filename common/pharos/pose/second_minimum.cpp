@@ -6,13 +6,13 @@
 #include "pharos/pose/plane_fit.hpp"
 
 namespace pharos::pose {
-LighthouseFromBody mirrored_in_depth(const Sightings& sightings, const LighthouseFromBody& pose) {
-  const Vector3 centroid_body = sightings.body_centroid();
+LighthouseFromBody mirrored_in_depth(const ObservationTable& table, const LighthouseFromBody& pose) {
+  const Vector3 centroid_body = table.body_centroid();
   const Vector3 centroid = pose * centroid_body;
   const Vector3 s = centroid / std::sqrt(centroid.squaredNorm());
   PlaneFit plane(centroid_body);
-  for (int i = 0; i < sightings.count; ++i) {
-    if (sightings.seen(i, Axis::kX) || sightings.seen(i, Axis::kY)) plane.add(sightings.body(i));
+  for (int i = 0; i < table.count; ++i) {
+    if (table.seen(i, Axis::kX) || table.seen(i, Axis::kY)) plane.add(table.body(i));
   }
   const Vector3 n_body = plane.normal();
   LighthouseFromBody mirrored;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "pharos/pose/sightings.hpp"
+#include "pharos/pose/observation_table.hpp"
 
 namespace pharos::pose {
 
@@ -12,6 +12,6 @@ namespace pharos::pose {
 /// rigid turn by twice the angle from n to s about n x s, R' = (I - 2 s s^T)(I - 2 n n^T) R, which leaves the centroid
 /// where it is (Schweighofer and Pinz, PAMI 2006; Collins and Bartoli, IJCV 2014). It is exact for coplanar sensors in
 /// the far limit and close wherever the relief is small enough for a second minimum to fit.
-LighthouseFromBody mirrored_in_depth(const Sightings& sightings, const LighthouseFromBody& pose);
+LighthouseFromBody mirrored_in_depth(const ObservationTable& table, const LighthouseFromBody& pose);
 
 }  // namespace pharos::pose

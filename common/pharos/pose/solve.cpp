@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "pharos/pose/covariance.hpp"
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 #include "pharos/pose/minima.hpp"
 #include "pharos/pose/place_residuals.hpp"
 #include "pharos/pose/refine.hpp"
@@ -15,13 +15,13 @@
 namespace pharos::pose {
 namespace {
 
-constexpr int kLeastSensorsWithPrior = 3;
+constexpr int kMinSensorsWithPrior = 3;
 
 struct Problem {
   explicit Problem(const SolveOptions& o) : options(o), variance(o.sigma_rad * o.sigma_rad) {}
 
   const SolveOptions& options;
-  Hits hits;
+  HitCandidates hits;
   double variance;
   int iterations = 0;
 };
@@ -31,7 +31,7 @@ const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& star
   std::size_t best = 0;
   double best_cost = 1e300;
   for (std::size_t k = 0; starts.size() > 1 && k < starts.size(); ++k) {
-    const double cost = cost_of(problem.hits.sightings, starts[k], problem.options.residual);
+    const double cost = cost_of(problem.hits.table, starts[k], problem.options.residual);
     if (cost < best_cost) {
       best_cost = cost;
       best = k;
@@ -40,35 +40,35 @@ const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& star
   return starts[best];
 }
 
-int freedom_of(const Problem& problem) { return problem.hits.sightings.rows() - kPoseUnknowns; }
+int freedom_of(const Problem& problem) { return problem.hits.table.rows() - kPoseUnknowns; }
 
 // Both minima of the rows that take part, from one start.
 void minima_from(Problem& problem, const LighthouseFromBody& start, Minima<DoubleSystem>& minima) {
-  const DoubleSystem system(problem.hits.sightings, problem.options.residual);
+  const DoubleSystem system(problem.hits.table, problem.options.residual);
   both_minima(system, start, problem.options.max_iterations, problem.variance, minima);
   minima.has_second = minima.has_second && problem.options.look_for_second;
   problem.iterations += minima.iterations;
 }
 
 bool credible(const Problem& problem, const Fit& fit) {
-  return fit.converged &&
-         fit.normal.cost <= problem.options.credible_slack * credible_chi2(freedom_of(problem)) * problem.variance;
+  return fit.converged && fit.normal.cost <= problem.options.chi2_threshold_factor *
+                                                 chi2_threshold(freedom_of(problem)) * problem.variance;
 }
 
 Refusal too_few(const Problem& problem, bool prior) {
-  const int sensors = problem.hits.sightings.sensors();
-  const int rows = problem.hits.sightings.rows();
-  if (sensors >= (prior ? kLeastSensorsWithPrior : kLeastSensorsAlone) && rows >= kPoseUnknowns) return Refusal::kNone;
-  return problem.hits.strangers ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
+  const int sensors = problem.hits.table.sensors();
+  const int rows = problem.hits.table.rows();
+  if (sensors >= (prior ? kMinSensorsWithPrior : kMinSensorsAlone) && rows >= kPoseUnknowns) return Refusal::kNone;
+  return problem.hits.unknown_sensors ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
 }
 
 // One rotor's angles leave a shift along its axis open, whatever the search would try.
-bool one_axis(const Sightings& sightings) {
+bool one_axis(const ObservationTable& table) {
   bool x = false;
   bool y = false;
-  for (int i = 0; i < sightings.count; ++i) {
-    x = x || sightings.seen(i, Axis::kX);
-    y = y || sightings.seen(i, Axis::kY);
+  for (int i = 0; i < table.count; ++i) {
+    x = x || table.seen(i, Axis::kX);
+    y = y || table.seen(i, Axis::kY);
   }
   return !(x && y);
 }
@@ -77,9 +77,9 @@ bool one_axis(const Sightings& sightings) {
 // of hits fits by chance (four sensors, one true hit replaced by a reflection: 1 in 6; six, four replaced: 1 in 25),
 // and each two hits more that are left out make as many more choices as one confirming hit rules out.
 bool confirmed(const Problem& problem) {
-  constexpr int kLeastFreedom = 3;
-  const int left_out = problem.hits.places() - problem.hits.sightings.rows();
-  return left_out == 0 || freedom_of(problem) >= std::max(kLeastFreedom, (left_out + 1) / 2);
+  constexpr int kMinFreedom = 3;
+  const int left_out = problem.hits.places() - problem.hits.table.rows();
+  return left_out == 0 || freedom_of(problem) >= std::max(kMinFreedom, (left_out + 1) / 2);
 }
 
 Refusal verdict(const Problem& problem, const Fit& fit) {
@@ -90,14 +90,15 @@ Refusal verdict(const Problem& problem, const Fit& fit) {
     return Refusal::kPoorFit;
   }
   if (!fit.converged) return Refusal::kNotConverged;
-  if (!DoubleSystem(problem.hits.sightings, problem.options.residual).ahead(fit.pose)) return Refusal::kBehindStation;
+  if (!DoubleSystem(problem.hits.table, problem.options.residual).ahead(fit.pose)) return Refusal::kBehindStation;
   return Refusal::kNone;
 }
 
-void mark_used(const Hits& hits, std::bitset<kMaxObservations>& used) {
+void mark_used(const HitCandidates& hits, std::bitset<kMaxObservations>& used) {
   for (int i = 0; i < hits.sensors(); ++i) {
     for (const Axis axis : {Axis::kX, Axis::kY}) {
-      if (hits.at(i, axis).chosen != Hits::kNone) used[static_cast<std::size_t>(hits.at(i, axis).chosen)] = true;
+      if (hits.at(i, axis).chosen != HitCandidates::kNone)
+        used[static_cast<std::size_t>(hits.at(i, axis).chosen)] = true;
     }
   }
 }
@@ -105,16 +106,16 @@ void mark_used(const Hits& hits, std::bitset<kMaxObservations>& used) {
 // Functions that are not to be inlined: their temporaries would lie on the stack below all that the others call.
 [[gnu::noinline]] Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima) {
   const SolveOptions& options = problem.options;
-  const Sightings& sightings = problem.hits.sightings;
+  const ObservationTable& table = problem.hits.table;
   Solution solution;
   LighthousePoseEstimate& e = solution.estimate;
   e.pose = minima.best.pose;
   e.pose.R = orthonormalised(e.pose.R);
-  const Matrix6 unit = unit_covariance(sightings, minima.best.pose, options.residual, options.rho, minima.best.normal);
+  const Matrix6 unit = unit_covariance(table, minima.best.pose, options.residual, options.rho, minima.best.normal);
   e.covariance = unit * problem.variance;
   e.adop_deg_per_rad = adop_of(unit);
   e.pdop_m_per_rad = pdop_of(unit);
-  e.observations = sightings.rows();
+  e.observations = table.rows();
   e.residual_rms = std::sqrt(minima.best.normal.cost / static_cast<double>(e.observations));
   e.iterations = problem.iterations;
   if (minima.has_second) {
@@ -136,9 +137,9 @@ StartPoses only(const LighthouseFromBody& pose) {
 
 // Both minima of the hits that belong to the body, or why there are none.
 [[gnu::noinline]] Refusal find_minima(Problem& problem, const LighthouseFromBody* prior, Minima<DoubleSystem>& minima) {
-  StartPoses starts = prior != nullptr ? only(*prior) : start_poses(problem.hits.sightings, problem.options.start);
-  if (!starts.empty() && !problem.hits.several) minima_from(problem, nearest(problem, starts), minima);
-  if (!problem.hits.several && credible(problem, minima.best)) return Refusal::kNone;
+  StartPoses starts = prior != nullptr ? only(*prior) : start_poses(problem.hits.table, problem.options.start);
+  if (!starts.empty() && !problem.hits.has_multiple) minima_from(problem, nearest(problem, starts), minima);
+  if (!problem.hits.has_multiple && credible(problem, minima.best)) return Refusal::kNone;
   if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
   LighthouseFromBody start;
   const Search search = fit_rigid_body(problem.hits, starts, problem.options, start);
@@ -155,9 +156,9 @@ StartPoses only(const LighthouseFromBody& pose) {
 Result<Solution, Refusal> solve(const Target& target, const Observations& observations, const SolveOptions& options,
                                 const LighthouseFromBody* prior) {
   Problem problem(options);
-  if (!collect_hits(target, observations, problem.hits)) return Refusal::kBadInput;
+  if (!collect_hit_candidates(target, observations, problem.hits)) return Refusal::kBadInput;
   if (const Refusal refusal = too_few(problem, prior != nullptr); refusal != Refusal::kNone) return refusal;
-  if (one_axis(problem.hits.sightings)) return Refusal::kDegenerate;
+  if (one_axis(problem.hits.table)) return Refusal::kDegenerate;
   Minima<DoubleSystem> minima;
   if (const Refusal refusal = find_minima(problem, prior, minima); refusal != Refusal::kNone) return refusal;
   if (const Refusal refusal = verdict(problem, minima.best); refusal != Refusal::kNone) return refusal;

@@ -19,8 +19,8 @@ enum class Start : std::uint8_t { kAuto, kP3p, kRpnp, kDlt, kHomography };
 enum class Residual : std::uint8_t { kAngle, kTangent };
 
 struct SolveOptions {
-  double sigma_rad = kPaperSigmaRad;  // noise of one bearing that covariance, precision factors and gates assume
-  double rho = 0.0;                   // correlation between sensors of one rotor, (19)
+  double sigma_rad = kPaperSigma_rad;  // noise of one bearing that covariance, precision factors and gates assume
+  double rho = 0.0;                    // correlation between sensors of one rotor, (19)
   Start start = Start::kAuto;
   Residual residual = Residual::kAngle;
   int max_iterations = 50;  // about 4 are taken; straight on to a plane some need 30
@@ -30,7 +30,7 @@ struct SolveOptions {
   double max_reduced_chi2 = 1e4;
   /// For slow cores: a fit to all hits whose chi-squared is this many times what is credible is an answer (which its
   /// residual tells) and no reason to search among them.
-  double credible_slack = 1.0;
+  double chi2_threshold_factor = 1.0;
   /// Start poses that the search among hits may follow, where hits compete or contradict; none within it on which all
   /// agree: kSearchLimit. A soft core spends some two million instructions on each.
   int max_search_starts = 1'000'000;
@@ -47,11 +47,11 @@ enum class Refusal : std::uint8_t {
   kBehindStation,  // the only fit lies behind the station
   kBadInput,       // a bearing outside (0, pi) or not finite
   kSearchLimit,    // hits compete or contradict, and what may be spent on the search found no pose that they agree on
-  kTooUncertain,   // the covariance is beyond what may be called an answer (motion::AnswerLimits)
+  kTooUncertain,   // the covariance is beyond what may be called an answer (motion::UncertaintyLimits)
 };
 inline constexpr Refusal kLastRefusal = Refusal::kTooUncertain;
 /// Sensors that a pose takes without a prior.
-inline constexpr int kLeastSensorsAlone = 4;
+inline constexpr int kMinSensorsAlone = 4;
 
 /// A pose and which observations it used (index as given).
 struct Solution {

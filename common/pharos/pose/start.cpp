@@ -23,20 +23,20 @@ double apparent_square(const RaySet& set) {
   return sum;
 }
 
-StartPoses gated_dlt(const Sightings& sightings, const RaySet& set) {
+StartPoses gated_dlt(const ObservationTable& table, const RaySet& set) {
   StartPoses poses = dlt(set);
   const bool good =
-      !poses.empty() && cost_of(sightings, poses[0], Residual::kAngle) < kDltGate * kDltGate * apparent_square(set);
+      !poses.empty() && cost_of(table, poses[0], Residual::kAngle) < kDltGate * kDltGate * apparent_square(set);
   if (!good) poses.clear();
   return poses;
 }
 
-StartPoses by_method(const Sightings& sightings, const RaySet& set, Start method) {
+StartPoses by_method(const ObservationTable& table, const RaySet& set, Start method) {
   switch (method) {
     case Start::kRpnp:
       return rpnp(set);
     case Start::kDlt:
-      return gated_dlt(sightings, set);
+      return gated_dlt(table, set);
     case Start::kHomography:
       return homography(set);
     case Start::kAuto:
@@ -48,10 +48,10 @@ StartPoses by_method(const Sightings& sightings, const RaySet& set, Start method
 
 }  // namespace
 
-StartPoses start_poses(const Sightings& sightings, Start method) {
-  const RaySet set = rays_of(sightings);
-  if (set.count < 3) return attitude_grid(sightings);
-  const StartPoses poses = by_method(sightings, set, method);
+StartPoses start_poses(const ObservationTable& table, Start method) {
+  const RaySet set = rays_of(table);
+  if (set.count < 3) return attitude_grid(table);
+  const StartPoses poses = by_method(table, set, method);
   return poses.empty() ? p3p(set, wide_triplet(set)) : poses;
 }
 

@@ -10,6 +10,6 @@ namespace pharos::pose {
 ///
 /// A method that cannot serve the view (DLT: fewer than six sensors, or a reprojection that fails its gate; homography:
 /// not coplanar) gives way to kAuto. Where fewer than three sensors have both bearings all give way to attitude_grid.
-StartPoses start_poses(const Sightings& sightings, Start method);
+StartPoses start_poses(const ObservationTable& table, Start method);
 
 }  // namespace pharos::pose

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pharos/base/static_vector.hpp"
-#include "pharos/pose/sightings.hpp"
+#include "pharos/pose/observation_table.hpp"
 
 namespace pharos::pose {
 

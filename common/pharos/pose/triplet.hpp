@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "pharos/pose/sightings.hpp"
+#include "pharos/pose/observation_table.hpp"
 
 namespace pharos::pose {
 

@@ -17,12 +17,12 @@ namespace {
 static_assert(wire::Ootx::kMaxData == lighthouse::kMaxOotxPayload);
 static_assert(kNanosecondsPerTick == 20);
 // Whatever the decoder gives out, the line takes.
-static_assert(wire::kMinPulseTicks <= lighthouse::kShortestPulseTicks);
-static_assert(wire::kMaxPulseTicks >= lighthouse::kLongestPulseTicks);
-static_assert(wire::kMinFlashTicks <= lighthouse::kShortestFlashTicks);
-static_assert(wire::kMaxCentreHalfTicks >= 2 * lighthouse::kSweepWindowEndTicks);
-static_assert(wire::kMinPeriodSixteenthTicks < 16 * lighthouse::kTurnTicks);
-static_assert(wire::kMaxPeriodSixteenthTicks > 16 * lighthouse::kTurnTicks);
+static_assert(wire::kMinPulse_ticks <= lighthouse::kShortestPulse_ticks);
+static_assert(wire::kMaxPulse_ticks >= lighthouse::kLongestPulse_ticks);
+static_assert(wire::kMinFlash_ticks <= lighthouse::kShortestFlash_ticks);
+static_assert(wire::kMaxCentre_half_ticks >= 2 * lighthouse::kSweepWindowEnd_ticks);
+static_assert(wire::kMinPeriod_sixteenth_ticks < 16 * lighthouse::kTurn_ticks);
+static_assert(wire::kMaxPeriod_sixteenth_ticks > 16 * lighthouse::kTurn_ticks);
 
 /// Unit length is lost by nothing but a broken sender: doubles keep it to 1e-15.
 constexpr double kUnitTolerance = 1e-6;
@@ -70,8 +70,8 @@ std::optional<LighthouseFromBody> pose_of(const wire::PoseFields& fields) {
   return LighthouseFromBody{q.normalized().toRotationMatrix(), Vector3(px, py, pz)};
 }
 
-wire::PoseAnswer answer_of(const LighthousePoseEstimate& estimate) {
-  wire::PoseAnswer answer;
+wire::PoseResult answer_of(const LighthousePoseEstimate& estimate) {
+  wire::PoseResult answer;
   answer.pose = fields_of(estimate.pose);
   std::size_t next = 0;
   for (int row = 0; row < 6; ++row) {
@@ -89,7 +89,7 @@ wire::PoseAnswer answer_of(const LighthousePoseEstimate& estimate) {
   return answer;
 }
 
-std::optional<LighthousePoseEstimate> estimate_of(const wire::PoseAnswer& answer) {
+std::optional<LighthousePoseEstimate> estimate_of(const wire::PoseResult& answer) {
   LighthousePoseEstimate estimate;
   const auto pose = pose_of(answer.pose);
   if (!pose) return std::nullopt;

@@ -38,7 +38,7 @@ class LinkDecoder {
 
   const wire::LinkCounters& counters() const { return frames_.counters(); }
   /// Protocol version of the last frame in another version than ours, if any ever came.
-  std::optional<std::uint8_t> foreign_version() const { return frames_.foreign_version(); }
+  std::optional<std::uint8_t> unsupported_version() const { return frames_.unsupported_version(); }
 
  private:
   wire::FrameDecoder frames_;

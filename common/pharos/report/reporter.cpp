@@ -32,7 +32,7 @@ Reporter::Bytes Reporter::report(const lighthouse::Edge& edge, std::uint32_t edg
 
 bool Reporter::hold(const lighthouse::Edge& edge, std::uint32_t edges_lost) {
   const wire::RawEdge raw = to_wire(edge);
-  if (raw.sensor >= kMaxSensors || !wire::is_credible_time(raw.stamp_ticks)) {
+  if (raw.sensor >= kMaxSensors || !wire::is_plausible_time(raw.stamp_ticks)) {
     ++refused_;
     return true;
   }

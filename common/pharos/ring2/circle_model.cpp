@@ -60,9 +60,9 @@ std::optional<Means> means_along(const CircleModel& model, Circle circle, const 
     const Vector3 along = cosine * at.axes[1] - sine * at.axes[0];
     const Vector3 point_m = at.centre_m + at.radius_m * outwards;
     const Vector3 point_camera_m = R_camera_rig * (point_m - view.T_rig_camera.t);
-    const Result<Vector2, CameraFailure> pixel = project(view.optics, point_camera_m);
+    const Result<Vector2, CameraFailure> pixel = project(view.intrinsics, point_camera_m);
     if (!pixel) return std::nullopt;
-    const Matrix23 by_point = project_jacobian(view.optics, point_camera_m) * R_camera_rig;
+    const Matrix23 by_point = project_jacobian(view.intrinsics, point_camera_m) * R_camera_rig;
     const Contour::Offset offset = contour.offset_of(*pixel);
     const Vector3 pull = by_point.transpose() * offset.normal;
     const Vector3 turn = (point_m - model.centre_m).cross(pull);
@@ -79,9 +79,9 @@ std::optional<Means> means_along(const CircleModel& model, Circle circle, const 
 
 std::array<Vector3, 2> tilt_axes(const Vector3& normal) {
   // The rig's axis farthest from the normal is never parallel to it.
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  const Vector3 first = normal.cross(Vector3(Vector3::Unit(least))).normalized();
+  Eigen::Index minimum = 0;
+  normal.cwiseAbs().minCoeff(&minimum);
+  const Vector3 first = normal.cross(Vector3(Vector3::Unit(minimum))).normalized();
   return {first, normal.cross(first)};
 }
 

@@ -18,12 +18,12 @@ using ellipse::Vector5;
 constexpr std::size_t kPoints = 16;
 using Rays = std::array<Vector2, kPoints>;
 
-std::optional<Rays> rays_of(const ellipse::Ellipse& e, const PinholeCamera& optics) {
+std::optional<Rays> rays_of(const ellipse::Ellipse& e, const PinholeCamera& intrinsics) {
   Rays rays;
   for (std::size_t k = 0; k < kPoints; ++k) {
     const ellipse::PointPx point =
         ellipse::point_at(e, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kPoints));
-    const Result<Vector2, CameraFailure> ray = undistort(optics, {point.u, point.v});
+    const Result<Vector2, CameraFailure> ray = undistort(intrinsics, {point.u, point.v});
     if (!ray) return std::nullopt;
     rays[k] = *ray;
   }
@@ -59,7 +59,7 @@ std::optional<Matrix3> conic_through(const Rays& rays) {
 }  // namespace
 
 std::optional<Cone> cone_of(const ellipse::Ellipse& e, const RigView& view) {
-  const std::optional<Rays> rays = rays_of(e, view.optics);
+  const std::optional<Rays> rays = rays_of(e, view.intrinsics);
   if (!rays) return std::nullopt;
   const std::optional<Matrix3> conic = conic_through(*rays);
   if (!conic) return std::nullopt;
@@ -89,7 +89,7 @@ std::optional<std::array<CirclePose, 2>> circle_poses(const Cone& cone) {
   return poses;
 }
 
-std::optional<CircleSighting> sighting_of(const Cone& cone, const Vector3& normal) {
+std::optional<ApparentCircle> apparent_circle(const Cone& cone, const Vector3& normal) {
   // Of a circle with centre c, radius R in the plane n X = n c: Q = (nc)^2 I - (nc)(c n^T + n c^T) + (cc - RR) n n^T,
   // so Q c = -R^2 (nc) n.
   const Vector3 pole = cone.Q.inverse() * normal;
@@ -102,7 +102,7 @@ std::optional<CircleSighting> sighting_of(const Cone& cone, const Vector3& norma
   const double facing = direction.dot(normal) * direction.dot(normal);
   const double square = -ratio * (facing + 1.0) / (facing - ratio);
   if (!(square > 0.0)) return std::nullopt;
-  return CircleSighting{direction, std::sqrt(square)};
+  return ApparentCircle{direction, std::sqrt(square)};
 }
 
 }  // namespace pharos::ring2

@@ -17,7 +17,7 @@ struct CirclePose {
 };
 
 /// Where a circle's centre is seen, and how large: radius = radius_per_range * range along the unit direction.
-struct CircleSighting {
+struct ApparentCircle {
   Vector3 direction = Vector3::UnitZ();
   double radius_per_range = 0.0;
 };
@@ -39,6 +39,6 @@ std::optional<std::array<CirclePose, 2>> circle_poses(const Cone& cone);
 /// Direction and relative size of the circle that the cone would have in a plane of that normal. Exact for the normals
 /// of circle_poses, smooth around them. Empty for planes that the cone does not meet in such a circle, or whose back is
 /// seen.
-std::optional<CircleSighting> sighting_of(const Cone& cone, const Vector3& normal);
+std::optional<ApparentCircle> apparent_circle(const Cone& cone, const Vector3& normal);
 
 }  // namespace pharos::ring2

@@ -32,7 +32,7 @@ std::optional<double> chi2_at(const CircleProblem& held, const ConeSet& cones, c
 
 }  // namespace
 
-Vector3 sight_of(const CircleProblem& problem, const CircleModel& model) {
+Vector3 line_of_sight(const CircleProblem& problem, const CircleModel& model) {
   Vector3 sum = Vector3::Zero();
   for (std::size_t v = 0; v < kViews; ++v) {
     if (!problem.contours[v][0] && !problem.contours[v][1]) continue;
@@ -42,14 +42,14 @@ Vector3 sight_of(const CircleProblem& problem, const CircleModel& model) {
 }
 
 bool is_face_on(const CircleProblem& problem, const CircleModel& model, double sigma_rad) {
-  return angle_between(model.normal, sight_of(problem, model)) < kNear * sigma_rad;
+  return angle_between(model.normal, line_of_sight(problem, model)) < kNear * sigma_rad;
 }
 
 std::optional<Matrix2> tilt_spread(const CircleProblem& problem, const ConeSet& cones, const CircleModel& model,
                                    double chi2, double sigma_rad) {
   CircleProblem held = problem;
   held.free[kTilt] = held.free[kTilt + 1] = false;
-  const Vector3 sight = sight_of(problem, model);
+  const Vector3 sight = line_of_sight(problem, model);
   const std::array<Vector3, 2> around = tilt_axes(sight);
   const std::array<Vector3, 2> axes = tilt_axes(model.normal);
   const double step_rad = (angle_between(model.normal, sight) + 4.0 * sigma_rad) / kSteps;

@@ -9,7 +9,7 @@
 namespace pharos::ring2 {
 
 /// Direction from the first circle's centre to the cameras that saw anything, on average.
-Vector3 sight_of(const CircleProblem& problem, const CircleModel& model);
+Vector3 line_of_sight(const CircleProblem& problem, const CircleModel& model);
 
 /// Whether the circles face the cameras so nearly that the tilt's noise (`sigma_rad`) decides about its direction: an
 /// ellipse changes with the square of the tilt there, and what is linear about the minimum is not the truth.

@@ -21,7 +21,7 @@ struct CentreImage {
   double size_px = 0.0;
 };
 
-double focal_px(const RigView& view) { return 0.5 * (view.optics.fx_px + view.optics.fy_px); }
+double focal_px(const RigView& view) { return 0.5 * (view.intrinsics.fx_px + view.intrinsics.fy_px); }
 
 std::optional<SeenCircle> seen_circle(const RigView& view, const Contour& contour) {
   const std::optional<Cone> cone = cone_of(contour.ellipse, view);
@@ -42,7 +42,7 @@ struct SharedCircle {
 std::optional<SharedCircle> shared_circle(const Rig& rig, const std::array<SeenCircle, kViews>& seen) {
   const Vector3 baseline = rig.views[1].T_rig_camera.t - rig.views[0].T_rig_camera.t;
   std::optional<SharedCircle> best;
-  double least = 0.0;
+  double minimum = 0.0;
   for (const CirclePose& left : seen[0].poses) {
     for (const CirclePose& right : seen[1].poses) {
       const Vector3 difference = left.centre_per_radius - right.centre_per_radius;
@@ -50,8 +50,8 @@ std::optional<SharedCircle> shared_circle(const Rig& rig, const std::array<SeenC
       if (!(radius_m > 0.0)) continue;
       const double apart =
           (radius_m * difference - baseline).norm() / baseline.norm() + (left.normal - right.normal).norm();
-      if (best && apart >= least) continue;
-      least = apart;
+      if (best && apart >= minimum) continue;
+      minimum = apart;
       const Vector3 middle = 0.5 * (rig.views[0].T_rig_camera.t + rig.views[1].T_rig_camera.t);
       best = SharedCircle{radius_m,
                           {left.centre_per_radius, right.centre_per_radius},
@@ -67,12 +67,12 @@ CentreImage image_of(const RigView& view, const Vector3& ray_rig, double size_px
 }
 
 // (1)-(5) in the planes XZ and YZ of the camera.
-std::array<PlaneSighting, 2> sightings_of(const RigView& view, const CentreImage& ring, const CentreImage& nozzle,
-                                          double ring_radius_m, double nozzle_radius_m) {
+std::array<PlaneTriangle, 2> apparent_circles(const RigView& view, const CentreImage& ring, const CentreImage& nozzle,
+                                              double ring_radius_m, double nozzle_radius_m) {
   const double CD_m = focal_px(view) * ring_radius_m / ring.size_px;
   const double CE_m = focal_px(view) * nozzle_radius_m / nozzle.size_px;
-  return {PlaneSighting{std::atan(ring.x), std::atan(nozzle.x), CD_m, CE_m},
-          PlaneSighting{std::atan(ring.y), std::atan(nozzle.y), CD_m, CE_m}};
+  return {PlaneTriangle{std::atan(ring.x), std::atan(nozzle.x), CD_m, CE_m},
+          PlaneTriangle{std::atan(ring.y), std::atan(nozzle.y), CD_m, CE_m}};
 }
 
 // Angles of the camera's own axis in the rig's planes XZ and YZ: the toe-in that (19) takes to be equal on both sides.
@@ -86,7 +86,7 @@ Attitude attitude_of_planes(double xz_rad, double yz_rad) { return {yz_rad, -xz_
 
 }  // namespace
 
-double distance_by_paper(const PlaneSighting& s) {
+double distance_by_paper(const PlaneTriangle& s) {
   // (6), (7), signed. (8) and (9) measure A and B from O1, where A B meets the optical axis: d = O1B - O1A. They divide
   // by BE - AD, which is zero where the target's axis is parallel to the camera's; signed, they say:
   const double AD_m = s.CD_m * std::tan(s.beta1_rad);
@@ -94,7 +94,7 @@ double distance_by_paper(const PlaneSighting& s) {
   return std::hypot(s.CD_m - s.CE_m, BE_m - AD_m);
 }
 
-double axis_angle_by_paper(const PlaneSighting& s, double distance_m) {
+double axis_angle_by_paper(const PlaneTriangle& s, double distance_m) {
   // (10), (13), (16) and (12), (15), (18) are one formula with signed beta; its signs are the three cases by where the
   // principal point lies.
   const double AC_m = s.CD_m / std::cos(s.beta1_rad);
@@ -102,18 +102,18 @@ double axis_angle_by_paper(const PlaneSighting& s, double distance_m) {
   return std::asin(std::clamp(sine, -1.0, 1.0)) - s.beta2_rad;
 }
 
-Result<CirclesEstimate, CirclesFailure> solve_circles_by_paper(const Rig& rig, const ContourSet& contours) {
+Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours) {
   // What both methods refuse is refused in the same words.
-  const Result<CirclesEstimate, CirclesFailure> exact = solve_circles(rig, contours);
+  const Result<Ring2Estimate, Ring2Failure> exact = solve_ring2(rig, contours);
   if (!exact) return exact.error();
-  if (exact->ellipses != static_cast<int>(kViews * kFeatures)) return CirclesFailure::kTooFewEllipses;
+  if (exact->ellipses != static_cast<int>(kViews * kFeatures)) return Ring2Failure::kTooFewEllipses;
   std::array<std::optional<SharedCircle>, kFeatures> circles;
   for (std::size_t f = 0; f < kFeatures; ++f) {
     const auto left = seen_circle(rig.views[0], *contours[0][f]);
     const auto right = seen_circle(rig.views[1], *contours[1][f]);
-    if (!left || !right) return CirclesFailure::kBadEllipse;
+    if (!left || !right) return Ring2Failure::kBadEllipse;
     circles[f] = shared_circle(rig, {*left, *right});
-    if (!circles[f]) return CirclesFailure::kInconsistent;
+    if (!circles[f]) return Ring2Failure::kInconsistent;
   }
   double xz_rad = 0.0;
   double yz_rad = 0.0;
@@ -122,14 +122,14 @@ Result<CirclesEstimate, CirclesFailure> solve_circles_by_paper(const Rig& rig, c
     const RigView& view = rig.views[v];
     const CentreImage ring = image_of(view, circles[0]->centre_per_radius[v], contours[v][0]->ellipse.a_px);
     const CentreImage nozzle = image_of(view, circles[1]->centre_per_radius[v], contours[v][1]->ellipse.a_px);
-    const auto [xz, yz] = sightings_of(view, ring, nozzle, circles[0]->radius_m, circles[1]->radius_m);
+    const auto [xz, yz] = apparent_circles(view, ring, nozzle, circles[0]->radius_m, circles[1]->radius_m);
     const std::array<double, 2> mounting = mounting_of(view);
     // (19) and (24) as signed means; (24) as printed is a difference that symmetry makes zero.
     xz_rad += 0.5 * (axis_angle_by_paper(xz, distance_by_paper(xz)) - mounting[0]);
     yz_rad += 0.5 * (axis_angle_by_paper(yz, distance_by_paper(yz)) - mounting[1]);
     distance_m += 0.5 * distance_by_paper(xz);
   }
-  CirclesEstimate estimate;
+  Ring2Estimate estimate;
   estimate.normal = normal_of(attitude_of_planes(xz_rad, yz_rad));
   estimate.tilt_axes = tilt_axes(estimate.normal);
   estimate.ring_radius_m = circles[0]->radius_m;
@@ -141,16 +141,16 @@ Result<CirclesEstimate, CirclesFailure> solve_circles_by_paper(const Rig& rig, c
   return estimate;
 }
 
-Result<Attitude, CirclesFailure> attitude_by_one_camera(const RigView& view, const Contour& ring, const Contour& nozzle,
-                                                        const KnownSizes& sizes) {
+Result<Attitude, Ring2Failure> attitude_by_one_camera(const RigView& view, const Contour& ring, const Contour& nozzle,
+                                                      const KnownSizes& sizes) {
   std::array<CentreImage, kFeatures> images;
   for (std::size_t f = 0; f < kFeatures; ++f) {
     const ellipse::Ellipse& e = f == 0 ? ring.ellipse : nozzle.ellipse;
-    const Result<Vector2, CameraFailure> ray = undistort(view.optics, {e.cx_px, e.cy_px});
-    if (!is_usable(e) || !ray) return CirclesFailure::kBadEllipse;
+    const Result<Vector2, CameraFailure> ray = undistort(view.intrinsics, {e.cx_px, e.cy_px});
+    if (!is_usable(e) || !ray) return Ring2Failure::kBadEllipse;
     images[f] = {ray->x(), ray->y(), e.a_px};
   }
-  const auto [xz, yz] = sightings_of(view, images[0], images[1], sizes.ring_radius_m, sizes.nozzle_radius_m);
+  const auto [xz, yz] = apparent_circles(view, images[0], images[1], sizes.ring_radius_m, sizes.nozzle_radius_m);
   const std::array<double, 2> mounting = mounting_of(view);
   return attitude_of_planes(axis_angle_by_paper(xz, sizes.distance_m) - mounting[0],
                             axis_angle_by_paper(yz, sizes.distance_m) - mounting[1]);

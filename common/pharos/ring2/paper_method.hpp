@@ -7,7 +7,7 @@ namespace pharos::ring2 {
 
 /// Paper 001 as published, with the repairs that its print needs (README.md names them). A reference: it carries no
 /// covariance (zero) and has the model's own error. Needs all four ellipses.
-Result<CirclesEstimate, CirclesFailure> solve_circles_by_paper(const Rig& rig, const ContourSet& contours);
+Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours);
 
 /// What the monocular variant must know beforehand.
 struct KnownSizes {
@@ -18,20 +18,20 @@ struct KnownSizes {
 
 /// The monocular variant that the paper compares with (its reference 10): one camera, known sizes, the ellipses'
 /// centres taken for the images of the circles' centres.
-Result<Attitude, CirclesFailure> attitude_by_one_camera(const RigView& view, const Contour& ring, const Contour& nozzle,
-                                                        const KnownSizes& sizes);
+Result<Attitude, Ring2Failure> attitude_by_one_camera(const RigView& view, const Contour& ring, const Contour& nozzle,
+                                                      const KnownSizes& sizes);
 
 /// The triangle of figures 4 and 5 in one plane of the camera: the target's axis A B seen from C. All angles signed
 /// from the optical axis towards the plane's first axis (x or y).
-struct PlaneSighting {
+struct PlaneTriangle {
   double beta1_rad = 0.0;  ///< (2): of the line of sight to the ring's centre A
   double beta2_rad = 0.0;  ///< (3): to the nozzle's centre B
   double CD_m = 0.0;       ///< (4): depth of A
   double CE_m = 0.0;       ///< (5): depth of B
 };
 /// d of (8) and (9).
-double distance_by_paper(const PlaneSighting& sighting);
+double distance_by_paper(const PlaneTriangle& triangle);
 /// gamma_1 of (12), (15), (18), or theta_1 of (23): the angle of A B, from the direction towards the camera.
-double axis_angle_by_paper(const PlaneSighting& sighting, double distance_m);
+double axis_angle_by_paper(const PlaneTriangle& triangle, double distance_m);
 
 }  // namespace pharos::ring2

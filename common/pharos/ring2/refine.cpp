@@ -8,9 +8,10 @@
 namespace pharos::ring2 {
 namespace {
 
-constexpr int kMostIterations = 30;
-constexpr int kMostTrials = 8;       // of damping, for one step
-constexpr int kHopelessAfter = 2;    // steps: from a start within the noise of a minimum, Gauss-Newton is there by then
+constexpr int kMaxIterations = 30;
+constexpr int kMaxTrials = 8;  // of damping, for one step
+constexpr int kAbandonAfterSteps =
+    2;                               // steps: from a start within the noise of a minimum, Gauss-Newton is there by then
 constexpr double kConverged = 1e-6;  // squared step in standard deviations: what is left is a millionth of one
 
 bool is_sound(const CircleModel& model) {
@@ -70,12 +71,12 @@ std::optional<NormalEquations> linearise(const CircleProblem& problem, const Cir
   return sums;
 }
 
-std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double hopeless_chi2) {
+std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double abandon_chi2) {
   const std::optional<NormalEquations> first = linearise(problem, start);
   if (!first) return std::nullopt;
   RefinedCircles now{start, *first, 0};
   double damping = 0.0;
-  for (int trials = 0; now.iterations < kMostIterations && trials < kMostTrials;) {
+  for (int trials = 0; now.iterations < kMaxIterations && trials < kMaxTrials;) {
     const std::optional<Vector8> step = damped_step(now.sums, damping);
     if (!step) return std::nullopt;
     const CircleModel next = moved(now.model, *step);
@@ -92,7 +93,7 @@ std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleM
     if (done) break;
     damping = damping < 1e-2 ? 0.0 : 0.1 * damping;
     trials = 0;
-    if (now.iterations == kHopelessAfter && now.sums.chi2 > hopeless_chi2) return std::nullopt;
+    if (now.iterations == kAbandonAfterSteps && now.sums.chi2 > abandon_chi2) return std::nullopt;
   }
   return now;
 }

@@ -29,7 +29,7 @@ struct RefinedCircles {
 };
 
 /// Gauss-Newton with Levenberg's damping where a step fails, to a millionth of a standard deviation. Empty where
-/// the unknowns are not told, or where chi2 still exceeds `hopeless_chi2` after two steps.
-std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double hopeless_chi2);
+/// the unknowns are not told, or where chi2 still exceeds `abandon_chi2` after two steps.
+std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double abandon_chi2);
 
 }  // namespace pharos::ring2

@@ -5,7 +5,7 @@ namespace pharos::ring2 {
 namespace {
 
 // Nothing that measures metres is built closer, and a millimetre of baseline gives a depth of 3 m to half its size.
-constexpr double kLeastBaseline_m = 1e-3;
+constexpr double kMinBaseline_m = 1e-3;
 // What rounding leaves of a rotation that was read from text.
 constexpr double kOrthonormal = 1e-6;
 
@@ -18,11 +18,11 @@ bool is_rotation(const Matrix3& R) {
 
 RigFault fault_of(const Rig& rig) {
   for (const RigView& view : rig.views) {
-    if (!is_usable(view.optics) || !view.T_rig_camera.t.allFinite()) return RigFault::kOptics;
+    if (!is_usable(view.intrinsics) || !view.T_rig_camera.t.allFinite()) return RigFault::kIntrinsics;
     if (!is_rotation(view.T_rig_camera.R)) return RigFault::kRotation;
   }
   const double baseline_m = (rig.views[1].T_rig_camera.t - rig.views[0].T_rig_camera.t).norm();
-  return baseline_m < kLeastBaseline_m ? RigFault::kCamerasCoincide : RigFault::kNone;
+  return baseline_m < kMinBaseline_m ? RigFault::kCamerasCoincide : RigFault::kNone;
 }
 
 }  // namespace pharos::ring2

@@ -15,7 +15,7 @@ inline constexpr std::size_t kViews = 2;
 
 /// One camera of the rig: its optics and its pose in the rig's frame (x right, y down, z ahead).
 struct RigView {
-  PinholeCamera optics;
+  PinholeCamera intrinsics;
   Pose<frame::Rig, frame::Camera> T_rig_camera;
 };
 
@@ -26,7 +26,7 @@ struct Rig {
 
 enum class RigFault : std::uint8_t {
   kNone,
-  kOptics,           // a focal length or size that is none, or a value that is not finite
+  kIntrinsics,       // a focal length or size that is none, or a value that is not finite
   kRotation,         // R^T R is not the unit matrix, or R mirrors
   kCamerasCoincide,  // their centres are less than a millimetre apart
 };

@@ -13,21 +13,21 @@ namespace pharos::ring2 {
 namespace {
 
 // Beyond this much more than the best, two steps from its own start, no rival comes within kAmbiguousDeltaChi2.
-constexpr double kHopelessMore = 1000.0;
+constexpr double kAbandonExcessChi2 = 1000.0;
 // Two answers nearer than this are one, converged from two sides: a ten-thousandth of a degree.
 constexpr double kSameNormal_rad = 2e-6;
 // As a share of the tilt's deviation: nearer minima are one.
 constexpr double kSameMinimum = 0.1;
 // Ellipses of one rig disagree by noise and by what the calibration leaves; half a pixel and five sigma are neither.
-constexpr double kMostRms_px = 0.5;
-constexpr double kMostChi2PerFreedom = 25.0;
+constexpr double kMaxRms_px = 0.5;
+constexpr double kMaxChi2PerFreedom = 25.0;
 // From here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve): stated sigmas grow with it.
 constexpr double kChancePerFreedom = 3.5;
 
 // Which circle the problem's first and second are.
 struct Roles {
   Feature first = Feature::kRing;
-  std::uint8_t untold = 0;
+  std::uint8_t unobservable = 0;
 };
 
 bool has(const ContourSet& contours, Feature feature) {
@@ -39,12 +39,12 @@ Roles roles_of(const ContourSet& contours) {
   Roles roles;
   const bool left = contours[0][0] || contours[0][1];
   const bool right = contours[1][0] || contours[1][1];
-  if (!(left && right)) roles.untold |= kUntoldScale;
+  if (!(left && right)) roles.unobservable |= kUnobservableScale;
   if (!has(contours, Feature::kRing)) {
     roles.first = Feature::kNozzle;
-    roles.untold |= kUntoldRing;
+    roles.unobservable |= kUnobservableRing;
   }
-  if (!has(contours, Feature::kNozzle)) roles.untold |= kUntoldNozzle;
+  if (!has(contours, Feature::kNozzle)) roles.unobservable |= kUnobservableNozzle;
   return roles;
 }
 
@@ -57,21 +57,22 @@ CircleProblem problem_of(const Rig& rig, const ContourSet& contours, const Roles
     if (roles.first == Feature::kRing) problem.contours[v][1] = contours[v][1];
   }
   problem.free.fill(true);
-  problem.free[kRadius] = (roles.untold & kUntoldScale) == 0;
-  problem.free[kDistance] = problem.free[kSecondRadius] = (roles.untold & (kUntoldRing | kUntoldNozzle)) == 0;
+  problem.free[kRadius] = (roles.unobservable & kUnobservableScale) == 0;
+  problem.free[kDistance] = problem.free[kSecondRadius] =
+      (roles.unobservable & (kUnobservableRing | kUnobservableNozzle)) == 0;
   return problem;
 }
 
-std::optional<CirclesFailure> refusal_of(const Rig& rig, const ContourSet& contours) {
+std::optional<Ring2Failure> refusal_of(const Rig& rig, const ContourSet& contours) {
   switch (fault_of(rig)) {
     case RigFault::kNone:
       break;
-    case RigFault::kOptics:
-      return CirclesFailure::kRigOptics;
+    case RigFault::kIntrinsics:
+      return Ring2Failure::kRigIntrinsics;
     case RigFault::kRotation:
-      return CirclesFailure::kRigRotation;
+      return Ring2Failure::kRigRotation;
     case RigFault::kCamerasCoincide:
-      return CirclesFailure::kCamerasCoincide;
+      return Ring2Failure::kCamerasCoincide;
   }
   int count = 0;
   for (const auto& view : contours) {
@@ -79,16 +80,16 @@ std::optional<CirclesFailure> refusal_of(const Rig& rig, const ContourSet& conto
       if (!contour) continue;
       ++count;
       const bool informed = contour->information.allFinite() && contour->information.diagonal().minCoeff() > 0.0;
-      if (!is_usable(contour->ellipse) || !informed) return CirclesFailure::kBadEllipse;
+      if (!is_usable(contour->ellipse) || !informed) return Ring2Failure::kBadEllipse;
     }
   }
-  if (count < 2) return CirclesFailure::kTooFewEllipses;
+  if (count < 2) return Ring2Failure::kTooFewEllipses;
   return std::nullopt;
 }
 
 struct Minima {
   RefinedCircles best;
-  std::optional<RefinedCircles> rival;
+  std::optional<RefinedCircles> alternative;
 };
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -99,7 +100,7 @@ void take(const RefinedCircles& found, Minima& minima) {
   const bool better = found.sums.chi2 < minima.best.sums.chi2;
   const RefinedCircles other = better ? minima.best : found;
   if (better) minima.best = found;
-  if (!minima.rival || other.sums.chi2 < minima.rival->sums.chi2) minima.rival = other;
+  if (!minima.alternative || other.sums.chi2 < minima.alternative->sums.chi2) minima.alternative = other;
 }
 
 std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& cones) {
@@ -107,8 +108,9 @@ std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& con
   for (const Vector3& normal : candidate_normals(problem, cones)) {
     const std::optional<CircleModel> start = model_along(problem, cones, normal);
     if (!start) continue;
-    const double hopeless = minima ? minima->best.sums.chi2 + kHopelessMore : std::numeric_limits<double>::infinity();
-    const std::optional<RefinedCircles> found = refine(problem, *start, hopeless);
+    const double abandoned =
+        minima ? minima->best.sums.chi2 + kAbandonExcessChi2 : std::numeric_limits<double>::infinity();
+    const std::optional<RefinedCircles> found = refine(problem, *start, abandoned);
     if (!found) continue;
     if (minima) {
       take(*found, *minima);
@@ -120,7 +122,7 @@ std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& con
 }
 
 bool disagrees(const NormalEquations& sums, int freedom) {
-  return sums.largest_rms_px > kMostRms_px && sums.chi2 > kMostChi2PerFreedom * std::max(1, freedom);
+  return sums.largest_rms_px > kMaxRms_px && sums.chi2 > kMaxChi2PerFreedom * std::max(1, freedom);
 }
 
 // Whether the ellipses of the left view belong to the right and the other way round.
@@ -132,13 +134,13 @@ bool fits_exchanged(const Rig& rig, const ContourSet& contours, const Roles& rol
   return minima && !disagrees(minima->best.sums, problem.degrees_of_freedom());
 }
 
-CirclesEstimate estimate_of(const CircleProblem& problem, const Roles& roles, const RefinedCircles& found,
-                            const Matrix8& inverse) {
-  CirclesEstimate estimate;
+Ring2Estimate estimate_of(const CircleProblem& problem, const Roles& roles, const RefinedCircles& found,
+                          const Matrix8& inverse) {
+  Ring2Estimate estimate;
   const CircleModel& model = found.model;
   estimate.normal = model.normal;
   estimate.tilt_axes = tilt_axes(model.normal);
-  estimate.untold = roles.untold;
+  estimate.unobservable = roles.unobservable;
   estimate.distance_m = model.distance_m;
   const bool ring = roles.first == Feature::kRing;
   (ring ? estimate.ring_centre_m : estimate.nozzle_centre_m) = model.centre_m;
@@ -161,19 +163,19 @@ CirclesEstimate estimate_of(const CircleProblem& problem, const Roles& roles, co
   return estimate;
 }
 
-void add_rival(const Minima& minima, CirclesEstimate& estimate) {
-  const double delta_chi2 = minima.rival->sums.chi2 - minima.best.sums.chi2;
+void add_alternative(const Minima& minima, Ring2Estimate& estimate) {
+  const double delta_chi2 = minima.alternative->sums.chi2 - minima.best.sums.chi2;
   if (!(delta_chi2 < kAmbiguousDeltaChi2)) return;
   // Where the cost is flat, one minimum reached from two sides.
-  const double apart = angle_between(minima.rival->model.normal, estimate.normal);
+  const double apart = angle_between(minima.alternative->model.normal, estimate.normal);
   if (apart < kSameMinimum * estimate.sigma_normal_rad()) return;
-  estimate.second = {minima.rival->model.normal, minima.rival->model.centre_m, delta_chi2};
+  estimate.second = {minima.alternative->model.normal, minima.alternative->model.centre_m, delta_chi2};
 }
 
 // The mirrored minimum of circles that face the cameras: their ellipses' own pairs of normals are too noisy to start
 // from.
 void look_at_mirror(const CircleProblem& problem, const ConeSet& cones, Minima& minima) {
-  const Vector3 sight = sight_of(problem, minima.best.model);
+  const Vector3 sight = line_of_sight(problem, minima.best.model);
   const Vector3& normal = minima.best.model.normal;
   const std::optional<CircleModel> start =
       model_along(problem, cones, (2.0 * normal.dot(sight) * sight - normal).normalized());
@@ -183,7 +185,7 @@ void look_at_mirror(const CircleProblem& problem, const ConeSet& cones, Minima& 
 }
 
 // Where the cost is no parabola, what all tilts together say; never less than what the parabola does.
-void widen(const CircleProblem& problem, const ConeSet& cones, CirclesEstimate& estimate, const CircleModel& model) {
+void widen(const CircleProblem& problem, const ConeSet& cones, Ring2Estimate& estimate, const CircleModel& model) {
   const double sigma_rad = estimate.sigma_normal_rad();
   const std::optional<Matrix2> spread = tilt_spread(problem, cones, model, estimate.chi2, sigma_rad);
   if (!spread || !(spread->trace() > sigma_rad * sigma_rad)) return;
@@ -195,23 +197,23 @@ void widen(const CircleProblem& problem, const ConeSet& cones, CirclesEstimate& 
 
 }  // namespace
 
-const char* name_of(CirclesFailure failure) {
+const char* name_of(Ring2Failure failure) {
   switch (failure) {
-    case CirclesFailure::kRigOptics:
+    case Ring2Failure::kRigIntrinsics:
       return "rig_optics";
-    case CirclesFailure::kRigRotation:
+    case Ring2Failure::kRigRotation:
       return "rig_rotation";
-    case CirclesFailure::kCamerasCoincide:
+    case Ring2Failure::kCamerasCoincide:
       return "cameras_coincide";
-    case CirclesFailure::kTooFewEllipses:
+    case Ring2Failure::kTooFewEllipses:
       return "too_few_ellipses";
-    case CirclesFailure::kBadEllipse:
+    case Ring2Failure::kBadEllipse:
       return "bad_ellipse";
-    case CirclesFailure::kInconsistent:
+    case Ring2Failure::kInconsistent:
       return "inconsistent";
-    case CirclesFailure::kExchanged:
+    case Ring2Failure::kExchanged:
       return "left_right_exchanged";
-    case CirclesFailure::kUndetermined:
+    case Ring2Failure::kUndetermined:
       return "undetermined";
   }
   return "unknown";
@@ -226,30 +228,30 @@ Vector3 normal_of(const Attitude& attitude) {
   return {-std::sin(attitude.gamma_rad), std::sin(attitude.theta_rad) * facing, -std::cos(attitude.theta_rad) * facing};
 }
 
-double CirclesEstimate::sigma_normal_rad() const { return std::sqrt(covariance(0, 0) + covariance(1, 1)); }
+double Ring2Estimate::sigma_normal_rad() const { return std::sqrt(covariance(0, 0) + covariance(1, 1)); }
 
-Result<CirclesEstimate, CirclesFailure> solve_circles(const Rig& rig, const ContourSet& contours) {
-  if (const std::optional<CirclesFailure> refusal = refusal_of(rig, contours)) return *refusal;
+Result<Ring2Estimate, Ring2Failure> solve_ring2(const Rig& rig, const ContourSet& contours) {
+  if (const std::optional<Ring2Failure> refusal = refusal_of(rig, contours)) return *refusal;
   const Roles roles = roles_of(contours);
   const CircleProblem problem = problem_of(rig, contours, roles);
-  if (problem.degrees_of_freedom() < 0) return CirclesFailure::kTooFewEllipses;
+  if (problem.degrees_of_freedom() < 0) return Ring2Failure::kTooFewEllipses;
   const std::optional<ConeSet> cones = cones_of(problem);
-  if (!cones) return CirclesFailure::kBadEllipse;
+  if (!cones) return Ring2Failure::kBadEllipse;
   std::optional<Minima> minima = minima_of(problem, *cones);
   if (!minima || disagrees(minima->best.sums, problem.degrees_of_freedom())) {
-    return fits_exchanged(rig, contours, roles) ? CirclesFailure::kExchanged : CirclesFailure::kInconsistent;
+    return fits_exchanged(rig, contours, roles) ? Ring2Failure::kExchanged : Ring2Failure::kInconsistent;
   }
   auto inverse = positive_inverse<kUnknowns>(minima->best.sums.matrix);
-  if (!inverse) return CirclesFailure::kUndetermined;
-  CirclesEstimate estimate = estimate_of(problem, roles, minima->best, *inverse);
+  if (!inverse) return Ring2Failure::kUndetermined;
+  Ring2Estimate estimate = estimate_of(problem, roles, minima->best, *inverse);
   if (is_face_on(problem, minima->best.model, estimate.sigma_normal_rad())) {
     look_at_mirror(problem, *cones, *minima);
     inverse = positive_inverse<kUnknowns>(minima->best.sums.matrix);
-    if (!inverse) return CirclesFailure::kUndetermined;
+    if (!inverse) return Ring2Failure::kUndetermined;
     estimate = estimate_of(problem, roles, minima->best, *inverse);
     widen(problem, *cones, estimate, minima->best.model);
   }
-  if (minima->rival) add_rival(*minima, estimate);
+  if (minima->alternative) add_alternative(*minima, estimate);
   return estimate;
 }
 

@@ -16,8 +16,8 @@ inline constexpr std::size_t kFeatures = 2;
 /// Up to four measured ellipses of one instant: [view][feature].
 using ContourSet = std::array<std::array<std::optional<Contour>, kFeatures>, kViews>;
 
-enum class CirclesFailure : std::uint8_t {
-  kRigOptics,        // fault_of(rig)
+enum class Ring2Failure : std::uint8_t {
+  kRigIntrinsics,    // fault_of(rig)
   kRigRotation,      //
   kCamerasCoincide,  //
   kTooFewEllipses,   // fewer than two
@@ -26,13 +26,13 @@ enum class CirclesFailure : std::uint8_t {
   kExchanged,        // they would fit if left and right were exchanged
   kUndetermined,     // the unknowns cannot be told from them
 };
-const char* name_of(CirclesFailure failure);
+const char* name_of(Ring2Failure failure);
 
 /// What the ellipses at hand cannot tell; the estimate's values of it mean nothing.
-enum Untold : std::uint8_t {
-  kUntoldScale = 1,   ///< seen by one camera: neither lengths nor position
-  kUntoldRing = 2,    ///< no ring: neither its centre and radius nor the distance
-  kUntoldNozzle = 4,  ///< no nozzle: neither its radius nor the distance
+enum Unobservable : std::uint8_t {
+  kUnobservableScale = 1,   ///< seen by one camera: neither lengths nor position
+  kUnobservableRing = 2,    ///< no ring: neither its centre and radius nor the distance
+  kUnobservableNozzle = 4,  ///< no nozzle: neither its radius nor the distance
 };
 
 /// theta and gamma of n = Rx(theta) Ry(gamma) (0, 0, -1).
@@ -44,19 +44,19 @@ Attitude attitude_of(const Vector3& normal);
 Vector3 normal_of(const Attitude& attitude);
 
 /// Ring and nozzle, in the rig's frame.
-struct CirclesEstimate {
+struct Ring2Estimate {
   Vector3 normal = -Vector3::UnitZ();  ///< unit, from the ring towards the cameras
   Vector3 ring_centre_m = Vector3::Zero();
   Vector3 nozzle_centre_m = Vector3::Zero();  ///< ring centre + distance normal
   double ring_radius_m = 0.0;
   double nozzle_radius_m = 0.0;
   double distance_m = 0.0;
-  std::uint8_t untold = 0;  ///< Untold bits
+  std::uint8_t unobservable = 0;  ///< Unobservable bits
 
   /// Unit vectors across the normal in which its tilt is counted: n_true = n + tilt x n.
   std::array<Vector3, 2> tilt_axes{};
   /// Of (tilt about both axes, rad; centre, ring radius, distance, nozzle radius, m); zero for what is not told. With
-  /// kUntoldRing centre and radius are the nozzle's.
+  /// kUnobservableRing centre and radius are the nozzle's.
   Matrix8 covariance = Matrix8::Zero();
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
@@ -83,6 +83,6 @@ struct CirclesEstimate {
 /// Neither radii nor distance are known beforehand. The covariance is widened where the ellipses disagree by more than
 /// their noise; where two mirrored tilts cannot be told apart (a circle seen face on) it spans both. Cost: 50 us with
 /// four ellipses.
-Result<CirclesEstimate, CirclesFailure> solve_circles(const Rig& rig, const ContourSet& contours);
+Result<Ring2Estimate, Ring2Failure> solve_ring2(const Rig& rig, const ContourSet& contours);
 
 }  // namespace pharos::ring2

@@ -52,12 +52,12 @@ struct LinearSums {
 };
 
 // centre [+ distance normal] - radius direction / radius_per_range = camera's centre; three rows.
-void add_sighting(const CircleSighting& sighting, const Vector3& camera_m, const Vector3& normal, bool second,
-                  LinearSums& sums) {
+void add_apparent_circle(const ApparentCircle& apparent, const Vector3& camera_m, const Vector3& normal, bool second,
+                         LinearSums& sums) {
   for (int axis = 0; axis < 3; ++axis) {
     Vector6 row = Vector6::Zero();
     row[axis] = 1.0;
-    row[second ? 5 : 3] = -sighting.direction[axis] / sighting.radius_per_range;
+    row[second ? 5 : 3] = -apparent.direction[axis] / apparent.radius_per_range;
     if (second) row[4] = normal[axis];
     add_outer<kLinear>(sums.matrix, row, 1.0);
     for (int i = 0; i < kLinear; ++i) sums.right[i] += row[i] * camera_m[axis];
@@ -91,29 +91,29 @@ StaticVector<Vector3, 2> candidate_normals(const CircleProblem& problem, const C
   const Candidates candidates = candidates_of(problem, cones);
   StaticVector<Vector3, 2> normals;
   if (candidates.empty()) return normals;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   Vector3 best = candidates[0].normals[0];
   for (const Candidate& candidate : candidates) {
     for (const Vector3& normal : candidate.normals) {
       const double sum = disagreement(candidates, normal);
-      if (sum < least) {
-        least = sum;
+      if (sum < minimum) {
+        minimum = sum;
         best = normal;
       }
     }
   }
-  Vector3 rival = best;
-  least = std::numeric_limits<double>::infinity();
+  Vector3 alternative = best;
+  minimum = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates) {
     const Vector3& other = candidate.normals[1 - nearer_of(candidate, best)];
     const double sum = disagreement(candidates, other);
-    if (sum < least) {
-      least = sum;
-      rival = other;
+    if (sum < minimum) {
+      minimum = sum;
+      alternative = other;
     }
   }
   normals.push_back(best);
-  normals.push_back(rival);
+  normals.push_back(alternative);
   return normals;
 }
 
@@ -122,9 +122,9 @@ std::optional<CircleModel> model_along(const CircleProblem& problem, const ConeS
   for (std::size_t v = 0; v < kViews; ++v) {
     for (std::size_t c = 0; c < 2; ++c) {
       if (!cones[v][c]) continue;
-      const std::optional<CircleSighting> sighting = sighting_of(*cones[v][c], normal);
-      if (!sighting) return std::nullopt;
-      add_sighting(*sighting, problem.rig.views[v].T_rig_camera.t, normal, c == 1, sums);
+      const std::optional<ApparentCircle> apparent = apparent_circle(*cones[v][c], normal);
+      if (!apparent) return std::nullopt;
+      add_apparent_circle(*apparent, problem.rig.views[v].T_rig_camera.t, normal, c == 1, sums);
     }
   }
   if (!problem.free[kRadius]) hold(3, 1.0, sums);

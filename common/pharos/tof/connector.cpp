@@ -13,10 +13,10 @@ namespace {
 
 // Pixels beyond a region's outline that are looked at for the step down: past the lens' blur and the mask's own error.
 constexpr std::int32_t kBeyond_px = 3;
-// Share of the outline along which the step must be seen; corners and a neighbour's shadow take the rest.
-constexpr double kLeastProud = 0.6;
+// Fraction of the outline along which the step must be seen; corners and a neighbour's shadow take the rest.
+constexpr double kMinRaised = 0.6;
 // The step over its deviation; a patch that noise alone lifted out of the foil reaches 3.
-constexpr double kLeastSignificance = 6.0;
+constexpr double kMinSignificance = 6.0;
 // Pixels that share one value of noise: it is correlated over some 1.5 px.
 constexpr double kCommonPixels = 7.0;
 // A median is noisier than a mean by this factor.
@@ -29,45 +29,45 @@ constexpr int kTurns = 45;
 constexpr double kClearOfRing = 0.4;
 // Nearer to the ring's centre than this share of its outer radius no direction is worth the name, and the nozzle is
 // there.
-constexpr double kLeastDistance = 0.4;
+constexpr double kMinDistance = 0.4;
 
 double ellipse_area_px(const RingModel& ring, const DepthCamera& camera) {
-  const double per_m = camera.optics.fx_px / ring.centre_m.z();
+  const double per_m = camera.intrinsics.fx_px / ring.centre_m.z();
   return kPi * ring.radius_m[0] * ring.radius_m[0] * per_m * per_m * -ring.normal.z();
 }
 
 // The rectangle around the ring's image, grown to `reach` times its radius.
 PixelRect search_rect(const DepthCamera& camera, const RingModel& ring, double reach) {
   const PlaneAxes axes = axes_of(ring.normal);
-  double left = camera.optics.width_px;
+  double left = camera.intrinsics.width_px;
   double right = 0.0;
-  double top = camera.optics.height_px;
+  double top = camera.intrinsics.height_px;
   double bottom = 0.0;
   constexpr int kDirections = 16;
   for (int k = 0; k < kDirections; ++k) {
     const double angle = kTwoPi * k / kDirections;
     const Vector3 point =
         ring.centre_m + reach * ring.radius_m[0] * (std::cos(angle) * axes.first + std::sin(angle) * axes.second);
-    const auto pixel = project(camera.optics, point);
-    if (!pixel) return {0, 0, camera.optics.width_px, camera.optics.height_px};
+    const auto pixel = project(camera.intrinsics, point);
+    if (!pixel) return {0, 0, camera.intrinsics.width_px, camera.intrinsics.height_px};
     left = std::min(left, pixel->x());
     right = std::max(right, pixel->x());
     top = std::min(top, pixel->y());
     bottom = std::max(bottom, pixel->y());
   }
   PixelRect rect;
-  rect.u = static_cast<std::int32_t>(std::clamp(left, 0.0, camera.optics.width_px - 1.0));
-  rect.v = static_cast<std::int32_t>(std::clamp(top, 0.0, camera.optics.height_px - 1.0));
-  rect.width_px = static_cast<std::int32_t>(std::clamp(right, 0.0, camera.optics.width_px - 1.0)) - rect.u + 1;
-  rect.height_px = static_cast<std::int32_t>(std::clamp(bottom, 0.0, camera.optics.height_px - 1.0)) - rect.v + 1;
+  rect.u = static_cast<std::int32_t>(std::clamp(left, 0.0, camera.intrinsics.width_px - 1.0));
+  rect.v = static_cast<std::int32_t>(std::clamp(top, 0.0, camera.intrinsics.height_px - 1.0));
+  rect.width_px = static_cast<std::int32_t>(std::clamp(right, 0.0, camera.intrinsics.width_px - 1.0)) - rect.u + 1;
+  rect.height_px = static_cast<std::int32_t>(std::clamp(bottom, 0.0, camera.intrinsics.height_px - 1.0)) - rect.v + 1;
   return rect;
 }
 
 // What the filters ask of one region.
-class RegionJudge {
+class RegionClassifier {
  public:
-  RegionJudge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,
-              const ConnectorSettings& settings, const ConnectorWorkspace& workspace)
+  RegionClassifier(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,
+                   const ConnectorSettings& settings, const ConnectorWorkspace& workspace)
       : frame_(frame),
         rays_(rays),
         fit_(fit),
@@ -76,11 +76,10 @@ class RegionJudge {
         settings_(settings),
         rect_(workspace.rect),
         heights_(workspace.heights.data(), workspace.rect.width_px, workspace.rect.height_px),
-        least_area_px_(
-            std::max(settings.least_area_px, settings.least_area_share * ellipse_area_px(fit.model, camera))),
-        most_area_px_(settings.most_area_share * ellipse_area_px(fit.model, camera)) {}
+        min_area_px_(std::max(settings.min_area_px, settings.min_area_fraction * ellipse_area_px(fit.model, camera))),
+        max_area_px_(settings.max_area_fraction * ellipse_area_px(fit.model, camera)) {}
 
-  bool has_size(std::int32_t area_px) const { return area_px >= least_area_px_ && area_px <= most_area_px_; }
+  bool has_size(std::int32_t area_px) const { return area_px >= min_area_px_ && area_px <= max_area_px_; }
 
   RegionReport report(const Region& region) const {
     RegionReport report;
@@ -94,7 +93,7 @@ class RegionJudge {
     measure_shape(region, report);
     report.verdict = verdict(region, report);
     if (report.verdict == RegionVerdict::kAspect || report.verdict == RegionVerdict::kFill) {
-      report.doubtful = std::fabs(report.height_m) <= 0.9 * kMostHeight_m && stands_out(region, report);
+      report.doubtful = std::fabs(report.height_m) <= 0.9 * kMaxHeight_m && stands_out(region, report);
     }
     return report;
   }
@@ -102,21 +101,22 @@ class RegionJudge {
  private:
   RegionVerdict verdict(const Region& region, RegionReport& report) const {
     const double radius = ring_.radius_m[0];
-    if (!(report.distance_m > kLeastDistance * radius && report.distance_m < settings_.reach * radius)) {
+    if (!(report.distance_m > kMinDistance * radius && report.distance_m < settings_.reach * radius)) {
       return RegionVerdict::kPlace;
     }
     const double clear = kClearOfRing * std::sqrt(report.area_m2);
     if (report.distance_m > ring_.radius_m[1] - clear && report.distance_m < radius + clear) {
       return RegionVerdict::kPlace;
     }
-    if (!(report.aspect >= settings_.least_aspect && report.aspect <= settings_.most_aspect)) {
+    if (!(report.aspect >= settings_.min_aspect && report.aspect <= settings_.max_aspect)) {
       return RegionVerdict::kAspect;
     }
-    if (!(report.fill >= settings_.least_fill)) return RegionVerdict::kFill;
-    if (std::fabs(report.height_m) > 0.9 * kMostHeight_m || !stands_out(region, report)) {
-      return RegionVerdict::kNotProud;
+    if (!(report.fill >= settings_.min_fill)) return RegionVerdict::kFill;
+    if (std::fabs(report.height_m) > 0.9 * kMaxHeight_m || !stands_out(region, report)) {
+      return RegionVerdict::kNotRaised;
     }
-    return proud_share(region, report.height_m) >= kLeastProud ? RegionVerdict::kConnector : RegionVerdict::kNotProud;
+    return raised_fraction(region, report.height_m) >= kMinRaised ? RegionVerdict::kConnector
+                                                                  : RegionVerdict::kNotRaised;
   }
 
   // Depth noise of a pixel of the region: that of the ring's, as their amplitudes are.
@@ -136,16 +136,16 @@ class RegionJudge {
   // Whether the face stands over the median of a frame around it, as wide as itself, by more than noise.
   bool stands_out(const Region& region, RegionReport& report) const {
     const Surroundings around = surroundings_of(heights_, region);
-    if (around.samples < kLeastSurroundings) return true;  // alone before space
-    report.step_m = report.height_m - around.foot_m;
+    if (around.samples < kMinSurroundings) return true;  // alone before space
+    report.step_m = report.height_m - around.base_m;
     const double face_sigma = pixel_sigma_m(region);
-    const double foot_sigma = kMedianNoise * around.sigma_m;
+    const double base_sigma = kMedianNoise * around.sigma_m;
     const double squares =
         face_sigma * face_sigma * kCommonPixels / region.area_px +
-        foot_sigma * foot_sigma * kCommonPixels /
+        base_sigma * base_sigma * kCommonPixels /
             (static_cast<double>(around.samples) * std::min<std::int32_t>(around.stride_px * around.stride_px, 7));
-    return report.step_m >= settings_.least_height_m &&
-           report.step_m * report.step_m >= kLeastSignificance * kLeastSignificance * squares;
+    return report.step_m >= settings_.min_height_m &&
+           report.step_m * report.step_m >= kMinSignificance * kMinSignificance * squares;
   }
 
   // Of the region's inside: its rim is mixed with what lies below.
@@ -172,15 +172,15 @@ class RegionJudge {
     return 0.0;
   }
 
-  // Share of the outline's places with depth where the surroundings lie lower.
-  double proud_share(const Region& region, double height_m) const {
-    const double below_m = height_m - settings_.least_height_m;
+  // Fraction of the outline's places with depth where the surroundings lie lower.
+  double raised_fraction(const Region& region, double height_m) const {
+    const double below_m = height_m - settings_.min_height_m;
     int places = 0;
-    int proud = 0;
+    int raised = 0;
     const auto look = [&](std::int32_t u, std::int32_t v) {
       if (!heights_.contains(u, v) || heights_.at(u, v) == kNoHeight) return;
       ++places;
-      proud += height_of(heights_.at(u, v)) < below_m ? 1 : 0;
+      raised += height_of(heights_.at(u, v)) < below_m ? 1 : 0;
     };
     for (std::int32_t v = region.top; v <= region.bottom; ++v) {
       const Region::Extent& row = region.row[static_cast<std::size_t>(v - region.top)];
@@ -192,7 +192,7 @@ class RegionJudge {
       look(u, column.first - kBeyond_px);
       look(u, column.last + kBeyond_px);
     }
-    return places > 0 ? static_cast<double>(proud) / places : 1.0;
+    return places > 0 ? static_cast<double>(raised) / places : 1.0;
   }
 
   Vector2 planar(double u, double v, double height_m) const {
@@ -212,18 +212,18 @@ class RegionJudge {
     report.distance_m = middle.norm();
     report.centroid_m = middle;
     report.area_m2 = region.area_px * std::fabs(map.determinant());
-    double least = -1.0;
+    double minimum = -1.0;
     for (int k = 0; k < kTurns; ++k) {
       const double angle = 0.5 * kPi * k / kTurns;
       const PlanarRectangle rectangle = around(region, map, middle, angle);
       const double area = rectangle.half_sides_m.x() * rectangle.half_sides_m.y();
-      if (least >= 0.0 && area >= least) continue;
-      least = area;
+      if (minimum >= 0.0 && area >= minimum) continue;
+      minimum = area;
       report.rectangle = rectangle;
     }
     const Vector2 half = report.rectangle.half_sides_m;
     report.aspect = half.y() > 0.0 ? half.x() / half.y() : 0.0;
-    report.fill = least > 0.0 ? region.area_px * std::fabs(map.determinant()) / (4.0 * least) : 0.0;
+    report.fill = minimum > 0.0 ? region.area_px * std::fabs(map.determinant()) / (4.0 * minimum) : 0.0;
   }
 
   PlanarRectangle around(const Region& region, const Matrix2& map, const Vector2& middle, double angle) const {
@@ -257,21 +257,21 @@ class RegionJudge {
   const ConnectorSettings& settings_;
   PixelRect rect_;
   ImageView<const std::uint16_t> heights_;
-  double least_area_px_;
-  double most_area_px_;
+  double min_area_px_;
+  double max_area_px_;
 };
 
 // Depth noise goes with the inverse of amplitude: what is dark beside the ring has no part in a connector.
-void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double least_amplitude, BitImage& mask) {
+void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double min_amplitude, BitImage& mask) {
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     const std::uint16_t* row = frame.intensity.row(rect.v + v) + rect.u;
     for (std::int32_t u = mask.next_set(0, v); u < rect.width_px; u = mask.next_set(u + 1, v)) {
-      if (row[u] < least_amplitude) mask.clear(u, v);
+      if (row[u] < min_amplitude) mask.clear(u, v);
     }
   }
 }
 
-void keep_nearest_first(StaticVector<RegionReport, kMostConnectors>& list, const RegionReport& report) {
+void keep_nearest_first(StaticVector<RegionReport, kMaxConnectors>& list, const RegionReport& report) {
   if (list.full()) {
     if (list.back().distance_m <= report.distance_m) return;
     list.pop_back();
@@ -283,7 +283,7 @@ void keep_nearest_first(StaticVector<RegionReport, kMostConnectors>& list, const
 }
 
 // A satellite's connectors are of one kind: what is much smaller or lower than the most prominent is none of them.
-void keep_alike(StaticVector<RegionReport, kMostConnectors>& list) {
+void keep_alike(StaticVector<RegionReport, kMaxConnectors>& list) {
   const auto prominence = [](const RegionReport& report) { return report.step_m * report.area_m2; };
   const RegionReport* first = nullptr;
   for (const RegionReport& report : list) {
@@ -325,24 +325,24 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   const PixelRect& rect = workspace.rect;
   const ImageView<std::uint16_t> heights(workspace.heights.data(), rect.width_px, rect.height_px);
   make_connector_heights(frame, camera, rays, ring, rect, heights);
-  const double radius_px = ring.radius_m[0] * camera.optics.fx_px / ring.centre_m.z();
-  const auto half_window = std::max(settings.least_half_window_px,
-                                    static_cast<std::int32_t>(std::lround(settings.window_share * radius_px)));
+  const double radius_px = ring.radius_m[0] * camera.intrinsics.fx_px / ring.centre_m.z();
+  const auto half_window = std::max(settings.min_half_window_px,
+                                    static_cast<std::int32_t>(std::lround(settings.window_fraction * radius_px)));
   local_threshold(heights, half_window, settings.form, workspace.threshold, workspace.mask);
-  drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.mask);
+  drop_dark_pixels(frame, rect, settings.min_amplitude * fit.amplitude, workspace.mask);
   open_and_close(workspace.mask, workspace.scratch);
   // The regions' own faces, halfway up their steps; growing takes regions out of the mask.
   workspace.faces.reset(rect.width_px, rect.height_px);
   for_each_region(workspace, workspace.mask, [&](const Region& region) {
-    if (region.area_px >= settings.least_area_px) {
-      mark_face(heights, region, settings.least_height_m, workspace.faces);
+    if (region.area_px >= settings.min_area_px) {
+      mark_face(heights, region, settings.min_height_m, workspace.faces);
     }
   });
-  drop_dark_pixels(frame, rect, settings.least_amplitude * fit.amplitude, workspace.faces);
+  drop_dark_pixels(frame, rect, settings.min_amplitude * fit.amplitude, workspace.faces);
   open_and_close(workspace.faces, workspace.scratch);
-  const RegionJudge judge(frame, camera, rays, fit, settings, workspace);
+  const RegionClassifier classifier(frame, camera, rays, fit, settings, workspace);
   for_each_region(workspace, workspace.faces, [&](const Region& region) {
-    const RegionReport report = judge.report(region);
+    const RegionReport report = classifier.report(region);
     if (report.verdict != RegionVerdict::kArea) workspace.regions.push_back(report);
     if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace.connectors, report);
     if (report.doubtful) keep_nearest_first(workspace.doubtful, report);

@@ -13,7 +13,7 @@
 namespace pharos::tof {
 
 /// Why a region of the depth image is no connector; in the order in which they are asked.
-enum class RegionVerdict : std::uint8_t { kConnector, kArea, kPlace, kAspect, kFill, kNotProud };
+enum class RegionVerdict : std::uint8_t { kConnector, kArea, kPlace, kAspect, kFill, kNotRaised };
 
 /// A rectangle in a plane parallel to the ring's, in the axes of axes_of(normal) about the ring's centre.
 struct PlanarRectangle {
@@ -39,9 +39,9 @@ struct RegionReport {
 };
 
 /// Regions reported of one frame, the first met; beyond that only connectors are kept.
-inline constexpr std::size_t kMostRegions = 48;
+inline constexpr std::size_t kMaxRegions = 48;
 /// Connectors compared of one frame; satellites have two to four.
-inline constexpr std::size_t kMostConnectors = 8;
+inline constexpr std::size_t kMaxConnectors = 8;
 
 struct ConnectorWorkspace {
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxPixels)> heights;
@@ -52,10 +52,10 @@ struct ConnectorWorkspace {
   RegionWorkspace growing;
   Region region;
   PixelRect rect;  ///< of the frame that was searched
-  StaticVector<RegionReport, kMostRegions> regions;
-  StaticVector<RegionReport, kMostConnectors> connectors;
+  StaticVector<RegionReport, kMaxRegions> regions;
+  StaticVector<RegionReport, kMaxConnectors> connectors;
   /// Regions that stand out like a connector, but whose shape is not one's: burrs may have grown on to it.
-  StaticVector<RegionReport, kMostConnectors> doubtful;
+  StaticVector<RegionReport, kMaxConnectors> doubtful;
 };
 
 /// Like in height, and in area by this factor: they may be two connectors of one satellite.

@@ -6,7 +6,7 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
-#include "pharos/tof/layer_light.hpp"
+#include "pharos/tof/layer_intensity.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -17,17 +17,17 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 constexpr int kSides = 4;
 constexpr int kPointsPerSide = 24;
 // Corners are round in the image: the part of a side between them.
-constexpr double kUsedShare = 0.75;
+constexpr double kUsedFraction = 0.75;
 constexpr int kSearch_px = 4;
 constexpr int kRounds = 3;
 constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
-constexpr double kLeastStrength = 0.3;
+constexpr double kMinStrength = 0.3;
 // A pixel darker than this share of the ring and without depth is dark background.
-constexpr double kDarkShare = 0.3;
-constexpr int kLeastPerSide = 4;
+constexpr double kDarkFraction = 0.3;
+constexpr int kMinPerSide = 4;
 // A box' face is square to within this; what is not is no rectangle that was found.
-constexpr double kMostSlender = 1.6;
+constexpr double kMaxSlender = 1.6;
 // Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
 constexpr double kCorrelation = 2.0;
 // Walls that are not as dark as the cosine says, foil of uneven height and rounded corners move the rectangle as a
@@ -58,7 +58,7 @@ class FaceFitter {
         ring_(ring.model),
         axes_(axes_of(ring.model.normal)),
         plane_(ring.model.plane()),
-        dark_counts_(kDarkShare * ring.amplitude) {}
+        dark_counts_(kDarkFraction * ring.amplitude) {}
 
   ConnectorFace fit(const RegionReport& region) {
     ConnectorFace face;
@@ -66,7 +66,7 @@ class FaceFitter {
     const double half = 0.5 * std::sqrt(region.area_m2);
     face.rectangle = {region.centroid_m, region.rectangle.angle_rad, Vector2(half, half)};
     measure_heights(region, face);
-    metres_per_px_ = ring_.centre_m.z() / camera_.optics.fx_px;
+    metres_per_px_ = ring_.centre_m.z() / camera_.intrinsics.fx_px;
     const double coarse = kCentroidSigma_px * metres_per_px_;
     face.covariance = coarse * coarse * Matrix2::Identity();
     ConnectorFace refined = face;
@@ -78,7 +78,7 @@ class FaceFitter {
     const Vector2 moved = refined.rectangle.centre_m - face.rectangle.centre_m;
     if (moved.norm() > 2.0 * metres_per_px_ + 0.25 * face.rectangle.half_sides_m.maxCoeff()) return face;
     const Vector2& sides = refined.rectangle.half_sides_m;
-    if (sides.maxCoeff() > kMostSlender * sides.minCoeff() || refined.edge_rms_px > 1.0) return face;
+    if (sides.maxCoeff() > kMaxSlender * sides.minCoeff() || refined.edge_rms_px > 1.0) return face;
     return refined;
   }
 
@@ -88,7 +88,7 @@ class FaceFitter {
     constexpr int kGrid = 5;
     const double reach = std::max(half, region.rectangle.half_sides_m.maxCoeff());
     Vector2 best = region.centroid_m;
-    double best_height = -kMostHeight_m;
+    double best_height = -kMaxHeight_m;
     for (int i = -kSteps; i <= kSteps; ++i) {
       for (int j = -kSteps; j <= kSteps; ++j) {
         const Vector2 place = region.rectangle.centre_m + reach / kSteps * Vector2(i, j);
@@ -97,7 +97,7 @@ class FaceFitter {
           const Vector2 off(k % kGrid - kGrid / 2, k / kGrid - kGrid / 2);
           double height = 0.0;
           const bool seen = height_at(place + 0.4 * half * off, region.height_m, height);
-          sum += seen ? std::clamp(height, -kMostHeight_m, 0.0) : -kMostHeight_m;
+          sum += seen ? std::clamp(height, -kMaxHeight_m, 0.0) : -kMaxHeight_m;
         }
         if (sum <= best_height * kGrid * kGrid) continue;
         best_height = sum / (kGrid * kGrid);
@@ -119,7 +119,7 @@ class FaceFitter {
   }
   // Height of the pixel at a plan position, NaN-free: false where it has none.
   bool height_at(const Vector2& plan, double height, double& result) const {
-    const auto pixel = project(camera_.optics, point(plan, height));
+    const auto pixel = project(camera_.intrinsics, point(plan, height));
     if (!pixel) return false;
     const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
     const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
@@ -153,7 +153,7 @@ class FaceFitter {
       // Samples are as near as noise is correlated: a seventh of them count.
       face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
     } else {
-      face.sigma_height_m = 0.25 * kMostHeight_m;
+      face.sigma_height_m = 0.25 * kMaxHeight_m;
     }
     constexpr int kAround = 64;
     std::array<double, kAround> feet{};
@@ -164,7 +164,7 @@ class FaceFitter {
       double height = 0.0;
       if (height_at(place, 2.0 * region.height_m, height) && height < face.height_m) feet[found++] = height;
     }
-    foot_m_ = found > 4 ? median(feet.data(), found) : face.height_m;
+    base_m_ = found > 4 ? median(feet.data(), found) : face.height_m;
   }
 
   static double median(double* values, std::size_t count) {
@@ -179,10 +179,10 @@ class FaceFitter {
     if (points_.empty()) return;
     std::array<double, kSides * kPointsPerSide> strengths{};
     for (std::size_t i = 0; i < points_.size(); ++i) strengths[i] = points_[i].strength;
-    const double least = kLeastStrength * median(strengths.data(), points_.size());
+    const double minimum = kMinStrength * median(strengths.data(), points_.size());
     std::size_t kept = 0;
     for (const SidePoint& p : points_) {
-      if (p.strength >= least) points_[kept++] = p;
+      if (p.strength >= minimum) points_[kept++] = p;
     }
     points_.resize(kept);
   }
@@ -194,21 +194,21 @@ class FaceFitter {
     const Vector2 middle = r.centre_m + half_side(r, side) * normal;
     const Vector3 normal_3d = normal.x() * axes_.first + normal.y() * axes_.second;
     for (int k = 0; k < kPointsPerSide; ++k) {
-      const double t = kUsedShare * half_side(r, side + 1) * (2.0 * (k + 0.5) / kPointsPerSide - 1.0);
+      const double t = kUsedFraction * half_side(r, side + 1) * (2.0 * (k + 0.5) / kPointsPerSide - 1.0);
       const Vector3 p = point(middle + t * along, face.height_m);
-      const auto pixel = project(camera_.optics, p);
+      const auto pixel = project(camera_.intrinsics, p);
       if (!pixel) continue;
-      const Matrix23 slope = project_jacobian(camera_.optics, p);
+      const Matrix23 slope = project_jacobian(camera_.intrinsics, p);
       const Vector2 direction = (slope * normal_3d).normalized();
       LightProfile light;
       if (!sample_light(frame_, camera_, rays_, plane_, *pixel, direction, kSearch_px, dark_counts_, light)) continue;
       const ProfileEdge edge =
-          steepest_of_samples(light_of_layer(light, kSearch_px, face.height_m, foot_m_), kSearch_px, -1.0);
+          steepest_of_samples(light_of_layer(light, kSearch_px, face.height_m, base_m_), kSearch_px, -1.0);
       if (!(edge.strength > 0.0)) continue;
       // Positive where the wall below this side is in sight.
-      const double wall_share = p.dot(normal_3d) / p.dot(ring_.normal);
-      const Vector2 wall_px = slope * ((foot_m_ - face.height_m) * ring_.normal);
-      const double shift = wall_shift_px(std::min(wall_share, kBrightWall), std::fabs(wall_px.dot(direction)));
+      const double wall_fraction = p.dot(normal_3d) / p.dot(ring_.normal);
+      const Vector2 wall_px = slope * ((base_m_ - face.height_m) * ring_.normal);
+      const double shift = wall_shift_px(std::min(wall_fraction, kBrightWall), std::fabs(wall_px.dot(direction)));
       points_.push_back({side, planar(*pixel + (edge.offset_px - shift) * direction, face.height_m), edge.strength});
     }
   }
@@ -250,7 +250,7 @@ class FaceFitter {
         ++per_side[static_cast<std::size_t>(p.side)];
       }
       for (const int n : per_side) {
-        if (n < kLeastPerSide) return false;
+        if (n < kMinPerSide) return false;
       }
       const auto inverse = positive_inverse<5>(normal);
       if (!inverse) return false;
@@ -282,7 +282,7 @@ class FaceFitter {
   PlaneAxes axes_;
   DepthPlane plane_;
   double dark_counts_;
-  double foot_m_ = 0.0;
+  double base_m_ = 0.0;
   double metres_per_px_ = 0.0;
   SidePoints points_;
 };

@@ -18,9 +18,9 @@ struct ConnectorFace {
   std::int32_t edge_points = 0;
 };
 
-/// Fits a rectangle to where the face's own light ends (layer_light.hpp) around a region: a region's centroid is only
-/// good to a tenth of a pixel, as its rim is cut by noise. Light of the surroundings, which may be the brighter side,
-/// has no part; upright walls in sight below a side are counted.
+/// Fits a rectangle to where the face's own light ends (layer_intensity.hpp) around a region: a region's centroid is
+/// only good to a tenth of a pixel, as its rim is cut by noise. Light of the surroundings, which may be the brighter
+/// side, has no part; upright walls in sight below a side are counted.
 ///
 /// `edge_points` is 0 where a side has no edge: the region's own centre then serves, with the deviation that it has.
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,

@@ -15,8 +15,8 @@ constexpr double kRingMargin_px = 1.5;
 constexpr double kLowest = 1.5;
 
 // How deep the face that carries the ring lies below the ring's plane: the median around the ring; negative.
-double usual_foot(const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
-                  ImageView<const std::uint16_t> heights) {
+double typical_base(const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
+                    ImageView<const std::uint16_t> heights) {
   constexpr int kDirections = 72;
   constexpr std::array<double, 3> kRadii = {1.1, 1.25, 1.4};
   const PlaneAxes axes = axes_of(ring.normal);
@@ -26,14 +26,14 @@ double usual_foot(const DepthCamera& camera, const RingModel& ring, const PixelR
     const double angle = kTwoPi * k / kDirections;
     const Vector3 radial = std::cos(angle) * axes.first + std::sin(angle) * axes.second;
     for (const double radius : kRadii) {
-      const auto pixel = project(camera.optics, ring.centre_m + radius * ring.radius_m[0] * radial);
+      const auto pixel = project(camera.intrinsics, ring.centre_m + radius * ring.radius_m[0] * radial);
       if (!pixel) continue;
       const auto u = static_cast<std::int32_t>(std::lround(pixel->x())) - rect.u;
       const auto v = static_cast<std::int32_t>(std::lround(pixel->y())) - rect.v;
       if (heights.contains(u, v) && heights.at(u, v) != kNoHeight) found[count++] = height_of(heights.at(u, v));
     }
   }
-  if (count == 0) return -kMostHeight_m;
+  if (count == 0) return -kMaxHeight_m;
   const auto middle = found.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
   return *middle;
@@ -44,9 +44,9 @@ void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const R
   const std::int32_t lowest = kHeightZero + static_cast<std::int32_t>(lowest_m / kHeightUnit_m);
   const Eigen::Vector3f q = ring.plane().q.cast<float>();
   const Eigen::Vector3f centre = ring.centre_m.cast<float>();
-  const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.optics.fx_px * -ring.normal.z());
-  const auto least = static_cast<float>(ring.radius_m[1] - margin_m);
-  const auto most = static_cast<float>(ring.radius_m[0] + margin_m);
+  const double margin_m = kRingMargin_px * ring.centre_m.z() / (camera.intrinsics.fx_px * -ring.normal.z());
+  const auto minimum = static_cast<float>(ring.radius_m[1] - margin_m);
+  const auto maximum = static_cast<float>(ring.radius_m[0] + margin_m);
   RayGrid::Row<float> ray;
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     rays.row_at(rect.u, rect.v + v, rect.width_px, ray);
@@ -60,7 +60,7 @@ void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const R
       const float dw = 1.0F - inverse_z * centre.z();
       const float squared = du * du + dv * dv + dw * dw;
       const float unit = inverse_z * inverse_z;
-      const bool on_ring = squared > least * least * unit && squared < most * most * unit;
+      const bool on_ring = squared > minimum * minimum * unit && squared < maximum * maximum * unit;
       row[u] = row[u] < lowest || on_ring ? kNoHeight : row[u];
     }
   }
@@ -71,7 +71,7 @@ void drop_ring_and_sides(const RayGrid& rays, const DepthCamera& camera, const R
 void make_connector_heights(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                             const RingModel& ring, const PixelRect& rect, ImageView<std::uint16_t> heights) {
   make_heights(frame, camera, rays, ring.plane(), rect, heights);
-  const double lowest_m = kLowest * std::min(0.0, usual_foot(camera, ring, rect, heights));
+  const double lowest_m = kLowest * std::min(0.0, typical_base(camera, ring, rect, heights));
   drop_ring_and_sides(rays, camera, ring, rect, lowest_m, heights);
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "pharos/tof/lottery.hpp"
+#include "pharos/tof/ransac_sampler.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
 namespace pharos::tof {
@@ -20,7 +20,7 @@ constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr int kPasses = 3;
 // Amplitude's weight stays within this factor of the median's, so that a glint does not decide.
-constexpr double kMostWeight = 4.0;
+constexpr double kMaxWeight = 4.0;
 
 // In columns, as compilers take two at a time.
 struct Samples {
@@ -71,7 +71,7 @@ class Fitter {
 
   std::optional<PlaneFit> fit() {
     count();
-    if (with_depth_ < kLeastPlanePixels) return std::nullopt;
+    if (with_depth_ < kMinPlanePixels) return std::nullopt;
     take_start_pixels();
     Vector3 q;
     double sigma = start(q);
@@ -79,7 +79,7 @@ class Fitter {
     Sums sums;
     for (int pass = 0; pass < kPasses; ++pass) {
       sums = summed(q, kGate * sigma, Pass::kFit);
-      if (sums.residuals.count() < kLeastPlanePixels) return std::nullopt;
+      if (sums.residuals.count() < kMinPlanePixels) return std::nullopt;
       const Vector3 next = sums.normal().inverse() * Vector3(sums.right_x, sums.right_y, sums.right);
       if (!next.allFinite()) return std::nullopt;
       q = next;
@@ -136,15 +136,15 @@ class Fitter {
   // Least median of squares; the deviation that goes with it, 1/m.
   double start(Vector3& best) const {
     const std::size_t count = start_.count;
-    if (count < kLeastPlanePixels / 2) return 0.0;
-    Lottery lottery;
+    if (count < kMinPlanePixels / 2) return 0.0;
+    RansacSampler ransac_sampler;
     double best_median = -1.0;
     Samples::Column distance;
     for (int k = 0; k < kTriples; ++k) {
       Matrix3 rows;
       Vector3 right;
       for (int i = 0; i < 3; ++i) {
-        const std::size_t one = lottery.below(count);
+        const std::size_t one = ransac_sampler.below(count);
         rows.row(i) << start_.ray_x[one], start_.ray_y[one], 1.0;
         right[i] = start_.inverse_z[one];
       }
@@ -177,7 +177,7 @@ class Fitter {
       const double amplitude = light[i];
       const double inverse_z = 1.0 / (depth[i] * scale + origin);
       const double residual = inverse_z - (qx * ray_x[i] + qy * ray_y[i] + qz);
-      const double weight = std::clamp(amplitude * amplitude * weight_scale, 1.0 / kMostWeight, kMostWeight);
+      const double weight = std::clamp(amplitude * amplitude * weight_scale, 1.0 / kMaxWeight, kMaxWeight);
       piece.inverse_z[k] = inverse_z;
       piece.residual[k] = residual;
       piece.weight[k] = weight;
@@ -216,16 +216,16 @@ class Fitter {
   std::optional<PlaneFit> answer(const Vector3& q, double sigma) const {
     const Sums sums = summed(q, kGate * sigma, Pass::kLast);
     const std::int32_t used = sums.residuals.count();
-    if (used < kLeastPlanePixels) return std::nullopt;
+    if (used < kMinPlanePixels) return std::nullopt;
     PlaneFit fit;
     fit.plane.q = q;
     fit.pixels = used;
     fit.amplitude = amplitude_;
-    fit.inlier_share = static_cast<double>(used) / pixels_;
+    fit.inlier_fraction = static_cast<double>(used) / pixels_;
     const double mean_inverse_z = sums.right / sums.weights;
     fit.rms_m = sigma / (mean_inverse_z * mean_inverse_z);
-    fit.correlation = sums.residuals.correlation(3);
-    fit.information = sums.normal() / (sigma * sigma * fit.correlation);
+    fit.variance_inflation = sums.residuals.variance_inflation(3);
+    fit.information = sums.normal() / (sigma * sigma * fit.variance_inflation);
     return fit;
   }
 
@@ -243,13 +243,13 @@ class Fitter {
 
 // Pixels that the lens' blur mixes with what lies beyond an edge, and the part of a narrow ring that must remain.
 constexpr double kMixed_px = 2.2;
-constexpr double kMostMargin = 0.3;
+constexpr double kMaxMargin = 0.3;
 
 }  // namespace
 
 RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& outer) {
   const double width_px = std::min(outer.a_px - inner.a_px, outer.b_px - inner.b_px);
-  const double margin_px = std::min(kMixed_px, kMostMargin * width_px);
+  const double margin_px = std::min(kMixed_px, kMaxMargin * width_px);
   return {EllipseRows(inner, margin_px), EllipseRows(outer, -margin_px)};
 }
 

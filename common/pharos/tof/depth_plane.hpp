@@ -32,11 +32,11 @@ struct PlaneFit {
   DepthPlane plane;
   /// Inverse covariance of q, m^2, from the scatter on the frame itself; neighbouring pixels' common noise is counted.
   Matrix3 information = Matrix3::Zero();
-  double rms_m = 0.0;         ///< of depths along z
-  double inlier_share = 0.0;  ///< of the pixels between the ellipses that should have lain on it
-  double amplitude = 0.0;     ///< median of its pixels', counts
-  double correlation = 1.0;   ///< by what factor neighbours' common noise widens the covariance
-  std::int32_t pixels = 0;    ///< that the plane rests on
+  double rms_m = 0.0;               ///< of depths along z
+  double inlier_fraction = 0.0;     ///< of the pixels between the ellipses that should have lain on it
+  double amplitude = 0.0;           ///< median of its pixels', counts
+  double variance_inflation = 1.0;  ///< by what factor neighbours' common noise widens the covariance
+  std::int32_t pixels = 0;          ///< that the plane rests on
 };
 
 /// The region between two ellipses, shrunk by the margin that mixed (flying) pixels need.
@@ -48,11 +48,11 @@ RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& ou
 
 /// Plane through the region's depths: least median of squares over triples, then least squares over what lies within
 /// three deviations, weighted by squared amplitude (sigma_z goes with 1 / amplitude). Nothing where fewer than
-/// kLeastPlanePixels have depth or they leave the plane open. Cost: some 0.3 ms for 4000 pixels.
+/// kMinPlanePixels have depth or they leave the plane open. Cost: some 0.3 ms for 4000 pixels.
 std::optional<PlaneFit> fit_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                   const RingRegion& region);
 
 /// Three unknowns; with fewer pixels than this the scatter itself is not known to a fifth.
-inline constexpr std::int32_t kLeastPlanePixels = 60;
+inline constexpr std::int32_t kMinPlanePixels = 60;
 
 }  // namespace pharos::tof

@@ -8,10 +8,10 @@ namespace pharos::tof {
 namespace {
 
 // A ring of a few thousand pixels is all that is needed, but so few in a whole frame are noise.
-constexpr std::int32_t kLeastDepthShare = 200;  // one pixel in this many
+constexpr std::int32_t kMinDepthFraction = 200;  // one pixel in this many
 constexpr std::uint16_t kFullScale = 65535;
 // Rows without anything in them, or rows that agree by chance, are fewer.
-constexpr std::int32_t kLeastStaleRows = 8;
+constexpr std::int32_t kMinStaleRows = 8;
 
 struct RowContent {
   std::uint64_t hash = 0;
@@ -78,10 +78,10 @@ std::optional<TofFailure> FrameCheck::check(const TofFrame& frame, const DepthCa
       frame.depth.width_px > kMaxWidth_px || frame.depth.height_px > kMaxHeight_px) {
     return TofFailure::kFrameSize;
   }
-  if (camera.optics.width_px != frame.depth.width_px || camera.optics.height_px != frame.depth.height_px) {
+  if (camera.intrinsics.width_px != frame.depth.width_px || camera.intrinsics.height_px != frame.depth.height_px) {
     return TofFailure::kCameraSize;
   }
-  if (!is_usable(camera.optics) || !depth_scale_is_usable(camera)) return TofFailure::kCameraUnusable;
+  if (!is_usable(camera.intrinsics) || !depth_scale_is_usable(camera)) return TofFailure::kCameraUnusable;
   const bool comparable = height_px_ == frame.depth.height_px;
   height_px_ = frame.depth.height_px;
   std::int32_t with_depth = 0;
@@ -99,9 +99,9 @@ std::optional<TofFailure> FrameCheck::check(const TofFrame& frame, const DepthCa
   }
   const auto pixels = static_cast<std::int32_t>(frame.depth.pixels());
   if (2 * saturated > pixels) return TofFailure::kSaturated;
-  if (with_depth < pixels / kLeastDepthShare) return TofFailure::kNoDepth;
+  if (with_depth < pixels / kMinDepthFraction) return TofFailure::kNoDepth;
   // A frame that repeats as a whole is old, but true.
-  if (comparable && repeated >= kLeastStaleRows && repeated < rows) return TofFailure::kStaleRows;
+  if (comparable && repeated >= kMinStaleRows && repeated < rows) return TofFailure::kStaleRows;
   return std::nullopt;
 }
 

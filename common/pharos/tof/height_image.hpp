@@ -19,7 +19,7 @@ inline constexpr double kHeightUnit_m = 0.00025;
 inline constexpr std::int32_t kHeightZero = 32768;
 /// What stands farther from the plane (the boom before the ring, space behind it) has no part in a connector, and no
 /// height: it would move the local mean.
-inline constexpr double kMostHeight_m = 0.25;
+inline constexpr double kMaxHeight_m = 0.25;
 /// Count of a pixel without depth, or too far from the plane.
 inline constexpr std::uint16_t kNoHeight = 0;
 

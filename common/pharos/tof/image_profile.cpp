@@ -11,8 +11,8 @@ constexpr std::array<double, 7> kSlope = {-0.0133, -0.108, -0.242, 0.0, 0.242, 0
 
 }  // namespace
 
-ProfileEdge steepest_of_samples(const std::array<double, kMostSamples>& profile, int search_px, double sign) {
-  std::array<double, 2 * kMostSearch_px + 1> slope{};
+ProfileEdge steepest_of_samples(const std::array<double, kMaxSamples>& profile, int search_px, double sign) {
+  std::array<double, 2 * kMaxSearch_px + 1> slope{};
   int best = 0;
   for (int k = 0; k <= 2 * search_px; ++k) {
     double sum = 0.0;

@@ -16,15 +16,15 @@ struct ProfileEdge {
 };
 
 /// Farthest that a profile is searched to either side.
-inline constexpr int kMostSearch_px = 6;
+inline constexpr int kMaxSearch_px = 6;
 
-/// Samples that a search of kMostSearch_px needs.
+/// Samples that a search of kMaxSearch_px needs.
 inline constexpr int kProfileReach_px = 3;
-inline constexpr std::size_t kMostSamples = 2 * (kMostSearch_px + kProfileReach_px) + 1;
+inline constexpr std::size_t kMaxSamples = 2 * (kMaxSearch_px + kProfileReach_px) + 1;
 
 /// Steepest change of 2 (search_px + kProfileReach_px) + 1 samples, 1 px apart, within `search_px` of their middle,
 /// smoothed by a Gaussian of 1 px and interpolated by a parabola. `sign` 1: rising, -1: falling. None where the change
 /// still grows where the search ends.
-ProfileEdge steepest_of_samples(const std::array<double, kMostSamples>& profile, int search_px, double sign);
+ProfileEdge steepest_of_samples(const std::array<double, kMaxSamples>& profile, int search_px, double sign);
 
 }  // namespace pharos::tof

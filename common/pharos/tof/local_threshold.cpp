@@ -104,7 +104,7 @@ void mark_row(const std::uint16_t* row, std::int32_t v, std::int32_t width, std:
 void local_threshold(ImageView<const std::uint16_t> grey, std::int32_t half_window_px, ThresholdForm form,
                      ThresholdWorkspace& workspace, BitImage& above) {
   above.reset(grey.width_px, grey.height_px);
-  const std::int32_t w = std::clamp<std::int32_t>(half_window_px, 1, kMostHalfWindow_px);
+  const std::int32_t w = std::clamp<std::int32_t>(half_window_px, 1, kMaxHalfWindow_px);
   ColumnSums& columns = workspace.columns;
   columns = {};
   const auto row = [&](std::int32_t v) { return grey.row(mirrored(v, grey.height_px)); };

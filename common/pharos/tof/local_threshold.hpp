@@ -24,7 +24,7 @@ struct ThresholdWorkspace {
 };
 
 /// Largest half window: its sums stay within 32 bits, those of squares within 64, and no connector is larger.
-inline constexpr std::int32_t kMostHalfWindow_px = 24;
+inline constexpr std::int32_t kMaxHalfWindow_px = 24;
 
 /// Marks pixels that grow (paper 000, (5) and step 3): G > T, T = m - 0.2 s, over windows of
 /// (2 w + 1)^2 pixels with mirrored borders.

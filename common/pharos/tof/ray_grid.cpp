@@ -46,14 +46,14 @@ void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<flo
 }
 
 void RayGrid::row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<double>& row) const {
-  constexpr std::array<double, kStep_px> kShares = {0.0, 0.25, 0.5, 0.75};
+  constexpr std::array<double, kStep_px> kFractions = {0.0, 0.25, 0.5, 0.75};
   const double t = static_cast<double>(v % kStep_px) / kStep_px;
   row.first_ = u % kStep_px;
   const Node* node = node_at(u / kStep_px, v / kStep_px);
   const Node* below = node + columns_;
   double *out_x = row.x_.data(), *out_y = row.y_.data();
   for (std::int32_t k = -row.first_; k < count; k += kStep_px, ++node, ++below) {
-    for (const double s : kShares) {
+    for (const double s : kFractions) {
       *out_x++ = (1.0 - t) * ((1.0 - s) * node[0].x + s * node[1].x) + t * ((1.0 - s) * below[0].x + s * below[1].x);
       *out_y++ = (1.0 - t) * ((1.0 - s) * node[0].y + s * node[1].y) + t * ((1.0 - s) * below[0].y + s * below[1].y);
     }

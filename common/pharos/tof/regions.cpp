@@ -44,7 +44,7 @@ bool grow_region(BitImage& mask, std::int32_t seed_u, std::int32_t seed_v, Regio
   if (count == 0) return false;
   region.u_px = static_cast<double>(sum_u) / static_cast<double>(count);
   region.v_px = static_cast<double>(sum_v) / static_cast<double>(count);
-  if (region.rows() > kMostRegionSide_px || region.columns() > kMostRegionSide_px) return false;
+  if (region.rows() > kMaxRegionSide_px || region.columns() > kMaxRegionSide_px) return false;
   constexpr Region::Extent kNone = {kMaxWidth_px, -1};
   std::fill_n(region.row.begin(), region.rows(), kNone);
   std::fill_n(region.column.begin(), region.columns(), kNone);

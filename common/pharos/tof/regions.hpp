@@ -11,7 +11,7 @@
 namespace pharos::tof {
 
 /// Most rows or columns that a region's outline is kept of; a region that spans more is larger than any connector.
-inline constexpr std::int32_t kMostRegionSide_px = 160;
+inline constexpr std::int32_t kMaxRegionSide_px = 160;
 
 /// A connected region of a mask, its outline by rows and by columns.
 struct Region {
@@ -25,8 +25,8 @@ struct Region {
     std::int16_t first = 0;
     std::int16_t last = 0;
   };
-  std::array<Extent, static_cast<std::size_t>(kMostRegionSide_px)> row{};
-  std::array<Extent, static_cast<std::size_t>(kMostRegionSide_px)> column{};
+  std::array<Extent, static_cast<std::size_t>(kMaxRegionSide_px)> row{};
+  std::array<Extent, static_cast<std::size_t>(kMaxRegionSide_px)> column{};
 
   std::int32_t rows() const { return bottom - top + 1; }
   std::int32_t columns() const { return right - left + 1; }
@@ -38,7 +38,7 @@ struct RegionWorkspace {
 };
 
 /// Grows one region from a seed over the mask's 4-neighbours (paper 000, steps 2 and 3) and takes it out of the mask.
-/// False where it spans more than kMostRegionSide_px either way: taken out all the same, outline not filled in.
+/// False where it spans more than kMaxRegionSide_px either way: taken out all the same, outline not filled in.
 bool grow_region(BitImage& mask, std::int32_t seed_u, std::int32_t seed_v, RegionWorkspace& workspace, Region& region);
 
 }  // namespace pharos::tof

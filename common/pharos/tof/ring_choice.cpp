@@ -14,28 +14,28 @@ using ellipse::DetectedEllipse;
 using ellipse::Ellipse;
 
 // Narrower rings leave no pixel between their mixed edges.
-constexpr double kLeastWidth_px = 2.5;
+constexpr double kMinWidth_px = 2.5;
 // Two circles of one plane have images of one shape but for perspective, a few per cent at these distances.
-constexpr double kMostShapeDifference = 0.12;
+constexpr double kMaxShapeDifference = 0.12;
 // Pairs looked at and pairs measured: nested ellipses are few, and the right pair has the most pixels.
-constexpr std::size_t kMostPairs = 24;
-constexpr std::size_t kMostMeasured = 3;
+constexpr std::size_t kMaxPairs = 24;
+constexpr std::size_t kMaxMeasured = 3;
 // Ellipses whose partner is looked for by depth where no pair was the ring.
-constexpr std::size_t kMostSingles = 12;
-// Share of the pixels between the ellipses that must lie on the plane: less than what is seen of the ring, as a boom
+constexpr std::size_t kMaxSingles = 12;
+// Fraction of the pixels between the ellipses that must lie on the plane: less than what is seen of the ring, as a boom
 // hides pixels of both.
-constexpr double kLeastInliers = 0.35;
+constexpr double kMinInliers = 0.35;
 // Scatter about the plane over what the camera's noise would give at that range: beyond it is no plane.
-constexpr double kMostScatter = 3.0;
+constexpr double kMaxScatter = 3.0;
 // The same of the ring's face alone, without walls and mixed pixels; tilt darkens it by a third.
-constexpr double kMostFaceScatter = 1.8;
-constexpr double kLeastStepShare = 0.6;
+constexpr double kMaxFaceScatter = 1.8;
+constexpr double kMinStepFraction = 0.6;
 // Multipath in the ring and its walls' roundness, beyond noise.
 constexpr double kPlaneMargin_m = 0.004;
 // A ring's edges leave 0.05 to 0.35 px; where the foot of the inner wall is taken for the inner edge, 0.8 and more.
-constexpr double kMostEdgeRms_px = 0.6;
+constexpr double kMaxEdgeRms_px = 0.6;
 // Chi-squared of three degrees of freedom that chance exceeds once in a million.
-constexpr double kMostDisagreement = 31.0;
+constexpr double kMaxDisagreement = 31.0;
 
 struct Pair {
   const DetectedEllipse* outer = nullptr;
@@ -50,10 +50,10 @@ struct Candidate {
 };
 
 bool nested(const Ellipse& outer, const Ellipse& inner, const RingSettings& settings) {
-  if (outer.b_px - inner.b_px < kLeastWidth_px || outer.a_px - inner.a_px < kLeastWidth_px) return false;
+  if (outer.b_px - inner.b_px < kMinWidth_px || outer.a_px - inner.a_px < kMinWidth_px) return false;
   const double ratio = inner.a_px / outer.a_px;
-  if (ratio < settings.least_radius_ratio - 0.05 || ratio > settings.most_radius_ratio + 0.02) return false;
-  if (std::fabs(inner.b_px / inner.a_px - outer.b_px / outer.a_px) > kMostShapeDifference) return false;
+  if (ratio < settings.min_radius_ratio - 0.05 || ratio > settings.max_radius_ratio + 0.02) return false;
+  if (std::fabs(inner.b_px / inner.a_px - outer.b_px / outer.a_px) > kMaxShapeDifference) return false;
   const double apart = std::hypot(outer.cx_px - inner.cx_px, outer.cy_px - inner.cy_px);
   return apart < outer.b_px - inner.b_px;
 }
@@ -64,8 +64,8 @@ double expected_sigma_m(const DepthNoise& noise, double z) {
 }
 
 // How many places beside the ring lie behind its plane, of those that tell.
-double step_share(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
-                  double radius_m, double least_step_m) {
+double step_fraction(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
+                     double radius_m, double min_step_m) {
   constexpr int kPlaces = 72;
   const PlaneAxes axes = axes_of(model.normal);
   const DepthPlane plane = model.plane();
@@ -74,7 +74,7 @@ double step_share(const TofFrame& frame, const DepthCamera& camera, const RayGri
   for (int k = 0; k < kPlaces; ++k) {
     const double angle = kTwoPi * k / kPlaces;
     const Vector3 place = model.centre_m + radius_m * (std::cos(angle) * axes.first + std::sin(angle) * axes.second);
-    const auto pixel = project(camera.optics, place);
+    const auto pixel = project(camera.intrinsics, place);
     if (!pixel) continue;
     const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
     const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
@@ -85,8 +85,8 @@ double step_share(const TofFrame& frame, const DepthCamera& camera, const RayGri
       continue;
     }
     const double height = plane.height_m(rays.at(u, v), depth_z_m(camera, counts));
-    if (height < -least_step_m) ++behind;
-    if (std::fabs(height) <= least_step_m) ++level;  // what stands before the ring tells nothing
+    if (height < -min_step_m) ++behind;
+    if (std::fabs(height) <= min_step_m) ++level;  // what stands before the ring tells nothing
   }
   return behind + level > 0 ? static_cast<double>(behind) / (behind + level) : 0.0;
 }
@@ -106,10 +106,10 @@ bool inside_image(const PinholeCamera& camera, const RingModel& model) {
   return true;
 }
 
-class Chooser {
+class RingSelector {
  public:
-  Chooser(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingSettings& settings,
-          const DepthNoise& noise, RingFitWorkspace& workspace, TofStageListener* listener)
+  RingSelector(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingSettings& settings,
+               const DepthNoise& noise, RingFitWorkspace& workspace, TofStageListener* listener)
       : frame_(frame),
         camera_(camera),
         rays_(rays),
@@ -163,20 +163,20 @@ class Chooser {
     const Ellipse& outer = shape[index_of(RingEdge::kOuter)];
     const Ellipse& inner = shape[index_of(RingEdge::kInner)];
     const auto plane = fit_plane(frame_, camera_, rays_, ring_region(inner, outer));
-    if (!plane || plane->inlier_share < kLeastInliers) return failed(TofFailure::kNoRingPlane);
+    if (!plane || plane->inlier_fraction < kMinInliers) return failed(TofFailure::kNoRingPlane);
     const auto model = ring_on_plane(plane->plane, rays_, outer, inner);
     if (!model) return failed(TofFailure::kNoRingPlane);
-    if (plane->rms_m > kMostScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
+    if (plane->rms_m > kMaxScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
       return failed(TofFailure::kNoRingPlane);
     }
     if (!right_size(*model)) return failed(TofFailure::kRingSize);
     if (!stands_out(*model, *plane)) return failed(TofFailure::kNoStep);
-    candidates_.push_back({shape, *plane, *model, plane->pixels * plane->inlier_share});
+    candidates_.push_back({shape, *plane, *model, plane->pixels * plane->inlier_fraction});
   }
 
   // Each of the largest ellipses as either of the ring's edges.
   void examine_singles(std::span<const DetectedEllipse> ellipses) {
-    StaticVector<const DetectedEllipse*, kMostSingles> singles;
+    StaticVector<const DetectedEllipse*, kMaxSingles> singles;
     for (const DetectedEllipse& one : ellipses) {
       if (singles.full()) {
         if (singles.back()->ellipse.b_px >= one.ellipse.b_px) continue;
@@ -193,11 +193,11 @@ class Chooser {
   }
 
   void examine_single(const DetectedEllipse& one, RingEdge known) {
-    const auto model = ring_from_one_edge(frame_, camera_, rays_, one.ellipse, known, settings_.least_radius_ratio);
+    const auto model = ring_from_one_edge(frame_, camera_, rays_, one.ellipse, known, settings_.min_radius_ratio);
     if (!model) return failed(TofFailure::kNoRingPlane);
     if (!right_size(*model)) return failed(TofFailure::kRingSize);
-    const auto outer = image_of(*model, RingEdge::kOuter, camera_.optics);
-    const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
+    const auto outer = image_of(*model, RingEdge::kOuter, camera_.intrinsics);
+    const auto inner = image_of(*model, RingEdge::kInner, camera_.intrinsics);
     if (!outer || !inner) return failed(TofFailure::kRingLeavesImage);
     examine({*outer, *inner});
   }
@@ -205,23 +205,23 @@ class Chooser {
   bool right_size(const RingModel& model) const {
     const double outer = model.radius_m[0];
     const double ratio = model.radius_m[1] / outer;
-    return outer >= settings_.least_outer_radius_m && outer <= settings_.most_outer_radius_m &&
-           ratio >= settings_.least_radius_ratio && ratio <= settings_.most_radius_ratio;
+    return outer >= settings_.min_outer_radius_m && outer <= settings_.max_outer_radius_m &&
+           ratio >= settings_.min_radius_ratio && ratio <= settings_.max_radius_ratio;
   }
 
   bool stands_out(const RingModel& model, const PlaneFit& plane) const {
     // Far enough from the edges that no pixel there is mixed with the ring's own.
-    const double beside = 3.5 * model.centre_m.z() / camera_.optics.fx_px / std::max(0.3, -model.normal.z());
-    const double step = std::max(settings_.least_step_m, 3.0 * plane.rms_m);
-    return step_share(frame_, camera_, rays_, model, model.radius_m[0] + beside, step) >= kLeastStepShare &&
-           step_share(frame_, camera_, rays_, model, model.radius_m[1] - beside, step) >= kLeastStepShare;
+    const double beside = 3.5 * model.centre_m.z() / camera_.intrinsics.fx_px / std::max(0.3, -model.normal.z());
+    const double step = std::max(settings_.min_step_m, 3.0 * plane.rms_m);
+    return step_fraction(frame_, camera_, rays_, model, model.radius_m[0] + beside, step) >= kMinStepFraction &&
+           step_fraction(frame_, camera_, rays_, model, model.radius_m[1] - beside, step) >= kMinStepFraction;
   }
 
   bool measure_best(RingChoice& choice) {
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
     bool measured = false;
-    for (std::size_t i = 0; i < candidates_.size() && i < kMostMeasured && !measured; ++i) {
+    for (std::size_t i = 0; i < candidates_.size() && i < kMaxMeasured && !measured; ++i) {
       measured = measure(candidates_[i], choice);
     }
     ended(TofStage::kRing);
@@ -229,16 +229,16 @@ class Chooser {
   }
 
   bool measure(const Candidate& candidate, RingChoice& choice) {
-    if (!inside_image(camera_.optics, candidate.model)) {
+    if (!inside_image(camera_.intrinsics, candidate.model)) {
       failed(TofFailure::kRingLeavesImage);
       return false;
     }
     const auto fit = fit_from(candidate);
-    if (!fit || fit->edge_rms_px > kMostEdgeRms_px) {
+    if (!fit || fit->edge_rms_px > kMaxEdgeRms_px) {
       failed(TofFailure::kRingNotCircles);
       return false;
     }
-    if (fit->seen < settings_.least_seen) {
+    if (fit->seen < settings_.min_seen) {
       failed(TofFailure::kRingHidden);
       return false;
     }
@@ -246,7 +246,7 @@ class Chooser {
       failed(TofFailure::kRingSize);
       return false;
     }
-    if (fit->disagreement > kMostDisagreement) {
+    if (fit->plane_chi2 > kMaxDisagreement) {
       failed(TofFailure::kRingInconsistent);
       return false;
     }
@@ -258,17 +258,17 @@ class Chooser {
   // plane is that of the face alone.
   std::optional<RingFit> fit_from(const Candidate& candidate) {
     const auto model =
-        ring_to_its_ends(frame_, camera_, rays_, candidate.model, 3.0 * candidate.plane.rms_m + kPlaneMargin_m);
+        ring_from_plane_extent(frame_, camera_, rays_, candidate.model, 3.0 * candidate.plane.rms_m + kPlaneMargin_m);
     if (!model) return std::nullopt;
-    const auto outer = image_of(*model, RingEdge::kOuter, camera_.optics);
-    const auto inner = image_of(*model, RingEdge::kInner, camera_.optics);
+    const auto outer = image_of(*model, RingEdge::kOuter, camera_.intrinsics);
+    const auto inner = image_of(*model, RingEdge::kInner, camera_.intrinsics);
     if (!outer || !inner) return std::nullopt;
     const auto plane = fit_plane(frame_, camera_, rays_, ring_region(*inner, *outer));
     if (!plane ||
-        plane->rms_m > kMostFaceScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
+        plane->rms_m > kMaxFaceScatter * expected_sigma_m(noise_, model->centre_m.z()) + camera_.depth_scale_m) {
       return std::nullopt;
     }
-    return fit_ring(frame_, camera_, rays_, *plane, *model, settings_.least_step_m, noise_, workspace_);
+    return fit_ring(frame_, camera_, rays_, *plane, *model, settings_.min_step_m, noise_, workspace_);
   }
 
   const TofFrame& frame_;
@@ -278,8 +278,8 @@ class Chooser {
   const DepthNoise& noise_;
   RingFitWorkspace& workspace_;
   TofStageListener* listener_;
-  StaticVector<Pair, kMostPairs> pairs_;
-  StaticVector<Candidate, kMostPairs> candidates_;
+  StaticVector<Pair, kMaxPairs> pairs_;
+  StaticVector<Candidate, kMaxPairs> candidates_;
   TofFailure farthest_ = TofFailure::kNoNestedPair;
 };
 
@@ -289,7 +289,7 @@ Result<RingChoice, TofFailure> choose_ring(const TofFrame& frame, const DepthCam
                                            std::span<const DetectedEllipse> ellipses, const RingSettings& settings,
                                            const DepthNoise& noise, RingFitWorkspace& workspace,
                                            TofStageListener* listener) {
-  return Chooser(frame, camera, rays, settings, noise, workspace, listener).choose(ellipses);
+  return RingSelector(frame, camera, rays, settings, noise, workspace, listener).choose(ellipses);
 }
 
 }  // namespace pharos::tof

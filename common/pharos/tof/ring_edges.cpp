@@ -6,23 +6,23 @@
 #include <optional>
 
 #include "pharos/base/units.hpp"
-#include "pharos/tof/layer_light.hpp"
+#include "pharos/tof/layer_intensity.hpp"
 
 namespace pharos::tof {
 namespace {
 
 // A change weaker than this share of the median is noise, or the rim of something else.
-constexpr double kLeastStrength = 0.3;
+constexpr double kMinStrength = 0.3;
 // A pixel darker than this share of the ring and without depth is dark background; a brighter one lost its depth.
-constexpr double kDarkShare = 0.3;
+constexpr double kDarkFraction = 0.3;
 // Directions looked at for the depth of the surroundings, and which quantile of their depths is taken: walls and
 // connectors are nearer, little is farther.
-constexpr int kFootDirections = 64;
-constexpr double kFootQuantile = 0.7;
+constexpr int kBaseDirections = 64;
+constexpr double kBaseQuantile = 0.7;
 
 // Whether two of three depths around a point of the model's plane lie on it.
 bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m) {
-  const auto pixel = project(camera.optics, point);
+  const auto pixel = project(camera.intrinsics, point);
   if (!pixel) return false;
   const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
   const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
@@ -37,14 +37,14 @@ bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& p
 
 void drop_weak(RingEdgePoints& points) {
   if (points.empty()) return;
-  std::array<double, kMostEdgePoints> strengths;
+  std::array<double, kMaxEdgePoints> strengths;
   for (std::size_t i = 0; i < points.size(); ++i) strengths[i] = points[i].strength;
   const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(strengths.begin(), middle, strengths.begin() + static_cast<std::ptrdiff_t>(points.size()));
-  const double least = kLeastStrength * *middle;
+  const double minimum = kMinStrength * *middle;
   std::size_t kept = 0;
   for (const RingEdgePoint& point : points) {
-    if (point.strength >= least) points[kept++] = point;
+    if (point.strength >= minimum) points[kept++] = point;
   }
   points.resize(kept);
 }
@@ -52,7 +52,7 @@ void drop_weak(RingEdgePoints& points) {
 class EdgeFinder {
  public:
   EdgeFinder(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
-             RingEdge edge, double search_px, const RingLook& look)
+             RingEdge edge, double search_px, const RingPrior& prior)
       : frame_(frame),
         camera_(camera),
         rays_(rays),
@@ -60,25 +60,25 @@ class EdgeFinder {
         plane_(model.plane()),
         axes_(axes_of(model.normal)),
         edge_(edge),
-        search_(std::clamp(static_cast<int>(std::ceil(search_px)), 1, kMostSearch_px)),
+        search_(std::clamp(static_cast<int>(std::ceil(search_px)), 1, kMaxSearch_px)),
         away_(edge == RingEdge::kOuter ? 1.0 : -1.0),
-        look_(look) {}
+        prior_(prior) {}
 
   double find(RingEdgePoints& points) {
     points.clear();
     const double radius = model_.radius(edge_);
     const double middle_radius = 0.5 * (model_.radius_m[0] + model_.radius_m[1]);
-    const double circumference_px = kTwoPi * radius * camera_.optics.fx_px / model_.centre_m.z();
+    const double circumference_px = kTwoPi * radius * camera_.intrinsics.fx_px / model_.centre_m.z();
     if (!(circumference_px > 8.0)) return 0.0;
-    const int count = std::min(static_cast<int>(kMostEdgePoints), static_cast<int>(circumference_px));
-    foot_m_ = usual_foot();
+    const int count = std::min(static_cast<int>(kMaxEdgePoints), static_cast<int>(circumference_px));
+    base_m_ = typical_base();
     // The direction turns by the same angle each time: no sine or cosine in the loop.
     const double cosine_step = std::cos(kTwoPi / count);
     const double sine_step = std::sin(kTwoPi / count);
     Vector2 direction(1.0, 0.0);
     int seen = 0;
     for (int k = 0; k < count; ++k) {
-      if (on_plane(frame_, camera_, model_.centre_m + middle_radius * radial(direction), look_.depth_gate_m)) {
+      if (on_plane(frame_, camera_, model_.centre_m + middle_radius * radial(direction), prior_.depth_gate_m)) {
         ++seen;
         if (const auto point = point_in(direction)) points.push_back(*point);
       }
@@ -93,18 +93,18 @@ class EdgeFinder {
   Vector3 radial(const Vector2& direction) const { return direction.x() * axes_.first + direction.y() * axes_.second; }
 
   // How deep the surroundings lie beyond this edge where its wall does not cover them; negative, 0 where not seen.
-  double usual_foot() const {
-    std::array<double, kFootDirections> depths{};
+  double typical_base() const {
+    std::array<double, kBaseDirections> depths{};
     std::size_t count = 0;
-    for (int k = 0; k < kFootDirections; ++k) {
-      const double angle = kTwoPi * k / kFootDirections;
+    for (int k = 0; k < kBaseDirections; ++k) {
+      const double angle = kTwoPi * k / kBaseDirections;
       const auto across = profile_in({std::cos(angle), std::sin(angle)});
       if (!across) continue;
-      const double foot = foot_of(across->light);
-      if (foot < -look_.least_step_m) depths[count++] = -foot;
+      const double base = base_of(across->light);
+      if (base < -prior_.min_step_m) depths[count++] = -base;
     }
     if (count == 0) return 0.0;
-    const auto place = depths.begin() + static_cast<std::ptrdiff_t>(kFootQuantile * static_cast<double>(count - 1));
+    const auto place = depths.begin() + static_cast<std::ptrdiff_t>(kBaseQuantile * static_cast<double>(count - 1));
     std::nth_element(depths.begin(), place, depths.begin() + static_cast<std::ptrdiff_t>(count));
     return -*place;
   }
@@ -119,21 +119,21 @@ class EdgeFinder {
     const Vector3 outwards = radial(direction);
     Across across;
     across.point_m = model_.centre_m + model_.radius(edge_) * outwards;
-    const auto pixel = project(camera_.optics, across.point_m);
+    const auto pixel = project(camera_.intrinsics, across.point_m);
     if (!pixel) return std::nullopt;
-    const Matrix23 slope = project_jacobian(camera_.optics, across.point_m);
+    const Matrix23 slope = project_jacobian(camera_.intrinsics, across.point_m);
     const Vector2 tangent = slope * (-direction.y() * axes_.first + direction.x() * axes_.second);
     across.normal_px = Vector2(tangent.y(), -tangent.x()).normalized();
     if (across.normal_px.dot(slope * outwards) < 0.0) across.normal_px = -across.normal_px;
-    if (!sample_light(frame_, camera_, rays_, plane_, *pixel, across.normal_px, search_, kDarkShare * look_.amplitude,
-                      across.light)) {
+    if (!sample_light(frame_, camera_, rays_, plane_, *pixel, across.normal_px, search_,
+                      kDarkFraction * prior_.amplitude, across.light)) {
       return std::nullopt;
     }
     return across;
   }
 
   // Height of what is seen farthest beyond the edge; 0 where that is dark.
-  double foot_of(const LightProfile& light) const {
+  double base_of(const LightProfile& light) const {
     const std::size_t last = 2U * static_cast<std::size_t>(search_ + kProfileReach_px);
     double amplitude = 0.0;
     double moment = 0.0;
@@ -152,16 +152,16 @@ class EdgeFinder {
     const Vector3 outwards = radial(direction);
     // The outer wall looks away from the axis, the inner one towards it; the eye is at the origin.
     const double wall_cosine = -away_ * point.dot(outwards) / point.norm();
-    const double wall_share = wall_cosine / (-point.dot(model_.normal) / point.norm());
-    if (wall_share > kBrightWall) return std::nullopt;
-    double foot = foot_of(across->light);
+    const double wall_fraction = wall_cosine / (-point.dot(model_.normal) / point.norm());
+    if (wall_fraction > kBrightWall) return std::nullopt;
+    double base = base_of(across->light);
     // Where the wall covers the profile's end, the ring's depth is that seen elsewhere.
-    if (wall_share > 0.0 || foot == 0.0) foot = std::min(foot, foot_m_);
-    if (!(foot < -look_.least_step_m)) return std::nullopt;
-    const ProfileEdge found = steepest_of_samples(light_of_layer(across->light, search_, 0.0, foot), search_, -away_);
+    if (wall_fraction > 0.0 || base == 0.0) base = std::min(base, base_m_);
+    if (!(base < -prior_.min_step_m)) return std::nullopt;
+    const ProfileEdge found = steepest_of_samples(light_of_layer(across->light, search_, 0.0, base), search_, -away_);
     if (!(found.strength > 0.0)) return std::nullopt;
-    const Vector2 wall_px = project_jacobian(camera_.optics, point) * (foot * model_.normal);
-    const double shift = away_ * wall_shift_px(wall_share, std::fabs(wall_px.dot(across->normal_px)));
+    const Vector2 wall_px = project_jacobian(camera_.intrinsics, point) * (base * model_.normal);
+    const double shift = away_ * wall_shift_px(wall_fraction, std::fabs(wall_px.dot(across->normal_px)));
     return RingEdgePoint{point, across->normal_px, found.offset_px - shift, found.strength, shift, direction};
   }
 
@@ -174,15 +174,15 @@ class EdgeFinder {
   RingEdge edge_;
   int search_;
   double away_;
-  const RingLook& look_;
-  double foot_m_ = 0.0;
+  const RingPrior& prior_;
+  double base_m_ = 0.0;
 };
 
 }  // namespace
 
 double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
-                       RingEdge edge, double search_px, const RingLook& look, RingEdgePoints& points) {
-  return EdgeFinder(frame, camera, rays, model, edge, search_px, look).find(points);
+                       RingEdge edge, double search_px, const RingPrior& prior, RingEdgePoints& points) {
+  return EdgeFinder(frame, camera, rays, model, edge, search_px, prior).find(points);
 }
 
 }  // namespace pharos::tof

@@ -8,7 +8,7 @@ namespace pharos::tof {
 
 /// Most places around one circle: the longest contour in a frame of 640 x 480 has some 1500 px, and every second pixel
 /// tells nearly as much as every one.
-inline constexpr std::size_t kMostEdgePoints = 768;
+inline constexpr std::size_t kMaxEdgePoints = 768;
 
 /// Where the ring's own light ends near a circle's expected image.
 struct RingEdgePoint {
@@ -19,16 +19,16 @@ struct RingEdgePoint {
   double wall_shift_px = 0.0;           ///< what was taken out because the ring's own wall is in sight beyond the edge
   Vector2 direction = Vector2::Zero();  ///< from the middle, in the ring's plane, unit
 };
-using RingEdgePoints = StaticVector<RingEdgePoint, kMostEdgePoints>;
+using RingEdgePoints = StaticVector<RingEdgePoint, kMaxEdgePoints>;
 
 /// What is known of the ring before its edges are looked for.
-struct RingLook {
+struct RingPrior {
   double depth_gate_m = 0.0;  ///< distance from the plane within which a pixel is the ring's
   double amplitude = 0.0;     ///< median of the ring's pixels, counts
-  double least_step_m = 0.0;  ///< how far behind the plane the surroundings must lie
+  double min_step_m = 0.0;    ///< how far behind the plane the surroundings must lie
 };
 
-/// Ends of the ring's light (layer_light.hpp) across the image of one of its circles, `search_px` to either side.
+/// Ends of the ring's light (layer_intensity.hpp) across the image of one of its circles, `search_px` to either side.
 ///
 /// The steepest place of each profile (smoothed by a Gaussian of 1 px), to a fraction of a pixel by a parabola, moved
 /// by what an upright wall in sight beyond the edge does to it (light falls with the cosine, and with the wall's
@@ -36,6 +36,6 @@ struct RingLook {
 /// there), where there is no step down beyond the edge, and where the wall is half as bright as the ring. The share of
 /// directions that were seen is returned; 0 where the ring's image cannot be computed.
 double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
-                       RingEdge edge, double search_px, const RingLook& look, RingEdgePoints& points);
+                       RingEdge edge, double search_px, const RingPrior& prior, RingEdgePoints& points);
 
 }  // namespace pharos::tof

@@ -16,10 +16,10 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 // The band beside the edge: past the mixed pixels, and still within narrow rings.
 constexpr double kBandNear_px = 1.25;
 constexpr double kBandFar_px = 4.5;
-constexpr double kLeastInliers = 0.35;
+constexpr double kMinInliers = 0.35;
 constexpr double kScanStep_px = 0.5;
 // Nothing narrower is a ring.
-constexpr double kLeastWidth_px = 2.5;
+constexpr double kMinWidth_px = 2.5;
 constexpr int kDirections = 72;
 
 RingRegion band_beside(const ellipse::Ellipse& shape, RingEdge known) {
@@ -41,7 +41,7 @@ class PlaneScan {
   }
 
   bool on_plane(std::size_t direction, double radius_m) const {
-    const auto pixel = project(camera_.optics, model_.centre_m + radius_m * radial_[direction]);
+    const auto pixel = project(camera_.intrinsics, model_.centre_m + radius_m * radial_[direction]);
     if (!pixel) return false;
     const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
     const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
@@ -60,7 +60,7 @@ class PlaneScan {
 };
 
 // Where the plane ends in most of the directions in which it begins; 0 where it does not.
-double end_of_plane(const PlaneScan& scan, double start_m, double step_m, double limit_m, double least_width_m) {
+double end_of_plane(const PlaneScan& scan, double start_m, double step_m, double limit_m, double min_width_m) {
   std::array<bool, kDirections> begins{};
   int beginning = 0;
   for (std::size_t k = 0; k < kDirections; ++k) {
@@ -74,7 +74,7 @@ double end_of_plane(const PlaneScan& scan, double start_m, double step_m, double
     int left = 0;
     for (std::size_t k = 0; k < kDirections; ++k) left += begins[k] && scan.on_plane(k, radius) ? 1 : 0;
     if (2 * left >= beginning) continue;
-    return std::fabs(radius - start_m) >= least_width_m ? radius : 0.0;
+    return std::fabs(radius - start_m) >= min_width_m ? radius : 0.0;
   }
   return 0.0;
 }
@@ -82,28 +82,28 @@ double end_of_plane(const PlaneScan& scan, double start_m, double step_m, double
 }  // namespace
 
 std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                            const ellipse::Ellipse& shape, RingEdge known, double least_ratio) {
+                                            const ellipse::Ellipse& shape, RingEdge known, double min_ratio) {
   const auto plane = fit_plane(frame, camera, rays, band_beside(shape, known));
-  if (!plane || plane->inlier_share < kLeastInliers) return std::nullopt;
+  if (!plane || plane->inlier_fraction < kMinInliers) return std::nullopt;
   auto model = ring_on_plane(plane->plane, rays, shape, shape);
   if (!model) return std::nullopt;
   const double radius = model->radius(known);
-  const double metres_per_px = model->centre_m.z() / camera.optics.fx_px;
+  const double metres_per_px = model->centre_m.z() / camera.intrinsics.fx_px;
   const PlaneScan scan(frame, camera, rays, *model, 3.0 * plane->rms_m + 0.004);
   const double outwards = known == RingEdge::kInner ? 1.0 : -1.0;
-  const double limit = known == RingEdge::kInner ? radius / least_ratio : radius * least_ratio;
+  const double limit = known == RingEdge::kInner ? radius / min_ratio : radius * min_ratio;
   const double start = radius + outwards * 0.5 * (kBandNear_px + kBandFar_px) * metres_per_px;
   const double other = end_of_plane(scan, start, outwards * kScanStep_px * metres_per_px, limit, 0.0);
-  if (other == 0.0 || std::fabs(other - radius) < kLeastWidth_px * metres_per_px) return std::nullopt;
+  if (other == 0.0 || std::fabs(other - radius) < kMinWidth_px * metres_per_px) return std::nullopt;
   model->radius_m[index_of(known == RingEdge::kInner ? RingEdge::kOuter : RingEdge::kInner)] = other;
   return model;
 }
 
-std::optional<RingModel> ring_to_its_ends(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                          const RingModel& model, double gate_m) {
+std::optional<RingModel> ring_from_plane_extent(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                                const RingModel& model, double gate_m) {
   const PlaneScan scan(frame, camera, rays, model, gate_m);
   const double middle = 0.5 * (model.radius_m[0] + model.radius_m[1]);
-  const double step = kScanStep_px * model.centre_m.z() / camera.optics.fx_px;
+  const double step = kScanStep_px * model.centre_m.z() / camera.intrinsics.fx_px;
   RingModel result = model;
   result.radius_m = {end_of_plane(scan, middle, step, 2.0 * middle, 0.0),
                      end_of_plane(scan, middle, -step, 0.5 * middle, 0.0)};

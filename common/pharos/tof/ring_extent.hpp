@@ -11,15 +11,15 @@ namespace pharos::tof {
 /// where it ends, and that is the other edge.
 ///
 /// `known` says which edge the ellipse is taken for. Nothing where the depths beside it are no plane, where the plane
-/// goes on beyond `least_ratio` of inner over outer radius (a wall), or ends at once (no ring). The other radius is
+/// goes on beyond `min_ratio` of inner over outer radius (a wall), or ends at once (no ring). The other radius is
 /// good to a pixel: fit_ring does the rest.
 std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                            const ellipse::Ellipse& shape, RingEdge known, double least_ratio);
+                                            const ellipse::Ellipse& shape, RingEdge known, double min_ratio);
 
 /// Both radii anew, from where the depths leave the plane in most directions, going out and in from the middle of the
 /// ring: whatever edges it came from. Good to a pixel. Nothing where the plane does not begin or does not end.
-std::optional<RingModel> ring_to_its_ends(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                          const RingModel& model, double gate_m);
+std::optional<RingModel> ring_from_plane_extent(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                                const RingModel& model, double gate_m);
 
 /// The image of one of the ring's circles: the ellipse through 24 of its points, which a lens without distortion shows
 /// exactly. Nothing where they do not all have a pixel.

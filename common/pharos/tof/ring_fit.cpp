@@ -20,8 +20,8 @@ constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
 constexpr int kSteps = 3;  // of reweighting in each round
 constexpr double kGate = 3.0;
 constexpr double kMedianToSigma = 1.4826;
-constexpr double kLeastEdgeSigma_px = 0.02;
-constexpr std::size_t kLeastEdgePoints = 24;
+constexpr double kMinEdgeSigma_px = 0.02;
+constexpr std::size_t kMinEdgePoints = 24;
 // How well the wall's share in an edge is known, of itself: its light need not go with the cosine.
 constexpr double kWallSigma = 0.3;
 // Chi-squared of three degrees of freedom that chance exceeds once in twenty. Where edges and depths tell planes
@@ -46,7 +46,7 @@ Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
 // How an edge's place along its normal moves with the unknowns, px.
 Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const RingEdgePoint& point,
                  RingEdge edge) {
-  const Vector3 by_point = project_jacobian(camera.optics, point.point_m).transpose() * point.normal_px;
+  const Vector3 by_point = project_jacobian(camera.intrinsics, point.point_m).transpose() * point.normal_px;
   const Vector3 arm = point.point_m - model.centre_m;
   Vector7 row = Vector7::Zero();
   row[0] = by_point.dot(axes.first.cross(arm));
@@ -66,12 +66,12 @@ RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by
 }
 
 // Robust deviation of what the model leaves.
-double deviation(const RingEdgePoints& points, const std::array<double, kMostEdgePoints>& residuals) {
-  std::array<double, kMostEdgePoints> sizes;
+double deviation(const RingEdgePoints& points, const std::array<double, kMaxEdgePoints>& residuals) {
+  std::array<double, kMaxEdgePoints> sizes;
   for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(points.size()));
-  return std::max(kLeastEdgeSigma_px, kMedianToSigma * *middle);
+  return std::max(kMinEdgeSigma_px, kMedianToSigma * *middle);
 }
 
 // One circle's share of the normal equations, linear in the unknowns about the model.
@@ -102,8 +102,8 @@ void take_rows(const DepthCamera& camera, const RingModel& model, const PlaneAxe
 
 EdgeSums edge_sums(const RingEdgePoints& points, const RingEdgeRows& rows, const Vector7& step) {
   EdgeSums sums;
-  if (points.size() < kLeastEdgePoints) return sums;
-  std::array<double, kMostEdgePoints> residuals;
+  if (points.size() < kMinEdgePoints) return sums;
+  std::array<double, kMaxEdgePoints> residuals;
   for (std::size_t i = 0; i < points.size(); ++i) residuals[i] = points[i].offset_px - rows[i].dot(step);
   const double gate = kGate * deviation(points, residuals);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -111,7 +111,7 @@ EdgeSums edge_sums(const RingEdgePoints& points, const RingEdgeRows& rows, const
     sums.residuals.add(points[i].direction.x(), points[i].direction.y(), 1.0, residuals[i]);
   }
   const double variance =
-      std::max(kLeastEdgeSigma_px * kLeastEdgeSigma_px, sums.residuals.variance()) * sums.residuals.correlation(4);
+      std::max(kMinEdgeSigma_px * kMinEdgeSigma_px, sums.residuals.variance()) * sums.residuals.variance_inflation(4);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::fabs(residuals[i]) < gate) sums.add(rows[i], points[i], 1.0 / variance);
   }
@@ -123,7 +123,7 @@ struct Solved {
   Matrix7 covariance = Matrix7::Zero();
   double edge_squares = 0.0;
   std::int32_t edge_points = 0;
-  double disagreement = 0.0;
+  double plane_chi2 = 0.0;
 };
 
 // Both circles' edges and the depths' plane, reweighted from what they leave.
@@ -150,7 +150,7 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
       solved.edge_squares += sums.residuals.variance() * sums.residuals.count();
       solved.edge_points += sums.residuals.count();
     }
-    if (solved.edge_points < static_cast<std::int32_t>(kLeastEdgePoints)) return std::nullopt;
+    if (solved.edge_points < static_cast<std::int32_t>(kMinEdgePoints)) return std::nullopt;
     // The walls' error is one more unknown, known to be near zero; eliminated.
     const double wall = both.wall + 1.0 / (kWallSigma * kWallSigma);
     add_outer<7>(normal, both.with_wall, -1.0 / wall);
@@ -162,8 +162,8 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
     if (!solved.step.allFinite()) return std::nullopt;
   }
   const Vector3 left = plane_offset - by_plane * solved.step;
-  solved.disagreement = left.dot(plane.information * left);
-  if (solved.disagreement > kDoubtful) solved.covariance *= solved.disagreement / 3.0;
+  solved.plane_chi2 = left.dot(plane.information * left);
+  if (solved.plane_chi2 > kDoubtful) solved.covariance *= solved.plane_chi2 / 3.0;
   return solved;
 }
 
@@ -178,7 +178,7 @@ Matrix7 common_noise(const RingModel& model, double sigma_m) {
 
 // Foil of uneven depth beside an edge and walls move it along whole sides of the ring: the circles' common place.
 Matrix7 common_place(const DepthCamera& camera, const RingModel& model) {
-  const double sigma_m = kCommonEdge_px * model.centre_m.z() / camera.optics.fx_px;
+  const double sigma_m = kCommonEdge_px * model.centre_m.z() / camera.intrinsics.fx_px;
   Matrix7 covariance = Matrix7::Zero();
   covariance(2, 2) = covariance(3, 3) = sigma_m * sigma_m;
   return covariance;
@@ -237,17 +237,17 @@ std::optional<RingModel> ring_on_plane(const DepthPlane& plane, const RayGrid& r
 }
 
 std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                const PlaneFit& plane, const RingModel& start, double least_step_m,
+                                const PlaneFit& plane, const RingModel& start, double min_step_m,
                                 const DepthNoise& noise, RingFitWorkspace& workspace) {
   RingFit fit;
   fit.model = start;
   // A plane that is smoother than the camera's noise still has pixels that are mixed with its surroundings.
   const double ratio = start.centre_m.z() / noise.range_m;
-  const RingLook look{4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio), plane.amplitude, least_step_m};
+  const RingPrior prior{4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio), plane.amplitude, min_step_m};
   for (const double search_px : kSearch_px) {
     for (const RingEdge edge : kRingEdges) {
       fit.seen =
-          find_ring_edges(frame, camera, rays, fit.model, edge, search_px, look, workspace.points[index_of(edge)]);
+          find_ring_edges(frame, camera, rays, fit.model, edge, search_px, prior, workspace.points[index_of(edge)]);
     }
     const auto solved = solve_round(camera, fit.model, plane, workspace);
     if (!solved) return std::nullopt;
@@ -256,7 +256,7 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
     fit.covariance = solved->covariance;
     fit.edge_points = solved->edge_points;
     fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
-    fit.disagreement = solved->disagreement;
+    fit.plane_chi2 = solved->plane_chi2;
   }
   fit.covariance += common_noise(fit.model, noise.common_sigma_m) + common_place(camera, fit.model);
   fit.plane_rms_m = plane.rms_m;

@@ -23,11 +23,11 @@ struct RingFit {
   std::int32_t plane_pixels = 0;
   double seen = 0.0;  ///< share of the circumference with depth on the plane
   /// How badly edges and depth disagree about the plane: chi-squared of three degrees of freedom.
-  double disagreement = 0.0;
+  double plane_chi2 = 0.0;
 };
 
 /// How the places of a circle's edge points move with the fit's unknowns, px.
-using RingEdgeRows = std::array<Vector7, kMostEdgePoints>;
+using RingEdgeRows = std::array<Vector7, kMaxEdgePoints>;
 
 /// Where the edges of a ring are found, between rounds of the fit, and their rows.
 struct RingFitWorkspace {
@@ -42,7 +42,7 @@ struct RingFitWorkspace {
 /// a circle's centre is never taken for its image's centre. Three rounds, in each of which edges are looked for again
 /// beside the circles' new images. Nothing where edges are too few or the fit does not settle.
 std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                const PlaneFit& plane, const RingModel& start, double least_step_m,
+                                const PlaneFit& plane, const RingModel& start, double min_step_m,
                                 const DepthNoise& noise, RingFitWorkspace& workspace);
 
 /// Concentric circles in `plane` through the images of two ellipses: what fit_ring starts from. Nothing where the

@@ -32,7 +32,7 @@ class SectorSums {
   double variance() const { return count_ > 0 ? squares_ / count_ : 0.0; }
   /// At least 1: what the variance of an average is, over what it would be of independent residuals. `unknowns` were
   /// fitted.
-  double correlation(int unknowns) const {
+  double variance_inflation(int unknowns) const {
     double own = 0.0;
     double across = 0.0;
     int used = 0;
@@ -43,7 +43,7 @@ class SectorSums {
     }
     const double independent = variance() * weights_;
     if (!(independent > 0.0)) return 1.0;
-    if (used - unknowns < kLeastUsed) return std::max(1.0, weights_ > 0.0 ? static_cast<double>(count_) : 1.0);
+    if (used - unknowns < kMinUsed) return std::max(1.0, weights_ > 0.0 ? static_cast<double>(count_) : 1.0);
     const double lost = static_cast<double>(used) / (used - unknowns);
     return std::max(1.0, (1.0 + kUncertain / used) * lost * (own + 2.0 * std::max(0.0, across)) / independent);
   }
@@ -54,7 +54,7 @@ class SectorSums {
   // of its inverse, to second order in the six-over-n variance of own squares and neighbours' products.
   static constexpr double kUncertain = 8.0;
   // Where hardly a sector is seen, all residuals may be one.
-  static constexpr int kLeastUsed = 8;
+  static constexpr int kMinUsed = 8;
 
   // Grows with the angle of (du, dv); a diamond's perimeter stands for the circle's.
   static std::size_t sector_of(double du, double dv) {

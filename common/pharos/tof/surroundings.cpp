@@ -9,22 +9,22 @@ namespace pharos::tof {
 namespace {
 
 // How many pixels are looked at, at most.
-constexpr std::size_t kMostSamples = 512;
+constexpr std::size_t kMaxSamples = 512;
 constexpr double kMedianToSigma = 1.4826;
 // A face with specks grown on to it is at least a third of its region: this quantile lies on the face.
 constexpr double kFaceQuantile = 0.85;
 
 // Counts of the height image.
 struct Samples {
-  std::array<std::uint16_t, kMostSamples> height;  // `count` of them
+  std::array<std::uint16_t, kMaxSamples> height;  // `count` of them
   std::size_t count = 0;
 
-  bool full() const { return count == kMostSamples; }
+  bool full() const { return count == kMaxSamples; }
   void add(std::uint16_t value) {
-    if (count < kMostSamples) height[count++] = value;
+    if (count < kMaxSamples) height[count++] = value;
   }
-  std::uint16_t quantile(double share) {
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(count - 1));
+  std::uint16_t quantile(double fraction) {
+    const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(count - 1));
     std::nth_element(height.begin(), height.begin() + place, height.begin() + static_cast<std::ptrdiff_t>(count));
     return height[static_cast<std::size_t>(place)];
   }
@@ -33,7 +33,7 @@ struct Samples {
 // Of the region's pixels, row by row between its outline; holes are few.
 Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) {
   Samples samples;
-  const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMostSamples);
+  const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMaxSamples);
   std::int32_t passed = stride - 1;
   for (std::int32_t v = region.top; v <= region.bottom; ++v) {
     const Region::Extent& row = region.row[static_cast<std::size_t>(v - region.top)];
@@ -72,32 +72,32 @@ Surroundings surroundings_of(ImageView<const std::uint16_t> heights, const Regio
   found.stride_px = stride_around(region);
   Samples samples = around(heights, region);
   found.samples = samples.count;
-  if (samples.count < kLeastSurroundings) return found;
-  const std::uint16_t foot = samples.quantile(0.5);
-  found.foot_m = height_of(foot);
+  if (samples.count < kMinSurroundings) return found;
+  const std::uint16_t base = samples.quantile(0.5);
+  found.base_m = height_of(base);
   for (std::size_t i = 0; i < samples.count; ++i) {
-    samples.height[i] = static_cast<std::uint16_t>(std::abs(samples.height[i] - foot));
+    samples.height[i] = static_cast<std::uint16_t>(std::abs(samples.height[i] - base));
   }
   found.sigma_m = kMedianToSigma * kHeightUnit_m * samples.quantile(0.5);
   return found;
 }
 
-void mark_face(ImageView<const std::uint16_t> heights, const Region& region, double least_height_m, BitImage& faces) {
+void mark_face(ImageView<const std::uint16_t> heights, const Region& region, double min_height_m, BitImage& faces) {
   Samples own = inside_of(heights, region);
   if (own.count == 0) return;
   Samples beside = around(heights, region);
-  const double foot = beside.count < kLeastSurroundings ? -kMostHeight_m : height_of(beside.quantile(0.5));
+  const double base = beside.count < kMinSurroundings ? -kMaxHeight_m : height_of(beside.quantile(0.5));
   const double high = height_of(own.quantile(kFaceQuantile));
-  if (high - foot < least_height_m) return;
+  if (high - base < min_height_m) return;
   Samples face;
   for (std::size_t i = 0; i < own.count; ++i) {
-    if (height_of(own.height[i]) > 0.5 * (high + foot)) face.add(own.height[i]);
+    if (height_of(own.height[i]) > 0.5 * (high + base)) face.add(own.height[i]);
   }
-  const double halfway = 0.5 * (height_of(face.quantile(0.5)) + foot);
-  const auto least = static_cast<std::int32_t>(std::floor(halfway / kHeightUnit_m)) + kHeightZero;
+  const double halfway = 0.5 * (height_of(face.quantile(0.5)) + base);
+  const auto minimum = static_cast<std::int32_t>(std::floor(halfway / kHeightUnit_m)) + kHeightZero;
   for (std::int32_t v = region.top; v <= region.bottom; ++v) {
     for (std::int32_t u = region.left; u <= region.right; ++u) {
-      if (heights.at(u, v) != kNoHeight && heights.at(u, v) > least) faces.set(u, v);
+      if (heights.at(u, v) != kNoHeight && heights.at(u, v) > minimum) faces.set(u, v);
     }
   }
 }

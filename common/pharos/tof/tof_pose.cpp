@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pharos/ellipse/detect.hpp"
-#include "pharos/tof/standing_light.hpp"
+#include "pharos/tof/relief_image.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -51,14 +51,14 @@ class ConnectorChoice {
 
   // Nearest first. False where a region that may be a nearer connector could not be told: then none may be chosen.
   // Doubtful regions are only asked where connectors are missing.
-  bool choose(std::int32_t expected, double least_difference_m) {
+  bool choose(std::int32_t expected, double min_difference_m) {
     const auto& found = workspace_.connector.connectors;
     for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
     if (static_cast<std::int32_t>(found.size()) >= expected) return true;
     for (const RegionReport& doubt : workspace_.connector.doubtful) {
       if (!found.empty() && !are_alike(doubt, found[0], kDoubtfulArea)) continue;
-      if (add_doubtful(doubt, least_difference_m)) continue;
-      if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + least_difference_m) return false;
+      if (add_doubtful(doubt, min_difference_m)) continue;
+      if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + min_difference_m) return false;
     }
     return !choices_.empty();
   }
@@ -67,7 +67,7 @@ class ConnectorChoice {
  private:
   // By the edges around the region; else by those of a square like the nearest connector's, which may show another
   // connector but never a nearer one: burrs shift it.
-  bool add_doubtful(const RegionReport& doubt, double least_difference_m) {
+  bool add_doubtful(const RegionReport& doubt, double min_difference_m) {
     const Choice own = choice_of(doubt);
     if (own.sure && is_another(own)) {
       insert(own);
@@ -76,7 +76,7 @@ class ConnectorChoice {
     if (choices_.empty() || !choices_[0].sure) return false;
     const Choice like = choice_like(doubt);
     if (!like.sure || !is_another(like)) return false;
-    if (like.distance_m() < choices_[0].distance_m() + least_difference_m) return false;
+    if (like.distance_m() < choices_[0].distance_m() + min_difference_m) return false;
     insert(like);
     return true;
   }
@@ -118,7 +118,7 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
   find_connectors(frame, camera, workspace.rays, ring, settings.connector, workspace.connector);
   tell(listener, TofStage::kConnector);
   ConnectorChoice choice(frame, camera, workspace, ring);
-  const bool told = choice.choose(settings.connector.expected, settings.connector.least_difference_m);
+  const bool told = choice.choose(settings.connector.expected, settings.connector.min_difference_m);
   const bool few = static_cast<std::int32_t>(choice.choices().size()) < settings.connector.expected;
   if (!told || few) {
     result.flags |= kFlagNoConnector;
@@ -130,7 +130,7 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
   result.connector = choices[0].face;
   result.target = target_pose(ring, result.connector);
   if (!choices[0].sure) result.flags |= kFlagCoarseConnector;
-  if (choices.size() > 1 && choices[1].distance_m() - choices[0].distance_m() < settings.connector.least_difference_m) {
+  if (choices.size() > 1 && choices[1].distance_m() - choices[0].distance_m() < settings.connector.min_difference_m) {
     result.second = target_pose(ring, choices[1].face);
   }
 }
@@ -157,13 +157,13 @@ Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamer
   const auto ring = ring_in(frame.intensity);
   if (ring) return ring;
   // Connectors are looked for later: their heights' memory is free.
-  const ImageView<std::uint16_t> standing(workspace.connector.heights.data(), frame.depth.width_px,
-                                          frame.depth.height_px);
+  const ImageView<std::uint16_t> relief(workspace.connector.heights.data(), frame.depth.width_px,
+                                        frame.depth.height_px);
   auto face = face_plane(frame, camera, workspace.rays, settings.noise);
   for (int plane = 0; face && plane < kFacePlanes; ++plane) {
-    make_standing_light(frame, camera, workspace.rays, *face, standing);
+    make_relief_image(frame, camera, workspace.rays, *face, relief);
     tell(listener, TofStage::kFace);
-    const auto by_height = ring_in(standing);
+    const auto by_height = ring_in(relief);
     if (by_height) return by_height;
     const DepthPlane front = *face;
     face = face_plane(frame, camera, workspace.rays, settings.noise, &front);
@@ -182,7 +182,7 @@ Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthC
   workspace.ellipse.arcs.clear();
   for (RingEdgePoints& points : workspace.edges.points) points.clear();
   if (const auto failure = workspace.frames.check(frame, camera)) return *failure;
-  if (!workspace.rays.prepare(camera.optics)) return TofFailure::kCameraUnusable;
+  if (!workspace.rays.prepare(camera.intrinsics)) return TofFailure::kCameraUnusable;
   tell(listener, TofStage::kCheck);
   const auto ring = find_ring(frame, camera, settings, workspace, listener);
   if (!ring) return ring.error();

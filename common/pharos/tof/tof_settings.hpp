@@ -10,17 +10,17 @@ namespace pharos::tof {
 /// What is known of the docking ring beforehand. Limits, not values: the ring is measured, not assumed.
 struct RingSettings {
   /// Rings between 0.6 and 1.2 m across are in use; a nozzle's rim is smaller. Metres.
-  double least_outer_radius_m = 0.25;
-  double most_outer_radius_m = 0.75;
+  double min_outer_radius_m = 0.25;
+  double max_outer_radius_m = 0.75;
   /// Inner over outer radius.
-  double least_radius_ratio = 0.6;
-  double most_radius_ratio = 0.97;
-  /// Share of the ring's circumference that must be seen with depth on its plane. A third may be hidden (0.65 is left);
-  /// of 8,400 such frames one had 0.54, its plane 6 deg off where 0.6 deg were stated.
-  double least_seen = 0.6;
+  double min_radius_ratio = 0.6;
+  double max_radius_ratio = 0.97;
+  /// Fraction of the ring's circumference that must be seen with depth on its plane. A third may be hidden (0.65 is
+  /// left); of 8,400 such frames one had 0.54, its plane 6 deg off where 0.6 deg were stated.
+  double min_seen = 0.6;
   /// How far the surroundings must lie behind the ring's plane, inside and outside: a painted circle has no step.
   /// Metres.
-  double least_step_m = 0.015;
+  double min_step_m = 0.015;
 };
 
 /// Noise of the depth camera, only for gates: what is reported is measured on the frame itself.
@@ -40,26 +40,26 @@ struct ConnectorSettings {
   ThresholdForm form = ThresholdForm::kPixelCount;
   /// Half the window's width, w of (5), is the larger of the paper's 4 and this share of the outer ellipse's semi-axis:
   /// where the window does not reach beyond the connector, half of its flat face lies below its own mean.
-  std::int32_t least_half_window_px = 4;
-  double window_share = 0.2;
+  std::int32_t min_half_window_px = 4;
+  double window_fraction = 0.2;
   /// Only pixels grow that are as bright as this share of the ring: dark foil's depths are noise.
-  double least_amplitude = 0.4;
-  double least_area_px = 20.0;
+  double min_amplitude = 0.4;
+  double min_area_px = 20.0;
   /// Least and largest area over that of the outer ellipse: patches of noise reach a third of the least.
-  double least_area_share = 0.005;
-  double most_area_share = 0.1;
-  double least_aspect = 0.7;
-  double most_aspect = 1.5;
-  double least_fill = 0.7;
+  double min_area_fraction = 0.005;
+  double max_area_fraction = 0.1;
+  double min_aspect = 0.7;
+  double max_aspect = 1.5;
+  double min_fill = 0.7;
   /// How far from the ring's centre connectors are looked for, in outer radii.
   double reach = 1.7;
   /// How far its face must stand over its surroundings, m.
-  double least_height_m = 0.015;
+  double min_height_m = 0.015;
   /// How many the target is known to carry; the paper's has two. Where fewer are seen the nearest may be the one that
   /// is missing, and the turn about Z' is not given.
   std::int32_t expected = 2;
   /// Two whose distances differ by less are equally near: neither may be chosen. Metres.
-  double least_difference_m = 0.008;
+  double min_difference_m = 0.008;
 };
 
 struct TofSettings {

@@ -6,7 +6,7 @@ namespace pharos::track {
 bool CycleAssembler::fits(Axis axis, std::int64_t flash_ticks) const {
   if (!is_open_) return true;
   const std::int64_t gap = flash_ticks - open_.last_flash_ticks;
-  return axis == Axis::kY && !open_.has_sweep[1] && gap > 0 && gap < kMaxGapTicks;
+  return axis == Axis::kY && !open_.has_sweep[1] && gap > 0 && gap < kMaxGap_ticks;
 }
 
 const Cycle* CycleAssembler::close_before(Axis axis, std::int64_t flash_ticks) {

@@ -28,7 +28,7 @@ struct Cycle {
 class CycleAssembler {
  public:
   /// Most time between the two flashes of a cycle: they are half a turn apart, in every mode.
-  static constexpr std::int64_t kMaxGapTicks = 600'000;  // 0.72 turns
+  static constexpr std::int64_t kMaxGap_ticks = 600'000;  // 0.72 turns
 
   /// The cycle that this sweep closed, if any.
   std::optional<Cycle> push(std::uint8_t station, Axis axis, std::int64_t flash_ticks, std::uint8_t sweep_flags,

@@ -42,10 +42,10 @@ bool took_search(pose::Refusal refusal) {
          refusal == pose::Refusal::kBehindStation || refusal == pose::Refusal::kSearchLimit;
 }
 
-bool residual_credible(const LighthousePoseEstimate& estimate, double sigma_rad) {
+bool residual_plausible(const LighthousePoseEstimate& estimate, double sigma_rad) {
   const double ratio = estimate.residual_rms / sigma_rad;
   const int freedom = estimate.observations - pose::kPoseUnknowns;
-  return ratio * ratio * estimate.observations <= pose::credible_chi2(freedom);
+  return ratio * ratio * estimate.observations <= pose::chi2_threshold(freedom);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void EpochTracker::set_calibration(std::uint8_t station, const lighthouse::Stati
 }
 
 bool EpochTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
-  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > kLongestDarkTicks;
+  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > kLongestDark_ticks;
 }
 
 void EpochTracker::forget_stations() {
@@ -131,31 +131,31 @@ int EpochTracker::sensors_seen() const {
 }
 
 void EpochTracker::solve_from(const LighthouseFromBody* prior, Station& station, const Cycle& cycle,
-                              Answer& answer) const {
-  if (options_.warm_start && sensors_seen() >= pose::kLeastSensorsAlone) {
+                              SolveResult& answer) const {
+  if (options_.warm_start && sensors_seen() >= pose::kMinSensorsAlone) {
     if (prior != nullptr && solve_warm_from(*prior, answer)) return;
-    if (cycle.last_flash_ticks < station.rests_until_ticks) {
+    if (cycle.last_flash_ticks < station.search_cooldown_until_ticks) {
       answer = pose::Refusal::kSearchLimit;
       return;
     }
   }
   answer = pose::solve(target_, ideal_.observations, options_.solve, prior);
   if (!answer && took_search(answer.error())) {
-    station.rests_until_ticks = cycle.last_flash_ticks + options_.search_rest_ticks;
+    station.search_cooldown_until_ticks = cycle.last_flash_ticks + options_.search_cooldown_ticks;
   }
 }
 
-[[gnu::noinline]] bool EpochTracker::solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const {
+[[gnu::noinline]] bool EpochTracker::solve_warm_from(const LighthouseFromBody& prior, SolveResult& answer) const {
   const auto warm = pose::solve_warm(target_, ideal_.observations, options_.solve, prior);
   if (warm) answer = *warm;
   return warm.has_value();
 }
 
-void EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer) {
+void EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& result, SolveResult& answer) {
   const LighthouseFromBody* last = fresh_pose(station, cycle, options_.prior_max_age_s);
   const LighthouseFromBody* warm = options_.warm_start ? fresh_pose(station, cycle, options_.warm_max_age_s) : nullptr;
   correct(station, cycle, warm);
-  const bool enough = sensors_seen() >= pose::kLeastSensorsAlone;
+  const bool enough = sensors_seen() >= pose::kMinSensorsAlone;
   solve_from(enough ? warm : nullptr, station, cycle, answer);
   if (!answer && answer.error() == pose::Refusal::kTooFewSensors && last != nullptr) {
     solve_from(last, station, cycle, answer);
@@ -177,8 +177,8 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
   const pose::Observation& observation = ideal_.observations[index];
   TrackedBearing tracked{ideal_.raw[index], observation.axis, observation.theta_rad, used_[index], 0.0};
   const SensorPlacement* sensor = find_sensor(target_, observation.sensor);
-  if (answered_pose_ && sensor != nullptr) {
-    const lighthouse::ThetaPair predicted = lighthouse::ideal_thetas(*answered_pose_ * sensor->position_m);
+  if (solved_pose_ && sensor != nullptr) {
+    const lighthouse::ThetaPair predicted = lighthouse::ideal_thetas(*solved_pose_ * sensor->position_m);
     tracked.residual_rad = observation.theta_rad - predicted[observation.axis];
   }
   return tracked;
@@ -187,9 +187,9 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
 [[gnu::noinline]] void EpochTracker::accept(Station& station, const Cycle& cycle, const pose::Solution& solution,
                                             EpochResult& result) {
   used_ = solution.used;
-  answered_pose_ = solution.estimate.pose;
+  solved_pose_ = solution.estimate.pose;
   if (used_.count() < ideal_.observations.size()) result.flags |= kEpochOutliers;
-  if (!residual_credible(solution.estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
+  if (!residual_plausible(solution.estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
   result.observations = solution.estimate.observations;
   result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
   // An answer that leant on the pose before it, or has a rival, is nothing for the next one to lean on.
@@ -211,16 +211,16 @@ void EpochTracker::answer(Station& station, const Cycle& cycle, EpochResult& res
   result.station = cycle.station;
   result.flags = flags_of(cycle, station.calibration.has_value());
   // Of one axis alone nothing comes, and on a slow core the corrections without a partner cost more than a pose.
-  const bool hopeless = options_.warm_start && (cycle[Axis::kX].empty() || cycle[Axis::kY].empty());
-  Answer solution = hopeless ? pose::Refusal::kDegenerate : pose::Refusal::kNotConverged;
-  if (hopeless) {
+  const bool abandoned = options_.warm_start && (cycle[Axis::kX].empty() || cycle[Axis::kY].empty());
+  SolveResult solution = abandoned ? pose::Refusal::kDegenerate : pose::Refusal::kNotConverged;
+  if (abandoned) {
     ideal_observations(cycle, target_, nullptr, options_.form, nullptr, true, ideal_);  // what was offered
   } else {
     solve(station, cycle, result, solution);
   }
   if (ideal_.left_out > 0) result.flags |= kEpochOutliers;
   used_.reset();
-  answered_pose_.reset();
+  solved_pose_.reset();
   if (solution) {
     accept(station, cycle, *solution, result);
   } else {

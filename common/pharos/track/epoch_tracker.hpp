@@ -33,12 +33,12 @@ struct TrackOptions {
   double warm_max_age_s = 1.0;
   /// What the integers refuse goes through the search in double (solve.max_search_starts). After one that found nothing
   /// the station's next ones are refused for this long (kSearchLimit), or a bad view would take all of a slow core.
-  std::int64_t search_rest_ticks = 0;
+  std::int64_t search_cooldown_ticks = 0;
 };
 
 /// Without a flash for this long a station may come back under another's number (decoders extrapolate rotors for 300
 /// s), so nothing that was known of a number holds any more.
-inline constexpr std::int64_t kLongestDarkTicks = 240 * kTicksPerSecond;
+inline constexpr std::int64_t kLongestDark_ticks = 240 * kTicksPerSecond;
 
 /// Words said about one cycle's answer; a bit set.
 enum EpochFlag : std::uint8_t {
@@ -89,7 +89,7 @@ class EpochTracker {
   EpochTracker(const Target& target, const TrackOptions& options);
   /// Calibration of the station in this slot position, from now on.
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
-  /// Whether more than kLongestDarkTicks lie between the newest flash so far and this sweep's. Whoever keeps
+  /// Whether more than kLongestDark_ticks lie between the newest flash so far and this sweep's. Whoever keeps
   /// calibrations by station number forgets them then, as push() does with those that were set here.
   bool after_long_dark(const lighthouse::Sweep& sweep) const;
   /// Everything known of the stations: calibrations, flashes, last poses, cycles not complete.
@@ -110,10 +110,10 @@ class EpochTracker {
     CycleAssembler assembler;
     std::optional<LighthouseFromBody> last_pose;
     std::int64_t last_pose_ticks = 0;
-    std::int64_t rests_until_ticks = 0;  // no search before
+    std::int64_t search_cooldown_until_ticks = 0;  // no search before
   };
 
-  using Answer = Result<pose::Solution, pose::Refusal>;
+  using SolveResult = Result<pose::Solution, pose::Refusal>;
 
   /// Takes the sweep into its cycle; the cycle if that completed it.
   const Cycle* take(Station& station, const lighthouse::Sweep& sweep, const lighthouse::SmoothedFlash& smoothed,
@@ -125,9 +125,9 @@ class EpochTracker {
   void accept(Station& station, const Cycle& cycle, const pose::Solution& solution, EpochResult& result);
   void refuse(const Cycle& cycle, pose::Refusal why, EpochResult& result) const;
   void correct(const Station& station, const Cycle& cycle, const LighthouseFromBody* pose);
-  void solve(Station& station, const Cycle& cycle, EpochResult& result, Answer& answer);
-  void solve_from(const LighthouseFromBody* prior, Station& station, const Cycle& cycle, Answer& answer) const;
-  bool solve_warm_from(const LighthouseFromBody& prior, Answer& answer) const;
+  void solve(Station& station, const Cycle& cycle, EpochResult& result, SolveResult& answer);
+  void solve_from(const LighthouseFromBody* prior, Station& station, const Cycle& cycle, SolveResult& answer) const;
+  bool solve_warm_from(const LighthouseFromBody& prior, SolveResult& answer) const;
   int sensors_seen() const;
   static const LighthouseFromBody* fresh_pose(const Station& station, const Cycle& cycle, double max_age_s);
 
@@ -138,7 +138,7 @@ class EpochTracker {
   // The cycle last answered.
   IdealObservations ideal_;
   std::bitset<pose::kMaxObservations> used_;
-  std::optional<LighthouseFromBody> answered_pose_;
+  std::optional<LighthouseFromBody> solved_pose_;
 };
 
 }  // namespace pharos::track

@@ -15,7 +15,7 @@ namespace pharos::wire {
 /// Times on the wire lie within +-45 years of the counter's zero, so that no sum, difference or conversion to
 /// nanoseconds of them can overflow.
 inline constexpr std::int64_t kMaxTicks = std::int64_t{1} << 56;
-constexpr bool is_credible_time(std::int64_t ticks) { return ticks >= -kMaxTicks && ticks <= kMaxTicks; }
+constexpr bool is_plausible_time(std::int64_t ticks) { return ticks >= -kMaxTicks && ticks <= kMaxTicks; }
 
 /// Writes little-endian fields one after the other into bytes the caller owns.
 ///
@@ -49,7 +49,7 @@ class ByteWriter {
     put(static_cast<std::uint8_t>(bits));
   }
   void put_ticks(std::int64_t ticks) {
-    if (!is_credible_time(ticks)) fail();
+    if (!is_plausible_time(ticks)) fail();
     put(ticks);
   }
   /// The message cannot be written (a field is out of its range).
@@ -113,7 +113,7 @@ class ByteReader {
   }
   std::int64_t get_ticks() {
     const auto ticks = get<std::int64_t>();
-    if (is_credible_time(ticks)) return ticks;
+    if (is_plausible_time(ticks)) return ticks;
     refuse();
     return 0;
   }

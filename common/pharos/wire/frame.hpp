@@ -12,7 +12,7 @@ namespace pharos::wire {
 // A frame on the line:  00 | byte-stuffed (version, type, sequence, payload, CRC-32) | 00.  See proto/README.md.
 
 /// Stands before and behind every frame and nowhere inside.
-inline constexpr std::uint8_t kFrameBorder = 0;
+inline constexpr std::uint8_t kFrameDelimiter = 0;
 
 /// Longest payload: a sweep with every hit it can hold has 468 bytes.
 inline constexpr std::size_t kMaxPayload = 512;

@@ -19,7 +19,7 @@ constexpr std::uint16_t kReplayWindow = 64;
 
 std::optional<Frame> FrameDecoder::push(std::uint8_t byte) {
   ++counters_.bytes;
-  if (byte == kFrameBorder) return finish_frame();
+  if (byte == kFrameDelimiter) return finish_frame();
   if (size_ < buffer_.size()) buffer_[size_] = byte;
   ++size_;
   return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<Frame> FrameDecoder::check_frame(std::size_t size, std::size_t byt
   const auto version = header.get<std::uint8_t>();
   if (version != kProtocolVersion) {
     ++counters_.wrong_version;
-    foreign_version_ = version;
+    unsupported_version_ = version;
     return std::nullopt;
   }
   Frame frame;
@@ -92,9 +92,9 @@ bool FrameDecoder::check_sequence(const Frame& frame, std::uint32_t crc) {
   const auto gap = static_cast<std::uint16_t>(frame.sequence - last_sequence_ - 1);
   const auto behind = static_cast<std::uint16_t>(last_sequence_ - frame.sequence);
   const bool same_again = frame.sequence == last_sequence_ && crc == last_crc_;
-  const bool greeting = frame.type == MessageType::kHello && frame.sequence == 0 && !same_again;
+  const bool hello = frame.type == MessageType::kHello && frame.sequence == 0 && !same_again;
   // Behind a gap in the line stands another start as likely as a frame come twice.
-  if (!first && !greeting && !reopened_ && behind < kReplayWindow) {
+  if (!first && !hello && !reopened_ && behind < kReplayWindow) {
     ++counters_.repeated;
     return false;
   }
@@ -103,7 +103,7 @@ bool FrameDecoder::check_sequence(const Frame& frame, std::uint32_t crc) {
   last_sequence_ = frame.sequence;
   last_crc_ = crc;
   if (first || gap == 0) return true;
-  if (greeting || gap > kLargestCredibleGap) {
+  if (hello || gap > kLargestCredibleGap) {
     ++counters_.restarts;
   } else {
     counters_.frames_lost += gap;

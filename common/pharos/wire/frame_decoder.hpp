@@ -15,7 +15,8 @@ namespace pharos::wire {
 ///
 /// Every zero byte is a frame border, so garbage of any kind costs the frames it hits and no other. A frame is given
 /// out only when its stuffing, length, CRC-32 and version are right. Frames of other protocol versions are told by
-/// foreign_version(); unknown types are skipped. State: about 650 bytes. Cost: one buffer store a byte, and the CRC.
+/// unsupported_version(); unknown types are skipped. State: about 650 bytes. Cost: one buffer store a byte, and the
+/// CRC.
 class FrameDecoder {
  public:
   /// The frame that `byte` completed, if any. Its payload points into this object and holds until the next push.
@@ -27,7 +28,7 @@ class FrameDecoder {
 
   const LinkCounters& counters() const { return counters_; }
   /// Protocol version of the last frame of another version that came with a good CRC.
-  std::optional<std::uint8_t> foreign_version() const { return foreign_version_; }
+  std::optional<std::uint8_t> unsupported_version() const { return unsupported_version_; }
 
  private:
   std::optional<Frame> finish_frame();
@@ -43,7 +44,7 @@ class FrameDecoder {
   bool reopened_ = false;  // no frame since restart()
   std::uint16_t last_sequence_ = 0;
   std::uint32_t last_crc_ = 0;
-  std::optional<std::uint8_t> foreign_version_;
+  std::optional<std::uint8_t> unsupported_version_;
 };
 
 }  // namespace pharos::wire

@@ -11,9 +11,9 @@
 
 namespace pharos::wire {
 
-// How an image (common/pharos/image) gets into the target: query -> hello and info, begin, data…, verify, start. Every
-// request but the query is answered by Ack or Nak before the next is sent, but for data, of which kLoaderWindow may be
-// on their way. Repeating a request is harmless.
+// How an image (common/pharos/boot_image) gets into the target: query -> hello and info, begin, data…, verify, start.
+// Every request but the query is answered by Ack or Nak before the next is sent, but for data, of which kLoaderWindow
+// may be on their way. Repeating a request is harmless.
 
 /// Blocks of data that may be sent before the first of them is answered. Three keep a line of 460,800 baud busy over an
 /// adapter that hands on what came every 16 ms, and while a page of flash is written.

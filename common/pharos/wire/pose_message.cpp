@@ -7,7 +7,7 @@ namespace pharos::wire {
 namespace {
 
 // What follows the head.
-constexpr std::uint8_t kHasAnswer = 1;
+constexpr std::uint8_t kHasResult = 1;
 constexpr std::uint8_t kHasSecond = 2;
 
 template <class T>
@@ -26,7 +26,7 @@ void read_fields(ByteReader& in, PoseFields& pose) {
   for (double& value : pose.position_m) value = in.get_finite<double>();
 }
 
-void write_answer(const PoseAnswer& answer, ByteWriter& out) {
+void write_result(const PoseResult& answer, ByteWriter& out) {
   write_fields(answer.pose, out);
   for (const float value : answer.covariance) put_finite(value, out);
   put_finite(answer.residual_rms_rad, out);
@@ -38,7 +38,7 @@ void write_answer(const PoseAnswer& answer, ByteWriter& out) {
   put_finite(answer.second->delta_chi2, out);
 }
 
-void read_answer(ByteReader& in, bool has_second, PoseAnswer& answer) {
+void read_result(ByteReader& in, bool has_second, PoseResult& answer) {
   read_fields(in, answer.pose);
   for (float& value : answer.covariance) value = in.get_finite<float>();
   answer.residual_rms_rad = in.get_finite<float>();
@@ -60,9 +60,9 @@ void write(const Pose& message, ByteWriter& out) {
   out.put(message.station);
   out.put(message.flags);
   out.put(message.refusal);
-  out.put(static_cast<std::uint8_t>((message.answer ? kHasAnswer : 0) | (has_second ? kHasSecond : 0)));
+  out.put(static_cast<std::uint8_t>((message.answer ? kHasResult : 0) | (has_second ? kHasSecond : 0)));
   out.put(message.observations);
-  if (message.answer) write_answer(*message.answer, out);
+  if (message.answer) write_result(*message.answer, out);
 }
 
 void read(ByteReader& in, Pose& message) {
@@ -72,11 +72,11 @@ void read(ByteReader& in, Pose& message) {
   message.refusal = in.get<std::uint8_t>();
   const auto content = in.get<std::uint8_t>();
   message.observations = in.get<std::uint16_t>();
-  const bool has_answer = (content & kHasAnswer) != 0;
+  const bool has_answer = (content & kHasResult) != 0;
   const bool has_second = (content & kHasSecond) != 0;
-  in.refuse_if(message.station >= kMaxStations || content > (kHasAnswer | kHasSecond) || (has_second && !has_answer) ||
+  in.refuse_if(message.station >= kMaxStations || content > (kHasResult | kHasSecond) || (has_second && !has_answer) ||
                has_answer != (message.refusal == 0));
-  if (has_answer) read_answer(in, has_second, message.answer.emplace());
+  if (has_answer) read_result(in, has_second, message.answer.emplace());
 }
 
 }  // namespace pharos::wire

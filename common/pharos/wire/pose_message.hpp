@@ -26,7 +26,7 @@ struct SecondPose {
 };
 
 /// The answer of one cycle's solve on board.
-struct PoseAnswer {
+struct PoseResult {
   PoseFields pose;
   /// Upper triangle, row by row, of the 6x6 covariance of delta (rotation rad before translation m).
   std::array<float, 21> covariance{};
@@ -35,7 +35,7 @@ struct PoseAnswer {
   float pdop_m_per_rad = 0.0F;
   std::uint8_t iterations = 0;
   std::optional<SecondPose> second;
-  bool operator==(const PoseAnswer&) const = default;
+  bool operator==(const PoseResult&) const = default;
 };
 
 /// One cycle of one station solved on board: a pose, or why there is none.
@@ -48,7 +48,7 @@ struct Pose {
   std::uint8_t flags = 0;    // of track::EpochFlag
   std::uint8_t refusal = 0;  // pose::Refusal; 0 exactly when there is an answer
   std::uint16_t observations = 0;
-  std::optional<PoseAnswer> answer;
+  std::optional<PoseResult> answer;
 };
 
 void write(const Pose& message, ByteWriter& out);

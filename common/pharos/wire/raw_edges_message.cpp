@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint8_t kRisingBit = 0x80;
 
 void write_edge(const RawEdge& edge, std::int64_t previous_ticks, ByteWriter& out) {
-  if (edge.sensor >= kMaxSensors || !is_credible_time(edge.stamp_ticks)) out.fail();
+  if (edge.sensor >= kMaxSensors || !is_plausible_time(edge.stamp_ticks)) out.fail();
   out.put(static_cast<std::uint8_t>(edge.sensor | (edge.rising ? kRisingBit : 0)));
   out.put_varint(edge.stamp_ticks - previous_ticks);
 }
@@ -44,16 +44,16 @@ void read(ByteReader& in, RawEdges& message) {
     edge.rising = (head & kRisingBit) != 0;
     edge.sensor = static_cast<std::uint8_t>(head & ~kRisingBit);
     const std::int64_t step = in.get_varint();
-    const bool credible = step >= -2 * kMaxTicks && step <= 2 * kMaxTicks && is_credible_time(previous + step);
-    in.refuse_if(!credible || edge.sensor >= kMaxSensors || (i == 0 && step != 0));
-    edge.stamp_ticks = credible ? previous + step : previous;
+    const bool plausible = step >= -2 * kMaxTicks && step <= 2 * kMaxTicks && is_plausible_time(previous + step);
+    in.refuse_if(!plausible || edge.sensor >= kMaxSensors || (i == 0 && step != 0));
+    edge.stamp_ticks = plausible ? previous + step : previous;
     previous = edge.stamp_ticks;
     message.edges.push_back(edge);
   }
 }
 
 bool RawEdgesPacker::push(const RawEdge& edge) {
-  if (edge.sensor >= kMaxSensors || !is_credible_time(edge.stamp_ticks)) return true;
+  if (edge.sensor >= kMaxSensors || !is_plausible_time(edge.stamp_ticks)) return true;
   if (count_ == RawEdges::kMaxEdges) return false;
   if (empty()) {
     size_ = RawEdges::kHeadBytes;

@@ -13,19 +13,19 @@ constexpr unsigned kBitsUsed = 4;
 constexpr bool bit(std::uint8_t bits, unsigned number) { return ((static_cast<unsigned>(bits) >> number) & 1u) != 0; }
 
 template <class T>
-constexpr bool within(T value, T least, T most) {
-  return value >= least && value <= most;
+constexpr bool within(T value, T minimum, T maximum) {
+  return value >= minimum && value <= maximum;
 }
 
 bool is_possible(const SweepHit& hit) {
-  return hit.sensor < kMaxSensors && within<std::int32_t>(hit.width_ticks, kMinPulseTicks, kMaxPulseTicks) &&
-         within<std::int32_t>(hit.centre_half_ticks, 0, kMaxCentreHalfTicks);
+  return hit.sensor < kMaxSensors && within<std::int32_t>(hit.width_ticks, kMinPulse_ticks, kMaxPulse_ticks) &&
+         within<std::int32_t>(hit.centre_half_ticks, 0, kMaxCentre_half_ticks);
 }
 
 bool is_possible(const SweepHead& head) {
   return head.station < kMaxStations && head.flash_sensors <= kMaxSensors &&
-         within(head.flash_length_ticks, kMinFlashTicks, kMaxPulseTicks) &&
-         within(head.period_sixteenth_ticks, kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks);
+         within(head.flash_length_ticks, kMinFlash_ticks, kMaxPulse_ticks) &&
+         within(head.period_sixteenth_ticks, kMinPeriod_sixteenth_ticks, kMaxPeriod_sixteenth_ticks);
 }
 
 }  // namespace

@@ -16,29 +16,29 @@ namespace pharos::wire {
 // lighthouse/optical_timing.hpp), and narrow enough that no angle and no time made of them is absurd.
 
 /// Pulses: shorter ones are glitches, longer ones no station sends; of a flash the longest pulse is at least 2600.
-inline constexpr std::int32_t kMinPulseTicks = 16;
-inline constexpr std::int32_t kMaxPulseTicks = 7500;
-inline constexpr std::int32_t kMinFlashTicks = 2600;
+inline constexpr std::int32_t kMinPulse_ticks = 16;
+inline constexpr std::int32_t kMaxPulse_ticks = 7500;
+inline constexpr std::int32_t kMinFlash_ticks = 2600;
 /// Rotors are held to 60 Hz, 833,333 ticks a turn; the decoder believes no turn that is off by 0.1 %, the line none by
 /// 1 %.
-inline constexpr std::uint32_t kMinPeriodSixteenthTicks = 13'200'000;
-inline constexpr std::uint32_t kMaxPeriodSixteenthTicks = 13'466'666;
+inline constexpr std::uint32_t kMinPeriod_sixteenth_ticks = 13'200'000;
+inline constexpr std::uint32_t kMaxPeriod_sixteenth_ticks = 13'466'666;
 /// A laser is behind its flash and within the slot, half a turn; 3.14 rad.
-inline constexpr std::int32_t kMaxCentreHalfTicks = 2 * 416'667;
+inline constexpr std::int32_t kMaxCentre_half_ticks = 2 * 416'667;
 
 /// One laser hit; fields as in lighthouse::Hit. 7 bytes.
 struct SweepHit {
   std::uint8_t sensor = 0;             // 0..31
-  std::uint16_t width_ticks = 0;       // kMinPulseTicks..kMaxPulseTicks
-  std::int32_t centre_half_ticks = 0;  // 0..kMaxCentreHalfTicks
+  std::uint16_t width_ticks = 0;       // kMinPulse_ticks..kMaxPulse_ticks
+  std::int32_t centre_half_ticks = 0;  // 0..kMaxCentre_half_ticks
   bool operator==(const SweepHit&) const = default;
 };
 
 /// All of a sweep but its hits.
 struct SweepHead {
   std::int64_t flash_start_ticks = 0;        // 64 bits unwrapped
-  std::int32_t flash_length_ticks = 0;       // kMinFlashTicks..kMaxPulseTicks
-  std::uint32_t period_sixteenth_ticks = 0;  // kMinPeriodSixteenthTicks..kMaxPeriodSixteenthTicks
+  std::int32_t flash_length_ticks = 0;       // kMinFlash_ticks..kMaxPulse_ticks
+  std::uint32_t period_sixteenth_ticks = 0;  // kMinPeriod_sixteenth_ticks..kMaxPeriod_sixteenth_ticks
   std::uint8_t flash_sensors = 0;            // 0..32
   std::uint8_t flags = 0;                    // of lighthouse::SweepFlag
   std::uint8_t station = 0;                  // 0 or 1

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "firmware/board/qemu_virt/capture_tape.hpp"
+#include "firmware/board/qemu_virt/capture_replay.hpp"
 #include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/common_system.hpp"
 #include "firmware/board/rv32/processor.hpp"
@@ -19,19 +19,19 @@ constexpr std::uintptr_t kUart = 0x10000000;
 constexpr std::size_t kUartFifo = 16;
 /// QEMU's UART takes bytes at any speed. This is what a line of 460,800 baud takes, in the tape's time; like the
 /// board's UART it holds 128 bytes.
-constexpr std::int64_t kByteTicks = 10 * kTicksPerSecond / 460'800;
+constexpr std::int64_t kByte_ticks = 10 * kTicksPerSecond / 460'800;
 constexpr std::int64_t kLineHolds = 128;
 constexpr std::int64_t kMillisecond = kTicksPerSecond / 1000;
 /// The watchdog, which the machine has not: so many looks of the timer's interrupt without food between them. Longer
 /// than the board's, because a busy computer may stop the emulator for a second.
-constexpr std::int64_t kWatchdogLook = kTicksPerSecond / 10;
-constexpr int kWatchdogLooks = 100;
+constexpr std::int64_t kWatchdogPoll_ticks = kTicksPerSecond / 10;
+constexpr int kWatchdogPolls = 100;
 /// Of the machine's time, where the emulator counts instructions (-icount shift=0).
 constexpr std::int64_t kInstruction_ns = 1;
 /// What an instruction costs on a soft core of this class, for `cycles`.
 constexpr std::uint32_t kCyclesPerInstruction = 3;
 
-CaptureTape tape;
+CaptureReplay tape;
 
 // Instructions but for those that a board does not spend.
 std::uint32_t core_instructions() { return instructions_retired_low() - tape.instructions(); }
@@ -42,13 +42,13 @@ class Line final : public hal::SerialLine {
   std::size_t write(std::span<const std::uint8_t> bytes) override {
     const std::int64_t room = room_for();
     if (room <= 0 && !tape.ended()) return 0;
-    const auto most = tape.ended() ? bytes.size() : static_cast<std::size_t>(room);  // at the end nothing is cut off
+    const auto maximum = tape.ended() ? bytes.size() : static_cast<std::size_t>(room);  // at the end nothing is cut off
     // QEMU's UART holds 16 bytes and takes the next at once.
     std::size_t taken = 0;
-    for (std::size_t more = 1; more != 0 && taken < std::min(bytes.size(), most); taken += more) {
-      more = uart_.write(bytes.subspan(taken, std::min(bytes.size(), most) - taken));
+    for (std::size_t more = 1; more != 0 && taken < std::min(bytes.size(), maximum); taken += more) {
+      more = uart_.write(bytes.subspan(taken, std::min(bytes.size(), maximum) - taken));
     }
-    busy_until_ += static_cast<std::int64_t>(taken) * kByteTicks;
+    busy_until_ += static_cast<std::int64_t>(taken) * kByte_ticks;
     wrote_ = wrote_ || taken != 0;
     return taken;
   }
@@ -72,9 +72,9 @@ class Line final : public hal::SerialLine {
  private:
   std::int64_t room_for() {
     const std::int64_t now = tape.now_ticks();
-    const CaptureTape::Aside aside(tape);
+    const CaptureReplay::PausedClock aside(tape);
     if (busy_until_ < now) busy_until_ = now;
-    return kLineHolds - (busy_until_ - now + kByteTicks - 1) / kByteTicks;
+    return kLineHolds - (busy_until_ - now + kByte_ticks - 1) / kByte_ticks;
   }
 
   Uart16550 uart_{kUart, 1, kUartFifo};
@@ -87,17 +87,17 @@ Line line;
 
 // The machine timer serves the watchdog and the call every millisecond.
 volatile bool fed = false;
-int hungry_looks = 0;
-std::int64_t next_look = 0;
+int unfed_polls = 0;
+std::int64_t next_watchdog_poll = 0;
 void (*millisecond_handler)(void*) = nullptr;
 void* millisecond_context = nullptr;
 
-void look_after_watchdog(std::int64_t now) {
-  if (now < next_look) return;
-  next_look = now + kWatchdogLook;
-  hungry_looks = fed ? 0 : hungry_looks + 1;
+void poll_watchdog(std::int64_t now) {
+  if (now < next_watchdog_poll) return;
+  next_watchdog_poll = now + kWatchdogPoll_ticks;
+  unfed_polls = fed ? 0 : unfed_polls + 1;
   fed = false;
-  if (hungry_looks < kWatchdogLooks) return;
+  if (unfed_polls < kWatchdogPolls) return;
   boot::announce_reset(retained(), wire::ResetCause::kWatchdog);
   reset_machine();
 }
@@ -124,14 +124,14 @@ void note_reset_without_loader() {
 
 void on_timer_interrupt() {
   const std::int64_t now = machine_ticks();
-  look_after_watchdog(now);
+  poll_watchdog(now);
   if (millisecond_handler == nullptr) {
-    set_timer(next_look);
+    set_timer(next_watchdog_poll);
     return;
   }
   const std::uint32_t begin = core_instructions();
   millisecond_handler(millisecond_context);
-  const CaptureTape::Aside aside(tape);
+  const CaptureReplay::PausedClock aside(tape);
   if (tape.instructions_a_millisecond() == 0) {
     set_timer(now + kMillisecond);
   } else {
@@ -152,8 +152,8 @@ Board start_board() {
   line.start();
   enable_timer_interrupt();
   tape.start();
-  next_look = machine_ticks() + kWatchdogLook;
-  set_timer(next_look);
+  next_watchdog_poll = machine_ticks() + kWatchdogPoll_ticks;
+  set_timer(next_watchdog_poll);
   enable_interrupts();
   return {tape, line, board::system};
 }

@@ -95,7 +95,7 @@ void VirtioConsole::offer(std::uint16_t buffer) {
   mmio32(base_ + kQueueNotify) = kReceiveQueue;
 }
 
-std::span<const volatile std::uint8_t> VirtioConsole::read(std::size_t most) {
+std::span<const volatile std::uint8_t> VirtioConsole::read(std::size_t maximum) {
   if (at_ == size_) {
     if (size_ != 0) offer(buffer_);
     size_ = at_ = 0;
@@ -107,7 +107,7 @@ std::span<const volatile std::uint8_t> VirtioConsole::read(std::size_t most) {
     size_ = used.size;
   }
   const std::size_t begin = at_;
-  at_ += size_ - at_ < most ? size_ - at_ : most;
+  at_ += size_ - at_ < maximum ? size_ - at_ : maximum;
   return std::span(buffers[buffer_]).subspan(begin, at_ - begin);
 }
 

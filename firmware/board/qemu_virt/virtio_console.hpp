@@ -17,7 +17,7 @@ class VirtioConsole {
   bool start();
   /// Bytes that have come: as many as lie together, at most `most`; empty when there are none. They hold until the next
   /// call.
-  std::span<const volatile std::uint8_t> read(std::size_t most);
+  std::span<const volatile std::uint8_t> read(std::size_t maximum);
 
  private:
   void offer(std::uint16_t buffer);

@@ -14,12 +14,12 @@ namespace {
 // Between the level of a board's sheet and its dots, whether they take a twentieth or a half of it.
 constexpr double kThresholdDeviations = 0.75;
 // A window that holds part of a board deviates by far more than noise.
-constexpr double kLeastContrast = 4.0;
-constexpr double kLeastArea_px = 6.0;
-constexpr double kLargestShare = 0.02;  // of the image
+constexpr double kMinContrast = 4.0;
+constexpr double kMinArea_px = 6.0;
+constexpr double kLargestFraction = 0.02;  // of the image
 // Area over that of the ellipse with the same moments; 1 for an ellipse, a square has 0.95, a cross of dots 0.6.
-constexpr double kLeastFill = 0.85;
-constexpr double kMostElongated = 5.0;
+constexpr double kMinFill = 0.85;
+constexpr double kMaxElongated = 5.0;
 
 // Sums over any rectangle from four reads.
 class RunningSums {
@@ -81,14 +81,14 @@ double noise_of(GreyView image) {
 
 std::vector<std::uint8_t> mask_of(GreyView image, int window_px, bool bright) {
   RunningSums sums(image);
-  const double least_deviation = kLeastContrast * noise_of(image);
+  const double min_deviation = kMinContrast * noise_of(image);
   std::vector<std::uint8_t> mask(image.pixels());
   std::size_t at = 0;
   for (std::int32_t v = 0; v < image.height_px; ++v) {
     for (std::int32_t u = 0; u < image.width_px; ++u, ++at) {
       const RunningSums::Level level = sums.around(u, v, window_px / 2);
       const double above = bright ? image.at(u, v) - level.mean : level.mean - image.at(u, v);
-      mask[at] = level.deviation > least_deviation && above > kThresholdDeviations * level.deviation ? 1 : 0;
+      mask[at] = level.deviation > min_deviation && above > kThresholdDeviations * level.deviation ? 1 : 0;
     }
   }
   return mask;
@@ -137,7 +137,7 @@ bool is_elliptic(const Blob& blob, double area) {
   const double ellipse = 4.0 * std::numbers::pi * std::sqrt(determinant);
   const double spread = std::sqrt(std::max(0.25 * trace * trace - determinant, 0.0));
   const double axes = std::sqrt((0.5 * trace + spread) / std::max(0.5 * trace - spread, 1e-9));
-  return area > kLeastFill * ellipse && axes < kMostElongated;
+  return area > kMinFill * ellipse && axes < kMaxElongated;
 }
 
 }  // namespace
@@ -146,13 +146,13 @@ double Blob::area_px() const { return 4.0 * std::numbers::pi * std::sqrt(covaria
 
 std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright) {
   std::vector<std::uint8_t> mask = mask_of(image, window_px, bright);
-  const double largest = kLargestShare * static_cast<double>(image.pixels());
+  const double largest = kLargestFraction * static_cast<double>(image.pixels());
   std::vector<Blob> blobs;
   std::vector<std::size_t> queue;
   for (std::size_t seed = 0; seed < mask.size(); ++seed) {
     if (mask[seed] == 0) continue;
     const Moments moments = take_region(mask, image.width_px, image.height_px, seed, queue);
-    if (moments.area < kLeastArea_px || moments.area > largest) continue;
+    if (moments.area < kMinArea_px || moments.area > largest) continue;
     Blob blob;
     blob.cut = moments.cut;
     blob.centre_px = moments.sum / moments.area;

@@ -12,11 +12,11 @@
 namespace pharos::calibrate {
 namespace {
 
-constexpr int kMostSteps = 100;
-constexpr double kConverged = 1e-12;  // relative change of the squares
-constexpr Eigen::Index kOptics = 9;   // fx, fy, cx, cy, k1, k2, p1, p2, k3
+constexpr int kMaxSteps = 100;
+constexpr double kConverged = 1e-12;     // relative change of the squares
+constexpr Eigen::Index kIntrinsics = 9;  // fx, fy, cx, cy, k1, k2, p1, p2, k3
 constexpr Eigen::Index kPose = 6;
-constexpr std::array<const char*, kOptics> kNames{"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
+constexpr std::array<const char*, kIntrinsics> kNames{"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
 constexpr std::array<const char*, kPose> kRigNames{"right.rotation_x_rad", "right.rotation_y_rad",
                                                    "right.rotation_z_rad", "right.position_x_m",
                                                    "right.position_y_m",   "right.position_z_m"};
@@ -28,11 +28,12 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 // Where each unknown stands: what all views share first.
 struct Layout {
   Eigen::Index cameras = 0;
-  Eigen::Index optics = 0;  // of each camera
+  Eigen::Index intrinsics = 0;  // of each camera
 
   Layout(const BundleState& state, const BundleData& data)
-      : cameras(static_cast<Eigen::Index>(state.cameras.size())), optics(data.hold_k3 ? kOptics - 1 : kOptics) {}
-  Eigen::Index rig() const { return cameras * optics; }
+      : cameras(static_cast<Eigen::Index>(state.cameras.size())),
+        intrinsics(data.fix_k3 ? kIntrinsics - 1 : kIntrinsics) {}
+  Eigen::Index rig() const { return cameras * intrinsics; }
   Eigen::Index shared() const { return rig() + (cameras > 1 ? kPose : 0); }
 };
 
@@ -42,11 +43,11 @@ CameraFromBoard pose_in(const BundleState& state, std::size_t camera, std::size_
 }
 
 // d pixel / d (fx, fy, cx, cy, k1, k2, p1, p2, k3) of an ideal ray.
-Eigen::Matrix<double, 2, kOptics> by_optics(const PinholeCamera& camera, const Vector2& ray) {
+Eigen::Matrix<double, 2, kIntrinsics> by_optics(const PinholeCamera& camera, const Vector2& ray) {
   const double x = ray.x(), y = ray.y(), r2 = ray.squaredNorm();
   const Vector2 pixel = distort(camera, ray);
   const double fx = camera.fx_px, fy = camera.fy_px;
-  Eigen::Matrix<double, 2, kOptics> J;
+  Eigen::Matrix<double, 2, kIntrinsics> J;
   J << (pixel.x() - camera.cx_px) / fx, 0.0, 1.0, 0.0, fx * x * r2, fx * x * r2 * r2, fx * 2.0 * x * y,
       fx * (r2 + 2.0 * x * x), fx * x * r2 * r2 * r2,  //
       0.0, (pixel.y() - camera.cy_px) / fy, 0.0, 1.0, fy * y * r2, fy * y * r2 * r2, fy * (r2 + 2.0 * y * y),
@@ -66,17 +67,17 @@ struct Row {
 Row row_of(const BundleState& state, const BundleData& data, const Layout& layout, std::size_t camera, std::size_t view,
            std::size_t point) {
   const FoundPoint& found = data.found[camera][view].points[point];
-  const PinholeCamera& optics = state.cameras[camera];
+  const PinholeCamera& intrinsics = state.cameras[camera];
   const CameraFromBoard T = pose_in(state, camera, view);
   const Vector3 p_left = state.T_camera_board[view] * data.board.point_m(point);
   const Vector3 p = T * data.board.point_m(point);
   const double weight = 1.0 / found.sigma_px;
   Row row;
-  row.residual = weight * (found.pixel - seen_point(optics, T, data.board, point).pixel);
+  row.residual = weight * (found.pixel - project_board_point(intrinsics, T, data.board, point).pixel);
   row.by_shared = Matrix2X::Zero(2, layout.shared());
-  row.by_shared.middleCols(static_cast<Eigen::Index>(camera) * layout.optics, layout.optics) =
-      weight * by_optics(optics, p.hnormalized()).leftCols(layout.optics);
-  const Matrix23 by_point = weight * project_jacobian(optics, p);
+  row.by_shared.middleCols(static_cast<Eigen::Index>(camera) * layout.intrinsics, layout.intrinsics) =
+      weight * by_optics(intrinsics, p.hnormalized()).leftCols(layout.intrinsics);
+  const Matrix23 by_point = weight * project_jacobian(intrinsics, p);
   Matrix36 board_moves;
   board_moves << -skew(state.T_camera_board[view].R * data.board.point_m(point)), Matrix3::Identity();
   if (camera == 0) {
@@ -112,7 +113,7 @@ double squares_of(const BundleState& state, const BundleData& data) {
       const CameraFromBoard T = pose_in(state, camera, view);
       for (std::size_t i = 0; i < data.board.size(); ++i) {
         const FoundPoint& found = data.found[camera][view].points[i];
-        const Vector2 predicted = seen_point(state.cameras[camera], T, data.board, i).pixel;
+        const Vector2 predicted = project_board_point(state.cameras[camera], T, data.board, i).pixel;
         squares += (found.pixel - predicted).squaredNorm() / (found.sigma_px * found.sigma_px);
       }
     }
@@ -190,7 +191,7 @@ BundleState stepped(const BundleState& state, const Normal& normal, const Layout
   BundleState next = state;
   for (Eigen::Index camera = 0; camera < layout.cameras; ++camera) {
     const auto c = static_cast<std::size_t>(camera);
-    next.cameras[c] = moved(state.cameras[c], shared.segment(camera * layout.optics, layout.optics));
+    next.cameras[c] = moved(state.cameras[c], shared.segment(camera * layout.intrinsics, layout.intrinsics));
   }
   if (layout.cameras > 1) next.T_left_right = state.T_left_right.moved_by(shared.segment<kPose>(layout.rig()));
   for (std::size_t view = 0; view < next.T_camera_board.size(); ++view) {
@@ -208,7 +209,7 @@ std::vector<std::string> names(const Layout& layout) {
   std::vector<std::string> result;
   for (Eigen::Index camera = 0; camera < layout.cameras; ++camera) {
     const std::string whose = layout.cameras == 1 ? "" : camera == 0 ? "left." : "right.";
-    for (Eigen::Index k = 0; k < layout.optics; ++k) result.push_back(whose + kNames[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < layout.intrinsics; ++k) result.push_back(whose + kNames[static_cast<std::size_t>(k)]);
   }
   if (layout.cameras > 1) result.insert(result.end(), kRigNames.begin(), kRigNames.end());
   return result;
@@ -225,7 +226,7 @@ void measure_fit(const BundleData& data, BundleOutcome& outcome) {
       double squares = 0.0;
       for (std::size_t i = 0; i < data.board.size(); ++i) {
         const FoundPoint& found = data.found[camera][view].points[i];
-        const SeenPoint seen = seen_point(outcome.state.cameras[camera], T, data.board, i);
+        const ProjectedPoint seen = project_board_point(outcome.state.cameras[camera], T, data.board, i);
         squares += (found.pixel - seen.pixel).squaredNorm();
         if (seen.area_px2 > 0.0) areas.push_back(found.area_px2 / seen.area_px2);
       }
@@ -266,14 +267,14 @@ std::optional<BundleOutcome> outcome_of(BundleState state, const BundleData& dat
 
 std::optional<BundleOutcome> adjust_boards(BundleState start, const BundleData& data) {
   BundleState state = std::move(start);
-  if (data.hold_k3) {
+  if (data.fix_k3) {
     for (PinholeCamera& camera : state.cameras) camera.distortion[4] = 0.0;
   }
   const Layout layout(state, data);
   double squares = squares_of(state, data);
   if (!std::isfinite(squares)) return std::nullopt;
   double damping = 1e-4;
-  for (int step = 0; step < kMostSteps && damping < 1e8; ++step) {
+  for (int step = 0; step < kMaxSteps && damping < 1e8; ++step) {
     const Normal normal = normal_of(state, data, layout);
     double after = std::numeric_limits<double>::infinity();
     BundleState next;

@@ -24,7 +24,7 @@ struct BundleState {
 /// What it is adjusted to: found[camera][view], each whole.
 struct BundleData {
   Board board;
-  bool hold_k3 = false;
+  bool fix_k3 = false;
   std::vector<std::vector<FoundBoard>> found;
 };
 

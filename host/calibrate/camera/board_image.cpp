@@ -14,11 +14,11 @@ constexpr std::array<double, 2> kRadii{0.45970084338098305, 0.88807383397711526}
 
 }  // namespace
 
-SeenPoint seen_point(const PinholeCamera& camera, const CameraFromBoard& T_camera_board, const Board& board,
-                     std::size_t index) {
+ProjectedPoint project_board_point(const PinholeCamera& camera, const CameraFromBoard& T_camera_board,
+                                   const Board& board, std::size_t index) {
   const Vector3 centre_m = T_camera_board * board.point_m(index);
   if (board.kind == BoardKind::kChessboard) return {distort(camera, centre_m.hnormalized()), 0.0};
-  SeenPoint seen;
+  ProjectedPoint seen;
   const auto plane = T_camera_board.R.leftCols<2>();
   for (const double radius : kRadii) {
     for (int k = 0; k < kAngles; ++k) {

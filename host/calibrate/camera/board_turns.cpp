@@ -57,7 +57,7 @@ std::vector<int> matching_turns(const std::vector<CameraFromBoard>& left, const 
     return left[view] * turned(right[view], board, turns).inverse();
   };
   std::vector<int> best;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (int first = 0; first < turns_of(board); ++first) {
     const LeftFromRight rig = rig_of(0, first);
     std::vector<int> turns;
@@ -75,8 +75,8 @@ std::vector<int> matching_turns(const std::vector<CameraFromBoard>& left, const 
       turns.push_back(turn_here);
       sum += nearest;
     }
-    if (sum < least) {
-      least = sum;
+    if (sum < minimum) {
+      minimum = sum;
       best = turns;
     }
   }

@@ -10,7 +10,7 @@ namespace {
 std::vector<FoundBoard> take_views(std::vector<ImageOutcome>& images) {
   std::vector<FoundBoard> views;
   for (ImageOutcome& image : images) {
-    if (image.search.fate != ImageFate::kUsed) continue;
+    if (image.search.status != ImageStatus::kUsed) continue;
     image.view = views.size();
     views.push_back(image.search.board);
   }
@@ -19,7 +19,7 @@ std::vector<FoundBoard> take_views(std::vector<ImageOutcome>& images) {
 
 std::string too_few(std::size_t views, std::size_t images) {
   return std::to_string(views) + " of " + std::to_string(images) + " images show the whole board; at least " +
-         std::to_string(kLeastViews) + " are needed";
+         std::to_string(kMinViews) + " are needed";
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures,
     if (picture.image.same_size(first)) {
       outcome.search = find_board(picture.image, board);
     } else {
-      outcome.search.fate = ImageFate::kOtherSize;
+      outcome.search.status = ImageStatus::kOtherSize;
       outcome.search.detail = std::to_string(picture.image.width_px) + " x " + std::to_string(picture.image.height_px) +
                               " px, the first image has " + std::to_string(first.width_px) + " x " +
                               std::to_string(first.height_px);
@@ -49,14 +49,14 @@ CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_p
                                    const CalibrationChoices& choices) {
   CameraCalibration result;
   result.images = std::move(images);
-  BundleData data{choices.board, choices.hold_k3, {take_views(result.images)}};
+  BundleData data{choices.board, choices.fix_k3, {take_views(result.images)}};
   const std::vector<FoundBoard>& views = data.found.front();
   result.coverage = coverage_of(views, width_px, height_px);
-  if (views.size() < static_cast<std::size_t>(kLeastViews)) {
+  if (views.size() < static_cast<std::size_t>(kMinViews)) {
     result.refusal = too_few(views.size(), result.images.size());
     return result;
   }
-  const auto start = opencv_calibration(choices.board, views, width_px, height_px, choices.hold_k3);
+  const auto start = opencv_calibration(choices.board, views, width_px, height_px, choices.fix_k3);
   std::optional<BundleOutcome> outcome;
   if (start) outcome = adjust_boards(start->state, data);
   if (!outcome) {
@@ -65,9 +65,9 @@ CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_p
   }
   result.refusal = what_is_degenerate(*outcome);
   result.opencv_rms_px = start->rms_px;
-  result.untold = what_is_untold(*outcome, 0, result.coverage, choices.hold_k3);
+  result.unobservable = what_is_unobservable(*outcome, 0, result.coverage, choices.fix_k3);
   for (ImageOutcome& image : result.images) {
-    if (image.search.fate == ImageFate::kUsed) image.rms_px = outcome->view_rms_px.front()[image.view];
+    if (image.search.status == ImageStatus::kUsed) image.rms_px = outcome->view_rms_px.front()[image.view];
   }
   result.outcome = std::move(outcome);
   return result;

@@ -26,14 +26,14 @@ struct CameraCalibration {
   std::string refusal;  // empty: there is an answer
   std::optional<BundleOutcome> outcome;
   Coverage coverage;
-  std::vector<std::string> untold;
+  std::vector<std::string> unobservable;
   double opencv_rms_px = 0.0;  // what cv::calibrateCamera reports for the same points, dots' centres taken as seen
   const PinholeCamera& camera() const { return outcome->state.cameras.front(); }
 };
 
 struct CalibrationChoices {
   Board board;
-  bool hold_k3 = false;
+  bool fix_k3 = false;
 };
 
 /// Called after each image that was searched.

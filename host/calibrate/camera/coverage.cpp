@@ -30,11 +30,11 @@ Coverage coverage_of(const std::vector<FoundBoard>& views, int width_px, int hei
     }
   }
   for (const auto& row : coverage.points) {
-    for (const int points : row) coverage.share += points > 0 ? 1.0 / (Coverage::kRows * Coverage::kColumns) : 0.0;
+    for (const int points : row) coverage.fraction += points > 0 ? 1.0 / (Coverage::kRows * Coverage::kColumns) : 0.0;
   }
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      if (ninths[row][column] == 0) coverage.bare.emplace_back(kNinths[row][column]);
+      if (ninths[row][column] == 0) coverage.uncovered.emplace_back(kNinths[row][column]);
     }
   }
   return coverage;

@@ -17,7 +17,7 @@ constexpr double kNearest = 0.7;
 constexpr double kFarthest = 1.25;
 // A step's deviation from the grid's direction, in steps.
 constexpr double kStraight = 0.35;
-constexpr std::size_t kLeastGrid = 4;
+constexpr std::size_t kMinGrid = 4;
 
 using Cell = std::pair<int, int>;  // column, row
 using Grid = std::map<Cell, std::size_t>;
@@ -171,13 +171,13 @@ DotGrid incomplete(const Grid& grid, const std::vector<Blob>& blobs, const Board
   const std::string seen = "a grid of " + times(extent.columns, extent.rows) + " of the board's " +
                            times(board.columns, board.rows) + " dots is seen";
   if (grid.size() > board.size()) {
-    result.fate = ImageFate::kTooMany;
+    result.status = ImageStatus::kTooMany;
     result.detail = seen + "; check --columns and --rows";
   } else if (reaches_border(grid, blobs, width_px, height_px)) {
-    result.fate = ImageFate::kPartlyOutside;
+    result.status = ImageStatus::kPartlyOutside;
     result.detail = seen + ", up to the image's border";
   } else {
-    result.fate = ImageFate::kIncomplete;
+    result.status = ImageStatus::kIncomplete;
     result.detail = seen;
   }
   return result;
@@ -192,7 +192,7 @@ DotGrid in_board_order(const Grid& grid, const Extent& extent, const std::vector
       const auto at = grid.find({extent.first_column + column, extent.first_row + row});
       if (at != grid.end()) {
         result.blob.push_back(at->second);
-        result.fate = blobs[at->second].cut ? ImageFate::kPartlyOutside : result.fate;
+        result.status = blobs[at->second].cut ? ImageStatus::kPartlyOutside : result.status;
       } else if (missing.empty()) {
         missing = "the dot in column " + std::to_string(column + 1) + ", row " + std::to_string(row + 1) +
                   " as seen is missing";
@@ -202,12 +202,12 @@ DotGrid in_board_order(const Grid& grid, const Extent& extent, const std::vector
   const std::size_t gone = board.size() - result.blob.size();
   if (gone > 1) missing += ", and " + std::to_string(gone - 1) + " more";
   if (gone > 0) {
-    result.fate = ImageFate::kIncomplete;
+    result.status = ImageStatus::kIncomplete;
     result.detail = missing;
-  } else if (result.fate == ImageFate::kPartlyOutside) {
+  } else if (result.status == ImageStatus::kPartlyOutside) {
     result.detail = "a dot lies on the image's border";
   } else {
-    result.fate = ImageFate::kUsed;
+    result.status = ImageStatus::kUsed;
   }
   return result;
 }
@@ -217,9 +217,9 @@ DotGrid in_board_order(const Grid& grid, const Extent& extent, const std::vector
 DotGrid find_dot_grid(const std::vector<Blob>& blobs, const Board& board, int width_px, int height_px) {
   DotGrid none;
   none.detail = std::to_string(blobs.size()) + " dots in no grid";
-  if (blobs.size() < kLeastGrid) return none;
+  if (blobs.size() < kMinGrid) return none;
   Grid grid = largest_grid(blobs);
-  if (grid.size() < kLeastGrid) return none;
+  if (grid.size() < kMinGrid) return none;
   Extent extent = extent_of(grid);
   if (extent.columns != board.columns ||
       (board.columns == board.rows && std::abs(rightward(grid, blobs)) < std::abs(rightward(turned(grid), blobs)))) {

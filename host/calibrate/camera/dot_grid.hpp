@@ -12,7 +12,7 @@ namespace pharos::calibrate {
 
 /// The blobs that stand in the board's grid, or why they do not.
 struct DotGrid {
-  ImageFate fate = ImageFate::kNoBoard;
+  ImageStatus status = ImageStatus::kNoBoard;
   std::string detail;
   std::vector<std::size_t> blob;  // of each board point in the board's order; whole when fate is kUsed
   std::size_t found = 0;          // dots in the largest grid: what an attempt is worth

@@ -10,10 +10,10 @@
 namespace pharos::calibrate {
 namespace {
 
-// Share of the pixels that the stretch may clip at either end.
+// Fraction of the pixels that the stretch may clip at either end.
 constexpr double kClipped = 0.001;
 // Grey values that take more than this part of a square's side to rise leave no corner.
-constexpr double kMostEdge = 0.4;
+constexpr double kMaxEdge = 0.4;
 
 std::vector<std::uint8_t> stretched(GreyView image) {
   std::vector<std::uint16_t> sorted;
@@ -21,18 +21,18 @@ std::vector<std::uint8_t> stretched(GreyView image) {
   for (std::int32_t v = 0; v < image.height_px; ++v) {
     sorted.insert(sorted.end(), image.row(v), image.row(v) + image.width_px);
   }
-  const auto at_share = [&](double share) {
-    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+  const auto at_fraction = [&](double fraction) {
+    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), place, sorted.end());
     return double{static_cast<double>(*place)};
   };
-  const double low = at_share(kClipped), high = std::max(at_share(1.0 - kClipped), low + 1.0);
+  const double low = at_fraction(kClipped), high = std::max(at_fraction(1.0 - kClipped), low + 1.0);
   std::vector<std::uint8_t> grey;
   grey.reserve(image.pixels());
   for (std::int32_t v = 0; v < image.height_px; ++v) {
     for (std::int32_t u = 0; u < image.width_px; ++u) {
-      const double share = std::clamp((image.at(u, v) - low) / (high - low), 0.0, 1.0);
-      grey.push_back(static_cast<std::uint8_t>(std::lround(255.0 * share)));
+      const double fraction = std::clamp((image.at(u, v) - low) / (high - low), 0.0, 1.0);
+      grey.push_back(static_cast<std::uint8_t>(std::lround(255.0 * fraction)));
     }
   }
   return grey;
@@ -68,13 +68,13 @@ BoardSearch find_chessboard(GreyView image, const Board& board) {
   const std::vector<Vector2> ordered = in_order(corners->pixels, board);
   const Vector2 across = ordered.back() - ordered.front();
   const double side = across.norm() / std::hypot(board.columns - 1, board.rows - 1);
-  if (corners->edge_px > kMostEdge * side) {
-    search.fate = ImageFate::kBlurred;
+  if (corners->edge_px > kMaxEdge * side) {
+    search.status = ImageStatus::kBlurred;
     search.detail = "edges are " + std::to_string(std::lround(corners->edge_px)) + " px wide on squares of " +
                     std::to_string(std::lround(side)) + " px";
     return search;
   }
-  search.fate = ImageFate::kUsed;
+  search.status = ImageStatus::kUsed;
   for (const Vector2& corner : ordered) search.board.points.push_back({corner, 1.0, 0.0});
   return search;
 }

@@ -13,15 +13,15 @@ namespace {
 
 // Of the image's shorter side: a window must hold a dot with its surround, and should hold little beyond the board.
 constexpr std::array<int, 3> kWindows{6, 12, 24};
-constexpr int kLeastWindow_px = 9;
+constexpr int kMinWindow_px = 9;
 // An edge this wide, in minor semi-axes, leaves no plateau to know the dot's brightness from.
-constexpr double kMostBlur = 0.6;
-constexpr double kLeastAxis_px = 1.8;
+constexpr double kMaxBlur = 0.6;
+constexpr double kMinAxis_px = 1.8;
 // Grey values that scatter so far around the fit, of the contrast, are not those of a dot.
-constexpr double kMostMisfit = 0.15;
+constexpr double kMaxMisfit = 0.15;
 // The fit looks this far towards the next dot, whose own edge starts at 1.
 constexpr double kReachOfGap = 0.5;
-constexpr double kMostReach = 2.2;
+constexpr double kMaxReach = 2.2;
 
 std::string decimal(double value) {
   std::array<char, 40> text{};
@@ -34,7 +34,7 @@ std::string dot(const Board& board, std::size_t index) {
          std::to_string(board.row_of(index) + 1) + " as seen ";
 }
 
-BoardSearch refused(ImageFate fate, std::string detail) { return {fate, std::move(detail), {}}; }
+BoardSearch refused(ImageStatus status, std::string detail) { return {status, std::move(detail), {}}; }
 
 // One attempt at one window and brightness.
 struct Attempt {
@@ -52,11 +52,11 @@ Attempt attempt(GreyView image, const Board& board, int window_px, bool bright) 
 Attempt best_attempt(GreyView image, const Board& board) {
   Attempt best;
   best.grid.detail = "no dots";
-  for (const int share : kWindows) {
-    const int window_px = std::max(std::min(image.width_px, image.height_px) / share, kLeastWindow_px);
+  for (const int fraction : kWindows) {
+    const int window_px = std::max(std::min(image.width_px, image.height_px) / fraction, kMinWindow_px);
     for (const bool bright : {true, false}) {
       Attempt now = attempt(image, board, window_px, bright);
-      if (now.grid.fate == ImageFate::kUsed) return now;
+      if (now.grid.status == ImageStatus::kUsed) return now;
       if (now.grid.found > best.grid.found) best = std::move(now);
     }
   }
@@ -67,28 +67,28 @@ Attempt best_attempt(GreyView image, const Board& board) {
 
 BoardSearch find_dots(GreyView image, const Board& board) {
   const Attempt found = best_attempt(image, board);
-  if (found.grid.fate != ImageFate::kUsed) return refused(found.grid.fate, found.grid.detail);
+  if (found.grid.status != ImageStatus::kUsed) return refused(found.grid.status, found.grid.detail);
   const double gap = board.pitch_m / board.radius_m - 2.0;  // between two dots' edges, in radii
-  const double reach = std::min(1.0 + kReachOfGap * gap, kMostReach);
+  const double reach = std::min(1.0 + kReachOfGap * gap, kMaxReach);
   BoardSearch search;
   for (std::size_t i = 0; i < board.size(); ++i) {
     const auto fit = fit_dot(image, found.blobs[found.grid.blob[i]], reach);
-    if (!fit) return refused(ImageFate::kIncomplete, dot(board, i) + "has no outline of a dot");
-    if (fit->minor_px < kLeastAxis_px) {
-      return refused(ImageFate::kTooSmall, dot(board, i) + "has a radius of " + decimal(fit->minor_px) +
-                                               " px, too few to measure; go nearer");
+    if (!fit) return refused(ImageStatus::kIncomplete, dot(board, i) + "has no outline of a dot");
+    if (fit->minor_px < kMinAxis_px) {
+      return refused(ImageStatus::kTooSmall, dot(board, i) + "has a radius of " + decimal(fit->minor_px) +
+                                                 " px, too few to measure; go nearer");
     }
-    if (fit->blur_px > kMostBlur * fit->minor_px) {
-      return refused(ImageFate::kBlurred, dot(board, i) + "has edges " + decimal(fit->blur_px) +
-                                              " px wide on a radius of " + decimal(fit->minor_px) + " px");
+    if (fit->blur_px > kMaxBlur * fit->minor_px) {
+      return refused(ImageStatus::kBlurred, dot(board, i) + "has edges " + decimal(fit->blur_px) +
+                                                " px wide on a radius of " + decimal(fit->minor_px) + " px");
     }
-    if (fit->misfit > kMostMisfit) {
-      return refused(ImageFate::kIncomplete, dot(board, i) + "does not look like one (" + decimal(100.0 * fit->misfit) +
-                                                 " % of its contrast off it)");
+    if (fit->misfit > kMaxMisfit) {
+      return refused(ImageStatus::kIncomplete, dot(board, i) + "does not look like one (" +
+                                                   decimal(100.0 * fit->misfit) + " % of its contrast off it)");
     }
     search.board.points.push_back({fit->centre_px, fit->sigma_px, fit->area_px2});
   }
-  search.fate = ImageFate::kUsed;
+  search.status = ImageStatus::kUsed;
   return search;
 }
 

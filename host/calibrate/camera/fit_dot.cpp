@@ -19,10 +19,10 @@ using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 // gradient, blur.
 enum : Eigen::Index { kU, kV, kUU, kUV, kVV, kBackground, kContrast, kGradientU, kGradientV, kBlur };
 
-constexpr int kMostSteps = 40;
+constexpr int kMaxSteps = 40;
 constexpr double kSmallStep_px = 1e-6;
-constexpr double kLeastBlur_px = 0.15;  // a pixel's own width is 0.29
-constexpr double kMostBlur_px = 50.0;
+constexpr double kMinBlur_px = 0.15;  // a pixel's own width is 0.29
+constexpr double kMaxBlur_px = 50.0;
 
 struct Sample {
   double u, v, grey;
@@ -95,7 +95,7 @@ Normal normal_at(const Vector& x, const std::vector<Sample>& samples) {
 }
 
 bool is_sound(const Vector& x) {
-  return x.allFinite() && x[kUU] > 0.0 && x[kUU] * x[kVV] > x[kUV] * x[kUV] && x[kBlur] < kMostBlur_px;
+  return x.allFinite() && x[kUU] > 0.0 && x[kUU] * x[kVV] > x[kUV] * x[kUV] && x[kBlur] < kMaxBlur_px;
 }
 
 Vector start_of(const Blob& blob, const std::vector<Sample>& samples) {
@@ -144,12 +144,12 @@ std::optional<DotFit> fit_dot(GreyView image, const Blob& blob, double reach) {
   if (x[kContrast] == 0.0) return std::nullopt;
   Normal normal = normal_at(x, samples);
   double damping = 1e-3;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     Matrix damped = normal.information;
     damped.diagonal() *= 1.0 + damping;
     const Vector move = damped.ldlt().solve(normal.gradient);
     Vector moved = x + move;
-    moved[kBlur] = std::max(moved[kBlur], kLeastBlur_px);
+    moved[kBlur] = std::max(moved[kBlur], kMinBlur_px);
     const bool sound = is_sound(moved);
     const Normal next = sound ? normal_at(moved, samples) : Normal{};
     if (sound && next.squares <= normal.squares) {

@@ -3,25 +3,25 @@
 
 namespace pharos::calibrate {
 
-const char* name_of(ImageFate fate) {
-  switch (fate) {
-    case ImageFate::kUsed:
+const char* name_of(ImageStatus status) {
+  switch (status) {
+    case ImageStatus::kUsed:
       return "used";
-    case ImageFate::kNoBoard:
+    case ImageStatus::kNoBoard:
       return "no_board";
-    case ImageFate::kPartlyOutside:
+    case ImageStatus::kPartlyOutside:
       return "partly_outside";
-    case ImageFate::kIncomplete:
+    case ImageStatus::kIncomplete:
       return "incomplete";
-    case ImageFate::kTooMany:
+    case ImageStatus::kTooMany:
       return "too_many";
-    case ImageFate::kBlurred:
+    case ImageStatus::kBlurred:
       return "blurred";
-    case ImageFate::kTooSmall:
+    case ImageStatus::kTooSmall:
       return "too_small";
-    case ImageFate::kOtherSize:
+    case ImageStatus::kOtherSize:
       return "other_size";
-    case ImageFate::kNoPartner:
+    case ImageStatus::kNoPartner:
       return "no_partner";
   }
   return "no_board";

@@ -27,7 +27,7 @@ struct FoundBoard {
 };
 
 /// What became of an image.
-enum class ImageFate : std::uint8_t {
+enum class ImageStatus : std::uint8_t {
   kUsed,
   kNoBoard,
   kPartlyOutside,
@@ -39,11 +39,11 @@ enum class ImageFate : std::uint8_t {
   kNoPartner,  // the other image of its pair was not used
 };
 /// used, no_board, partly_outside, …
-const char* name_of(ImageFate fate);
+const char* name_of(ImageStatus status);
 
 /// A board, or why none.
 struct BoardSearch {
-  ImageFate fate = ImageFate::kNoBoard;
+  ImageStatus status = ImageStatus::kNoBoard;
   std::string detail;  // for people: "dot in column 3, row 5 is missing"; empty when used
   FoundBoard board;    // when used
 };

@@ -9,7 +9,7 @@
 namespace pharos::calibrate {
 namespace {
 
-constexpr std::size_t kOptics = 9;
+constexpr std::size_t kIntrinsics = 9;
 constexpr std::size_t kPose = 12;
 
 const OpencvModule& opencv() {
@@ -35,22 +35,22 @@ std::vector<double> pixel_numbers(const std::vector<FoundBoard>& views) {
   return numbers;
 }
 
-PinholeCamera camera_of(const double* optics, std::int32_t width_px, std::int32_t height_px) {
+PinholeCamera camera_of(const double* intrinsics, std::int32_t width_px, std::int32_t height_px) {
   return {width_px,
           height_px,
-          optics[0],
-          optics[1],
-          optics[2],
-          optics[3],
-          {optics[4], optics[5], optics[6], optics[7], optics[8]}};
+          intrinsics[0],
+          intrinsics[1],
+          intrinsics[2],
+          intrinsics[3],
+          {intrinsics[4], intrinsics[5], intrinsics[6], intrinsics[7], intrinsics[8]}};
 }
 
-void write_optics(const PinholeCamera& camera, double* optics) {
-  optics[0] = camera.fx_px;
-  optics[1] = camera.fy_px;
-  optics[2] = camera.cx_px;
-  optics[3] = camera.cy_px;
-  for (std::size_t k = 0; k < camera.distortion.size(); ++k) optics[4 + k] = camera.distortion[k];
+void write_optics(const PinholeCamera& camera, double* intrinsics) {
+  intrinsics[0] = camera.fx_px;
+  intrinsics[1] = camera.fy_px;
+  intrinsics[2] = camera.cx_px;
+  intrinsics[3] = camera.cy_px;
+  for (std::size_t k = 0; k < camera.distortion.size(); ++k) intrinsics[4 + k] = camera.distortion[k];
 }
 
 template <class Parent, class Child>
@@ -73,15 +73,15 @@ std::optional<Corners> opencv_corners(ImageView<const std::uint8_t> image, const
 }
 
 std::optional<OpencvCalibration> opencv_calibration(const Board& board, const std::vector<FoundBoard>& views,
-                                                    std::int32_t width_px, std::int32_t height_px, bool hold_k3) {
+                                                    std::int32_t width_px, std::int32_t height_px, bool fix_k3) {
   const std::vector<double> points = board_numbers(board), pixels = pixel_numbers(views);
-  const ModuleViews material{
-      static_cast<int>(views.size()), static_cast<int>(board.size()), points.data(), width_px, height_px, hold_k3};
-  std::array<double, kOptics> optics{};
+  const ModuleViews input{
+      static_cast<int>(views.size()), static_cast<int>(board.size()), points.data(), width_px, height_px, fix_k3};
+  std::array<double, kIntrinsics> intrinsics{};
   std::vector<double> poses(kPose * views.size());
   OpencvCalibration result;
-  if (!opencv().calibrate(material, pixels.data(), optics.data(), poses.data(), &result.rms_px)) return std::nullopt;
-  result.state.cameras = {camera_of(optics.data(), width_px, height_px)};
+  if (!opencv().calibrate(input, pixels.data(), intrinsics.data(), poses.data(), &result.rms_px)) return std::nullopt;
+  result.state.cameras = {camera_of(intrinsics.data(), width_px, height_px)};
   for (std::size_t view = 0; view < views.size(); ++view) {
     result.state.T_camera_board.push_back(pose_of<frame::Camera, frame::Board>(poses.data() + kPose * view));
   }
@@ -90,22 +90,22 @@ std::optional<OpencvCalibration> opencv_calibration(const Board& board, const st
 
 std::optional<OpencvCalibration> opencv_stereo(const Board& board, const std::vector<FoundBoard>& left,
                                                const std::vector<FoundBoard>& right, const PinholeCamera& left_camera,
-                                               const PinholeCamera& right_camera, bool hold_k3) {
+                                               const PinholeCamera& right_camera, bool fix_k3) {
   const std::vector<double> points = board_numbers(board), left_pixels = pixel_numbers(left),
                             right_pixels = pixel_numbers(right);
-  const ModuleViews material{static_cast<int>(left.size()), static_cast<int>(board.size()), points.data(),
-                             left_camera.width_px,          left_camera.height_px,          hold_k3};
-  std::array<double, 2 * kOptics> optics{};
-  write_optics(left_camera, optics.data());
-  write_optics(right_camera, optics.data() + kOptics);
+  const ModuleViews input{static_cast<int>(left.size()), static_cast<int>(board.size()), points.data(),
+                          left_camera.width_px,          left_camera.height_px,          fix_k3};
+  std::array<double, 2 * kIntrinsics> intrinsics{};
+  write_optics(left_camera, intrinsics.data());
+  write_optics(right_camera, intrinsics.data() + kIntrinsics);
   std::array<double, kPose> pose{};
   OpencvCalibration result;
-  if (!opencv().calibrate_stereo(material, left_pixels.data(), right_pixels.data(), optics.data(), pose.data(),
+  if (!opencv().calibrate_stereo(input, left_pixels.data(), right_pixels.data(), intrinsics.data(), pose.data(),
                                  &result.rms_px)) {
     return std::nullopt;
   }
-  result.state.cameras = {camera_of(optics.data(), left_camera.width_px, left_camera.height_px),
-                          camera_of(optics.data() + kOptics, right_camera.width_px, right_camera.height_px)};
+  result.state.cameras = {camera_of(intrinsics.data(), left_camera.width_px, left_camera.height_px),
+                          camera_of(intrinsics.data() + kIntrinsics, right_camera.width_px, right_camera.height_px)};
   result.state.T_left_right = pose_of<frame::Camera, frame::Camera>(pose.data()).inverse();
   return result;
 }

@@ -26,11 +26,11 @@ struct OpencvCalibration {
   double rms_px = 0.0;
 };
 std::optional<OpencvCalibration> opencv_calibration(const Board& board, const std::vector<FoundBoard>& views,
-                                                    std::int32_t width_px, std::int32_t height_px, bool hold_k3);
+                                                    std::int32_t width_px, std::int32_t height_px, bool fix_k3);
 
 /// cv::stereoCalibrate from two calibrated cameras, which it adjusts too.
 std::optional<OpencvCalibration> opencv_stereo(const Board& board, const std::vector<FoundBoard>& left,
                                                const std::vector<FoundBoard>& right, const PinholeCamera& left_camera,
-                                               const PinholeCamera& right_camera, bool hold_k3);
+                                               const PinholeCamera& right_camera, bool fix_k3);
 
 }  // namespace pharos::calibrate

@@ -17,9 +17,9 @@ using Points = std::vector<cv::Point3f>;
 // Half of the window that a corner is told from, of the shortest side: along the diagonal too its neighbours stay
 // outside.
 constexpr double kWindow = 0.35;
-constexpr int kMostSteps = 100;
+constexpr int kMaxSteps = 100;
 constexpr double kSmallestStep = 1e-12;
-const cv::TermCriteria kUntilStill(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMostSteps, kSmallestStep);
+const cv::TermCriteria kUntilStill(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMaxSteps, kSmallestStep);
 
 // OpenCV's own optimum is a start and a comparison: its floats are good to 1e-5 px.
 std::vector<Pixels> pixels_of(const ModuleViews& views, const double* pixels) {
@@ -46,16 +46,16 @@ void write_pose(const cv::Matx33d& R, const cv::Vec3d& t, double* pose) {
   std::copy(t.val, t.val + 3, pose + 9);
 }
 
-cv::Matx33d matrix_of(const double* optics) {
-  return {optics[0], 0.0, optics[2], 0.0, optics[1], optics[3], 0.0, 0.0, 1.0};
+cv::Matx33d matrix_of(const double* intrinsics) {
+  return {intrinsics[0], 0.0, intrinsics[2], 0.0, intrinsics[1], intrinsics[3], 0.0, 0.0, 1.0};
 }
 
-void write_optics(const cv::Matx33d& K, const cv::Mat& distortion, double* optics) {
-  optics[0] = K(0, 0);
-  optics[1] = K(1, 1);
-  optics[2] = K(0, 2);
-  optics[3] = K(1, 2);
-  for (int k = 0; k < 5; ++k) optics[4 + k] = distortion.at<double>(k);
+void write_optics(const cv::Matx33d& K, const cv::Mat& distortion, double* intrinsics) {
+  intrinsics[0] = K(0, 0);
+  intrinsics[1] = K(1, 1);
+  intrinsics[2] = K(0, 2);
+  intrinsics[3] = K(1, 2);
+  for (int k = 0; k < 5; ++k) intrinsics[4 + k] = distortion.at<double>(k);
 }
 
 template <class Work>
@@ -99,15 +99,15 @@ bool find_corners(const std::uint8_t* image, int width_px, int height_px, int co
   });
 }
 
-bool calibrate(const ModuleViews& views, const double* pixels, double* optics, double* poses, double* rms_px) {
+bool calibrate(const ModuleViews& views, const double* pixels, double* intrinsics, double* poses, double* rms_px) {
   return tried([&] {
     cv::Matx33d K;
     cv::Mat distortion;
     std::vector<cv::Vec3d> rotations, translations;
     *rms_px =
         cv::calibrateCamera(boards_of(views), pixels_of(views, pixels), {views.width_px, views.height_px}, K,
-                            distortion, rotations, translations, views.hold_k3 ? cv::CALIB_FIX_K3 : 0, kUntilStill);
-    write_optics(K, distortion, optics);
+                            distortion, rotations, translations, views.fix_k3 ? cv::CALIB_FIX_K3 : 0, kUntilStill);
+    write_optics(K, distortion, intrinsics);
     for (std::size_t view = 0; view < rotations.size(); ++view) {
       cv::Matx33d R;
       cv::Rodrigues(rotations[view], R);
@@ -117,20 +117,20 @@ bool calibrate(const ModuleViews& views, const double* pixels, double* optics, d
   });
 }
 
-bool calibrate_stereo(const ModuleViews& views, const double* left, const double* right, double* optics, double* pose,
-                      double* rms_px) {
+bool calibrate_stereo(const ModuleViews& views, const double* left, const double* right, double* intrinsics,
+                      double* pose, double* rms_px) {
   return tried([&] {
-    cv::Matx33d K_left = matrix_of(optics), K_right = matrix_of(optics + 9), R;
-    cv::Mat left_distortion(1, 5, CV_64F, optics + 4), right_distortion(1, 5, CV_64F, optics + 13), E, F;
+    cv::Matx33d K_left = matrix_of(intrinsics), K_right = matrix_of(intrinsics + 9), R;
+    cv::Mat left_distortion(1, 5, CV_64F, intrinsics + 4), right_distortion(1, 5, CV_64F, intrinsics + 13), E, F;
     left_distortion = left_distortion.clone();
     right_distortion = right_distortion.clone();
     cv::Vec3d t;
-    const int flags = cv::CALIB_USE_INTRINSIC_GUESS | (views.hold_k3 ? cv::CALIB_FIX_K3 : 0);
+    const int flags = cv::CALIB_USE_INTRINSIC_GUESS | (views.fix_k3 ? cv::CALIB_FIX_K3 : 0);
     *rms_px = cv::stereoCalibrate(boards_of(views), pixels_of(views, left), pixels_of(views, right), K_left,
                                   left_distortion, K_right, right_distortion, {views.width_px, views.height_px}, R, t,
                                   E, F, flags, kUntilStill);
-    write_optics(K_left, left_distortion, optics);
-    write_optics(K_right, right_distortion, optics + 9);
+    write_optics(K_left, left_distortion, intrinsics);
+    write_optics(K_right, right_distortion, intrinsics + 9);
     write_pose(R, t, pose);
     return true;
   });

@@ -14,15 +14,15 @@ struct ModuleViews {
   const double* board;  // x, y, z of each point
   int width_px;
   int height_px;
-  bool hold_k3;
+  bool fix_k3;
 };
 
 struct OpencvModule {
   bool (*find_corners)(const std::uint8_t* image, int width_px, int height_px, int columns, int rows, double* pixels,
                        double* edge_px);
-  bool (*calibrate)(const ModuleViews& views, const double* pixels, double* optics, double* poses, double* rms_px);
+  bool (*calibrate)(const ModuleViews& views, const double* pixels, double* intrinsics, double* poses, double* rms_px);
   /// optics: 9 of the left, 9 of the right; pose: T_right_left.
-  bool (*calibrate_stereo)(const ModuleViews& views, const double* left, const double* right, double* optics,
+  bool (*calibrate_stereo)(const ModuleViews& views, const double* left, const double* right, double* intrinsics,
                            double* pose, double* rms_px);
 };
 

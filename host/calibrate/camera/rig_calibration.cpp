@@ -22,23 +22,24 @@ void pair_up(std::array<Images, 2>& images) {
     for (std::size_t side = 0; side < 2; ++side) {
       BoardSearch& own = images[side][i].search;
       const BoardSearch& other = images[1 - side][i].search;
-      if (own.fate != ImageFate::kUsed || other.fate == ImageFate::kUsed) continue;
-      own.fate = ImageFate::kNoPartner;
+      if (own.status != ImageStatus::kUsed || other.status == ImageStatus::kUsed) continue;
+      own.status = ImageStatus::kNoPartner;
       own.detail = std::string("the ") + kSides[1 - side] + " image of the pair was not used";
     }
   }
 }
 
 std::size_t used(const Images& images) {
-  return static_cast<std::size_t>(std::count_if(
-      images.begin(), images.end(), [](const ImageOutcome& image) { return image.search.fate == ImageFate::kUsed; }));
+  return static_cast<std::size_t>(std::count_if(images.begin(), images.end(), [](const ImageOutcome& image) {
+    return image.search.status == ImageStatus::kUsed;
+  }));
 }
 
 // A pixel as a camera without distortion would have it, moved from where a dot's image is to where its centre would be.
 std::optional<Vector2> ideal_pixel(const BundleState& state, const BundleData& data, std::size_t camera,
                                    const CameraFromBoard& T, std::size_t view, std::size_t point) {
   const PinholeCamera& lens = state.cameras[camera];
-  const Vector2 seen = seen_point(lens, T, data.board, point).pixel;
+  const Vector2 seen = project_board_point(lens, T, data.board, point).pixel;
   const Vector2 centre = distort(lens, (T * data.board.point_m(point)).hnormalized());
   const auto ray = undistort(lens, data.found[camera][view].points[point].pixel - seen + centre);
   if (!ray) return std::nullopt;
@@ -87,10 +88,10 @@ std::array<CameraCalibration, 2> each_alone(RigCalibration& result, const std::a
 }
 
 BundleData joint_data(const RigCalibration& result, const CalibrationChoices& choices, const std::vector<int>& turns) {
-  BundleData data{choices.board, choices.hold_k3, {{}, {}}};
+  BundleData data{choices.board, choices.fix_k3, {{}, {}}};
   for (std::size_t side = 0; side < 2; ++side) {
     for (const ImageOutcome& image : result.images[side]) {
-      if (image.search.fate != ImageFate::kUsed) continue;
+      if (image.search.status != ImageStatus::kUsed) continue;
       const int turn = side == 0 ? 0 : turns[image.view];
       data.found[side].push_back(turned(image.search.board, choices.board, turn));
     }
@@ -101,10 +102,10 @@ BundleData joint_data(const RigCalibration& result, const CalibrationChoices& ch
 void note_fit(RigCalibration& result, const CalibrationChoices& choices) {
   for (std::size_t side = 0; side < 2; ++side) {
     for (ImageOutcome& image : result.images[side]) {
-      if (image.search.fate == ImageFate::kUsed) image.rms_px = result.outcome->view_rms_px[side][image.view];
+      if (image.search.status == ImageStatus::kUsed) image.rms_px = result.outcome->view_rms_px[side][image.view];
     }
-    const auto untold = what_is_untold(*result.outcome, side, result.coverage[side], choices.hold_k3);
-    result.untold.insert(result.untold.end(), untold.begin(), untold.end());
+    const auto unobservable = what_is_unobservable(*result.outcome, side, result.coverage[side], choices.fix_k3);
+    result.unobservable.insert(result.unobservable.end(), unobservable.begin(), unobservable.end());
   }
 }
 
@@ -124,7 +125,7 @@ RigCalibration calibrate_rig(const std::vector<BoardPicture>& left, const std::v
   const std::vector<int> turns = matching_turns(left_state.T_camera_board, right_state.T_camera_board, choices.board);
   const BundleData data = joint_data(result, choices, turns);
   const auto opencv =
-      opencv_stereo(choices.board, data.found[0], data.found[1], alone[0].camera(), alone[1].camera(), choices.hold_k3);
+      opencv_stereo(choices.board, data.found[0], data.found[1], alone[0].camera(), alone[1].camera(), choices.fix_k3);
   BundleState start{{alone[0].camera(), alone[1].camera()}, {}, left_state.T_camera_board};
   start.T_left_right =
       opencv ? opencv->state.T_left_right

@@ -16,7 +16,7 @@ struct RigCalibration {
   std::string refusal;                              // empty: there is an answer
   std::optional<BundleOutcome> outcome;             // two cameras and T_left_right
   std::array<Coverage, 2> coverage;
-  std::vector<std::string> untold;
+  std::vector<std::string> unobservable;
   std::size_t pairs = 0;
   /// Distances of points from the epipolar lines that their partners draw, both ways, lens undone: rms in pixels.
   double epipolar_rms_px = 0.0;

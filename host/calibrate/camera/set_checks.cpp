@@ -17,9 +17,9 @@ namespace {
 constexpr double kSameAngle_rad = 0.02;
 constexpr double kSameShift = 0.02;  // of the distance
 // Boards that are parallel within this leave focal length and distance apart only by their noise.
-constexpr double kLeastSpread_rad = 8.0 * kRadPerDeg;
-constexpr double kMostSigma = 0.01;  // of the focal length, or of the image's width
-constexpr double kMostCornerSigma_px = 0.5;
+constexpr double kMinSpread_rad = 8.0 * kRadPerDeg;
+constexpr double kMaxSigma = 0.01;  // of the focal length, or of the image's width
+constexpr double kMaxCornerSigma_px = 0.5;
 
 std::string decimal(double value) {
   std::array<char, 40> text{};
@@ -84,12 +84,12 @@ std::string what_is_degenerate(const BundleOutcome& outcome) {
   const std::vector<CameraFromBoard>& poses = outcome.state.T_camera_board;
   const int distinct = distinct_poses(poses);
   if (distinct == 1) return "the board stands in one pose in all images; move and tilt it between images";
-  if (distinct < kLeastViews) {
+  if (distinct < kMinViews) {
     return "the board stands in " + std::to_string(distinct) + " different poses only; move and tilt it, at least " +
-           std::to_string(kLeastViews) + " are needed";
+           std::to_string(kMinViews) + " are needed";
   }
   const double spread = spread_of_normals(poses);
-  if (spread < kLeastSpread_rad) {
+  if (spread < kMinSpread_rad) {
     return "all boards are parallel within " + decimal(spread / kRadPerDeg) +
            " deg: such images cannot tell focal length from distance; tilt the board by 20 to 40 deg, each way";
   }
@@ -101,8 +101,8 @@ std::string what_is_degenerate(const BundleOutcome& outcome) {
     const double sigma = std::sqrt(outcome.covariance(index, index));
     const bool focal = name.ends_with("fx_px") || name.ends_with("fy_px");
     const bool middle = name.ends_with("cx_px") || name.ends_with("cy_px");
-    const double share = focal ? sigma / lens.fx_px : middle ? sigma / lens.width_px : 0.0;
-    if (share > kMostSigma) {
+    const double fraction = focal ? sigma / lens.fx_px : middle ? sigma / lens.width_px : 0.0;
+    if (fraction > kMaxSigma) {
       return name + " is known to " + decimal(sigma) +
              " px only (1 sigma); tilt the board more, each way, and fill the image with it";
     }
@@ -110,20 +110,20 @@ std::string what_is_degenerate(const BundleOutcome& outcome) {
   return "";
 }
 
-std::vector<std::string> what_is_untold(const BundleOutcome& outcome, std::size_t camera, const Coverage& coverage,
-                                        bool held_k3) {
+std::vector<std::string> what_is_unobservable(const BundleOutcome& outcome, std::size_t camera,
+                                              const Coverage& coverage, bool fixed_k3) {
   const std::string prefix = whose(outcome, camera);
-  std::vector<std::string> untold;
-  for (const std::string& part : coverage.bare)
-    untold.push_back(prefix + "no point in this part of the image: " + part);
+  std::vector<std::string> unobservable;
+  for (const std::string& part : coverage.uncovered)
+    unobservable.push_back(prefix + "no point in this part of the image: " + part);
   const double sigma = corner_sigma(outcome, camera);
   if (!std::isfinite(sigma)) {
-    untold.push_back(prefix + "the lens model folds within the image's corners: it holds only where points were");
-  } else if (sigma > kMostCornerSigma_px) {
-    untold.push_back(prefix + "distortion in the corners is known to " + decimal(sigma) + " px (1 sigma)");
+    unobservable.push_back(prefix + "the lens model folds within the image's corners: it holds only where points were");
+  } else if (sigma > kMaxCornerSigma_px) {
+    unobservable.push_back(prefix + "distortion in the corners is known to " + decimal(sigma) + " px (1 sigma)");
   }
-  if (held_k3) untold.push_back(prefix + "k3 was held at 0");
-  return untold;
+  if (fixed_k3) unobservable.push_back(prefix + "k3 was held at 0");
+  return unobservable;
 }
 
 }  // namespace pharos::calibrate

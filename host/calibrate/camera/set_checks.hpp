@@ -10,7 +10,7 @@
 namespace pharos::calibrate {
 
 /// Fewer images cannot tell a camera with any certainty.
-inline constexpr int kLeastViews = 3;
+inline constexpr int kMinViews = 3;
 
 /// Why an adjusted set of views says too little about a camera, in words with what to do; empty where it says enough:
 /// poses that differ, normals that differ, focal lengths and principal point known to 1 %.
@@ -18,7 +18,7 @@ std::string what_is_degenerate(const BundleOutcome& outcome);
 
 /// What the views could not tell about camera number `camera`, though they tell enough: parts of the image without
 /// points, distortion known badly in the corners, k3 where it was held.
-std::vector<std::string> what_is_untold(const BundleOutcome& outcome, std::size_t camera, const Coverage& coverage,
-                                        bool held_k3);
+std::vector<std::string> what_is_unobservable(const BundleOutcome& outcome, std::size_t camera,
+                                              const Coverage& coverage, bool fixed_k3);
 
 }  // namespace pharos::calibrate

@@ -33,7 +33,7 @@ std::int64_t middle(std::int64_t a, std::int64_t b) { return a + (b - a) / 2; }
 
 CameraPairs::CameraPairs(Cameras cameras, std::int64_t window_ns)
     : cameras_(std::move(cameras)), matcher_(window_ns, [this](std::size_t side, DepthFramePtr frame) {
-        cameras_[side]->give_back(std::move(frame));
+        cameras_[side]->recycle(std::move(frame));
       }) {}
 
 std::string CameraPairs::device() const { return cameras_[0]->device() + " and " + cameras_[1]->device(); }
@@ -61,7 +61,7 @@ StereoPairPtr CameraPairs::paired(std::size_t side, DepthFramePtr frame) {
   }
   if (!time) {
     ++frames_no_clock_;
-    cameras_[side]->give_back(std::move(frame));
+    cameras_[side]->recycle(std::move(frame));
     return nullptr;
   }
   auto frames = matcher_.push(side, {std::move(frame), *time});
@@ -80,19 +80,19 @@ StereoPairPtr CameraPairs::made(std::array<TimedFrame, 2> frames) {
   for (std::size_t side = 0; side < frames.size(); ++side) pair->frames[side] = std::move(frames[side].frame);
   if (pair->time.utc_ns <= last_utc_ns_ || pair->steady_ns <= last_steady_ns_) {
     ++pairs_time_back_;
-    give_back(std::move(pair));
+    recycle(std::move(pair));
     return nullptr;
   }
   last_utc_ns_ = pair->time.utc_ns;
   last_steady_ns_ = pair->steady_ns;
   ++pairs_;
-  alone_at_last_pair_ = matcher_.unpaired(0) + matcher_.unpaired(1);
+  unpaired_at_last_pair_ = matcher_.unpaired(0) + matcher_.unpaired(1);
   offsets_.add(std::abs(pair->offset_ns));
   return pair;
 }
 
-void CameraPairs::give_back(StereoPairPtr pair) {
-  for (std::size_t side = 0; side < cameras_.size(); ++side) cameras_[side]->give_back(std::move(pair->frames[side]));
+void CameraPairs::recycle(StereoPairPtr pair) {
+  for (std::size_t side = 0; side < cameras_.size(); ++side) cameras_[side]->recycle(std::move(pair->frames[side]));
 }
 
 PairSourceStatus CameraPairs::status() const {
@@ -100,7 +100,7 @@ PairSourceStatus CameraPairs::status() const {
   PairSourceStatus status;
   status.state = rank(cameras[0].state) < rank(cameras[1].state) ? cameras[1].state : cameras[0].state;
   for (std::size_t side = 0; side < cameras.size(); ++side) {
-    add(status.trouble, kSides[side], cameras[side].trouble);
+    add(status.error, kSides[side], cameras[side].error);
     add(status.identity, kSides[side], cameras[side].identity);
     status.session += cameras[side].session;
     const ClockMap& map = clocks_[side].map();
@@ -108,12 +108,12 @@ PairSourceStatus CameraPairs::status() const {
       status.clock_sigma_ns = std::max(status.clock_sigma_ns, static_cast<double>(map.sigma_ns()));
     }
   }
-  if (status.trouble.empty() && matcher_.unpaired(0) + matcher_.unpaired(1) - alone_at_last_pair_ >= kManyAlone) {
-    status.trouble =
+  if (status.error.empty() && matcher_.unpaired(0) + matcher_.unpaired(1) - unpaired_at_last_pair_ >= kManyAlone) {
+    status.error =
         "frames of both cameras come, and no two within pairing_window_ms: trigger the shutters together, "
         "let both cameras follow PTP, or widen it";
   }
-  if (clocks_[0].by_ptp() && clocks_[1].by_ptp()) status.clock_sigma_ns = FrameClock::kPtpSigmaNs;
+  if (clocks_[0].by_ptp() && clocks_[1].by_ptp()) status.clock_sigma_ns = FrameClock::kPtpSigma_ns;
   status.clock_drift_ppm = clocks_[0].map().drift_ppm();
   status.counters = named_counts(cameras);
   return status;

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <memory>
 
+#include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/frame_clock.hpp"
-#include "host/daemon/host_jump.hpp"
-#include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/stereo/pair_matcher.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
+#include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {
 
@@ -23,7 +23,7 @@ class CameraPairs : public PairSource {
 
   std::vector<int> fds() const override { return {cameras_[0]->fd(), cameras_[1]->fd()}; }
   StereoPairPtr take() override;
-  void give_back(StereoPairPtr pair) override;
+  void recycle(StereoPairPtr pair) override;
   PairSourceStatus status() const override;
   std::string device() const override;
   std::string clock_notice(std::int64_t monotonic_ns) const override;
@@ -40,7 +40,7 @@ class CameraPairs : public PairSource {
   std::int64_t last_utc_ns_ = 0;
   std::int64_t last_steady_ns_ = 0;
   std::int64_t pairs_ = 0;
-  std::int64_t alone_at_last_pair_ = 0;  // frames without a partner until then
+  std::int64_t unpaired_at_last_pair_ = 0;  // frames without a partner until then
   std::int64_t pairs_time_back_ = 0;
   std::int64_t frames_no_clock_ = 0;
   std::array<LatencyHistogram, 2> transport_;  // first packet to last

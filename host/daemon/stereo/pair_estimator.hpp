@@ -21,13 +21,13 @@ struct StageTime {
 };
 
 /// What became of one pair.
-struct PairAnswer {
+struct PairResult {
   std::string refusal;  // the word after refused_; empty where there is a pose
   std::string advice;   // the same for people, with what to do
   std::string flags;    // words joined by '|'
   int observations = 0;
-  std::variant<RingPoseEstimate, SlamPoseEstimate> pose;
-  std::optional<SpinAnswer> spin;  // where one is due
+  std::variant<Ring2PoseEstimate, SlamPoseEstimate> pose;
+  std::optional<SpinResult> spin;  // where one is due
   std::vector<StageTime> stages;
   NamedCounts figures;  // of the estimator so far; empty where it tells none
 };
@@ -37,7 +37,7 @@ class PairEstimator {
  public:
   virtual ~PairEstimator() = default;
   /// Throws for nothing that a pair may hold; must be fit for the next pair if it does throw.
-  virtual PairAnswer measure(const StereoPair& pair) = 0;
+  virtual PairResult measure(const StereoPair& pair) = 0;
 };
 
 }  // namespace pharos::host

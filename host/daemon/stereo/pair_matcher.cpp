@@ -7,7 +7,7 @@
 namespace pharos::host {
 
 void PairMatcher::drop_oldest(std::size_t side) {
-  give_up_(side, std::move(waiting_[side].front().frame));
+  on_unpaired_(side, std::move(waiting_[side].front().frame));
   waiting_[side].pop_front();
   ++unpaired_[side];
 }
@@ -29,7 +29,7 @@ std::optional<std::array<TimedFrame, 2>> PairMatcher::push(std::size_t side, Tim
                                         [&](const auto& a, const auto& b) { return gap_ns(a) < gap_ns(b); });
   if (nearest == others.end() || gap_ns(*nearest) > window_ns_) {
     own.push_back(std::move(frame));
-    if (own.size() > kMostWaiting) drop_oldest(side);
+    if (own.size() > kMaxWaiting) drop_oldest(side);
     return std::nullopt;
   }
   // Pairs do not cross: what is older than this one, on either side, is without a partner for good.

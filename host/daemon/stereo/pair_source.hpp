@@ -27,7 +27,7 @@ class PairSource {
   /// The next pair, or null.
   virtual StereoPairPtr take() = 0;
   /// A pair that nobody looks at any more: its buffers go round, and a recording at full speed goes on.
-  virtual void give_back(StereoPairPtr pair) = 0;
+  virtual void recycle(StereoPairPtr pair) = 0;
   virtual PairSourceStatus status() const = 0;
   /// What it reads from, for people.
   virtual std::string device() const = 0;

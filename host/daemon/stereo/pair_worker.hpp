@@ -3,23 +3,23 @@
 
 #include <memory>
 
-#include "host/daemon/job_worker.hpp"
 #include "host/daemon/stereo/pair_estimator.hpp"
+#include "host/runtime/job_worker.hpp"
 
 namespace pharos::host {
 
 /// An estimator's thread: one pair is worked on, one may wait, and the newest wins, for a queue would only make poses
 /// older.
-using PairWorker = JobWorker<StereoPairPtr, PairAnswer>;
+using PairWorker = JobWorker<StereoPairPtr, PairResult>;
 
 /// Pairs that the estimator throws at are refused, `internal_error`.
 inline PairWorker pair_worker(std::shared_ptr<PairEstimator> estimator) {
   return PairWorker(
       1, [estimator = std::move(estimator)](const StereoPairPtr& pair) { return estimator->measure(*pair); },
-      [](const StereoPairPtr&, const std::string& trouble) {
-        PairAnswer answer;
+      [](const StereoPairPtr&, const std::string& error) {
+        PairResult answer;
         answer.refusal = kInternalError;
-        answer.advice = trouble;
+        answer.advice = error;
         return answer;
       });
 }

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "host/daemon/now.hpp"
 #include "host/images/grey_image.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -34,7 +34,7 @@ std::int64_t RecordedPairs::time_ns(std::size_t index) const {
 // For the pair next_, or for the end behind the last one.
 void RecordedPairs::arm() {
   if (next_ < pairs_.size() && next_ > 0 && !options_.fastest) {
-    due_monotonic_ns_ += std::min(time_ns(next_) - time_ns(next_ - 1), kLongestSilenceNs);
+    due_monotonic_ns_ += std::min(time_ns(next_) - time_ns(next_ - 1), kLongestSilence_ns);
   }
   const std::int64_t wait_ns = options_.fastest ? 0 : due_monotonic_ns_ - monotonic_now_ns();
   timer_.start(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 0)));
@@ -58,11 +58,11 @@ bool RecordedPairs::read(const PairName& name, StereoPair& pair) {
     }
   } catch (const InputError& error) {
     ++pairs_unreadable_;
-    trouble_ = error.what();
+    error_ = error.what();
     return false;
   }
   ++pairs_read_;
-  trouble_.clear();
+  error_.clear();
   return true;
 }
 
@@ -83,14 +83,14 @@ StereoPairPtr RecordedPairs::take() {
   return good ? pair : nullptr;
 }
 
-void RecordedPairs::give_back(StereoPairPtr) {
+void RecordedPairs::recycle(StereoPairPtr) {
   if (options_.fastest) arm();
 }
 
 PairSourceStatus RecordedPairs::status() const {
   PairSourceStatus status;
   status.state = finished_ ? CameraState::kSilent : CameraState::kOpen;
-  status.trouble = finished_ ? "the recorded pairs have come to their end" : trouble_;
+  status.error = finished_ ? "the recorded pairs have come to their end" : error_;
   status.identity = std::to_string(pairs_.size()) + " recorded pairs";
   status.counters = {{"device.pairs_read", pairs_read_}, {"device.pairs_unreadable", pairs_unreadable_}};
   status.session = 1;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "host/daemon/stereo/pair_source.hpp"
-#include "host/daemon/timer.hpp"
 #include "host/device/pair_names.hpp"
+#include "host/runtime/timer.hpp"
 
 namespace pharos::host {
 
@@ -26,13 +26,13 @@ class RecordedPairs : public PairSource {
 
   std::vector<int> fds() const override { return {timer_.fd()}; }
   StereoPairPtr take() override;
-  void give_back(StereoPairPtr pair) override;
+  void recycle(StereoPairPtr pair) override;
   PairSourceStatus status() const override;
   std::string device() const override { return path_; }
   std::string clock_notice(std::int64_t) const override { return {}; }
 
   /// A longer silence of the recording is cut to this.
-  static constexpr std::int64_t kLongestSilenceNs = 10'000'000'000;
+  static constexpr std::int64_t kLongestSilence_ns = 10'000'000'000;
 
  private:
   void arm();
@@ -48,7 +48,7 @@ class RecordedPairs : public PairSource {
   std::int64_t due_monotonic_ns_ = 0;
   std::int64_t pairs_read_ = 0;
   std::int64_t pairs_unreadable_ = 0;
-  std::string trouble_;
+  std::string error_;
   bool finished_ = false;
 };
 

@@ -5,20 +5,20 @@
 #include <array>
 
 #include "host/support/flag_text.hpp"
+#include "host/vision/ring2/ring2_pose.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
-#include "host/vision/ring2/ring_pose.hpp"
 
 namespace pharos::host {
 namespace {
 
-enum RingFlag : std::uint8_t {
+enum Ring2Flag : std::uint8_t {
   kNoConnector = 1,  // as of tof: the turn about Z' is not told; two circles on one axis never tell it
   kNoNozzle = 2,     // the ring alone
 };
-constexpr std::array<FlagWord, 2> kRingFlagWords{{{kNoConnector, "no_connector"}, {kNoNozzle, "no_nozzle"}}};
+constexpr std::array<FlagWord, 2> kRing2FlagWords{{{kNoConnector, "no_connector"}, {kNoNozzle, "no_nozzle"}}};
 
 // Of the ellipses that the answer rests on.
-int edge_points(const StereoCircles& circles) {
+int edge_points(const Ring2Detection& circles) {
   int points = 0;
   for (std::size_t view = 0; view < ring2::kViews; ++view) {
     for (const auto& contour : circles.contours[view]) {
@@ -51,24 +51,24 @@ const char* advice_of(const std::string& refusal) {
 }  // namespace
 
 Ring2Estimator::Ring2Estimator(const RigFile& rig)
-    : finder_(ring2_rig(rig), {}), focal_px_(0.5 * (rig.left.optics.fx_px + rig.right.optics.fx_px)) {}
+    : finder_(ring2_rig(rig), {}), focal_px_(0.5 * (rig.left.intrinsics.fx_px + rig.right.intrinsics.fx_px)) {}
 
-PairAnswer Ring2Estimator::measure(const StereoPair& pair) {
-  PairAnswer answer;
-  const StereoCircles circles = finder_.find({pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view()});
+PairResult Ring2Estimator::measure(const StereoPair& pair) {
+  PairResult answer;
+  const Ring2Detection circles = finder_.find({pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view()});
   answer.refusal = circles.refusal;
   answer.advice = circles.refusal.empty() ? "" : advice_of(circles.refusal);
-  answer.pose = RingPoseEstimate{};
+  answer.pose = Ring2PoseEstimate{};
   if (!circles.estimate) return answer;
-  if ((circles.estimate->untold & (ring2::kUntoldScale | ring2::kUntoldRing)) != 0) {
+  if ((circles.estimate->unobservable & (ring2::kUnobservableScale | ring2::kUnobservableRing)) != 0) {
     answer.refusal = "no_ring";
     answer.advice = "the ring was not seen by both cameras: where is it?";
     return answer;
   }
-  RingPoseEstimate pose = ring_pose(*circles.estimate, focal_px_);
+  Ring2PoseEstimate pose = ring2_pose(*circles.estimate, focal_px_);
   pose.observations = answer.observations = edge_points(circles);
-  const bool no_nozzle = (circles.estimate->untold & ring2::kUntoldNozzle) != 0;
-  answer.flags = joined_flags(kNoConnector | (no_nozzle ? kNoNozzle : 0), kRingFlagWords);
+  const bool no_nozzle = (circles.estimate->unobservable & ring2::kUnobservableNozzle) != 0;
+  answer.flags = joined_flags(kNoConnector | (no_nozzle ? kNoNozzle : 0), kRing2FlagWords);
   answer.pose = pose;
   return answer;
 }

@@ -3,7 +3,7 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/daemon/stereo/pair_estimator.hpp"
-#include "host/vision/ring2/stereo_circles.hpp"
+#include "host/vision/ring2/ring2_detector.hpp"
 
 namespace pharos::host {
 
@@ -12,10 +12,10 @@ class Ring2Estimator : public PairEstimator {
  public:
   /// Throws InputError for a rig that cannot measure.
   explicit Ring2Estimator(const RigFile& rig);
-  PairAnswer measure(const StereoPair& pair) override;
+  PairResult measure(const StereoPair& pair) override;
 
  private:
-  StereoCircleFinder finder_;
+  Ring2Detector finder_;
   double focal_px_;
 };
 

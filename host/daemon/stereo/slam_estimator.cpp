@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "host/support/input_error.hpp"
 
@@ -16,7 +16,7 @@ enum SlamFlag : std::uint8_t {
 };
 constexpr std::array<FlagWord, 2> kSlamFlagWords{{{kMapStart, "map_start"}, {kRelocalised, "relocalised"}}};
 
-constexpr std::int64_t kFiguresEveryNs = 1'000'000'000;  // they cost a lock and a sort
+constexpr std::int64_t kFiguresEvery_ns = 1'000'000'000;  // they cost a lock and a sort
 constexpr double kNsPerSecond = 1e9;
 
 std::optional<enhance::EnhanceSettings> settings_of(LowLight light) {
@@ -33,7 +33,7 @@ std::optional<enhance::EnhanceSettings> settings_of(LowLight light) {
 SlamEstimator::SlamEstimator(const StereoConfig& config)
     : rig_(config.rig),
       rig_name_(config.rig_file.string()),
-      focal_px_(0.5 * (rig_.left.optics.fx_px + rig_.right.optics.fx_px)),
+      focal_px_(0.5 * (rig_.left.intrinsics.fx_px + rig_.right.intrinsics.fx_px)),
       settings_(config.slam->settings),
       eight_bits_(settings_of(config.slam->enhance)) {
   begin();
@@ -46,8 +46,8 @@ void SlamEstimator::begin() {
   ++maps_;
 }
 
-PairAnswer SlamEstimator::measure(const StereoPair& pair) {
-  PairAnswer answer;
+PairResult SlamEstimator::measure(const StereoPair& pair) {
+  PairResult answer;
   SlamPoseEstimate estimate;
   answer.pose = estimate;
   if (!began_ns_) began_ns_ = pair.steady_ns;
@@ -84,14 +84,14 @@ PairAnswer SlamEstimator::measure(const StereoPair& pair) {
     throw;
   }
   answer.stages = {{"light", lit_ns - start_ns}, {"tracking", monotonic_now_ns() - lit_ns}};
-  tell_figures(answer);
+  report_figures(answer);
   return answer;
 }
 
-void SlamEstimator::tell_figures(PairAnswer& answer) {
+void SlamEstimator::report_figures(PairResult& answer) {
   const std::int64_t now_ns = monotonic_now_ns();
-  if (now_ns - figures_told_ns_ < kFiguresEveryNs) return;
-  figures_told_ns_ = now_ns;
+  if (now_ns - figures_reported_ns_ < kFiguresEvery_ns) return;
+  figures_reported_ns_ = now_ns;
   const slam::SlamReport report = system_->report();
   answer.figures = {{"slam.maps", maps_},
                     {"slam.keyframes", report.keyframes},

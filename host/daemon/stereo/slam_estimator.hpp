@@ -17,11 +17,11 @@ class SlamEstimator : public PairEstimator {
  public:
   /// Of a rig whose `slam` is set. Throws InputError for a rig or a vocabulary that is no good.
   explicit SlamEstimator(const StereoConfig& config);
-  PairAnswer measure(const StereoPair& pair) override;
+  PairResult measure(const StereoPair& pair) override;
 
  private:
   void begin();
-  void tell_figures(PairAnswer& answer);
+  void report_figures(PairResult& answer);
 
   RigFile rig_;
   std::string rig_name_;
@@ -33,7 +33,7 @@ class SlamEstimator : public PairEstimator {
   std::optional<std::int64_t> began_ns_;  // of the pairs' steady time
   bool map_started_ = false;
   std::int64_t maps_ = 0;
-  std::int64_t figures_told_ns_ = 0;
+  std::int64_t figures_reported_ns_ = 0;
 };
 
 }  // namespace pharos::host

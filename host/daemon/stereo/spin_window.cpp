@@ -10,7 +10,7 @@ namespace pharos::host {
 namespace {
 
 constexpr double kWindow_s = 20.0;
-constexpr std::size_t kMostAttitudes = 400;  // 20 s at 20 pairs a second
+constexpr std::size_t kMaxAttitudes = 400;  // 20 s at 20 pairs a second
 constexpr double kEvery_s = 1.0;
 constexpr double kSigmasFromRest = 3.0;
 
@@ -29,19 +29,19 @@ SpinEstimate estimate_of(const slam::Spin& fit, double span_s) {
 
 void SpinWindow::clear() { attitudes_.clear(); }
 
-std::optional<SpinAnswer> SpinWindow::push(const slam::TrackedFrame& frame) {
+std::optional<SpinResult> SpinWindow::push(const slam::TrackedFrame& frame) {
   if (frame.placed) attitudes_.push_back(frame);
   const auto old = std::find_if(attitudes_.begin(), attitudes_.end(), [&](const slam::TrackedFrame& kept) {
     return kept.time_s >= frame.time_s - kWindow_s;
   });
   attitudes_.erase(attitudes_.begin(), old);
-  if (attitudes_.size() > kMostAttitudes) attitudes_.erase(attitudes_.begin());
-  if (told_s_ && frame.time_s < *told_s_ + kEvery_s) return std::nullopt;
-  told_s_ = frame.time_s;
-  if (!frame.placed) return SpinAnswer{frame.lost ? "lost" : "no_map", {}};
+  if (attitudes_.size() > kMaxAttitudes) attitudes_.erase(attitudes_.begin());
+  if (reported_s_ && frame.time_s < *reported_s_ + kEvery_s) return std::nullopt;
+  reported_s_ = frame.time_s;
+  if (!frame.placed) return SpinResult{frame.lost ? "lost" : "no_map", {}};
   const auto fit = slam::fit_spin(attitudes_);
-  if (!fit || !fit->rate_rad_s.allFinite() || !fit->covariance.allFinite()) return SpinAnswer{"too_few", {}};
-  return SpinAnswer{"", estimate_of(*fit, attitudes_.back().time_s - attitudes_.front().time_s)};
+  if (!fit || !fit->rate_rad_s.allFinite() || !fit->covariance.allFinite()) return SpinResult{"too_few", {}};
+  return SpinResult{"", estimate_of(*fit, attitudes_.back().time_s - attitudes_.front().time_s)};
 }
 
 }  // namespace pharos::host

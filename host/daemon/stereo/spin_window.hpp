@@ -11,7 +11,7 @@
 namespace pharos::host {
 
 /// What is to be told of a target's turning: a spin, or why there is none.
-struct SpinAnswer {
+struct SpinResult {
   std::string refusal;  // the word after refused_; empty where there is a spin
   SpinEstimate spin;
 };
@@ -20,13 +20,13 @@ struct SpinAnswer {
 class SpinWindow {
  public:
   /// The next pair's frame, with or without a pose. Empty where nothing is due.
-  std::optional<SpinAnswer> push(const slam::TrackedFrame& frame);
+  std::optional<SpinResult> push(const slam::TrackedFrame& frame);
   /// A new map has other attitudes.
   void clear();
 
  private:
   std::vector<slam::TrackedFrame> attitudes_;
-  std::optional<double> told_s_;
+  std::optional<double> reported_s_;
 };
 
 }  // namespace pharos::host

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
-#include "host/daemon/now.hpp"
 #include "host/daemon/stereo/camera_pairs.hpp"
 #include "host/daemon/stereo/recorded_pairs.hpp"
 #include "host/daemon/stereo/ring2_estimator.hpp"
 #include "host/daemon/stereo/slam_estimator.hpp"
 #include "host/device/gige_module.hpp"
+#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
@@ -52,7 +52,7 @@ StereoFeed::~StereoFeed() {
 void StereoFeed::add_system(const StereoConfig& config, const PublishConfig& publish, const char* word,
                             Publisher& publisher, std::unique_ptr<PairEstimator> estimator) {
   systems_.push_back(std::unique_ptr<System>(
-      new System{StereoLine(config, publish, word + config.name, publisher), pair_worker(std::move(estimator))}));
+      new System{StereoPipeline(config, publish, word + config.name, publisher), pair_worker(std::move(estimator))}));
   System& system = *systems_.back();
   loop_.watch(system.worker.fd(), [this, &system] { on_results(system); });
 }
@@ -61,14 +61,14 @@ void StereoFeed::on_readable() {
   if (StereoPairPtr pair = source_->take()) {
     for (const auto& system : systems_) {
       if (!system->line.take(*pair)) continue;
-      if (auto given_up = system->worker.post(pair)) {
+      if (auto discarded = system->worker.post(pair)) {
         system->line.dropped();
-        release(std::move(*given_up));
+        release(std::move(*discarded));
       }
     }
     release(std::move(pair));
   }
-  tell_when_finished();
+  report_when_finished();
 }
 
 void StereoFeed::on_results(System& system) {
@@ -76,19 +76,19 @@ void StereoFeed::on_results(System& system) {
     system.line.done(*done, !source_->clock_notice(monotonic_now_ns()).empty());
     release(std::move(done->job));
   }
-  tell_when_finished();
+  report_when_finished();
 }
 
 // Pairs are held by the loop's thread and by workers that give them back to it: the last holder is always here.
 void StereoFeed::release(StereoPairPtr pair) {
-  if (pair.use_count() == 1) source_->give_back(std::move(pair));
+  if (pair.use_count() == 1) source_->recycle(std::move(pair));
 }
 
-void StereoFeed::tell_when_finished() {
-  if (finished_told_ || !source_->status().finished) return;
-  finished_told_ =
+void StereoFeed::report_when_finished() {
+  if (finish_reported_ || !source_->status().finished) return;
+  finish_reported_ =
       std::all_of(systems_.begin(), systems_.end(), [](const auto& system) { return system->worker.idle(); });
-  if (finished_told_) finished_();
+  if (finish_reported_) finished_();
 }
 
 void StereoFeed::attend(std::int64_t monotonic_ns) { news_.tell(source_->device(), source_->status(), monotonic_ns); }

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/event_loop.hpp"
-#include "host/daemon/source_news.hpp"
+#include "host/daemon/source_state_log.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/daemon/stereo/pair_worker.hpp"
-#include "host/daemon/stereo/stereo_line.hpp"
+#include "host/daemon/stereo/stereo_pipeline.hpp"
+#include "host/runtime/event_loop.hpp"
 
 namespace pharos::host {
 
@@ -31,13 +31,13 @@ class StereoFeed {
   /// Of every system.
   std::vector<SourceHealth> health(std::int64_t monotonic_ns);
   /// A recording whose last pair was answered.
-  bool finished() const { return finished_told_; }
+  bool finished() const { return finish_reported_; }
   const std::string& name() const { return name_; }
   std::string clock_notice(std::int64_t monotonic_ns) const { return source_->clock_notice(monotonic_ns); }
 
  private:
   struct System {
-    StereoLine line;
+    StereoPipeline line;
     PairWorker worker;
   };
 
@@ -46,7 +46,7 @@ class StereoFeed {
   void on_readable();
   void on_results(System& system);
   void release(StereoPairPtr pair);
-  void tell_when_finished();
+  void report_when_finished();
 
   EventLoop& loop_;
   std::string name_;
@@ -54,7 +54,7 @@ class StereoFeed {
   std::unique_ptr<PairSource> source_;
   std::vector<std::unique_ptr<System>> systems_;
   std::function<void()> finished_;
-  bool finished_told_ = false;
+  bool finish_reported_ = false;
 };
 
 }  // namespace pharos::host

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of StereoLine that tells how it fares.
+// The part of StereoPipeline that tells how it fares.
 #include "host/daemon/health_parts.hpp"
-#include "host/daemon/stereo/stereo_line.hpp"
+#include "host/daemon/stereo/stereo_pipeline.hpp"
 
 namespace pharos::host {
 namespace {
 
 // A pair a second is the slowest rig that is not silent.
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 }  // namespace
 
-SourceHealth StereoLine::health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns) {
+SourceHealth StereoPipeline::health(const std::string& device, const PairSourceStatus& pairs,
+                                    std::int64_t monotonic_ns) {
   SourceHealth health;
   health.source = source_;
   health.target = target_;
@@ -21,19 +22,19 @@ SourceHealth StereoLine::health(const std::string& device, const PairSourceStatu
   health.clock_sigma_ns = pairs.clock_sigma_ns;
   health.clock_drift_ppm = pairs.clock_drift_ppm;
   health.counters = named_counts(pairs);
-  judge(health, pairs, monotonic_ns);
+  assess(health, pairs, monotonic_ns);
   return health;
 }
 
 // From the cameras upwards: the lowest thing that is wrong is the one to tell.
-void StereoLine::judge(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t now_ns) const {
+void StereoPipeline::assess(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t now_ns) const {
   health.state = state_of(pairs.state);
-  health.message = pairs.trouble;
+  health.message = pairs.error;
   if (health.state != SourceState::kOk) return;
-  const bool pose = pace_.pose_within(kSilenceNs, now_ns);
+  const bool pose = pace_.pose_within(kSilence_ns, now_ns);
   if (pose && last_refusal_.empty()) return;
   health.state = pose ? SourceState::kOk : SourceState::kWaiting;
-  if (!pace_.data_within(kSilenceNs, now_ns)) {
+  if (!pace_.data_within(kSilence_ns, now_ns)) {
     if (health.message.empty()) {
       health.message =
           pace_.any_data() ? "no pairs come any more: see frames_without_partner of each side" : "no pair came yet";
@@ -46,7 +47,7 @@ void StereoLine::judge(SourceHealth& health, const PairSourceStatus& pairs, std:
   }
 }
 
-NamedCounts StereoLine::named_counts(const PairSourceStatus& pairs) const {
+NamedCounts StereoPipeline::named_counts(const PairSourceStatus& pairs) const {
   NamedCounts counts;
   for_each_counter(counters_, [&](const char* name, std::int64_t value) { counts.push_back({name, value}); });
   for (const auto& [reason, count] : counters_.refused) counts.push_back({"refused." + reason, count});
@@ -56,7 +57,7 @@ NamedCounts StereoLine::named_counts(const PairSourceStatus& pairs) const {
   add_times(counts, "estimator", estimator_);
   for (const auto& [stage, times] : stages_) add_times(counts, "estimator." + stage, times);
   add_times(counts, "latency", latency_);
-  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.held_back())});
+  counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())});
   return counts;
 }
 

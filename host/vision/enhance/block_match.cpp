@@ -48,8 +48,8 @@ PHAROS_WIDE_VECTORS std::span<const BlockPlace> BlockMatcher::find(BlockPlace re
   const std::uint8_t* wanted = block(reference.u_px, reference.v_px);
   std::array<std::uint8_t, kBlockPixels> pattern;
   std::copy_n(wanted, kBlockPixels, pattern.begin());
-  const std::size_t most = settings.most_blocks;
-  const auto limit = static_cast<std::uint32_t>(settings.most_difference / step_ * static_cast<float>(kBlockPixels));
+  const std::size_t maximum = settings.max_blocks;
+  const auto limit = static_cast<std::uint32_t>(settings.max_difference / step_ * static_cast<float>(kBlockPixels));
   found_[0] = reference;
   difference_[0] = 0;
   std::size_t count = 1;
@@ -64,15 +64,15 @@ PHAROS_WIDE_VECTORS std::span<const BlockPlace> BlockMatcher::find(BlockPlace re
     for (std::int32_t v = v0; v <= v1; ++v, candidate += kBlock_px) {
       const std::uint32_t sum = difference(pattern.data(), candidate);
       if (sum >= worst || candidate == wanted) continue;
-      std::size_t at = std::min(count, most - 1);
+      std::size_t at = std::min(count, maximum - 1);
       for (; at > 1 && difference_[at - 1] > sum; --at) {
         difference_[at] = difference_[at - 1];
         found_[at] = found_[at - 1];
       }
       difference_[at] = sum;
       found_[at] = {u, v};
-      if (count < most) ++count;
-      if (count == most) worst = std::min(limit, difference_[most - 1]);
+      if (count < maximum) ++count;
+      if (count == maximum) worst = std::min(limit, difference_[maximum - 1]);
     }
   }
   return {found_.data(), std::bit_floor(count)};

@@ -12,7 +12,7 @@
 namespace pharos::enhance {
 
 /// Most blocks that are taken together.
-inline constexpr std::size_t kMostBlocks = 16;
+inline constexpr std::size_t kMaxBlocks = 16;
 
 /// Upper left pixel of a block.
 struct BlockPlace {
@@ -20,9 +20,9 @@ struct BlockPlace {
 };
 
 struct MatchSettings {
-  std::int32_t reach_px = 19;     ///< of the search, to each side of the reference
-  std::size_t most_blocks = 16;   ///< a power of two
-  float most_difference = 0.24F;  ///< mean absolute difference of two blocks that are alike, 1 = white
+  std::int32_t reach_px = 19;    ///< of the search, to each side of the reference
+  std::size_t max_blocks = 16;   ///< a power of two
+  float max_difference = 0.24F;  ///< mean absolute difference of two blocks that are alike, 1 = white
 };
 
 /// Finds the blocks most like a given one, by the sum of absolute differences of 8-bit values.
@@ -46,8 +46,8 @@ class BlockMatcher {
   std::vector<std::uint8_t> row_;
   std::int32_t first_ = 0, rows_ = 0, columns_ = 0;
   float step_ = 1.0F;
-  std::array<BlockPlace, kMostBlocks> found_;
-  std::array<std::uint32_t, kMostBlocks> difference_;
+  std::array<BlockPlace, kMaxBlocks> found_;
+  std::array<std::uint32_t, kMaxBlocks> difference_;
 };
 
 }  // namespace pharos::enhance

@@ -21,7 +21,7 @@ constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
 // Rows of references from one border to the next. Every second band writes at the same time; with the reach on both
 // sides they must not meet.
 constexpr std::int32_t kBand_px = 64;
-constexpr std::int32_t kMostReach_px = (kBand_px - kSide) / 2;
+constexpr std::int32_t kMaxReach_px = (kBand_px - kSide) / 2;
 // From one block of the fast denoiser to the next: 8 ms for 640x480.
 constexpr std::int32_t kFastStep_px = 2;
 // Mean absolute difference of blocks that may be stacked: beyond what noise makes of equal ones (1.13 sigma).
@@ -53,15 +53,15 @@ class Mosaic {
   }
 
   PHAROS_WIDE_VECTORS void add(const Stack& stack, std::span<const BlockPlace> places, float weight) {
-    Window share;
-    for (std::size_t k = 0; k < kBlockPixels; ++k) share[k] = weight * window_[k];
+    Window fraction;
+    for (std::size_t k = 0; k < kBlockPixels; ++k) fraction[k] = weight * window_[k];
     const float* block = stack.data();
     for (const BlockPlace& place : places) {
       for (std::size_t y = 0; y < kBlock_px; ++y) {
         const auto at = static_cast<std::size_t>((place.v_px + static_cast<Index>(y)) * width_ + place.u_px);
         for (std::size_t x = 0; x < kBlock_px; ++x) {
-          weighted_[at + x] += share[kBlock_px * y + x] * block[kBlock_px * y + x];
-          weights_[at + x] += share[kBlock_px * y + x];
+          weighted_[at + x] += fraction[kBlock_px * y + x] * block[kBlock_px * y + x];
+          weights_[at + x] += fraction[kBlock_px * y + x];
         }
       }
       block += kBlockPixels;
@@ -177,7 +177,7 @@ void BlockDenoiser::bm3d(const FloatImage& noisy, double sigma, const Bm3dSettin
   }
   Buffers& b = *buffers_;
   const auto level = static_cast<float>(sigma);
-  const std::int32_t reach_px = std::clamp(settings.reach_px, 1, kMostReach_px);
+  const std::int32_t reach_px = std::clamp(settings.reach_px, 1, kMaxReach_px);
   const Pass hard{
       noisy, noisy, {reach_px, settings.hard_blocks, 1.13F * level + kAlikeNoisy}, settings.hard_step_px, threads};
   run(hard, b.matchers, b.mosaic,

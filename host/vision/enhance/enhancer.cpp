@@ -16,7 +16,7 @@ namespace {
 constexpr float kBlack = 1e-5F;
 // How far the illumination may be off the exact one, of its range (RMS).
 constexpr double kTolerance = 5e-3;
-constexpr int kMostIterations = 60;
+constexpr int kMaxIterations = 60;
 
 void raise(const FloatImage& refined, double gamma, FloatImage& out) {
   out.shape(refined.width_px, refined.height_px, 1);
@@ -98,7 +98,7 @@ const Enhanced& Enhancer::illuminate(const FloatImage& frame) {
   Enhanced& steps = b.steps;
   max_of_channels(frame, steps.start);
   b.weights.weigh(steps.start, settings_.strategy, settings_.alpha, settings_.sigma_px, b.system);
-  steps.iterations = b.solver.solve(b.system, steps.start, kTolerance, kMostIterations, steps.refined);
+  steps.iterations = b.solver.solve(b.system, steps.start, kTolerance, kMaxIterations, steps.refined);
   raise(steps.refined, settings_.gamma, steps.illumination);
   return steps;
 }

@@ -19,10 +19,10 @@ void widen(ImageView<const Integer> in, FloatImage& out) {
 
 template <class Integer>
 void narrow(ImageView<const float> in, ImageView<Integer> out) {
-  constexpr auto kMost = static_cast<float>(std::numeric_limits<Integer>::max());
+  constexpr auto kMax = static_cast<float>(std::numeric_limits<Integer>::max());
   for (std::int32_t v = 0; v < in.height_px; ++v) {
     for (std::int32_t u = 0; u < in.width_px; ++u) {
-      out.row(v)[u] = static_cast<Integer>(std::clamp(in.row(v)[u], 0.0F, 1.0F) * kMost + 0.5F);
+      out.row(v)[u] = static_cast<Integer>(std::clamp(in.row(v)[u], 0.0F, 1.0F) * kMax + 0.5F);
     }
   }
 }

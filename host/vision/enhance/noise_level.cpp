@@ -12,7 +12,7 @@ namespace pharos::enhance {
 namespace {
 
 constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
-constexpr std::size_t kLeastBlocks = 16;
+constexpr std::size_t kMinBlocks = 16;
 constexpr float kTrace = 1e-5F;  // high frequencies that rounding of floats leaves
 
 struct Block {
@@ -57,8 +57,8 @@ double noise_level(ImageView<const float> image) {
       if (block.high > kTrace * kTrace) blocks.push_back(block);
     }
   }
-  if (blocks.size() < kLeastBlocks) return 0.0;
-  const std::size_t plainest = std::max(kLeastBlocks, blocks.size() / 10);
+  if (blocks.size() < kMinBlocks) return 0.0;
+  const std::size_t plainest = std::max(kMinBlocks, blocks.size() / 10);
   const auto end = blocks.begin() + static_cast<std::ptrdiff_t>(plainest);
   std::nth_element(blocks.begin(), end - 1, blocks.end(), [](const Block& a, const Block& b) { return a.low < b.low; });
   std::nth_element(blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(plainest / 2), end,

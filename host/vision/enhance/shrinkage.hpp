@@ -11,8 +11,8 @@
 
 namespace pharos::enhance {
 
-/// Coefficients of up to kMostBlocks blocks, one after another.
-using Stack = std::array<float, kMostBlocks * kBlockPixels>;
+/// Coefficients of up to kMaxBlocks blocks, one after another.
+using Stack = std::array<float, kMaxBlocks * kBlockPixels>;
 
 template <BlockTransform kind>
 void gather(ImageView<const float> image, std::span<const BlockPlace> places, Stack& stack) {
@@ -53,9 +53,9 @@ inline float shrink_wiener(Stack& stack, Stack& pilot, std::size_t blocks, float
   const float scale = 1.0F / static_cast<float>(blocks);
   for (std::size_t k = 0; k < blocks * kBlockPixels; ++k) {
     const float power = pilot[k] * pilot[k];
-    const float share = power / (power + noise);
-    pilot[k] = share * share;
-    stack[k] *= share * scale;
+    const float fraction = power / (power + noise);
+    pilot[k] = fraction * fraction;
+    stack[k] *= fraction * scale;
   }
   std::array<float, kBlock_px> part{};
   for (std::size_t k = 0; k < blocks * kBlockPixels; k += kBlock_px) {

@@ -26,8 +26,8 @@ std::vector<float> half_gaussian(double sigma_px) {
   return taps;
 }
 
-// Share of the taps that fall on 0 ... size-1, for each place.
-std::vector<float> shares(const std::vector<float>& taps, Index size) {
+// Fraction of the taps that fall on 0 ... size-1, for each place.
+std::vector<float> fractions(const std::vector<float>& taps, Index size) {
   std::vector<float> found(static_cast<std::size_t>(size));
   const auto radius = static_cast<Index>(taps.size()) - 1;
   for (Index at = 0; at < size; ++at) {
@@ -94,7 +94,7 @@ PHAROS_WIDE_VECTORS void SmoothnessWeights::weigh(const FloatImage& start, Weigh
   system.height_px = start.height_px;
   for (std::vector<float>* links : {&system.right, &system.down}) links->assign(start.pixels(), 0.0F);
   const std::vector<float> taps = half_gaussian(sigma_px);
-  const std::vector<float> share_u = shares(taps, width), share_v = shares(taps, height);
+  const std::vector<float> fraction_u = fractions(taps, width), fraction_v = fractions(taps, height);
   across_.resize(start.pixels());
   gathered_.resize(start.pixels());
 
@@ -114,7 +114,7 @@ PHAROS_WIDE_VECTORS void SmoothnessWeights::weigh(const FloatImage& start, Weigh
       const float* difference = across_.data() + v * width;
       const float* window = gathered_.data() + v * width;
       float* to = links.data() + v * width;
-      const float share = share_v[static_cast<std::size_t>(v)];
+      const float fraction = fraction_v[static_cast<std::size_t>(v)];
       switch (strategy) {
         case WeightStrategy::kUniform:
           for (Index u = 0; u < columns; ++u) to[u] = weight / (std::abs(difference[u]) + kFlat);
@@ -127,7 +127,7 @@ PHAROS_WIDE_VECTORS void SmoothnessWeights::weigh(const FloatImage& start, Weigh
           break;
         case WeightStrategy::kWindow:
           for (Index u = 0; u < columns; ++u) {
-            to[u] = weight * share * share_u[static_cast<std::size_t>(u)] /
+            to[u] = weight * fraction * fraction_u[static_cast<std::size_t>(u)] /
                     ((std::abs(window[u]) + kFlat) * (std::abs(difference[u]) + kFlat));
           }
           break;

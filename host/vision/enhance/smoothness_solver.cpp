@@ -15,7 +15,7 @@ constexpr int kCoarsestRounds = 4;
 constexpr int kCorrections = 2;
 // Steps shrink by a ratio q, so that after one of length s some s q / (1 - q) is left. q is that of the last two steps,
 // within these limits: single steps are shorter than their like.
-constexpr double kLeastRatio = 0.4, kMostRatio = 0.9;
+constexpr double kMinRatio = 0.4, kMaxRatio = 0.9;
 // Frames by all strategies, dark and bright, cold and warm, came out 0.02 to 0.22 % off where 0.5 % was asked.
 constexpr double kSafety = 4.0;
 
@@ -66,7 +66,7 @@ void SmoothnessSolver::cycle(std::size_t level) {
 }
 
 PHAROS_WIDE_VECTORS int SmoothnessSolver::solve(const SmoothnessSystem& system, const FloatImage& start,
-                                                double tolerance, int most_iterations, FloatImage& refined) {
+                                                double tolerance, int max_iterations, FloatImage& refined) {
   build_grids(system, grids_);
   SmoothnessGrid& fine = grids_.front();
   if (refined.width_px != start.width_px || refined.height_px != start.height_px || refined.channels != 1) {
@@ -80,7 +80,7 @@ PHAROS_WIDE_VECTORS int SmoothnessSolver::solve(const SmoothnessSystem& system, 
   apply(fine, refined.values.data(), image_.data());
   for (std::size_t i = 0; i < r.size(); ++i) r[i] = start.values[i] - image_[i];
   double before = 0.0, moved_before = 0.0;
-  for (int k = 0; k < most_iterations; ++k) {
+  for (int k = 0; k < max_iterations; ++k) {
     cycle(0);
     const double now = dot(r, z);
     if (!(now > 0.0)) return k;  // solved to the last bit
@@ -95,11 +95,11 @@ PHAROS_WIDE_VECTORS int SmoothnessSolver::solve(const SmoothnessSystem& system, 
       r[i] -= length * image_[i];
     }
     const double moved = step * std::sqrt(dot(direction_, direction_) / pixels);
-    const double ratio = k == 0 ? kMostRatio : std::clamp(moved / moved_before, kLeastRatio, kMostRatio);
+    const double ratio = k == 0 ? kMaxRatio : std::clamp(moved / moved_before, kMinRatio, kMaxRatio);
     if (kSafety * moved * ratio / (1.0 - ratio) <= tolerance * range_of(refined)) return k + 1;
     moved_before = moved;
   }
-  return most_iterations;
+  return max_iterations;
 }
 
 }  // namespace pharos::enhance

@@ -17,7 +17,7 @@ class SmoothnessSolver {
  public:
   /// `refined`: the start value in where it has the size of `start` (else `start` is), the solution out. Returns the
   /// number of iterations.
-  int solve(const SmoothnessSystem& system, const FloatImage& start, double tolerance, int most_iterations,
+  int solve(const SmoothnessSystem& system, const FloatImage& start, double tolerance, int max_iterations,
             FloatImage& refined);
 
  private:

@@ -15,19 +15,19 @@ using ring2::Rig;
 
 // Before anything is fitted. The middle of an ellipse is off its circle's centre by some hundredths of the range, and
 // the long axis says a size to as much.
-constexpr double kMostGapPerRange = 0.04;
-constexpr double kMostSizeRatio = 1.25;
+constexpr double kMaxGapPerRange = 0.04;
+constexpr double kMaxSizeRatio = 1.25;
 // Parallel circles on one axis, as far as single pairs tell: a nozzle's own tilt is good to half a degree.
-constexpr double kMostTilt = 6.0 * kRadPerDeg;
-constexpr double kMostOffAxisPerRadius = 0.05;
+constexpr double kMaxTilt = 6.0 * kRadPerDeg;
+constexpr double kMaxOffAxisPerRadius = 0.05;
 // A nozzle is narrower than its ring by this, and not farther from it than so many of its radii.
-constexpr double kMostNozzlePerRing = 0.75;
-constexpr double kMostDistancePerRing = 3.0;
+constexpr double kMaxNozzlePerRing = 0.75;
+constexpr double kMaxDistancePerRing = 3.0;
 // Edges of one rim: circles nearer along the axis than this share of the ring's radius are one plane's.
 constexpr double kOnePlanePerRing = 0.04;
 
 std::optional<Vector3> ray_of(const ring2::RigView& view, const Contour& contour) {
-  const auto ray = undistort(view.optics, contour.centre_px);
+  const auto ray = undistort(view.intrinsics, contour.centre_px);
   if (!ray) return std::nullopt;
   return (view.T_rig_camera.R * Vector3(ray->x(), ray->y(), 1.0)).eval();
 }
@@ -42,14 +42,14 @@ std::optional<std::array<double, 2>> meeting_of(const Vector3& left, const Vecto
   const double t = (b * left.dot(baseline) - a * right.dot(baseline)) / determinant;
   if (!(s > 0.0 && t > 0.0)) return std::nullopt;
   const double gap = (left * s - right * t - baseline).norm();
-  if (gap > kMostGapPerRange * std::min(s, t)) return std::nullopt;
+  if (gap > kMaxGapPerRange * std::min(s, t)) return std::nullopt;
   return std::array<double, 2>{s, t};
 }
 
 bool sizes_agree(const Rig& rig, const Contour& left, const Contour& right, const std::array<double, 2>& depths) {
-  const double size_left = left.ellipse.a_px * depths[0] / rig.views[0].optics.fx_px;
-  const double size_right = right.ellipse.a_px * depths[1] / rig.views[1].optics.fx_px;
-  return std::max(size_left, size_right) < kMostSizeRatio * std::min(size_left, size_right);
+  const double size_left = left.ellipse.a_px * depths[0] / rig.views[0].intrinsics.fx_px;
+  const double size_right = right.ellipse.a_px * depths[1] / rig.views[1].intrinsics.fx_px;
+  return std::max(size_left, size_right) < kMaxSizeRatio * std::min(size_left, size_right);
 }
 
 std::optional<MatchedCircle> match_of(const Rig& rig, const Contour& left, const Contour& right) {
@@ -62,21 +62,21 @@ std::optional<MatchedCircle> match_of(const Rig& rig, const Contour& left, const
   ring2::ContourSet pair;
   pair[0][0] = left;
   pair[1][0] = right;
-  const auto fit = ring2::solve_circles(rig, pair);
+  const auto fit = ring2::solve_ring2(rig, pair);
   if (!fit) return std::nullopt;
   return MatchedCircle{{}, fit->ring_centre_m, fit->normal, fit->ring_radius_m};
 }
 
 // How far along the ring's axis a circle's centre lies, where it may be the ring's nozzle.
 std::optional<double> distance_along(const MatchedCircle& ring, const MatchedCircle& nozzle) {
-  if (nozzle.radius_m > kMostNozzlePerRing * ring.radius_m) return std::nullopt;
-  if (nozzle.normal.dot(ring.normal) < std::cos(kMostTilt)) return std::nullopt;
+  if (nozzle.radius_m > kMaxNozzlePerRing * ring.radius_m) return std::nullopt;
+  if (nozzle.normal.dot(ring.normal) < std::cos(kMaxTilt)) return std::nullopt;
   const Vector3 between = nozzle.centre_m - ring.centre_m;
   const double along = between.dot(ring.normal);
   const double off = (between - along * ring.normal).norm();
   // A degree of the ring's own tilt moves its axis by a fiftieth of the distance.
-  if (off > kMostOffAxisPerRadius * (ring.radius_m + std::abs(along))) return std::nullopt;
-  if (std::abs(along) > kMostDistancePerRing * ring.radius_m) return std::nullopt;
+  if (off > kMaxOffAxisPerRadius * (ring.radius_m + std::abs(along))) return std::nullopt;
+  if (std::abs(along) > kMaxDistancePerRing * ring.radius_m) return std::nullopt;
   return along;
 }
 

@@ -8,13 +8,13 @@
 namespace pharos::host {
 namespace {
 
-// Shares of the grey range. A sensor's own noise is some thousandths of it (6 electrons of 10,000), one count of eight
-// bits four.
+// Fractions of the grey range. A sensor's own noise is some thousandths of it (6 electrons of 10,000), one count of
+// eight bits four.
 constexpr double kBlackBelow = 0.02;
-constexpr double kLeastContrast = 0.02;
-constexpr double kSaturatedShare = 0.5;
+constexpr double kMinContrast = 0.02;
+constexpr double kSaturatedFraction = 0.5;
 // So many of the pixels must reach a level for it to count: a few hot ones do not make light.
-constexpr double kBrightShare = 0.001;
+constexpr double kBrightFraction = 0.001;
 // Every so many rows are looked at: shares of some thousand pixels need no more.
 constexpr std::int32_t kRowStep = 4;
 // Neighbours mostly have one grey value: counted into one place each waits for the other.
@@ -36,35 +36,35 @@ std::array<std::uint32_t, kGreys> histogram_of(ImageView<const std::uint16_t> im
 
 }  // namespace
 
-const char* name_of(ImageFault fault) {
+const char* name_of(ImageDefect fault) {
   switch (fault) {
-    case ImageFault::kNone:
+    case ImageDefect::kNone:
       return "none";
-    case ImageFault::kBlack:
+    case ImageDefect::kBlack:
       return "black";
-    case ImageFault::kSaturated:
+    case ImageDefect::kSaturated:
       return "saturated";
-    case ImageFault::kEven:
+    case ImageDefect::kEven:
       return "even";
   }
   return "unknown";
 }
 
-ImageFault fault_of(ImageView<const std::uint16_t> image) {
+ImageDefect fault_of(ImageView<const std::uint16_t> image) {
   const std::array<std::uint32_t, kGreys> histogram = histogram_of(image);
   const double pixels = std::accumulate(histogram.begin(), histogram.end(), 0.0);
-  if (static_cast<double>(histogram[255]) > kSaturatedShare * pixels) return ImageFault::kSaturated;
-  const auto level_above = [&](double share) {
+  if (static_cast<double>(histogram[255]) > kSaturatedFraction * pixels) return ImageDefect::kSaturated;
+  const auto level_above = [&](double fraction) {
     double above = 0.0;
     for (std::size_t level = histogram.size(); level-- > 0;) {
       above += static_cast<double>(histogram[level]);
-      if (above > share * pixels) return static_cast<double>(level) / 255.0;
+      if (above > fraction * pixels) return static_cast<double>(level) / 255.0;
     }
     return 0.0;
   };
-  const double bright = level_above(kBrightShare);
-  if (bright < kBlackBelow) return ImageFault::kBlack;
-  return bright - level_above(1.0 - kBrightShare) < kLeastContrast ? ImageFault::kEven : ImageFault::kNone;
+  const double bright = level_above(kBrightFraction);
+  if (bright < kBlackBelow) return ImageDefect::kBlack;
+  return bright - level_above(1.0 - kBrightFraction) < kMinContrast ? ImageDefect::kEven : ImageDefect::kNone;
 }
 
 }  // namespace pharos::host

@@ -7,15 +7,15 @@
 
 namespace pharos::host {
 
-enum class ImageFault : std::uint8_t {
+enum class ImageDefect : std::uint8_t {
   kNone,
   kBlack,      // hardly a grey value above the lowest: cover, no light
   kSaturated,  // most of it at the highest value
   kEven,       // bright, but nothing stands out from anything
 };
-const char* name_of(ImageFault fault);
+const char* name_of(ImageDefect fault);
 
 /// Whether an image can hold anything at all, by its grey values alone.
-ImageFault fault_of(ImageView<const std::uint16_t> image);
+ImageDefect fault_of(ImageView<const std::uint16_t> image);
 
 }  // namespace pharos::host

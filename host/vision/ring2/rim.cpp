@@ -9,18 +9,18 @@
 namespace pharos::host {
 namespace {
 
-using ring2::CirclesEstimate;
 using ring2::Contour;
 using ring2::Feature;
+using ring2::Ring2Estimate;
 
 // Of a rim's radius: how wide its face may be, and the deviation where nothing else is known. Docking rings have 4 to
 // 10 %, the stiffening rims of nozzles up to 15 %.
-constexpr double kMostWidth = 0.2;
+constexpr double kMaxWidth = 0.2;
 constexpr double kWidthSigma = 0.1;
 // Nearer circles are one edge, found twice.
-constexpr double kLeastWidth = 0.015;
+constexpr double kMinWidth = 0.015;
 // How far an ellipse of the rim may lie off a circle in the rim's plane about its centre.
-constexpr double kMostOff_px = 0.7;
+constexpr double kMaxOff_px = 0.7;
 constexpr int kPlaces = 16;
 constexpr double kStep = 1e-6;  // of the numeric derivative, rad and m
 
@@ -28,7 +28,7 @@ struct Plane {
   Vector3 normal, centre_m;
 };
 
-Plane plane_of(const CirclesEstimate& estimate, Feature feature, const ring2::Vector8& step) {
+Plane plane_of(const Ring2Estimate& estimate, Feature feature, const ring2::Vector8& step) {
   const Vector3 tilt = step[0] * estimate.tilt_axes[0] + step[1] * estimate.tilt_axes[1];
   const Vector3 normal = (estimate.normal + tilt.cross(estimate.normal)).normalized();
   const Vector3 centre = estimate.ring_centre_m + step.segment<3>(ring2::kCentre);
@@ -49,7 +49,7 @@ std::optional<InPlane> in_plane(const ring2::RigView& view, const Contour& conto
   double square = 0.0;
   for (int k = 0; k < kPlaces; ++k) {
     const ellipse::PointPx point = ellipse::point_at(contour.ellipse, kTwoPi * k / kPlaces);
-    const auto ray = undistort(view.optics, {point.u, point.v});
+    const auto ray = undistort(view.intrinsics, {point.u, point.v});
     if (!ray) return std::nullopt;
     const Vector3 direction = view.T_rig_camera.R * Vector3(ray->x(), ray->y(), 1.0);
     const double depth = plane.normal.dot(plane.centre_m - from) / plane.normal.dot(direction);
@@ -89,9 +89,9 @@ OtherEdges other_edges(const ring2::Rig& rig, const std::array<std::vector<Conto
   for (std::size_t v = 0; v < ring2::kViews; ++v) {
     for (const Contour& contour : contours[v]) {
       const std::optional<InPlane> seen = in_plane(rig.views[v], contour, plane);
-      if (!seen || seen->scatter_m * rig.views[v].optics.fx_px > kMostOff_px * seen->depth_m) continue;
+      if (!seen || seen->scatter_m * rig.views[v].intrinsics.fx_px > kMaxOff_px * seen->depth_m) continue;
       const double wider_by = seen->radius_m / radius_m - 1.0;
-      if (std::abs(wider_by) < kLeastWidth || std::abs(wider_by) > kMostWidth) continue;
+      if (std::abs(wider_by) < kMinWidth || std::abs(wider_by) > kMaxWidth) continue;
       edges.narrower = edges.narrower || wider_by < 0.0;
       const double widest = edges.wider ? edges.wider->seen.radius_m : radius_m;
       if (seen->radius_m > widest) edges.wider = {v, &contour, *seen};
@@ -102,7 +102,7 @@ OtherEdges other_edges(const ring2::Rig& rig, const std::array<std::vector<Conto
 
 // The radius becomes that of the wider edge. It is as well known as plane and centre are, and the contour itself: which
 // errs in its size as much as in its shape, where shadow or body lent it edge points, however many it has.
-void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& edge, CirclesEstimate& estimate) {
+void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& edge, Ring2Estimate& estimate) {
   const ring2::RigView& view = rig.views[edge.view];
   ring2::Vector8 slope = ring2::Vector8::Zero();
   for (int i = 0; i < ring2::kUnknowns; ++i) {
@@ -112,7 +112,7 @@ void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& 
     if (!more || !less) return;
     slope[i] = (more->radius_m - less->radius_m) / (2.0 * kStep);
   }
-  const double per_px = edge.seen.depth_m / view.optics.fx_px;
+  const double per_px = edge.seen.depth_m / view.intrinsics.fx_px;
   const ring2::Vector8 shared = estimate.covariance * slope;
   const double variance =
       slope.dot(shared) + per_px * per_px * growth_variance(*edge.contour) + edge.seen.scatter_m * edge.seen.scatter_m;
@@ -125,12 +125,13 @@ void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& 
 }  // namespace
 
 std::uint8_t settle_rims(const ring2::Rig& rig, const std::array<std::vector<Contour>, ring2::kViews>& contours,
-                         CirclesEstimate& estimate) {
+                         Ring2Estimate& estimate) {
   std::uint8_t one_edge = 0;
   for (const Feature feature : {Feature::kRing, Feature::kNozzle}) {
     const bool ring = feature == Feature::kRing;
-    const std::uint8_t untold = ring2::kUntoldScale | (ring ? ring2::kUntoldRing : ring2::kUntoldNozzle);
-    if ((estimate.untold & untold) != 0) continue;
+    const std::uint8_t unobservable =
+        ring2::kUnobservableScale | (ring ? ring2::kUnobservableRing : ring2::kUnobservableNozzle);
+    if ((estimate.unobservable & unobservable) != 0) continue;
     const int unknown = ring ? ring2::kRadius : ring2::kSecondRadius;
     const double radius_m = ring ? estimate.ring_radius_m : estimate.nozzle_radius_m;
     const Plane plane = plane_of(estimate, feature, ring2::Vector8::Zero());

@@ -19,6 +19,6 @@ enum OneEdge : std::uint8_t { kOneEdgeRing = 1, kOneEdgeNozzle = 2 };
 /// nozzle becomes its radius, with its covariance. Where a rim shows neither a wider nor a narrower edge, the radius'
 /// variance grows by that of a rim's width; returns OneEdge bits of these.
 std::uint8_t settle_rims(const ring2::Rig& rig, const std::array<std::vector<ring2::Contour>, ring2::kViews>& contours,
-                         ring2::CirclesEstimate& estimate);
+                         ring2::Ring2Estimate& estimate);
 
 }  // namespace pharos::host

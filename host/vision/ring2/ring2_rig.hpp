@@ -8,7 +8,7 @@ namespace pharos::host {
 
 /// The rig of a rig file, as the core takes it.
 inline ring2::Rig ring2_rig(const RigFile& file) {
-  return {{{{file.left.optics, file.left.pose()}, {file.right.optics, file.right.pose()}}}};
+  return {{{{file.left.intrinsics, file.left.pose()}, {file.right.intrinsics, file.right.pose()}}}};
 }
 
 }  // namespace pharos::host

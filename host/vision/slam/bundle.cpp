@@ -77,7 +77,7 @@ void solve(const BundleProblem& problem, Blocks& blocks, const StereoCamera& cam
 
 bool in_front(const BundleObservation& observation, const Blocks& blocks) {
   const CameraFromTarget pose = slam::pose_of(blocks.poses.at(observation.keyframe));
-  return (pose * Vector3(blocks.points.at(observation.point))).z() > kLeastDepth_m;
+  return (pose * Vector3(blocks.points.at(observation.point))).z() > kMinDepth_m;
 }
 
 bool fits(const BundleObservation& observation, const Blocks& blocks, const StereoCamera& camera) {
@@ -104,9 +104,9 @@ void add_observations(const Map& map, BundleProblem& problem, const std::set<Key
 
 }  // namespace
 
-BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t most_keyframes) {
+BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t max_keyframes) {
   std::set<KeyframeId> moving{keyframe};
-  for (const KeyframeId id : map.best_neighbours(keyframe, most_keyframes)) moving.insert(id);
+  for (const KeyframeId id : map.best_neighbours(keyframe, max_keyframes)) moving.insert(id);
   BundleProblem problem;
   for (const KeyframeId id : moving) {
     for (const PointId point : map.keyframes.at(id).points) {

@@ -25,7 +25,7 @@ struct BundleProblem {
 };
 
 /// Keyframes covisible with `keyframe` and it (K_L), the points they see, and who else sees those (K_F).
-BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t most_keyframes);
+BundleProblem local_problem(const Map& map, KeyframeId keyframe, std::size_t max_keyframes);
 /// All of the map; the first keyframe stays.
 BundleProblem global_problem(const Map& map);
 

@@ -30,7 +30,7 @@ inline int distance(const Descriptor& a, const Descriptor& b) {
 }
 
 /// Two views of one point differ by less; ORB-SLAM's limits (Mur-Artal 2015).
-inline constexpr int kSamePoint = 50;
-inline constexpr int kMaybeSamePoint = 100;
+inline constexpr int kLowDistanceThreshold = 50;
+inline constexpr int kHighDistanceThreshold = 100;
 
 }  // namespace pharos::slam

@@ -12,25 +12,26 @@
 namespace pharos::slam {
 namespace {
 
-constexpr int kLeastStart = 60;     // stereo features of a first map
+constexpr int kMinStart = 60;       // stereo features of a first map
 constexpr double kOutOfStep = 0.6;  // frames between left and right: exposures at one time stay far below
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
 constexpr std::size_t kChainedKeyframes = 40;  // about a new one, from which its covariance may be told
 constexpr std::int64_t kMappingFrames = 4;
-constexpr std::size_t kMostWaiting = 3;  // keyframes, as in ORB-SLAM2
-constexpr int kGlobalSteps = 12;         // while tracking goes on
+constexpr std::size_t kMaxWaiting = 3;  // keyframes, as in ORB-SLAM2
+constexpr int kGlobalSteps = 12;        // while tracking goes on
 constexpr int kFinalSteps = 40;
 
 }  // namespace
 
-Engine::Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings, Watch watch)
+Engine::Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings,
+               KeyframeCallback on_keyframe)
     : settings_(settings),
       frontend_(std::move(rectification), settings),
-      recognition_(std::move(vocabulary)),
-      tracker_(frontend_.camera(), map_, &recognition_),
-      closer_(frontend_.camera(), map_, recognition_),
-      watch_(std::move(watch)) {
+      keyframe_database_(std::move(vocabulary)),
+      tracker_(frontend_.camera(), map_, &keyframe_database_),
+      closer_(frontend_.camera(), map_, keyframe_database_),
+      on_keyframe_(std::move(on_keyframe)) {
   if (!settings_.threads) return;
   closing_.emplace("closing a loop", [this](KeyframeId id) { close_loop(id); });
   mapping_.emplace("mapping a keyframe", [this](KeyframeId id) {
@@ -65,7 +66,7 @@ void Engine::finish() {
   map_ = adjusted(std::move(map_));
 }
 
-std::vector<TrackedFrame> Engine::settled_trajectory() const {
+std::vector<TrackedFrame> Engine::optimised_trajectory() const {
   wait_for_threads();
   const std::lock_guard lock(mutex_);
   return log_.frames(adjusted(map_), frontend_.R_left_rectified());
@@ -88,7 +89,7 @@ void Engine::note_skew(const Frame& frame) {
 }
 
 KeyframeId Engine::make_keyframe(Frame& frame) {
-  const KeyframeId id = map_.add_keyframe(frame, recognition_.words_of(frame.features)).id;
+  const KeyframeId id = map_.add_keyframe(frame, keyframe_database_.words_of(frame.features)).id;
   map_.update_neighbours(id);
   add_stereo_points(map_, id, frontend_.camera());
   add_patches(map_, id, frontend_.pyramid());
@@ -96,7 +97,7 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
   for (const PointId point : keyframe.points) {
     if (point != kNone && map_.points.at(point).seen_by.size() == 1) recent_.push_back(point);
   }
-  recognition_.add(keyframe);
+  keyframe_database_.add(keyframe);
   tracker_.became_keyframe(keyframe);
   last_keyframe_frame_ = frame.number;
   figures_.add_keyframe();
@@ -114,7 +115,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
   const std::lock_guard lock(mutex_);
   Matrix6 own = Matrix6::Zero();
   if (map_.keyframes.empty()) {
-    if (seen.stats.matched >= kLeastStart) {
+    if (seen.stats.matched >= kMinStart) {
       frame.points.assign(frame.features.size(), kNone);
       made = make_keyframe(frame);
       out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
@@ -132,7 +133,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
       note_skew(frame);
     }
     // Mapping that is this far behind would fall behind ever more.
-    const bool behind = mapping_ && mapping_->waiting() >= kMostWaiting;
+    const bool behind = mapping_ && mapping_->waiting() >= kMaxWaiting;
     if (tracked.wants_keyframe && !behind) {
       made = make_keyframe(frame);
       map_.keyframes.at(made).covariance = turned(tracked.pose.R.transpose(), out.placed->covariance);
@@ -154,7 +155,7 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
                            " pixels; the rig's cameras have " + std::to_string(camera.width_px) + " x " +
                            std::to_string(camera.height_px));
   }
-  const Stopwatch watch;
+  const Stopwatch on_keyframe;
   StereoFrontend::Result seen = frontend_.push(left, right, !order_.known());
   order_.add(seen.features.size(), seen.stats);
   Frame frame;
@@ -166,7 +167,7 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
   TrackedFrame out = place(frame, seen, made);
   {
     const std::lock_guard lock(mutex_);
-    figures_.add_frame(out, seen, watch.ms());
+    figures_.add_frame(out, seen, on_keyframe.ms());
   }
   if (made != kNone && mapping_) mapping_->push(made);
   if (made != kNone && !mapping_) {
@@ -184,8 +185,8 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
 }
 
 void Engine::map_keyframe(KeyframeId id) {
-  if (watch_) watch_(id);
-  const Stopwatch watch;
+  if (on_keyframe_) on_keyframe_(id);
+  const Stopwatch on_keyframe;
   BundleProblem problem;
   std::int64_t corrections = 0;
   {
@@ -194,7 +195,7 @@ void Engine::map_keyframe(KeyframeId id) {
     cull_points(map_, recent_);
     triangulate(map_, id, frontend_.camera());
     for (const PointId point : map_.keyframes.at(id).points) {
-      if (point != kNone && map_.points.at(point).born_at == id && map_.points.at(point).seen_by.size() == 2) {
+      if (point != kNone && map_.points.at(point).created_at == id && map_.points.at(point).seen_by.size() == 2) {
         recent_.push_back(point);
       }
     }
@@ -209,15 +210,15 @@ void Engine::map_keyframe(KeyframeId id) {
   if (corrections == corrections_) apply(problem, rejected, map_);
   if (map_.keyframes.contains(id)) {
     chain_covariance(map_, id, about);
-    cull_keyframes(map_, id, &recognition_, settings_.most_keyframes);
+    cull_keyframes(map_, id, &keyframe_database_, settings_.max_keyframes);
   }
   if (!settings_.keep_trajectory) map_.forget_removed(tracker_.reference());
-  figures_.add_mapping(watch.ms());
+  figures_.add_mapping(on_keyframe.ms());
 }
 
 void Engine::close_loop(KeyframeId id) {
   if (!settings_.close_loops) return;
-  const Stopwatch watch;
+  const Stopwatch on_keyframe;
   BundleProblem problem;
   KeyframeId first = kNone;
   {
@@ -236,7 +237,7 @@ void Engine::close_loop(KeyframeId id) {
   apply_global(problem, rejected, map_);
   apply_covariances(covariances, map_);
   ++corrections_;
-  figures_.add_loop(watch.ms());
+  figures_.add_loop(on_keyframe.ms());
 }
 
 std::vector<TrackedFrame> Engine::trajectory() const {

@@ -21,14 +21,15 @@ namespace pharos::slam {
 class Engine final : public SlamSystem {
  public:
   /// Called with each keyframe when its mapping begins, in the thread that maps.
-  using Watch = std::function<void(KeyframeId)>;
+  using KeyframeCallback = std::function<void(KeyframeId)>;
 
-  Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings, Watch watch = {});
+  Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings,
+         KeyframeCallback on_keyframe = {});
 
   TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) override;
   void finish() override;
   std::vector<TrackedFrame> trajectory() const override;
-  std::vector<TrackedFrame> settled_trajectory() const override;
+  std::vector<TrackedFrame> optimised_trajectory() const override;
   std::vector<SlamPoint> points() const override;
   SlamReport report() const override;
   std::vector<std::array<double, 3>> last_features() const override;
@@ -50,7 +51,7 @@ class Engine final : public SlamSystem {
   StereoFrontend frontend_;
   mutable std::mutex mutex_;
   Map map_;
-  Recognition recognition_;
+  KeyframeDatabase keyframe_database_;
   Tracker tracker_;
   LoopCloser closer_;
   std::int64_t corrections_ = 0;  // of the whole map
@@ -63,7 +64,7 @@ class Engine final : public SlamSystem {
 
   RunFigures figures_;
 
-  Watch watch_;
+  KeyframeCallback on_keyframe_;
   // Last, for they use all the others; mapping ends first, for it feeds closing. Empty without threads.
   std::optional<KeyframeWorker> closing_, mapping_;
 };

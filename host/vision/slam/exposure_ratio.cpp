@@ -10,8 +10,8 @@ namespace {
 constexpr double kEqualWithin = 0.08;  // frames of equal cameras that were enhanced differ by 0.05
 // Two views of one thing differ in contrast by so much without any difference in exposure.
 constexpr double kOfViews = 0.25;
-constexpr double kMost = 4.0;
-constexpr std::size_t kLeastSquares = 40;
+constexpr double kMax = 4.0;
+constexpr std::size_t kMinSquares = 40;
 constexpr int kReach_px = 5;
 
 // Standard deviation of an image's values, of each `step`-th pixel of each `step`-th row.
@@ -46,7 +46,7 @@ double ExposureRatio::of(ImageView<const std::uint8_t> left, ImageView<const std
   constexpr int kEvery_px = 4;
   const double of_left = contrast(left, kEvery_px), of_right = contrast(right, kEvery_px);
   if (!(of_left > 0.0 && of_right > 0.0)) return 1.0;
-  const double guess = std::clamp(of_left / of_right, 1.0 / kMost, kMost);
+  const double guess = std::clamp(of_left / of_right, 1.0 / kMax, kMax);
   return std::abs(std::log(guess)) < kOfViews ? 1.0 : guess;
 }
 
@@ -61,10 +61,10 @@ void ExposureRatio::learn(double applied, const std::vector<Feature>& features, 
     if (here && there && *there > 0.0) ratios.push_back(*here / *there);
   }
   ratio_.reset();
-  if (ratios.size() < kLeastSquares) return;
+  if (ratios.size() < kMinSquares) return;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
-  ratio_ = std::clamp(applied * *middle, 1.0 / kMost, kMost);
+  ratio_ = std::clamp(applied * *middle, 1.0 / kMax, kMax);
 }
 
 }  // namespace pharos::slam

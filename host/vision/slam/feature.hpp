@@ -65,7 +65,7 @@ struct Feature {
 
 /// Expected error of a disparity, in errors of a coordinate: squares of pixels are compared to some 0.03 px of their
 /// level, while a corner is not the same thing from every side.
-inline constexpr double kDisparityShare = 0.3;
+inline constexpr double kDisparityFraction = 0.3;
 
 /// A stereo feature nearer than this many baselines has a depth worth a point at once; a farther one tells rotation
 /// only (Mur-Artal 2017).

@@ -8,15 +8,15 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kMean_px = 5;
-constexpr double kLeastStep = 2.0;   // grey values above the dark
+constexpr double kMinStep = 2.0;     // grey values above the dark
 constexpr double kNoiseTimes = 8.0;  // of the dark's own scatter
-constexpr int kLeastArea_px = 200;   // a star in the mean of 5x5 is 25
+constexpr int kMinArea_px = 200;     // a star in the mean of 5x5 is 25
 constexpr double kShareOfLargest = 0.02;
 constexpr int kGap_px = 15;  // between lit parts of a body
 constexpr int kMargin_px = 2;
 
-constexpr int kPatience = 10;  // frames
-constexpr double kStill_px = 0.7;
+constexpr int kMinStaticFrames = 10;  // frames
+constexpr double kStatic_px = 0.7;
 constexpr int kAlike = 40;
 
 // Level above which a pixel of the mean image is no longer dark.
@@ -26,8 +26,8 @@ double dark_limit(const cv::Mat& mean) {
     const std::uint8_t* row = mean.ptr<std::uint8_t>(v);
     for (int u = 0; u < mean.cols; ++u) ++histogram[row[u]];
   }
-  const auto quantile = [&](double share) {
-    double left = share * static_cast<double>(mean.total());
+  const auto quantile = [&](double fraction) {
+    double left = fraction * static_cast<double>(mean.total());
     for (std::size_t value = 0; value < histogram.size(); ++value) {
       left -= histogram[value];
       if (left < 0.0) return static_cast<double>(value);
@@ -35,7 +35,7 @@ double dark_limit(const cv::Mat& mean) {
     return 255.0;
   };
   const double middle = quantile(0.05), spread = 0.78 * (quantile(0.1) - quantile(0.01));
-  return middle + std::max(kLeastStep, kNoiseTimes * spread);
+  return middle + std::max(kMinStep, kNoiseTimes * spread);
 }
 
 }  // namespace
@@ -57,10 +57,10 @@ ImageView<const std::uint8_t> Foreground::of(ImageView<const std::uint8_t> image
   const int count = cv::connectedComponentsWithStats(work.lit, work.labels, work.stats, work.centres);
   int largest = 0;
   for (int k = 1; k < count; ++k) largest = std::max(largest, work.stats.at<int>(k, cv::CC_STAT_AREA));
-  const double least = std::max<double>(kLeastArea_px, kShareOfLargest * largest);
+  const double minimum = std::max<double>(kMinArea_px, kShareOfLargest * largest);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(count), 0);
   for (int k = 1; k < count; ++k) {
-    keep[static_cast<std::size_t>(k)] = work.stats.at<int>(k, cv::CC_STAT_AREA) >= least ? 255 : 0;
+    keep[static_cast<std::size_t>(k)] = work.stats.at<int>(k, cv::CC_STAT_AREA) >= minimum ? 255 : 0;
   }
   work.mask.create(mat.size(), CV_8U);
   for (int v = 0; v < mat.rows; ++v) {
@@ -74,7 +74,7 @@ ImageView<const std::uint8_t> Foreground::of(ImageView<const std::uint8_t> image
   return {work.mask.data, work.mask.cols, work.mask.rows, static_cast<std::int32_t>(work.mask.step[0])};
 }
 
-void StillFeatures::remove_still(std::vector<Feature>& features) {
+void StaticFeatureFilter::remove_static(std::vector<Feature>& features) {
   std::vector<Seen> now;
   std::vector<bool> still(features.size(), false);
   std::size_t count = 0;
@@ -83,16 +83,16 @@ void StillFeatures::remove_still(std::vector<Feature>& features) {
   for (std::size_t k = 0; k < features.size(); ++k) {
     const Feature& feature = features[k];
     Seen seen{feature.pixel, feature.descriptor, 1};
-    auto at = std::lower_bound(seen_.begin(), seen_.end(), feature.pixel.y() - kStill_px,
+    auto at = std::lower_bound(seen_.begin(), seen_.end(), feature.pixel.y() - kStatic_px,
                                [](const Seen& old, double v) { return old.first.y() < v; });
-    for (; at != seen_.end() && at->first.y() <= feature.pixel.y() + kStill_px; ++at) {
-      if ((at->first - feature.pixel).norm() <= kStill_px && at->frames >= seen.frames &&
+    for (; at != seen_.end() && at->first.y() <= feature.pixel.y() + kStatic_px; ++at) {
+      if ((at->first - feature.pixel).norm() <= kStatic_px && at->frames >= seen.frames &&
           distance(at->descriptor, feature.descriptor) <= kAlike) {
         seen = {at->first, feature.descriptor, at->frames + 1};
       }
     }
     now.push_back(seen);
-    still[k] = seen.frames > kPatience;
+    still[k] = seen.frames > kMinStaticFrames;
     count += still[k] ? 1U : 0U;
   }
   seen_ = std::move(now);

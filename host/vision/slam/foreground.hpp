@@ -26,10 +26,10 @@ class Foreground {
 
 /// Tells what stands still while the body moves: stars that are as large as patches, struts and housings of one's own
 /// craft.
-class StillFeatures {
+class StaticFeatureFilter {
  public:
-  /// Removes features that have stood within 0.7 px for kPatience frames, as long as they are the fewer.
-  void remove_still(std::vector<Feature>& features);
+  /// Removes features that have stood within 0.7 px for kMinStaticFrames frames, as long as they are the fewer.
+  void remove_static(std::vector<Feature>& features);
   int removed() const { return removed_; }
 
  private:

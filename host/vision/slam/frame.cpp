@@ -16,8 +16,8 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features, std::int32_t widt
   }
 }
 
-void FeatureGrid::near(const std::vector<Feature>& features, const Vector2& pixel, double radius_px, int least,
-                       int most, std::vector<int>& found) const {
+void FeatureGrid::near(const std::vector<Feature>& features, const Vector2& pixel, double radius_px, int minimum,
+                       int maximum, std::vector<int>& found) const {
   found.clear();
   const int first_c = std::max(0, static_cast<int>(std::floor((pixel.x() - radius_px) / kCell_px)));
   const int last_c = std::min(columns_ - 1, static_cast<int>(std::floor((pixel.x() + radius_px) / kCell_px)));
@@ -27,7 +27,7 @@ void FeatureGrid::near(const std::vector<Feature>& features, const Vector2& pixe
     for (int c = first_c; c <= last_c; ++c) {
       for (const int k : cells_[static_cast<std::size_t>(r * columns_ + c)]) {
         const Feature& feature = features[static_cast<std::size_t>(k)];
-        if (feature.level < least || feature.level > most) continue;
+        if (feature.level < minimum || feature.level > maximum) continue;
         if ((feature.pixel - pixel).cwiseAbs().maxCoeff() <= radius_px) found.push_back(k);
       }
     }

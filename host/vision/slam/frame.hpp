@@ -18,7 +18,7 @@ class FeatureGrid {
   FeatureGrid() = default;
   FeatureGrid(const std::vector<Feature>& features, std::int32_t width_px, std::int32_t height_px);
   /// Numbers of features within `radius_px` in u and in v, of levels `least` to `most`.
-  void near(const std::vector<Feature>& features, const Vector2& pixel, double radius_px, int least, int most,
+  void near(const std::vector<Feature>& features, const Vector2& pixel, double radius_px, int minimum, int maximum,
             std::vector<int>& found) const;
 
  private:

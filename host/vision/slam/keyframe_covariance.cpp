@@ -11,13 +11,13 @@ namespace pharos::slam {
 namespace {
 
 // Nothing stands worse than this, so that the normal equations can always be solved.
-constexpr double kMostTurn_rad = 1.0, kMostMove_m = 100.0;
-constexpr double kLeastInformation_m2 = 1e-6;  // of a point along a ray that no stereo depth ends: a kilometre
+constexpr double kMaxTurn_rad = 1.0, kMaxMove_m = 100.0;
+constexpr double kMinInformation_m2 = 1e-6;  // of a point along a ray that no stereo depth ends: a kilometre
 
 using Arm = Eigen::Matrix<double, 3, 6>;
 
 // One keyframe's view of a point: what it knows of its place, about the target's axes.
-struct Sight {
+struct PoseInformation {
   int keyframe;
   Matrix3 information;
 };
@@ -30,15 +30,15 @@ class ReducedEquations {
   explicit ReducedEquations(int keyframes) : keyframes_(keyframes) {}
 
   // All that is known of one point.
-  void add(const Vector3& point_m, const std::vector<Sight>& sights) {
-    Matrix3 sum = kLeastInformation_m2 * Matrix3::Identity();
-    for (const Sight& sight : sights) sum += sight.information;
+  void add(const Vector3& point_m, const std::vector<PoseInformation>& pose_terms) {
+    Matrix3 sum = kMinInformation_m2 * Matrix3::Identity();
+    for (const PoseInformation& term : pose_terms) sum += term.information;
     const Matrix3 spread = sum.inverse();
     Arm arm;
     arm << -skew(point_m), Matrix3::Identity();
-    for (const Sight& a : sights) {
+    for (const PoseInformation& a : pose_terms) {
       if (a.keyframe == kRoot) continue;
-      for (const Sight& b : sights) {
+      for (const PoseInformation& b : pose_terms) {
         if (b.keyframe == kRoot || b.keyframe > a.keyframe) continue;
         Matrix3 shared = -a.information * spread * b.information;
         if (a.keyframe == b.keyframe) shared += a.information;
@@ -82,8 +82,8 @@ class ReducedEquations {
       }
     }
     for (int k = 0; k < 6 * keyframes_; ++k) {
-      const double most = k % 6 < 3 ? kMostTurn_rad : kMostMove_m;
-      triplets.emplace_back(k, k, 1.0 / (most * most));
+      const double maximum = k % 6 < 3 ? kMaxTurn_rad : kMaxMove_m;
+      triplets.emplace_back(k, k, 1.0 / (maximum * maximum));
     }
     H.setFromTriplets(triplets.begin(), triplets.end());
   }
@@ -93,7 +93,7 @@ class ReducedEquations {
 };
 
 // The root and those that see most of the points.
-std::set<KeyframeId> best_seeing(const BundleProblem& problem, KeyframeId root, std::size_t most) {
+std::set<KeyframeId> best_seeing(const BundleProblem& problem, KeyframeId root, std::size_t maximum) {
   std::map<KeyframeId, int> seen;
   for (const auto& [id, pose] : problem.poses) seen[id] = 0;
   for (const BundleObservation& observation : problem.observations) ++seen[observation.keyframe];
@@ -105,7 +105,7 @@ std::set<KeyframeId> best_seeing(const BundleProblem& problem, KeyframeId root, 
   std::set<KeyframeId> out;
   if (problem.poses.contains(root)) out.insert(root);
   for (const auto& [count, id] : sorted) {
-    if (out.size() >= most) break;
+    if (out.size() >= maximum) break;
     out.insert(id);
   }
   return out;
@@ -123,30 +123,30 @@ Matrix3 information_of(const Observation& seen, const Vector3& point_m, const St
 
 std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
                                                    const std::vector<std::size_t>& rejected, const StereoCamera& camera,
-                                                   KeyframeId root, std::size_t most) {
+                                                   KeyframeId root, std::size_t maximum) {
   std::map<KeyframeId, int> places;
   int count = 0;
-  for (const KeyframeId id : best_seeing(problem, root, most)) {
+  for (const KeyframeId id : best_seeing(problem, root, maximum)) {
     places[id] = id == root ? ReducedEquations::kRoot : count++;
   }
   ReducedEquations equations(count);
   std::vector<bool> use(problem.observations.size(), true);
   for (const std::size_t k : rejected) use[k] = false;
-  std::vector<Sight> sights;
+  std::vector<PoseInformation> pose_terms;
   for (std::size_t k = 0; k < problem.observations.size(); ++k) {
     const BundleObservation& seen = problem.observations[k];
     const Vector3& point_m = problem.points.at(seen.point);
     const auto place = places.find(seen.keyframe);
     if (use[k] && place != places.end()) {
       const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
-      if ((pose * point_m).z() > kLeastDepth_m) {
-        sights.push_back({place->second, information_of(seen.seen, point_m, camera, pose)});
+      if ((pose * point_m).z() > kMinDepth_m) {
+        pose_terms.push_back({place->second, information_of(seen.seen, point_m, camera, pose)});
       }
     }
     const bool last = k + 1 == problem.observations.size() || problem.observations[k + 1].point != seen.point;
     if (!last) continue;
-    if (sights.size() > 1) equations.add(point_m, sights);
-    sights.clear();
+    if (pose_terms.size() > 1) equations.add(point_m, pose_terms);
+    pose_terms.clear();
   }
   const std::vector<Matrix6> solved = equations.covariances();
   std::map<KeyframeId, Matrix6> out;

@@ -19,7 +19,7 @@ inline constexpr std::size_t kAllKeyframes = static_cast<std::size_t>(-1);
 /// that see 17,000 points in all, 0.35 s for 157.
 std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
                                                    const std::vector<std::size_t>& rejected, const StereoCamera& camera,
-                                                   KeyframeId root, std::size_t most = kAllKeyframes);
+                                                   KeyframeId root, std::size_t maximum = kAllKeyframes);
 
 /// The covariance of a keyframe by the keyframe about it that has the least with what lies between: `about` is of
 /// keyframe_covariances with this one as root. Stays where nobody is about it.

@@ -8,9 +8,9 @@
 namespace pharos::slam {
 namespace {
 
-constexpr std::size_t kMostKeyframes = 40;
+constexpr std::size_t kMaxKeyframes = 40;
 constexpr std::size_t kNeighbours = 5;
-constexpr double kCosMostTurn = 0.5;  // a point seen from 60 deg aside looks like another
+constexpr double kCosMaxTurn = 0.5;  // a point seen from 60 deg aside looks like another
 constexpr double kCosFacing = 0.998;
 constexpr double kFacingRadius_px = 2.5, kRadius_px = 4.0;
 
@@ -25,16 +25,16 @@ LocalMap local_map(const Map& map, const Frame& frame) {
   }
   LocalMap out;
   std::set<KeyframeId> local;
-  int most = 0;
+  int maximum = 0;
   for (const auto& [id, count] : votes) {
     local.insert(id);
-    if (count > most) {
-      most = count;
+    if (count > maximum) {
+      maximum = count;
       out.nearest = id;
     }
   }
   for (const auto& [id, count] : votes) {
-    if (local.size() >= kMostKeyframes) break;
+    if (local.size() >= kMaxKeyframes) break;
     for (const KeyframeId other : map.best_neighbours(id, kNeighbours)) local.insert(other);
     const Keyframe& keyframe = map.keyframes.at(id);
     if (keyframe.parent != kNone) local.insert(keyframe.parent);
@@ -67,13 +67,13 @@ std::vector<Candidate> local_candidates(Map& map, const LocalMap& local, const F
       continue;
     }
     const double distance_m = p.norm();
-    if (distance_m < 0.8 * point.least_distance_m || distance_m > 1.2 * point.most_distance_m) continue;
+    if (distance_m < 0.8 * point.min_distance_m || distance_m > 1.2 * point.max_distance_m) continue;
     const double facing = (point.position_m - eye).dot(point.normal) / distance_m;
-    if (facing < kCosMostTurn) continue;
+    if (facing < kCosMaxTurn) continue;
     ++point.visible;
     if (std::binary_search(matched.begin(), matched.end(), id)) continue;
     const int level = std::clamp(
-        static_cast<int>(std::ceil(std::log(point.most_distance_m / distance_m) / std::log(kLevelScale) - 0.5)), 0,
+        static_cast<int>(std::ceil(std::log(point.max_distance_m / distance_m) / std::log(kLevelScale) - 0.5)), 0,
         kLevels - 1);
     const double radius_px = (facing > kCosFacing ? kFacingRadius_px : kRadius_px) * widening;
     candidates.push_back({id, point.position_m, point.descriptor, level, radius_px, 0.0});

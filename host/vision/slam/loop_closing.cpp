@@ -10,9 +10,9 @@
 namespace pharos::slam {
 namespace {
 
-constexpr KeyframeId kLeastApart = 10;  // keyframes since the start and since the last loop
-constexpr std::size_t kMostCandidates = 3;
-constexpr int kLeastByLikeness = 20, kLeastInliers = 40;
+constexpr KeyframeId kMinApart = 10;  // keyframes since the start and since the last loop
+constexpr std::size_t kMaxCandidates = 3;
+constexpr int kMinDescriptorMatches = 20, kMinInliers = 40;
 constexpr std::size_t kSurroundings = 10;
 constexpr double kRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
@@ -49,7 +49,7 @@ void move_points(Map& map, const std::map<KeyframeId, CameraFromTarget>& before,
 }  // namespace
 
 std::optional<Loop> LoopCloser::find(KeyframeId id) {
-  if (!map_.keyframes.contains(id) || id < kLeastApart || (closed_at_ != kNone && id < closed_at_ + kLeastApart)) {
+  if (!map_.keyframes.contains(id) || id < kMinApart || (closed_at_ != kNone && id < closed_at_ + kMinApart)) {
     return std::nullopt;
   }
   const Keyframe& here = map_.keyframes.at(id);
@@ -58,8 +58,8 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
     connected.insert(near);
     for (const auto& [other, also] : map_.keyframes.at(near).neighbours) connected.insert(other);
   }
-  const auto candidates = recognition_.like(here.words, map_, connected);
-  for (std::size_t k = 0; k < std::min(candidates.size(), kMostCandidates); ++k) {
+  const auto candidates = keyframe_database_.detect_candidates(here.words, map_, connected);
+  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxCandidates); ++k) {
     if (auto loop = check(here, candidates[k].keyframe)) return loop;
   }
   refused_ += candidates.empty() ? 0 : 1;
@@ -71,26 +71,27 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   std::vector<bool> known(there.points.size());
   for (std::size_t k = 0; k < known.size(); ++k) known[k] = there.points[k] != kNone;
   std::vector<Observation> observations;
-  for (const ProjectionMatch& match : match_by_likeness(there.features, known, here.features, {}, 0.85)) {
+  for (const ProjectionMatch& match : match_by_descriptor(there.features, known, here.features, {}, 0.85)) {
     const PointId point = there.points[static_cast<std::size_t>(match.candidate)];
     observations.push_back(
         corner_of(here.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
   }
-  const auto placed = robust_pose(observations, camera_, kLeastByLikeness, static_cast<std::uint64_t>(here.id));
+  const auto placed = robust_pose(observations, camera_, kMinDescriptorMatches, static_cast<std::uint64_t>(here.id));
   if (!placed) return std::nullopt;
   std::vector<Candidate> candidates;
   for (const PointId id : points_around(map_, candidate)) {
     const MapPoint& point = map_.points.at(id);
     candidates.push_back({id, point.position_m, point.descriptor, point.level, kRadius_px, 0.0});
   }
-  const auto matches = match_by_projection(candidates, here, {}, camera_, placed->pose, {kMaybeSamePoint, 0.9, false});
+  const auto matches =
+      match_by_projection(candidates, here, {}, camera_, placed->pose, {kHighDistanceThreshold, 0.9, false});
   std::vector<Observation> all;
   for (const ProjectionMatch& match : matches) {
     all.push_back(corner_of(here.features[static_cast<std::size_t>(match.feature)],
                             candidates[static_cast<std::size_t>(match.candidate)].position_m));
   }
   const PoseOnly refined = adjust_pose(all, camera_, placed->pose);
-  if (refined.inliers < kLeastInliers) return std::nullopt;
+  if (refined.inliers < kMinInliers) return std::nullopt;
   Loop loop{here.id, candidate, refined.pose, {}};
   for (std::size_t k = 0; k < matches.size(); ++k) {
     if (refined.inlier[k]) {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "host/vision/slam/bundle.hpp"
+#include "host/vision/slam/keyframe_database.hpp"
 #include "host/vision/slam/map.hpp"
 #include "host/vision/slam/pose_graph.hpp"
-#include "host/vision/slam/recognition.hpp"
 
 namespace pharos::slam {
 
@@ -24,8 +24,8 @@ struct Loop {
 /// is one of six degrees of freedom).
 class LoopCloser {
  public:
-  LoopCloser(const StereoCamera& camera, Map& map, const Recognition& recognition)
-      : camera_(camera), map_(map), recognition_(recognition) {}
+  LoopCloser(const StereoCamera& camera, Map& map, const KeyframeDatabase& keyframe_database)
+      : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
   /// Candidates by words that neither share points with the keyframe nor with its neighbours, three at most; each by
   /// robust_pose, then by all points of its surroundings: 40 inliers close a loop.
@@ -42,7 +42,7 @@ class LoopCloser {
 
   StereoCamera camera_;
   Map& map_;
-  const Recognition& recognition_;
+  const KeyframeDatabase& keyframe_database_;
   KeyframeId closed_at_ = kNone;
   int refused_ = 0;
 };

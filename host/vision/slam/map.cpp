@@ -28,7 +28,7 @@ MapPoint& Map::add_point(const Vector3& position_m, KeyframeId keyframe, int fea
   MapPoint& point = points[id];
   point.id = id;
   point.position_m = position_m;
-  point.born_at = newest();
+  point.created_at = newest();
   observe(id, keyframe, feature);
   refresh(id);
   return point;
@@ -71,14 +71,14 @@ void Map::fuse(PointId from, PointId into) {
   refresh(into);
 }
 
-void Map::adopt(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent) {
+void Map::reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent) {
   // The covisible keyframe that shares most, was there before (so no circle closes); else the grandparent.
   KeyframeId best = grandparent;
-  int most = 0;
+  int maximum = 0;
   for (const auto& [id, shared] : orphan.neighbours) {
-    if (id < orphan.id && id != removed && shared > most && keyframes.contains(id)) {
+    if (id < orphan.id && id != removed && shared > maximum && keyframes.contains(id)) {
       best = id;
-      most = shared;
+      maximum = shared;
     }
   }
   orphan.parent = best;
@@ -98,7 +98,7 @@ void Map::remove_keyframe(KeyframeId id) {
     if (const auto found = keyframes.find(other); found != keyframes.end()) found->second.neighbours.erase(id);
   }
   keyframes.at(gone.parent).children.erase(id);
-  for (const KeyframeId child : gone.children) adopt(keyframes.at(child), id, gone.parent);
+  for (const KeyframeId child : gone.children) reparent(keyframes.at(child), id, gone.parent);
   keyframes.erase(at);
 }
 
@@ -142,14 +142,14 @@ void Map::refresh(PointId id) {
   }
   if (seen.empty()) return;
   // Least median distance to the others.
-  int least = std::numeric_limits<int>::max();
+  int minimum = std::numeric_limits<int>::max();
   std::vector<int> distances(seen.size());
   for (const Descriptor* candidate : seen) {
     for (std::size_t k = 0; k < seen.size(); ++k) distances[k] = distance(*candidate, *seen[k]);
     const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) / 2);
     std::nth_element(distances.begin(), middle, distances.end());
-    if (*middle < least) {
-      least = *middle;
+    if (*middle < minimum) {
+      minimum = *middle;
       point.descriptor = *candidate;
     }
   }
@@ -158,8 +158,8 @@ void Map::refresh(PointId id) {
   const Keyframe& latest = keyframes.at(keyframe);
   point.level = latest.features[static_cast<std::size_t>(feature)].level;
   const double distance_m = (latest.pose * point.position_m).norm();
-  point.most_distance_m = distance_m * scale_of(point.level);
-  point.least_distance_m = point.most_distance_m / scale_of(kLevels - 1);
+  point.max_distance_m = distance_m * scale_of(point.level);
+  point.min_distance_m = point.max_distance_m / scale_of(kLevels - 1);
 }
 
 std::vector<KeyframeId> Map::best_neighbours(KeyframeId id, std::size_t count) const {

@@ -38,13 +38,13 @@ struct MapPoint {
   std::map<KeyframeId, int> seen_by;     ///< feature number by keyframe
   Descriptor descriptor;                 ///< the most typical of those that saw it
   Vector3 normal = Vector3::Zero();      ///< mean direction from its viewers to it, unit
-  double least_distance_m = 0.0;         ///< range of distances at which ORB's levels can find it
-  double most_distance_m = 0.0;
-  int level = 0;               ///< at which it was seen last
-  std::int64_t visible = 1;    ///< frames that should have seen it
-  std::int64_t found = 1;      ///< frames that did
-  KeyframeId born_at = kNone;  ///< newest keyframe then
-  std::optional<Patch> patch;  ///< with which later frames find it again
+  double min_distance_m = 0.0;           ///< range of distances at which ORB's levels can find it
+  double max_distance_m = 0.0;
+  int level = 0;                  ///< at which it was seen last
+  std::int64_t visible = 1;       ///< frames that should have seen it
+  std::int64_t found = 1;         ///< frames that did
+  KeyframeId created_at = kNone;  ///< newest keyframe then
+  std::optional<Patch> patch;     ///< with which later frames find it again
 };
 
 /// Keyframes and points, each holding the other's number. Plain data under one owner: who shares it locks it.
@@ -89,7 +89,7 @@ class Map {
     KeyframeId parent;
     Pose<frame::Camera, frame::Camera> T_this_parent;
   };
-  void adopt(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent);
+  void reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent);
 
   KeyframeId next_keyframe_ = 0;
   PointId next_point_ = 0;

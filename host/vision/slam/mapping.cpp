@@ -9,14 +9,14 @@
 namespace pharos::slam {
 namespace {
 
-constexpr std::size_t kLeastPoints = 100;
+constexpr std::size_t kMinPoints = 100;
 constexpr std::size_t kFuseWith = 20, kFuseWithTheirs = 5;
 constexpr double kFuseRadius_px = 3.0;
-constexpr double kLeastFoundShare = 0.25;
-constexpr std::size_t kLeastObservers = 3;
+constexpr double kMinFoundFraction = 0.25;
+constexpr std::size_t kMinObservers = 3;
 // ORB-SLAM's is 0.9. A corner is found to half a pixel in each keyframe: those that go take accuracy with them (90 deg
 // in good light: RMSE 0.125 deg with 0.9, 0.091 with this).
-constexpr double kRedundantShare = 0.98;
+constexpr double kRedundantFraction = 0.98;
 
 bool redundant(const Map& map, const Keyframe& keyframe) {
   int near = 0, elsewhere = 0;
@@ -24,16 +24,16 @@ bool redundant(const Map& map, const Keyframe& keyframe) {
     if (keyframe.points[k] == kNone) continue;
     const MapPoint& point = map.points.at(keyframe.points[k]);
     ++near;
-    if (point.seen_by.size() <= kLeastObservers) continue;
+    if (point.seen_by.size() <= kMinObservers) continue;
     std::size_t as_good = 0;
     for (const auto& [other, feature] : point.seen_by) {
       if (other == keyframe.id) continue;
       const Feature& there = map.keyframes.at(other).features[static_cast<std::size_t>(feature)];
       as_good += there.level <= keyframe.features[k].level + 1 ? 1U : 0U;
     }
-    elsewhere += as_good >= kLeastObservers ? 1 : 0;
+    elsewhere += as_good >= kMinObservers ? 1 : 0;
   }
-  return near > 0 && elsewhere > kRedundantShare * near;
+  return near > 0 && elsewhere > kRedundantFraction * near;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ void add_stereo_points(Map& map, KeyframeId id, const StereoCamera& camera) {
   const auto T_target_camera = keyframe.pose.inverse();
   for (std::size_t k = 0; k < by_depth.size(); ++k) {
     const auto [depth_m, index] = by_depth[k];
-    if (depth_m > kNearBaselines * camera.baseline_m && k >= kLeastPoints) break;
+    if (depth_m > kNearBaselines * camera.baseline_m && k >= kMinPoints) break;
     const auto at = static_cast<std::size_t>(index);
     if (keyframe.points[at] != kNone) continue;
     map.add_point(T_target_camera * camera.back_project(keyframe.features[at].pixel, depth_m), id, index);
@@ -76,17 +76,17 @@ int fuse_points(Map& map, const std::vector<PointId>& points, KeyframeId into, c
     if (point == nullptr || point->seen_by.contains(into)) continue;
     const Vector3 sight = point->position_m - eye;
     const double distance_m = sight.norm();
-    if (distance_m < 0.8 * point->least_distance_m || distance_m > 1.2 * point->most_distance_m ||
+    if (distance_m < 0.8 * point->min_distance_m || distance_m > 1.2 * point->max_distance_m ||
         sight.dot(point->normal) < 0.5 * distance_m) {
       continue;
     }
-    const double level = std::log(point->most_distance_m / distance_m) / std::log(kLevelScale);
+    const double level = std::log(point->max_distance_m / distance_m) / std::log(kLevelScale);
     candidates.push_back({id, point->position_m, point->descriptor,
                           std::clamp(static_cast<int>(std::lround(level)), 0, kLevels - 1), radius_px, 0.0});
   }
   int fused = 0;
   for (const ProjectionMatch& match :
-       match_by_projection(candidates, keyframe, {}, camera, keyframe.pose, {kSamePoint, 1.0, false})) {
+       match_by_projection(candidates, keyframe, {}, camera, keyframe.pose, {kLowDistanceThreshold, 1.0, false})) {
     const PointId id = candidates[static_cast<std::size_t>(match.candidate)].point;
     const PointId there = keyframe.points[static_cast<std::size_t>(match.feature)];
     if (!map.points.contains(id)) continue;
@@ -132,9 +132,9 @@ void cull_points(Map& map, std::vector<PointId>& recent) {
   for (const PointId id : recent) {
     const MapPoint* point = map.find_point(id);
     if (point == nullptr) continue;
-    const KeyframeId age = map.newest() - point->born_at;
-    const bool missed = static_cast<double>(point->found) < kLeastFoundShare * static_cast<double>(point->visible);
-    if (missed || (age >= 3 && point->seen_by.size() < kLeastObservers)) {
+    const KeyframeId age = map.newest() - point->created_at;
+    const bool missed = static_cast<double>(point->found) < kMinFoundFraction * static_cast<double>(point->visible);
+    if (missed || (age >= 3 && point->seen_by.size() < kMinObservers)) {
       map.remove_point(id);
     } else if (age < 4) {
       kept.push_back(id);
@@ -143,12 +143,12 @@ void cull_points(Map& map, std::vector<PointId>& recent) {
   recent = std::move(kept);
 }
 
-int cull_keyframes(Map& map, KeyframeId id, Recognition* recognition, std::size_t most) {
+int cull_keyframes(Map& map, KeyframeId id, KeyframeDatabase* keyframe_database, std::size_t maximum) {
   int removed = 0;
   const auto remove = [&](KeyframeId gone) {
     const Keyframe& keyframe = map.keyframes.at(gone);
     if (keyframe.parent == kNone || !keyframe.loops.empty()) return;
-    if (recognition != nullptr) recognition->remove(keyframe);
+    if (keyframe_database != nullptr) keyframe_database->remove(keyframe);
     map.remove_keyframe(gone);
     ++removed;
   };
@@ -156,7 +156,7 @@ int cull_keyframes(Map& map, KeyframeId id, Recognition* recognition, std::size_
   for (const KeyframeId near : around) {
     if (redundant(map, map.keyframes.at(near))) remove(near);
   }
-  while (most > 0 && map.keyframes.size() > most) {
+  while (maximum > 0 && map.keyframes.size() > maximum) {
     const int before = removed;
     for (auto at = std::next(map.keyframes.begin()); at != map.keyframes.end() && removed == before; ++at) {
       if (at->first == id) break;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "host/vision/slam/keyframe_database.hpp"
 #include "host/vision/slam/map.hpp"
-#include "host/vision/slam/recognition.hpp"
 
 namespace pharos::slam {
 
@@ -37,6 +37,6 @@ void cull_points(Map& map, std::vector<PointId>& recent);
 
 /// Covisible keyframes of which nine in ten points are seen by three others at least as well, go; and the oldest of
 /// the covisible ones while the map holds more than `most` (0: no limit). Returns how many.
-int cull_keyframes(Map& map, KeyframeId keyframe, Recognition* recognition, std::size_t most);
+int cull_keyframes(Map& map, KeyframeId keyframe, KeyframeDatabase* keyframe_database, std::size_t maximum);
 
 }  // namespace pharos::slam

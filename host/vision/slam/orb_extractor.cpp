@@ -117,8 +117,8 @@ struct OrbExtractor::Work {
         if (!allowed.any(cell)) continue;
         double low = 0.0, high = 0.0;
         cv::minMaxLoc(image(cell), &low, &high);
-        if (high - low <= settings.least_threshold) continue;
-        cv::FAST(image(cell), found, settings.least_threshold, true);
+        if (high - low <= settings.min_threshold) continue;
+        cv::FAST(image(cell), found, settings.min_threshold, true);
         keep_found(cell.x, cell.y, allowed, corners);
       }
     }

@@ -13,7 +13,7 @@ struct OrbSettings {
   int features = 1000;
   /// Least difference of light of FAST's circle, grey values of 255: first, and in cells that have none.
   int threshold = 20;
-  int least_threshold = 7;
+  int min_threshold = 7;
 };
 
 /// ORB features of one image: FAST over each pyramid level and once more, for faint corners, in cells that have none;

@@ -7,14 +7,14 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kPairs = 5;
-constexpr std::size_t kLeastFeatures = 60;
+constexpr std::size_t kMinFeatures = 60;
 
 }  // namespace
 
 bool PairOrder::known() const { return pairs_ >= kPairs; }
 
 void PairOrder::add(std::size_t features, const StereoMatchStats& stats) {
-  if (known() || features < kLeastFeatures) return;
+  if (known() || features < kMinFeatures) return;
   sum_.matched += stats.matched;
   sum_.swapped += stats.swapped;
   sum_.off_rows += stats.off_rows;

@@ -12,11 +12,11 @@ constexpr int kHalf_px = 4;  // of the square compared: 9x9
 constexpr int kSide_px = 2 * kHalf_px + 1;
 constexpr int kSteps = 8;
 constexpr float kEnough_px = 0.01F;
-constexpr float kMostMove_px = 1.5F;   // farther off it is another corner
-constexpr float kLeastSlopes = 81.0F;  // squared grey values a pixel, over the square: less tells no place
-constexpr float kMostUnlike = 0.2F;    // of the square's own variance
-constexpr float kLeastContrast = 0.4F, kMostContrast = 2.5F;
-constexpr double kLeastArea = 0.4, kMostArea = 2.5;  // of a pixel, here over there
+constexpr float kMaxMove_px = 1.5F;        // farther off it is another corner
+constexpr float kMinSlopes = 81.0F;        // squared grey values a pixel, over the square: less tells no place
+constexpr float kMaxDissimilarity = 0.2F;  // of the square's own variance
+constexpr float kMinContrast = 0.4F, kMaxContrast = 2.5F;
+constexpr double kMinArea = 0.4, kMaxArea = 2.5;  // of a pixel, here over there
 
 using Matrix2d = Eigen::Matrix2d;
 
@@ -84,13 +84,13 @@ bool sample(const Patch& patch, const Matrix2d& to_patch, Template& out) {
 
 // J^T r and r^T r of r = I(place) - contrast T - brightness.
 bool compare(const Template& patch, ImageView<const std::uint8_t> image, const Vector2& place, float contrast,
-             float brightness, Eigen::Vector4f& gradient, float& unlike) {
+             float brightness, Eigen::Vector4f& gradient, float& residual_variance) {
   const double u = place.x() - kHalf_px, v = place.y() - kHalf_px;
   if (!(u >= 0.0 && v >= 0.0 && u + kSide_px < image.width_px && v + kSide_px < image.height_px)) return false;
   const auto whole_u = static_cast<int>(u), whole_v = static_cast<int>(v);
   const auto fu = static_cast<float>(u - whole_u), fv = static_cast<float>(v - whole_v);
   gradient.setZero();
-  unlike = 0.0F;
+  residual_variance = 0.0F;
   for (int y = 0; y < kSide_px; ++y) {
     const std::uint8_t* top = image.row(whole_v + y) + whole_u;
     const std::uint8_t* bottom = image.row(whole_v + y + 1) + whole_u;
@@ -106,7 +106,7 @@ bool compare(const Template& patch, ImageView<const std::uint8_t> image, const V
       gradient[1] += patch.along_v[row + x] * r;
       gradient[2] -= patch.value[row + x] * r;
       gradient[3] -= r;
-      unlike += r * r;
+      residual_variance += r * r;
     }
   }
   return true;
@@ -156,29 +156,29 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
   const Matrix2d to_patch = scale / patch.scale_px * step->inverse();
   const double area = to_patch.determinant();
   Template seen;
-  if (!(area > kLeastArea && area < kMostArea) || !sample(patch, to_patch, seen)) return std::nullopt;
+  if (!(area > kMinArea && area < kMaxArea) || !sample(patch, to_patch, seen)) return std::nullopt;
   const Eigen::Matrix4f H = squares_of(seen);
   const float slopes = 0.5F * (H(0, 0) + H(1, 1) - std::hypot(H(0, 0) - H(1, 1), 2.0F * H(0, 1)));
-  if (!(slopes > kLeastSlopes)) return std::nullopt;
+  if (!(slopes > kMinSlopes)) return std::nullopt;
   const Eigen::LDLT<Eigen::Matrix4f> solver(H);
   const ImageView<const std::uint8_t> image = pyramid[static_cast<std::size_t>(feature.level)].image;
   const Vector2 start = places.on_level(feature.pixel);
   Eigen::Vector4f off(0.0F, 0.0F, 1.0F, 0.0F), gradient;
-  float unlike = 0.0F, moved = kMostMove_px;
+  float residual_variance = 0.0F, moved = kMaxMove_px;
   for (int k = 0; k < kSteps && moved > kEnough_px; ++k) {
     const Vector2 place = start + off.head<2>().cast<double>();
-    if (!compare(seen, image, place, off[2], off[3], gradient, unlike)) return std::nullopt;
+    if (!compare(seen, image, place, off[2], off[3], gradient, residual_variance)) return std::nullopt;
     const Eigen::Vector4f move = solver.solve(gradient);
     off -= move;
     moved = move.head<2>().norm();
-    if (!(off.head<2>().norm() < kMostMove_px)) return std::nullopt;
+    if (!(off.head<2>().norm() < kMaxMove_px)) return std::nullopt;
   }
-  if (moved > 5.0F * kEnough_px || !(off[2] > kLeastContrast && off[2] < kMostContrast) ||
-      unlike > kMostUnlike * off[2] * off[2] * seen.variance) {
+  if (moved > 5.0F * kEnough_px || !(off[2] > kMinContrast && off[2] < kMaxContrast) ||
+      residual_variance > kMaxDissimilarity * off[2] * off[2] * seen.variance) {
     return std::nullopt;
   }
   const auto spare = static_cast<float>(seen.value.size() - 4);
-  const double variance = static_cast<double>(unlike / spare / slopes);  // along the lesser slope
+  const double variance = static_cast<double>(residual_variance / spare / slopes);  // along the lesser slope
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),
                     std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + variance))};
 }

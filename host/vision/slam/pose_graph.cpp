@@ -8,7 +8,7 @@
 namespace pharos::slam {
 namespace {
 
-constexpr int kMostSteps = 50;
+constexpr int kMaxSteps = 50;
 
 using Block67 = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
 
@@ -82,7 +82,7 @@ void adjust_pose_graph(std::map<KeyframeId, CameraFromTarget>& poses, const std:
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = kMostSteps;
+  solver.max_num_iterations = kMaxSteps;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -8,9 +8,9 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kRounds = 4;
-constexpr int kMostSteps = 8;
+constexpr int kMaxSteps = 8;
 constexpr double kSmallStep = 1e-7;  // rad and m: nothing that a pixel shows
-constexpr int kLeastPoints = 3;
+constexpr int kMinPoints = 3;
 
 double limit_of(const Observation& observation) { return observation.stereo() ? kStereoChi2 : kMonoChi2; }
 
@@ -25,7 +25,7 @@ Normal gather(const std::vector<Observation>& observations, const std::vector<bo
   Normal normal;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Observation& observation = observations[k];
-    if (!inlier[k] || (pose * observation.point_m).z() < kLeastDepth_m) continue;
+    if (!inlier[k] || (pose * observation.point_m).z() < kMinDepth_m) continue;
     const Vector3 e = residual_of(observation, camera, pose);
     const Eigen::Matrix<double, 3, 6> J = residual_jacobian(observation, camera, pose);
     const double chi2 = e.squaredNorm() / observation.variance_px2;
@@ -42,7 +42,7 @@ CameraFromTarget descend(const std::vector<Observation>& observations, const std
                          const StereoCamera& camera, CameraFromTarget pose) {
   Normal normal = gather(observations, inlier, camera, pose);
   double damping = 1e-6;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     Matrix6 H = normal.H;
     H.diagonal() *= 1.0 + damping;
     const Vector6 delta = -H.ldlt().solve(normal.g);
@@ -73,7 +73,7 @@ Vector3 residual_of(const Observation& observation, const StereoCamera& camera, 
   const Vector3 predicted = camera.project(pose * observation.point_m);
   const double disparity = observation.pixel.x() - observation.right_u_px, expected = predicted.x() - predicted.z();
   return {observation.pixel.x() - predicted.x(), observation.pixel.y() - predicted.y(),
-          observation.stereo() ? (disparity - expected) / kDisparityShare : 0.0};
+          observation.stereo() ? (disparity - expected) / kDisparityFraction : 0.0};
 }
 
 Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,
@@ -86,7 +86,7 @@ Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, co
   J(0, 2) = camera.fx_px * p.x() * over_z2;
   J(1, 1) = -camera.fy_px * over_z;
   J(1, 2) = camera.fy_px * p.y() * over_z2;
-  if (observation.stereo()) J(2, 2) = camera.fx_px * camera.baseline_m * over_z2 / kDisparityShare;
+  if (observation.stereo()) J(2, 2) = camera.fx_px * camera.baseline_m * over_z2 / kDisparityFraction;
   Eigen::Matrix<double, 3, 6> out;
   out.leftCols<3>() = -J * skew(turned);
   out.rightCols<3>() = J;
@@ -118,15 +118,15 @@ PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoC
     result.inliers = 0;
     for (std::size_t k = 0; k < observations.size(); ++k) {
       const Observation& observation = observations[k];
-      const bool ahead = (result.pose * observation.point_m).z() > kLeastDepth_m;
+      const bool ahead = (result.pose * observation.point_m).z() > kMinDepth_m;
       const double chi2 =
           ahead ? residual_of(observation, camera, result.pose).squaredNorm() / observation.variance_px2 : 1e9;
       result.inlier[k] = chi2 <= limit_of(observation);
       result.inliers += result.inlier[k] ? 1 : 0;
     }
-    if (result.inliers < kLeastPoints) break;
+    if (result.inliers < kMinPoints) break;
   }
-  if (result.inliers < kLeastPoints) return result;
+  if (result.inliers < kMinPoints) return result;
   const Normal normal = gather(observations, result.inlier, camera, result.pose);
   const Matrix6 covariance = normal.H.ldlt().solve(Matrix6::Identity());
   if (covariance.allFinite()) result.covariance = covariance;

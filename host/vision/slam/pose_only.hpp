@@ -21,7 +21,7 @@ struct Observation {
 Observation observation_of(const Feature& feature, const Vector3& point_m);
 
 /// Nearer to the camera, or behind it, a point is not where it was seen.
-inline constexpr double kLeastDepth_m = 1e-3;
+inline constexpr double kMinDepth_m = 1e-3;
 
 /// 95 % of chi-squared with two and three degrees of freedom: beyond it an observation is an outlier.
 inline constexpr double kMonoChi2 = 5.991;
@@ -30,7 +30,7 @@ inline constexpr double kStereoChi2 = 7.815;
 inline constexpr double kHuberChi2 = 4.0;
 
 /// x - pi(R X + t) of (10), px. The third row is not the right column's, which errs as the left one does, but the
-/// disparity's, over kDisparityShare so that all rows have one variance; 0 for a mono feature.
+/// disparity's, over kDisparityFraction so that all rows have one variance; 0 for a mono feature.
 Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose);
 /// d residual / d delta of Pose::moved_by: rotation before translation.
 Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,

@@ -28,7 +28,7 @@ struct Best {
     }
   }
   bool clear(const ProjectionRules& rules) const {
-    if (feature < 0 || distance > rules.most_distance) return false;
+    if (feature < 0 || distance > rules.max_distance) return false;
     return level != second_level || distance <= rules.ratio * second;
   }
 };
@@ -49,21 +49,21 @@ void one_each(std::vector<ProjectionMatch>& matches, std::size_t features) {
 
 }  // namespace
 
-void keep_alike_turns(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad) {
+void filter_by_orientation(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   std::array<int, kBins> counts{};
   std::vector<std::size_t> bins;
   for (const double difference : angle_differences_rad) {
-    const double share = difference / kTurn - std::floor(difference / kTurn);
-    bins.push_back(static_cast<std::size_t>(share * kBins + 0.5) % kBins);
+    const double fraction = difference / kTurn - std::floor(difference / kTurn);
+    bins.push_back(static_cast<std::size_t>(fraction * kBins + 0.5) % kBins);
     ++counts[bins.back()];
   }
   std::array<int, kBins> sorted = counts;
   std::sort(sorted.rbegin(), sorted.rend());
-  const int least = std::max(sorted[2], (sorted[0] + 9) / 10);
+  const int minimum = std::max(sorted[2], (sorted[0] + 9) / 10);
   std::vector<ProjectionMatch> kept;
   for (std::size_t k = 0; k < matches.size(); ++k) {
-    if (counts[bins[k]] >= least) kept.push_back(matches[k]);
+    if (counts[bins[k]] >= minimum) kept.push_back(matches[k]);
   }
   matches = std::move(kept);
 }
@@ -92,37 +92,37 @@ std::vector<ProjectionMatch> match_by_projection(const std::vector<Candidate>& c
     if (best.clear(rules)) matches.push_back({static_cast<int>(k), best.feature, best.distance});
   }
   one_each(matches, frame.features.size());
-  if (rules.turn_alike) {
+  if (rules.check_orientation) {
     std::vector<double> turns;
     for (const ProjectionMatch& match : matches) {
       turns.push_back(frame.features[static_cast<std::size_t>(match.feature)].angle_rad -
                       candidates[static_cast<std::size_t>(match.candidate)].angle_rad);
     }
-    keep_alike_turns(matches, turns);
+    filter_by_orientation(matches, turns);
   }
   return matches;
 }
 
-std::vector<ProjectionMatch> match_by_likeness(const std::vector<Feature>& from, const std::vector<bool>& use_from,
-                                               const std::vector<Feature>& to, const std::vector<bool>& use_to,
-                                               double ratio) {
+std::vector<ProjectionMatch> match_by_descriptor(const std::vector<Feature>& from, const std::vector<bool>& use_from,
+                                                 const std::vector<Feature>& to, const std::vector<bool>& use_to,
+                                                 double ratio) {
   std::vector<ProjectionMatch> matches;
   for (std::size_t k = 0; k < from.size(); ++k) {
     if (!use_from.empty() && !use_from[k]) continue;
-    int best = -1, least = 257, second = 257;
+    int best = -1, minimum = 257, second = 257;
     for (std::size_t j = 0; j < to.size(); ++j) {
       if (!use_to.empty() && !use_to[j]) continue;
       const int d = distance(from[k].descriptor, to[j].descriptor);
-      if (d < least) {
-        second = least;
-        least = d;
+      if (d < minimum) {
+        second = minimum;
+        minimum = d;
         best = static_cast<int>(j);
       } else if (d < second) {
         second = d;
       }
     }
-    if (best >= 0 && least <= (kSamePoint + kMaybeSamePoint) / 2 && least <= ratio * second) {
-      matches.push_back({static_cast<int>(k), best, least});
+    if (best >= 0 && minimum <= (kLowDistanceThreshold + kHighDistanceThreshold) / 2 && minimum <= ratio * second) {
+      matches.push_back({static_cast<int>(k), best, minimum});
     }
   }
   one_each(matches, to.size());
@@ -131,7 +131,7 @@ std::vector<ProjectionMatch> match_by_likeness(const std::vector<Feature>& from,
     turns.push_back(to[static_cast<std::size_t>(match.feature)].angle_rad -
                     from[static_cast<std::size_t>(match.candidate)].angle_rad);
   }
-  keep_alike_turns(matches, turns);
+  filter_by_orientation(matches, turns);
   return matches;
 }
 

@@ -24,9 +24,9 @@ struct ProjectionMatch {
 };
 
 struct ProjectionRules {
-  int most_distance = kMaybeSamePoint;
-  double ratio = 0.9;       ///< best distance over the second best of the same level
-  bool turn_alike = false;  ///< drop matches whose patch turned otherwise than most
+  int max_distance = kHighDistanceThreshold;
+  double ratio = 0.9;              ///< best distance over the second best of the same level
+  bool check_orientation = false;  ///< drop matches whose patch turned otherwise than most
 };
 
 /// Projects candidates by `pose` and matches each with the likest feature nearby, and each feature with the likest of
@@ -35,12 +35,12 @@ std::vector<ProjectionMatch> match_by_projection(const std::vector<Candidate>& c
                                                  const std::vector<bool>& free, const StereoCamera& camera,
                                                  const CameraFromTarget& pose, const ProjectionRules& rules);
 
-/// Likest features of two frames both ways, by descriptors alone; `from` and `to` select features (empty: all).
-std::vector<ProjectionMatch> match_by_likeness(const std::vector<Feature>& from, const std::vector<bool>& use_from,
-                                               const std::vector<Feature>& to, const std::vector<bool>& use_to,
-                                               double ratio);
+/// BestMatch features of two frames both ways, by descriptors alone; `from` and `to` select features (empty: all).
+std::vector<ProjectionMatch> match_by_descriptor(const std::vector<Feature>& from, const std::vector<bool>& use_from,
+                                                 const std::vector<Feature>& to, const std::vector<bool>& use_to,
+                                                 double ratio);
 
 /// Drops matches whose difference of angles is not among the three commonest twelfths of a turn.
-void keep_alike_turns(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad);
+void filter_by_orientation(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad);
 
 }  // namespace pharos::slam

@@ -11,12 +11,12 @@ namespace pharos::slam {
 namespace {
 
 // Below it no camera pair measures depth at all; also what a file without extrinsics has.
-constexpr double kLeastBaseline_m = 1e-4;
+constexpr double kMinBaseline_m = 1e-4;
 // Turns and offsets that move no pixel by a hundredth.
 constexpr double kStraight_rad = 1e-5;
 constexpr double kSame_px = 0.01;
 // Beyond it the rectified images would share little.
-constexpr double kMostToeIn_rad = 60.0 * std::numbers::pi / 180.0;
+constexpr double kMaxToeIn_rad = 60.0 * std::numbers::pi / 180.0;
 
 using RigFromCamera = Pose<frame::Rig, frame::Camera>;
 
@@ -39,12 +39,12 @@ bool rectified_already(const PinholeCamera& left, const PinholeCamera& right, co
 }
 
 // The principal point that centres what both cameras see; f as it is.
-void centre_views(StereoCamera& camera, const std::array<const PinholeCamera*, 2>& optics,
+void centre_views(StereoCamera& camera, const std::array<const PinholeCamera*, 2>& intrinsics,
                   const std::array<Matrix3, 2>& R_camera_rectified) {
   Vector2 sum = Vector2::Zero();
   for (std::size_t side = 0; side < 2; ++side) {
-    const Vector2 middle(0.5 * (optics[side]->width_px - 1), 0.5 * (optics[side]->height_px - 1));
-    const auto ray = undistort(*optics[side], middle);
+    const Vector2 middle(0.5 * (intrinsics[side]->width_px - 1), 0.5 * (intrinsics[side]->height_px - 1));
+    const auto ray = undistort(*intrinsics[side], middle);
     if (!ray) continue;
     const Vector3 p = R_camera_rectified[side].transpose() * Vector3(ray->x(), ray->y(), 1.0);
     sum += 0.5 * Vector2(p.x() / p.z(), p.y() / p.z());
@@ -53,13 +53,13 @@ void centre_views(StereoCamera& camera, const std::array<const PinholeCamera*, 2
   camera.cy_px = 0.5 * (camera.height_px - 1) - camera.fy_px * sum.y();
 }
 
-RectifyMap map_of(const PinholeCamera& optics, const StereoCamera& rectified, const Matrix3& R_camera_rectified) {
+RectifyMap map_of(const PinholeCamera& intrinsics, const StereoCamera& rectified, const Matrix3& R_camera_rectified) {
   RectifyMap map;
   for (std::int32_t v = 0; v < rectified.height_px; ++v) {
     for (std::int32_t u = 0; u < rectified.width_px; ++u) {
       const Vector3 p = R_camera_rectified * rectified.back_project(Vector2(u, v), 1.0);
       // Outside the image where the lens has no such ray: remap fills it with black.
-      const auto pixel = project(optics, p);
+      const auto pixel = project(intrinsics, p);
       map.u.push_back(pixel ? static_cast<float>(pixel->x()) : -1e4F);
       map.v.push_back(pixel ? static_cast<float>(pixel->y()) : -1e4F);
     }
@@ -72,17 +72,17 @@ void refuse(const std::string& name, const std::string& what) { throw host::Inpu
 }  // namespace
 
 Rectification rectify(const host::RigFile& rig, const std::string& name) {
-  const PinholeCamera &left = rig.left.optics, &right = rig.right.optics;
+  const PinholeCamera &left = rig.left.intrinsics, &right = rig.right.intrinsics;
   if (left.width_px != right.width_px || left.height_px != right.height_px) {
     refuse(name, "the cameras have images of different sizes; a stereo pair needs one size");
   }
   const RigFromCamera T_left = rig.left.pose(), T_right = rig.right.pose();
   const double baseline = (T_right.t - T_left.t).norm();
-  if (baseline < kLeastBaseline_m) refuse(name, "the rig has no baseline: both cameras stand in one place");
+  if (baseline < kMinBaseline_m) refuse(name, "the rig has no baseline: both cameras stand in one place");
   if ((T_left.R.transpose() * (T_right.t - T_left.t)).x() < 0.5 * baseline) {
     refuse(name, "the right camera does not stand to the right of the left one; exchange [left] and [right]");
   }
-  if (std::acos(std::clamp(T_left.R.col(2).dot(T_right.R.col(2)), -1.0, 1.0)) > kMostToeIn_rad) {
+  if (std::acos(std::clamp(T_left.R.col(2).dot(T_right.R.col(2)), -1.0, 1.0)) > kMaxToeIn_rad) {
     refuse(name, "the cameras look in directions more than 60 deg apart");
   }
   const Matrix3 axes = common_axes(T_left, T_right);

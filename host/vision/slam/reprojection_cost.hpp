@@ -23,7 +23,7 @@ class Reprojection : public ceres::CostFunction {
     const CameraFromTarget pose = slam::pose_of(parameters[0]);
     Observation at = seen_;
     at.point_m = Vector3(parameters[1]);
-    if (!((pose * at.point_m).z() > kLeastDepth_m)) return false;
+    if (!((pose * at.point_m).z() > kMinDepth_m)) return false;
     const double weight = 1.0 / std::sqrt(seen_.variance_px2);
     const Vector3 e = weight * residual_of(at, camera_, pose);
     const int rows = num_residuals();

@@ -9,7 +9,7 @@
 namespace pharos::slam {
 namespace {
 
-constexpr int kMostTrials = 300;
+constexpr int kMaxTrials = 300;
 constexpr double kSure = 0.999;
 // Reprojection limits while trials are judged: depths of single features are coarse.
 constexpr double kLoose = 4.0;
@@ -27,10 +27,10 @@ std::vector<bool> inliers_of(const std::vector<Observation>& observations, const
   return inlier;
 }
 
-int trials_for(double share) {
-  const double hit = share * share * share;
+int trials_for(double fraction) {
+  const double hit = fraction * fraction * fraction;
   if (hit >= 1.0) return 1;
-  return static_cast<int>(std::min<double>(kMostTrials, std::ceil(std::log(1.0 - kSure) / std::log1p(-hit))));
+  return static_cast<int>(std::min<double>(kMaxTrials, std::ceil(std::log(1.0 - kSure) / std::log1p(-hit))));
 }
 
 }  // namespace
@@ -55,18 +55,18 @@ std::optional<CameraFromTarget> rigid_fit(const std::vector<Vector3>& points, co
 }
 
 std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
-                                    int least_inliers, std::uint64_t seed) {
+                                    int min_inliers, std::uint64_t seed) {
   std::vector<std::size_t> stereo;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     if (observations[k].stereo()) stereo.push_back(k);
   }
-  if (stereo.size() < 3 || static_cast<int>(observations.size()) < least_inliers) return std::nullopt;
+  if (stereo.size() < 3 || static_cast<int>(observations.size()) < min_inliers) return std::nullopt;
   const auto seen_at = [&](const Observation& at) {
     return camera.back_project(at.pixel, camera.depth_m(at.pixel.x() - at.right_u_px));
   };
   std::mt19937_64 random(seed);
   std::vector<bool> best;
-  int most = 0, trials = kMostTrials;
+  int maximum = 0, trials = kMaxTrials;
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<Vector3> points, seen;
     for (int k = 0; k < 3; ++k) {
@@ -78,12 +78,12 @@ std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations
     if (!pose) continue;
     int count = 0;
     std::vector<bool> inlier = inliers_of(observations, camera, *pose, count);
-    if (count <= most) continue;
-    most = count;
+    if (count <= maximum) continue;
+    maximum = count;
     best = std::move(inlier);
     trials = std::min(trials, trials_for(static_cast<double>(count) / static_cast<double>(observations.size())));
   }
-  if (most < std::max(3, least_inliers / 2)) return std::nullopt;
+  if (maximum < std::max(3, min_inliers / 2)) return std::nullopt;
   std::vector<Vector3> points, seen;
   for (const std::size_t k : stereo) {
     if (!best[k]) continue;
@@ -93,7 +93,7 @@ std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations
   const auto start = rigid_fit(points, seen);
   if (!start) return std::nullopt;
   PoseOnly refined = adjust_pose(observations, camera, *start);
-  if (refined.inliers < least_inliers) return std::nullopt;
+  if (refined.inliers < min_inliers) return std::nullopt;
   return refined;
 }
 

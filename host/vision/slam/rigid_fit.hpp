@@ -15,8 +15,8 @@ std::optional<CameraFromTarget> rigid_fit(const std::vector<Vector3>& points, co
 
 /// A pose from points of the map matched with stereo features of a frame, many matches wrong: three at a time by
 /// rigid_fit, judged by reprojection (RANSAC, Fischler and Bolles 1981; the same `seed`, the same answer), then
-/// adjust_pose. Empty below `least_inliers`.
+/// adjust_pose. Empty below `min_inliers`.
 std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
-                                    int least_inliers, std::uint64_t seed);
+                                    int min_inliers, std::uint64_t seed);
 
 }  // namespace pharos::slam

@@ -6,18 +6,18 @@
 namespace pharos::slam {
 namespace {
 
-constexpr std::size_t kMostFigures = 4096;
+constexpr std::size_t kMaxFigures = 4096;
 
 void add(std::vector<float>& figures, double figure) {
-  if (figures.size() == kMostFigures) {
-    figures.erase(figures.begin(), figures.begin() + static_cast<std::ptrdiff_t>(kMostFigures / 2));
+  if (figures.size() == kMaxFigures) {
+    figures.erase(figures.begin(), figures.begin() + static_cast<std::ptrdiff_t>(kMaxFigures / 2));
   }
   figures.push_back(static_cast<float>(figure));
 }
 
-double quantile(std::vector<float> values, double share) {
+double quantile(std::vector<float> values, double fraction) {
   if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return static_cast<double>(*at);
 }

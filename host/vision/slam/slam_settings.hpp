@@ -20,8 +20,8 @@ struct SlamSettings {
   /// Every frame is kept for trajectory(). Else that is empty, figures are of the last frames, and memory does not grow
   /// with time: for a run without end.
   bool keep_trajectory = true;
-  std::size_t most_keyframes = 0;  ///< 0: no limit; the paper's is 20
-  std::string vocabulary;          ///< a file; empty: the one that ships
+  std::size_t max_keyframes = 0;  ///< 0: no limit; the paper's is 20
+  std::string vocabulary;         ///< a file; empty: the one that ships
 };
 
 }  // namespace pharos::slam

@@ -35,7 +35,7 @@ struct SlamPoint {
 /// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017). Lives in
 /// a module that make_slam() loads, as OpenCV and Ceres do.
 ///
-/// Where one of its own threads has failed (no memory), push(), finish() and settled_trajectory() throw
+/// Where one of its own threads has failed (no memory), push(), finish() and optimised_trajectory() throw
 /// std::runtime_error from then on: the map may be half changed, and only another system has a whole one.
 class SlamSystem {
  public:
@@ -49,7 +49,7 @@ class SlamSystem {
   /// All frames so far, told from the keyframes as they stand now; lost ones without a pose.
   virtual std::vector<TrackedFrame> trajectory() const = 0;
   /// What trajectory() would tell after finish(); the system goes on as if it had not been asked.
-  virtual std::vector<TrackedFrame> settled_trajectory() const = 0;
+  virtual std::vector<TrackedFrame> optimised_trajectory() const = 0;
   virtual std::vector<SlamPoint> points() const = 0;
   virtual SlamReport report() const = 0;
   /// Features of the last pair in the rectified left image: column, row, and 0 (mono), 1 (stereo) or 2 (of the map).

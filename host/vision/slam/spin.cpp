@@ -9,7 +9,7 @@
 namespace pharos::slam {
 namespace {
 
-constexpr std::size_t kLeastFrames = 10;
+constexpr std::size_t kMinFrames = 10;
 constexpr int kSteps = 8;
 
 // d log(exp(phi + d) exp(-phi)) / d d.
@@ -91,14 +91,14 @@ std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {
   for (const TrackedFrame& frame : frames) {
     if (frame.placed) attitudes.push_back({frame.time_s, frame.placed->pose.R});
   }
-  if (attitudes.size() < kLeastFrames) return std::nullopt;
+  if (attitudes.size() < kMinFrames) return std::nullopt;
   Fit fit;
-  const double first_s = attitudes[kLeastFrames - 1].time_s - attitudes[0].time_s;
-  fit.rate = rotation_log(attitudes[kLeastFrames - 1].R * attitudes[0].R.transpose()) / first_s;
+  const double first_s = attitudes[kMinFrames - 1].time_s - attitudes[0].time_s;
+  fit.rate = rotation_log(attitudes[kMinFrames - 1].R * attitudes[0].R.transpose()) / first_s;
   fit.R_mean = attitudes[0].R;
   fit.mean_time_s = attitudes[0].time_s;
   // Ever longer parts, so that what is predicted for the next is never half a turn off.
-  for (std::size_t count = kLeastFrames; count < attitudes.size(); count *= 2) refine(fit, attitudes, count);
+  for (std::size_t count = kMinFrames; count < attitudes.size(); count *= 2) refine(fit, attitudes, count);
   refine(fit, attitudes, attitudes.size());
   std::vector<Vector3> residuals;
   double sum = 0.0;

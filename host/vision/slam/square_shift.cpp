@@ -8,7 +8,7 @@
 namespace pharos::slam {
 namespace {
 
-constexpr float kLeastSlopes = 121.0F;  // squared grey values a pixel, over the square: less tells no place
+constexpr float kMinSlopes = 121.0F;  // squared grey values a pixel, over the square: less tells no place
 
 class LeftSquare {
  public:
@@ -28,7 +28,7 @@ class LeftSquare {
     slopes_ = H(1, 1);
     solver_.compute(H);
   }
-  bool told() const { return slopes_ > kLeastSlopes; }
+  bool told() const { return slopes_ > kMinSlopes; }
 
   // What the shift lacks; empty where it leaves the image.
   std::optional<Shift> step(ImageView<const std::uint8_t> right, int v, double column, const Shift& shift) const {
@@ -68,7 +68,7 @@ class LeftSquare {
 std::optional<Shift> square_shift(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int u, int v,
                                   double column) {
   constexpr int kSteps = 8;
-  constexpr float kEnough_px = 0.005F, kMostShift_px = 1.0F, kMostStretch = 0.3F;
+  constexpr float kEnough_px = 0.005F, kMaxShift_px = 1.0F, kMaxStretch = 0.3F;
   const LeftSquare square(left, u, v);
   if (!square.told()) return std::nullopt;
   Shift shift = Shift::Zero();
@@ -76,7 +76,7 @@ std::optional<Shift> square_shift(ImageView<const std::uint8_t> left, ImageView<
     const auto move = square.step(right, v, column, shift);
     if (!move) return std::nullopt;
     shift += *move;
-    if (!(std::abs(shift[1]) < kMostShift_px && shift.tail<2>().cwiseAbs().maxCoeff() < kMostStretch)) {
+    if (!(std::abs(shift[1]) < kMaxShift_px && shift.tail<2>().cwiseAbs().maxCoeff() < kMaxStretch)) {
       return std::nullopt;
     }
     if (std::abs((*move)[1]) < kEnough_px) break;

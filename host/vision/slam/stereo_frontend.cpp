@@ -11,9 +11,9 @@
 namespace pharos::slam {
 namespace {
 
-// A feature needs differences of this many grey values (OrbSettings::least_threshold): an image whose 99.9th percentile
+// A feature needs differences of this many grey values (OrbSettings::min_threshold): an image whose 99.9th percentile
 // lies less above its 0.1st has none.
-constexpr int kLeastContrast = 8;
+constexpr int kMinContrast = 8;
 constexpr std::uint8_t kBright = 250;
 
 cv::Mat mat_of(ImageView<const std::uint8_t> image) {
@@ -55,7 +55,7 @@ struct StereoFrontend::Work {
   };
   Side left, right;
   Foreground foreground;
-  StillFeatures still;
+  StaticFeatureFilter still;
   ExposureRatio exposure;
   ImageView<const std::uint8_t> mask;
   explicit Work(const OrbSettings& settings) : left(settings), right(settings) {}
@@ -108,7 +108,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   result.repeated = left_same && right_same;
   const Levels levels = levels_of(mat_of(left));
   result.saturated = levels.low >= kBright;
-  result.dark = !result.saturated && levels.high - levels.low < kLeastContrast;
+  result.dark = !result.saturated && levels.high - levels.low < kMinContrast;
   const double exposure = work.exposure.of(left, right);
   const auto do_right = [&] {
     Work::rectify(work.right, mat_of(right));
@@ -131,7 +131,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
       match_stereo(result.features, right_features, work.left.extractor.pyramid(), work.right.extractor.pyramid(),
                    rectification_.camera, 3.0 * rectification_.camera.baseline_m, check_order);
   work.exposure.learn(exposure, result.features, work.left.extractor.pyramid(), work.right.extractor.pyramid());
-  if (settings_.scene == Scene::kTarget) work.still.remove_still(result.features);
+  if (settings_.scene == Scene::kTarget) work.still.remove_static(result.features);
   return result;
 }
 

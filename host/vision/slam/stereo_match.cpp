@@ -14,8 +14,8 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kShift_px = 5;  // searched to each side of the right feature
-constexpr int kLikest = (kSamePoint + kMaybeSamePoint) / 2;
-constexpr double kLeastDisparity_px = 0.3;
+constexpr int kBestMatches = (kLowDistanceThreshold + kHighDistanceThreshold) / 2;
+constexpr double kMinDisparity_px = 0.3;
 
 // Right features by the rows that they may match.
 class Rows {
@@ -38,14 +38,14 @@ class Rows {
   std::vector<std::vector<int>> rows_;
 };
 
-struct Likest {
+struct BestMatch {
   int index = -1;
-  int distance = kLikest;
+  int distance = kBestMatches;
 };
 
-Likest likest(const Feature& feature, const std::vector<Feature>& right, const std::vector<int>& candidates,
-              double first_u, double last_u) {
-  Likest best;
+BestMatch best_match(const Feature& feature, const std::vector<Feature>& right, const std::vector<int>& candidates,
+                     double first_u, double last_u) {
+  BestMatch best;
   for (const int k : candidates) {
     const Feature& other = right[static_cast<std::size_t>(k)];
     if (std::abs(other.level - feature.level) > 1 || other.pixel.x() < first_u || other.pixel.x() > last_u) continue;
@@ -101,16 +101,16 @@ SubPixel refine(const Feature& feature, double right_u, const std::vector<Pyrami
   return {places.image_column(right_place), -stretch, *best};
 }
 
-void drop_unlike(std::vector<Feature>& left, const std::vector<int>& differences, int& matched) {
+void drop_dissimilar(std::vector<Feature>& left, const std::vector<int>& differences, int& matched) {
   std::vector<int> sorted;
   for (const int d : differences) {
     if (d >= 0) sorted.push_back(d);
   }
   if (sorted.empty()) return;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double most = 1.5 * 1.4 * sorted[sorted.size() / 2];
+  const double maximum = 1.5 * 1.4 * sorted[sorted.size() / 2];
   for (std::size_t k = 0; k < left.size(); ++k) {
-    if (differences[k] <= most) continue;
+    if (differences[k] <= maximum) continue;
     left[k].right_u_px = left[k].depth_m = -1.0;
     left[k].disparity_slope.setZero();
     --matched;
@@ -122,25 +122,25 @@ void drop_unlike(std::vector<Feature>& left, const std::vector<int>& differences
 StereoMatchStats match_stereo(std::vector<Feature>& left, const std::vector<Feature>& right,
                               const std::vector<PyramidLevel>& left_pyramid,
                               const std::vector<PyramidLevel>& right_pyramid, const StereoCamera& camera,
-                              double least_depth_m, bool check_order) {
+                              double min_depth_m, bool check_order) {
   const Rows rows(right, camera.height_px, 2.0), wide_rows(right, camera.height_px, check_order ? 12.0 : 0.0);
-  const double most_disparity = camera.fx_px * camera.baseline_m / least_depth_m;
+  const double max_disparity = camera.fx_px * camera.baseline_m / min_depth_m;
   StereoMatchStats stats;
   std::vector<int> differences(left.size(), -1);
   for (std::size_t k = 0; k < left.size(); ++k) {
     Feature& feature = left[k];
     const double u = feature.pixel.x(), v = feature.pixel.y();
-    const Likest found = likest(feature, right, rows.at(v), u - most_disparity, u);
+    const BestMatch found = best_match(feature, right, rows.at(v), u - max_disparity, u);
     if (found.index < 0) {
       if (!check_order) continue;
-      stats.swapped += likest(feature, right, rows.at(v), u + 2.0, u + most_disparity).index >= 0 ? 1 : 0;
-      stats.off_rows += likest(feature, right, wide_rows.at(v), u - most_disparity, u).index >= 0 ? 1 : 0;
+      stats.swapped += best_match(feature, right, rows.at(v), u + 2.0, u + max_disparity).index >= 0 ? 1 : 0;
+      stats.off_rows += best_match(feature, right, wide_rows.at(v), u - max_disparity, u).index >= 0 ? 1 : 0;
       continue;
     }
     const SubPixel place =
         refine(feature, right[static_cast<std::size_t>(found.index)].pixel.x(), left_pyramid, right_pyramid);
     const double disparity = u - place.right_u_px;
-    if (place.right_u_px < 0.0 || disparity < kLeastDisparity_px || disparity > most_disparity) continue;
+    if (place.right_u_px < 0.0 || disparity < kMinDisparity_px || disparity > max_disparity) continue;
     feature.right_u_px = place.right_u_px;
     feature.depth_m = camera.depth_m(disparity);
     feature.disparity_slope = place.slope;
@@ -148,7 +148,7 @@ StereoMatchStats match_stereo(std::vector<Feature>& left, const std::vector<Feat
     differences[k] = place.difference;
     ++stats.matched;
   }
-  drop_unlike(left, differences, stats.matched);
+  drop_dissimilar(left, differences, stats.matched);
   return stats;
 }
 

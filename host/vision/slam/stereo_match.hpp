@@ -18,11 +18,11 @@ struct StereoMatchStats {
 /// Gives the left features their columns in the right image: likest right feature of the same rows and near level,
 /// then the shift of 11x11 pixels of that level with the least sum of differences (Mur-Artal 2017, section III.A),
 /// placed between pixels, with its change across the square, by least squares (Lucas 1981, Baker and Matthews 2004);
-/// matches whose pixels differ far more than the others' are dropped. `least_depth_m` bounds the search; `check_order`
+/// matches whose pixels differ far more than the others' are dropped. `min_depth_m` bounds the search; `check_order`
 /// also looks where exchanged or wrong images would have the likenesses.
 StereoMatchStats match_stereo(std::vector<Feature>& left, const std::vector<Feature>& right,
                               const std::vector<PyramidLevel>& left_pyramid,
                               const std::vector<PyramidLevel>& right_pyramid, const StereoCamera& camera,
-                              double least_depth_m, bool check_order);
+                              double min_depth_m, bool check_order);
 
 }  // namespace pharos::slam

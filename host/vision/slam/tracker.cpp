@@ -12,15 +12,15 @@ namespace pharos::slam {
 namespace {
 
 constexpr double kMotionRadius_px = 7.0;  // around a predicted place; tripled where it finds too little
-constexpr int kLeastByMotion = 20;
-constexpr int kLeastPlaced = 15;      // inliers of a first placement
-constexpr int kLeastInLocalMap = 30;  // inliers in the local map: below, the frame is lost
-constexpr int kLeastRelocalised = 50;
-constexpr std::size_t kMostCandidates = 5;  // keyframes tried to relocalise
-constexpr double kMostSteps = 20.0;         // missing frames that a prediction bridges
+constexpr int kMinByMotion = 20;
+constexpr int kMinPlaced = 15;      // inliers of a first placement
+constexpr int kMinInLocalMap = 30;  // inliers in the local map: below, the frame is lost
+constexpr int kMinRelocalised = 50;
+constexpr std::size_t kMaxCandidates = 5;  // keyframes tried to relocalise
+constexpr double kMaxSteps = 20.0;         // missing frames that a prediction bridges
 // Section 2.2, rules (1) to (4).
 constexpr std::int64_t kFramesBetween = 20;
-constexpr int kLeastTracked = 50;
+constexpr int kMinTracked = 50;
 constexpr double kShareOfReference = 0.9;
 
 }  // namespace
@@ -41,10 +41,10 @@ PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
   return placed;
 }
 
-std::optional<PoseOnly> Tracker::by_motion(Frame& frame) {
+std::optional<PoseOnly> Tracker::track_motion_model(Frame& frame) {
   CameraFromTarget predicted = last_pose();
   if (has_step_) {
-    const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMostSteps);
+    const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMaxSteps);
     for (int k = 0; k < static_cast<int>(steps); ++k) predicted = step_ * predicted;
   }
   // Points of the map that the last frame showed, and its own stereo features that no point stands for.
@@ -62,17 +62,17 @@ std::optional<PoseOnly> Tracker::by_motion(Frame& frame) {
   std::vector<ProjectionMatch> matches;
   for (const double widening : {1.0, 3.0}) {
     for (Candidate& candidate : candidates) candidate.radius_px = widening * kMotionRadius_px;
-    matches = match_by_projection(candidates, frame, {}, camera_, predicted, {kMaybeSamePoint, 0.9, true});
-    if (static_cast<int>(matches.size()) >= kLeastByMotion) break;
+    matches = match_by_projection(candidates, frame, {}, camera_, predicted, {kHighDistanceThreshold, 0.9, true});
+    if (static_cast<int>(matches.size()) >= kMinByMotion) break;
   }
-  if (static_cast<int>(matches.size()) < kLeastByMotion) return std::nullopt;
+  if (static_cast<int>(matches.size()) < kMinByMotion) return std::nullopt;
   std::vector<Observation> observations;
   for (const ProjectionMatch& match : matches) {
     observations.push_back(observation_of(frame.features[static_cast<std::size_t>(match.feature)],
                                           candidates[static_cast<std::size_t>(match.candidate)].position_m));
   }
   const PoseOnly placed = adjust_pose(observations, camera_, predicted);
-  if (placed.inliers < kLeastPlaced) return std::nullopt;
+  if (placed.inliers < kMinPlaced) return std::nullopt;
   std::fill(frame.points.begin(), frame.points.end(), kNone);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     if (placed.inlier[k]) {
@@ -83,13 +83,13 @@ std::optional<PoseOnly> Tracker::by_motion(Frame& frame) {
   return placed;
 }
 
-std::optional<PoseOnly> Tracker::by_likeness(Frame& frame, KeyframeId id, int least_inliers) {
+std::optional<PoseOnly> Tracker::match_reference_keyframe(Frame& frame, KeyframeId id, int min_inliers) {
   const auto at = map_.keyframes.find(id);
   if (at == map_.keyframes.end()) return std::nullopt;
   const Keyframe& keyframe = at->second;
   std::vector<bool> known(keyframe.points.size());
   for (std::size_t k = 0; k < known.size(); ++k) known[k] = keyframe.points[k] != kNone;
-  const auto matches = match_by_likeness(keyframe.features, known, frame.features, {}, 0.8);
+  const auto matches = match_by_descriptor(keyframe.features, known, frame.features, {}, 0.8);
   std::vector<Observation> observations;
   for (const ProjectionMatch& match : matches) {
     const PointId point = keyframe.points[static_cast<std::size_t>(match.candidate)];
@@ -97,7 +97,7 @@ std::optional<PoseOnly> Tracker::by_likeness(Frame& frame, KeyframeId id, int le
         observation_of(frame.features[static_cast<std::size_t>(match.feature)], map_.points.at(point).position_m));
   }
   const auto placed =
-      robust_pose(observations, camera_, least_inliers, static_cast<std::uint64_t>(frame.number * 4096 + id));
+      robust_pose(observations, camera_, min_inliers, static_cast<std::uint64_t>(frame.number * 4096 + id));
   if (!placed) return std::nullopt;
   std::fill(frame.points.begin(), frame.points.end(), kNone);
   for (std::size_t k = 0; k < matches.size(); ++k) {
@@ -110,22 +110,22 @@ std::optional<PoseOnly> Tracker::by_likeness(Frame& frame, KeyframeId id, int le
 }
 
 std::optional<PoseOnly> Tracker::relocalise(Frame& frame) {
-  if (recognition_ == nullptr) return by_likeness(frame, reference_, kLeastPlaced);
-  const auto candidates = recognition_->like(recognition_->words_of(frame.features), map_, {});
-  for (std::size_t k = 0; k < std::min(candidates.size(), kMostCandidates); ++k) {
-    if (auto placed = by_likeness(frame, candidates[k].keyframe, kLeastPlaced)) return placed;
+  if (keyframe_database_ == nullptr) return match_reference_keyframe(frame, reference_, kMinPlaced);
+  const auto candidates = keyframe_database_->detect_candidates(keyframe_database_->words_of(frame.features), map_, {});
+  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxCandidates); ++k) {
+    if (auto placed = match_reference_keyframe(frame, candidates[k].keyframe, kMinPlaced)) return placed;
   }
   return std::nullopt;
 }
 
-std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& start, bool wide) {
+std::optional<PoseOnly> Tracker::track_local_map(Frame& frame, const PoseOnly& start, bool wide) {
   const LocalMap local = local_map(map_, frame);
   if (local.nearest != kNone) nearest_ = local.nearest;
   std::vector<bool> free(frame.points.size());
   for (std::size_t k = 0; k < free.size(); ++k) free[k] = frame.points[k] == kNone;
   const std::vector<Candidate> candidates = local_candidates(map_, local, frame, camera_, start.pose, wide ? 3.0 : 1.0);
   for (const ProjectionMatch& match :
-       match_by_projection(candidates, frame, free, camera_, start.pose, {kMaybeSamePoint, 0.8, false})) {
+       match_by_projection(candidates, frame, free, camera_, start.pose, {kHighDistanceThreshold, 0.8, false})) {
     frame.points[static_cast<std::size_t>(match.feature)] = candidates[static_cast<std::size_t>(match.candidate)].point;
   }
   align_with_patches(frame, map_, camera_, start.pose, pyramid_);
@@ -133,14 +133,14 @@ std::optional<PoseOnly> Tracker::in_local_map(Frame& frame, const PoseOnly& star
   for (const PointId id : frame.points) {
     if (id != kNone) ++map_.points.at(id).found;
   }
-  if (placed.inliers < (wide ? kLeastRelocalised : kLeastInLocalMap)) return std::nullopt;
+  if (placed.inliers < (wide ? kMinRelocalised : kMinInLocalMap)) return std::nullopt;
   return placed;
 }
 
-bool Tracker::keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const {
+bool Tracker::needs_new_keyframe(const Frame& frame, int inliers, bool mapping_idle) const {
   if (frame.number < last_relocalised_ + kFramesBetween) return false;                      // (1)
   if (!mapping_idle && frame.number < last_keyframe_frame_ + kFramesBetween) return false;  // (2)
-  if (inliers < kLeastTracked) return false;                                                // (3)
+  if (inliers < kMinTracked) return false;                                                  // (3)
   const Keyframe& reference = map_.keyframes.at(nearest_);
   // What the reference alone has seen is not known to be trackable.
   const std::size_t observers = map_.keyframes.size() == 1 ? 1 : 2;
@@ -167,13 +167,13 @@ Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<Pyrami
   if (map_.keyframes.empty()) return out;
   std::optional<PoseOnly> placed;
   if (state_ == TrackState::kTracking) {
-    placed = by_motion(frame);
-    if (!placed) placed = by_likeness(frame, reference_, kLeastPlaced);
-    if (placed) placed = in_local_map(frame, *placed, false);
+    placed = track_motion_model(frame);
+    if (!placed) placed = match_reference_keyframe(frame, reference_, kMinPlaced);
+    if (placed) placed = track_local_map(frame, *placed, false);
   }
   if (!placed) {
     placed = relocalise(frame);
-    if (placed) placed = in_local_map(frame, *placed, true);
+    if (placed) placed = track_local_map(frame, *placed, true);
     out.relocalised = placed.has_value();
     if (placed) last_relocalised_ = frame.number;
   }
@@ -193,7 +193,7 @@ Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<Pyrami
   out.covariance = placed->covariance;
   out.rms_px = placed->rms_px;
   out.inliers = placed->inliers;
-  out.wants_keyframe = keyframe_due(frame, placed->inliers, mapping_idle);
+  out.wants_keyframe = needs_new_keyframe(frame, placed->inliers, mapping_idle);
   return out;
 }
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <set>
 
+#include "host/vision/slam/keyframe_database.hpp"
 #include "host/vision/slam/map.hpp"
 #include "host/vision/slam/pose_only.hpp"
 #include "host/vision/slam/projection_match.hpp"
-#include "host/vision/slam/recognition.hpp"
 
 namespace pharos::slam {
 
@@ -32,8 +32,8 @@ struct Tracked {
 /// The map must not change while a call runs.
 class Tracker {
  public:
-  Tracker(const StereoCamera& camera, Map& map, const Recognition* recognition)
-      : camera_(camera), map_(map), recognition_(recognition) {}
+  Tracker(const StereoCamera& camera, Map& map, const KeyframeDatabase* keyframe_database)
+      : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
   /// Pose and points of `frame` are filled in; features are moved to where `pyramid`, of its left image, shows their
   /// points' patches (empty: none is). `mapping_idle` enters the keyframe rules.
@@ -47,18 +47,18 @@ class Tracker {
   }
 
  private:
-  std::optional<PoseOnly> by_motion(Frame& frame);
-  std::optional<PoseOnly> by_likeness(Frame& frame, KeyframeId keyframe, int least_inliers);
+  std::optional<PoseOnly> track_motion_model(Frame& frame);
+  std::optional<PoseOnly> match_reference_keyframe(Frame& frame, KeyframeId keyframe, int min_inliers);
   std::optional<PoseOnly> relocalise(Frame& frame);
-  std::optional<PoseOnly> in_local_map(Frame& frame, const PoseOnly& start, bool wide);
+  std::optional<PoseOnly> track_local_map(Frame& frame, const PoseOnly& start, bool wide);
   PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
-  bool keyframe_due(const Frame& frame, int inliers, bool mapping_idle) const;
+  bool needs_new_keyframe(const Frame& frame, int inliers, bool mapping_idle) const;
   CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }
   void remember(const Frame& frame, const PoseOnly& placed);
 
   StereoCamera camera_;
   Map& map_;
-  const Recognition* recognition_;
+  const KeyframeDatabase* keyframe_database_;
   TrackState state_ = TrackState::kWaiting;
   std::vector<PyramidLevel> pyramid_;  // of the frame at hand
   Frame last_;

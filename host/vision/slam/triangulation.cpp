@@ -11,10 +11,10 @@ namespace pharos::slam {
 namespace {
 
 constexpr std::size_t kTriangulateWith = 10;
-constexpr double kCosLeastParallax = 0.99985;  // 1 deg
+constexpr double kCosMinParallax = 0.99985;  // 1 deg
 
 bool fits(const Feature& feature, const Vector3& point_m, const StereoCamera& camera, const CameraFromTarget& pose) {
-  if (!((pose * point_m).z() > kLeastDepth_m)) return false;
+  if (!((pose * point_m).z() > kMinDepth_m)) return false;
   const Observation at = observation_of(feature, point_m);
   return residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= (at.stereo() ? kStereoChi2 : kMonoChi2);
 }
@@ -32,7 +32,7 @@ bool place_of(const Keyframe& a, const Feature& in_a, const Keyframe& b, const F
   const Vector3 ray_a = T_target_a.R * camera.back_project(in_a.pixel, 1.0);
   const Vector3 ray_b = T_target_b.R * camera.back_project(in_b.pixel, 1.0);
   const double cosine = ray_a.normalized().dot(ray_b.normalized());
-  if (cosine < kCosLeastParallax) {
+  if (cosine < kCosMinParallax) {
     // Midpoint of the shortest line between the rays.
     const Vector3 between = T_target_b.t - T_target_a.t;
     const double aa = ray_a.dot(ray_a), bb = ray_b.dot(ray_b), ab = ray_a.dot(ray_b);
@@ -62,13 +62,13 @@ double off_line(const Keyframe& a, const Feature& in_a, const Keyframe& b, const
 int triangulate_pair(Map& map, KeyframeId a_id, KeyframeId b_id, const StereoCamera& camera) {
   const Keyframe &a = map.keyframes.at(a_id), &b = map.keyframes.at(b_id);
   if ((a.pose.inverse().t - b.pose.inverse().t).norm() < 0.5 * camera.baseline_m) return 0;
-  const auto matches = match_by_likeness(a.features, pointless(a), b.features, pointless(b), 0.8);
+  const auto matches = match_by_descriptor(a.features, pointless(a), b.features, pointless(b), 0.8);
   int added = 0;
   for (const ProjectionMatch& match : matches) {
     const Feature& in_a = a.features[static_cast<std::size_t>(match.candidate)];
     const Feature& in_b = b.features[static_cast<std::size_t>(match.feature)];
     Vector3 point;
-    if (match.distance > kSamePoint || off_line(a, in_a, b, in_b, camera) > 2.0 * scale_of(in_b.level) ||
+    if (match.distance > kLowDistanceThreshold || off_line(a, in_a, b, in_b, camera) > 2.0 * scale_of(in_b.level) ||
         !place_of(a, in_a, b, in_b, camera, point) || !fits(in_a, point, camera, a.pose) ||
         !fits(in_b, point, camera, b.pose)) {
       continue;

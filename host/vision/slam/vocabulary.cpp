@@ -53,7 +53,7 @@ void check_tree(const std::vector<Vocabulary::Node>& nodes, const std::string& n
     const Vocabulary::Node& node = nodes[k];
     if (!std::isfinite(node.weight) || node.weight < 0.0F) refuse(name, "a word's weight is no number");
     if (node.first_child < 0) continue;
-    if (node.first_child != next || node.children < 1 || node.children > Vocabulary::kMostBranches ||
+    if (node.first_child != next || node.children < 1 || node.children > Vocabulary::kMaxBranches ||
         node.first_child <= static_cast<std::int64_t>(k)) {
       refuse(name, "the tree of words is damaged");
     }
@@ -87,7 +87,7 @@ Vocabulary Vocabulary::parse(std::span<const std::uint8_t> bytes, const std::str
   std::size_t at = kMagic.size();
   if (take<std::uint32_t>(bytes, at) != kVersion) refuse(name, "a vocabulary of another version");
   const auto count = static_cast<std::size_t>(take<std::uint32_t>(bytes, at));
-  if (count == 0 || count > kMostNodes) refuse(name, "the number of words is out of range");
+  if (count == 0 || count > kMaxNodes) refuse(name, "the number of words is out of range");
   const std::size_t whole = kHeader + count * kNode + kCrc;
   if (bytes.size() != whole) {
     refuse(name, (bytes.size() < whole ? "cut short: " : "too long: ") + std::to_string(bytes.size()) + " bytes of " +
@@ -119,11 +119,11 @@ int Vocabulary::word_of(const Descriptor& descriptor) const {
   std::int32_t at = 0;
   while (nodes_[static_cast<std::size_t>(at)].first_child >= 0) {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
-    int least = 257;
+    int minimum = 257;
     for (std::int32_t child = node.first_child; child < node.first_child + node.children; ++child) {
       const int d = distance(descriptor, nodes_[static_cast<std::size_t>(child)].descriptor);
-      if (d < least) {
-        least = d;
+      if (d < minimum) {
+        minimum = d;
         at = child;
       }
     }

@@ -15,9 +15,9 @@ namespace pharos::slam {
 /// rarely images show it (TF-IDF). After Galvez-Lopez and Tardos 2012, Nister and Stewenius 2006.
 class Vocabulary {
  public:
-  static constexpr int kMostBranches = 32;
-  static constexpr int kMostDepth = 8;
-  static constexpr std::size_t kMostNodes = std::size_t{1} << 20;
+  static constexpr int kMaxBranches = 32;
+  static constexpr int kMaxDepth = 8;
+  static constexpr std::size_t kMaxNodes = std::size_t{1} << 20;
 
   struct Node {
     Descriptor descriptor;

@@ -55,7 +55,7 @@ void say(const M& message) {
   while (!left.empty()) left = left.subspan(uart.write(left));
 }
 
-void say_hello() {
+void send_hello() {
   wire::Hello hello;
   hello.reset_cause = boot::last_reset(board::retained());
   hello.start_count = static_cast<std::uint16_t>(board::retained().start_count);
@@ -67,7 +67,7 @@ void say_hello() {
   say(hello);
 }
 
-void obey(const wire::Frame& frame) {
+void execute(const wire::Frame& frame) {
   const auto type = static_cast<std::uint8_t>(frame.type);
   const auto command = wire::decode_payload<wire::Command>(frame.payload);
   if (frame.type != wire::MessageType::kCommand || !command) {
@@ -75,7 +75,7 @@ void obey(const wire::Frame& frame) {
     return;
   }
   say(wire::Ack{type, frame.sequence, 0});
-  if (command->code == wire::CommandCode::kIdentify) say_hello();
+  if (command->code == wire::CommandCode::kIdentify) send_hello();
   if (command->code == wire::CommandCode::kEnterLoader) {
     while (!uart.idle()) {
     }
@@ -97,11 +97,11 @@ int main() {
   for (;;) {
     if (board::machine_ticks() >= next_hello) {
       next_hello += 50'000'000;
-      say_hello();
+      send_hello();
       boot::confirm_start(board::retained());
     }
     while (const auto byte = uart.read()) {
-      if (const auto frame = frames.push(*byte)) obey(*frame);
+      if (const auto frame = frames.push(*byte)) execute(*frame);
     }
   }
 }

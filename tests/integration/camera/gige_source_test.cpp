@@ -8,8 +8,8 @@
 
 #include <functional>
 
-#include "host/daemon/now.hpp"
-#include "integration/camera/own_network.hpp"
+#include "host/runtime/now.hpp"
+#include "integration/camera/network_namespace.hpp"
 #include "tools/sim/camera/fake_helios.hpp"
 
 namespace pharos::host {
@@ -18,23 +18,23 @@ namespace {
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new OwnNetwork);
+const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new NetworkNamespace);
 
 constexpr std::int32_t kWidth = 64;
 constexpr std::int32_t kHeight = 48;
 constexpr double kRange_m = 3.0;
-constexpr std::int64_t kPatienceNs = 20'000'000'000;
+constexpr std::int64_t kTimeout_ns = 20'000'000'000;
 
 class GigeSourceTest : public ::testing::Test {
  protected:
   GigeSourceTest() {
-    reel.width_px = kWidth;
-    reel.height_px = kHeight;
+    sequence.width_px = kWidth;
+    sequence.height_px = kHeight;
     for (std::uint16_t i = 0; i < 3; ++i) {
       const std::size_t pixels = kWidth * kHeight;
-      reel.frames.push_back({std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(1000 + i)),
-                             std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(kRange_m / 0.00025)),
-                             std::nullopt});
+      sequence.frames.push_back({std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(1000 + i)),
+                                 std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(kRange_m / 0.00025)),
+                                 std::nullopt});
     }
     settings.address = "127.0.0.1";
     settings.packet_size = 9000;
@@ -42,11 +42,11 @@ class GigeSourceTest : public ::testing::Test {
     settings.height_px = kHeight;
   }
 
-  void serve() { camera.emplace(reel, play, nullptr, monotonic_now_ns()); }
+  void serve() { camera.emplace(sequence, play, nullptr, monotonic_now_ns()); }
 
   /// Takes frames until `done`; false after a long time.
   bool run(GigeSource& source, const std::function<bool()>& done) {
-    const std::int64_t until_ns = monotonic_now_ns() + kPatienceNs;
+    const std::int64_t until_ns = monotonic_now_ns() + kTimeout_ns;
     while (!done()) {
       if (monotonic_now_ns() > until_ns) return false;
       pollfd waiting{source.fd(), POLLIN, 0};
@@ -56,7 +56,7 @@ class GigeSourceTest : public ::testing::Test {
         last = *frame;
         bad_pixels += std::count_if(frame->intensity.begin(), frame->intensity.end(),
                                     [](std::uint16_t value) { return value < 1000 || value > 1002; });
-        source.give_back(std::move(frame));
+        source.recycle(std::move(frame));
       }
     }
     return true;
@@ -65,11 +65,11 @@ class GigeSourceTest : public ::testing::Test {
     const int wanted = taken + count;
     return run(source, [&] { return taken >= wanted; });
   }
-  bool trouble_comes(GigeSource& source, const std::string& words) {
-    return run(source, [&] { return source.status().trouble.find(words) != std::string::npos; });
+  bool wait_for_error(GigeSource& source, const std::string& words) {
+    return run(source, [&] { return source.status().error.find(words) != std::string::npos; });
   }
 
-  sim::FrameReel reel;
+  sim::FrameSequence sequence;
   sim::CameraPlay play;
   CameraSettings settings;
   std::optional<sim::FakeHelios> camera;
@@ -82,7 +82,7 @@ TEST_F(GigeSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
   serve();
   settings.mode = "Distance3000mmSingleFreq";  // the camera begins in another, of another scale
   GigeSource source(settings);
-  ASSERT_TRUE(frames_come(source, 5)) << source.status().trouble;
+  ASSERT_TRUE(frames_come(source, 5)) << source.status().error;
   ASSERT_TRUE(last.scale);
   EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2] + last.scale->offset_m[2], kRange_m, 1e-4);
   EXPECT_NEAR(last.scale->scale_m[2], play.fine_scale_m, 1e-12);
@@ -99,7 +99,7 @@ TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
   play.depth_and_intensity_apart = true;
   serve();
   GigeSource source(settings);
-  ASSERT_TRUE(frames_come(source, 3)) << source.status().trouble;
+  ASSERT_TRUE(frames_come(source, 3)) << source.status().error;
   EXPECT_TRUE(last.taken_in_turns);
   EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2], kRange_m, 1e-3);
   EXPECT_EQ(bad_pixels, 0);
@@ -108,12 +108,12 @@ TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
 
 TEST_F(GigeSourceTest, AGreyCamerasSixteenBitsComeThroughAndOfMono8TheUpperEight) {
   play.grey = true;
-  for (sim::ReelFrame& frame : reel.frames) std::fill(frame.intensity.begin(), frame.intensity.end(), 0x1234);
+  for (sim::SequenceFrame& frame : sequence.frames) std::fill(frame.intensity.begin(), frame.intensity.end(), 0x1234);
   serve();
   for (const auto& [format, value] : {std::pair{CameraFormat::kMono16, 0x1234}, {CameraFormat::kMono8, 0x1212}}) {
     settings.format = format;
     GigeSource source(settings);
-    ASSERT_TRUE(frames_come(source, 2)) << source.status().trouble;
+    ASSERT_TRUE(frames_come(source, 2)) << source.status().error;
     EXPECT_THAT(last.intensity, Each(value));
     EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
   }
@@ -125,42 +125,42 @@ TEST_F(GigeSourceTest, FindsACameraByItsSerialNumberOrSaysWhichThereAre) {
   settings.serial = "1234";
   {
     GigeSource other(settings);
-    EXPECT_TRUE(trouble_comes(other, "no camera with serial number 1234 answers; these do: " + play.serial));
+    EXPECT_TRUE(wait_for_error(other, "no camera with serial number 1234 answers; these do: " + play.serial));
     EXPECT_EQ(other.status().state, CameraState::kGone);
   }
   settings.serial = play.serial;
   GigeSource source(settings);
-  EXPECT_TRUE(frames_come(source, 2)) << source.status().trouble;
+  EXPECT_TRUE(frames_come(source, 2)) << source.status().error;
 }
 
 TEST_F(GigeSourceTest, SaysWhatIsWrongWithACameraThatIsNotAsConfigured) {
   serve();
-  const auto trouble_of = [&](const CameraSettings& wrong, const std::string& words) {
+  const auto error_of = [&](const CameraSettings& wrong, const std::string& words) {
     GigeSource source(wrong);
-    const bool came = trouble_comes(source, words);
-    EXPECT_TRUE(came) << source.status().trouble;
+    const bool came = wait_for_error(source, words);
+    EXPECT_TRUE(came) << source.status().error;
     EXPECT_EQ(source.status().state, CameraState::kWrong);
   };
   CameraSettings wrong = settings;
   wrong.mode = "Distance9999mm";
-  trouble_of(wrong, "does not take mode \"Distance9999mm\"; it knows Distance1250mmSingleFreq, ");
+  error_of(wrong, "does not take mode \"Distance9999mm\"; it knows Distance1250mmSingleFreq, ");
   wrong = settings;
   wrong.serial = "77";
-  trouble_of(wrong, "has serial number " + play.serial + ", not 77");
+  error_of(wrong, "has serial number " + play.serial + ", not 77");
   wrong = settings;
   wrong.width_px = 640;
-  trouble_of(wrong, "gives 64 x 48 pixels, its camera file is for 640 x 48");
+  error_of(wrong, "gives 64 x 48 pixels, its camera file is for 640 x 48");
 }
 
 TEST_F(GigeSourceTest, WaitsForACameraThatAnotherProgramHolds) {
   serve();
   std::optional<GigeCamera> other(std::in_place, settings);
   GigeSource source(settings);
-  ASSERT_TRUE(trouble_comes(source, "another program controls the camera"));
+  ASSERT_TRUE(wait_for_error(source, "another program controls the camera"));
   EXPECT_EQ(source.status().state, CameraState::kTaken);
   EXPECT_EQ(taken, 0);
   other.reset();
-  EXPECT_TRUE(frames_come(source, 2)) << source.status().trouble;
+  EXPECT_TRUE(frames_come(source, 2)) << source.status().error;
 }
 
 TEST_F(GigeSourceTest, ComesBackWithTheCameraInANewSession) {
@@ -171,7 +171,7 @@ TEST_F(GigeSourceTest, ComesBackWithTheCameraInANewSession) {
   camera.reset();
   ASSERT_TRUE(run(source, [&] { return source.status().state != CameraState::kOpen; }));
   serve();
-  ASSERT_TRUE(frames_come(source, 2)) << source.status().trouble;
+  ASSERT_TRUE(frames_come(source, 2)) << source.status().error;
   EXPECT_EQ(last.session, session + 1);
   EXPECT_EQ(bad_pixels, 0);
   const FrameSourceCounters counters = source.status().counters;
@@ -182,7 +182,7 @@ TEST_F(GigeSourceTest, OpensASilentCameraAnew) {
   play.stalls.push_back({0.0, 1e6});
   serve();
   GigeSource source(settings);
-  ASSERT_TRUE(trouble_comes(source, "no frame comes"));
+  ASSERT_TRUE(wait_for_error(source, "no frame comes"));
   EXPECT_EQ(source.status().state, CameraState::kSilent);
   EXPECT_TRUE(run(source, [&] { return source.status().counters.camera_opened >= 2; }));
   EXPECT_EQ(taken, 0);

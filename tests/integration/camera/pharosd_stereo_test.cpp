@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "host/cameras/rig_file.hpp"
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "integration/daemon_under_test.hpp"
 #include "support/painted_ring_pair.hpp"
 #include "tools/sim/camera/fake_helios.hpp"
-#include "tools/sim/camera/make_reel.hpp"
+#include "tools/sim/camera/make_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 
 namespace pharos::host {
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr double kStereoPatience_s = 120.0;  // of a machine that does other work
+constexpr double kStereoTimeout_s = 120.0;  // of a machine that does other work
 constexpr double kDeg = 0.017453292519943295;
 
 Matrix3 rotation_of(const pose_t& pose) {
@@ -69,12 +69,12 @@ class PharosdStereoTest : public ::testing::Test {
 TEST_F(PharosdStereoTest, TellsTheRingsPoseOfRecordedPairs) {
   write_pairs(3);
   ChildProcess& pharosd = start("systems = ['ring2']\nframes = 'pairs'\nframe_rate_hz = 0.5\n");
-  ASSERT_TRUE(daemon.wait([&] { return daemon.valid_poses("client") >= 3; }, kStereoPatience_s)) << pharosd.text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.valid_poses("client") >= 3; }, kStereoTimeout_s)) << pharosd.text();
   for (std::size_t k = 0; k < truths.size(); ++k) expect_ring(daemon.poses()[k], truths[k]);
   EXPECT_NEAR(static_cast<double>(daemon.poses()[2].utime - daemon.poses()[0].utime), 4e6, 2.0) << "0.5 pairs/s";
   EXPECT_EQ(daemon.poses()[0].source, "ring2/bow");
   EXPECT_EQ(daemon.poses()[0].flags, "no_connector") << "the turn about the axis is not told";
-  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << "at the recording's end";
+  EXPECT_EQ(pharosd.wait_exit(kStereoTimeout_s), 0) << "at the recording's end";
   EXPECT_TRUE(daemon.wait([&] { return daemon.counter("pairs_ok", "client") == 3; })) << "told at the end";
 }
 
@@ -85,9 +85,9 @@ TEST_F(PharosdStereoTest, FollowsATumblingTargetInRecordedPairs) {
   fs::copy_file(pairs / "rig.toml", daemon.folder() / "rig.toml");
   const sim::TumblingSequence sequence(scenario, 5);
   ChildProcess& pharosd = start("systems = ['slam']\nframes = 'pairs'\n[stereo.slam]\nfeatures = 800\n", {"--fast"});
-  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << pharosd.text();
+  EXPECT_EQ(pharosd.wait_exit(kStereoTimeout_s), 0) << pharosd.text();
   const auto frames = static_cast<std::size_t>(sequence.frames());
-  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= frames; }, kStereoPatience_s));
+  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= frames; }, kStereoTimeout_s));
   for (std::size_t k = 0; k < frames; ++k) {
     const pose_t& pose = daemon.poses()[k];
     ASSERT_EQ(pose.status, "ok") << k;
@@ -129,8 +129,8 @@ TEST_F(PharosdStereoTest, ALostTargetHasNoPoseUntilItIsFoundAgain) {
   std::ofstream(pairs / "right" / "000012.png") << "no image";
   const sim::TumblingSequence sequence(scenario, 5);
   ChildProcess& pharosd = start("systems = ['slam']\nframes = 'pairs'\n[stereo.slam]\nfeatures = 800\n", {"--fast"});
-  EXPECT_EQ(pharosd.wait_exit(kStereoPatience_s), 0) << pharosd.text();
-  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= 13; }, kStereoPatience_s));
+  EXPECT_EQ(pharosd.wait_exit(kStereoTimeout_s), 0) << pharosd.text();
+  ASSERT_TRUE(daemon.wait([&] { return daemon.poses().size() >= 13; }, kStereoTimeout_s));
   for (std::size_t k = 0; k < 13; ++k) {
     const pose_t& pose = daemon.poses()[k];
     if (k >= 7 && k <= 9) {
@@ -162,7 +162,7 @@ TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
            {"rig_file = 'rig.toml'\nsystems = ['slam']\nframes = 'none'\n", "none"}}) {
     std::ofstream(daemon.folder() / "pharosd.toml") << "[[stereo]]\nname = 'bow'\ntarget = 'client'\n" << keys;
     ChildProcess check({DaemonUnderTest::program(), "--check", (daemon.folder() / "pharosd.toml").string()});
-    EXPECT_EQ(check.wait_exit(kStereoPatience_s), 2) << keys;
+    EXPECT_EQ(check.wait_exit(kStereoTimeout_s), 2) << keys;
     EXPECT_THAT(check.text(), HasSubstr(complaint));
   }
 }
@@ -185,7 +185,7 @@ class TwoCamerasTest : public PharosdStereoTest {
   void serve_pair(int bits, std::uint16_t dimmer = 1) {
     write_pairs(1, bits, dimmer);
     for (std::size_t side = 0; side < 2; ++side) {
-      reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
+      sequences[side] = sim::sequence_of_pairs(pairs.string(), side, 1);
       serve(side);
     }
   }
@@ -194,13 +194,13 @@ class TwoCamerasTest : public PharosdStereoTest {
     start("systems = ['" + system + "']\npacket_size = 9000\npairing_window_ms = 100\n" + more +
           "[stereo.left]\naddress = '127.0.0.1'\n[stereo.right]\naddress = '127.0.0.2'\n");
   }
-  void serve(std::size_t side) { cameras[side].emplace(reels[side], plays[side], nullptr, monotonic_now_ns()); }
+  void serve(std::size_t side) { cameras[side].emplace(sequences[side], plays[side], nullptr, monotonic_now_ns()); }
   bool poses_come(std::size_t count) {
     const std::size_t wanted = daemon.valid_poses("client") + count;
-    return daemon.wait([&] { return daemon.valid_poses("client") >= wanted; }, kStereoPatience_s);
+    return daemon.wait([&] { return daemon.valid_poses("client") >= wanted; }, kStereoTimeout_s);
   }
 
-  std::array<sim::FrameReel, 2> reels;
+  std::array<sim::FrameSequence, 2> sequences;
   std::array<sim::CameraPlay, 2> plays;
   std::array<std::optional<sim::FakeHelios>, 2> cameras;
 };
@@ -220,7 +220,7 @@ TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) 
         return source.state != "ok" && source.message.find("right: ") != std::string::npos &&
                daemon.counter("left.frames_without_partner", "client") > 2;
       },
-      kStereoPatience_s))
+      kStereoTimeout_s))
       << daemon.source("client")->message;
   serve(1);
   ASSERT_TRUE(poses_come(3)) << daemon.process().text();
@@ -238,7 +238,7 @@ TEST_F(TwoCamerasTest, FollowASatelliteWithoutAModel) {
   sim::write_tumbling(scenario, 5, pairs.string(), [] {});
   fs::copy_file(pairs / "rig.toml", daemon.folder() / "rig.toml");
   for (std::size_t side = 0; side < 2; ++side) {
-    reels[side] = sim::reel_of_pairs(pairs.string(), side, 1);
+    sequences[side] = sim::sequence_of_pairs(pairs.string(), side, 1);
     serve(side);
   }
   start_cameras("[stereo.slam]\nfeatures = 800\n", "slam");
@@ -260,7 +260,7 @@ TEST_F(TwoCamerasTest, SixteenBitsSeeARingInAnEighthOfTheLight) {
   for (const pose_t& pose : daemon.poses()) {
     if (pose.valid != 0) expect_ring(pose, truths[0]);
   }
-  ASSERT_TRUE(daemon.wait([&] { return daemon.source("client") != nullptr; }, kStereoPatience_s));
+  ASSERT_TRUE(daemon.wait([&] { return daemon.source("client") != nullptr; }, kStereoTimeout_s));
   EXPECT_THAT(daemon.source("client")->identity, HasSubstr("Mono16"));
 }
 

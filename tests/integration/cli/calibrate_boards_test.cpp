@@ -64,7 +64,7 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheFateOfEachImage) {
   EXPECT_THAT(run.err, HasSubstr("dark.png: no_board: no dots"));
   EXPECT_THAT(run.err, HasSubstr("k3 was held"));
   const host::CameraFile file = host::read_camera_file(path("camera.toml"));
-  EXPECT_NEAR(file.camera.optics.fx_px, kSmallLens.fx_px, 0.5);
+  EXPECT_NEAR(file.camera.intrinsics.fx_px, kSmallLens.fx_px, 0.5);
   ASSERT_TRUE(file.calibration);
   EXPECT_EQ(file.calibration->images, 4);
   EXPECT_EQ(file.calibration->points, 4 * 30);
@@ -101,15 +101,15 @@ TEST_F(BoardImages, OfOnePoseAreRefusedAndNoFileIsWritten) {
 
 TEST_F(BoardImages, WrongUsageIsToldInOneLine) {
   const std::string output = " --output " + path("camera.toml");
-  const auto complaint = [&](const std::string& arguments) {
+  const auto message = [&](const std::string& arguments) {
     const Outcome run = pharos("calibrate " + arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments;
     return run.err;
   };
-  EXPECT_THAT(complaint("camera nothing.png" + output), HasSubstr("nothing.png"));
-  EXPECT_THAT(complaint("camera a.png --board chessboard" + output), HasSubstr("needs --columns, --rows"));
-  EXPECT_THAT(complaint("camera a.png --radius-mm 10" + output), HasSubstr("touch"));
-  EXPECT_THAT(complaint("stereo --left a.png b.png --right c.png" + output), HasSubstr("2 left and 1 right"));
+  EXPECT_THAT(message("camera nothing.png" + output), HasSubstr("nothing.png"));
+  EXPECT_THAT(message("camera a.png --board chessboard" + output), HasSubstr("needs --columns, --rows"));
+  EXPECT_THAT(message("camera a.png --radius-mm 10" + output), HasSubstr("touch"));
+  EXPECT_THAT(message("stereo --left a.png b.png --right c.png" + output), HasSubstr("2 left and 1 right"));
 }
 
 }  // namespace

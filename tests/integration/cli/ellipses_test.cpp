@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "tests/integration/cli/program.hpp"
-#include "tools/problems/ring_images.hpp"
+#include "tools/evaluation/problems/ring_images.hpp"
 
 namespace pharos::cli_test {
 namespace {

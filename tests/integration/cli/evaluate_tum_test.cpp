@@ -130,12 +130,12 @@ constexpr double kClose = 1e-6;  // relative
 
 TEST(EvaluateTum, AttitudeAndPositionErrorsAgree) {
   const Recordings recordings(false);
-  double rotation = 0.0, most = 0.0, position = 0.0;
+  double rotation = 0.0, maximum = 0.0, position = 0.0;
   for (std::size_t k = 0; k < recordings.truth.size(); ++k) {
     const Stamped &e = recordings.estimate[k], &t = recordings.truth[k];
     const double angle = angle_rad(times(back(t.q), e.q));
     rotation += angle * angle;
-    most = std::max(most, angle);
+    maximum = std::max(maximum, angle);
     position += square(minus(e.t, t.t));
   }
   const auto count = static_cast<double>(recordings.truth.size());
@@ -143,7 +143,7 @@ TEST(EvaluateTum, AttitudeAndPositionErrorsAgree) {
   const Row row = evaluated(recordings, "--align none");
   EXPECT_EQ(row.at("compared"), "240");
   EXPECT_NEAR(std::stod(row.at("rot_rms_deg")), rotation_deg, kClose * rotation_deg);
-  EXPECT_NEAR(std::stod(row.at("rot_max_deg")), most * kDegPerRad, kClose * most * kDegPerRad);
+  EXPECT_NEAR(std::stod(row.at("rot_max_deg")), maximum * kDegPerRad, kClose * maximum * kDegPerRad);
   EXPECT_NEAR(std::stod(row.at("pos_rms_mm")), position_mm, kClose * position_mm);
 }
 

@@ -31,7 +31,7 @@ ExampleRecording::ExampleRecording() {
   errors.gibbous_magnitude_rad = 0.004;
   scenario.stations.front().calibration = std::array{errors, errors};
   const sim::RoomFromBody pose{truth_.R, truth_.t};
-  scenario.trajectory = std::make_shared<sim::RestTrajectory>(std::vector{pose}, 2.0 * scenario.duration_s, 0.0);
+  scenario.trajectory = std::make_shared<sim::StationaryTrajectory>(std::vector{pose}, 2.0 * scenario.duration_s, 0.0);
   sim::write_recording(scenario, 1, folder_.path(""));
 }
 

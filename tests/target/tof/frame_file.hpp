@@ -25,7 +25,7 @@ struct FrameFile {
 
   DepthCamera camera() const {
     DepthCamera camera;
-    camera.optics = {tof::kMaxWidth_px, tof::kMaxHeight_px, fx_px, fy_px, cx_px, cy_px, distortion};
+    camera.intrinsics = {tof::kMaxWidth_px, tof::kMaxHeight_px, fx_px, fy_px, cx_px, cy_px, distortion};
     camera.depth_scale_m = depth_scale_m;
     camera.depth_origin_z_m = depth_origin_z_m;
     return camera;

@@ -54,7 +54,7 @@ int main() {
   const auto workspace = std::make_unique<tof::TofWorkspace>();
   // The lens' rays are made once a camera: apart from what a frame costs.
   const std::uint64_t begin = board::instructions_retired();
-  if (!workspace->rays.prepare(file.camera().optics)) return 1;
+  if (!workspace->rays.prepare(file.camera().intrinsics)) return 1;
   say("rays_once", static_cast<std::int64_t>(board::instructions_retired() - begin));
   StageCount stages;
   const auto result = tof::measure_tof_pose(file.frame(), file.camera(), {}, *workspace, &stages);

@@ -18,8 +18,8 @@ class Draw {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
     return z ^ (z >> 31);
   }
-  std::int64_t integer(std::int64_t least, std::int64_t most) {
-    return least + static_cast<std::int64_t>(bits() % static_cast<std::uint64_t>(most - least + 1));
+  std::int64_t integer(std::int64_t minimum, std::int64_t maximum) {
+    return minimum + static_cast<std::int64_t>(bits() % static_cast<std::uint64_t>(maximum - minimum + 1));
   }
   bool one_in(std::int64_t count) { return integer(1, count) == 1; }
   /// In [-1, 1).

@@ -101,8 +101,8 @@ void station_vectors() {
 }  // namespace
 
 void pose_vectors() {
-  solve_vectors(frustum_target(), kPaperSigmaRad, 2);
-  solve_vectors(top_plate_target(), 5.0 * kPaperSigmaRad, 3);  // coplanar: two poses may fit
+  solve_vectors(frustum_target(), kPaperSigma_rad, 2);
+  solve_vectors(top_plate_target(), 5.0 * kPaperSigma_rad, 3);  // coplanar: two poses may fit
   precision_vectors();
   station_vectors();
 }

@@ -5,7 +5,7 @@
 
 #include "pharos/base/units.hpp"
 #include "tests/target/vectors/draw.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::test {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pharos/base/result.hpp"
-#include "pharos/base/ring.hpp"
+#include "pharos/base/ring_buffer.hpp"
 #include "pharos/base/static_vector.hpp"
 
 namespace pharos {
@@ -28,8 +28,8 @@ TEST(StaticVector, ErasesUnordered) {
   EXPECT_EQ(v.size(), 2u);
 }
 
-TEST(Ring, KeepsOrderThroughManyWraps) {
-  Ring<int, 3> ring;
+TEST(RingBuffer, KeepsOrderThroughManyWraps) {
+  RingBuffer<int, 3> ring;
   int in = 0;
   int out = 0;
   for (int round = 0; round < 50; ++round) {

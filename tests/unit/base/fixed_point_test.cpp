@@ -55,7 +55,7 @@ TEST(FixedPoint, RootAndItsInverse) {
     const auto value = static_cast<std::int64_t>(engine() >> (4U + engine() % 56U));
     if (value == 0) continue;
     const Root root = root_of(value);
-    const double expected = std::sqrt(std::ldexp(static_cast<double>(value), 2 * root.doublings - 60));
+    const double expected = std::sqrt(std::ldexp(static_cast<double>(value), 2 * root.binary_exponent - 60));
     ASSERT_GE(expected, 0.4999999);
     ASSERT_LT(expected, 1.0);
     ASSERT_NEAR(root.root * kUnit, expected, 3 * kUnit) << value;

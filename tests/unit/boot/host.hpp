@@ -77,7 +77,7 @@ class Host {
     begin.board = wire::Text<24>(board);
     return ask(begin);
   }
-  Reply data(const Bytes& image, std::size_t offset, std::size_t bytes = image::kPageBytes) {
+  Reply data(const Bytes& image, std::size_t offset, std::size_t bytes = boot_image::kPageBytes) {
     wire::LoaderData data;
     data.offset = static_cast<std::uint32_t>(offset);
     for (std::size_t i = offset; i < std::min(offset + bytes, image.size()); ++i) data.data.push_back(image[i]);
@@ -86,7 +86,7 @@ class Host {
   /// All blocks from `offset` on; the answer to the first that was not taken, else to the last.
   Reply all_data(const Bytes& image, std::size_t offset = 0) {
     Reply reply;
-    for (; offset < image.size(); offset += image::kPageBytes) {
+    for (; offset < image.size(); offset += boot_image::kPageBytes) {
       reply = data(image, offset);
       if (!reply.ack) return reply;
     }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pharos/image/image_header.hpp"
+#include "pharos/boot_image/boot_image_header.hpp"
 #include "pharos/wire/text.hpp"
 #include "unit/boot/model_board.hpp"
 
@@ -18,13 +18,13 @@ using Bytes = std::vector<std::uint8_t>;
 
 struct ImageOptions {
   std::size_t body_bytes = 1200;
-  image::Version version{1, 0, 0};
+  boot_image::Version version{1, 0, 0};
   std::string_view board = "model";
   std::uint32_t load_address = Machine::kMemoryAddress;
 };
 
 inline Bytes body_of(const Bytes& file) {
-  const auto body = std::span(file).subspan(image::kPageBytes);
+  const auto body = std::span(file).subspan(boot_image::kPageBytes);
   return {body.begin(), body.end()};
 }
 
@@ -33,16 +33,16 @@ inline Bytes make_image(unsigned seed, const ImageOptions& options = {}) {
   std::mt19937 random(seed);
   Bytes body(options.body_bytes);
   for (std::uint8_t& byte : body) byte = static_cast<std::uint8_t>(random());
-  image::ImageHeader header{};
+  boot_image::BootImageHeader header{};
   header.load_address = options.load_address;
   header.entry_address = options.load_address + 4;
   header.version = options.version;
   header.board = wire::Text<24>(options.board).characters;
   header.name = wire::Text<12>("test").characters;
-  header = image::sealed(header, body);
-  Bytes file(image::kPageBytes + body.size(), 0xFF);
-  std::ranges::copy(image::bytes_of(header), file.begin());
-  std::ranges::copy(body, file.begin() + image::kPageBytes);
+  header = boot_image::sealed(header, body);
+  Bytes file(boot_image::kPageBytes + body.size(), 0xFF);
+  std::ranges::copy(boot_image::bytes_of(header), file.begin());
+  std::ranges::copy(body, file.begin() + boot_image::kPageBytes);
   return file;
 }
 

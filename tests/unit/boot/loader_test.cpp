@@ -68,7 +68,7 @@ TEST_F(Loader, TellsTheSlotItWillWriteAndTheVersionItWouldStart) {
   EXPECT_EQ(hello->firmware_minor, 2);
   EXPECT_EQ(hello->firmware_patch, 3);
   EXPECT_EQ(info->loader_version, kLoaderVersion);
-  EXPECT_EQ(info->block_bytes, image::kPageBytes);
+  EXPECT_EQ(info->block_bytes, boot_image::kPageBytes);
   EXPECT_EQ(info->slot_offset, ModelBoard::slot_offset(1));
   EXPECT_EQ(info->capacity_bytes, ModelBoard::kSlotBytes);
   EXPECT_EQ(info->board.view(), "model");
@@ -107,7 +107,7 @@ TEST_F(Loader, RefusesWhatCannotRunHere) {
   start_with(target, host, old_image);
   ASSERT_TRUE(host.enter());
   EXPECT_EQ(host.begin(new_image, "other").nak, wire::NakReason::kWrongBoard);
-  EXPECT_EQ(host.begin(Bytes(image::kPageBytes)).nak, wire::NakReason::kBadPayload);
+  EXPECT_EQ(host.begin(Bytes(boot_image::kPageBytes)).nak, wire::NakReason::kBadPayload);
   const Reply large = host.begin(Bytes(ModelBoard::kSlotBytes + 4));
   EXPECT_EQ(large.nak, wire::NakReason::kTooLarge);
   EXPECT_EQ(large.nak_value, ModelBoard::kSlotBytes);
@@ -115,7 +115,7 @@ TEST_F(Loader, RefusesWhatCannotRunHere) {
   const auto refused_head = [&](const Bytes& image) {
     EXPECT_TRUE(host.begin(image).ack);
     const Reply first = host.data(image, 0);
-    const Reply then = host.data(image, image::kPageBytes);
+    const Reply then = host.data(image, boot_image::kPageBytes);
     return first.nak == wire::NakReason::kBadPayload && then.nak == wire::NakReason::kOutOfOrder &&
            then.nak_value == wire::kNothingBegun;
   };
@@ -139,8 +139,8 @@ TEST_F(Loader, EveryRequestMayComeTwice) {
   ASSERT_TRUE(host.enter());
   ASSERT_EQ(host.begin(new_image).ack, 0u);
   EXPECT_EQ(host.begin(new_image).ack, 0u);
-  for (std::size_t offset = 0; offset < new_image.size(); offset += image::kPageBytes) {
-    const auto next = static_cast<std::uint32_t>(std::min(offset + image::kPageBytes, new_image.size()));
+  for (std::size_t offset = 0; offset < new_image.size(); offset += boot_image::kPageBytes) {
+    const auto next = static_cast<std::uint32_t>(std::min(offset + boot_image::kPageBytes, new_image.size()));
     EXPECT_EQ(host.data(new_image, offset).ack, next);
     EXPECT_EQ(host.data(new_image, offset).ack, next);
     EXPECT_EQ(host.data(new_image, 0).ack, next);
@@ -241,7 +241,7 @@ TEST_F(Loader, GoesBackFromAnImageThatStaysSilent) {
   target.silent_patch = 2;
   host.flash(silent);
   target.run(kTicksPerSecond);
-  for (int reset = 0; reset < Retained::kMostTries; ++reset) {
+  for (int reset = 0; reset < Retained::kMaxBootAttempts; ++reset) {
     ASSERT_TRUE(target.runs_application());
     EXPECT_EQ(target.running().version.patch, 2) << reset;
     target.reset();  // the watchdog's
@@ -258,7 +258,7 @@ TEST_F(Loader, GoesBackFromAnImageThatStaysSilent) {
   target.run(kTicksPerSecond);
   EXPECT_EQ(target.running().version.patch, 3) << "over the silent one";
   target.silent_patch = 3;
-  for (int reset = 0; reset <= Retained::kMostTries; ++reset) {
+  for (int reset = 0; reset <= Retained::kMaxBootAttempts; ++reset) {
     target.reset();
     target.run(kTicksPerSecond);
   }
@@ -268,7 +268,7 @@ TEST_F(Loader, GoesBackFromAnImageThatStaysSilent) {
 TEST_F(Loader, KeepsASilentImageWhereThereIsNoOther) {
   start_with(target, host, old_image);
   target.hangs = true;
-  for (int reset = 0; reset < 2 * Retained::kMostTries; ++reset) {
+  for (int reset = 0; reset < 2 * Retained::kMaxBootAttempts; ++reset) {
     target.reset();
     target.run(kTicksPerSecond);
     ASSERT_TRUE(target.runs_application());

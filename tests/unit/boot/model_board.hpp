@@ -53,8 +53,8 @@ struct Machine {
   std::int64_t host_busy_until() const { return into_target_; }
 
   int receive() {
-    constexpr std::int64_t kPollTicks = 30;  // of a loop of as many instructions
-    now += kPollTicks;
+    constexpr std::int64_t kPoll_ticks = 30;  // of a loop of as many instructions
+    now += kPoll_ticks;
     const auto arrived = std::ranges::find_if(to_target, [this](const TimedByte& b) { return b.when > now; });
     const auto waiting = static_cast<std::size_t>(arrived - to_target.begin());
     if (waiting == 0) return -1;
@@ -85,7 +85,7 @@ struct ModelBoard {
   static constexpr std::array<char, 24> kName{"model"};
   using Flash = ModelFlash;
   static constexpr std::uint32_t kSlotBytes = 2 * ModelFlash::kSectorBytes;
-  static_assert(image::kSlots * kSlotBytes == ModelFlash::kBytes);
+  static_assert(boot_image::kSlots * kSlotBytes == ModelFlash::kBytes);
 
   static void prepare() {}
   static Flash& flash() { return machine->flash; }

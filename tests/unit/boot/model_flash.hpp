@@ -96,18 +96,18 @@ class ModelFlash {
     }
   }
   void leave_anything(std::uint32_t at) {
-    const auto dice = static_cast<std::uint32_t>(random());
-    switch (dice % 4) {
+    const auto rng = static_cast<std::uint32_t>(random());
+    switch (rng % 4) {
       case 0:
         return;  // as it was
       case 1:
         bytes[at] = 0xFF;
         return;
       case 2:
-        bytes[at] = static_cast<std::uint8_t>(dice >> 8);
+        bytes[at] = static_cast<std::uint8_t>(rng >> 8);
         return;
       default:
-        if (dice % 64 == 3) unstable_.insert(at);
+        if (rng % 64 == 3) unstable_.insert(at);
     }
   }
 

@@ -12,7 +12,7 @@ namespace {
 enum class Starts : std::uint8_t { kOld, kNew, kNeither };
 
 /// Time is not what matters here.
-void hurry(VirtualTarget& target) {
+void set_fast_flash(VirtualTarget& target) {
   target.turn_ticks = kTicksPerSecond / 200;
   target.machine.byte_ticks = 1;
   target.machine.uart_holds = 1 << 20;
@@ -38,7 +38,7 @@ void cut_at_every_step(unsigned seed, const Bytes& before, const Bytes& old_imag
   std::uint64_t news = 0;
   for (std::uint64_t cut = 0; cut < steps; ++cut) {
     VirtualTarget target;
-    hurry(target);
+    set_fast_flash(target);
     target.machine.flash.bytes = before;
     target.machine.flash.random.seed(seed + static_cast<unsigned>(cut));
     Host host(target);
@@ -115,7 +115,7 @@ TEST(PowerCut, WhileTheFirstImageIsWrittenLeavesALoaderThatTakesIt) {
   const Bytes image = make_image(1, {.body_bytes = 300});
   for (std::uint64_t cut = 0; cut < 6 + 300 + 72; cut += 7) {
     VirtualTarget target;
-    hurry(target);
+    set_fast_flash(target);
     Host host(target);
     target.power_on();
     target.machine.flash.steps_left = cut;

@@ -49,31 +49,32 @@ TEST(Retained, KeepsWhatWasAnnouncedForOneReset) {
 TEST(Retained, ThreeSilentStartsInARowAreTheTriesOfAnImage) {
   Retained retained;
   note_reset(retained);  // power on
-  for (int start = 0; start < Retained::kMostTries; ++start) {
-    EXPECT_FALSE(had_its_tries(retained)) << start;
+  for (int start = 0; start < Retained::kMaxBootAttempts; ++start) {
+    EXPECT_FALSE(boot_attempts_exhausted(retained)) << start;
     note_start(retained);
     note_reset(retained);  // the watchdog's
   }
-  EXPECT_TRUE(had_its_tries(retained));
+  EXPECT_TRUE(boot_attempts_exhausted(retained));
   note_start(retained);
   confirm_start(retained);  // of the one fallen back on
   note_reset(retained);
-  EXPECT_TRUE(had_its_tries(retained));
+  EXPECT_TRUE(boot_attempts_exhausted(retained));
   announce_reset(retained, wire::ResetCause::kCommand, true);
   note_reset(retained);
-  EXPECT_TRUE(had_its_tries(retained)) << "the loader that was asked for must not take the silent one for good";
-  forget_tries(retained);
-  EXPECT_FALSE(had_its_tries(retained));
+  EXPECT_TRUE(boot_attempts_exhausted(retained))
+      << "the loader that was asked for must not take the silent one for good";
+  reset_boot_attempts(retained);
+  EXPECT_FALSE(boot_attempts_exhausted(retained));
 }
 
 TEST(Retained, AStartThatIsConfirmedIsNoTry) {
   Retained retained;
   note_reset(retained);
-  for (int start = 0; start < 3 * Retained::kMostTries; ++start) {
+  for (int start = 0; start < 3 * Retained::kMaxBootAttempts; ++start) {
     note_start(retained);
     if (start % 2 == 0) confirm_start(retained);
     note_reset(retained);
-    EXPECT_FALSE(had_its_tries(retained));
+    EXPECT_FALSE(boot_attempts_exhausted(retained));
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 class ChipModel {
  public:
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(2 << 20, 0xFF);
-  int busy_looks = 3;     // of the status, after a write
+  int busy_polls = 3;     // of the status, after a write
   int absent_reads = -1;  // not negative: no chip, the line reads this
   int rule_breaks = 0;
 
@@ -78,7 +78,7 @@ class ChipModel {
       std::uint8_t& cell = bytes[page | ((address() + i - 4) & 0xFF)];
       cell = static_cast<std::uint8_t>(cell & received_[i]);
     }
-    busy_ = busy_looks;
+    busy_ = busy_polls;
   }
   void erase() {
     if (!writable_ || received_.size() != 4) {
@@ -87,7 +87,7 @@ class ChipModel {
     }
     const auto sector = bytes.begin() + static_cast<std::ptrdiff_t>(address() & ~std::size_t{0xFFFF});
     std::fill(sector, sector + 0x10000, 0xFF);
-    busy_ = busy_looks;
+    busy_ = busy_polls;
   }
 
   bool selected_ = false;
@@ -126,7 +126,7 @@ std::array<std::uint8_t, 256> page(std::uint8_t first) {
 TEST_F(SpiNor, ReadsWhatItProgrammedAndErasesASectorAlone) {
   const auto written = page(3);
   EXPECT_TRUE(Flash::program(0x123400, written, counting()));
-  EXPECT_GE(idles, 256 + chip.busy_looks) << "the serial line is looked after at every byte and look";
+  EXPECT_GE(idles, 256 + chip.busy_polls) << "the serial line is looked after at every byte and look";
   EXPECT_TRUE(Flash::program(0x130000, written, counting()));
   std::array<std::uint8_t, 256> read{};
   Flash::read(0x123400, read);
@@ -158,7 +158,7 @@ TEST_F(SpiNor, SaysWhereNoChipAnswers) {
 }
 
 TEST_F(SpiNor, GivesUpAChipThatStaysBusy) {
-  chip.busy_looks = INT32_MAX;
+  chip.busy_polls = INT32_MAX;
   EXPECT_FALSE(Flash::erase_sector(0, counting()));
 }
 

@@ -55,8 +55,8 @@ class VirtualTarget {
 
   bool runs_application() const { return application_ != nullptr; }
   /// Of the image that runs.
-  const image::ImageHeader& running() const { return application_->header; }
-  const image::ImageHeader* loaded() const { return loader_ ? loader_->loaded() : nullptr; }
+  const boot_image::BootImageHeader& running() const { return application_->header; }
+  const boot_image::BootImageHeader* loaded() const { return loader_ ? loader_->loaded() : nullptr; }
 
   /// One turn of the target's main loop.
   void step() {
@@ -78,7 +78,7 @@ class VirtualTarget {
 
  private:
   struct Application {
-    image::ImageHeader header;
+    boot_image::BootImageHeader header;
     wire::FrameDecoder frames;
     wire::FrameEncoder encoder;
     std::int64_t last_hello = INT64_MIN / 2;
@@ -94,7 +94,7 @@ class VirtualTarget {
       application_->header = *loader_->loaded();
       loader_.reset();
     } else if (turn == Turn::kRestart) {
-      forget_tries(machine.retained);
+      reset_boot_attempts(machine.retained);
       announce_reset(machine.retained, wire::ResetCause::kCommand);
       reset();
     }
@@ -110,7 +110,7 @@ class VirtualTarget {
       while (!machine.transmit(byte)) machine.now += machine.byte_ticks;
     }
   }
-  void say_hello() {
+  void send_hello() {
     wire::Hello hello;
     hello.reset_cause = last_reset(machine.retained);
     hello.firmware_major = application_->header.version.major;
@@ -128,7 +128,7 @@ class VirtualTarget {
     }
     if (machine.now - app.last_hello >= kTicksPerSecond) {
       app.last_hello = machine.now;
-      say_hello();
+      send_hello();
     }
     if (machine.now - app.last_time >= kTicksPerSecond / 10) {
       app.last_time = machine.now;
@@ -136,11 +136,11 @@ class VirtualTarget {
       confirm_start(machine.retained);
     }
     for (int byte = machine.receive(); byte >= 0; byte = machine.receive()) {
-      if (const auto frame = app.frames.push(static_cast<std::uint8_t>(byte))) obey(*frame);
+      if (const auto frame = app.frames.push(static_cast<std::uint8_t>(byte))) execute(*frame);
       if (!application_) return;
     }
   }
-  void obey(const wire::Frame& frame) {
+  void execute(const wire::Frame& frame) {
     const auto type = static_cast<std::uint8_t>(frame.type);
     const auto command = wire::decode_payload<wire::Command>(frame.payload);
     if (frame.type != wire::MessageType::kCommand || !command) {
@@ -148,7 +148,7 @@ class VirtualTarget {
       return;
     }
     say(wire::Ack{type, frame.sequence, 0});
-    if (command->code == wire::CommandCode::kIdentify) say_hello();
+    if (command->code == wire::CommandCode::kIdentify) send_hello();
     if (command->code == wire::CommandCode::kEnterLoader) {
       announce_reset(machine.retained, wire::ResetCause::kCommand, true);
       reset();

@@ -12,7 +12,7 @@ constexpr int kImages = 150;
 // As far as docking goes: 35 deg.
 TEST(EllipseCampaign, RingsInFullView) {
   test::RingSet set;
-  set.most_tilt_deg = 35.0;
+  set.max_tilt_deg = 35.0;
   const test::RingScore score = score_on(set, kImages, 21);
   EXPECT_GE(score.recall(), 0.998);
   EXPECT_GE(score.f(), 0.96);
@@ -36,7 +36,7 @@ TEST(EllipseCampaign, NoiseOfAPoorCamera) {
 
 TEST(EllipseCampaign, AThirdHidden) {
   test::RingSet set;
-  set.most_hidden = 1.0 / 3.0;
+  set.max_hidden = 1.0 / 3.0;
   const test::RingScore score = score_on(set, kImages, 23);
   EXPECT_GE(score.recall(), 0.98);
   EXPECT_GE(score.f(), 0.96);

@@ -53,8 +53,8 @@ TEST(Score, IsThePapersFormula) {
   Support support;
   support.count = 100;
   support.distance_sum_px = 20.0;  // S2 = 1 - 0.3 * 0.2
-  support.length_share = 0.5;
-  support.turn_share = 0.6;
+  support.length_fraction = 0.5;
+  support.turn_fraction = 0.6;
   const Score score = score_of(e, support, {});
   EXPECT_EQ(score.shape, 1.0);
   EXPECT_NEAR(score.accuracy, 0.94, 1e-12);
@@ -65,7 +65,7 @@ TEST(Score, IsThePapersFormula) {
 TEST(Score, AFlatEllipseScoresNothing) {
   Support support;
   support.count = 100;
-  support.length_share = support.turn_share = 1.0;
+  support.length_fraction = support.turn_fraction = 1.0;
   EllipseSettings settings;
   settings.max_axis_ratio = 2.0;
   EXPECT_EQ(score_of({0.0, 0.0, 50.0, 24.0, 0.0}, support, settings).value(), 0.0);

@@ -107,7 +107,7 @@ TEST(RefineFit, OutliersDoNotMoveIt) {
 
 // Normalised squared errors over many draws: 5 on average where the covariance is right. The robust weights give up 5
 // %.
-TEST(RefineFit, StatesItsCovarianceHonestly) {
+TEST(RefineFit, StatesAConsistentCovariance) {
   std::mt19937_64 random(7);
   double sum = 0.0;
   constexpr int kDraws = 200;

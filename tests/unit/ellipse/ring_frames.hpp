@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pharos/ellipse/detect.hpp"
-#include "tools/problems/ring_images.hpp"
+#include "tools/evaluation/problems/ring_images.hpp"
 
 namespace pharos::ellipse {
 

@@ -21,9 +21,9 @@ using boot::test::ModelBoard;
 using ::testing::HasSubstr;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kMsTicks = kTicksPerSecond / 1000;
+constexpr std::int64_t kMillisecond_ticks = kTicksPerSecond / 1000;
 
-ImageFile file_of(const Bytes& bytes) { return {bytes, *image::check_image(bytes)}; }
+BootImageFile file_of(const Bytes& bytes) { return {bytes, *boot_image::check_image(bytes)}; }
 
 class Flash : public ::testing::Test {
  protected:
@@ -33,12 +33,12 @@ class Flash : public ::testing::Test {
     ASSERT_TRUE(target.runs_application());
   }
 
-  Flashed flash(const ImageFile& image) {
+  FlashResult flash(const BootImageFile& image) {
     Flasher flasher(line, reports, options);
     return flasher.flash(image);
   }
   /// What the error says; empty where there is none.
-  std::string error_of(const ImageFile& image) {
+  std::string error_of(const BootImageFile& image) {
     try {
       flash(image);
     } catch (const std::exception& error) {
@@ -46,7 +46,7 @@ class Flash : public ::testing::Test {
     }
     return {};
   }
-  bool runs(const ImageFile& image) const {
+  bool runs(const BootImageFile& image) const {
     const Bytes body = boot::test::body_of(image.bytes);
     return target.runs_application() && std::equal(body.begin(), body.end(), target.machine.memory.begin());
   }
@@ -66,19 +66,19 @@ class Flash : public ::testing::Test {
   FlashReports reports{.note = [this](const std::string& text) { notes += text + '\n'; },
                        .progress = [this](std::size_t bytes) { progress.push_back(bytes); },
                        .allow_older =
-                           [this](const image::Version&) {
+                           [this](const boot_image::Version&) {
                              ++asked;
                              return allow_older;
                            }};
   FlashOptions options{.wait_ns = 5 * kSecond};
-  const ImageFile old_image = file_of(make_image(1, {.version = {1, 2, 3}}));
-  const ImageFile new_image = file_of(make_image(2, {.body_bytes = 5000, .version = {1, 3, 0}}));
+  const BootImageFile old_image = file_of(make_image(1, {.version = {1, 2, 3}}));
+  const BootImageFile new_image = file_of(make_image(2, {.body_bytes = 5000, .version = {1, 3, 0}}));
 };
 
 TEST_F(Flash, WritesAnImageAndNamesWhatRunsAfterwards) {
-  const Flashed flashed = flash(new_image);
+  const FlashResult flashed = flash(new_image);
   EXPECT_TRUE(runs(new_image));
-  EXPECT_EQ(flashed.before, (image::Version{1, 2, 3}));
+  EXPECT_EQ(flashed.before, (boot_image::Version{1, 2, 3}));
   EXPECT_EQ(flashed.running.role, wire::Role::kDecoder);
   EXPECT_EQ(flashed.running.firmware_minor, 3);
   EXPECT_EQ(flashed.running.board.view(), "model");
@@ -92,8 +92,8 @@ TEST_F(Flash, WritesAnImageAndNamesWhatRunsAfterwards) {
 TEST_F(Flash, FindsATargetThatIsInItsLoaderAlready) {
   boot::test::Host host(target);
   ASSERT_TRUE(host.enter());
-  const Flashed flashed = flash(new_image);
-  EXPECT_EQ(flashed.before, (image::Version{1, 2, 3}));
+  const FlashResult flashed = flash(new_image);
+  EXPECT_EQ(flashed.before, (boot_image::Version{1, 2, 3}));
   EXPECT_TRUE(runs(new_image));
 }
 
@@ -109,7 +109,7 @@ TEST_F(Flash, WritesTheFirstImageOfAnEmptyTarget) {
   std::ranges::fill(target.machine.flash.bytes, 0xFF);
   target.power_off();
   target.power_on();
-  const Flashed flashed = flash(new_image);
+  const FlashResult flashed = flash(new_image);
   EXPECT_FALSE(flashed.before);
   EXPECT_TRUE(runs(new_image));
 }
@@ -156,7 +156,7 @@ TEST_F(Flash, RefusesAnImageLargerThanTheSlotAndStartsWhatWasThere) {
 }
 
 TEST_F(Flash, AsksBeforeItWritesAnOlderImage) {
-  const ImageFile older = file_of(make_image(4, {.version = {1, 2, 2}}));
+  const BootImageFile older = file_of(make_image(4, {.version = {1, 2, 2}}));
   EXPECT_THAT(error_of(older), HasSubstr("version 1.2.2, older than 1.2.3"));
   EXPECT_EQ(asked, 1);
   EXPECT_TRUE(runs(old_image));
@@ -228,13 +228,13 @@ TEST_F(Flash, OverALineThatLosesBytesSucceedsOrFailsCleanly) {
     std::mt19937 random(seed);
     const unsigned one_in = 100u << (seed % 6);
     const auto fault = [&](std::uint8_t byte) -> std::optional<std::uint8_t> {
-      const auto dice = static_cast<std::uint32_t>(random());
-      if (dice % one_in != 0) return byte;
-      if ((dice >> 20) % 2 == 0) return std::nullopt;
-      return static_cast<std::uint8_t>(byte ^ (1u << (dice >> 24) % 8));
+      const auto rng = static_cast<std::uint32_t>(random());
+      if (rng % one_in != 0) return byte;
+      if ((rng >> 20) % 2 == 0) return std::nullopt;
+      return static_cast<std::uint8_t>(byte ^ (1u << (rng >> 24) % 8));
     };
     line.to_target = line.to_host = fault;
-    const ImageFile image =
+    const BootImageFile image =
         file_of(make_image(100 + seed, {.body_bytes = 5000, .version = {2, 0, static_cast<std::uint8_t>(seed)}}));
     const Bytes before = target.machine.memory;
     const std::string error = error_of(image);
@@ -261,15 +261,15 @@ class Speed : public Flash, public ::testing::WithParamInterface<std::pair<std::
 TEST_P(Speed, FlashesWithinItsBudget) {
   line.adapter_ticks = GetParam().first;
   target.machine.flash.program_ticks = GetParam().second;
-  const ImageFile image = file_of(make_image(7, {.body_bytes = 64 * 1024, .version = {2, 0, 0}}));
-  const Flashed flashed = flash(image);
+  const BootImageFile image = file_of(make_image(7, {.body_bytes = 64 * 1024, .version = {2, 0, 0}}));
+  const FlashResult flashed = flash(image);
   const double seconds = static_cast<double>(flashed.line_ns) * 1e-9;
   const double used = static_cast<double>(image.bytes.size()) * 10 / 460'800 / seconds;
   RecordProperty("seconds", std::to_string(seconds));
   RecordProperty("line_used", std::to_string(used));
   std::printf("64 KiB, adapter %.0f ms, page %.1f ms: %.2f s, payload is %.0f %% of the line\n",
-              static_cast<double>(GetParam().first) / kMsTicks, static_cast<double>(GetParam().second) / kMsTicks,
-              seconds, 100 * used);
+              static_cast<double>(GetParam().first) / kMillisecond_ticks,
+              static_cast<double>(GetParam().second) / kMillisecond_ticks, seconds, 100 * used);
   EXPECT_LE(seconds, 3.0);
   EXPECT_GE(used, 0.65);
   EXPECT_EQ(flashed.blocks_sent, (image.bytes.size() + 255) / 256) << "none twice";
@@ -278,8 +278,8 @@ TEST_P(Speed, FlashesWithinItsBudget) {
 
 INSTANTIATE_TEST_SUITE_P(AdapterAndFlash, Speed,
                          ::testing::Values(std::pair{std::int64_t{0}, std::int64_t{0}},
-                                           std::pair{std::int64_t{0}, 5 * kMsTicks},
-                                           std::pair{16 * kMsTicks, 3 * kMsTicks / 2}));
+                                           std::pair{std::int64_t{0}, 5 * kMillisecond_ticks},
+                                           std::pair{16 * kMillisecond_ticks, 3 * kMillisecond_ticks / 2}));
 
 }  // namespace
 }  // namespace pharos::tools::test

@@ -197,7 +197,7 @@ TEST(Recordings, SmoothingDoesNotHurtInMotion) {
   for (const auto& of_sensor : series) {
     const auto& values = of_sensor.second;  // a binding cannot be captured below (clang 14)
     for (std::size_t i = 3; i < values.size(); ++i) {
-      if (values[i][0] - values[i - 3][0] > 3.2 * 2 * kNominalPeriodTicks) continue;
+      if (values[i][0] - values[i - 3][0] > 3.2 * 2 * kNominalPeriod_ticks) continue;
       const auto third = [&](std::size_t k) {
         return std::abs(values[i][k] - 3 * values[i - 1][k] + 3 * values[i - 2][k] - values[i - 3][k]);
       };
@@ -277,12 +277,12 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
   ASSERT_GT(peers.size(), 20'000U);
   // Both programs saw the same pulses: the peer's time codes are these ticks at 48 MHz from another origin. The origin
   // is where most of the peer's first angles meet a hit of the same sensor.
-  struct Mine {
+  struct PharosAngle {
     double theta_rad;
     int station, axis;
     std::size_t sweep;
   };
-  std::map<int, std::map<std::int64_t, Mine>> mine;  // by sensor, by 48 MHz time
+  std::map<int, std::map<std::int64_t, PharosAngle>> mine;  // by sensor, by 48 MHz time
   const Decoded decoded = decode("two_bodies_hmd");
   for (std::size_t i = 0; i < decoded.sweeps.size(); ++i) {
     for (const Bearing& bearing : bearings_of(decoded.sweeps[i])) {
@@ -293,31 +293,32 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
     }
   }
   std::map<std::int64_t, int> votes;
-  constexpr std::int64_t kVoteTicks = 4;  // finer than a rotor's jitter, or a whole turn off would count as well
+  constexpr std::int64_t kVote_ticks = 4;  // finer than a rotor's jitter, or a whole turn off would count as well
   for (std::size_t i = 0; i < peers.size(); i += 50) {
-    for (const auto& [time, hit] : mine[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVoteTicks];
+    for (const auto& [time, hit] : mine[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVote_ticks];
   }
-  const auto most = std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) { return a.second < b.second; });
-  const std::int64_t origin = most->first * kVoteTicks;
+  const auto maximum =
+      std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) { return a.second < b.second; });
+  const std::int64_t origin = maximum->first * kVote_ticks;
 
   std::map<std::size_t, std::vector<double>> differences;  // by sweep, arcsec
   std::map<std::pair<int, int>, std::vector<double>> by_rotor;
   std::map<std::pair<int, int>, std::size_t> stations;
-  constexpr std::int64_t kSamePulseTicks = 8;
+  constexpr std::int64_t kSamePulse_ticks = 8;
   std::size_t matched = 0;
   std::size_t in_time = 0;
   for (const PeerAngle& peer : peers) {
     const std::int64_t time = peer.timecode48 - origin;
     const auto& hits = mine[peer.sensor];
-    const auto found = hits.lower_bound(time - kSamePulseTicks);
+    const auto found = hits.lower_bound(time - kSamePulse_ticks);
     if (time < 0) continue;  // the recording begins later than the peer's list
     ++in_time;
-    if (found == hits.end() || found->first > time + kSamePulseTicks || found->second.axis != peer.axis) continue;
+    if (found == hits.end() || found->first > time + kSamePulse_ticks || found->second.axis != peer.axis) continue;
     ++matched;
     ++stations[{peer.station, found->second.station}];
-    const double mine_rad = found->second.theta_rad - kPi / 2;
-    differences[found->second.sweep].push_back((mine_rad - peer.angle_rad) * kArcsecPerRad);
-    by_rotor[{peer.station, peer.axis}].push_back((mine_rad - peer.angle_rad) * kArcsecPerRad);
+    const double pharos_rad = found->second.theta_rad - kPi / 2;
+    differences[found->second.sweep].push_back((pharos_rad - peer.angle_rad) * kArcsecPerRad);
+    by_rotor[{peer.station, peer.axis}].push_back((pharos_rad - peer.angle_rad) * kArcsecPerRad);
   }
   EXPECT_GT(in_time, 20'000U);
   EXPECT_GT(static_cast<double>(matched), 0.98 * static_cast<double>(in_time));

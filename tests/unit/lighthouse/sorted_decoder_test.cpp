@@ -20,14 +20,14 @@ constexpr std::int64_t kSlot_ticks = 416'667;
 std::vector<Edge> faulty_edges(double begin_s, std::int64_t slots, unsigned seed) {
   SyntheticLight::Settings settings;
   settings.begin_s = begin_s;
-  std::mt19937 dice(seed);
-  const auto one_in = [&](unsigned n) { return dice() % n == 0; };
+  std::mt19937 rng(seed);
+  const auto one_in = [&](unsigned n) { return rng() % n == 0; };
   std::vector<Edge> edges;
   for (const RawPulse& pulse : SyntheticLight(settings).slots(0, slots)) {
     if (!one_in(60)) edges.push_back({pulse.rise_ticks, pulse.sensor, true});
     if (!one_in(60)) edges.push_back({pulse.fall_ticks, pulse.sensor, false});
     if (one_in(30)) {
-      const auto width = static_cast<std::int64_t>(dice() % 900);
+      const auto width = static_cast<std::int64_t>(rng() % 900);
       edges.push_back({pulse.fall_ticks + 500, pulse.sensor, true});
       edges.push_back({pulse.fall_ticks + 500 + width, pulse.sensor, false});
     }
@@ -37,14 +37,14 @@ std::vector<Edge> faulty_edges(double begin_s, std::int64_t slots, unsigned seed
   return edges;
 }
 
-void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t least_sweeps) {
+void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t min_sweeps) {
   test::DecodedBy<SortedDecoder> sorted;
   test::Decoded reference;
   sorted.push(edges);
   sorted.flush();
   reference.push(edges);
   reference.flush();
-  ASSERT_GE(reference.sweeps.size(), least_sweeps);
+  ASSERT_GE(reference.sweeps.size(), min_sweeps);
   ASSERT_EQ(sorted.sweeps.size(), reference.sweeps.size());
   for (std::size_t k = 0; k < sorted.sweeps.size(); ++k) test::expect_equal(sorted.sweeps[k], reference.sweeps[k]);
   std::vector<std::uint32_t> told;

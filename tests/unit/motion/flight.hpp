@@ -11,7 +11,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/lighthouse/decoder.hpp"
 #include "pharos/motion/motion_tracker.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
 
 namespace pharos::test {
@@ -38,17 +38,18 @@ inline sim::LighthouseScenario manoeuvre(double duration_s, double speed_m_s, do
 /// A random pose at rest that shows at least `lit` sensors.
 inline sim::LighthouseScenario still(double duration_s, double range_m, std::uint64_t seed, int lit = 6) {
   sim::LighthouseScenario scenario = flight_scenario(duration_s);
-  sim::RandomRest rest;
+  sim::RandomStationaryPoses rest;
   rest.min_range_m = rest.max_range_m = range_m;
   rest.min_lit = lit;
-  scenario.trajectory = std::make_shared<sim::RestTrajectory>(
-      sim::random_rest_poses(rest, scenario.target, scenario.light.max_incidence_deg, sim::RandomStream(seed, "still")),
+  scenario.trajectory = std::make_shared<sim::StationaryTrajectory>(
+      sim::random_stationary_poses(rest, scenario.target, scenario.light.max_incidence_deg,
+                                   sim::RandomStream(seed, "still")),
       duration_s, 0.0);
   return scenario;
 }
 
 /// One answer beside the truth at its time.
-struct FlightAnswer {
+struct FlightSample {
   double time_s = 0.0;
   const track::EpochResult* result = nullptr;
   LighthouseFromBody truth;
@@ -68,8 +69,8 @@ inline motion::MotionOptions flight_options() {
 /// Flies a scenario of ideal stations through decoder and tracker; an answer's truth is in its station's frame. `spoil`
 /// may change each sweep before the tracker sees it.
 inline void fly(
-    const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightAnswer&)>& take,
-    const std::function<void(lighthouse::Sweep&)>& spoil = [](lighthouse::Sweep&) {},
+    const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightSample&)>& take,
+    const std::function<void(lighthouse::Sweep&)>& corrupt = [](lighthouse::Sweep&) {},
     const motion::MotionOptions& options = flight_options()) {
   sim::LighthouseSimulator simulator(scenario, seed);
   const auto decoder = std::make_unique<lighthouse::Decoder>();
@@ -79,7 +80,7 @@ inline void fly(
     while (decoder->take_ootx()) {
     }
     while (auto sweep = decoder->take_sweep()) {
-      spoil(*sweep);
+      corrupt(*sweep);
       if (const auto result = tracker->push(*sweep)) {
         const double time_s = ticks_to_seconds(result->time_ticks);
         take({time_s, &*result, simulator.truth(result->station, time_s)});
@@ -99,7 +100,7 @@ struct FlightScore {
   int answers = 0, ambiguous = 0, refused = 0;
   double nees = 0.0, rotation_square = 0.0, position_square = 0.0, rotation_max_deg = 0.0, position_max_mm = 0.0;
 
-  void add(const FlightAnswer& answer) {
+  void add(const FlightSample& answer) {
     if (!answer.result->pose) {
       ++refused;
       return;

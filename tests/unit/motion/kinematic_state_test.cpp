@@ -112,7 +112,7 @@ TEST(MovingState, ACorrectionIsKalmans) {
   EXPECT_LT((pose_difference(s.pose, before.pose) - shift.head<6>()).norm(), 1e-9);
   EXPECT_LT((s.rate - before.rate - shift.segment<6>(6)).norm(), 1e-9);
   EXPECT_LT((s.acceleration - before.acceleration - shift.tail<6>()).norm(), 1e-9);
-  EXPECT_NEAR(innovation.chi2 + information.misfit, r.dot(S.inverse() * r), 1e-6);
+  EXPECT_NEAR(innovation.chi2 + information.residual_chi2, r.dot(S.inverse() * r), 1e-6);
   EXPECT_NEAR(innovation.log_det, std::log(S.determinant() / R.determinant()), 1e-8);
 }
 

@@ -23,7 +23,7 @@ constexpr double kSettled_s = 1.5;  // the counter starts at one second
 // Sensors of the target's top plate: views of these alone leave a tilt open.
 constexpr int kPlate = 4;
 // Stated sigmas whose 2.5- and 3-fold are half a degree and 6 mm.
-constexpr AnswerLimits kGoodEnough{0.2 * kRadPerDeg, 2e-3};
+constexpr UncertaintyLimits kGoodEnough{0.2 * kRadPerDeg, 2e-3};
 
 struct Known {
   Target target;
@@ -42,12 +42,12 @@ lighthouse::StationCalibration station_of(const std::array<sim::SheetErrors, 2>&
   return station;
 }
 
-// T_built_believed by least squares over the sensors.
-BodyFromBody frame_of(const Target& believed, const Target& built) {
+// T_true_assumed by least squares over the sensors.
+BodyFromBody frame_of(const Target& assumed, const Target& built) {
   const auto n = static_cast<Eigen::Index>(built.size());
   Eigen::Matrix3Xd from(3, n), to(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    from.col(i) = believed[static_cast<std::size_t>(i)].position_m;
+    from.col(i) = assumed[static_cast<std::size_t>(i)].position_m;
     to.col(i) = built[static_cast<std::size_t>(i)].position_m;
   }
   const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
@@ -72,7 +72,7 @@ class Flight {
     calibrate::test::Session session;
     session.seed = seed;  // the same errors
     sim::LighthouseSimulator stills(calibrate::test::scenario_of(session), seed);
-    const auto calibration = calibrate::calibrate_lighthouse(calibrate::test::material_of(stills, seed));
+    const auto calibration = calibrate::calibrate_lighthouse(calibrate::test::calibration_input(stills, seed));
     nominal_ = {simulator_.nominal_target(), station_of(simulator_.stations()[0].announced.rotor), kUncalibratedErrors};
     // As a user's: through the file.
     const auto file =
@@ -81,20 +81,20 @@ class Flight {
                    calibrate::systematic_errors(file), file.scale_sigma};
   }
 
-  const Known& belief(bool calibrated) const { return calibrated ? calibrated_ : nominal_; }
+  const Known& assumptions(bool calibrated) const { return calibrated ? calibrated_ : nominal_; }
 
   template <class Tracker>
   void track(Tracker& tracker, bool calibrated, double from_s, test::FlightScore& all,
              test::FlightScore& seen_well) const {
-    const BodyFromBody T_built_believed = frame_of(belief(calibrated).target, simulator_.true_target());
-    tracker.set_calibration(0, belief(calibrated).station);
+    const BodyFromBody T_true_assumed = frame_of(assumptions(calibrated).target, simulator_.true_target());
+    tracker.set_calibration(0, assumptions(calibrated).station);
     for (const lighthouse::Sweep& sweep : sweeps_) {
       auto result = tracker.push(sweep);
       if (!result) continue;
-      if (result->pose) calibrate::widen_by_scale(result->pose.value(), belief(calibrated).scale_sigma);
+      if (result->pose) calibrate::widen_by_scale(result->pose.value(), assumptions(calibrated).scale_sigma);
       const double time_s = ticks_to_seconds(result->time_ticks);
       if (time_s < from_s) continue;
-      const test::FlightAnswer answer{time_s, &*result, simulator_.truth(0, time_s) * T_built_believed};
+      const test::FlightSample answer{time_s, &*result, simulator_.truth(0, time_s) * T_true_assumed};
       all.add(answer);
       if (sweep.hits.size() > kPlate) seen_well.add(answer);
     }
@@ -108,7 +108,7 @@ class Flight {
     constexpr double kTurning = 3e-4, kMoving = 1e-4, kDelta_s = 1e-3;
     const lighthouse::StationCalibration station = station_of(simulator_.stations()[0].true_errors);
     const StationView view{&simulator_.true_target(), &station};
-    const SweepNoise noise{kPaperSigmaRad * std::sqrt(1.0 - kPaperRho), kPaperSigmaRad * std::sqrt(kPaperRho)};
+    const SweepNoise noise{kPaperSigma_rad * std::sqrt(1.0 - kPaperRho), kPaperSigma_rad * std::sqrt(kPaperRho)};
     MovingState state;
     state.pp.diagonal() << Vector3::Constant(4e-3), Vector3::Constant(1e-2);
     state.rr = state.aa = Matrix6::Identity();
@@ -121,10 +121,10 @@ class Flight {
       const double now_s = ticks_to_seconds(now_ticks);
       if (before_ticks != 0) state.predict(ticks_to_seconds(now_ticks - before_ticks), kTurning, kMoving);
       before_ticks = now_ticks;
-      Belief truth;
+      StateEstimate truth;
       truth.pose = simulator_.truth(0, now_s);
       truth.rate = pose_difference(simulator_.truth(0, now_s + kDelta_s), truth.pose) / kDelta_s;
-      truth.covariance = truth.widest = state.pp;
+      truth.covariance = truth.gate_covariance = state.pp;
       const SweepFit fit = fit_sweep(bearings, sweep.flash.axis, view, truth, now_ticks, noise);
       state.correct(fit.information, innovation_of(fit.information, state.pp, Vector6::Zero()), false);
       state.pose = truth.pose;
@@ -155,7 +155,7 @@ void print(const char* name, const test::FlightScore& score) {
               score.nees_per_freedom(), score.answers, score.ambiguous, score.refused);
 }
 
-MotionOptions options_of(const Known& known, const AnswerLimits& limits = {}) {
+MotionOptions options_of(const Known& known, const UncertaintyLimits& limits = {}) {
   MotionOptions options;
   options.systematic = known.systematic;
   options.limits = limits;
@@ -169,7 +169,7 @@ TEST(MotionAccuracy, TenCalibratedManoeuvres) {
     const Flight flight(seed);
     for (const bool calibrated : {false, true}) {
       const std::size_t column = calibrated ? 2 : 0;
-      const Known& known = flight.belief(calibrated);
+      const Known& known = flight.assumptions(calibrated);
       track::TrackOptions epoch_options;
       epoch_options.solve.rho = kPaperRho;
       const auto epoch = std::make_unique<track::EpochTracker>(known.target, epoch_options);
@@ -177,7 +177,7 @@ TEST(MotionAccuracy, TenCalibratedManoeuvres) {
       const auto motion = std::make_unique<MotionTracker>(known.target, options_of(known));
       flight.track(*motion, calibrated, kSettled_s, all[column + 1], seen_well[column + 1]);
     }
-    const Known& known = flight.belief(true);
+    const Known& known = flight.assumptions(true);
     const auto limited = std::make_unique<MotionTracker>(known.target, options_of(known, kGoodEnough));
     flight.track(*limited, true, 0.0, good, ignored);
   }
@@ -209,7 +209,7 @@ TEST(MotionAccuracy, FortyCalibrationsAreAsGoodAsTheySay) {
   test::FlightScore all, seen_well;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Flight flight(seed);
-    const Known& known = flight.belief(true);
+    const Known& known = flight.assumptions(true);
     const auto motion = std::make_unique<MotionTracker>(known.target, options_of(known));
     flight.track(*motion, true, kSettled_s, all, seen_well);
   }

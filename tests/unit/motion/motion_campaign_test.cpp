@@ -14,7 +14,7 @@ TEST(MotionCampaign, NeesOverAHundredManoeuvres) {
     sim::LighthouseScenario scenario = test::manoeuvre(12.0, 0.5 * pace, 45.0 * pace, seed);
     const bool darkness = seed % 3 == 0;
     if (darkness) scenario.faults.blackouts = {{3.0, 3.15}, {6.0, 7.0}, {9.0, 9.15}};
-    test::fly(scenario, seed, [&](const test::FlightAnswer& answer) {
+    test::fly(scenario, seed, [&](const test::FlightSample& answer) {
       all.add(answer);
       if (darkness) dark.add(answer);
     });

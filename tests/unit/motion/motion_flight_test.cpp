@@ -8,17 +8,17 @@
 namespace pharos::motion {
 namespace {
 
-using test::FlightAnswer;
+using test::FlightSample;
 using test::FlightScore;
 
 // Twelve short manoeuvres, four at each of three paces.
-TEST(MotionFlight, CovarianceIsHonestOverManoeuvres) {
+TEST(MotionFlight, CovarianceIsConsistentOverManoeuvres) {
   FlightScore all;
   std::uint64_t seed = 1;
   for (const double pace : {1.0, 2.0, 3.0}) {
     for (int run = 0; run < 4; ++run, ++seed) {
       test::fly(test::manoeuvre(8.0, 0.5 * pace, 60.0 * pace, seed), seed,
-                [&](const FlightAnswer& answer) { all.add(answer); });
+                [&](const FlightSample& answer) { all.add(answer); });
     }
   }
   EXPECT_GT(all.answers, 10'000);
@@ -34,7 +34,7 @@ TEST(MotionFlight, AtRestItIsTwiceAsGoodAsOneCycleAfterAFifthOfASecond) {
     const sim::LighthouseScenario scenario = test::still(0.6, 3.0, seed);
     double first_s = -1.0;
     bool taken = false;
-    test::fly(scenario, seed, [&](const FlightAnswer& answer) {
+    test::fly(scenario, seed, [&](const FlightSample& answer) {
       if (taken || !answer.result->pose || answer.result->pose->ambiguous()) return;
       if (first_s < 0.0) first_s = answer.time_s;
       if (answer.time_s < first_s + kSettled_s) return;
@@ -44,8 +44,8 @@ TEST(MotionFlight, AtRestItIsTwiceAsGoodAsOneCycleAfterAFifthOfASecond) {
       const auto seen = pose::visible_sensors(scenario.target, answer.truth, pose::kVisibleIncidence_rad);
       const auto precision = pose::precision_of(scenario.target, answer.truth, seen, kPaperRho);
       ASSERT_TRUE(precision.ok());
-      bound_rotation += std::pow(precision->adop_deg_per_rad * kPaperSigmaRad, 2);
-      bound_position += std::pow(precision->pdop_m_per_rad * kPaperSigmaRad * kMmPerM, 2);
+      bound_rotation += std::pow(precision->adop_deg_per_rad * kPaperSigma_rad, 2);
+      bound_position += std::pow(precision->pdop_m_per_rad * kPaperSigma_rad * kMmPerM, 2);
     });
     EXPECT_TRUE(taken) << "seed " << seed;
   }
@@ -57,7 +57,7 @@ TEST(MotionFlight, AtRestItNeitherDriftsNorGrowsTooSure) {
   double late_square = 0.0, nees = 0.0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    test::fly(test::still(20.0, 2.0, seed), seed, [&](const FlightAnswer& answer) {
+    test::fly(test::still(20.0, 2.0, seed), seed, [&](const FlightSample& answer) {
       if (answer.time_s < 11.0 || !answer.result->pose) return;
       late_square += std::pow(answer.position_mm(), 2);
       nees += answer.nees() / 6.0;
@@ -74,7 +74,7 @@ TEST(MotionFlight, ComesBackAfterDarkness) {
   scenario.faults.blackouts = {{3.0, 3.15}, {6.0, 7.5}};
   FlightScore all;
   double last_before_s = 0.0, first_after_s = 0.0;
-  test::fly(scenario, 5, [&](const FlightAnswer& answer) {
+  test::fly(scenario, 5, [&](const FlightSample& answer) {
     all.add(answer);
     const double time_s = answer.time_s - 1.0;  // the counter starts at one second
     if (!answer.result->pose) return;
@@ -89,7 +89,7 @@ TEST(MotionFlight, ComesBackAfterDarkness) {
 
 // For four seconds one sensor gets only light that went another way, another gets both, the false one stronger.
 TEST(MotionFlight, LeavesReflectionsOutHoweverStrong) {
-  const auto spoil = [](lighthouse::Sweep& sweep) {
+  const auto corrupt = [](lighthouse::Sweep& sweep) {
     const double time_s = ticks_to_seconds(sweep.flash.start_ticks);
     if (time_s < 3.0 || time_s > 7.0) return;
     const std::size_t hits = sweep.hits.size();
@@ -106,7 +106,7 @@ TEST(MotionFlight, LeavesReflectionsOutHoweverStrong) {
   };
   FlightScore all;
   test::fly(
-      test::manoeuvre(8.0, 0.5, 60.0, 9), 9, [&](const FlightAnswer& answer) { all.add(answer); }, spoil);
+      test::manoeuvre(8.0, 0.5, 60.0, 9), 9, [&](const FlightSample& answer) { all.add(answer); }, corrupt);
   EXPECT_GT(all.answers, 900);
   EXPECT_LT(all.position_rms_mm(), 1.0);
   EXPECT_LT(all.rotation_rms_deg(), 0.1);
@@ -115,7 +115,7 @@ TEST(MotionFlight, LeavesReflectionsOutHoweverStrong) {
 TEST(MotionFlight, GoesOnWhenHalfOfTheSensorsDie) {
   FlightScore all;
   test::fly(
-      test::still(8.0, 2.0, 4, 8), 4, [&](const FlightAnswer& answer) { all.add(answer); },
+      test::still(8.0, 2.0, 4, 8), 4, [&](const FlightSample& answer) { all.add(answer); },
       [](lighthouse::Sweep& sweep) {
         if (ticks_to_seconds(sweep.flash.start_ticks) < 4.0) return;
         for (std::size_t i = sweep.hits.size(); i-- > 0;) {
@@ -132,7 +132,7 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   scenario.faults.restarts = {{0, 4.0, 1.5}};
   FlightScore all;
   double last_before_s = 0.0, first_after_s = 0.0;
-  test::fly(scenario, 6, [&](const FlightAnswer& answer) {
+  test::fly(scenario, 6, [&](const FlightSample& answer) {
     all.add(answer);
     const double time_s = answer.time_s - 1.0;  // the counter starts at one second
     if (!answer.result->pose) return;
@@ -152,7 +152,7 @@ TEST(MotionFlight, ALongDarkForgetsTheCalibration) {
   sim::LighthouseScenario scenario = test::still(246.0, 2.0, 7);
   scenario.faults.blackouts = {{1.0, 244.0}};
   int before = 0, after = 0;
-  test::fly(scenario, 7, [&](const FlightAnswer& answer) {
+  test::fly(scenario, 7, [&](const FlightSample& answer) {
     const bool uncalibrated = (answer.result->flags & track::kEpochUncalibrated) != 0;
     if (!answer.result->pose) return;
     EXPECT_EQ(uncalibrated, answer.time_s > 200.0);
@@ -172,7 +172,7 @@ TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
   scenario.stations[1].id = scenario.stations[0].id;
   scenario.stations[1].pose.t = {0.4, 0.1, 0.1};
   std::array<int, kMaxStations> good{};
-  test::fly(scenario, 11, [&](const FlightAnswer& answer) {
+  test::fly(scenario, 11, [&](const FlightSample& answer) {
     if (answer.time_s < 2.0 || !answer.result->pose || answer.result->pose->ambiguous()) return;
     EXPECT_LT(answer.position_mm(), 10.0) << "station " << int{answer.result->station};
     ++good[answer.result->station];
@@ -185,18 +185,18 @@ TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
 TEST(MotionFlight, CovarianceOwnsUpToSystematicErrorsItIsToldOf) {
   MotionOptions told = test::flight_options();
   told.systematic = kUncalibratedErrors;
-  FlightScore silent, honest;
+  FlightScore silent, with_systematics;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     sim::LighthouseScenario scenario = test::manoeuvre(6.0, 0.5, 60.0, seed);
     scenario.errors = sim::ErrorScenario::workshop();
     const auto none = [](lighthouse::Sweep&) {};
     test::fly(
-        scenario, seed, [&](const FlightAnswer& answer) { silent.add(answer); }, none);
+        scenario, seed, [&](const FlightSample& answer) { silent.add(answer); }, none);
     test::fly(
-        scenario, seed, [&](const FlightAnswer& answer) { honest.add(answer); }, none, told);
+        scenario, seed, [&](const FlightSample& answer) { with_systematics.add(answer); }, none, told);
   }
   EXPECT_GT(silent.nees_per_freedom(), 4.0);
-  EXPECT_LT(honest.nees_per_freedom(), 2.0);  // six draws of the errors
+  EXPECT_LT(with_systematics.nees_per_freedom(), 2.0);  // six draws of the errors
 }
 
 TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
@@ -241,7 +241,7 @@ TEST(MotionFlight, AShakenBodyIsKnownAsWellAsItSays) {
     }
     const sim::RoomFromBody centre{rotation_exp({kPi - 0.3, 0.0, 0.0}), {0.0, 0.0, 2.0}};
     scenario.trajectory = std::make_shared<sim::SineTrajectory>(centre, shift, turn, 0.0);
-    test::fly(scenario, seed, [&](const test::FlightAnswer& answer) { score.add(answer); });
+    test::fly(scenario, seed, [&](const test::FlightSample& answer) { score.add(answer); });
   }
   std::printf("shaken: NEES %.3f, RMS %.3f deg %.3f mm, max %.2f deg %.1f mm, %d answers, %d refused\n",
               score.nees_per_freedom(), score.rotation_rms_deg(), score.position_rms_mm(), score.rotation_max_deg,

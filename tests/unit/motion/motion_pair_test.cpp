@@ -97,7 +97,7 @@ void print(const char* what, const PairScore& score) {
   }
 }
 
-void expect_honest(const std::array<FlightScore, kMaxStations>& fused) {
+void expect_consistent(const std::array<FlightScore, kMaxStations>& fused) {
   for (const FlightScore& score : fused) {
     EXPECT_GT(score.nees_per_freedom(), 0.9);
     EXPECT_LT(score.nees_per_freedom(), 1.1);
@@ -119,7 +119,7 @@ TEST(MotionPair, WithAKnownRelativePoseBothAreBetterThanEitherAlone) {
     EXPECT_FALSE(flight.fused->pair().survey_refused());
   }
   print("known", score);
-  expect_honest(score.fused);
+  expect_consistent(score.fused);
   for (std::size_t station = 0; station < kMaxStations; ++station) {
     EXPECT_GT(score.fused[station].answers, 2500);
     EXPECT_LT(score.fused[station].rotation_rms_deg(), 0.9 * score.alone[station].rotation_rms_deg());
@@ -141,7 +141,7 @@ TEST(MotionPair, LearnsWhereTheSecondStationStands) {
     EXPECT_LT(error.head<3>().norm(), 0.005) << seed;
   }
   print("learnt", score);
-  expect_honest(score.fused);
+  expect_consistent(score.fused);
 }
 
 // A relative pose that somebody mistyped, or a station that was knocked since the calibration.

@@ -18,15 +18,15 @@ namespace {
 
 struct Outcome {
   int lit = 0, valid = 0;  // sweeps of four and more sensors of the target
-  double surprise = 0.0, misfit = 0.0;
-  int surprise_freedom = 0, misfit_freedom = 0;
+  double nis = 0.0, residual_chi2 = 0.0;
+  int nis_degrees_of_freedom = 0, residual_degrees_of_freedom = 0;
 
-  double valid_share() const { return static_cast<double>(valid) / lit; }
-  double surprise_per_freedom() const { return surprise / surprise_freedom; }
-  double misfit_per_freedom() const { return misfit / misfit_freedom; }
+  double valid_fraction() const { return static_cast<double>(valid) / lit; }
+  double nis_per_degree_of_freedom() const { return nis / nis_degrees_of_freedom; }
+  double residual_chi2_per_degree_of_freedom() const { return residual_chi2 / residual_degrees_of_freedom; }
   void add(const Outcome& other) {
-    surprise += other.surprise;
-    surprise_freedom += other.surprise_freedom;
+    nis += other.nis;
+    nis_degrees_of_freedom += other.nis_degrees_of_freedom;
   }
 };
 
@@ -43,7 +43,7 @@ struct Outcomes {
   std::array<Outcome, kMaxStations> of;
   int lit = 0, known = 0;
 
-  double known_share() const { return static_cast<double>(known) / lit; }
+  double known_fraction() const { return static_cast<double>(known) / lit; }
 };
 
 Outcomes track(const std::string& recording, const std::string& target_name) {
@@ -76,10 +76,10 @@ Outcomes track(const std::string& recording, const std::string& target_name) {
     if (lit && result->time_ticks - last_valid_ticks <= kTurn_ticks) ++outcomes.known;
     if (!result->pose) continue;
     outcome.valid += lit ? 1 : 0;
-    outcome.surprise += tracker->innovation().surprise;
-    outcome.surprise_freedom += tracker->innovation().surprise_freedom;
-    outcome.misfit += tracker->innovation().misfit;
-    outcome.misfit_freedom += tracker->innovation().misfit_freedom;
+    outcome.nis += tracker->innovation().nis;
+    outcome.nis_degrees_of_freedom += tracker->innovation().nis_degrees_of_freedom;
+    outcome.residual_chi2 += tracker->innovation().residual_chi2;
+    outcome.residual_degrees_of_freedom += tracker->innovation().residual_degrees_of_freedom;
   }
   return outcomes;
 }
@@ -90,34 +90,35 @@ TEST(MotionRecordings, AQuickHandKeepsItsPose) {
   // The near station sees the hand all the time; the far one four to five sensors in a quarter of it, with half a
   // second of darkness and more before many a sweep: that sweep has no pose of its own, but the near station's.
   EXPECT_GT(outcomes.of[1].lit, 3000);
-  EXPECT_GE(outcomes.known_share(), 0.99);
-  EXPECT_GE(outcomes.of[1].valid_share(), 0.99);
-  EXPECT_LT(outcomes.of[1].misfit_per_freedom(), 1.5);
+  EXPECT_GE(outcomes.known_fraction(), 0.99);
+  EXPECT_GE(outcomes.of[1].valid_fraction(), 0.99);
+  EXPECT_LT(outcomes.of[1].residual_chi2_per_degree_of_freedom(), 1.5);
   // One is perfect; the hand turns at 30 rad/s and reverses within the turn in which a station is dark.
   Outcome both = outcomes.of[0];
   both.add(outcomes.of[1]);
   for (const Outcome& outcome : {outcomes.of[1], both}) {
-    EXPECT_GT(outcome.surprise_per_freedom(), 0.8);
-    EXPECT_LT(outcome.surprise_per_freedom(), 1.3);
+    EXPECT_GT(outcome.nis_per_degree_of_freedom(), 0.8);
+    EXPECT_LT(outcome.nis_per_degree_of_freedom(), 1.3);
   }
   std::printf(
       "with a pose: %.2f %% of the time, %.2f %% of station 0's sweeps, %.2f %% of station 1's; innovations %.2f, "
       "%.2f (both %.2f) and %.2f per degree of freedom\n",
-      100.0 * outcomes.known_share(), 100.0 * outcomes.of[0].valid_share(), 100.0 * outcomes.of[1].valid_share(),
-      outcomes.of[0].surprise_per_freedom(), outcomes.of[1].surprise_per_freedom(), both.surprise_per_freedom(),
-      outcomes.of[1].misfit_per_freedom());
+      100.0 * outcomes.known_fraction(), 100.0 * outcomes.of[0].valid_fraction(),
+      100.0 * outcomes.of[1].valid_fraction(), outcomes.of[0].nis_per_degree_of_freedom(),
+      outcomes.of[1].nis_per_degree_of_freedom(), both.nis_per_degree_of_freedom(),
+      outcomes.of[1].residual_chi2_per_degree_of_freedom());
 }
 
-TEST(MotionRecordings, StillBodiesSurpriseNobody) {
+TEST(MotionRecordings, StationaryBodiesStayWithinThePredictedCovariance) {
   PHAROS_NEEDS_DATA("lighthouse");
   for (const std::string name : {"hmd_static", "two_bodies_hmd", "two_bodies_controller"}) {
     const auto outcomes = track(name + ".edges.csv.gz", name + ".target.csv");
     for (const Outcome& outcome : outcomes.of) {
-      EXPECT_GE(outcome.valid_share(), 0.985) << name;
+      EXPECT_GE(outcome.valid_fraction(), 0.985) << name;
       // One is perfect. Sensors are tens of arcsec from where the target file says; covariances are widened for it.
-      EXPECT_LT(outcome.surprise_per_freedom(), 2.0) << name;
-      if (outcome.misfit_freedom > 0) {
-        EXPECT_LT(outcome.misfit_per_freedom(), 1.5) << name;
+      EXPECT_LT(outcome.nis_per_degree_of_freedom(), 2.0) << name;
+      if (outcome.residual_degrees_of_freedom > 0) {
+        EXPECT_LT(outcome.residual_chi2_per_degree_of_freedom(), 1.5) << name;
       }
     }
   }

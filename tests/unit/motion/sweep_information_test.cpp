@@ -52,8 +52,8 @@ TEST(SweepInformation, SumsEqualTheDenseNoiseMatrixInverted) {
     const Vector6 right = sweep.H.transpose() * inverse * sweep.r;
     EXPECT_LT((information.factor * information.factor.transpose() - square).norm(), 1e-9 * square.norm());
     EXPECT_LT((information.factor * information.whitened - right).norm(), 1e-9 * right.norm());
-    const double misfit = sweep.r.dot(inverse * sweep.r) - right.dot(square.ldlt().solve(right));
-    EXPECT_NEAR(information.misfit, misfit, 1e-9 * (1.0 + misfit));
+    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - right.dot(square.ldlt().solve(right));
+    EXPECT_NEAR(information.residual_chi2, residual_chi2, 1e-9 * (1.0 + residual_chi2));
     EXPECT_EQ(information.rank, 6);
     EXPECT_EQ(information.hits, 8);
   }
@@ -74,8 +74,8 @@ TEST(SweepInformation, AShiftOfAllHitsCountsAsOneErrorNotAsEight) {
   sweep.r.setConstant(1.0);
   // Eight readings of one error of variance 0.9 (and a little of their own): chi-squared near 1 / 0.92.
   const SweepInformation information = summed(sweep);
-  EXPECT_GT(information.misfit, 1.0);
-  EXPECT_LT(information.misfit, 1.11);
+  EXPECT_GT(information.residual_chi2, 1.0);
+  EXPECT_LT(information.residual_chi2, 1.11);
 }
 
 // Still sensors in recordings: pulses of 25 to 50 ticks scatter by 5 to 10 arcsec, those of 200 by 1 to 3.
@@ -87,11 +87,11 @@ TEST(SweepFit, ANarrowHitCountsLess) {
     target.push_back({i, Vector3(0.02 * i, 0.01 * i * i, 0.0), Vector3::Zero()});
     bearings.push_back({1000, kPi / 2 - std::atan2(0.02 * i, 2.0), kWidths[i], i});
   }
-  Belief belief;
-  belief.pose.t = {0.0, 0.0, 2.0};
-  belief.covariance = belief.widest = 1e-6 * Matrix6::Identity();
+  StateEstimate state_estimate;
+  state_estimate.pose.t = {0.0, 0.0, 2.0};
+  state_estimate.covariance = state_estimate.gate_covariance = 1e-6 * Matrix6::Identity();
   constexpr double kOwn = 3.0 * kRadPerArcsec;
-  const SweepFit fit = fit_sweep(bearings, Axis::kX, {&target, nullptr}, belief, 1000, {kOwn, kOwn});
+  const SweepFit fit = fit_sweep(bearings, Axis::kX, {&target, nullptr}, state_estimate, 1000, {kOwn, kOwn});
   ASSERT_EQ(fit.used.size(), kWidths.size());
   std::array<double, kWidths.size()> arcsec{};
   for (const HitFit& hit : fit.used) arcsec[bearings[hit.bearing].sensor] = std::sqrt(hit.variance) * kArcsecPerRad;

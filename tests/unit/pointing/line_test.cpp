@@ -53,8 +53,8 @@ TEST(FitLine, NeighboursThatErrAlikeMakeTheCovarianceLarger) {
   }
   const auto held = fit_line(points);
   ASSERT_TRUE(alone.ok() && held.ok());
-  EXPECT_LT(alone->correlated_points, 1.6);
-  EXPECT_NEAR(held->correlated_points, 5.0, 1.5);
+  EXPECT_LT(alone->variance_inflation, 1.6);
+  EXPECT_NEAR(held->variance_inflation, 5.0, 1.5);
 }
 
 TEST(FitLine, LeavesOutliersOut) {
@@ -68,7 +68,7 @@ TEST(FitLine, LeavesOutliersOut) {
 }
 
 TEST(FitLine, RefusesWhatIsNoLine) {
-  std::vector<EdgePoint> few(kLeastEdgePoints - 1), one_place(50, EdgePoint{{5.0, 5.0}, 1.0});
+  std::vector<EdgePoint> few(kMinEdgePoints - 1), one_place(50, EdgePoint{{5.0, 5.0}, 1.0});
   EXPECT_EQ(fit_line(few).error(), LineFailure::kTooFewPoints);
   EXPECT_EQ(fit_line(one_place).error(), LineFailure::kNotALine);
 }

@@ -37,7 +37,7 @@ struct OrbitSight {
     return place_inertial(culmination_s).cross(place_inertial(culmination_s + 10.0)).normalized();
   }
 
-  Sighting sighting(double time_s, bool with_range) const {
+  Observation observation(double time_s, bool with_range) const {
     const Matrix3 R_E_I = earth_to_inertial(time_s - culmination_s).transpose();
     const Vector3 d =
         station_to_earth(station).transpose() * (R_E_I * place_inertial(time_s) - station_place_earth_m(station));
@@ -60,9 +60,9 @@ struct OrbitSight {
   PassImage image(double time_s, const Vector3& axis_inertial, double sigma_rad, Random& random,
                   bool with_range) const {
     PassImage result;
-    result.sighting = sighting(time_s, with_range);
+    result.observation = observation(time_s, with_range);
     const Matrix3 R_S_I = station_to_earth(station).transpose() * earth_to_inertial(time_s - culmination_s).transpose();
-    const Vector3 axis = R_S_I * axis_inertial, ahead = direction_station(result.sighting.sight);
+    const Vector3 axis = R_S_I * axis_inertial, ahead = direction_station(result.observation.sight);
     std::normal_distribution<double> noise(0.0, sigma_rad);
     for (const double side : {-1.0, 1.0}) {
       // Panel edges 1 m either side of the line of sight.

@@ -8,10 +8,11 @@
 namespace pharos::pointing {
 namespace {
 
-std::vector<Sighting> pass_of(const OrbitSight& truth, bool with_range) {
-  std::vector<Sighting> sightings;
-  for (int k = 0; k < 100; ++k) sightings.push_back(truth.sighting(truth.culmination_s - 100.0 + 2.0 * k, with_range));
-  return sightings;
+std::vector<Observation> pass_of(const OrbitSight& truth, bool with_range) {
+  std::vector<Observation> observations;
+  for (int k = 0; k < 100; ++k)
+    observations.push_back(truth.observation(truth.culmination_s - 100.0 + 2.0 * k, with_range));
+  return observations;
 }
 
 TEST(FindOrbit, FindsPlaneAndRadiusWithRangesAndWithout) {
@@ -24,7 +25,7 @@ TEST(FindOrbit, FindsPlaneAndRadiusWithRangesAndWithout) {
       EXPECT_EQ(orbit->from_ranges, with_range);
       EXPECT_NEAR(orbit->radius_m, truth.radius_m(), with_range ? 1.0 : 10.0);
       EXPECT_LT((orbit->normal_inertial - truth.normal_inertial()).norm(), 1e-6);
-      const Sighting now = truth.sighting(truth.culmination_s + 30.0, with_range);
+      const Observation now = truth.observation(truth.culmination_s + 30.0, with_range);
       const Matrix3 R = inertial_to_orbital(*orbit, now, truth.station, truth.culmination_s);
       EXPECT_LT((R - truth.orbital(now.time_s)).norm(), 1e-5);
       EXPECT_LT((R * R.transpose() - Matrix3::Identity()).norm(), 1e-12);
@@ -34,11 +35,11 @@ TEST(FindOrbit, FindsPlaneAndRadiusWithRangesAndWithout) {
 
 TEST(FindOrbit, RefusesWhatFliesNoOrbit) {
   const OrbitSight truth;
-  std::vector<Sighting> sightings = pass_of(truth, false);
-  for (Sighting& sighting : sightings) sighting.time_s *= 0.05;  // a meteor
-  EXPECT_EQ(find_orbit(sightings, truth.station, 0.0).error(), OrbitFailure::kNotAnOrbit);
-  std::vector<Sighting> near = pass_of(truth, true);
-  for (Sighting& sighting : near) sighting.range_m = 100.0;
+  std::vector<Observation> observations = pass_of(truth, false);
+  for (Observation& observation : observations) observation.time_s *= 0.05;  // a meteor
+  EXPECT_EQ(find_orbit(observations, truth.station, 0.0).error(), OrbitFailure::kNotAnOrbit);
+  std::vector<Observation> near = pass_of(truth, true);
+  for (Observation& observation : near) observation.range_m = 100.0;
   EXPECT_FALSE(find_orbit(near, truth.station, truth.culmination_s).ok());
   near.resize(2);
   EXPECT_EQ(find_orbit(near, truth.station, truth.culmination_s).error(), OrbitFailure::kTooShort);

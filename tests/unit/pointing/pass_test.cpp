@@ -27,7 +27,7 @@ std::vector<PassImage> pass_of(const OrbitSight& truth, const AxisAt& axis, unsi
   return images;
 }
 
-PassAnswer solve(const OrbitSight& truth, const std::vector<PassImage>& images, AttitudeLaw law) {
+PassSolution solve(const OrbitSight& truth, const std::vector<PassImage>& images, AttitudeLaw law) {
   const auto workspace = std::make_unique<PassWorkspace>();
   PassOptions options;
   options.station = truth.station;
@@ -35,7 +35,7 @@ PassAnswer solve(const OrbitSight& truth, const std::vector<PassImage>& images, 
   return estimate_pass(images, options, *workspace);
 }
 
-double error_deg(const PassAnswer& answer, const OrbitSight& truth, const Vector3& axis_inertial) {
+double error_deg(const PassSolution& answer, const OrbitSight& truth, const Vector3& axis_inertial) {
   const Vector3 expected = station_to_earth(truth.station).transpose() * axis_inertial;
   return std::atan2(answer.estimate.axis_station.cross(expected).norm(),
                     std::abs(answer.estimate.axis_station.dot(expected))) *
@@ -59,7 +59,7 @@ TEST(Pass, AnInertialAxisIsFoundAndItsErrorIsWhatIsStated) {
   double square = 0.0;
   constexpr int kPasses = 30;
   for (unsigned seed = 1; seed <= kPasses; ++seed) {
-    const PassAnswer answer = solve(truth, pass_of(truth, inertial(kAxis), seed), AttitudeLaw::kInertial);
+    const PassSolution answer = solve(truth, pass_of(truth, inertial(kAxis), seed), AttitudeLaw::kInertial);
     ASSERT_FALSE(answer.failure) << name_of(*answer.failure);
     EXPECT_LT(error_deg(answer, truth, kAxis), 0.1);
     EXPECT_GE(answer.estimate.axis_station.z(), 0.0);
@@ -73,7 +73,7 @@ TEST(Pass, ANadirLockedAxisIsFoundWithRangesAndWithout) {
   const OrbitSight truth;
   const Vector3 across = Vector3(0.1, 0.98, -0.15).normalized();
   for (const bool with_range : {true, false}) {
-    const PassAnswer answer = solve(truth, pass_of(truth, nadir(truth, across), 3, with_range), AttitudeLaw::kNadir);
+    const PassSolution answer = solve(truth, pass_of(truth, nadir(truth, across), 3, with_range), AttitudeLaw::kNadir);
     ASSERT_FALSE(answer.failure) << name_of(*answer.failure);
     EXPECT_LT(error_deg(answer, truth, nadir(truth, across)(truth.culmination_s)), 0.1);
     EXPECT_LT(std::min((answer.estimate.axis_law - across).norm(), (answer.estimate.axis_law + across).norm()), 0.002);
@@ -84,7 +84,7 @@ TEST(Pass, ANadirLockedAxisIsFoundWithRangesAndWithout) {
 TEST(Pass, ASpinningAxisIsFoundWithItsSpin) {
   const OrbitSight truth;
   const Spin spin{kAxis, Vector3(0.1, 0.9, 0.4).normalized(), 1.3 * kRadPerDeg};
-  const PassAnswer answer = solve(truth, pass_of(truth, spinning(truth, spin), 4), AttitudeLaw::kSpin);
+  const PassSolution answer = solve(truth, pass_of(truth, spinning(truth, spin), 4), AttitudeLaw::kSpin);
   ASSERT_FALSE(answer.failure) << name_of(*answer.failure);
   EXPECT_LT(error_deg(answer, truth, kAxis), 0.3);
   ASSERT_TRUE(answer.estimate.spin);
@@ -120,11 +120,11 @@ TEST(Pass, AFewImagesOfAnotherEdgeAreSetAside) {
   std::vector<PassImage> images = pass_of(truth, inertial(kAxis), 6);
   std::mt19937_64 random(7);
   for (const std::size_t k : {20U, 50U, 81U}) {
-    images[k] = truth.image(images[k].sighting.time_s, Vector3::UnitZ(), kSigma_rad, random, false);
+    images[k] = truth.image(images[k].observation.time_s, Vector3::UnitZ(), kSigma_rad, random, false);
   }
-  const PassAnswer answer = solve(truth, images, AttitudeLaw::kInertial);
+  const PassSolution answer = solve(truth, images, AttitudeLaw::kInertial);
   ASSERT_FALSE(answer.failure);
-  EXPECT_EQ(answer.estimate.set_aside, 3);
+  EXPECT_EQ(answer.estimate.rejected, 3);
   EXPECT_LT(error_deg(answer, truth, kAxis), 0.1);
 }
 
@@ -132,7 +132,7 @@ TEST(Pass, ImagesWithoutPlanesAreGapsNotErrors) {
   const OrbitSight truth;
   std::vector<PassImage> images = pass_of(truth, inertial(kAxis), 8);
   for (std::size_t k = 10; k < 60; ++k) images[k].planes_station.clear();
-  const PassAnswer answer = solve(truth, images, AttitudeLaw::kInertial);
+  const PassSolution answer = solve(truth, images, AttitudeLaw::kInertial);
   ASSERT_FALSE(answer.failure);
   EXPECT_EQ(answer.estimate.images, kImages - 50);
   EXPECT_LT(error_deg(answer, truth, kAxis), 0.3);
@@ -143,7 +143,7 @@ TEST(Pass, SaysWhatIsMissing) {
   std::vector<PassImage> images = pass_of(truth, inertial(kAxis), 9);
   EXPECT_EQ(solve(truth, {images.begin(), images.begin() + 2}, AttitudeLaw::kInertial).failure,
             PassFailure::kTooFewImages);
-  for (std::size_t k = 0; k < images.size(); ++k) images[k].sighting.time_s = 1000.0 + 0.05 * static_cast<double>(k);
+  for (std::size_t k = 0; k < images.size(); ++k) images[k].observation.time_s = 1000.0 + 0.05 * static_cast<double>(k);
   EXPECT_EQ(solve(truth, images, AttitudeLaw::kNadir).failure, PassFailure::kNoOrbit);
 }
 

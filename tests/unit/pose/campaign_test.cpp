@@ -27,7 +27,7 @@ SolveOptions told(const test::PnpSet& set) {
 }
 
 TEST(Campaign, ReachesTheCramerRaoBoundAtThePapersNoise) {
-  test::PnpSet set = set_of(kPaperSigmaRad);
+  test::PnpSet set = set_of(kPaperSigma_rad);
   set.coplanar_views = false;
   const auto result = test::run_campaign(test::frustum_target(), set, told(set), 2000, 1);
   test::print("8.8 arcsec", result);
@@ -54,8 +54,8 @@ TEST(Campaign, NoFailureAtSixtyArcsecIsAMissedMinimum) {
 }
 
 TEST(Campaign, CoplanarSensorsAreWrongOnlyWhereTheWrongPoseFitsBetterAndThenSaySo) {
-  test::PnpSet set = set_of(kPaperSigmaRad);
-  set.most_sensors = 4;
+  test::PnpSet set = set_of(kPaperSigma_rad);
+  set.max_sensors = 4;
   const auto result = test::run_campaign(test::top_plate_target(), set, told(set), 4000, 3);
   test::print("four coplanar, 8.8 arcsec", result);
   EXPECT_EQ(result.score.refused, 0);
@@ -63,9 +63,9 @@ TEST(Campaign, CoplanarSensorsAreWrongOnlyWhereTheWrongPoseFitsBetterAndThenSayS
   EXPECT_LE(result.score.wrong_unflagged, result.score.problems / 1000);
 }
 
-TEST(Campaign, CovarianceIsHonest) {
+TEST(Campaign, CovarianceIsConsistent) {
   for (const double rho : {0.0, kPaperRho}) {
-    const test::PnpSet set = set_of(kPaperSigmaRad, rho);
+    const test::PnpSet set = set_of(kPaperSigma_rad, rho);
     const auto result = test::run_campaign(test::frustum_target(), set, told(set), 10000, 4);
     test::print(rho == 0.0 ? "NEES, rho 0" : "NEES, rho 0.8717", result);
     EXPECT_GT(result.nees_per_freedom, 0.95);
@@ -105,7 +105,7 @@ TEST(Campaign, ReportsNeesUnderNoiseItWasNotTold) {
 TEST(Campaign, PredictedSigmaOfStillSetsIsTheMeasuredOne) {
   constexpr int kSets = 50, kFrames = 3600;
   const Target target = test::frustum_target();
-  const test::PnpSet set = set_of(kPaperSigmaRad, kPaperRho);
+  const test::PnpSet set = set_of(kPaperSigma_rad, kPaperRho);
   test::PnpGenerator generator(target, set, 6);
   std::vector<double> rotation_ratio, position_ratio;
   while (rotation_ratio.size() < kSets) {
@@ -140,9 +140,9 @@ TEST(Campaign, PredictedSigmaOfStillSetsIsTheMeasuredOne) {
 
 TEST(Campaign, FindsTheMinimaThatAnExhaustiveSearchFinds) {
   test::PnpSet rough = set_of(kRoughSigma_rad);
-  rough.most_sensors = 4;
+  rough.max_sensors = 4;
   for (const auto& [target, set] :
-       {std::pair{test::frustum_target(), set_of(kPaperSigmaRad)}, std::pair{test::frustum_target(), rough},
+       {std::pair{test::frustum_target(), set_of(kPaperSigma_rad)}, std::pair{test::frustum_target(), rough},
         std::pair{test::top_plate_target(), rough}}) {
     const MinimaScore score = compare_minima(target, set, 300, 7);
     std::printf("exhaustive: problems %d ambiguous %d better missed %d second missed %d second false %d\n",

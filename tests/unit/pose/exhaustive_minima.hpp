@@ -4,23 +4,23 @@
 #include <algorithm>
 #include <vector>
 
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 #include "pharos/pose/p3p.hpp"
 #include "pharos/pose/refine.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 
 /// All minima that a search from every triplet's P3P poses and sixty random attitudes finds, best first.
 inline std::vector<Fit> exhaustive_minima(const Target& target, const test::PnpProblem& problem, double sigma_rad,
                                           test::PnpGenerator& random) {
-  Hits hits;
+  HitCandidates hits;
   std::vector<Fit> minima;
-  if (!collect_hits(target, problem.observations, hits)) return minima;
+  if (!collect_hit_candidates(target, problem.observations, hits)) return minima;
   const double variance = sigma_rad * sigma_rad;
-  const Vector3 centroid_body = hits.sightings.body_centroid();
+  const Vector3 centroid_body = hits.table.body_centroid();
   const auto descend = [&](const LighthouseFromBody& start) {
-    const Fit fit = refine(hits.sightings, start, Residual::kAngle, {200, 1e-10 * variance, 1e300});
+    const Fit fit = refine(hits.table, start, Residual::kAngle, {200, 1e-10 * variance, 1e300});
     if (!fit.converged || !fit.pose.is_finite() || (fit.pose * centroid_body).z() < 0.0) return;
     for (const Fit& known : minima) {
       const bool same = rotation_angle_between(known.pose.R, fit.pose.R) < 2e-3 &&
@@ -29,7 +29,7 @@ inline std::vector<Fit> exhaustive_minima(const Target& target, const test::PnpP
     }
     minima.push_back(fit);
   };
-  const RaySet rays = rays_of(hits.sightings);
+  const RaySet rays = rays_of(hits.table);
   for (int a = 0; a < rays.count; ++a) {
     for (int b = a + 1; b < rays.count; ++b) {
       for (int c = b + 1; c < rays.count; ++c) {

@@ -3,11 +3,11 @@
 
 #include <functional>
 
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 #include "pharos/pose/linearise.hpp"
 #include "pharos/pose/paper.hpp"
 #include "pharos/pose/refine.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -113,17 +113,17 @@ TEST_P(Linearisation, RowsAgreeWithDifferences) {
   const Target target = test::frustum_target();
   test::PnpGenerator generator(target, {}, 5);
   const test::PnpProblem problem = generator.next();
-  Hits hits;
-  ASSERT_TRUE(collect_hits(target, problem.observations, hits));
+  HitCandidates hits;
+  ASSERT_TRUE(collect_hit_candidates(target, problem.observations, hits));
   for (int i = 0; i < hits.sensors(); ++i) {
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       const auto numeric = differences<1>(
           [&](const Vector6& delta) {
-            const Row row = row_of(hits.sightings, i, axis, problem.truth.moved_by(delta), GetParam());
+            const Row row = row_of(hits.table, i, axis, problem.truth.moved_by(delta), GetParam());
             return Eigen::Matrix<double, 1, 1>(row.residual);
           },
           Vector6::Zero());
-      const Row row = row_of(hits.sightings, i, axis, problem.truth, GetParam());
+      const Row row = row_of(hits.table, i, axis, problem.truth, GetParam());
       EXPECT_NEAR((row.jacobian.transpose() - numeric).norm(), 0.0, 1e-8);
     }
   }
@@ -132,12 +132,12 @@ TEST_P(Linearisation, RowsAgreeWithDifferences) {
 TEST_P(Linearisation, SumsAreThoseOfTheRows) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = set.most_sensors = 7;  // odd: the padding entry takes part
+  set.min_sensors = set.max_sensors = 7;  // odd: the padding entry takes part
   test::PnpGenerator generator(target, set, 6);
   const test::PnpProblem problem = generator.next();
-  Hits hits;
-  ASSERT_TRUE(collect_hits(target, problem.observations, hits));
-  hits.choose(2, Axis::kY, Hits::kNone);
+  HitCandidates hits;
+  ASSERT_TRUE(collect_hit_candidates(target, problem.observations, hits));
+  hits.choose(2, Axis::kY, HitCandidates::kNone);
   Vector6 away;
   away << 0.3, -0.2, 0.1, 0.1, 0.05, 0.2;  // far enough for residuals beyond the series of the arctangent
   const LighthouseFromBody pose = problem.truth.moved_by(away);
@@ -146,14 +146,14 @@ TEST_P(Linearisation, SumsAreThoseOfTheRows) {
   double cost = 0.0;
   for (int i = 0; i < hits.sensors(); ++i) {
     for (const Axis axis : {Axis::kX, Axis::kY}) {
-      if (!hits.sightings.seen(i, axis)) continue;
-      const Row row = row_of(hits.sightings, i, axis, pose, GetParam());
+      if (!hits.table.seen(i, axis)) continue;
+      const Row row = row_of(hits.table, i, axis, pose, GetParam());
       matrix += row.jacobian * row.jacobian.transpose();
       gradient += row.jacobian * row.residual;
       cost += row.residual * row.residual;
     }
   }
-  const NormalEquations sums = linearise(hits.sightings, pose, GetParam());
+  const NormalEquations sums = linearise(hits.table, pose, GetParam());
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(sums.gradient[i], gradient[static_cast<int>(i)], 1e-12);
     for (std::size_t j = 0; j < 6; ++j) {
@@ -161,7 +161,7 @@ TEST_P(Linearisation, SumsAreThoseOfTheRows) {
     }
   }
   EXPECT_NEAR(sums.cost, cost, 1e-12);
-  EXPECT_NEAR(cost_of(hits.sightings, pose, GetParam()), cost, 1e-12);
+  EXPECT_NEAR(cost_of(hits.table, pose, GetParam()), cost, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothResiduals, Linearisation, ::testing::Values(Residual::kAngle, Residual::kTangent));

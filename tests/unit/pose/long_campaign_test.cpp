@@ -35,7 +35,7 @@ TEST(LongCampaign, TargetClass) {
 
 TEST(LongCampaign, FourCoplanar) {
   test::PnpSet set;
-  set.most_sensors = 4;
+  set.max_sensors = 4;
   const auto result = test::run_campaign(test::top_plate_target(), set, told(set.sigma_rad), kProblems, 12);
   test::print("four coplanar, 8.8 arcsec", result);
   EXPECT_EQ(result.failures_that_truth_fits_better, 0);

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "pharos/pose/solve.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace {
 
@@ -23,7 +23,7 @@ pharos::pose::SolveOptions options_from(const std::uint8_t* header) {
   pharos::pose::SolveOptions options;
   options.start = static_cast<pharos::pose::Start>(header[0] % 5);
   options.residual = static_cast<pharos::pose::Residual>(header[1] % 2);
-  options.sigma_rad = pharos::kPaperSigmaRad * (1 + header[2]);
+  options.sigma_rad = pharos::kPaperSigma_rad * (1 + header[2]);
   options.rho = header[2] % 3 == 0 ? pharos::kPaperRho : 0.0;
   return options;
 }

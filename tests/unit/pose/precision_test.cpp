@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "pharos/pose/paper.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -53,7 +53,7 @@ TEST(Precision, AgreesWithTheEquationsAsPrinted) {
 TEST(Precision, SolverReportsThoseOfItsPose) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   test::PnpGenerator generator(target, set, 2);
   SolveOptions options;
   options.rho = kPaperRho;

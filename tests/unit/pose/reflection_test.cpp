@@ -9,7 +9,7 @@
 
 #include "pharos/pose/place_residuals.hpp"
 #include "pharos/pose/solve.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -19,59 +19,59 @@ constexpr double kNearest_rad = 3e-3, kFarthest_rad = 40e-3;
 
 enum class Reflected { kBesideTrueHit, kInsteadOfTrueHit };
 
-struct Spoilt {
+struct Corrupted {
   Observations observations;
   std::bitset<kMaxObservations> reflections;
 };
 
 // Reflections on both axes of a third of the sensors.
-Spoilt spoil(const test::PnpProblem& problem, Reflected kind, test::PnpGenerator& generator) {
+Corrupted corrupt(const test::PnpProblem& problem, Reflected kind, test::PnpGenerator& generator) {
   std::vector<std::uint8_t> sensors;
   for (std::uint8_t s = 0; s < kMaxSensors; ++s) {
     if (problem.seen.test(s)) sensors.push_back(s);
   }
   std::shuffle(sensors.begin(), sensors.end(), generator.engine());
   sensors.resize(sensors.size() / 3);
-  Spoilt spoilt{problem.observations, {}};
+  Corrupted corrupted{problem.observations, {}};
   for (std::size_t k = 0; k < problem.observations.size(); ++k) {
     Observation reflection = problem.observations[k];
     if (std::find(sensors.begin(), sensors.end(), reflection.sensor) == sensors.end()) continue;
     const double offset = generator.uniform(kNearest_rad, kFarthest_rad);
     reflection.theta_rad += generator.uniform(0.0, 1.0) < 0.5 ? offset : -offset;
     if (kind == Reflected::kBesideTrueHit) {
-      spoilt.reflections.set(spoilt.observations.size());
-      spoilt.observations.push_back(reflection);
+      corrupted.reflections.set(corrupted.observations.size());
+      corrupted.observations.push_back(reflection);
     } else {
-      spoilt.reflections.set(k);
-      spoilt.observations[k] = reflection;
+      corrupted.reflections.set(k);
+      corrupted.observations[k] = reflection;
     }
   }
-  return spoilt;
+  return corrupted;
 }
 
 struct Count {
   int wrong_poses = 0, refused = 0, reflections_used = 0, good_hits_lost = 0, good_hits = 0;
 };
 
-Count campaign(Reflected kind, int least_sensors, int problems, std::uint64_t seed) {
+Count campaign(Reflected kind, int min_sensors, int problems, std::uint64_t seed) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = least_sensors;
+  set.min_sensors = min_sensors;
   test::PnpGenerator generator(target, set, seed);
   Count count;
   for (int k = 0; k < problems; ++k) {
     const test::PnpProblem problem = generator.next();
-    Spoilt spoilt = spoil(problem, kind, generator);
-    const auto solution = solve(target, spoilt.observations, {});
+    Corrupted corrupted = corrupt(problem, kind, generator);
+    const auto solution = solve(target, corrupted.observations, {});
     if (!solution.ok()) {
       ++count.refused;
       continue;
     }
     const LighthousePoseEstimate& e = solution->estimate;
     count.wrong_poses += test::nees_of(problem.truth, e) > 60.0 && !e.ambiguous() ? 1 : 0;
-    count.reflections_used += static_cast<int>((solution->used & spoilt.reflections).count());
-    for (std::size_t i = 0; i < spoilt.observations.size(); ++i) {
-      if (spoilt.reflections.test(i)) continue;
+    count.reflections_used += static_cast<int>((solution->used & corrupted.reflections).count());
+    for (std::size_t i = 0; i < corrupted.observations.size(); ++i) {
+      if (corrupted.reflections.test(i)) continue;
       ++count.good_hits;
       count.good_hits_lost += solution->used.test(i) ? 0 : 1;
     }
@@ -99,10 +99,10 @@ TEST(Reflections, InsteadOfTheTrueHitsOfAThirdOfTheSensorsAreLeftOut) {
 }
 
 // Replaces single hits by reflections; how many answers are wrong and yet leave a residual that looks like noise.
-int believable_lies(int sensors, int replaced, int problems, std::uint64_t seed) {
+int consistent_outliers(int sensors, int replaced, int problems, std::uint64_t seed) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = set.most_sensors = sensors;
+  set.min_sensors = set.max_sensors = sensors;
   test::PnpGenerator generator(target, set, seed);
   int lies = 0;
   for (int k = 0; k < problems; ++k) {
@@ -118,8 +118,8 @@ int believable_lies(int sensors, int replaced, int problems, std::uint64_t seed)
     const auto solution = solve(target, problem.observations, {});
     if (!solution.ok() || solution->estimate.ambiguous()) continue;
     const LighthousePoseEstimate& e = solution->estimate;
-    const double chi2 = e.observations * e.residual_rms * e.residual_rms / (kPaperSigmaRad * kPaperSigmaRad);
-    lies += test::nees_of(problem.truth, e) > 60.0 && chi2 <= credible_chi2(e.observations - kPoseUnknowns) ? 1 : 0;
+    const double chi2 = e.observations * e.residual_rms * e.residual_rms / (kPaperSigma_rad * kPaperSigma_rad);
+    lies += test::nees_of(problem.truth, e) > 60.0 && chi2 <= chi2_threshold(e.observations - kPoseUnknowns) ? 1 : 0;
   }
   return lies;
 }
@@ -129,7 +129,7 @@ TEST(Reflections, InsteadOfTrueHitsMakeNoBelievableLie) {
   constexpr int kProblems = 300;
   for (int sensors = 4; sensors <= 8; ++sensors) {
     for (int replaced = 1; replaced <= sensors / 2; ++replaced) {
-      EXPECT_LE(believable_lies(sensors, replaced, kProblems, 77), kProblems / 100) << sensors << ", " << replaced;
+      EXPECT_LE(consistent_outliers(sensors, replaced, kProblems, 77), kProblems / 100) << sensors << ", " << replaced;
     }
   }
 }
@@ -137,18 +137,18 @@ TEST(Reflections, InsteadOfTrueHitsMakeNoBelievableLie) {
 TEST(Reflections, OneHitAtMostIsUsedOfEachSensorAndAxis) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   test::PnpGenerator generator(target, set, 4);
   for (int k = 0; k < 100; ++k) {
-    const Spoilt spoilt = spoil(generator.next(), Reflected::kBesideTrueHit, generator);
-    const auto solution = solve(target, spoilt.observations, {});
+    const Corrupted corrupted = corrupt(generator.next(), Reflected::kBesideTrueHit, generator);
+    const auto solution = solve(target, corrupted.observations, {});
     ASSERT_TRUE(solution.ok());
     std::set<std::pair<int, int>> places;
     int used = 0;
-    for (std::size_t i = 0; i < spoilt.observations.size(); ++i) {
+    for (std::size_t i = 0; i < corrupted.observations.size(); ++i) {
       if (!solution->used.test(i)) continue;
       ++used;
-      const Observation& o = spoilt.observations[i];
+      const Observation& o = corrupted.observations[i];
       EXPECT_TRUE(places.insert({o.sensor, index_of(o.axis)}).second);
     }
     EXPECT_EQ(used, solution->estimate.observations);
@@ -159,7 +159,7 @@ TEST(Reflections, HallOfMirrorsIsSolvedWithoutAnExplosion) {
   // Every place has four hits: 4^16 combinations.
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 8;
+  set.min_sensors = 8;
   test::PnpGenerator generator(target, set, 5);
   int right = 0;
   constexpr int kProblems = 50;
@@ -179,7 +179,7 @@ TEST(Reflections, HallOfMirrorsIsSolvedWithoutAnExplosion) {
 TEST(Reflections, SystematicErrorsOfAMilliradianAreNoReasonToThrowHitsAway) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   set.sigma_rad = 1e-3;  // twenty-three times what the solver is told
   test::PnpGenerator generator(target, set, 6);
   int lost = 0, hits = 0, refused = 0;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pharos/pose/solve.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -15,7 +15,7 @@ class Refusals : public ::testing::Test {
  protected:
   Refusals() {
     test::PnpSet set;
-    set.least_sensors = 6;
+    set.min_sensors = 6;
     problem_ = test::PnpGenerator(target_, set, 1).next();
   }
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/support/allocation_guard.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -117,7 +117,7 @@ TEST(Solve, PriorThatIsFarOffDoesNoHarm) {
 TEST(Solve, ThreeSensorsDoWithAPriorAndKeepToIt) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 4;
+  set.min_sensors = 4;
   test::PnpGenerator generator(target, set, 7);
   int solved = 0;
   constexpr int kProblems = 300;
@@ -138,7 +138,7 @@ TEST(Solve, ThreeSensorsDoWithAPriorAndKeepToIt) {
 TEST(Solve, SensorsWithOneAxisAreUsedAsWell) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   test::PnpGenerator generator(target, set, 8);
   for (int k = 0; k < 200; ++k) {
     const test::PnpProblem problem = generator.next();
@@ -157,7 +157,7 @@ TEST(Solve, SensorsWithOneAxisAreUsedAsWell) {
 TEST(Solve, TangentResidualIsThePapersMinimum) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   set.sigma_rad = 60.0 * kRadPerArcsec;
   test::PnpGenerator generator(target, set, 9);
   SolveOptions tangent;
@@ -185,7 +185,7 @@ TEST(Solve, TangentResidualIsThePapersMinimum) {
 TEST(Solve, FirstSolutionFitsBetterThanTheSecond) {
   const Target target = test::top_plate_target();
   test::PnpSet set;
-  set.most_sensors = 4;
+  set.max_sensors = 4;
   test::PnpGenerator generator(target, set, 10);
   int ambiguous = 0;
   for (int k = 0; k < 500; ++k) {
@@ -202,7 +202,7 @@ TEST(Solve, FirstSolutionFitsBetterThanTheSecond) {
 TEST(Solve, SecondIsNotLookedForWhereNotWanted) {
   const Target target = test::top_plate_target();
   test::PnpSet set;
-  set.most_sensors = 4;
+  set.max_sensors = 4;
   test::PnpGenerator generator(target, set, 11);
   SolveOptions options;
   options.look_for_second = false;

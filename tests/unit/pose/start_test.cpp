@@ -5,34 +5,34 @@
 
 #include "pharos/pose/attitude_grid.hpp"
 #include "pharos/pose/dlt.hpp"
-#include "pharos/pose/hits.hpp"
+#include "pharos/pose/hit_candidates.hpp"
 #include "pharos/pose/homography.hpp"
 #include "pharos/pose/p3p.hpp"
 #include "pharos/pose/rpnp.hpp"
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
 
 struct View {
   test::PnpProblem problem;
-  Hits hits;
+  HitCandidates hits;
   RaySet rays;
 };
 
 View view_of(const Target& target, test::PnpGenerator& generator) {
   View view;
   view.problem = generator.next();
-  EXPECT_TRUE(collect_hits(target, view.problem.observations, view.hits));
-  view.rays = rays_of(view.hits.sightings);
+  EXPECT_TRUE(collect_hit_candidates(target, view.problem.observations, view.hits));
+  view.rays = rays_of(view.hits.table);
   return view;
 }
 
-test::PnpSet noise_free(int least, int most) {
+test::PnpSet noise_free(int minimum, int maximum) {
   test::PnpSet set;
   set.sigma_rad = 0.0;
-  set.least_sensors = least;
-  set.most_sensors = most;
+  set.min_sensors = minimum;
+  set.max_sensors = maximum;
   return set;
 }
 
@@ -41,9 +41,9 @@ double distance(const LighthouseFromBody& a, const LighthouseFromBody& b) {
 }
 
 double nearest(const StartPoses& poses, const LighthouseFromBody& truth) {
-  double least = 1e300;
-  for (const LighthouseFromBody& pose : poses) least = std::min(least, distance(pose, truth));
-  return least;
+  double minimum = 1e300;
+  for (const LighthouseFromBody& pose : poses) minimum = std::min(minimum, distance(pose, truth));
+  return minimum;
 }
 
 TEST(P3p, HoldsTheTruthAmongItsPosesForEveryTripletOfAPerfectView) {
@@ -97,9 +97,9 @@ TEST(P3p, KeepsAStartWhereNoiseMakesTheRootsComplex) {
     problem.truth = {rotation_exp({0.0, kPi, 0.0}), {0.0, 0.0, generator.uniform(1.0, 5.0)}};
     problem.seen = 0xF;
     generator.observe(problem);
-    Hits hits;
-    ASSERT_TRUE(collect_hits(target, problem.observations, hits));
-    const RaySet rays = rays_of(hits.sightings);
+    HitCandidates hits;
+    ASSERT_TRUE(collect_hit_candidates(target, problem.observations, hits));
+    const RaySet rays = rays_of(hits.table);
     EXPECT_FALSE(p3p(rays, wide_triplet(rays)).empty());
   }
 }
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryStart,
 TEST(StartPoses, DltGivesWayWhereItsReprojectionFails) {
   const Target target = test::frustum_target();
   test::PnpSet set;
-  set.least_sensors = 6;
+  set.min_sensors = 6;
   set.sigma_rad = 60.0 * kRadPerArcsec;
   SolveOptions by_dlt;
   by_dlt.start = Start::kDlt;
@@ -208,7 +208,7 @@ TEST(StartPoses, DltGivesWayWhereItsReprojectionFails) {
       const StartPoses alone = dlt(view.rays);
       if (nearest(alone, view.problem.truth) < 0.5) continue;
       ++wrong;
-      EXPECT_LT(nearest(start_poses(view.hits.sightings, Start::kDlt), view.problem.truth),
+      EXPECT_LT(nearest(start_poses(view.hits.table, Start::kDlt), view.problem.truth),
                 nearest(alone, view.problem.truth));
       const auto reference = solve(target, view.problem.observations, {});
       const auto solution = solve(target, view.problem.observations, by_dlt);

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tools/problems/pnp_problems.hpp"
+#include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
 namespace {
@@ -32,7 +32,7 @@ double sigmas_between(const LighthousePoseEstimate& a, const LighthousePoseEstim
 }
 
 struct Comparison {
-  double variance = kPaperSigmaRad * kPaperSigmaRad;
+  double variance = kPaperSigma_rad * kPaperSigma_rad;
   int problems = 0, unanswered = 0, ambiguous = 0, other_flags = 0;
   double largest_distance_sigma = 0.0, largest_sigma_ratio = 1.0, largest_delta = 0.0, largest_chi2 = 0.0;
 
@@ -103,8 +103,8 @@ TEST(WarmSolve, AnswersAsSolveDoesUnderSevenTimesTheNoise) {
 TEST(WarmSolve, TellsTheRivalsOfCoplanarSensors) {
   test::PnpSet set;
   set.sigma_rad = 30.0 * kRadPerArcsec;
-  set.least_sensors = 4;
-  set.most_sensors = 4;
+  set.min_sensors = 4;
+  set.max_sensors = 4;
   const Comparison c = compared(test::top_plate_target(), set, 2'000, 13);
   EXPECT_LE(c.other_flags, flags_that_may_differ(c));
   EXPECT_LT(c.largest_distance_sigma, 0.1);
@@ -168,7 +168,7 @@ class WarmSolveLeaves : public ::testing::Test {
   SolveOptions options_;
 
   test::PnpSet eight() {
-    set_.least_sensors = set_.most_sensors = 8;
+    set_.min_sensors = set_.max_sensors = 8;
     return set_;
   }
   bool answered() const { return solve_warm(target_, problem_.observations, options_, problem_.truth).has_value(); }

@@ -79,7 +79,7 @@ Campaign campaign(double sigma_px, int count) {
     const double theta = random.uniform(-25.0, 25.0) * kDeg;
     const double gamma = random.uniform(-25.0, 25.0) * kDeg;
     const Scene scene = scene_of(theta, gamma);
-    const auto estimate = solve_circles(core_rig(scene.rig), noisy_contours(scene, sigma_px, seed));
+    const auto estimate = solve_ring2(core_rig(scene.rig), noisy_contours(scene, sigma_px, seed));
     if (!estimate) continue;
     ++result.answered;
     const sim::RingAndNozzle& truth = scene.target;
@@ -112,8 +112,8 @@ void expect_efficient(const Campaign& campaign, int count, double rms_deg) {
 }
 
 // 800 problems of 8 unknowns: NEES and the RMS of two tilts then scatter by 1.8 %.
-TEST(NoisyCircles, ATenthOfAPixelReachesTheBound) { expect_efficient(campaign(0.1, 800), 800, 0.008); }
-TEST(NoisyCircles, HalfAPixelReachesTheBound) { expect_efficient(campaign(0.5, 800), 800, 0.04); }
+TEST(Ring2Noise, ATenthOfAPixelReachesTheBound) { expect_efficient(campaign(0.1, 800), 800, 0.008); }
+TEST(Ring2Noise, HalfAPixelReachesTheBound) { expect_efficient(campaign(0.5, 800), 800, 0.04); }
 
 }  // namespace
 }  // namespace pharos::ring2

@@ -10,7 +10,7 @@ namespace pharos::ring2 {
 namespace {
 
 double paper_error_deg(const Scene& scene) {
-  const auto estimate = solve_circles_by_paper(core_rig(scene.rig), clean_contours(scene));
+  const auto estimate = solve_ring2_by_paper(core_rig(scene.rig), clean_contours(scene));
   EXPECT_TRUE(estimate.ok());
   return estimate ? angle_between(estimate->normal, scene.target.normal) / kDeg : 90.0;
 }
@@ -44,7 +44,7 @@ TEST(PaperMethod, RigSweepsStayBelowOneDegree) {
 TEST(PaperMethod, KeepsTheSignOfTheAttitude) {
   for (const double sign : {-1.0, 1.0}) {
     const Scene scene = scene_of(sign * 3.0 * kDeg, -sign * 2.0 * kDeg);
-    const auto estimate = solve_circles_by_paper(core_rig(scene.rig), clean_contours(scene));
+    const auto estimate = solve_ring2_by_paper(core_rig(scene.rig), clean_contours(scene));
     ASSERT_TRUE(estimate.ok());
     const Attitude attitude = attitude_of(estimate->normal);
     EXPECT_NEAR(attitude.theta_rad / kDeg, sign * 3.0, 0.5);
@@ -54,7 +54,7 @@ TEST(PaperMethod, KeepsTheSignOfTheAttitude) {
 
 // A plane with A at (AD, CD) and B at (BE, CE), and the axis' true angle.
 struct Triangle {
-  PlaneSighting sighting;
+  PlaneTriangle triangle;
   double AD, BE, angle;
 };
 
@@ -71,7 +71,7 @@ TEST(PaperMethod, EquationsAsPrintedHoldInAllThreeCases) {
   const Triangle second = triangle_of(-0.05, 3.0, 0.3, d);
   const Triangle third = triangle_of(-0.4, 3.0, 0.3, d);
   for (const Triangle& t : {first, second, third}) {
-    const PlaneSighting& s = t.sighting;
+    const PlaneTriangle& s = t.triangle;
     EXPECT_NEAR(distance_by_paper(s), d, 1e-12);
     EXPECT_NEAR(axis_angle_by_paper(s, d), t.angle, 1e-12);
     // (8), (9) from O1 where A B meets the optical axis; signed, for O1 may lie between A and B.
@@ -89,12 +89,12 @@ TEST(PaperMethod, EquationsAsPrintedHoldInAllThreeCases) {
     EXPECT_NEAR(std::acos(1.0 / CO), std::abs(theta), 1e-7);
   }
   // The cases' own forms, with the unsigned angles of the print.
-  const auto AC = [](const Triangle& t) { return t.sighting.CD_m / std::cos(t.sighting.beta1_rad); };
-  const double b1 = std::abs(first.sighting.beta1_rad), b2 = std::abs(first.sighting.beta2_rad);
+  const auto AC = [](const Triangle& t) { return t.triangle.CD_m / std::cos(t.triangle.beta1_rad); };
+  const double b1 = std::abs(first.triangle.beta1_rad), b2 = std::abs(first.triangle.beta2_rad);
   EXPECT_NEAR(std::asin(AC(first) / d * std::sin(b2 - b1)) - b2, 0.3, 1e-12);  // (10), (12)
-  const double c1 = std::abs(second.sighting.beta1_rad), c2 = std::abs(second.sighting.beta2_rad);
+  const double c1 = std::abs(second.triangle.beta1_rad), c2 = std::abs(second.triangle.beta2_rad);
   EXPECT_NEAR(std::asin(AC(second) / d * std::sin(c2 + c1)) - c2, 0.3, 1e-12);  // (13), (15)
-  const double e1 = std::abs(third.sighting.beta1_rad), e2 = std::abs(third.sighting.beta2_rad);
+  const double e1 = std::abs(third.triangle.beta1_rad), e2 = std::abs(third.triangle.beta2_rad);
   EXPECT_NEAR(std::asin(AC(third) / d * std::sin(e1 - e2)) + e2, 0.3, 1e-12);  // (16), (18)
 }
 
@@ -102,9 +102,9 @@ TEST(PaperMethod, NeedsAllFourEllipses) {
   const Scene scene = scene_of(1.0 * kDeg, 1.0 * kDeg);
   ContourSet contours = clean_contours(scene);
   contours[1][1].reset();
-  const auto estimate = solve_circles_by_paper(core_rig(scene.rig), contours);
+  const auto estimate = solve_ring2_by_paper(core_rig(scene.rig), contours);
   ASSERT_FALSE(estimate.ok());
-  EXPECT_EQ(estimate.error(), CirclesFailure::kTooFewEllipses);
+  EXPECT_EQ(estimate.error(), Ring2Failure::kTooFewEllipses);
 }
 
 }  // namespace

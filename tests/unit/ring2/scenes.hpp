@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pharos/base/units.hpp"
-#include "tools/cli/reproduce/ring2/simulated_pair.hpp"
+#include "tools/evaluation/reproduce/ring2/simulated_pair.hpp"
 
 namespace pharos::ring2 {
 

@@ -37,7 +37,7 @@ std::multiset<Key> keys(const std::vector<SimulatedPulse>& pulses) {
 }
 
 LighthouseScenario ten_seconds() {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.duration_s = 10.0;
   return scenario;
 }
@@ -52,7 +52,7 @@ TEST(Faults, MissedFlashesAreAsManyAsNotedAndHitsRemain) {
 }
 
 TEST(Faults, MissedFlashesMayComeInBurstsOfTheSameShare) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.duration_s = 200.0;
   scenario.faults.missed_flash_rate = 0.1;
   scenario.faults.missed_flash_burst = 20.0;
@@ -95,7 +95,7 @@ TEST(Faults, StretchedFlashesAreLongerOnEverySensorByWhatIsNoted) {
 }
 
 TEST(Faults, MergedFlashesReachFromTheFirstRiseToTheSecondFall) {
-  LighthouseScenario scenario = quiet_pair();
+  LighthouseScenario scenario = noise_free_pair();
   scenario.faults.merged_flash_rate = 0.1;
   const Faulty faulty = run(scenario);
   std::set<std::int64_t> slots;
@@ -132,7 +132,7 @@ TEST(Faults, ReflectionsComeAsOftenAsTheDirectHitAtTheGivenDistanceAndWidth) {
 }
 
 TEST(Faults, StalePulsesComeFirstSaturatedAndFarOff) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   const std::vector<SimulatedPulse> clean = run(scenario).pulses;
   scenario.faults.stale_pulses = 15;
   scenario.faults.stale_s = 37.0;
@@ -146,7 +146,7 @@ TEST(Faults, StalePulsesComeFirstSaturatedAndFarOff) {
 }
 
 TEST(Faults, DisorderKeepsEveryPulseAndMovesNoneByMoreThanAsked) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   const std::vector<SimulatedPulse> clean = run(scenario).pulses;
   scenario.faults.reorder_rate = 0.3;
   scenario.faults.reorder_us = 120.0;
@@ -166,7 +166,7 @@ TEST(Faults, DisorderKeepsEveryPulseAndMovesNoneByMoreThanAsked) {
 }
 
 TEST(Faults, DoubledPulsesFollowTheirOriginals) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   const std::vector<SimulatedPulse> clean = run(scenario).pulses;
   scenario.faults.doubled_rate = 0.1;
   const Faulty faulty = run(scenario);
@@ -206,7 +206,7 @@ TEST(Faults, GlitchesAndEndlessPulsesAreAddedAsNoted) {
 TEST(Faults, HandsTurnHitsIntoFlashLengthsOnTheSensorsTheyCover) {
   LighthouseScenario scenario = ten_seconds();
   scenario.faults.hands_per_s = 0.5;
-  scenario.faults.hand_share = 0.5;
+  scenario.faults.hand_fraction = 0.5;
   const Faulty faulty = run(scenario);
   ASSERT_GT(faulty.count("hand"), 0u);
   std::set<int> covered;
@@ -216,7 +216,7 @@ TEST(Faults, HandsTurnHitsIntoFlashLengthsOnTheSensorsTheyCover) {
   std::size_t smeared = 0;
   for (const SimulatedPulse& pulse : faulty.pulses) {
     const std::int64_t length = pulse.fall_ticks - pulse.rise_ticks;
-    const double phase = std::fmod(static_cast<double>(pulse.rise_ticks - first_flash) + 5000.0, kTurnTicks / 2);
+    const double phase = std::fmod(static_cast<double>(pulse.rise_ticks - first_flash) + 5000.0, kTurn_ticks / 2);
     if (length < 2900 || phase < 20'000.0) continue;
     EXPECT_TRUE(covered.count(pulse.sensor) != 0);
     EXPECT_LE(length, 7001);
@@ -238,7 +238,7 @@ TEST(Faults, ARestartedStationIsDarkForAWhileAndComesBackAtAnotherPhase) {
     }
   }
   EXPECT_NEAR(static_cast<double>(gap) * 20e-9, 2.5, 0.03);
-  const double slots = static_cast<double>(gap) / (kTurnTicks / 2);
+  const double slots = static_cast<double>(gap) / (kTurn_ticks / 2);
   EXPECT_GT(std::abs(slots - std::round(slots)), 0.01);
   EXPECT_GT(flashes.size() - after, 400u);
 }

@@ -13,7 +13,7 @@
 namespace pharos::sim {
 namespace {
 
-constexpr double kTickAngle = kTwoPi / kTurnTicks;
+constexpr double kTickAngle = kTwoPi / kTurn_ticks;
 
 // Rotor x of lone stations flashes without the axis bit.
 std::vector<SeenFlash> simulate(const LighthouseScenario& scenario, std::uint64_t seed = 1) {
@@ -22,7 +22,7 @@ std::vector<SeenFlash> simulate(const LighthouseScenario& scenario, std::uint64_
 }
 
 TEST(LighthouseSimulator, HitsASensorStraightAheadAQuarterTurnAfterTheFlash) {
-  LighthouseScenario scenario = quiet_scenario({facing(), {0.0, 0.0, 3.0}});
+  LighthouseScenario scenario = noise_free_scenario({facing(), {0.0, 0.0, 3.0}});
   scenario.target.clear();
   scenario.target.push_back({5, Vector3::Zero(), Vector3::UnitZ()});
   int hits = 0;
@@ -30,7 +30,7 @@ TEST(LighthouseSimulator, HitsASensorStraightAheadAQuarterTurnAfterTheFlash) {
     for (const auto& [sensor, centres] : flash.hits_ticks) {
       EXPECT_EQ(sensor, 5);
       ASSERT_EQ(centres.size(), 1u);
-      EXPECT_NEAR(centres[0], kTurnTicks / 4, 1.1);
+      EXPECT_NEAR(centres[0], kTurn_ticks / 4, 1.1);
       ++hits;
     }
   }
@@ -38,17 +38,17 @@ TEST(LighthouseSimulator, HitsASensorStraightAheadAQuarterTurnAfterTheFlash) {
 }
 
 TEST(LighthouseSimulator, FlashesOfALoneStationAlternateAndNeverSkip) {
-  const std::vector<SeenFlash> flashes = simulate(quiet_scenario());
+  const std::vector<SeenFlash> flashes = simulate(noise_free_scenario());
   ASSERT_GT(flashes.size(), 100u);
   for (std::size_t i = 1; i < flashes.size(); ++i) {
     EXPECT_NE(flashes[i].axis_y(), flashes[i - 1].axis_y());
     EXPECT_FALSE(flashes[i].skip());
-    EXPECT_NEAR(static_cast<double>(flashes[i].rise_ticks - flashes[i - 1].rise_ticks), kTurnTicks / 2, 1.1);
+    EXPECT_NEAR(static_cast<double>(flashes[i].rise_ticks - flashes[i - 1].rise_ticks), kTurn_ticks / 2, 1.1);
   }
 }
 
 TEST(LighthouseSimulator, PairsOfStationsFlashInEverySlotAndOneOfThemSweeps) {
-  const std::vector<SeenFlash> flashes = simulate(quiet_pair());
+  const std::vector<SeenFlash> flashes = simulate(noise_free_pair());
   ASSERT_GT(flashes.size(), 200u);
   std::vector<bool> first_sweeps;
   for (std::size_t i = 0; i + 1 < flashes.size(); i += 2) {
@@ -67,7 +67,7 @@ TEST(LighthouseSimulator, PairsOfStationsFlashInEverySlotAndOneOfThemSweeps) {
 }
 
 TEST(LighthouseSimulator, MeasuresWhatTheModelEquationSaysOfTheTruePose) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.stations[0].calibration.reset();  // typical
   scenario.errors = ErrorScenario::workshop();
   LighthouseSimulator simulator(scenario, 3);
@@ -85,7 +85,7 @@ TEST(LighthouseSimulator, MeasuresWhatTheModelEquationSaysOfTheTruePose) {
 }
 
 TEST(LighthouseSimulator, HitsAMovingTargetWhereItIsAtThatInstant) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   ManoeuvreLimits limits;
   limits.speed_m_s = 2.0;
   limits.rate_deg_s = 180.0;
@@ -102,7 +102,7 @@ TEST(LighthouseSimulator, HitsAMovingTargetWhereItIsAtThatInstant) {
       const double flash_s = static_cast<double>(flash.rise_ticks) * 20e-9;
       const double hit_s = flash_s + centres.at(0) * 20e-9;
       // The counter runs up to 40.5 ppm fast: measured turns are longer by that.
-      const double period = (simulator.clock().counter_time(1.0) - simulator.clock().counter_time(0.0)) * kTurnTicks;
+      const double period = (simulator.clock().counter_time(1.0) - simulator.clock().counter_time(0.0)) * kTurn_ticks;
       const double theta = centres.at(0) * kTwoPi / period;
       EXPECT_NEAR(theta, published_theta_form1(flash.axis_y(), {}, simulator.truth(0, hit_s) * p_body),
                   1.3 * kTickAngle);
@@ -117,11 +117,11 @@ TEST(LighthouseSimulator, HitsAMovingTargetWhereItIsAtThatInstant) {
 
 TEST(LighthouseSimulator, NoiseHasTheSpreadAndCorrelationAskedFor) {
   for (const auto& [sigma, rho] : {std::pair{8.8, 0.8717}, std::pair{10.8, 0.97}, std::pair{30.0, 0.0}}) {
-    LighthouseScenario scenario = quiet_scenario({facing(), {0.1, 0.1, 1.5}});
+    LighthouseScenario scenario = noise_free_scenario({facing(), {0.1, 0.1, 1.5}});
     scenario.duration_s = 60.0;
     scenario.noise.sigma_arcsec = sigma;
     scenario.noise.rho = rho;
-    scenario.noise.flash_share = 0.6;
+    scenario.noise.flash_fraction = 0.6;
     std::array<std::vector<std::array<double, 2>>, 2> turns;  // of sensors 0 and 3, by axis
     std::vector<double> flash_rises;
     for (const SeenFlash& flash : simulate(scenario)) {
@@ -149,7 +149,7 @@ TEST(LighthouseSimulator, NoiseHasTheSpreadAndCorrelationAskedFor) {
 }
 
 TEST(LighthouseSimulator, NarrowHitsAreNoisier) {
-  LighthouseScenario scenario = quiet_scenario({facing(), {0.0, 0.0, 9.0}});
+  LighthouseScenario scenario = noise_free_scenario({facing(), {0.0, 0.0, 9.0}});
   scenario.noise.narrow_sigma_arcsec = 25.0;
   scenario.duration_s = 20.0;
   std::vector<double> x;
@@ -166,7 +166,7 @@ TEST(LighthouseSimulator, NarrowHitsAreNoisier) {
 }
 
 TEST(LighthouseSimulator, SendsItsCalibrationInItsFlashes) {
-  LighthouseScenario scenario = quiet_pair();
+  LighthouseScenario scenario = noise_free_pair();
   scenario.duration_s = 7.0;
   scenario.stations[0].calibration.reset();
   scenario.stations[1].calibration.reset();
@@ -185,7 +185,8 @@ TEST(LighthouseSimulator, SendsItsCalibrationInItsFlashes) {
 }
 
 TEST(LighthouseSimulator, WeakSensorsSeeTheFlashLateByAFixedShareOfWhatTheyLack) {
-  LighthouseScenario scenario = quiet_scenario({facing() * rotation_exp(Vector3(0.55, 0.3, 0.0)), {0.0, 0.0, 2.0}});
+  LighthouseScenario scenario =
+      noise_free_scenario({facing() * rotation_exp(Vector3(0.55, 0.3, 0.0)), {0.0, 0.0, 2.0}});
   LighthouseSimulator simulator(scenario, 2);
   std::map<std::int64_t, std::int64_t> checked;
   const std::vector<SimulatedPulse> pulses = all_pulses(simulator);
@@ -204,7 +205,7 @@ TEST(LighthouseSimulator, WeakSensorsSeeTheFlashLateByAFixedShareOfWhatTheyLack)
 
 TEST(LighthouseSimulator, OnlySensorsBelowTheIncidenceLimitAreLit) {
   const Matrix3 tilted = facing() * rotation_exp(Vector3(0.0, 0.9, 0.0));
-  LighthouseSimulator simulator(quiet_scenario({tilted, {0.0, 0.0, 2.0}}), 1);
+  LighthouseSimulator simulator(noise_free_scenario({tilted, {0.0, 0.0, 2.0}}), 1);
   std::set<int> seen;
   for (const SimulatedPulse& pulse : all_pulses(simulator)) seen.insert(pulse.sensor);
   std::set<int> expected;
@@ -218,7 +219,7 @@ TEST(LighthouseSimulator, OnlySensorsBelowTheIncidenceLimitAreLit) {
 }
 
 TEST(LighthouseSimulator, AConvexBodyHidesWhatLiesBehindIt) {
-  LighthouseScenario scenario = quiet_scenario({facing(), {0.0, 0.0, 2.0}});
+  LighthouseScenario scenario = noise_free_scenario({facing(), {0.0, 0.0, 2.0}});
   // A box between the station and the sensors of the +x half: 20 mm to 60 mm in x, above the top plate.
   scenario.body = {{{-1, 0, 0}, -0.02}, {{1, 0, 0}, 0.06},   {{0, 1, 0}, 0.06},
                    {{0, -1, 0}, 0.06},  {{0, 0, -1}, -0.07}, {{0, 0, 1}, 0.10}};
@@ -230,7 +231,7 @@ TEST(LighthouseSimulator, AConvexBodyHidesWhatLiesBehindIt) {
 }
 
 TEST(LighthouseSimulator, SameSeedSamePulsesOtherSeedOthers) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.noise = NoiseScenario{};
   scenario.faults.missed_hit_rate = 0.1;
   const auto pulses_of = [&](std::uint64_t seed) {
@@ -246,7 +247,7 @@ TEST(LighthouseSimulator, SameSeedSamePulsesOtherSeedOthers) {
 }
 
 TEST(LighthouseSimulator, PulsesComeInTheOrderOfTheirEnds) {
-  LighthouseScenario scenario = quiet_pair();
+  LighthouseScenario scenario = noise_free_pair();
   LighthouseSimulator simulator(scenario, 1);
   std::int64_t last = 0;
   for (const SimulatedPulse& pulse : all_pulses(simulator)) {

@@ -167,13 +167,13 @@ TEST_F(ScenarioFile, SameSeedSameBytes) {
   // Stamps of the wrapped counter keep to 32 bits, although the recording passes the wrap.
   host::ByteSource source((directory_ / "a/edges.csv.gz").string());
   host::EdgesReader edges(std::move(source));
-  std::int64_t least = INT64_MAX;
+  std::int64_t minimum = INT64_MAX;
   std::int64_t greatest = 0;
   while (const auto pulse = edges.next()) {
-    least = std::min(least, pulse->rise_ticks);
+    minimum = std::min(minimum, pulse->rise_ticks);
     greatest = std::max(greatest, pulse->rise_ticks);
   }
-  EXPECT_GT(greatest - least, std::int64_t{19} * 50'000'000) << "the reader unwraps: the span is the duration";
+  EXPECT_GT(greatest - minimum, std::int64_t{19} * 50'000'000) << "the reader unwraps: the span is the duration";
 }
 
 TEST_F(ScenarioFile, AnOutputThatCannotBeMadeIsRefused) {

@@ -34,7 +34,7 @@ PulseFeed feed_of(std::vector<RawPulse> pulses) {
 }
 
 std::vector<RawPulse> scenario_pulses(double duration_s) {
-  LighthouseScenario scenario = quiet_scenario();
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.duration_s = duration_s;
   LighthouseSimulator simulator(scenario, 1);
   std::vector<RawPulse> pulses;

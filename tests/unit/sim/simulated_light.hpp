@@ -16,7 +16,7 @@ namespace pharos::sim {
 // A reading of simulated pulses that knows nothing of the product's decoder: good enough for clean light, written from
 // the description of the signal alone.
 
-inline constexpr double kTurnTicks = 50e6 / 60.0;
+inline constexpr double kTurn_ticks = 50e6 / 60.0;
 inline constexpr double kPiTest = 3.14159265358979323846;
 
 struct SeenFlash {
@@ -93,7 +93,7 @@ inline Target frustum() {
 inline Matrix3 facing() { return Vector3(1, -1, -1).asDiagonal(); }
 
 /// The frustum at rest before one ideal station, without noise of any kind.
-inline LighthouseScenario quiet_scenario(const RoomFromBody& pose = {facing(), {0.2, -0.15, 2.0}}) {
+inline LighthouseScenario noise_free_scenario(const RoomFromBody& pose = {facing(), {0.2, -0.15, 2.0}}) {
   LighthouseScenario scenario;
   scenario.duration_s = 1.0;
   scenario.target = frustum();
@@ -102,13 +102,13 @@ inline LighthouseScenario quiet_scenario(const RoomFromBody& pose = {facing(), {
   scenario.rotor.second_wander_ticks = 0.0;
   scenario.noise = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   scenario.stations.resize(1);
-  scenario.trajectory = std::make_shared<RestTrajectory>(std::vector<RoomFromBody>{pose}, 1e6, 0.0);
+  scenario.trajectory = std::make_shared<StationaryTrajectory>(std::vector<RoomFromBody>{pose}, 1e6, 0.0);
   return scenario;
 }
 
 /// The same before two stations, master and optical slave.
-inline LighthouseScenario quiet_pair() {
-  LighthouseScenario scenario = quiet_scenario();
+inline LighthouseScenario noise_free_pair() {
+  LighthouseScenario scenario = noise_free_scenario();
   scenario.stations.resize(2);
   scenario.stations[0].mode = StationMode::kB;
   scenario.stations[1].mode = StationMode::kC;

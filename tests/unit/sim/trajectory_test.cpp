@@ -24,10 +24,10 @@ TEST(CarriedTrajectory, RestsInEachPoseAndMovesSmoothlyBetween) {
   EXPECT_TRUE(carried.lit(2.5));
 }
 
-TEST(RestTrajectory, HoldsEachPoseAndIsDarkBetween) {
+TEST(StationaryTrajectory, HoldsEachPoseAndIsDarkBetween) {
   const RoomFromBody a{facing(), {0, 0, 1}};
   const RoomFromBody b{facing(), {0, 0, 2}};
-  const RestTrajectory rest({a, b}, 5.0, 0.5);
+  const StationaryTrajectory rest({a, b}, 5.0, 0.5);
   EXPECT_EQ(rest.at(4.9).t.z(), 1.0);
   EXPECT_EQ(rest.at(5.1).t.z(), 2.0);
   EXPECT_EQ(rest.at(99.0).t.z(), 2.0);
@@ -83,12 +83,12 @@ TEST(Manoeuvre, StaysInItsVolumeAndReachesItsGreatestSpeedAndRate) {
   }
 }
 
-TEST(RandomRest, ShowsAsManySensorsAsAskedFor) {
+TEST(RandomStationaryPoses, ShowsAsManySensorsAsAskedFor) {
   const Target target = frustum();
-  RandomRest limits;
+  RandomStationaryPoses limits;
   limits.count = 200;
   limits.min_lit = 5;
-  for (const RoomFromBody& pose : random_rest_poses(limits, target, 60.0, RandomStream(1, "rest test"))) {
+  for (const RoomFromBody& pose : random_stationary_poses(limits, target, 60.0, RandomStream(1, "rest test"))) {
     int lit = 0;
     for (const SensorPlacement& sensor : target) {
       const Vector3 to_station = -(pose * sensor.position_m).normalized();
@@ -100,7 +100,7 @@ TEST(RandomRest, ShowsAsManySensorsAsAskedFor) {
   }
   limits.min_lit = 12;  // a frustum never shows all its faces within 60 deg
   limits.count = 1;
-  EXPECT_THROW(random_rest_poses(limits, target, 30.0, RandomStream(1, "rest test")), host::InputError);
+  EXPECT_THROW(random_stationary_poses(limits, target, 30.0, RandomStream(1, "rest test")), host::InputError);
 }
 
 }  // namespace

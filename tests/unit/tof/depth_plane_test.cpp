@@ -14,13 +14,13 @@ namespace {
 // Depths of one plane in the whole image, with noise; amplitude is the same everywhere.
 test::SyntheticFrame plane_frame(const DepthCamera& camera, const Vector3& q, double sigma_m, unsigned seed) {
   test::SyntheticFrame frame;
-  frame.width_px = camera.optics.width_px;
-  frame.height_px = camera.optics.height_px;
+  frame.width_px = camera.intrinsics.width_px;
+  frame.height_px = camera.intrinsics.height_px;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, sigma_m);
   for (std::int32_t v = 0; v < frame.height_px; ++v) {
     for (std::int32_t u = 0; u < frame.width_px; ++u) {
-      const Vector2 ray = *undistort(camera.optics, Vector2(u, v));
+      const Vector2 ray = *undistort(camera.intrinsics, Vector2(u, v));
       const double z = 1.0 / q.dot(Vector3(ray.x(), ray.y(), 1.0)) + normal(random);
       frame.depth.push_back(static_cast<std::uint16_t>(z / camera.depth_scale_m + 0.5));
       frame.intensity.push_back(5000);
@@ -35,7 +35,7 @@ const Vector3 kPlane = Vector3(0.1, -0.2, 1.0) / 3.5;
 
 class DepthPlaneTest : public testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(rays_->prepare(camera_.optics)); }
+  void SetUp() override { ASSERT_TRUE(rays_->prepare(camera_.intrinsics)); }
   std::optional<PlaneFit> fit(const test::SyntheticFrame& frame) const {
     return fit_plane(frame.view(), camera_, *rays_, ring_region(kInner, kOuter));
   }
@@ -47,11 +47,11 @@ TEST_F(DepthPlaneTest, GridOfRaysIsThatOfTheLens) {
   double worst = 0.0;
   for (int v = 0; v < 240; v += 3) {
     for (int u = 0; u < 320; u += 3) {
-      worst = std::max(worst, (rays_->at(u, v) - *undistort(camera_.optics, Vector2(u, v))).norm());
+      worst = std::max(worst, (rays_->at(u, v) - *undistort(camera_.intrinsics, Vector2(u, v))).norm());
     }
   }
   // Nodes are twice as far apart, in angle, as at 640 columns: four times the error in angle, twice in pixels.
-  EXPECT_LT(worst * camera_.optics.fx_px, 0.02) << "px";
+  EXPECT_LT(worst * camera_.intrinsics.fx_px, 0.02) << "px";
 }
 
 TEST_F(DepthPlaneTest, RowsOfRaysAreThoseOfThePixels) {
@@ -65,7 +65,7 @@ TEST_F(DepthPlaneTest, RowsOfRaysAreThoseOfThePixels) {
       for (int k = 0; k < count; ++k) {
         const Vector2 ray(row.x()[k], row.y()[k]);
         const Vector2 of_pixel = rays_->at(u + k, v);
-        ASSERT_LT((ray - of_pixel).norm() * camera_.optics.fx_px, 1e-4) << u + k << ", " << v << ", px";
+        ASSERT_LT((ray - of_pixel).norm() * camera_.intrinsics.fx_px, 1e-4) << u + k << ", " << v << ", px";
         ASSERT_EQ(Vector2(exact.x()[k], exact.y()[k]), of_pixel) << u + k << ", " << v;
       }
     }
@@ -77,7 +77,7 @@ TEST_F(DepthPlaneTest, NoiselessDepthsGiveTheirPlane) {
   ASSERT_TRUE(plane.has_value());
   // The grid of rays leaves some 0.005 px, which is 0.02 mm of depth on a plane of this slope.
   EXPECT_LT((plane->plane.q - kPlane).norm(), 2e-6);
-  EXPECT_GT(plane->inlier_share, 0.99);
+  EXPECT_GT(plane->inlier_fraction, 0.99);
 }
 
 TEST_F(DepthPlaneTest, CovarianceIsThatOfTheErrors) {
@@ -107,7 +107,7 @@ TEST_F(DepthPlaneTest, AThirdHiddenByABoomAndFlyingPixelsDoNotMoveIt) {
   ASSERT_TRUE(plane.has_value());
   const Vector3 error = plane->plane.q - kPlane;
   EXPECT_LT(error.dot(plane->information * error), 25.0);
-  EXPECT_LT(plane->inlier_share, 0.75);
+  EXPECT_LT(plane->inlier_fraction, 0.75);
 }
 
 TEST_F(DepthPlaneTest, NeighboursCommonNoiseIsCounted) {
@@ -125,8 +125,8 @@ TEST_F(DepthPlaneTest, NeighboursCommonNoiseIsCounted) {
   }
   const auto plane = fit(frame);
   ASSERT_TRUE(plane.has_value());
-  EXPECT_GT(plane->correlation, 7.0);
-  EXPECT_LT(plane->correlation, 25.0);
+  EXPECT_GT(plane->variance_inflation, 7.0);
+  EXPECT_LT(plane->variance_inflation, 25.0);
 }
 
 TEST_F(DepthPlaneTest, TooFewDepthsGiveNone) {

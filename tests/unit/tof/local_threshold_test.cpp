@@ -74,7 +74,7 @@ TEST(LocalThresholdForms, AFlatPatchOfNoiseGrowsOnlyByThePixelCount) {
   for (int i = 0; i < kSide * kSide; ++i) grey.push_back(static_cast<std::uint16_t>(33000.5 + noise(random)));
   const auto workspace = std::make_unique<ThresholdWorkspace>();
   const auto above = std::make_unique<BitImage>();
-  const auto share = [&](ThresholdForm form) {
+  const auto fraction = [&](ThresholdForm form) {
     local_threshold({grey.data(), kSide, kSide}, 4, form, *workspace, *above);
     int set = 0;
     for (int v = 0; v < kSide; ++v) {
@@ -82,8 +82,8 @@ TEST(LocalThresholdForms, AFlatPatchOfNoiseGrowsOnlyByThePixelCount) {
     }
     return static_cast<double>(set) / (kSide * kSide);
   };
-  EXPECT_NEAR(share(ThresholdForm::kPixelCount), 0.58, 0.015);
-  EXPECT_NEAR(share(ThresholdForm::kAsPrinted), 0.50, 0.015);
+  EXPECT_NEAR(fraction(ThresholdForm::kPixelCount), 0.58, 0.015);
+  EXPECT_NEAR(fraction(ThresholdForm::kAsPrinted), 0.50, 0.015);
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ TEST_F(Regions, OutlineIsKeptByRowsAndColumns) {
 }
 
 TEST_F(Regions, WhatSpansTooMuchIsTakenOutWithoutOutline) {
-  mask_->reset(kMostRegionSide_px + 10, 3);
-  fill(0, 1, kMostRegionSide_px + 1, 1);
+  mask_->reset(kMaxRegionSide_px + 10, 3);
+  fill(0, 1, kMaxRegionSide_px + 1, 1);
   EXPECT_FALSE(grow_region(*mask_, 3, 1, *workspace_, region_));
-  EXPECT_EQ(region_.area_px, kMostRegionSide_px + 2);
+  EXPECT_EQ(region_.area_px, kMaxRegionSide_px + 2);
   EXPECT_FALSE(mask_->at(0, 1));
 }
 

@@ -13,7 +13,7 @@ using namespace pharos;  // NOLINT(google-build-using-namespace)
 
 DepthCamera tiny_camera() {
   DepthCamera camera;
-  camera.optics = {160, 120, 152.0, 151.0, 80.4, 59.7, {-0.1991, 0.0809, 0.0021, -0.0002, 0.0}};
+  camera.intrinsics = {160, 120, 152.0, 151.0, 80.4, 59.7, {-0.1991, 0.0809, 0.0021, -0.0002, 0.0}};
   return camera;
 }
 
@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   test::SyntheticFrame frame = ring_frame();
   DepthCamera camera = tiny_camera();
   if (size > 0 && data[0] != 0) {
-    camera.optics.distortion[data[0] % 5] += 0.05 * static_cast<std::int8_t>(data[0]);
+    camera.intrinsics.distortion[data[0] % 5] += 0.05 * static_cast<std::int8_t>(data[0]);
     camera.depth_scale_m *= 1.0 + data[0] / 16;
   }
   for (std::size_t at = 1; at + kBrushBytes <= size && at < 64 * kBrushBytes; at += kBrushBytes)

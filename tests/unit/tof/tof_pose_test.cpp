@@ -74,7 +74,7 @@ TEST_F(TofPoseTest, PositionIsTheCirclesCentreNotItsImagesCentre) {
   const CameraFromTarget truth = facing({0.0, 0.0, 1.9}, {35.0 * kRadPerDeg, 0.0, 0.0});
   const auto pose = measure(render(SyntheticRing{}, truth, camera_));
   ASSERT_TRUE(pose.ok()) << name_of(pose.error());
-  const auto centre = project(camera_.optics, truth.t);
+  const auto centre = project(camera_.intrinsics, truth.t);
   const double apart_px = std::hypot(pose->ring.outer.cx_px - centre->x(), pose->ring.outer.cy_px - centre->y());
   EXPECT_GT(apart_px, 3.0) << "the view does not tell the two apart";
   EXPECT_LT((pose->target.pose.t - truth.t).norm(), 0.001);

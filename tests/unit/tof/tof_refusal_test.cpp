@@ -44,13 +44,13 @@ TEST_F(TofRefusal, ImagesOfUnlikeSize) {
 
 TEST_F(TofRefusal, CameraFileOfAnotherResolution) {
   const SyntheticFrame frame = good();
-  camera_.optics.width_px = 640;
+  camera_.intrinsics.width_px = 640;
   EXPECT_EQ(outcome(frame), "camera_size");
 }
 
 TEST_F(TofRefusal, CameraThatCannotBe) {
   const SyntheticFrame frame = good();
-  camera_.optics.distortion = {-3.0, 0.0, 0.0, 0.0, 0.0};
+  camera_.intrinsics.distortion = {-3.0, 0.0, 0.0, 0.0, 0.0};
   EXPECT_EQ(outcome(frame), "camera_unusable");
   camera_ = test::small_camera();
   camera_.depth_scale_m = 0.0;

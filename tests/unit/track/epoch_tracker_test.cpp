@@ -99,14 +99,14 @@ TEST(EpochTracker, ForgetsItsStationsInALongDark) {
     tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
     tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
     const auto next = make_sweep(target, some_pose(), some_calibration(), Axis::kX, kHalfTurn + dark_ticks);
-    EXPECT_EQ(tracker.after_long_dark(next), dark_ticks > kLongestDarkTicks);
+    EXPECT_EQ(tracker.after_long_dark(next), dark_ticks > kLongestDark_ticks);
     tracker.push(next);
     const auto result =
         tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn + dark_ticks + kHalfTurn));
     return result ? static_cast<int>(result->flags) : -1;
   };
-  EXPECT_EQ(flags_after(kLongestDarkTicks) & kEpochUncalibrated, 0);
-  EXPECT_EQ(flags_after(kLongestDarkTicks + 1) & kEpochUncalibrated, kEpochUncalibrated);
+  EXPECT_EQ(flags_after(kLongestDark_ticks) & kEpochUncalibrated, 0);
+  EXPECT_EQ(flags_after(kLongestDark_ticks + 1) & kEpochUncalibrated, kEpochUncalibrated);
 }
 
 TEST(EpochTracker, SaysWhenNoCalibrationIsKnownAndThenMeasuresWrong) {
@@ -255,7 +255,7 @@ class SearchLimit : public ::testing::Test {
     TrackOptions options;
     options.warm_start = true;
     options.solve.max_search_starts = 2;
-    options.search_rest_ticks = kTicksPerSecond;
+    options.search_cooldown_ticks = kTicksPerSecond;
     return options;
   }
   // The answer of the cycle that begins so many turns after the start; `torn`: no rigid body shows such hits.

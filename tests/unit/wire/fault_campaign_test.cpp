@@ -53,9 +53,9 @@ struct Broken {
   std::size_t faults = 0;  // bytes flipped, dropped, inserted, doubled, cut off or moved
 };
 
-class Breaker {
+class FrameCorruptor {
  public:
-  Breaker(RandomMessages& random, const Stream& stream, std::size_t bytes_between_faults)
+  FrameCorruptor(RandomMessages& random, const Stream& stream, std::size_t bytes_between_faults)
       : random_(random), stream_(stream), gap_(bytes_between_faults) {
     out_.whole.assign(stream.frames.size(), true);
   }
@@ -153,7 +153,7 @@ struct Outcome {
 Outcome run_campaign(std::uint64_t seed, std::size_t frames, std::size_t bytes_between_faults) {
   RandomMessages random(seed);
   const Stream stream = make_stream(random, frames);
-  const Broken broken = Breaker(random, stream, bytes_between_faults).run();
+  const Broken broken = FrameCorruptor(random, stream, bytes_between_faults).run();
   FrameDecoder decoder;
   std::vector<bool> seen(frames, false);
   std::size_t first = frames;

@@ -111,15 +111,15 @@ TEST(FrameDecoder, DropsTheRestOfAFrameThatBeganBeforeItListenedWithoutBlame) {
 
 TEST(FrameDecoder, NamesAnotherProtocolVersion) {
   FrameDecoder decoder;
-  EXPECT_EQ(decoder.foreign_version(), std::nullopt);
+  EXPECT_EQ(decoder.unsupported_version(), std::nullopt);
   EXPECT_TRUE(feed(decoder, handmade(9, 0x10, 4, {1, 2, 3})).empty());
-  EXPECT_EQ(decoder.foreign_version(), 9);
+  EXPECT_EQ(decoder.unsupported_version(), 9);
   EXPECT_EQ(decoder.counters().wrong_version, 1u);
   // A broken frame says nothing about versions.
   Bytes broken = handmade(8, 0x10, 4, {1, 2, 3});
   broken[6] ^= 2;
   EXPECT_TRUE(feed(decoder, broken).empty());
-  EXPECT_EQ(decoder.foreign_version(), 9);
+  EXPECT_EQ(decoder.unsupported_version(), 9);
   EXPECT_EQ(decoder.counters().bad_crc, 1u);
 }
 

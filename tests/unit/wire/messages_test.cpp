@@ -119,8 +119,8 @@ struct RangedField {
   const char* name;
   std::size_t at;
   std::size_t bytes;
-  std::int64_t least;
-  std::int64_t most;
+  std::int64_t minimum;
+  std::int64_t maximum;
 };
 
 class SweepField : public ::testing::TestWithParam<RangedField> {};
@@ -133,14 +133,14 @@ TEST_P(SweepField, IsTakenWithinItsRangeAndRefusedOutsideOnBothEnds) {
     for (std::size_t i = 0; i < field.bytes; ++i) payload[field.at + i] = static_cast<std::uint8_t>(value >> (8 * i));
     return decode_payload<Sweep>(payload);
   };
-  for (const std::int64_t inside : {field.least, field.most}) {
+  for (const std::int64_t inside : {field.minimum, field.maximum}) {
     const auto message = decodes_with(inside);
     ASSERT_TRUE(message.ok()) << inside;
     Bytes again(kMaxPayload);
     again.resize(encode_payload(*message, again));
     EXPECT_EQ(again, payload) << inside;
   }
-  for (const std::int64_t outside : {field.least - 1, field.most + 1, std::int64_t{-1}}) {
+  for (const std::int64_t outside : {field.minimum - 1, field.maximum + 1, std::int64_t{-1}}) {
     EXPECT_EQ(decodes_with(outside).error(), DecodeError::kBadValue) << outside;
   }
 }

@@ -33,8 +33,8 @@ class RandomMessages {
   }
   std::size_t below(std::size_t bound) { return random_() % bound; }
   template <class T>
-  T between(std::int64_t least, std::int64_t most) {
-    return static_cast<T>(least + static_cast<std::int64_t>(below(static_cast<std::size_t>(most - least + 1))));
+  T between(std::int64_t minimum, std::int64_t maximum) {
+    return static_cast<T>(minimum + static_cast<std::int64_t>(below(static_cast<std::size_t>(maximum - minimum + 1))));
   }
   std::int64_t ticks() { return integer<std::int64_t>() % (kMaxTicks + 1); }
   double real() {
@@ -66,8 +66,8 @@ class RandomMessages {
   }
   void fill(Sweep& m) {
     m.flash_start_ticks = ticks();
-    m.flash_length_ticks = between<std::int32_t>(kMinFlashTicks, kMaxPulseTicks);
-    m.period_sixteenth_ticks = between<std::uint32_t>(kMinPeriodSixteenthTicks, kMaxPeriodSixteenthTicks);
+    m.flash_length_ticks = between<std::int32_t>(kMinFlash_ticks, kMaxPulse_ticks);
+    m.period_sixteenth_ticks = between<std::uint32_t>(kMinPeriod_sixteenth_ticks, kMaxPeriod_sixteenth_ticks);
     m.flash_sensors = between<std::uint8_t>(0, kMaxSensors);
     m.flags = integer<std::uint8_t>();
     m.station = static_cast<std::uint8_t>(below(2));
@@ -77,8 +77,8 @@ class RandomMessages {
     m.hits.clear();
     for (std::size_t i = below(kMaxHitsPerSweep + 1); i > 0; --i) {
       m.hits.push_back({between<std::uint8_t>(0, kMaxSensors - 1),
-                        between<std::uint16_t>(kMinPulseTicks, kMaxPulseTicks),
-                        between<std::int32_t>(0, kMaxCentreHalfTicks)});
+                        between<std::uint16_t>(kMinPulse_ticks, kMaxPulse_ticks),
+                        between<std::int32_t>(0, kMaxCentre_half_ticks)});
     }
   }
   void fill(Ootx& m) {
@@ -99,7 +99,7 @@ class RandomMessages {
     m.answer.reset();
     m.refusal = below(3) == 0 ? static_cast<std::uint8_t>(1 + below(255)) : std::uint8_t{0};
     if (m.refusal != 0) return;
-    PoseAnswer& answer = m.answer.emplace();
+    PoseResult& answer = m.answer.emplace();
     fill(answer.pose);
     for (float& value : answer.covariance) value = static_cast<float>(real());
     answer.residual_rms_rad = static_cast<float>(real());

@@ -21,7 +21,7 @@ double line_bytes(const M& message) {
   return static_cast<double>(test::frame_bytes(encoder, M::kType, payload).size());
 }
 
-double share(double bytes_per_second) { return bytes_per_second * kBitsPerByte / kBaud; }
+double fraction(double bytes_per_second) { return bytes_per_second * kBitsPerByte / kBaud; }
 
 Sweep sweep_with(std::size_t hits) {
   Sweep sweep;
@@ -34,7 +34,7 @@ Sweep sweep_with(std::size_t hits) {
 
 TEST(LineRate, TwelveSensorsAtFullRateLeaveHalfTheLineFree) {
   EXPECT_EQ(line_bytes(sweep_with(12)), 115.0);
-  EXPECT_NEAR(share(kSlotsPerSecond * line_bytes(sweep_with(12))), 0.2995, 0.0005);
+  EXPECT_NEAR(fraction(kSlotsPerSecond * line_bytes(sweep_with(12))), 0.2995, 0.0005);
 }
 
 TEST(LineRate, AllThatATargetSaysLeavesHalfTheLineFree) {
@@ -49,8 +49,8 @@ TEST(LineRate, AllThatATargetSaysLeavesHalfTheLineFree) {
   const double sweeps = kSlotsPerSecond * (line_bytes(sweep_with(12)) + line_bytes(sweep_with(0)));
   const double rest = line_bytes(decoder) + line_bytes(device) + line_bytes(Hello{}) + 10.0 * line_bytes(Time{}) +
                       2.0 * line_bytes(ootx) / 3.0;
-  EXPECT_LT(share(sweeps + rest), 0.5);
-  EXPECT_NEAR(share(sweeps + rest), 0.395, 0.01);
+  EXPECT_LT(fraction(sweeps + rest), 0.5);
+  EXPECT_NEAR(fraction(sweeps + rest), 0.395, 0.01);
 }
 
 TEST(LineRate, RawEdgesOfTwelveSensorsAndTwoStationsFit) {
@@ -83,7 +83,7 @@ TEST(LineRate, RawEdgesOfTwelveSensorsAndTwoStationsFit) {
   deliver();
   EXPECT_EQ(edges, 120.0 * 72.0);
   EXPECT_LT(bytes / edges, 3.0);
-  EXPECT_LT(share(bytes), 0.6);
+  EXPECT_LT(fraction(bytes), 0.6);
   RecordProperty("bytes_per_second", static_cast<int>(bytes));
 }
 

@@ -15,7 +15,7 @@ constexpr double kLargestRoll_rad = 20.0 * std::numbers::pi / 180.0;
 // Of the image's width, that the board's columns span when it faces the camera.
 constexpr double kSmallestSpan = 0.35;
 constexpr double kLargestSpan = 0.85;
-constexpr int kMostTries = 100000;
+constexpr int kMaxTries = 100000;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::vector<Pose<frame::Camera, frame::Board>> board_poses(const Lens& lens, con
                                                            std::uint64_t seed) {
   RandomStream random(seed, "board poses");
   std::vector<Pose<frame::Camera, frame::Board>> poses;
-  for (int tries = 0; tries < kMostTries && static_cast<int>(poses.size()) < count; ++tries) {
+  for (int tries = 0; tries < kMaxTries && static_cast<int>(poses.size()) < count; ++tries) {
     const double width_m = (sheet.columns - 1) * sheet.pitch_m;
     const double z = lens.fx_px * width_m / (random.uniform(kSmallestSpan, kLargestSpan) * lens.width_px);
     const Vector3 middle(z * (random.uniform(0.0, lens.width_px) - lens.cx_px) / lens.fx_px,

@@ -22,17 +22,17 @@ double integral_of_normal(double x) {
   return x * 0.5 * std::erfc(-x / std::numbers::sqrt2) + density;
 }
 
-// Share of a pixel's light, its own width blurred, that comes from left of `x` (from its middle).
-double share_left_of(double x, double blur_px) {
+// Fraction of a pixel's light, its own width blurred, that comes from left of `x` (from its middle).
+double fraction_left_of(double x, double blur_px) {
   if (blur_px <= 0.0) return std::clamp(x + 0.5, 0.0, 1.0);
   return blur_px * (integral_of_normal((x + 0.5) / blur_px) - integral_of_normal((x - 0.5) / blur_px));
 }
 
-double place_of_share(double share, double blur_px) {
+double place_of_fraction(double fraction, double blur_px) {
   double low = -0.5 - kBlurReach * blur_px, high = -low;
   while (high - low > 1e-9) {
     const double middle = 0.5 * (low + high);
-    (share_left_of(middle, blur_px) < share ? low : high) = middle;
+    (fraction_left_of(middle, blur_px) < fraction ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -43,9 +43,9 @@ std::vector<std::array<double, 2>> aperture(double blur_px) {
   constexpr double kPlastic = 1.32471795724474602596;
   std::vector<std::array<double, 2>> rays;
   for (int i = 1; i <= kRays / 2; ++i) {
-    const auto share = [&](double step) { return std::fmod(0.5 + step * i, 1.0); };
-    const double s = place_of_share(share(1.0 / kPlastic), blur_px);
-    const double t = place_of_share(share(1.0 / (kPlastic * kPlastic)), blur_px);
+    const auto fraction = [&](double step) { return std::fmod(0.5 + step * i, 1.0); };
+    const double s = place_of_fraction(fraction(1.0 / kPlastic), blur_px);
+    const double t = place_of_fraction(fraction(1.0 / (kPlastic * kPlastic)), blur_px);
     rays.push_back({s, t});
     rays.push_back({-s, -t});
   }
@@ -53,7 +53,7 @@ std::vector<std::array<double, 2>> aperture(double blur_px) {
 }
 
 // The shares of the three kinds of surface that a ray can meet.
-struct Shares {
+struct Fractions {
   double bright = 0.0;
   double surround = 0.0;
 };
@@ -120,15 +120,15 @@ class Pixel {
  public:
   Pixel(const std::array<double, 2>* upper, const std::array<double, 2>* lower) : upper_(upper), lower_(lower) {}
 
-  Shares look(const BoardSheet& sheet, const Plane& plane, const std::vector<std::array<double, 2>>& rays) const {
-    Shares shares;
+  Fractions look(const BoardSheet& sheet, const Plane& plane, const std::vector<std::array<double, 2>>& rays) const {
+    Fractions fractions;
     for (const auto& [s, t] : rays) {
       const Surface surface = surface_at(sheet, ray(plane, s + 0.5, t + 0.5));
-      shares.bright += surface == Surface::kBright ? 1.0 : 0.0;
-      shares.surround += surface == Surface::kSurround ? 1.0 : 0.0;
+      fractions.bright += surface == Surface::kBright ? 1.0 : 0.0;
+      fractions.surround += surface == Surface::kSurround ? 1.0 : 0.0;
     }
     const auto count = static_cast<double>(rays.size());
-    return {shares.bright / count, shares.surround / count};
+    return {fractions.bright / count, fractions.surround / count};
   }
 
   bool is_even(const BoardSheet& sheet, const Plane& plane, double blur_px) const {
@@ -159,8 +159,8 @@ class Pixel {
   const std::array<double, 2>* lower_;
 };
 
-Shares shares_of(const Pixel& pixel, const BoardSheet& sheet, const Plane& plane,
-                 const std::vector<std::array<double, 2>>& rays, double blur_px) {
+Fractions fractions_of(const Pixel& pixel, const BoardSheet& sheet, const Plane& plane,
+                       const std::vector<std::array<double, 2>>& rays, double blur_px) {
   if (!pixel.is_even(sheet, plane, blur_px)) return pixel.look(sheet, plane, rays);
   const Surface surface = pixel.middle(sheet, plane);
   return {surface == Surface::kBright ? 1.0 : 0.0, surface == Surface::kSurround ? 1.0 : 0.0};
@@ -175,8 +175,8 @@ BoardImage exposed(const Lens& lens, const std::vector<double>& light, const Exp
   for (int v = 0; v < lens.height_px; ++v) {
     for (int u = 0; u < lens.width_px; ++u, ++at) {
       const double du = u - half_u, dv = v - half_v;
-      const double share = (du * du + dv * dv) / (half_u * half_u + half_v * half_v);
-      const double counts = light[at] * (1.0 - exposure.falloff * share) + exposure.noise * noise.normal();
+      const double fraction = (du * du + dv * dv) / (half_u * half_u + half_v * half_v);
+      const double counts = light[at] * (1.0 - exposure.falloff * fraction) + exposure.noise * noise.normal();
       image.pixels[at] = static_cast<std::uint16_t>(std::lround(std::clamp(counts, 0.0, top)));
     }
   }
@@ -214,9 +214,9 @@ BoardImage BoardRenderer::render(const BoardSheet& sheet, const Pose<frame::Came
   for (int v = 0; v < lens_.height_px; ++v) {
     for (int u = 0; u < lens_.width_px; ++u) {
       const std::array<double, 2>* upper = corner_.data() + static_cast<std::ptrdiff_t>(v) * across + u;
-      const Shares shares = shares_of(Pixel(upper, upper + across), sheet, plane, rays, exposure.blur_px);
-      light.push_back(exposure.dark + shares.bright * (exposure.bright - exposure.dark) +
-                      shares.surround * (exposure.surround - exposure.dark));
+      const Fractions fractions = fractions_of(Pixel(upper, upper + across), sheet, plane, rays, exposure.blur_px);
+      light.push_back(exposure.dark + fractions.bright * (exposure.bright - exposure.dark) +
+                      fractions.surround * (exposure.surround - exposure.dark));
     }
   }
   return exposed(lens_, light, exposure, seed);

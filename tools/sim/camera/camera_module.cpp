@@ -5,10 +5,10 @@
 
 namespace pharos::sim {
 
-CameraPlaySummary serve_camera_by_module(const FrameReel& reel, const CameraPlay& play) {
+CameraPlaySummary serve_camera_by_module(const FrameSequence& sequence, const CameraPlay& play) {
   const auto serve = reinterpret_cast<CameraFunction>(host::module_function(kCameraModuleName, kCameraFunctionName));
   CameraPlaySummary summary;
-  serve(reel, play, summary);
+  serve(sequence, play, summary);
   return summary;
 }
 

@@ -5,14 +5,14 @@
 #include <ctime>
 #include <optional>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "tools/sim/camera/fake_helios.hpp"
 
 namespace pharos::sim {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-constexpr long kLookNs = 20'000'000;  // how often the camera's life is looked at
+constexpr long kLook_ns = 20'000'000;  // how often the camera's life is looked at
 
 /// True once SIGINT or SIGTERM has come; waits a moment for one.
 bool told_to_stop() {
@@ -20,7 +20,7 @@ bool told_to_stop() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
-  const timespec wait{0, kLookNs};
+  const timespec wait{0, kLook_ns};
   return ::sigtimedwait(&signals, nullptr, &wait) > 0;
 }
 
@@ -33,7 +33,7 @@ bool dead(const CameraPlay& play, double time_s) {
 
 }  // namespace
 
-CameraPlaySummary serve_camera(const FrameReel& reel, const CameraPlay& play) {
+CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play) {
   std::optional<TruthRows> truth;
   if (!play.truth_file.empty()) truth.emplace(play.truth_file);
   const std::int64_t began_ns = host::monotonic_now_ns();
@@ -47,7 +47,7 @@ CameraPlaySummary serve_camera(const FrameReel& reel, const CameraPlay& play) {
       summary.frames += camera->frames();
       camera.reset();
     } else if (!camera && !is_dead) {
-      camera.emplace(reel, play, truth ? &*truth : nullptr, began_ns);
+      camera.emplace(sequence, play, truth ? &*truth : nullptr, began_ns);
     }
   } while (!told_to_stop());
   if (camera) summary.frames += camera->frames();

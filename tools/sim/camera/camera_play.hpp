@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/sim/camera/frame_reel.hpp"
+#include "tools/sim/camera/frame_sequence.hpp"
 
 namespace pharos::sim {
 
@@ -24,7 +24,7 @@ struct CameraPlay {
   std::string mode = "Distance5000mmMultiFreq";
   bool depth_and_intensity_apart = false;
   /// One of a rig's cameras: Mono8 and Mono16, triggered at the beats of `frame_rate_hz` in UTC, so that several show
-  /// the frames of one instant (FrameReel::at the beat's number).
+  /// the frames of one instant (FrameSequence::at the beat's number).
   bool grey = false;
   /// Depth counts on the wire in the modes up to 3000 mm, which a real camera may give finer than the others.
   double fine_scale_m = 0.0001;
@@ -51,6 +51,6 @@ struct CameraPlaySummary {
 
 /// Serves `reel` until the end. Throws host::InputError where no camera can be had at that address. SIGINT and SIGTERM
 /// must be blocked in every thread.
-CameraPlaySummary serve_camera(const FrameReel& reel, const CameraPlay& play);
+CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play);
 
 }  // namespace pharos::sim

@@ -11,9 +11,9 @@
 #include <functional>
 #include <random>
 
-#include "host/daemon/now.hpp"
 #include "host/device/gobject.hpp"
 #include "host/device/pixel_format.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"
 #include "tools/sim/camera/helios_description.hpp"
@@ -68,10 +68,10 @@ class DescriptionFile {
 }  // namespace
 
 struct FakeHelios::Parts {
-  Parts(const FrameReel& shown_reel, const CameraPlay& how, TruthRows* rows, std::int64_t began)
-      : reel(shown_reel), play(how), truth(rows), began_ns(began) {}
+  Parts(const FrameSequence& shown_sequence, const CameraPlay& how, TruthRows* rows, std::int64_t began)
+      : sequence(shown_sequence), play(how), truth(rows), began_ns(began) {}
 
-  const FrameReel& reel;
+  const FrameSequence& sequence;
   const CameraPlay& play;
   TruthRows* truth;
   std::int64_t began_ns;
@@ -80,7 +80,7 @@ struct FakeHelios::Parts {
   std::atomic<std::uint64_t> frames{0};
   std::uint64_t shown = 0;  // of the reel
   std::int64_t last_camera_ns = 0;
-  double lost_share = 0.0;  // as Aravis was told
+  double lost_fraction = 0.0;  // as Aravis was told
   std::mt19937_64 jitter{std::hash<std::string>()(play.serial)};
 
   ArvFakeCamera* registers() const { return arv_gv_fake_camera_get_fake_camera(camera.get()); }
@@ -105,8 +105,8 @@ struct FakeHelios::Parts {
   WireScale scale_of(std::size_t mode) const;
   void set_up() const;
   void fill(ArvBuffer* buffer, std::uint32_t format);
-  void heed_ptp() const;
-  void lose(double share);
+  void apply_ptp() const;
+  void lose(double fraction);
   std::int64_t camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const;
   void take_picture(std::int64_t utc_ns);
 };
@@ -120,8 +120,8 @@ WireScale FakeHelios::Parts::scale_of(std::size_t mode) const {
 void FakeHelios::Parts::set_up() const {
   write_text(kVendorText, "LUCID Vision Labs");
   write_text(kModelText, play.grey ? "PHX050S-M (simulated)" : "HLS003S-001 (simulated)");
-  const auto width = static_cast<std::uint32_t>(reel.width_px);
-  const auto height = static_cast<std::uint32_t>(reel.height_px);
+  const auto width = static_cast<std::uint32_t>(sequence.width_px);
+  const auto height = static_cast<std::uint32_t>(sequence.height_px);
   write(ARV_FAKE_CAMERA_REGISTER_SENSOR_WIDTH, width);
   write(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT, height);
   write(ARV_FAKE_CAMERA_REGISTER_WIDTH, width);
@@ -143,7 +143,7 @@ void FakeHelios::Parts::set_up() const {
   }
 }
 
-void FakeHelios::Parts::heed_ptp() const {
+void FakeHelios::Parts::apply_ptp() const {
   if (play.ptp) write(kPtpStatusRegister, read(kPtpEnableRegister) != 0 ? kPtpSlave : kPtpDisabled);
 }
 
@@ -169,31 +169,31 @@ void FakeHelios::Parts::take_picture(std::int64_t utc_ns) {
   last_camera_ns = camera_time_ns(utc_ns - since_trigger_ns, now_ns - since_trigger_ns) + std::llround(off_ns);
 }
 
-void FakeHelios::Parts::lose(double share) {
-  if (share != lost_share) g_object_set(camera.get(), "gvsp-lost-ratio", share, nullptr);
-  lost_share = share;
+void FakeHelios::Parts::lose(double fraction) {
+  if (fraction != lost_fraction) g_object_set(camera.get(), "gvsp-lost-ratio", fraction, nullptr);
+  lost_fraction = fraction;
 }
 
 // In the thread of Aravis that also answers the control channel: must be over within a frame.
 void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
   const double time_s = static_cast<double>(host::monotonic_now_ns() - began_ns) / kNsPerSecond;
-  heed_ptp();
+  apply_ptp();
   const std::int64_t utc_ns = host::utc_now_ns();
   const bool frozen = any_holds(play.freezes, time_s) && shown > 0;
   if (!frozen) take_picture(utc_ns);
   arv_buffer_set_timestamp(buffer, static_cast<guint64>(last_camera_ns));
-  const ReelFrame& frame = reel.at(shown - 1);
+  const SequenceFrame& frame = sequence.at(shown - 1);
   std::size_t received = 0;  // what a receiver would have got; the memory is as large as the payload
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &received)));
   const WireScale wire = play.grey ? WireScale() : scale_of(read(kModeRegister));
-  write_payload(reel, frame, format, wire, {data, arv_fake_camera_get_payload(registers())});
+  write_payload(sequence, frame, format, wire, {data, arv_fake_camera_get_payload(registers())});
   if (truth != nullptr && frame.T_camera_target && !frozen) truth->add(utc_ns, *frame.T_camera_target);
   lose(any_holds(play.stalls, time_s) ? 1.0 : play.loss);
   frames.fetch_add(1, std::memory_order_relaxed);
 }
 
-FakeHelios::FakeHelios(const FrameReel& reel, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns)
-    : parts_(std::make_unique<Parts>(reel, play, truth, began_ns)) {
+FakeHelios::FakeHelios(const FrameSequence& sequence, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns)
+    : parts_(std::make_unique<Parts>(sequence, play, truth, began_ns)) {
   const DescriptionFile description(helios_description(offered_by(play)));
   parts_->camera.reset(arv_gv_fake_camera_new_full(play.address.c_str(), play.serial.c_str(), description.path()));
   if (arv_gv_fake_camera_is_running(parts_->camera.get()) == 0) {

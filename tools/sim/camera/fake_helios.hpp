@@ -16,7 +16,7 @@ class FakeHelios {
  public:
   /// `reel`, `play` and `truth` (may be null) must outlive this. `began_ns`: monotonic time that intervals count from.
   /// Throws host::InputError where the address cannot be had.
-  FakeHelios(const FrameReel& reel, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns);
+  FakeHelios(const FrameSequence& sequence, const CameraPlay& play, TruthRows* truth, std::int64_t began_ns);
   ~FakeHelios();
 
   /// Frames sent so far.

@@ -106,7 +106,7 @@ int run_povray(const std::filesystem::path& directory, const std::filesystem::pa
 }
 
 // POV-Ray's complaint in what it said: from the line with "Error" on, or the last line.
-std::string complaint_in(const std::filesystem::path& log) {
+std::string error_in(const std::filesystem::path& log) {
   std::ifstream file(log);
   std::string line;
   std::string complaint = "it said nothing";
@@ -128,7 +128,7 @@ LinearImage render_scene(const std::string& scene, const RenderSettings& setting
   const std::filesystem::path log = directory.path() / "log";
   const int code = run_povray(directory.path(), log);
   if (code != 0) {
-    throw host::InputError("povray ended with " + std::to_string(code) + ": " + complaint_in(log));
+    throw host::InputError("povray ended with " + std::to_string(code) + ": " + error_in(log));
   }
   const host::GreyImage grey = host::read_grey_image((directory.path() / "scene.png").string());
   LinearImage image{grey.width_px, grey.height_px, std::vector<float>(grey.pixels.size())};

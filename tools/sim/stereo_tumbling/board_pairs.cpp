@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kTries = 100;  // poses for the left camera, for each that the right one sees too
 
-Lens lens_of(const PinholeCamera& optics) {
-  return {optics.width_px, optics.height_px, optics.fx_px, optics.fy_px, optics.cx_px, optics.cy_px, optics.distortion};
+Lens lens_of(const PinholeCamera& intrinsics) {
+  return {intrinsics.width_px, intrinsics.height_px, intrinsics.fx_px,     intrinsics.fy_px,
+          intrinsics.cx_px,    intrinsics.cy_px,     intrinsics.distortion};
 }
 
 Exposure exposure() {
@@ -36,7 +37,7 @@ host::GreyImage grey(const BoardImage& image) {
 
 void write_board_pairs(const host::RigFile& rig, int pairs, std::uint64_t seed, const std::string& directory,
                        const std::function<void()>& step) {
-  const std::array<Lens, 2> lenses{lens_of(rig.left.optics), lens_of(rig.right.optics)};
+  const std::array<Lens, 2> lenses{lens_of(rig.left.intrinsics), lens_of(rig.right.intrinsics)};
   const std::array<BoardRenderer, 2> renderers{BoardRenderer(lenses[0]), BoardRenderer(lenses[1])};
   const auto T_right_left = rig.right.pose().inverse() * rig.left.pose();
   SequenceFiles files(directory, rig);

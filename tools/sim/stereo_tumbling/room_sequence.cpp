@@ -37,10 +37,10 @@ host::RigFile raw_rig(const RoomScenario& scenario) {
     return PinholeCamera{scenario.width_px, scenario.height_px, size * fx, size * fy, size * cx, size * cy, {}};
   };
   host::RigFile rig;
-  rig.left.optics = camera(458.7, 457.3, 367.2, 248.4);
-  rig.right.optics = camera(457.6, 456.1, 379.9, 255.2);
-  rig.left.optics.distortion = {-0.2834, 0.0740, 0.0002, 0.00002, 0.0};
-  rig.right.optics.distortion = {-0.2837, 0.0745, -0.0001, -0.00004, 0.0};
+  rig.left.intrinsics = camera(458.7, 457.3, 367.2, 248.4);
+  rig.right.intrinsics = camera(457.6, 456.1, 379.9, 255.2);
+  rig.left.intrinsics.distortion = {-0.2834, 0.0740, 0.0002, 0.00002, 0.0};
+  rig.right.intrinsics.distortion = {-0.2837, 0.0745, -0.0001, -0.00004, 0.0};
   const Quaternion left(rotation_exp(Vector3(0.010, -0.006, 0.014)));
   const Quaternion right(rotation_exp(Vector3(-0.004, 0.009, 0.002)));
   rig.left.rotation_wxyz = {left.w(), left.x(), left.y(), left.z()};
@@ -60,8 +60,8 @@ RoomSequence::RoomSequence(const RoomScenario& scenario, std::uint64_t seed)
                                Vector3(-3.2, 0.9, -2.3), Vector3(0.0, 1.1, 0.0)}) {
     add_textured_box(room_, place, {0.4, kRoomHalf_m.y() - place.y(), 0.4}, random);
   }
-  rays_[0] = pixel_rays(rig_.left.optics, kRaysPerSide);
-  rays_[1] = pixel_rays(rig_.right.optics, kRaysPerSide);
+  rays_[0] = pixel_rays(rig_.left.intrinsics, kRaysPerSide);
+  rays_[1] = pixel_rays(rig_.right.intrinsics, kRaysPerSide);
 }
 
 int RoomSequence::frames() const {
@@ -88,11 +88,11 @@ Pose<frame::Camera, frame::Camera> RoomSequence::truth(int frame) const {
 
 host::GreyImage RoomSequence::image(int frame, int side) const {
   const auto k = static_cast<std::size_t>(side);
-  const PinholeCamera& optics = side == 0 ? rig_.left.optics : rig_.right.optics;
+  const PinholeCamera& intrinsics = side == 0 ? rig_.left.intrinsics : rig_.right.intrinsics;
   RandomStream random(seed_, (side == 0 ? "left " : "right ") + std::to_string(frame));
   ImageSensor sensor;
   sensor.electrons_per_light = kGain_e;
-  return expose(blurred(cast_panels(room_, kLighting, optics, rays_[k], kRaysPerSide, pose(frame, side)), kBlur_px),
+  return expose(blurred(cast_panels(room_, kLighting, intrinsics, rays_[k], kRaysPerSide, pose(frame, side)), kBlur_px),
                 sensor, random);
 }
 

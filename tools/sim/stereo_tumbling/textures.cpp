@@ -63,8 +63,8 @@ class Facets {
 };
 
 void fill_rectangle(Texture& texture, double s0, double t0, double s1, double t1, float albedo) {
-  const auto clip = [](double value, std::int32_t most) {
-    return std::clamp(static_cast<std::int32_t>(std::lround(value)), 0, most);
+  const auto clip = [](double value, std::int32_t maximum) {
+    return std::clamp(static_cast<std::int32_t>(std::lround(value)), 0, maximum);
   };
   for (std::int32_t t = clip(t0, texture.height); t < clip(t1, texture.height); ++t) {
     const auto row = texture.albedo.begin() + static_cast<std::ptrdiff_t>(t) * texture.width;

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "tools/cli/progress.hpp"
 #include "tools/sim/stereo_tumbling/board_pairs.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {

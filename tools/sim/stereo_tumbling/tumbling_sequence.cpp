@@ -83,14 +83,14 @@ struct TumblingSequence::Work {
 host::RigFile tumbling_rig(const TumblingScenario& scenario) {
   const double focal = scenario.focal_px * scenario.width_px / 640.0;
   host::RigFile rig;
-  rig.left.optics = {scenario.width_px,
-                     scenario.height_px,
-                     focal,
-                     focal,
-                     0.5 * (scenario.width_px - 1),
-                     0.5 * (scenario.height_px - 1),
-                     {}};
-  rig.right.optics = rig.left.optics;
+  rig.left.intrinsics = {scenario.width_px,
+                         scenario.height_px,
+                         focal,
+                         focal,
+                         0.5 * (scenario.width_px - 1),
+                         0.5 * (scenario.height_px - 1),
+                         {}};
+  rig.right.intrinsics = rig.left.intrinsics;
   rig.left.position_m = {-0.5 * scenario.baseline_m, 0.0, 0.0};
   rig.right.position_m = {0.5 * scenario.baseline_m, 0.0, 0.0};
   return rig;
@@ -102,7 +102,7 @@ TumblingSequence::TumblingSequence(const TumblingScenario& scenario, std::uint64
   work.satellite = satellite_scene(seed);
   work.stars = star_field(scenario.stars, seed);
   const host::RigFile rig = tumbling_rig(scenario);
-  work.cameras = {rig.left.optics, rig.right.optics};
+  work.cameras = {rig.left.intrinsics, rig.right.intrinsics};
   work.T_rig_camera = {rig.left.pose(), rig.right.pose()};
   if (scenario.povray) {
     write_texture_files(work.satellite, work.textures.path());

@@ -97,7 +97,7 @@ class Picture {
     const double range = hit.depth_m * range_per_depth;
     const double near = kNominalRange_m / range;
     const double amplitude = imaging_.nominal_counts * near * near * hit.reflectance / kNominalReflectance;
-    return {amplitude, amplitude * (range + imaging_.multipath * hit.detour_share_m)};
+    return {amplitude, amplitude * (range + imaging_.multipath * hit.multipath_m)};
   }
 
   void cast_centre(int u, int v) {

@@ -57,7 +57,7 @@ struct Foil {
 
 /// A boom before the satellite that hides `share` of the ring's circumference.
 struct Occluder {
-  double share = 1.0 / 3.0;
+  double fraction = 1.0 / 3.0;
   double direction_deg = 180.0;  // of the hidden arc's middle, from X' towards Y'
   double width_m = 0.5;
   double nearness = 0.8;  // its distance over the ring's

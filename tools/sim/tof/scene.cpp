@@ -12,7 +12,7 @@ namespace pharos::sim {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kDetourFade_m = 0.08;  // how far from a corner the light that came round it still counts
+constexpr double kMultipathDecay_m = 0.08;  // how far from a corner the light that came round it still counts
 constexpr int kFacesOfConnector = 3;
 
 int number_of(SurfaceKind kind) { return static_cast<int>(kind); }
@@ -53,7 +53,7 @@ BoxEntry enter_box(const Vector3& o, const Vector3& d, const Vector3& low, const
   return entry;
 }
 
-double detour(double distance_m) { return distance_m * std::exp(-distance_m / kDetourFade_m); }
+double multipath_path(double distance_m) { return distance_m * std::exp(-distance_m / kMultipathDecay_m); }
 
 double power_of_two(double base, int squarings) {
   for (int i = 0; i < squarings; ++i) base *= base;
@@ -101,7 +101,7 @@ void Scene::place_boom(const Occluder& occluder) {
     const Vector3 p = T_camera_target_ * Vector3(radius * std::cos(angle), radius * std::sin(angle), 0.0);
     return p.head<2>() / p.z();
   };
-  const double half_deg = 180.0 * occluder.share;
+  const double half_deg = 180.0 * occluder.fraction;
   const Vector2 one = seen(-half_deg);
   const Vector2 along = (seen(half_deg) - one).normalized();
   boom_.normal = Vector2(-along.y(), along.x());
@@ -196,7 +196,7 @@ void Scene::shade_face(const Ray& ray, Hit& hit) const {
   }
   if (satellite_.ring) {
     const double to_wall = satellite_.ring->inner_radius_m - p.head<2>().norm();
-    if (to_wall > 0.0) hit.detour_share_m = detour(to_wall);
+    if (to_wall > 0.0) hit.multipath_m = multipath_path(to_wall);
   }
 }
 
@@ -214,7 +214,7 @@ void Scene::trace_ring(const Ray& ray, Hit& hit) const {
     const Vector3 p = camera_T_ + at * d;
     if (at <= 0.0 || at >= hit.depth_m || p.z() > 0.0 || p.z() < satellite_.face_z_m) return;
     const double cosine = std::abs(p.head<2>().dot(ray.to_camera.head<2>())) / radius;
-    hit = {at, ring.albedo * cosine, inside ? detour(p.z() - satellite_.face_z_m) : 0.0,
+    hit = {at, ring.albedo * cosine, inside ? multipath_path(p.z() - satellite_.face_z_m) : 0.0,
            number_of(inside ? SurfaceKind::kRingInside : SurfaceKind::kRingOutside)};
   };
   wall(meet_cone(camera_T_, d, ring.outer_radius_m, 0.0, 0.0)[0], ring.outer_radius_m, false);

@@ -28,10 +28,10 @@ enum class SurfaceKind : std::uint8_t {
 };
 
 struct Hit {
-  double depth_m = 0.0;       // z in the camera's frame
-  double reflectance = 0.0;   // of a white diffuse surface that faces the camera
-  double detour_share_m = 0;  // how much farther it seems by light that came round a corner, per unit of multipath
-  int surface = 0;            // SurfaceKind, as a number
+  double depth_m = 0.0;      // z in the camera's frame
+  double reflectance = 0.0;  // of a white diffuse surface that faces the camera
+  double multipath_m = 0;    // how much farther it seems by light that came round a corner, per unit of multipath
+  int surface = 0;           // SurfaceKind, as a number
 };
 
 /// A satellite before a camera: analytic intersections of the camera's rays with box, ring, nozzle and connectors.

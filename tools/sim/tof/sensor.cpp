@@ -16,11 +16,11 @@ std::vector<float> normal_quantiles() {
   std::vector<float> quantiles(kQuantiles);
   double z = 0.0;
   for (std::size_t i = kQuantiles / 2; i < kQuantiles; ++i) {
-    const double share = (static_cast<double>(i) + 0.5) / kQuantiles;
+    const double fraction = (static_cast<double>(i) + 0.5) / kQuantiles;
     for (int step = 0; step < 8; ++step) {
       const double upper = 0.5 * std::erfc(z / std::numbers::sqrt2);
       const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
-      z += (upper - (1.0 - share)) / density;
+      z += (upper - (1.0 - fraction)) / density;
     }
     quantiles[i] = static_cast<float>(z);
     quantiles[kQuantiles - 1 - i] = static_cast<float>(-z);
@@ -83,8 +83,8 @@ TofPixels expose(const IdealFrame& ideal, const Lens& lens, const SensorModel& s
       const bool saturated = counts >= sensor.full_counts;
       pixels.intensity[i] = saturated ? std::uint16_t{65535} : static_cast<std::uint16_t>(counts + 0.5);
       double depth_counts = 0.0;  // invalid
-      if (!saturated && counts >= sensor.least_counts) {
-        const double sigma_m = sigma_counts_m / std::max(ideal_counts, sensor.least_counts);
+      if (!saturated && counts >= sensor.min_counts) {
+        const double sigma_m = sigma_counts_m / std::max(ideal_counts, sensor.min_counts);
         double range = static_cast<double>(ideal.range_m[i]) + common_m + sigma_m * static_cast<double>(depth_noise[i]);
         if (range >= sensor.range_limit_m) range = std::fmod(range, sensor.range_limit_m);
         const double z = range / lens.range_per_depth(u, v) - scale.origin_z_m;

@@ -17,7 +17,7 @@ struct SensorModel {
   double common_sigma_m = 0.0003;  // of the whole frame
   double electrons_per_count = 1.25;
   double read_noise_counts = 15.0;
-  double least_counts = 400.0;   // weaker pixels have no depth
+  double min_counts = 400.0;     // weaker pixels have no depth
   double full_counts = 60000.0;  // stronger ones are saturated: no depth, intensity 65535
   double range_limit_m = std::numeric_limits<double>::infinity();  // where range begins again at 0
 };

@@ -12,7 +12,7 @@
 namespace pharos::sim {
 namespace {
 
-constexpr int kMostDraws = 10'000;
+constexpr int kMaxDraws = 10'000;
 constexpr double kFullTurn_deg = 360.0;
 
 Matrix3 about(const Vector3& axis, double angle_rad) { return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix(); }
@@ -87,7 +87,7 @@ std::vector<CameraFromTarget> random_poses(const RandomPoses& limits, const Sate
     int draws = 0;
     CameraFromTarget pose = draw(limits, lens, random);
     while (!in_picture(points, pose, lens, limits.margin_px)) {
-      if (++draws == kMostDraws) {
+      if (++draws == kMaxDraws) {
         throw host::InputError("trajectory: min_range_m: no random pose keeps the ring in the picture; raise it");
       }
       pose = draw(limits, lens, random);

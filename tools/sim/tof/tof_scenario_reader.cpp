@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "host/config/strict_toml.hpp"
+#include "host/toml/strict_toml.hpp"
 #include "tools/sim/tof/tof_scenario.hpp"
 
 namespace pharos::sim {
@@ -15,7 +15,7 @@ constexpr Range kLength_m{1e-4, 20.0};
 constexpr Range kPlace_m{-20.0, 20.0};
 constexpr Range kReflectance{0.0, 100.0};
 constexpr Range kTurn_deg{-360.0, 360.0};
-constexpr std::int64_t kMostFrames = 1'000'000;
+constexpr std::int64_t kMaxFrames = 1'000'000;
 
 LensModel read_lens(const TomlTable& table) {
   LensModel lens;
@@ -51,7 +51,7 @@ SensorModel read_sensor(const TomlTable& table) {
   sensor.common_sigma_m = table.number_or("common_sigma_m", sensor.common_sigma_m, {0.0, 1.0});
   sensor.electrons_per_count = table.number_or("electrons_per_count", sensor.electrons_per_count, {1e-3, 1e6});
   sensor.read_noise_counts = table.number_or("read_noise_counts", sensor.read_noise_counts, {0.0, 1e4});
-  sensor.least_counts = table.number_or("least_counts", sensor.least_counts, {1.0, 65535.0});
+  sensor.min_counts = table.number_or("least_counts", sensor.min_counts, {1.0, 65535.0});
   sensor.full_counts = table.number_or("full_counts", sensor.full_counts, {1.0, 65535.0});
   sensor.range_limit_m = table.number_or("range_limit_m", sensor.range_limit_m, {0.5, 1e6});
   return sensor;
@@ -128,7 +128,7 @@ std::optional<Occluder> read_occluder(const TomlTable& root, bool& wanders) {
   if (!root.has("occluder")) return std::nullopt;
   const TomlTable table = root.table("occluder");
   Occluder occluder;
-  occluder.share = table.number_or("share", occluder.share, {0.0, 0.9});
+  occluder.fraction = table.number_or("share", occluder.fraction, {0.0, 0.9});
   occluder.width_m = table.number_or("width_m", occluder.width_m, kLength_m);
   occluder.nearness = table.number_or("nearness", occluder.nearness, {0.1, 0.99});
   occluder.albedo = table.number_or("albedo", occluder.albedo, kReflectance);
@@ -164,7 +164,7 @@ void check_ahead(const TomlTable& table, const char* key, const CameraFromTarget
 }
 
 std::vector<CameraFromTarget> read_still(const TomlTable& table) {
-  const auto frames = static_cast<std::size_t>(table.integer_or("frames_per_pose", 1, 1, kMostFrames));
+  const auto frames = static_cast<std::size_t>(table.integer_or("frames_per_pose", 1, 1, kMaxFrames));
   std::vector<CameraFromTarget> poses;
   for (const std::vector<double>& row : table.rows("poses", 6, {-360.0, 360.0})) {
     check_ahead(table, "poses", pose_of(row));
@@ -176,7 +176,7 @@ std::vector<CameraFromTarget> read_still(const TomlTable& table) {
 
 std::vector<CameraFromTarget> read_random(const TomlTable& table, const TofScenario& scenario, std::uint64_t seed) {
   RandomPoses limits;
-  limits.count = static_cast<int>(table.integer("count", 1, kMostFrames));
+  limits.count = static_cast<int>(table.integer("count", 1, kMaxFrames));
   limits.min_range_m = table.number_or("min_range_m", limits.min_range_m, {0.1, 100.0});
   limits.max_range_m = table.number_or("max_range_m", limits.max_range_m, {limits.min_range_m, 100.0});
   limits.max_tilt_deg = table.number_or("max_tilt_deg", limits.max_tilt_deg, {0.0, 89.0});
@@ -216,7 +216,7 @@ TofScenario read_tof_scenario(const std::filesystem::path& path, std::uint64_t s
   TofScenario scenario;
   scenario.frames_per_s = root.number_or("frames_per_s", scenario.frames_per_s, {0.01, 1000.0});
   scenario.write_abcy16 = root.boolean_or("write_abcy16", false);
-  scenario.stale_half_every = static_cast<int>(root.integer_or("stale_half_every", 0, 0, kMostFrames));
+  scenario.stale_half_every = static_cast<int>(root.integer_or("stale_half_every", 0, 0, kMaxFrames));
   const TomlTable camera = root.table_or_empty("camera");
   scenario.lens = read_lens(camera);
   scenario.depth = read_depth(camera);

@@ -32,13 +32,13 @@ std::string number_of(int frame, int frames) {
 std::string camera_of(const TofScenario& scenario, const RawCoordinates& raw) {
   host::CameraFile file;
   const LensModel& lens = scenario.lens;
-  file.camera.optics.width_px = lens.width_px;
-  file.camera.optics.height_px = lens.height_px;
-  file.camera.optics.fx_px = lens.fx_px;
-  file.camera.optics.fy_px = lens.fy_px;
-  file.camera.optics.cx_px = lens.cx_px;
-  file.camera.optics.cy_px = lens.cy_px;
-  file.camera.optics.distortion = lens.distortion;
+  file.camera.intrinsics.width_px = lens.width_px;
+  file.camera.intrinsics.height_px = lens.height_px;
+  file.camera.intrinsics.fx_px = lens.fx_px;
+  file.camera.intrinsics.fy_px = lens.fy_px;
+  file.camera.intrinsics.cx_px = lens.cx_px;
+  file.camera.intrinsics.cy_px = lens.cy_px;
+  file.camera.intrinsics.distortion = lens.distortion;
   file.camera.depth_scale_m = scenario.depth.scale_m;
   file.camera.depth_origin_z_m = scenario.depth.origin_z_m;
   file.camera.scale_m = raw.scale_m;

@@ -25,7 +25,7 @@ class CalibrationFileTest : public ::testing::Test {
     session.stations = 2;
     sim::LighthouseSimulator simulator(scenario_of(session), session.seed);
     nominal_ = new Target(simulator.nominal_target());
-    calibration_ = new LighthouseCalibration(calibrate_lighthouse(material_of(simulator, session.seed)));
+    calibration_ = new LighthouseCalibration(calibrate_lighthouse(calibration_input(simulator, session.seed)));
   }
   static void TearDownTestSuite() {
     delete nominal_;

@@ -26,7 +26,7 @@ TEST(LighthouseCalibration, FindsShapeAndRotorsWithinItsCovariance) {
   int freedom = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     sim::LighthouseSimulator simulator(scenario_of(short_session(seed)), seed);
-    const LighthouseCalibration calibration = calibrate_lighthouse(material_of(simulator, seed));
+    const LighthouseCalibration calibration = calibrate_lighthouse(calibration_input(simulator, seed));
     EXPECT_TRUE(calibration.bundle.converged);
     EXPECT_TRUE(calibration.scale_measured);
     const Truth truth = compare(calibration, simulator);
@@ -34,7 +34,7 @@ TEST(LighthouseCalibration, FindsShapeAndRotorsWithinItsCovariance) {
     squares += truth.nees * truth.freedom;
     freedom += truth.freedom;
     for (const SensorFit& fit : calibration.fits) {
-      if (fit.stills < 4) continue;
+      if (fit.intervals < 4) continue;
       EXPECT_LT(fit.after_rad, 0.1 * fit.before_rad) << int{fit.sensor};
     }
   }
@@ -47,7 +47,7 @@ TEST(LighthouseCalibration, TiesTwoStationsTogether) {
   Session session = short_session(2);
   session.stations = 2;
   sim::LighthouseSimulator simulator(scenario_of(session), session.seed);
-  const LighthouseCalibration calibration = calibrate_lighthouse(material_of(simulator, session.seed));
+  const LighthouseCalibration calibration = calibrate_lighthouse(calibration_input(simulator, session.seed));
   const Unknowns& unknowns = calibration.bundle.unknowns;
   ASSERT_EQ(unknowns.station.size(), 2u);
   ASSERT_TRUE(unknowns.T_reference_station[1].has_value());
@@ -62,15 +62,15 @@ TEST(LighthouseCalibration, TiesTwoStationsTogether) {
 }
 
 // The same target in eight more poses, before the same station or another.
-LighthouseMaterial two_recordings(std::uint32_t second_id) {
-  LighthouseMaterial material;
+LighthouseCalibrationInput two_recordings(std::uint32_t second_id) {
+  LighthouseCalibrationInput material;
   for (const std::uint64_t poses_seed : {1u, 2u}) {
     Session session = short_session(poses_seed);
     session.poses = 8;
     sim::LighthouseScenario scenario = scenario_of(session);
     if (poses_seed == 2) scenario.stations.front().id = second_id;
     sim::LighthouseSimulator simulator(scenario, 1);
-    LighthouseMaterial one = material_of(simulator, 1);
+    LighthouseCalibrationInput one = calibration_input(simulator, 1);
     material.target = one.target;
     material.lengths = one.lengths;
     material.recordings.push_back(std::move(one.recordings.front()));
@@ -99,7 +99,7 @@ TEST(LighthouseCalibration, LearnsOneTargetFromStationsNeverSeenTogether) {
 
 TEST(LighthouseCalibration, KnowsThatAnglesAloneTellNoScale) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
-  LighthouseMaterial material = material_of(simulator, 1);
+  LighthouseCalibrationInput material = calibration_input(simulator, 1);
   const MeasuredLength length = material.lengths.front();
   material.lengths.clear();
   const BundleResult without = calibrate_lighthouse(material).bundle;
@@ -113,7 +113,7 @@ TEST(LighthouseCalibration, KnowsThatAnglesAloneTellNoScale) {
 
 TEST(LighthouseCalibration, KeepsTheBodyFrameOnTheNominalSensors) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(3)), 3);
-  const LighthouseCalibration calibration = calibrate_lighthouse(material_of(simulator, 3));
+  const LighthouseCalibration calibration = calibrate_lighthouse(calibration_input(simulator, 3));
   Vector3 shift = Vector3::Zero();
   Vector3 turn = Vector3::Zero();
   for (std::size_t i = 0; i < simulator.nominal_target().size(); ++i) {
@@ -128,7 +128,7 @@ TEST(LighthouseCalibration, KeepsTheBodyFrameOnTheNominalSensors) {
 
 TEST(LighthouseCalibration, LeavesASensorThatWasNeverHitAtItsPrior) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
-  LighthouseMaterial material = material_of(simulator, 1);
+  LighthouseCalibrationInput material = calibration_input(simulator, 1);
   constexpr std::uint8_t kDead = 6;
   for (LoggedSweep& sweep : material.recordings.front().sweeps) {
     std::erase_if(sweep.hits, [](const LoggedHit& hit) { return hit.sensor == kDead; });
@@ -147,7 +147,7 @@ TEST(LighthouseCalibration, IsNotMisledByReflections) {
   reflection.sensors = {0, 3, 5};
   scenario.faults.reflections.push_back(reflection);
   sim::LighthouseSimulator simulator(scenario, 1);
-  const LighthouseCalibration calibration = calibrate_lighthouse(material_of(simulator, 1));
+  const LighthouseCalibration calibration = calibrate_lighthouse(calibration_input(simulator, 1));
   const Truth truth = compare(calibration, simulator);
   EXPECT_LT(truth.shape_rms_m, 0.1e-3);
   EXPECT_LT(truth.nees, 1.8);
@@ -155,8 +155,8 @@ TEST(LighthouseCalibration, IsNotMisledByReflections) {
 
 TEST(LighthouseCalibration, CountsWhatTheModelLeavesIntoItsCovariance) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
-  LighthouseMaterial material = material_of(simulator, 1);
-  const LighthouseCalibration honest = calibrate_lighthouse(material);
+  LighthouseCalibrationInput material = calibration_input(simulator, 1);
+  const LighthouseCalibration unperturbed = calibrate_lighthouse(material);
   // Errors that no parameter explains: another for every sensor in every second.
   sim::RandomStream random(1, "unmodelled");
   std::map<std::pair<std::int64_t, int>, double> error_rad;
@@ -170,9 +170,9 @@ TEST(LighthouseCalibration, CountsWhatTheModelLeavesIntoItsCovariance) {
     }
   }
   const LighthouseCalibration real = calibrate_lighthouse(material);
-  EXPECT_LT(honest.unmodelled_rad * kArcsecPerRad, 0.5);
+  EXPECT_LT(unperturbed.unmodelled_rad * kArcsecPerRad, 0.5);
   EXPECT_NEAR(real.unmodelled_rad * kArcsecPerRad, 5.0, 1.0);
-  EXPECT_GT(real.bundle.parameters[0].sigma, 3.0 * honest.bundle.parameters[0].sigma);
+  EXPECT_GT(real.bundle.parameters[0].sigma, 3.0 * unperturbed.bundle.parameters[0].sigma);
   EXPECT_LT(compare(real, simulator).nees, 1.6);
 }
 

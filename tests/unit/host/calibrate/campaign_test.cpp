@@ -23,7 +23,7 @@ TEST(CalibrationCampaign, ThirtyPosesOfTwoSecondsAndOneLength) {
     Session session;
     session.seed = seed;
     sim::LighthouseSimulator simulator(scenario_of(session), seed);
-    const LighthouseCalibration calibration = calibrate_lighthouse(material_of(simulator, seed));
+    const LighthouseCalibration calibration = calibrate_lighthouse(calibration_input(simulator, seed));
     const Truth truth = compare(calibration, simulator);
     std::printf("%2d, %.4f, %.4f, %.1f, %.2f, %.2f, %.2f\n", static_cast<int>(seed), truth.shape_rms_m * kMmPerM,
                 truth.shape_worst_m * kMmPerM, truth.phase_worst_rad * kArcsecPerRad, truth.nees_shape,

@@ -12,15 +12,15 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-LighthouseMaterial sound(int poses = 8) {
+LighthouseCalibrationInput sound(int poses = 8) {
   Session session;
   session.poses = poses;
   session.rest_s = 1.0;
   sim::LighthouseSimulator simulator(scenario_of(session), session.seed);
-  return material_of(simulator, session.seed);
+  return calibration_input(simulator, session.seed);
 }
 
-std::string refusal_of(const LighthouseMaterial& material) {
+std::string refusal_of(const LighthouseCalibrationInput& material) {
   try {
     calibrate_lighthouse(material);
   } catch (const host::InputError& error) {
@@ -37,7 +37,7 @@ TEST(CalibrationRefusals, ATargetThatNeverRested) {
   scenario.duration_s = 5.0;
   scenario.trajectory = sim::make_random_manoeuvre({}, scenario.duration_s, sim::RandomStream(1, "flight"));
   sim::LighthouseSimulator simulator(scenario, 1);
-  EXPECT_THAT(refusal_of(material_of(simulator, 1)), AllOf(HasSubstr("simulated"), HasSubstr("never rested")));
+  EXPECT_THAT(refusal_of(calibration_input(simulator, 1)), AllOf(HasSubstr("simulated"), HasSubstr("never rested")));
 }
 
 TEST(CalibrationRefusals, TooFewPoses) {
@@ -45,20 +45,20 @@ TEST(CalibrationRefusals, TooFewPoses) {
 }
 
 TEST(CalibrationRefusals, ARecordingWithoutLight) {
-  LighthouseMaterial material = sound(1);
+  LighthouseCalibrationInput material = sound(1);
   material.recordings.front().sweeps.clear();
   EXPECT_THAT(refusal_of(material), HasSubstr("no sweep"));
 }
 
 TEST(CalibrationRefusals, AnotherTargetsSensors) {
-  LighthouseMaterial material = sound();
+  LighthouseCalibrationInput material = sound();
   material.lengths.clear();
   for (SensorPlacement& sensor : material.target) sensor.sensor = static_cast<std::uint8_t>(sensor.sensor + 16);
   EXPECT_THAT(refusal_of(material), HasSubstr("--target"));
 }
 
 TEST(CalibrationRefusals, AStationThatNobodyKnowsAndTwoThatAreOne) {
-  LighthouseMaterial material = sound();
+  LighthouseCalibrationInput material = sound();
   material.recordings.front().station[1] = material.recordings.front().station[0];
   LoggedSweep other = material.recordings.front().sweeps.back();
   other.slot = 1;
@@ -69,14 +69,14 @@ TEST(CalibrationRefusals, AStationThatNobodyKnowsAndTwoThatAreOne) {
 }
 
 TEST(CalibrationRefusals, AStationThatChangedBetweenRecordings) {
-  LighthouseMaterial material = sound();
+  LighthouseCalibrationInput material = sound();
   material.recordings.push_back(material.recordings.front());
   material.recordings.back().station[0]->rotor[0].phase_rad += 1e-4;
   EXPECT_THAT(refusal_of(material), HasSubstr("other calibration values"));
 }
 
 TEST(CalibrationRefusals, LengthsBetweenSensorsThatAreNotThere) {
-  LighthouseMaterial material = sound();
+  LighthouseCalibrationInput material = sound();
   material.lengths.push_back({4, 29, 0.1, 1e-5});
   EXPECT_THAT(refusal_of(material), AllOf(HasSubstr("--length 4,29"), HasSubstr("no sensor 29")));
   material.lengths.back().b = 11;
@@ -87,7 +87,7 @@ TEST(CalibrationRefusals, LengthsBetweenSensorsThatAreNotThere) {
 }
 
 TEST(CalibrationRefusals, ALengthThatContradictsTheRest) {
-  LighthouseMaterial material = sound();
+  LighthouseCalibrationInput material = sound();
   material.lengths.front().length_m += 3e-3;
   EXPECT_THAT(refusal_of(material), AllOf(HasSubstr("--length 4,8"), HasSubstr("contradicts")));
   // Two good lengths, then one off by ten sigma of its own: only the lengths themselves tell.

@@ -41,14 +41,14 @@ sim::LighthouseScenario scenario_of(const Session& session) {
     station.pose.R = rotation_exp(Vector3(0.05, -0.2, 0.03));
   }
   scenario.stations.push_back(station);
-  sim::RandomRest rest;
+  sim::RandomStationaryPoses rest;
   rest.count = session.poses;
   rest.min_range_m = session.min_range_m;
   rest.max_range_m = session.max_range_m;
   rest.min_lit = 6;
-  scenario.trajectory = std::make_shared<sim::RestTrajectory>(
-      sim::random_rest_poses(rest, scenario.target, scenario.light.max_incidence_deg,
-                             sim::RandomStream(session.seed, "calibration")),
+  scenario.trajectory = std::make_shared<sim::StationaryTrajectory>(
+      sim::random_stationary_poses(rest, scenario.target, scenario.light.max_incidence_deg,
+                                   sim::RandomStream(session.seed, "calibration")),
       session.rest_s + kDark_s, kDark_s);
   return scenario;
 }
@@ -89,8 +89,8 @@ MeasuredLength measured(const Target& target, std::uint8_t a, std::uint8_t b, do
   return {a, b, length_m + error_sigmas * sigma_m, sigma_m};
 }
 
-LighthouseMaterial material_of(sim::LighthouseSimulator& simulator, std::uint64_t seed) {
-  LighthouseMaterial material;
+LighthouseCalibrationInput calibration_input(sim::LighthouseSimulator& simulator, std::uint64_t seed) {
+  LighthouseCalibrationInput material;
   material.recordings.push_back(record(simulator));
   material.target = simulator.nominal_target();
   sim::RandomStream random(seed, "measured length");

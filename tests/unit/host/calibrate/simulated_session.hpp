@@ -29,7 +29,7 @@ MeasuredLength measured(const Target& target, std::uint8_t a, std::uint8_t b, do
                         double error_sigmas = 0.0);
 
 /// A session recorded, with one length known to 0.02 mm (off by what the seed says).
-LighthouseMaterial material_of(sim::LighthouseSimulator& simulator, std::uint64_t seed);
+LighthouseCalibrationInput calibration_input(sim::LighthouseSimulator& simulator, std::uint64_t seed);
 
 /// Estimate minus truth. Sensors are compared in shape: without the rigid motion that no recording could tell.
 struct Truth {

@@ -12,7 +12,7 @@ const std::string kPlain =
     "width_px = 640\nheight_px = 480\nfx_px = 608.61\nfy_px = 605.04\ncx_px = 321.85\ncy_px = 238.94\n"
     "distortion = [-0.1991, 0.0809, 0.0021, -0.0002, 0]\n";
 
-std::string complaint(const std::string& text) {
+std::string message(const std::string& text) {
   try {
     (void)parse_camera(text, "camera.toml");
   } catch (const InputError& error) {
@@ -28,13 +28,13 @@ std::string with(const std::string& from, const std::string& to) {
 
 TEST(CameraFile, ReadsThePapersCamera) {
   const CameraFile file = parse_camera(kPlain, "camera.toml");
-  EXPECT_EQ(file.camera.optics.width_px, 640);
-  EXPECT_EQ(file.camera.optics.height_px, 480);
-  EXPECT_EQ(file.camera.optics.fx_px, 608.61);
-  EXPECT_EQ(file.camera.optics.fy_px, 605.04);
-  EXPECT_EQ(file.camera.optics.cx_px, 321.85);
-  EXPECT_EQ(file.camera.optics.cy_px, 238.94);
-  EXPECT_EQ(file.camera.optics.distortion, (std::array<double, 5>{-0.1991, 0.0809, 0.0021, -0.0002, 0.0}));
+  EXPECT_EQ(file.camera.intrinsics.width_px, 640);
+  EXPECT_EQ(file.camera.intrinsics.height_px, 480);
+  EXPECT_EQ(file.camera.intrinsics.fx_px, 608.61);
+  EXPECT_EQ(file.camera.intrinsics.fy_px, 605.04);
+  EXPECT_EQ(file.camera.intrinsics.cx_px, 321.85);
+  EXPECT_EQ(file.camera.intrinsics.cy_px, 238.94);
+  EXPECT_EQ(file.camera.intrinsics.distortion, (std::array<double, 5>{-0.1991, 0.0809, 0.0021, -0.0002, 0.0}));
   EXPECT_FALSE(file.calibration);
 }
 
@@ -46,8 +46,8 @@ TEST(CameraFile, LeavesDepthAtItsDefaultsWhereTheFileIsSilent) {
 
 TEST(CameraFile, ReadsBackExactlyWhatItWrites) {
   CameraFile file = parse_camera(kPlain, "camera.toml");
-  file.camera.optics.fx_px = 608.61 + 1.0 / 3.0;
-  file.camera.optics.distortion[4] = -1.0 / 7.0;
+  file.camera.intrinsics.fx_px = 608.61 + 1.0 / 3.0;
+  file.camera.intrinsics.distortion[4] = -1.0 / 7.0;
   file.camera.depth_scale_m = 0.0003;
   file.camera.depth_origin_z_m = -0.071;
   file.camera.scale_m = {0.0001, 0.0002, 0.0004};
@@ -55,8 +55,8 @@ TEST(CameraFile, ReadsBackExactlyWhatItWrites) {
   file.calibration = CalibrationRecord{
       20, 1920, 1.0 / 128.0 / 3.0, {"fx_px", "fy_px"}, {{0.1, 1e-9}, {1e-9, 0.2}}, {"k3: \"held\"\n\\ so"}};
   const CameraFile read = parse_camera(camera_text(file), "camera.toml");
-  EXPECT_EQ(read.camera.optics.fx_px, file.camera.optics.fx_px);
-  EXPECT_EQ(read.camera.optics.distortion, file.camera.optics.distortion);
+  EXPECT_EQ(read.camera.intrinsics.fx_px, file.camera.intrinsics.fx_px);
+  EXPECT_EQ(read.camera.intrinsics.distortion, file.camera.intrinsics.distortion);
   EXPECT_EQ(read.camera.depth_scale_m, file.camera.depth_scale_m);
   EXPECT_EQ(read.camera.depth_origin_z_m, file.camera.depth_origin_z_m);
   EXPECT_EQ(read.camera.scale_m, file.camera.scale_m);
@@ -67,22 +67,22 @@ TEST(CameraFile, ReadsBackExactlyWhatItWrites) {
   EXPECT_EQ(read.calibration->rms_px, file.calibration->rms_px);
   EXPECT_EQ(read.calibration->parameters, file.calibration->parameters);
   EXPECT_EQ(read.calibration->covariance, file.calibration->covariance);
-  EXPECT_EQ(read.calibration->untold, file.calibration->untold);
+  EXPECT_EQ(read.calibration->unobservable, file.calibration->unobservable);
 }
 
 TEST(CameraFile, NamesFileLineAndKeyOfWhatIsWrong) {
-  EXPECT_EQ(complaint(with("fx_px = 608.61\n", "")), "camera.toml:1: fx_px: is missing");
-  EXPECT_EQ(complaint(with("fx_px = 608.61", "fx_px = 0.5")), "camera.toml:3: fx_px: must lie in 1 to 1e+09, not 0.5");
-  EXPECT_EQ(complaint(with("width_px = 640", "width_px = 640.5")),
+  EXPECT_EQ(message(with("fx_px = 608.61\n", "")), "camera.toml:1: fx_px: is missing");
+  EXPECT_EQ(message(with("fx_px = 608.61", "fx_px = 0.5")), "camera.toml:3: fx_px: must lie in 1 to 1e+09, not 0.5");
+  EXPECT_EQ(message(with("width_px = 640", "width_px = 640.5")),
             "camera.toml:1: width_px: must be an integer, not a number");
-  EXPECT_EQ(complaint(with("height_px = 480", "height_px = 0")),
+  EXPECT_EQ(message(with("height_px = 480", "height_px = 0")),
             "camera.toml:2: height_px: must lie in 1 to 32768, not 0");
-  EXPECT_EQ(complaint(with("cx_px", "cz_px")), "camera.toml:1: cx_px: is missing");
-  EXPECT_TRUE(complaint(kPlain + "dept_scale_m = 0.001\n").starts_with("camera.toml:8: dept_scale_m:"));
-  EXPECT_TRUE(complaint(kPlain + "depth_scale_m = -0.001\n").starts_with("camera.toml:8: depth_scale_m:"));
-  EXPECT_TRUE(complaint(with("0.0021, ", "")).starts_with("camera.toml:7: distortion:"));
-  EXPECT_TRUE(complaint(with("0.0021", "nan")).starts_with("camera.toml:7: distortion"));
-  EXPECT_TRUE(complaint(kPlain + "[calibration]\nimages = 2\npoints = 9\nrms_px = 0.1\nparameters = [\"fx_px\"]\n")
+  EXPECT_EQ(message(with("cx_px", "cz_px")), "camera.toml:1: cx_px: is missing");
+  EXPECT_TRUE(message(kPlain + "dept_scale_m = 0.001\n").starts_with("camera.toml:8: dept_scale_m:"));
+  EXPECT_TRUE(message(kPlain + "depth_scale_m = -0.001\n").starts_with("camera.toml:8: depth_scale_m:"));
+  EXPECT_TRUE(message(with("0.0021, ", "")).starts_with("camera.toml:7: distortion:"));
+  EXPECT_TRUE(message(with("0.0021", "nan")).starts_with("camera.toml:7: distortion"));
+  EXPECT_TRUE(message(kPlain + "[calibration]\nimages = 2\npoints = 9\nrms_px = 0.1\nparameters = [\"fx_px\"]\n")
                   .starts_with("camera.toml:8: calibration.covariance:"));
 }
 

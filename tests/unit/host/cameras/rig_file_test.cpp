@@ -11,7 +11,7 @@ namespace {
 
 RigCamera camera_at(const std::array<double, 4>& rotation_wxyz, const std::array<double, 3>& position_m) {
   RigCamera camera;
-  camera.optics = {1280, 1024, 600.0, 601.0, 639.5, 511.5, {0.1, -0.2, 0.001, 0.002, 0.3}};
+  camera.intrinsics = {1280, 1024, 600.0, 601.0, 639.5, 511.5, {0.1, -0.2, 0.001, 0.002, 0.3}};
   camera.rotation_wxyz = rotation_wxyz;
   camera.position_m = position_m;
   return camera;
@@ -23,7 +23,7 @@ RigFile some_rig() {
           camera_at({q.w(), q.x(), q.y(), q.z()}, {0.5, 1.0 / 300.0, -0.01}), std::nullopt};
 }
 
-std::string complaint(const RigFile& rig) {
+std::string message(const RigFile& rig) {
   try {
     (void)parse_rig(rig_text(rig), "rig.toml");
   } catch (const InputError& error) {
@@ -38,7 +38,7 @@ TEST(RigFile, ReadsBackExactlyWhatItWrites) {
   const RigFile read = parse_rig(rig_text(rig), "rig.toml");
   EXPECT_EQ(read.right.rotation_wxyz, rig.right.rotation_wxyz);
   EXPECT_EQ(read.right.position_m, rig.right.position_m);
-  EXPECT_EQ(read.right.optics.distortion, rig.right.optics.distortion);
+  EXPECT_EQ(read.right.intrinsics.distortion, rig.right.intrinsics.distortion);
   EXPECT_EQ(read.left.position_m, rig.left.position_m);
   ASSERT_TRUE(read.calibration);
   EXPECT_EQ(read.calibration->covariance, rig.calibration->covariance);
@@ -61,15 +61,14 @@ TEST(RigFile, TakesAQuaternionOfFourDigitsAndMakesItARotation) {
 TEST(RigFile, RefusesARotationThatIsNone) {
   RigFile rig = some_rig();
   rig.right.rotation_wxyz = {0.9, 0.0, 0.0, 0.0};
-  EXPECT_TRUE(
-      complaint(rig).ends_with("right.rotation_wxyz: is no rotation: the four numbers' squares must add up to 1"))
-      << complaint(rig);
+  EXPECT_TRUE(message(rig).ends_with("right.rotation_wxyz: is no rotation: the four numbers' squares must add up to 1"))
+      << message(rig);
 }
 
 TEST(RigFile, RefusesCamerasInOnePlace) {
   RigFile rig = some_rig();
   rig.right.position_m = rig.left.position_m;
-  EXPECT_NE(complaint(rig).find("right.position_m: is the left camera's"), std::string::npos) << complaint(rig);
+  EXPECT_NE(message(rig).find("right.position_m: is the left camera's"), std::string::npos) << message(rig);
 }
 
 TEST(RigFile, RefusesAMissingCamera) {

@@ -36,14 +36,14 @@ TEST(LowerEnvelope, LiesBelowAllButOnePointOfEachHalfSecond) {
     }
     const auto line = envelope.fit();
     std::map<int, int> below;
-    double least_touch = 1e9;
+    double min_touch = 1e9;
     for (const auto& [time_s, delay_ns] : points) {
       const double height_ns = delay_ns - line->value(time_s);
       if (height_ns < -1e-3) ++below[static_cast<int>(std::floor(time_s / 0.5))];
-      least_touch = std::min(least_touch, std::abs(height_ns));
+      min_touch = std::min(min_touch, std::abs(height_ns));
     }
     for (const auto& [half_second, count] : below) EXPECT_EQ(count, 1) << half_second;
-    EXPECT_NEAR(least_touch, 0.0, 1e-3) << "and it touches one";
+    EXPECT_NEAR(min_touch, 0.0, 1e-3) << "and it touches one";
   }
 }
 

@@ -12,7 +12,7 @@ namespace pharos::host::test {
 struct LatencyModel {
   double mean_jitter_ns = 200e3;  // exponential
   std::int64_t usb_poll_ns = 0;   // bytes are handed over at multiples of this
-  double stall_share = 0.0;       // share of frames that meet a busy host
+  double stall_fraction = 0.0;    // share of frames that meet a busy host
   std::int64_t stall_ns = 0;
 };
 
@@ -38,7 +38,7 @@ class SimulatedLine {
     pair.ticks = ticks_at(now_ns_);
     std::exponential_distribution<double> jitter(1.0 / latency_.mean_jitter_ns);
     std::int64_t arrival = now_ns_ + static_cast<std::int64_t>(jitter(random_));
-    if (std::uniform_real_distribution<double>()(random_) < latency_.stall_share) arrival += latency_.stall_ns;
+    if (std::uniform_real_distribution<double>()(random_) < latency_.stall_fraction) arrival += latency_.stall_ns;
     if (latency_.usb_poll_ns > 0) arrival = (arrival / latency_.usb_poll_ns + 1) * latency_.usb_poll_ns;
     last_arrival_ns_ = std::max(last_arrival_ns_, arrival);
     pair.arrival_monotonic_ns = last_arrival_ns_;

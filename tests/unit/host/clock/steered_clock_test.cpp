@@ -47,7 +47,7 @@ TEST(SteeredClock, BeginsAnewWhereverItIsTold) {
   clock.read(0);
   EXPECT_FALSE(clock.would_jump(-1000 * kMs));
   EXPECT_TRUE(clock.would_jump(-1001 * kMs));
-  clock.begin_anew();
+  clock.reset();
   EXPECT_EQ(clock.read(1), std::nullopt);
   clock.steer(100 * kMs, kUtc - 5000 * kMs, 1.0);
   EXPECT_EQ(clock.read(100 * kMs), kUtc - 5000 * kMs);

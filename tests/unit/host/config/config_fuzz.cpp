@@ -13,8 +13,8 @@ namespace {
 
 pharos::host::CameraFile a_camera() {
   pharos::host::CameraFile file;
-  file.camera.optics.width_px = 640;
-  file.camera.optics.height_px = 480;
+  file.camera.intrinsics.width_px = 640;
+  file.camera.intrinsics.height_px = 480;
   return file;
 }
 
@@ -23,13 +23,13 @@ pharos::host::CameraFile a_camera() {
 // Any bytes are either a configuration that describes itself or an InputError of one line; never anything else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const pharos::host::Surroundings nothing{[](const std::string&) { return pharos::host::TargetFile{}; },
-                                           [](const std::filesystem::path&) {},
-                                           [](const std::string& path) { return path; },
-                                           pharos::host::Surroundings::no_calibration,
-                                           [](const std::string&) { return a_camera(); },
-                                           [](const std::filesystem::path&) {},
-                                           [](const std::string&) { return pharos::host::RigFile{}; }};
+  const pharos::host::Environment nothing{[](const std::string&) { return pharos::host::TargetFile{}; },
+                                          [](const std::filesystem::path&) {},
+                                          [](const std::string& path) { return path; },
+                                          pharos::host::Environment::no_calibration,
+                                          [](const std::string&) { return a_camera(); },
+                                          [](const std::filesystem::path&) {},
+                                          [](const std::string&) { return pharos::host::RigFile{}; }};
   try {
     const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);
     const bool nothing_to_do =

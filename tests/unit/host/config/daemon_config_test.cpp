@@ -50,18 +50,18 @@ TEST(DaemonConfig, TakesWhatIsGoodEnough) {
   const auto limits = [&](const std::string& more) {
     return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).limits;
   };
-  EXPECT_EQ(limits("").position_m, motion::AnswerLimits{}.position_m);
-  const motion::AnswerLimits told = limits("[target.solve]\nlargest_sigma_deg = 0.2\nlargest_sigma_mm = 2.5\n");
+  EXPECT_EQ(limits("").position_m, motion::UncertaintyLimits{}.position_m);
+  const motion::UncertaintyLimits told = limits("[target.solve]\nlargest_sigma_deg = 0.2\nlargest_sigma_mm = 2.5\n");
   EXPECT_NEAR(told.rotation_rad, 0.2 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(told.position_m, 2.5e-3, 1e-12);
   EXPECT_THROW(limits("[target.solve]\nlargest_sigma_mm = 0.0\n"), InputError);
 }
 
 TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
-  Surroundings surroundings = made_up();
-  surroundings.read_calibration = calibrated;
+  Environment environment = made_up();
+  environment.read_calibration = calibrated;
   std::uint8_t sensor = 3;
-  surroundings.read_target = [&](const std::string&) {
+  environment.read_target = [&](const std::string&) {
     TargetFile file;
     file.target.push_back({sensor, Vector3::Zero(), Vector3::Zero()});
     return file;
@@ -69,7 +69,7 @@ TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
   const std::string with_file = std::string(kOneTarget) + "calibration_file = 'cal.toml'\n";
   const std::string second_form = "[target.solve]\nmodel_form = 2\n";
   const auto parsed = [&](const std::string& text) {
-    return parse_daemon_config(text, "p.toml", "/etc/pharos", surroundings).targets.at(0);
+    return parse_daemon_config(text, "p.toml", "/etc/pharos", environment).targets.at(0);
   };
   const TargetConfig target = parsed(with_file + second_form);
   EXPECT_EQ(target.calibration_file, "/etc/pharos/cal.toml");
@@ -100,7 +100,7 @@ TEST(DaemonConfig, DefaultsSufficeForOneTarget) {
   EXPECT_THAT(config.lcm.url, EndsWith("ttl=0"));  // stays on this computer unless told otherwise
   EXPECT_FALSE(config.recording.has_value());
   EXPECT_DOUBLE_EQ(config.publish.max_age_s, 0.2);
-  EXPECT_DOUBLE_EQ(config.targets[0].track.solve.sigma_rad, kPaperSigmaRad);
+  EXPECT_DOUBLE_EQ(config.targets[0].track.solve.sigma_rad, kPaperSigma_rad);
 }
 
 TEST(DaemonConfig, UnderstandsEveryKeyOfTheShippedExample) {
@@ -150,18 +150,18 @@ TEST(DaemonConfig, NamesFileLineAndKeyOfAnUnknownKeyAndTheOneMeant) {
   EXPECT_THAT(error_of(std::string("[sonar]\n") + kOneTarget), StartsWith("p.toml:1: sonar: unknown key"));
 }
 
-struct BadLine {
+struct BadConfig {
   const char* name;
   const char* text;      // before the target
   const char* extra;     // inside the target
   const char* expected;  // start of the message
-  friend void PrintTo(const BadLine& bad, std::ostream* out) { *out << bad.name; }
+  friend void PrintTo(const BadConfig& bad, std::ostream* out) { *out << bad.name; }
 };
 
-class DaemonConfigRefuses : public ::testing::TestWithParam<BadLine> {};
+class DaemonConfigRefuses : public ::testing::TestWithParam<BadConfig> {};
 
 TEST_P(DaemonConfigRefuses, WithFileLineAndKey) {
-  const BadLine& bad = GetParam();
+  const BadConfig& bad = GetParam();
   const std::string message = error_of(std::string(bad.text) + kOneTarget + bad.extra);
   EXPECT_THAT(message, StartsWith(bad.expected));
   EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
@@ -170,36 +170,37 @@ TEST_P(DaemonConfigRefuses, WithFileLineAndKey) {
 INSTANTIATE_TEST_SUITE_P(
     Each, DaemonConfigRefuses,
     ::testing::Values(
-        BadLine{"WrongType", "", "baud = 'fast'\n", "p.toml:5: target[0].baud: must be an integer"},
-        BadLine{"FractionForInteger", "", "baud = 9600.5\n", "p.toml:5: target[0].baud: must be an integer"},
-        BadLine{"BaudOutOfRange", "", "baud = 0\n", "p.toml:5: target[0].baud: must lie in"},
-        BadLine{"SigmaOutOfRange", "", "[target.solve]\nsigma_arcsec = -1\n", "p.toml:6: target[0].solve.sigma_arcsec"},
-        BadLine{"RhoOne", "", "[target.solve]\nrho = 1.0\n", "p.toml:6: target[0].solve.rho"},
-        BadLine{"ModelForm3", "", "[target.solve]\nmodel_form = 3\n", "p.toml:6: target[0].solve.model_form"},
-        BadLine{"NotANumber", "[publish]\nmax_age_s = nan\n", "", "p.toml:2: publish.max_age_s: must be a finite"},
-        BadLine{"AgeZero", "[publish]\nmax_age_s = 0\n", "", "p.toml:2: publish.max_age_s"},
-        BadLine{"NoProvider", "[lcm]\nurl = '239.255.76.67'\n", "", "p.toml:2: lcm.url: must begin with"},
-        BadLine{"PrefixWithBlank", "[lcm]\nchannel_prefix = 'A B'\n", "", "p.toml:2: lcm.channel_prefix"},
-        BadLine{"LogLevel", "[log]\nlevel = 'loud'\n", "", "p.toml:2: log.level: must be one of"},
-        BadLine{"FileWithoutSink", "[log]\nfile = 'x'\n", "", "p.toml:2: log.file: is used only"},
-        BadLine{"SinkWithoutFile", "[log]\nsink = 'file'\n", "", "p.toml:1: log.file: is missing"},
-        BadLine{"RecordingNowhere", "[recording]\nrotate_mib = 1\n", "", "p.toml:1: recording.directory: is missing"},
-        BadLine{"NotToml", "[lcm\n", "", "p.toml:1: not valid TOML"},
-        BadLine{"KeyTwice", "source = 'a'\nsource = 'b'\n", "", "p.toml:2: not valid TOML"},
-        BadLine{"SameName", "", "[[target]]\nname = 'dock'\nport = '/dev/b'\ntarget_file = 'b.csv'\n",
-                "p.toml:6: target[1].name: \"dock\" is taken"},
-        BadLine{"SamePort", "", "[[target]]\nname = 'b'\nport = '/dev/ttyUSB0'\ntarget_file = 'b.csv'\n",
-                "p.toml:7: target[1].port: \"/dev/ttyUSB0\" is taken"},
-        BadLine{"SamePortOtherSpelling", "[[target]]\nname = 'a'\nport = '/dev/left'\ntarget_file = 'a.csv'\n",
-                "[[target]]\nname = 'b'\nport = '/dev/right'\ntarget_file = 'b.csv'\n",
-                "p.toml:11: target[2].port: \"/dev/right\" is taken by another target, as \"/dev/left\""},
-        BadLine{"SameReplay", "[[target]]\nname = 'a'\nport = 'replay:r'\ntarget_file = 'a.csv'\n",
-                "[[target]]\nname = 'b'\nport = 'replay:r'\ntarget_file = 'b.csv'\n",
-                "p.toml:11: target[2].port: \"replay:/etc/pharos/r\" is taken"},
-        BadLine{"NotMulticast", "[lcm]\nurl = 'udpm://192.168.1.7:7667'\n", "",
-                "p.toml:2: lcm.url: \"192.168.1.7\" is no multicast address"},
-        BadLine{"NoReplayFile", "", "[[target]]\nname = 'b'\nport = 'replay:gone'\ntarget_file = 'b.csv'\n",
-                "p.toml:7: target[1].port: /etc/pharos/gone: cannot be opened"}),
+        BadConfig{"WrongType", "", "baud = 'fast'\n", "p.toml:5: target[0].baud: must be an integer"},
+        BadConfig{"FractionForInteger", "", "baud = 9600.5\n", "p.toml:5: target[0].baud: must be an integer"},
+        BadConfig{"BaudOutOfRange", "", "baud = 0\n", "p.toml:5: target[0].baud: must lie in"},
+        BadConfig{"SigmaOutOfRange", "", "[target.solve]\nsigma_arcsec = -1\n",
+                  "p.toml:6: target[0].solve.sigma_arcsec"},
+        BadConfig{"RhoOne", "", "[target.solve]\nrho = 1.0\n", "p.toml:6: target[0].solve.rho"},
+        BadConfig{"ModelForm3", "", "[target.solve]\nmodel_form = 3\n", "p.toml:6: target[0].solve.model_form"},
+        BadConfig{"NotANumber", "[publish]\nmax_age_s = nan\n", "", "p.toml:2: publish.max_age_s: must be a finite"},
+        BadConfig{"AgeZero", "[publish]\nmax_age_s = 0\n", "", "p.toml:2: publish.max_age_s"},
+        BadConfig{"NoProvider", "[lcm]\nurl = '239.255.76.67'\n", "", "p.toml:2: lcm.url: must begin with"},
+        BadConfig{"PrefixWithBlank", "[lcm]\nchannel_prefix = 'A B'\n", "", "p.toml:2: lcm.channel_prefix"},
+        BadConfig{"LogLevel", "[log]\nlevel = 'loud'\n", "", "p.toml:2: log.level: must be one of"},
+        BadConfig{"FileWithoutSink", "[log]\nfile = 'x'\n", "", "p.toml:2: log.file: is used only"},
+        BadConfig{"SinkWithoutFile", "[log]\nsink = 'file'\n", "", "p.toml:1: log.file: is missing"},
+        BadConfig{"RecordingNowhere", "[recording]\nrotate_mib = 1\n", "", "p.toml:1: recording.directory: is missing"},
+        BadConfig{"NotToml", "[lcm\n", "", "p.toml:1: not valid TOML"},
+        BadConfig{"KeyTwice", "source = 'a'\nsource = 'b'\n", "", "p.toml:2: not valid TOML"},
+        BadConfig{"SameName", "", "[[target]]\nname = 'dock'\nport = '/dev/b'\ntarget_file = 'b.csv'\n",
+                  "p.toml:6: target[1].name: \"dock\" is taken"},
+        BadConfig{"SamePort", "", "[[target]]\nname = 'b'\nport = '/dev/ttyUSB0'\ntarget_file = 'b.csv'\n",
+                  "p.toml:7: target[1].port: \"/dev/ttyUSB0\" is taken"},
+        BadConfig{"SamePortOtherSpelling", "[[target]]\nname = 'a'\nport = '/dev/left'\ntarget_file = 'a.csv'\n",
+                  "[[target]]\nname = 'b'\nport = '/dev/right'\ntarget_file = 'b.csv'\n",
+                  "p.toml:11: target[2].port: \"/dev/right\" is taken by another target, as \"/dev/left\""},
+        BadConfig{"SameReplay", "[[target]]\nname = 'a'\nport = 'replay:r'\ntarget_file = 'a.csv'\n",
+                  "[[target]]\nname = 'b'\nport = 'replay:r'\ntarget_file = 'b.csv'\n",
+                  "p.toml:11: target[2].port: \"replay:/etc/pharos/r\" is taken"},
+        BadConfig{"NotMulticast", "[lcm]\nurl = 'udpm://192.168.1.7:7667'\n", "",
+                  "p.toml:2: lcm.url: \"192.168.1.7\" is no multicast address"},
+        BadConfig{"NoReplayFile", "", "[[target]]\nname = 'b'\nport = 'replay:gone'\ntarget_file = 'b.csv'\n",
+                  "p.toml:7: target[1].port: /etc/pharos/gone: cannot be opened"}),
     [](const auto& entry) { return entry.param.name; });
 
 TEST(DaemonConfig, RefusesAFileWithoutATarget) {

@@ -13,7 +13,7 @@ TEST(LcmUrl, TakesWhatLcmUnderstands) {
   for (const char* url : {"udpm://239.255.76.67:7667?ttl=0", "udpm://", "udpm://:7000", "udpm://224.0.0.1",
                           "udpm://239.255.76.67:7667?recv_buf_size=2097152&ttl=1", "udpm://?ttl=255",
                           "file:///var/log/pharos.lcm?mode=w", "file://x.lcm?mode=a"}) {
-    EXPECT_EQ(lcm_url_trouble(url), "") << url;
+    EXPECT_EQ(lcm_url_error(url), "") << url;
   }
 }
 
@@ -43,9 +43,9 @@ TEST(LcmUrl, RefusesNonsenseAndSaysWhat) {
                             BadUrl{"memq://", "nobody listens"},
                             BadUrl{"http://x", "must begin with"},
                             BadUrl{"", "must begin with"}}) {
-    EXPECT_THAT(lcm_url_trouble(bad.url), HasSubstr(bad.words)) << bad.url;
+    EXPECT_THAT(lcm_url_error(bad.url), HasSubstr(bad.words)) << bad.url;
   }
-  EXPECT_THAT(lcm_url_trouble(std::string("udpm://\0", 8)), HasSubstr("zero"));
+  EXPECT_THAT(lcm_url_error(std::string("udpm://\0", 8)), HasSubstr("zero"));
 }
 
 }  // namespace

@@ -20,15 +20,15 @@ inline RigFile a_rig(const std::string& path) {
   if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
   RigFile rig;
   for (RigCamera* camera : {&rig.left, &rig.right}) {
-    camera->optics.width_px = 640;
-    camera->optics.height_px = 480;
+    camera->intrinsics.width_px = 640;
+    camera->intrinsics.height_px = 480;
   }
   return rig;
 }
 
 /// No disk: what is called gone is not there, all other files are; /dev/left and /dev/right are one device. A camera
 /// file is of 640 x 480 pixels, of 1280 x 480 where its name holds "large".
-inline Surroundings made_up() {
+inline Environment made_up() {
   return {any_target,
           [](const std::filesystem::path& file) {
             if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
@@ -42,8 +42,8 @@ inline Surroundings made_up() {
           [](const std::string& path) {
             if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
             CameraFile file;
-            file.camera.optics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
-            file.camera.optics.height_px = 480;
+            file.camera.intrinsics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
+            file.camera.intrinsics.height_px = 480;
             return file;
           },
           [](const std::filesystem::path& directory) {

@@ -51,7 +51,7 @@ TEST(StereoConfig, TakesEveryKey) {
   ASSERT_TRUE(stereo.slam);
   EXPECT_EQ(stereo.slam->settings.scene, slam::Scene::kStatic);
   EXPECT_EQ(stereo.slam->settings.features, 500);
-  EXPECT_EQ(stereo.slam->settings.most_keyframes, 20u);
+  EXPECT_EQ(stereo.slam->settings.max_keyframes, 20u);
   EXPECT_EQ(stereo.slam->settings.vocabulary, "/etc/pharos/my.words");
   EXPECT_FALSE(stereo.slam->settings.close_loops);
   EXPECT_TRUE(stereo.slam->settings.threads) << "live";
@@ -66,7 +66,7 @@ TEST(StereoConfig, TakesRecordedPairsInPlaceOfCameras) {
   EXPECT_EQ(stereo.slam->enhance, LowLight::kOff);
 }
 
-TEST(StereoConfig, IsTold) {
+TEST(StereoConfig, IsReported) {
   const std::string text = describe(parse(rig("systems = ['slam', 'ring2']\n[stereo.slam]\nenhance = 'none'\n")));
   for (const char* words :
        {"stereo bow (target client)", "left: serial number L1, right: at 169.254.1.3", "frames within 5 ms",
@@ -126,16 +126,16 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(StereoConfig, PassesOnWhatARigAVocabularyOrPairsAreNoGoodFor) {
-  Surroundings surroundings = made_up();
+  Environment environment = made_up();
   const auto no = [](const char* what) { throw InputError(what); };
-  surroundings.check_slam = [&](const RigFile&, const std::string& name) { no((name + ": no baseline").c_str()); };
-  surroundings.check_vocabulary = [&](const std::string& path) {
+  environment.check_slam = [&](const RigFile&, const std::string& name) { no((name + ": no baseline").c_str()); };
+  environment.check_vocabulary = [&](const std::string& path) {
     if (!path.empty()) no((path + ": cut short").c_str());
   };
-  surroundings.check_pairs = [&](const std::filesystem::path&, const RigFile&) { no("0000_left.png: has 2 x 2"); };
+  environment.check_pairs = [&](const std::filesystem::path&, const RigFile&) { no("0000_left.png: has 2 x 2"); };
   const auto refusal = [&](const std::string& text) -> std::string {
     try {
-      parse_daemon_config(text, "p.toml", "/etc/pharos", surroundings);
+      parse_daemon_config(text, "p.toml", "/etc/pharos", environment);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -43,7 +43,7 @@ TEST_F(CalibrationMemoryTest, ReadsBackExactlyWhatWasKept) {
   memory.keep(station(0xBEC08E38));
   memory.keep(station(0x00000001, 0.5));
   memory.save(0);
-  EXPECT_EQ(memory.trouble(), "");
+  EXPECT_EQ(memory.error(), "");
   EXPECT_THAT(reread(), ElementsAre(station(0xBEC08E38), station(1, 0.5)));
 }
 
@@ -86,15 +86,15 @@ TEST_F(CalibrationMemoryTest, ANewCalibrationReplacesTheOldOneOfTheSameStationAn
 
 TEST_F(CalibrationMemoryTest, AnInventorOfStationsDropsTheOldestAndTakesNoMoreRoom) {
   CalibrationMemory memory(folder_);
-  constexpr auto kMost = static_cast<std::uint32_t>(CalibrationMemory::kMostStations);
-  for (std::uint32_t id = 1; id <= kMost; ++id) memory.keep(station(id));
+  constexpr auto kMax = static_cast<std::uint32_t>(CalibrationMemory::kMaxStations);
+  for (std::uint32_t id = 1; id <= kMax; ++id) memory.keep(station(id));
   memory.keep(station(1));  // in use again: no longer the oldest
   EXPECT_EQ(memory.counters().dropped, 0);
   for (std::uint32_t id = 1000; id < 1010; ++id) memory.keep(station(id));
   EXPECT_EQ(memory.counters().dropped, 10);
   memory.save(0);
   const auto stations = reread();
-  ASSERT_EQ(stations.size(), kMost);
+  ASSERT_EQ(stations.size(), kMax);
   EXPECT_EQ(stations.front(), station(12));
   EXPECT_EQ(std::count(stations.begin(), stations.end(), station(1)), 1);
   EXPECT_EQ(stations.back(), station(1009));
@@ -114,7 +114,7 @@ TEST_F(CalibrationMemoryTest, AFileOfMoreStationsGivesTheNewest) {
   }
   CalibrationMemory memory(folder_);
   memory.load();
-  EXPECT_EQ(memory.stations().size(), CalibrationMemory::kMostStations);
+  EXPECT_EQ(memory.stations().size(), CalibrationMemory::kMaxStations);
   EXPECT_EQ(memory.stations().back().id, 69u);
   EXPECT_EQ(memory.counters().dropped, 6);
 }
@@ -147,15 +147,15 @@ TEST_F(CalibrationMemoryTest, SaysWhyItCannotBeWrittenAndTriesAgainAfterAWhile) 
   CalibrationMemory memory(folder_);
   memory.keep(station(7));
   memory.save(0);
-  EXPECT_THAT(memory.trouble(), ::testing::HasSubstr("stations.toml: cannot be written"));
+  EXPECT_THAT(memory.error(), ::testing::HasSubstr("stations.toml: cannot be written"));
   EXPECT_THAT(memory.stations(), ElementsAre(station(7)));
   EXPECT_EQ(memory.counters().write_failures, 1);
 
   fs::remove(folder_);
-  memory.save(CalibrationMemory::kRetryNs - 1);
-  EXPECT_THAT(memory.trouble(), ::testing::HasSubstr("cannot be written")) << "not at every turn of the loop";
-  memory.save(CalibrationMemory::kRetryNs);
-  EXPECT_EQ(memory.trouble(), "");
+  memory.save(CalibrationMemory::kRetry_ns - 1);
+  EXPECT_THAT(memory.error(), ::testing::HasSubstr("cannot be written")) << "not at every turn of the loop";
+  memory.save(CalibrationMemory::kRetry_ns);
+  EXPECT_EQ(memory.error(), "");
   EXPECT_THAT(reread(), ElementsAre(station(7)));
   EXPECT_EQ(memory.counters().write_failures, 1);
 }
@@ -175,7 +175,7 @@ TEST_F(CalibrationMemoryTest, WithoutADirectoryNothingIsWritten) {
   CalibrationMemory memory("");
   memory.keep(station(7));
   memory.save(0);
-  EXPECT_EQ(memory.trouble(), "");
+  EXPECT_EQ(memory.error(), "");
   EXPECT_THAT(memory.stations(), ElementsAre(station(7)));
 }
 

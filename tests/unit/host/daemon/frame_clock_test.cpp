@@ -76,7 +76,7 @@ TEST(FrameClock, BelievesPtpButForWholeSeconds) {
     ASSERT_TRUE(time);
     EXPECT_TRUE(clock.by_ptp());
     EXPECT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns - kPeriod)), 0.0, 1e3);
-    EXPECT_EQ(time->sigma_ns, FrameClock::kPtpSigmaNs);
+    EXPECT_EQ(time->sigma_ns, FrameClock::kPtpSigma_ns);
     // Ages count the latency that arrivals cannot tell.
     EXPECT_NEAR(static_cast<double>(time->monotonic_ns - (50 * kSecond + at_ns - kPeriod)), 0.0, 1e3);
   }

@@ -28,10 +28,10 @@ class PairMatcherTest : public ::testing::Test {
     return std::pair((*pair)[0].time.utc_ns / kMs, (*pair)[1].time.utc_ns / kMs);
   }
 
-  std::array<int, 2> given_up{};
+  std::array<int, 2> discarded{};
   PairMatcher matcher{kWindow, [this](std::size_t side, DepthFramePtr frame) {
                         EXPECT_TRUE(frame);
-                        ++given_up[side];
+                        ++discarded[side];
                       }};
 };
 
@@ -61,15 +61,15 @@ TEST_F(PairMatcherTest, TakesTheNearestOfSeveralAndGivesTheOlderUp) {
 TEST_F(PairMatcherTest, ACameraThatLagsBehindLosesNothing) {
   for (int k = 0; k < 3; ++k) EXPECT_FALSE(push(0, 50 * k));
   for (int k = 0; k < 3; ++k) EXPECT_EQ(push(1, 50 * k + 1), Times(50 * k, 50 * k + 1));
-  EXPECT_EQ(given_up[0] + given_up[1], 0);
+  EXPECT_EQ(discarded[0] + discarded[1], 0);
 }
 
 TEST_F(PairMatcherTest, WithoutTheOtherCameraAFewWaitAndTheRestIsCounted) {
   for (int k = 0; k < 100; ++k) EXPECT_FALSE(push(0, 50 * k));
-  EXPECT_EQ(matcher.unpaired(0), 100 - static_cast<std::int64_t>(PairMatcher::kMostWaiting));
+  EXPECT_EQ(matcher.unpaired(0), 100 - static_cast<std::int64_t>(PairMatcher::kMaxWaiting));
   EXPECT_EQ(push(1, 50 * 99), Times(50 * 99, 50 * 99)) << "back again";
   EXPECT_EQ(matcher.unpaired(0), 99);
-  EXPECT_EQ(given_up[0], 99) << "every buffer goes back";
+  EXPECT_EQ(discarded[0], 99) << "every buffer goes back";
 }
 
 TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
@@ -90,8 +90,8 @@ TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
     last = pair->first;
   }
   matcher.clear();
-  EXPECT_EQ(pushed, paired + given_up[0] + given_up[1]);
-  EXPECT_EQ(matcher.unpaired(0), given_up[0]);
+  EXPECT_EQ(pushed, paired + discarded[0] + discarded[1]);
+  EXPECT_EQ(matcher.unpaired(0), discarded[0]);
   EXPECT_GT(paired, 1000);
 }
 
@@ -100,9 +100,9 @@ class HandCamera : public FrameSource {
  public:
   int fd() const override { return queue.fd(); }
   DepthFramePtr take() override { return queue.take(); }
-  void give_back(DepthFramePtr frame) override {
+  void recycle(DepthFramePtr frame) override {
     ++returned;
-    queue.give_back(std::move(frame));
+    queue.recycle(std::move(frame));
   }
   FrameSourceStatus status() const override { return about; }
   std::string device() const override { return "camera " + about.identity; }
@@ -155,7 +155,7 @@ TEST_F(CameraPairsTest, MakesPairsAndSendsTheBuffersRound) {
   EXPECT_EQ(pair->offset_ns, 2 * kMs);
   EXPECT_EQ(counter("device.pairs"), 1);
   EXPECT_GE(counter("pair_offset_max_us"), 1999);
-  pairs->give_back(std::move(pair));
+  pairs->recycle(std::move(pair));
   EXPECT_EQ(hands[0]->returned, 1);
   EXPECT_EQ(hands[1]->returned, 1);
 }
@@ -164,9 +164,9 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
   EXPECT_EQ(pairs->status().state, CameraState::kOpen);
   EXPECT_EQ(pairs->status().identity, "left: L; right: R");
   hands[1]->about.state = CameraState::kGone;
-  hands[1]->about.trouble = "no camera answers";
+  hands[1]->about.error = "no camera answers";
   EXPECT_EQ(pairs->status().state, CameraState::kGone);
-  EXPECT_EQ(pairs->status().trouble, "right: no camera answers");
+  EXPECT_EQ(pairs->status().error, "right: no camera answers");
   for (int k = 0; k < 20; ++k) {
     hands[0]->show((1'000'000 + 50 * k) * kMs);
     EXPECT_FALSE(pairs->take());
@@ -176,16 +176,16 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
 
 TEST_F(CameraPairsTest, ShuttersThatAreNotTogetherAreTold) {
   for (int k = 0; k < 12; ++k) {
-    EXPECT_EQ(pairs->status().trouble.empty(), k < 9) << k;
+    EXPECT_EQ(pairs->status().error.empty(), k < 9) << k;
     hands[0]->show((1'000'000 + 50 * k) * kMs);
     hands[1]->show((1'000'020 + 50 * k) * kMs);
     EXPECT_FALSE(pairs->take());
   }
-  EXPECT_NE(pairs->status().trouble.find("pairing_window_ms"), std::string::npos);
+  EXPECT_NE(pairs->status().error.find("pairing_window_ms"), std::string::npos);
   hands[0]->show(2'000'000 * kMs);
   hands[1]->show(2'000'000 * kMs);
   EXPECT_TRUE(pairs->take());
-  EXPECT_EQ(pairs->status().trouble, "") << "over";
+  EXPECT_EQ(pairs->status().error, "") << "over";
 }
 
 TEST_F(CameraPairsTest, PairsNeverGoBack) {

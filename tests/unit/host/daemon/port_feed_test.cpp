@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "unit/host/daemon/captured_log.hpp"
 #include "unit/host/record/temporary_folder.hpp"
 #include "unit/host/serial/pty.hpp"
@@ -21,7 +21,7 @@ class PortFeedTest : public ::testing::Test {
   void flap() {
     test::Pty pty;
     fs::create_symlink(pty.path, name_);
-    now_ns_ += kReopenPeriodNs;
+    now_ns_ += kReopenPeriod_ns;
     feed_.attend(now_ns_);
     fs::remove(name_);
     pty.unplug();

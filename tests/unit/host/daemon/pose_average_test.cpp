@@ -8,7 +8,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kPeriodNs = 33'333'333;
+constexpr std::int64_t kPeriod_ns = 33'333'333;
 using CameraFromTarget = Pose<frame::Camera, frame::Target>;
 
 CameraFromTarget near_half_turn() { return {rotation_exp(Vector3(3.0, 0.2, -0.1)), Vector3(0.1, -0.2, 4.0)}; }
@@ -31,7 +31,7 @@ class Frames {
     AveragedFrame frame;
     frame.estimate.pose = near_half_turn().moved_by(widen * root * noise);
     frame.estimate.covariance = covariance();
-    frame.utc_ns = (time_ns_ += kPeriodNs);
+    frame.utc_ns = (time_ns_ += kPeriod_ns);
     frame.observations = 10;
     return frame;
   }
@@ -50,7 +50,7 @@ TEST(PoseAverage, TellsTheMeanAndItsCovarianceOnceTheWindowIsFull) {
   ASSERT_TRUE(mean);
   EXPECT_EQ(mean->observations, 1000);
   EXPECT_FALSE(mean->moving);
-  EXPECT_NEAR(static_cast<double>(mean->utc_ns), 50.5 * static_cast<double>(kPeriodNs), 2.0);
+  EXPECT_NEAR(static_cast<double>(mean->utc_ns), 50.5 * static_cast<double>(kPeriod_ns), 2.0);
   EXPECT_LT((mean->estimate.covariance - covariance() / 100.0).norm(), 0.3 * (covariance() / 100.0).norm());
   EXPECT_FALSE(average.push(frames.next())) << "no frame is in two means";
 }
@@ -87,14 +87,14 @@ TEST(PoseAverage, BeginsAnewAfterAGapAndAtOtherFlags) {
   AveragedFrame other = frames.next();
   other.flags = "no_connector";
   EXPECT_FALSE(average.push(other));
-  EXPECT_EQ(average.given_up(), 1);
+  EXPECT_EQ(average.discarded(), 1);
   AveragedFrame late = other;
-  late.utc_ns += 2 * PoseAverage::kLongestGapNs;
+  late.utc_ns += 2 * PoseAverage::kLongestGap_ns;
   EXPECT_FALSE(average.push(late));
-  EXPECT_EQ(average.given_up(), 2);
-  late.utc_ns += kPeriodNs;
+  EXPECT_EQ(average.discarded(), 2);
+  late.utc_ns += kPeriod_ns;
   EXPECT_FALSE(average.push(late));
-  late.utc_ns += kPeriodNs;
+  late.utc_ns += kPeriod_ns;
   const auto mean = average.push(late);
   ASSERT_TRUE(mean);
   EXPECT_EQ(mean->flags, "no_connector");

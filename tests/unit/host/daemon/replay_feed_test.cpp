@@ -10,7 +10,7 @@ namespace pharos::host {
 namespace {
 
 constexpr std::int64_t kUtc = 1'763'721'000'000'000'000;
-constexpr std::int64_t kDayNs = 86'400 * std::int64_t{1'000'000'000};
+constexpr std::int64_t kDay_ns = 86'400 * std::int64_t{1'000'000'000};
 
 class ReplayFeedTest : public ::testing::Test {
  protected:
@@ -22,7 +22,7 @@ class ReplayFeedTest : public ::testing::Test {
     test::write_file(folder_.path() / "r.phraw", bytes);
     return (folder_.path() / "r.phraw").string();
   }
-  LineFeedEvents events() {
+  SerialFeedEvents events() {
     return {
         [this](std::span<const std::uint8_t>, const Arrival& arrival) { arrivals_.push_back(arrival.monotonic_ns); },
         [] {}, [this] { finished_ = true; }};
@@ -41,14 +41,14 @@ class ReplayFeedTest : public ::testing::Test {
 };
 
 TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
-  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDayNs}), ReplaySpeed::kReal, events());
+  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDay_ns}), ReplaySpeed::kReal, events());
   feed.attend(0);
   while (arrivals_.empty()) loop_.turn(1000);
   EXPECT_EQ(count(feed, "replay.silences_cut"), 1);
 }
 
 TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
-  const std::string file = recording({0, 40'000 * kDayNs, 10, 5, 20, std::numeric_limits<std::int64_t>::min(), 30});
+  const std::string file = recording({0, 40'000 * kDay_ns, 10, 5, 20, std::numeric_limits<std::int64_t>::min(), 30});
   ReplayFeed feed(loop_, "dock", file, ReplaySpeed::kReal, events());
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
@@ -58,7 +58,7 @@ TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
 }
 
 TEST_F(ReplayFeedTest, AtFullSpeedNothingIsWaitedFor) {
-  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDayNs, 9 * kDayNs}), ReplaySpeed::kFastest, events());
+  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDay_ns, 9 * kDay_ns}), ReplaySpeed::kFastest, events());
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
   EXPECT_EQ(arrivals_.size(), 3u);

@@ -34,7 +34,7 @@ TEST(SpinWindow, TellsRateAndAxisOnceASecond) {
   const Vector3 rate(0.02, -0.16, 0.05);
   Turning target(rate);
   SpinWindow window;
-  std::vector<SpinAnswer> told;
+  std::vector<SpinResult> told;
   for (int k = 0; k <= 60; ++k) {
     if (const auto answer = window.push(target.frame(k))) told.push_back(*answer);
   }
@@ -54,7 +54,7 @@ TEST(SpinWindow, TellsRateAndAxisOnceASecond) {
 TEST(SpinWindow, KnowsOnlyTheLastSecondsAndTheMapAtHand) {
   Turning before(Vector3(0.0, 0.1, 0.0)), after(Vector3(0.0, 0.0, -0.1));
   SpinWindow window;
-  std::optional<SpinAnswer> last;
+  std::optional<SpinResult> last;
   const auto show = [&](Turning& target, int first, int end) {
     for (int k = first; k < end; ++k) {
       if (const auto answer = window.push(target.frame(k))) last = answer;
@@ -72,7 +72,7 @@ TEST(SpinWindow, KnowsOnlyTheLastSecondsAndTheMapAtHand) {
 TEST(SpinWindow, ATargetAtRestHasNoAxis) {
   Turning target(Vector3::Zero(), 1e-3);
   SpinWindow window;
-  std::optional<SpinAnswer> last;
+  std::optional<SpinResult> last;
   for (int k = 0; k <= 40; ++k) {
     if (const auto answer = window.push(target.frame(k))) last = answer;
   }

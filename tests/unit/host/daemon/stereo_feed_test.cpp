@@ -11,9 +11,9 @@
 #include <functional>
 #include <optional>
 
-#include "host/daemon/now.hpp"
+#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
-#include "host/vision/ring2/ring_pose.hpp"
+#include "host/vision/ring2/ring2_pose.hpp"
 #include "pharos/pose_t.hpp"
 #include "support/painted_ring_pair.hpp"
 #include "unit/host/publish/message_list.hpp"
@@ -144,11 +144,11 @@ TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) {
 /// Answers when it is let.
 class SlowEstimator : public PairEstimator {
  public:
-  PairAnswer measure(const StereoPair& pair) override {
+  PairResult measure(const StereoPair& pair) override {
     std::unique_lock lock(mutex);
     changed.wait(lock, [this] { return let > 0; });
     --let;
-    PairAnswer answer;
+    PairResult answer;
     answer.refusal = std::to_string(pair.offset_ns);
     return answer;
   }
@@ -175,8 +175,8 @@ TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
   EXPECT_TRUE(worker.idle());
   std::int64_t dropped = 0;
   for (std::int64_t k = 0; k < 50; ++k) {
-    if (const auto given_up = worker.post(numbered(k))) {
-      EXPECT_LT((*given_up)->offset_ns, k);
+    if (const auto discarded = worker.post(numbered(k))) {
+      EXPECT_LT((*discarded)->offset_ns, k);
       ++dropped;
     }
   }
@@ -196,10 +196,10 @@ TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
 /// Throws at the first two pairs.
 class FaultyEstimator : public PairEstimator {
  public:
-  PairAnswer measure(const StereoPair& pair) override {
+  PairResult measure(const StereoPair& pair) override {
     if (pair.offset_ns == 0) throw std::out_of_range("the seventh of six");
     if (pair.offset_ns == 1) throw 42;
-    PairAnswer answer;
+    PairResult answer;
     answer.refusal = "no_ring";
     return answer;
   }
@@ -207,7 +207,7 @@ class FaultyEstimator : public PairEstimator {
 
 TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
   PairWorker worker = pair_worker(std::make_unique<FaultyEstimator>());
-  StereoLine line(config, publish, "ring2/bow", publisher);
+  StereoPipeline line(config, publish, "ring2/bow", publisher);
   for (std::int64_t k = 0; k < 3; ++k) {
     StereoPairPtr pair = numbered(k);
     pair->time = {utc_now_ns(), monotonic_now_ns(), 0};
@@ -232,7 +232,7 @@ TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
 }
 
 TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
-  ring2::CirclesEstimate circles;
+  ring2::Ring2Estimate circles;
   circles.normal = Vector3(0.1, -0.2, -1.0).normalized();
   circles.ring_centre_m = Vector3(0.1, 0.2, 3.0);
   circles.tilt_axes[0] = circles.normal.unitOrthogonal();
@@ -242,7 +242,7 @@ TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
   circles.covariance(2, 2) = 9e-6;
   circles.rms_px = 0.5;
   circles.second = {Vector3(0.0, 0.0, -1.0), Vector3(0.0, 0.0, 3.0), 2.0};
-  const auto pose = ring_pose(circles, 1000.0);
+  const auto pose = ring2_pose(circles, 1000.0);
   EXPECT_LT((pose.pose.R.col(2) - circles.normal).norm(), 1e-12);
   EXPECT_NEAR(pose.pose.R.determinant(), 1.0, 1e-12);
   EXPECT_GT(pose.pose.R(0, 0), 0.9) << "X' near the rig's x";

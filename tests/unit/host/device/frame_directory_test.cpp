@@ -94,7 +94,7 @@ TEST_F(FrameDirectoryTest, IsASourceThatEndsAndCountsWhatCannotBeRead) {
     if (DepthFramePtr frame = source.take()) {
       depths.push_back(frame->depth[0]);
       EXPECT_EQ(frame->clock, CameraClock::kHost);
-      source.give_back(std::move(frame));
+      source.recycle(std::move(frame));
     }
   }
   EXPECT_EQ(depths, (std::vector<std::uint16_t>{0x0101, 0x0202}));

@@ -37,7 +37,7 @@ TEST(FrameQueue, DropsTheOldestForTheNewestAndSaysSo) {
   FrameQueue queue;
   int dropped = 0;
   for (int i = 0; i < 10; ++i) dropped += queue.push(numbered(queue, i)) ? 1 : 0;
-  EXPECT_EQ(dropped, 10 - static_cast<int>(FrameQueue::kMostWaiting));
+  EXPECT_EQ(dropped, 10 - static_cast<int>(FrameQueue::kMaxWaiting));
   EXPECT_EQ(queue.take()->camera_ns, 8);
   EXPECT_EQ(queue.take()->camera_ns, 9);
   EXPECT_EQ(queue.take(), nullptr);
@@ -49,7 +49,7 @@ TEST(FrameQueue, FramesGoRoundWithTheirMemory) {
   frame->resize(640, 480);
   const std::uint16_t* const pixels = frame->depth.data();
   queue.push(std::move(frame));
-  queue.give_back(queue.take());
+  queue.recycle(queue.take());
   DepthFramePtr again = queue.blank();
   again->resize(640, 480);
   EXPECT_EQ(again->depth.data(), pixels);
@@ -71,7 +71,7 @@ TEST(FrameQueue, WakesTheLoopFromAnotherThreadAndLosesNothingUncounted) {
     EXPECT_GT(frame->camera_ns, last);
     last = frame->camera_ns;
     ++taken;
-    queue.give_back(std::move(frame));
+    queue.recycle(std::move(frame));
   }
   camera.join();
   EXPECT_EQ(taken + dropped, kFrames);

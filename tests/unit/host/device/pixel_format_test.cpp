@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tools/sim/camera/frame_reel.hpp"
+#include "tools/sim/camera/frame_sequence.hpp"
 
 namespace pharos::host {
 namespace {
@@ -42,11 +42,11 @@ TEST(PixelFormat, SizesOfPayloadsFollowTheFormat) {
 
 // What the simulated camera sends is what is read, in the scale that it tells.
 TEST(PixelFormat, ReadsWhatTheSimulatedCameraSends) {
-  sim::FrameReel reel{2, 1, 0.00025, {{0.1f, -0.2f}, {0.3f, 0.4f}}, {}};
-  reel.frames.push_back({{100, 200}, {12'000, 0}, std::nullopt});
+  sim::FrameSequence sequence{2, 1, 0.00025, {{0.1f, -0.2f}, {0.3f, 0.4f}}, {}};
+  sequence.frames.push_back({{100, 200}, {12'000, 0}, std::nullopt});
   const sim::WireScale wire{{0.0001, 0.0001, 0.0001}, {-3.0, -3.0, 0.5}};
   std::vector<std::uint8_t> bytes(16);
-  sim::write_payload(reel, reel.frames[0], kCoord3dAbcy16, wire, bytes);
+  sim::write_payload(sequence, sequence.frames[0], kCoord3dAbcy16, wire, bytes);
   Values depth(2);
   Values intensity(2);
   ASSERT_TRUE(unpack_abcy16(bytes, depth, intensity));
@@ -57,24 +57,24 @@ TEST(PixelFormat, ReadsWhatTheSimulatedCameraSends) {
 }
 
 TEST(PixelFormat, GreyFramesComeAsTheSimulatedCameraSendsThem) {
-  sim::FrameReel reel{2, 1, 0.00025, {}, {}};
-  reel.frames.push_back({{0x1234, 0xFFFF}, {}, std::nullopt});
+  sim::FrameSequence sequence{2, 1, 0.00025, {}, {}};
+  sequence.frames.push_back({{0x1234, 0xFFFF}, {}, std::nullopt});
   std::vector<std::uint8_t> bytes(4);
   Values grey(2);
-  sim::write_payload(reel, reel.frames[0], kMono16, {}, bytes);
+  sim::write_payload(sequence, sequence.frames[0], kMono16, {}, bytes);
   ASSERT_TRUE(unpack_16(bytes, grey));
   EXPECT_EQ(grey, (Values{0x1234, 0xFFFF}));
   bytes.resize(payload_bytes(kMono8, 2, 1));
-  sim::write_payload(reel, reel.frames[0], kMono8, {}, bytes);
+  sim::write_payload(sequence, sequence.frames[0], kMono8, {}, bytes);
   ASSERT_TRUE(unpack_8(bytes, grey));
   EXPECT_EQ(grey, (Values{0x1212, 0xFFFF})) << "white stays white";
 }
 
-TEST(FrameReel, IsShownToAndFroWithoutAJump) {
-  sim::FrameReel reel;
-  for (std::uint16_t i = 0; i < 3; ++i) reel.frames.push_back({{i}, {i}, std::nullopt});
+TEST(FrameSequence, IsShownToAndFroWithoutAJump) {
+  sim::FrameSequence sequence;
+  for (std::uint16_t i = 0; i < 3; ++i) sequence.frames.push_back({{i}, {i}, std::nullopt});
   Values shown;
-  for (std::uint64_t i = 0; i < 9; ++i) shown.push_back(reel.at(i).depth[0]);
+  for (std::uint64_t i = 0; i < 9; ++i) shown.push_back(sequence.at(i).depth[0]);
   EXPECT_EQ(shown, (Values{0, 1, 2, 1, 0, 1, 2, 1, 0}));
 }
 

@@ -26,7 +26,7 @@ Bytes corpus(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string complaint_about(const Bytes& bytes) {
+std::string error_message_of(const Bytes& bytes) {
   try {
     decode_picture(bytes, "some image");
   } catch (const InputError& error) {
@@ -59,9 +59,9 @@ TEST(Picture, PaletteBecomesColour) {
 }
 
 TEST(Picture, TransparencyIsRefusedWithARemedy) {
-  EXPECT_THAT(complaint_about(corpus("palette_transparent.png")),
+  EXPECT_THAT(error_message_of(corpus("palette_transparent.png")),
               AllOf(HasSubstr("transparency"), HasSubstr("-alpha")));
-  EXPECT_THAT(complaint_about(corpus("alpha.png")), HasSubstr("transparency"));
+  EXPECT_THAT(error_message_of(corpus("alpha.png")), HasSubstr("transparency"));
 }
 
 TEST(Picture, PpmIsColour) {
@@ -94,15 +94,15 @@ TEST(Jpeg, EveryTruncationIsRefused) {
     const Bytes whole = corpus(name);
     ASSERT_GT(whole.size(), 300U);
     for (std::size_t size = 0; size + 2 < whole.size(); size += 5) {
-      EXPECT_NE(complaint_about(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), "none")
+      EXPECT_NE(error_message_of(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), "none")
           << name << ' ' << size;
     }
   }
 }
 
 TEST(Jpeg, WhatIsNotOursIsToldWithARemedy) {
-  EXPECT_THAT(complaint_about(corpus("cmyk.jpg")), HasSubstr("4 colours"));
-  EXPECT_THAT(complaint_about(corpus("cut.jpg")), AllOf(HasSubstr("damaged JPEG"), HasSubstr("again")));
+  EXPECT_THAT(error_message_of(corpus("cmyk.jpg")), HasSubstr("4 colours"));
+  EXPECT_THAT(error_message_of(corpus("cut.jpg")), AllOf(HasSubstr("damaged JPEG"), HasSubstr("again")));
 }
 
 TEST(Jpeg, AClaimThatItsBytesCannotHoldIsRefused) {
@@ -112,7 +112,7 @@ TEST(Jpeg, AClaimThatItsBytesCannotHoldIsRefused) {
     bytes[k + 5] = bytes[k + 7] = 0x13;
     break;
   }
-  EXPECT_THAT(complaint_about(bytes), HasSubstr("less data"));
+  EXPECT_THAT(error_message_of(bytes), HasSubstr("less data"));
 }
 
 TEST(GreyImage, ReadsGreyJpegAndRefusesColour) {

@@ -116,14 +116,14 @@ TEST(RecordingFaults, AFullDiskLosesBytesAndSaysSoAndGoesOnWhenThereIsRoom) {
   {
     FileSizeLimit no_room(20);  // not even for a new file's head
     append(500);
-    EXPECT_FALSE(recorder.trouble().empty());
-    EXPECT_NE(recorder.trouble().find("not being recorded"), std::string::npos) << recorder.trouble();
+    EXPECT_FALSE(recorder.error().empty());
+    EXPECT_NE(recorder.error().find("not being recorded"), std::string::npos) << recorder.error();
     EXPECT_EQ(recorder.counters().bytes_lost, 500u * 100u);
     EXPECT_LE(recorder.counters().failures, 8u) << "tried once a second, not at every byte";
     EXPECT_EQ(folder.files().size(), 1u) << "no empty files are left";
   }
   append(200);
-  EXPECT_TRUE(recorder.trouble().empty()) << recorder.trouble();
+  EXPECT_TRUE(recorder.error().empty()) << recorder.error();
   const RecorderCounters& counters = recorder.counters();
   EXPECT_EQ(counters.bytes_recorded + counters.bytes_lost, 710u * 100u);
   EXPECT_GE(counters.bytes_recorded, (10u + 100u) * 100u);
@@ -147,7 +147,7 @@ TEST(RecordingFaults, ADiskWithRoomForAHeadAndNoChunkIsNotFilledWithHeads) {
       recorder.append(Bytes(100, 7), kUtc + now, now);
       ASSERT_TRUE(folder.files().empty()) << now;
     }
-    EXPECT_NE(recorder.trouble().find("not being recorded"), std::string::npos) << recorder.trouble();
+    EXPECT_NE(recorder.error().find("not being recorded"), std::string::npos) << recorder.error();
     EXPECT_GE(recorder.counters().failures, 19u) << "it was tried";
     EXPECT_EQ(recorder.counters().files, 0u);
   }
@@ -230,13 +230,13 @@ TEST(RecordingFaults, AFolderThatCannotBeMadeIsReportedAndTriedAgain) {
   test::write_file(blocked, {'x'});  // a file where the folder should be
   StreamRecorder recorder({blocked, "chaser", 460'800});
   recorder.append(Bytes(10, 1), kUtc, 0);
-  EXPECT_NE(recorder.trouble().find(blocked.string()), std::string::npos) << recorder.trouble();
+  EXPECT_NE(recorder.error().find(blocked.string()), std::string::npos) << recorder.error();
   EXPECT_TRUE(recorder.file().empty());
   std::filesystem::remove(blocked);
   recorder.append(Bytes(10, 2), kUtc, kS / 2);
-  EXPECT_FALSE(recorder.trouble().empty());
+  EXPECT_FALSE(recorder.error().empty());
   recorder.append(Bytes(10, 3), kUtc, kS);
-  EXPECT_TRUE(recorder.trouble().empty());
+  EXPECT_TRUE(recorder.error().empty());
   EXPECT_EQ(recorder.counters().bytes_lost, 20u);
   EXPECT_EQ(read_all(recorder.file()).lost, 20u);
 }

@@ -61,7 +61,7 @@ TEST(Recording, GivesBackEveryByteWithItsTimes) {
   StreamRecorder recorder({folder.path() / "made" / "by need", "chaser", 460'800});
   const auto sent = append_random(recorder, 500, 1);
   EXPECT_EQ(recorder.file().filename(), "chaser_20251121T103000Z.phraw");
-  EXPECT_TRUE(recorder.trouble().empty());
+  EXPECT_TRUE(recorder.error().empty());
 
   StreamReader reader{ByteSource(recorder.file())};
   EXPECT_EQ(reader.header().target, "chaser");

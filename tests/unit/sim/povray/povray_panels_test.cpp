@@ -51,10 +51,10 @@ Difference difference(const Both& both) {
   std::vector<double> sizes;
   for (std::size_t k = 0; k < both.rays.light.size(); ++k) {
     const double d = static_cast<double>(both.povray.light[k]) - static_cast<double>(both.rays.light[k]);
-    const double share = 1.0 / static_cast<double>(both.rays.light.size());
-    out.mean += share * d;
-    out.mean_absolute += share * std::abs(d);
-    out.light += share * static_cast<double>(both.rays.light[k]);
+    const double fraction = 1.0 / static_cast<double>(both.rays.light.size());
+    out.mean += fraction * d;
+    out.mean_absolute += fraction * std::abs(d);
+    out.light += fraction * static_cast<double>(both.rays.light[k]);
     sizes.push_back(std::abs(d));
   }
   std::sort(sizes.begin(), sizes.end());

@@ -32,10 +32,10 @@ Blob blob_in(const LinearImage& image, double light) {
   Blob blob;
   for (std::int32_t v = 0; v < image.height_px; ++v) {
     for (std::int32_t u = 0; u < image.width_px; ++u) {
-      const double share = static_cast<double>(image.at(u, v)) / light;
-      blob.area_px2 += share;
-      blob.u_px += share * u;
-      blob.v_px += share * v;
+      const double fraction = static_cast<double>(image.at(u, v)) / light;
+      blob.area_px2 += fraction;
+      blob.u_px += fraction * u;
+      blob.v_px += fraction * v;
     }
   }
   blob.u_px /= blob.area_px2;

@@ -24,7 +24,7 @@ TofScenario read(const std::string& text) {
   return read_tof_scenario(path, 1);
 }
 
-std::string complaint(const std::string& text) {
+std::string message(const std::string& text) {
   try {
     read(text);
   } catch (const host::InputError& error) {
@@ -49,15 +49,15 @@ TEST(TofScenario, EveryMeasureGoesWithTheRing) {
 }
 
 TEST(TofScenario, TellsFileLineAndKeyOfWhatItRefuses) {
-  EXPECT_THAT(complaint(std::string("blur = 1\n") + kStill), HasSubstr("tof_scenario_test.toml:1: blur"));
-  EXPECT_THAT(complaint(std::string("[sensor]\nblur_px = -1\n") + kStill), HasSubstr(":2: sensor.blur_px"));
-  EXPECT_THAT(complaint("[trajectory]\nkind = \"still\"\nposes = [[0, 0, -3, 0, 0, 0]]\n"), HasSubstr(":3: "));
-  EXPECT_THAT(complaint(std::string("[satellite]\nring_inner_diameter_m = 2\n") + kStill),
+  EXPECT_THAT(message(std::string("blur = 1\n") + kStill), HasSubstr("tof_scenario_test.toml:1: blur"));
+  EXPECT_THAT(message(std::string("[sensor]\nblur_px = -1\n") + kStill), HasSubstr(":2: sensor.blur_px"));
+  EXPECT_THAT(message("[trajectory]\nkind = \"still\"\nposes = [[0, 0, -3, 0, 0, 0]]\n"), HasSubstr(":3: "));
+  EXPECT_THAT(message(std::string("[satellite]\nring_inner_diameter_m = 2\n") + kStill),
               HasSubstr("satellite.ring_inner_diameter_m"));
-  EXPECT_THAT(complaint(std::string("[camera]\ndistortion = [-3, 0, 0, 0, 0]\n[trajectory]\nkind = \"random\"\n") +
-                        "count = 1\n"),
+  EXPECT_THAT(message(std::string("[camera]\ndistortion = [-3, 0, 0, 0, 0]\n[trajectory]\nkind = \"random\"\n") +
+                      "count = 1\n"),
               HasSubstr("distortion"));
-  EXPECT_THAT(complaint(std::string("[satellite]\nring = false\n[occluder]\n") + kStill), HasSubstr("occluder"));
+  EXPECT_THAT(message(std::string("[satellite]\nring = false\n[occluder]\n") + kStill), HasSubstr("occluder"));
 }
 
 TEST(TofScenario, TheSeedDecidesRandomPoses) {

@@ -109,7 +109,7 @@ TEST(Align, SaysWhichOffsetTurningAboutOneAxisLeavesOpen) {
   EXPECT_LT(c.figures.position.error.max, 1e-5);
 }
 
-class Still final : public sim::Trajectory {
+class Motionless final : public sim::Trajectory {
  public:
   sim::RoomFromBody at(double) const override { return {rotation_exp({0.1, 0.2, 0.3}), {0.1, 0.2, 2.0}}; }
 };
@@ -117,7 +117,7 @@ class Still final : public sim::Trajectory {
 TEST(Align, RefusesATargetThatNeverMoved) {
   Alignment hidden = planted_alignment();
   hidden.time_offset_s = 0.0;
-  const Planted planted = plant(Still(), kSeconds, hidden, {0.001, 0.001, 0.0, 1.0});
+  const Planted planted = plant(Motionless(), kSeconds, hidden, {0.001, 0.001, 0.0, 1.0});
   ComparisonOptions options = find_all();
   options.time_offset_s = 0.0;
   const Comparison c = compare(planted.estimate, planted.truth, options);

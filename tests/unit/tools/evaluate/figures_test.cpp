@@ -33,24 +33,24 @@ TEST(Figures, SpreadLeavesOutAConstantOffsetThatErrorsHold) {
   EXPECT_NEAR(*c.figures.position.relative, std::sqrt(6.0) * 0.001, 0.2e-3);
 }
 
-TEST(Figures, TellHonestSigmasFromTooSmallOnes) {
+TEST(Figures, TellConsistentSigmasFromTooSmallOnes) {
   for (const double scale : {1.0, 0.5}) {
     const PlantedNoise noise{0.1 * kRadPerDeg, 0.001, 0.0, scale};
     const Planted planted = plant(*manoeuvre(kSeconds), kSeconds, {}, noise);
     const Comparison c = compare(planted.estimate, planted.truth, {});
     for (const Figures* half : {&c.figures.rotation, &c.figures.position}) {
-      ASSERT_TRUE(half->honesty);
-      EXPECT_NEAR(half->honesty->normalised_square * scale * scale, 1.0, 0.06);
+      ASSERT_TRUE(half->consistency);
+      EXPECT_NEAR(half->consistency->normalised_square * scale * scale, 1.0, 0.06);
       // Three equal axes: P(chi2_3 <= 3 k^2).
-      EXPECT_NEAR(half->honesty->within[0], scale == 1.0 ? 0.608 : 0.139, 0.03);
-      EXPECT_NEAR(half->honesty->within[1], scale == 1.0 ? 0.993 : 0.608, 0.03);
+      EXPECT_NEAR(half->consistency->within[0], scale == 1.0 ? 0.608 : 0.139, 0.03);
+      EXPECT_NEAR(half->consistency->within[1], scale == 1.0 ? 0.993 : 0.608, 0.03);
     }
   }
 }
 
 TEST(Figures, SayNothingOfSigmasThatAreNotStated) {
   const Planted planted = plant(*manoeuvre(kSeconds), kSeconds, {}, {});
-  EXPECT_FALSE(compare(planted.estimate, planted.truth, {}).figures.rotation.honesty);
+  EXPECT_FALSE(compare(planted.estimate, planted.truth, {}).figures.rotation.consistency);
 }
 
 TEST(PoseAt, IsExactAtSamplesAndHalfwayBetween) {

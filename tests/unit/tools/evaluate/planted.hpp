@@ -18,10 +18,10 @@ inline Alignment planted_alignment() {
 
 /// Noise of ESTIMATE.
 struct PlantedNoise {
-  double sigma_rad = 0.0;     // each axis
-  double sigma_m = 0.0;       // each axis
-  double wild_share = 0.0;    // of poses in another minimum
-  double stated_scale = 1.0;  // stated sigma per real sigma
+  double sigma_rad = 0.0;      // each axis
+  double sigma_m = 0.0;        // each axis
+  double wild_fraction = 0.0;  // of poses in another minimum
+  double stated_scale = 1.0;   // stated sigma per real sigma
 };
 
 /// `seconds` of ESTIMATE at 120 Hz along `motion` and TRUTH at 500 Hz, a little longer at both ends.
@@ -41,7 +41,7 @@ inline EstimatePose disturbed(const EstimatePose& pose, const PlantedNoise& nois
   Vector6 delta;
   for (int k = 0; k < 3; ++k) delta[k] = noise.sigma_rad * random.normal();
   for (int k = 3; k < 6; ++k) delta[k] = noise.sigma_m * random.normal();
-  if (random.uniform(0.0, 1.0) < noise.wild_share) delta[0] += 0.7, delta[5] += 0.1;
+  if (random.uniform(0.0, 1.0) < noise.wild_fraction) delta[0] += 0.7, delta[5] += 0.1;
   return pose.moved_by(delta);
 }
 

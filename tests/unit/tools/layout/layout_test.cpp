@@ -106,28 +106,29 @@ TEST(LayoutSearch, KeepsItsRulesAndRepeatsItself) {
   const auto facets = seen_facets(body, poses, kSight.incidence_rad);
   EXPECT_EQ(facets.size(), 5u) << "nobody sees the bottom";
   const LayoutSearch search(body, facets, rules, 7);
-  const Seats start = *search.spread();
+  const MountPoints start = *search.spread();
   const Objective mean;
-  const Judge judge(poses, kSight, mean, 0.5, score_of(dops_of(target_of(body, start), poses, kSight), mean));
-  const Seats seats = search.best(judge, 2, [] {});
-  EXPECT_LE(judge(target_of(body, seats)), judge(target_of(body, start)));
-  const Target target = target_of(body, seats);
+  const LayoutEvaluator evaluator(poses, kSight, mean, 0.5,
+                                  score_of(dops_of(target_of(body, start), poses, kSight), mean));
+  const MountPoints mount_points = search.best(evaluator, 2, [] {});
+  EXPECT_LE(evaluator(target_of(body, mount_points)), evaluator(target_of(body, start)));
+  const Target target = target_of(body, mount_points);
   ASSERT_EQ(target.size(), 8u);
   for (std::size_t i = 0; i < target.size(); ++i) {
-    const Facet& facet = body.facets[seats[i].facet];
+    const Facet& facet = body.facets[mount_points[i].facet];
     EXPECT_EQ(target[i].normal, facet.normal);
     EXPECT_NEAR(facet.normal.dot(target[i].position_m - facet.origin), 0.0, 2e-5);
     for (std::size_t k = 0; k < facet.corners.size(); ++k) {
       const Vector2 a = facet.corners[k];
       const Vector2 side = (facet.corners[(k + 1) % facet.corners.size()] - a).normalized();
-      const Vector2 d = seats[i].xy - a;
+      const Vector2 d = mount_points[i].xy - a;
       EXPECT_GE(side.x() * d.y() - side.y() * d.x(), rules.edge_m - 1e-9);
     }
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GE((target[i].position_m - target[j].position_m).norm(), rules.spacing_m - 2e-5);
     }
   }
-  const Target again = target_of(body, LayoutSearch(body, facets, rules, 7).best(judge, 2, [] {}));
+  const Target again = target_of(body, LayoutSearch(body, facets, rules, 7).best(evaluator, 2, [] {}));
   for (std::size_t i = 0; i < target.size(); ++i) EXPECT_EQ(target[i].position_m, again[i].position_m);
 }
 
@@ -137,11 +138,11 @@ TEST(LayoutSearch, BeatsThePublishedTargetByAFifthOnItsOwnBody) {
   const Objective mean;
   const Dops present_dops = dops_of(host::read_target(kScenarios + "target12.csv").target, poses, kSight);
   const Score present = score_of(present_dops, mean);
-  EXPECT_NEAR(Judge(poses, kSight, mean, 0.5, present)(host::read_target(kScenarios + "target12.csv").target), 1.0,
-              1e-12);
+  EXPECT_NEAR(LayoutEvaluator(poses, kSight, mean, 0.5, present)(host::read_target(kScenarios + "target12.csv").target),
+              1.0, 1e-12);
   const LayoutSearch search(body, seen_facets(body, poses, kSight.incidence_rad), Rules{}, 1);
-  const Seats seats = search.best(Judge(poses, kSight, mean, 0.5, present), 1, [] {});
-  const Score found = score_of(dops_of(target_of(body, seats), poses, kSight), mean);
+  const MountPoints mount_points = search.best(LayoutEvaluator(poses, kSight, mean, 0.5, present), 1, [] {});
+  const Score found = score_of(dops_of(target_of(body, mount_points), poses, kSight), mean);
   EXPECT_EQ(found.measured, poses.size());
   EXPECT_EQ(present.measured, poses.size());
   EXPECT_LE(found.adop_deg_per_rad, 0.8 * present.adop_deg_per_rad);

@@ -190,7 +190,7 @@ TEST(Listener, ShowsWhereAPanelPoints) {
   listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
   EXPECT_THAT(::testing::internal::GetCapturedStdout(),
               HasSubstr("00:01:01.000 iss image ok  pitch 28.648 yaw -14.324 deg  sigma 1.146 deg"));
-  EXPECT_EQ(listener.foreign(), 0);
+  EXPECT_EQ(listener.other_types(), 0);
   EXPECT_EQ(listener.other_messages(), 1);
   message.valid = 0;
   message.status = "refused_no_panel";
@@ -201,7 +201,7 @@ TEST(Listener, PassesOverWhatItDoesNotKnow) {
   Listener listener(ListenFormat::kNone, std::nullopt);
   const char noise[] = "not a message";
   listener.take("C", noise, sizeof noise, 0, 0);
-  EXPECT_EQ(listener.foreign(), 1);
+  EXPECT_EQ(listener.other_types(), 1);
   EXPECT_EQ(listener.summary().poses(), 0);
 }
 

@@ -11,7 +11,7 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/ring2/ellipse_table.hpp"
-#include "tools/sim/stereo/stereo_rig.hpp"
+#include "tools/sim/ring2/stereo_rig.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ void require(bool condition) {
 ring2::Rig rig() {
   ring2::Rig rig;
   for (std::size_t v = 0; v < ring2::kViews; ++v) {
-    rig.views[v].optics = {1280, 1024, 600.0, 600.0, 639.5, 511.5, {}};
+    rig.views[v].intrinsics = {1280, 1024, 600.0, 600.0, 639.5, 511.5, {}};
     rig.views[v].T_rig_camera.t.x() = v == 0 ? -0.9 : 0.9;
     const double angle = v == 0 ? 0.35 : -0.35;
     rig.views[v].T_rig_camera.R = rotation_exp({0.0, angle, 0.0});
@@ -34,7 +34,7 @@ ring2::Rig rig() {
 
 void solve_all(const tools::EllipseTable& table) {
   for (const tools::EllipseProblem& problem : table.problems) {
-    const auto estimate = ring2::solve_circles(rig(), problem.contours);
+    const auto estimate = ring2::solve_ring2(rig(), problem.contours);
     if (!estimate) continue;
     require(std::abs(estimate->normal.norm() - 1.0) < 1e-9);
     require(estimate->covariance.allFinite() && std::isfinite(estimate->sigma_normal_rad()));

@@ -10,7 +10,7 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
-#include "tools/sim/stereo/stereo_writer.hpp"
+#include "tools/sim/ring2/ring2_writer.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -40,7 +40,7 @@ class Folder {
 
 constexpr const char* kHeader = "view,feature,cx_px,cy_px,a_px,b_px,theta_rad,sigma_px,points\n";
 
-std::string complaint_about(const std::string& rows) {
+std::string error_message_of(const std::string& rows) {
   const Folder folder;
   try {
     read_ellipse_table(host::ByteSource(folder.write("e.csv", kHeader + rows)));
@@ -67,39 +67,39 @@ TEST(EllipseTable, ReadsProblemsInTheOrderOfTheirFirstRows) {
 }
 
 TEST(EllipseTable, NamesWhatIsWrongWithARow) {
-  EXPECT_THAT(complaint_about("middle,ring,1,1,9,9,0,,\n"), AllOf(HasSubstr("line 2"), HasSubstr("left nor right")));
-  EXPECT_THAT(complaint_about("left,hole,1,1,9,9,0,,\n"), HasSubstr("ring nor nozzle"));
-  EXPECT_THAT(complaint_about("left,ring,1,1,-9,9,0,,\n"), AllOf(HasSubstr("a_px"), HasSubstr("semi-axis")));
-  EXPECT_THAT(complaint_about("left,ring,1,1,9,nan,0,,\n"), HasSubstr("b_px"));
-  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,0,\n"), HasSubstr("sigma_px"));
-  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,0.1,3\n"), HasSubstr("at least 5"));
-  EXPECT_THAT(complaint_about("left,ring,1,1,9,9,0,,\nleft,ring,1,1,9,9,0,,\n"),
+  EXPECT_THAT(error_message_of("middle,ring,1,1,9,9,0,,\n"), AllOf(HasSubstr("line 2"), HasSubstr("left nor right")));
+  EXPECT_THAT(error_message_of("left,hole,1,1,9,9,0,,\n"), HasSubstr("ring nor nozzle"));
+  EXPECT_THAT(error_message_of("left,ring,1,1,-9,9,0,,\n"), AllOf(HasSubstr("a_px"), HasSubstr("semi-axis")));
+  EXPECT_THAT(error_message_of("left,ring,1,1,9,nan,0,,\n"), HasSubstr("b_px"));
+  EXPECT_THAT(error_message_of("left,ring,1,1,9,9,0,0,\n"), HasSubstr("sigma_px"));
+  EXPECT_THAT(error_message_of("left,ring,1,1,9,9,0,0.1,3\n"), HasSubstr("at least 5"));
+  EXPECT_THAT(error_message_of("left,ring,1,1,9,9,0,,\nleft,ring,1,1,9,9,0,,\n"),
               AllOf(HasSubstr("line 3"), HasSubstr("given before")));
 }
 
 TEST(EllipseTable, WhatIsSimulatedIsReadAndAnsweredWithTheTruth) {
   const Folder folder;
-  sim::StereoScenario scenario = sim::read_stereo_scenario(std::string(PHAROS_SCENARIOS) + "/stereo_attitudes.toml", 5);
+  sim::Ring2Scenario scenario = sim::read_ring2_scenario(std::string(PHAROS_SCENARIOS) + "/stereo_attitudes.toml", 5);
   scenario.render = false;
-  sim::write_stereo_pairs(scenario, 5, folder.path("out"), [] {});
+  sim::write_ring2_pairs(scenario, 5, folder.path("out"), [] {});
   const host::RigFile file = host::read_rig_file(folder.path("out/rig.toml"));
   ring2::Rig rig;
-  rig.views[0] = {file.left.optics, file.left.pose()};
-  rig.views[1] = {file.right.optics, file.right.pose()};
+  rig.views[0] = {file.left.intrinsics, file.left.pose()};
+  rig.views[1] = {file.right.intrinsics, file.right.pose()};
   const EllipseTable table = read_ellipse_table(host::ByteSource(folder.path("out/ellipses.csv")));
   ASSERT_EQ(table.problems.size(), 100U);
   for (std::size_t k = 0; k < table.problems.size(); ++k) {
-    const auto estimate = ring2::solve_circles(rig, table.problems[k].contours);
+    const auto estimate = ring2::solve_ring2(rig, table.problems[k].contours);
     ASSERT_TRUE(estimate.ok());
     EXPECT_LT((estimate->normal - scenario.target_at(k).normal).norm(), 1e-8);
     EXPECT_LT((estimate->ring_centre_m - scenario.target_at(k).ring_centre_m).norm(), 1e-8);
   }
 }
 
-TEST(StereoScenario, IsReadStrictly) {
+TEST(Ring2Scenario, IsReadStrictly) {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
-      sim::parse_stereo_scenario(text, "s.toml", 1);
+      sim::parse_ring2_scenario(text, "s.toml", 1);
     } catch (const host::InputError& error) {
       return error.what();
     }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pharos/tof/tof_pose.hpp"
-#include "tools/cli/reproduce/tof/depth_camera_of.hpp"
+#include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 
 namespace pharos::tools {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/cli/reproduce/tof/success_campaign.hpp"
+#include "tools/evaluation/reproduce/tof/success_campaign.hpp"
 
 namespace pharos::tools {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tools/cli/calibrate/board_figure.hpp"
+#include "tools/calibrate/board_figure.hpp"
 
 namespace pharos::tools {
 namespace {
 
-void run(bool dots, double most_rms_px) {
+void run(bool dots, double max_rms_px) {
   constexpr int kSets = 5;
   constexpr int kImages = 20;
   double squares = 0.0, count = 0.0;
@@ -20,7 +20,7 @@ void run(bool dots, double most_rms_px) {
     std::printf("%s set %d: %d images, rms %.4f px, largest error %.2f sigma\n", dots ? "dots" : "chessboard",
                 static_cast<int>(seed), figure.images, figure.rms_px, figure.largest_error_sigmas());
     EXPECT_EQ(figure.images, kImages);
-    EXPECT_LT(figure.rms_px, most_rms_px);
+    EXPECT_LT(figure.rms_px, max_rms_px);
     for (const BoardFigure::Parameter& parameter : figure.parameters) {
       std::printf("  %-5s truth %10.4f value %10.4f sigma %8.5f error %5.2f sigma\n", parameter.name.c_str(),
                   parameter.truth, parameter.value, parameter.sigma, parameter.error_sigmas());

@@ -14,7 +14,7 @@ TEST(BoardImage, ADotsCentroidIsThatOfItsWholeImageAndNotOfItsCentre) {
   const PinholeCamera camera = camera_of(sim::kPaperLens);
   double largest = 0.0, bias = 0.0;
   for (std::size_t i = 0; i < board.size(); ++i) {
-    const Vector2 seen = seen_point(camera, T, board, i).pixel;
+    const Vector2 seen = project_board_point(camera, T, board, i).pixel;
     largest = std::max(largest, (seen - true_centroid(sim::kPaperLens, T, board, i)).norm());
     bias = std::max(bias, (seen - distort(camera, (T * board.point_m(i)).hnormalized())).norm());
   }
@@ -27,7 +27,7 @@ TEST(BoardImage, ACornerIsSeenWhereItProjects) {
   board.kind = BoardKind::kChessboard;
   const CameraFromBoard T = sim::board_at({}, {0.0, 0.0, 0.5}, {0.3, 0.2, 0.0});
   const PinholeCamera camera = camera_of(sim::kPaperLens);
-  EXPECT_EQ(seen_point(camera, T, board, 17).pixel, distort(camera, (T * board.point_m(17)).hnormalized()));
+  EXPECT_EQ(project_board_point(camera, T, board, 17).pixel, distort(camera, (T * board.point_m(17)).hnormalized()));
 }
 
 }  // namespace

@@ -55,14 +55,14 @@ FoundBoard observed(const sim::Lens& lens, const CameraFromBoard& T_camera_board
 
 ImageOutcome image_of(const FoundBoard& found) {
   ImageOutcome image;
-  image.search.fate = ImageFate::kUsed;
+  image.search.status = ImageStatus::kUsed;
   image.search.board = found;
   return image;
 }
 
-std::vector<double> values_of(const PinholeCamera& camera, bool hold_k3) {
+std::vector<double> values_of(const PinholeCamera& camera, bool fix_k3) {
   std::vector<double> values{camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
-  values.insert(values.end(), camera.distortion.begin(), camera.distortion.end() - (hold_k3 ? 1 : 0));
+  values.insert(values.end(), camera.distortion.begin(), camera.distortion.end() - (fix_k3 ? 1 : 0));
   return values;
 }
 
@@ -70,10 +70,10 @@ PinholeCamera camera_of(const sim::Lens& lens) {
   return {lens.width_px, lens.height_px, lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px, lens.distortion};
 }
 
-std::vector<double> values_of(const sim::Lens& lens, bool hold_k3) { return values_of(camera_of(lens), hold_k3); }
+std::vector<double> values_of(const sim::Lens& lens, bool fix_k3) { return values_of(camera_of(lens), fix_k3); }
 
-Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool hold_k3) {
-  const std::vector<double> found = values_of(outcome.state.cameras.front(), hold_k3), truth = values_of(lens, hold_k3);
+Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool fix_k3) {
+  const std::vector<double> found = values_of(outcome.state.cameras.front(), fix_k3), truth = values_of(lens, fix_k3);
   const auto size = static_cast<Eigen::Index>(truth.size());
   Eigen::VectorXd error(size);
   Errors errors;

@@ -20,8 +20,8 @@ FoundBoard observed(const sim::Lens& lens, const CameraFromBoard& T_camera_board
 ImageOutcome image_of(const FoundBoard& found);
 
 /// fx, fy, cx, cy, k1, k2, p1, p2 and, unless held, k3.
-std::vector<double> values_of(const PinholeCamera& camera, bool hold_k3);
-std::vector<double> values_of(const sim::Lens& lens, bool hold_k3);
+std::vector<double> values_of(const PinholeCamera& camera, bool fix_k3);
+std::vector<double> values_of(const sim::Lens& lens, bool fix_k3);
 PinholeCamera camera_of(const sim::Lens& lens);
 
 /// Of the errors of `outcome`'s camera, in sigmas, the largest; and e^T C^-1 e over its degrees of freedom.
@@ -29,7 +29,7 @@ struct Errors {
   double largest = 0.0;
   double nees = 0.0;
 };
-Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool hold_k3);
+Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool fix_k3);
 
 inline GreyView view_of(const sim::BoardImage& image) { return {image.pixels.data(), image.width_px, image.height_px}; }
 

@@ -25,9 +25,9 @@ std::vector<ImageOutcome> images_at(const std::vector<CameraFromBoard>& poses, c
 }
 
 CameraCalibration calibrated(const std::vector<CameraFromBoard>& poses, double sigma_px, std::uint64_t seed,
-                             bool hold_k3 = true) {
+                             bool fix_k3 = true) {
   return calibrate_camera(images_at(poses, {}, sigma_px, seed), sim::kPaperLens.width_px, sim::kPaperLens.height_px,
-                          {{}, hold_k3});
+                          {{}, fix_k3});
 }
 
 CameraCalibration calibrated_from_renders(const sim::BoardSheet& sheet, const CalibrationChoices& choices, int count,
@@ -59,7 +59,7 @@ TEST(CameraCalibration, RenderedChessboardsGiveTheLensWithinTheirCovariance) {
   sheet.dots = false;
   CalibrationChoices choices;
   choices.board.kind = BoardKind::kChessboard;
-  choices.hold_k3 = true;
+  choices.fix_k3 = true;
   sim::Exposure exposure;
   exposure.noise = 280.0;
   const CameraCalibration result = calibrated_from_renders(sheet, choices, 5, exposure);
@@ -85,7 +85,7 @@ TEST(CameraCalibration, HoldsK3AtNothingWhenToldAndSaysSo) {
   ASSERT_EQ(result.refusal, "");
   EXPECT_EQ(result.camera().distortion[4], 0.0);
   EXPECT_EQ(result.outcome->parameters.size(), 8U);
-  EXPECT_THAT(result.untold, Contains(HasSubstr("k3 was held")));
+  EXPECT_THAT(result.unobservable, Contains(HasSubstr("k3 was held")));
 }
 
 TEST(CameraCalibration, RefusesBoardsThatAllFaceTheCamera) {
@@ -123,19 +123,19 @@ TEST(CameraCalibration, SaysWhichPartOfTheImageHasNoPoints) {
     poses.push_back(sim::board_at({}, {-0.2, 0.1 * tilt, 0.8}, {tilt, 0.3 - tilt, 0.0}));
   }
   const CameraCalibration result = calibrated(poses, 0.05, 6, false);
-  EXPECT_THAT(result.coverage.bare, Contains("right"));
-  EXPECT_THAT(result.coverage.bare, Contains("upper right"));
-  EXPECT_THAT(result.coverage.bare, testing::Not(Contains("left")));
-  EXPECT_THAT(result.untold, Contains(HasSubstr("no point in this part of the image: upper right")));
-  EXPECT_THAT(result.untold, Contains(HasSubstr("distortion in the corners")));
+  EXPECT_THAT(result.coverage.uncovered, Contains("right"));
+  EXPECT_THAT(result.coverage.uncovered, Contains("upper right"));
+  EXPECT_THAT(result.coverage.uncovered, testing::Not(Contains("left")));
+  EXPECT_THAT(result.unobservable, Contains(HasSubstr("no point in this part of the image: upper right")));
+  EXPECT_THAT(result.unobservable, Contains(HasSubstr("distortion in the corners")));
 }
 
 TEST(CameraCalibration, NamesAnImageOfAnotherSizeAndUsesTheRest) {
   std::vector<std::uint16_t> large(64 * 48), small(32 * 24);
   const CameraCalibration result = calibrate_camera({{"a", {large.data(), 64, 48}}, {"b", {small.data(), 32, 24}}}, {});
   ASSERT_EQ(result.images.size(), 2U);
-  EXPECT_EQ(result.images[0].search.fate, ImageFate::kNoBoard);
-  EXPECT_EQ(result.images[1].search.fate, ImageFate::kOtherSize);
+  EXPECT_EQ(result.images[0].search.status, ImageStatus::kNoBoard);
+  EXPECT_EQ(result.images[1].search.status, ImageStatus::kOtherSize);
   EXPECT_EQ(result.images[1].search.detail, "32 x 24 px, the first image has 64 x 48");
 }
 

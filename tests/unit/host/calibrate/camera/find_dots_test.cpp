@@ -38,7 +38,7 @@ TEST(FindDots, CentresAreNearTheNoiseBoundAndTheirSigmasAreTrue) {
   for (const double tilt : {-0.4, 0.1, 0.5}) {
     const CameraFromBoard T = sim::board_at(sheet, {0.0, 0.0, 0.4}, {0.3, tilt, 0.0}, 0.1);
     const BoardSearch found = search(sheet, T, exposure);
-    ASSERT_EQ(found.fate, ImageFate::kUsed) << found.detail;
+    ASSERT_EQ(found.status, ImageStatus::kUsed) << found.detail;
     for (std::size_t i = 0; i < board.size(); ++i) {
       const FoundPoint& point = found.board.points[i];
       const double error = (point.pixel - true_centroid(sim::kPaperLens, T, board, i)).squaredNorm();
@@ -58,7 +58,7 @@ TEST(FindDots, FindsDarkDotsOnABrightSheetInEightBitsUnderUnevenLight) {
   sim::Exposure exposure{200.0, 40.0, 20.0, 0.6, 1.5, 0.5, 8};
   const CameraFromBoard T = in_the_middle(sheet);
   const BoardSearch found = search(sheet, T, exposure);
-  ASSERT_EQ(found.fate, ImageFate::kUsed) << found.detail;
+  ASSERT_EQ(found.status, ImageStatus::kUsed) << found.detail;
   for (std::size_t i = 0; i < found.board.points.size(); ++i) {
     EXPECT_LT((found.board.points[i].pixel - true_centroid(sim::kPaperLens, T, Board{}, i)).norm(), 0.1);
   }
@@ -68,48 +68,48 @@ TEST(FindDots, NamesTheDotThatIsMissing) {
   sim::BoardSheet sheet;
   sheet.missing = 4 * sheet.columns + 2;
   const BoardSearch found = search(sheet, in_the_middle(sheet), {});
-  EXPECT_EQ(found.fate, ImageFate::kIncomplete);
+  EXPECT_EQ(found.status, ImageStatus::kIncomplete);
   EXPECT_EQ(found.detail, "the dot in column 3, row 5 as seen is missing");
 }
 
 TEST(FindDots, SaysThatABoardIsPartlyOutside) {
   const sim::BoardSheet sheet;
   const BoardSearch found = search(sheet, sim::board_at(sheet, {0.12, 0.0, 0.4}, {0.2, 0.0, 0.0}), {});
-  EXPECT_EQ(found.fate, ImageFate::kPartlyOutside) << found.detail;
+  EXPECT_EQ(found.status, ImageStatus::kPartlyOutside) << found.detail;
 }
 
 TEST(FindDots, SaysThatAnImageIsBlurred) {
   const sim::BoardSheet sheet;
   sim::Exposure exposure;
   exposure.blur_px = 5.5;
-  EXPECT_EQ(search(sheet, in_the_middle(sheet), exposure).fate, ImageFate::kBlurred);
+  EXPECT_EQ(search(sheet, in_the_middle(sheet), exposure).status, ImageStatus::kBlurred);
 }
 
 TEST(FindDots, SaysThatDotsAreTooSmall) {
   const sim::BoardSheet sheet;
-  EXPECT_EQ(search(sheet, sim::board_at(sheet, {0.0, 0.0, 1.5}, {0.0, 0.6, 0.0}), {}).fate, ImageFate::kTooSmall);
+  EXPECT_EQ(search(sheet, sim::board_at(sheet, {0.0, 0.0, 1.5}, {0.0, 0.6, 0.0}), {}).status, ImageStatus::kTooSmall);
 }
 
 TEST(FindDots, RefusesABoardWithOtherNumbersOfDots) {
   const sim::BoardSheet sheet;
   Board small;
   small.columns = 10;
-  EXPECT_EQ(search(sheet, in_the_middle(sheet), {}, small).fate, ImageFate::kTooMany);
+  EXPECT_EQ(search(sheet, in_the_middle(sheet), {}, small).status, ImageStatus::kTooMany);
   Board large;
   large.columns = 14;
-  EXPECT_EQ(search(sheet, in_the_middle(sheet), {}, large).fate, ImageFate::kIncomplete);
+  EXPECT_EQ(search(sheet, in_the_middle(sheet), {}, large).status, ImageStatus::kIncomplete);
 }
 
 TEST(FindDots, FindsNoBoardInNoiseBlackOrWhite) {
   std::vector<std::uint16_t> pixels(320 * 240, 0);
   const GreyView view(pixels.data(), 320, 240);
-  EXPECT_EQ(find_dots(view, {}).fate, ImageFate::kNoBoard);
+  EXPECT_EQ(find_dots(view, {}).status, ImageStatus::kNoBoard);
   std::fill(pixels.begin(), pixels.end(), std::uint16_t{65535});
-  EXPECT_EQ(find_dots(view, {}).fate, ImageFate::kNoBoard);
+  EXPECT_EQ(find_dots(view, {}).status, ImageStatus::kNoBoard);
   std::uint32_t state = 1;
   for (std::uint16_t& pixel : pixels)
     pixel = static_cast<std::uint16_t>((state = state * 1664525U + 1013904223U) >> 16);
-  EXPECT_EQ(find_dots(view, {}).fate, ImageFate::kNoBoard);
+  EXPECT_EQ(find_dots(view, {}).status, ImageStatus::kNoBoard);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(RealPairs, FitAsWellAsOpencvsOwnAdjustment) {
   const RigCalibration rig = calibrate_rig(left.pictures, right.pictures, {board, false});
   for (const auto& side : rig.images) {
     for (const ImageOutcome& image : side) {
-      std::printf("%s %s %.3f px %s\n", image.name.c_str(), name_of(image.search.fate), image.rms_px,
+      std::printf("%s %s %.3f px %s\n", image.name.c_str(), name_of(image.search.status), image.rms_px,
                   image.search.detail.c_str());
     }
   }

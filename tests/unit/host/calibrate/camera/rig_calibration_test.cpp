@@ -101,8 +101,8 @@ TEST(RigCalibration, RenderedPairsGiveTheRigAndNameWhatWasNotUsed) {
   const RigCalibration result = calibrate_rig(left, right, {{}, true});
   ASSERT_EQ(result.refusal, "");
   EXPECT_EQ(result.pairs, 3U);
-  EXPECT_EQ(result.images[0][3].search.fate, ImageFate::kNoPartner);
-  EXPECT_EQ(result.images[1][3].search.fate, ImageFate::kNoBoard);
+  EXPECT_EQ(result.images[0][3].search.status, ImageStatus::kNoPartner);
+  EXPECT_EQ(result.images[1][3].search.status, ImageStatus::kNoBoard);
   const Vector6 error = pose_difference(kRig, result.outcome->state.T_left_right);
   for (Eigen::Index i = 0; i < 6; ++i) {
     EXPECT_LT(std::abs(error[i]), 3.5 * std::sqrt(result.outcome->covariance(16 + i, 16 + i)));

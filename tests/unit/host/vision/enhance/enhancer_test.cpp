@@ -7,7 +7,7 @@
 
 #include "host/vision/enhance/luma.hpp"
 #include "host/vision/enhance/smoothness.hpp"
-#include "tools/bench/exact_illumination.hpp"
+#include "tools/evaluation/bench/exact_illumination.hpp"
 #include "unit/host/vision/enhance/test_images.hpp"
 
 namespace pharos::enhance {
@@ -40,15 +40,15 @@ TEST(Enhancer, StepsAreThoseOfThePaper) {
   for (std::size_t k = 0; k < frame.pixels(); ++k) {
     const float light = steps.illumination.values[k];
     ASSERT_NEAR(light, std::pow(steps.refined.values[k], 0.8F), 1e-6F);
-    float most = 0.0F;
+    float maximum = 0.0F;
     for (int c = 0; c < 3; ++c) {
       const float value = frame.plane(c)[k];
-      most = std::max(most, value);
+      maximum = std::max(maximum, value);
       ASSERT_NEAR(steps.reflectance.plane(c)[k] * light, value, 2e-3F * value + 1e-6F);  // (1)
       const float plain = std::min(steps.reflectance.plane(c)[k] / steps.peak, 1.0F);
       ASSERT_NEAR(steps.result.plane(c)[k], plain * light + steps.denoised.plane(c)[k] * (1.0F - light), 1e-5F);  // (8)
     }
-    ASSERT_EQ(steps.start.values[k], most);  // (2)
+    ASSERT_EQ(steps.start.values[k], maximum);  // (2)
   }
 }
 

@@ -8,14 +8,14 @@
 
 #include "host/vision/enhance/smoothness.hpp"
 #include "host/vision/enhance/smoothness_solver.hpp"
-#include "tools/bench/exact_illumination.hpp"
+#include "tools/evaluation/bench/exact_illumination.hpp"
 #include "unit/host/vision/enhance/test_images.hpp"
 
 namespace pharos::enhance {
 namespace {
 
 constexpr double kTolerance = 5e-3;  // what Enhancer asks for
-constexpr int kMost = 60;
+constexpr int kMax = 60;
 
 struct Case {
   WeightStrategy strategy;
@@ -40,12 +40,12 @@ TEST_P(Illumination, FastSolverAgreesWithTheExactOne) {
   const FloatImage exact = tools::exact_illumination(system_, start_);
   FloatImage refined;
   SmoothnessSolver solver;
-  const int cold = solver.solve(system_, start_, kTolerance, kMost, refined);
+  const int cold = solver.solve(system_, start_, kTolerance, kMax, refined);
   EXPECT_LE(tools::rms_of_range(refined, exact), kTolerance);
-  EXPECT_LT(cold, kMost);
+  EXPECT_LT(cold, kMax);
 
   // The same frame again, from its own solution: little left to do.
-  const int again = solver.solve(system_, start_, kTolerance, kMost, refined);
+  const int again = solver.solve(system_, start_, kTolerance, kMax, refined);
   EXPECT_LE(again, cold / 2);
   EXPECT_LE(tools::rms_of_range(refined, exact), kTolerance);
 }
@@ -59,8 +59,8 @@ TEST_P(Illumination, WarmStartFromANeighbouringFrameEndsAtTheSameSolution) {
   SmoothnessWeights().weigh(moved, GetParam().strategy, 0.15, 2.0, system);
   SmoothnessSolver solver;
   FloatImage refined;
-  solver.solve(system_, start_, kTolerance, kMost, refined);
-  solver.solve(system, moved, kTolerance, kMost, refined);
+  solver.solve(system_, start_, kTolerance, kMax, refined);
+  solver.solve(system, moved, kTolerance, kMax, refined);
   EXPECT_LE(tools::rms_of_range(refined, tools::exact_illumination(system, moved)), kTolerance);
 }
 
@@ -92,15 +92,15 @@ TEST(SmoothnessWeightsTest, WindowIsThatOfThePaper) {
   constexpr auto kEps = static_cast<double>(kFlat);
   for (int v = 0; v < start.height_px; ++v) {
     for (int u = 0; u + 1 < start.width_px; ++u) {
-      double share = 0.0, gathered = 0.0;
+      double fraction = 0.0, gathered = 0.0;
       for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
           if (!start.view().contains(u + x, v + y)) continue;
-          share += gauss(x, y) / whole;
+          fraction += gauss(x, y) / whole;
           gathered += gauss(x, y) / whole * across(u + x, v + y);
         }
       }
-      const double weight = share / (std::abs(gathered) + kEps);
+      const double weight = fraction / (std::abs(gathered) + kEps);
       const double wanted = kAlpha * weight / (std::abs(across(u, v)) + kEps);
       const auto found = static_cast<double>(system.right[static_cast<std::size_t>(v * start.width_px + u)]);
       ASSERT_NEAR(found, wanted, 2e-3 * wanted) << u << ' ' << v;
@@ -116,7 +116,7 @@ TEST(SmoothnessSolverTest, EvenLightStaysAsItIs) {
     SmoothnessSystem system;
     SmoothnessWeights().weigh(start, WeightStrategy::kWindow, 0.15, 2.0, system);
     FloatImage refined;
-    SmoothnessSolver().solve(system, start, kTolerance, kMost, refined);
+    SmoothnessSolver().solve(system, start, kTolerance, kMax, refined);
     for (const float value : refined.values) EXPECT_NEAR(value, 0.25F, 1e-4F) << width << 'x' << height;
   }
 }
@@ -127,7 +127,7 @@ TEST(SmoothnessSolverTest, KeepsTheSumOfLight) {
   SmoothnessSystem system;
   SmoothnessWeights().weigh(start, WeightStrategy::kWindow, 0.15, 2.0, system);
   FloatImage refined;
-  SmoothnessSolver().solve(system, start, kTolerance, kMost, refined);
+  SmoothnessSolver().solve(system, start, kTolerance, kMax, refined);
   double before = 0.0, after = 0.0;
   for (const float value : start.values) before += static_cast<double>(value);
   for (const float value : refined.values) after += static_cast<double>(value);

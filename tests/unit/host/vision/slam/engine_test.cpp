@@ -96,11 +96,11 @@ class EngineWithAFault : public ::testing::Test {
       }
     }
   }
-  Engine engine(bool threads, Engine::Watch watch) const {
+  Engine engine(bool threads, Engine::KeyframeCallback on_keyframe) const {
     SlamSettings settings;
     settings.threads = threads;
     return {rectify(sequence_.rig(), "rig.toml"), Vocabulary::read(shipped_vocabulary_path()), settings,
-            std::move(watch)};
+            std::move(on_keyframe)};
   }
   void push(Engine& engine) { engine.push(0.0, {pair_[0].data(), 480, 360}, {pair_[1].data(), 480, 360}); }
   // The first pair is a keyframe, whose mapping in its thread has failed by finish() at the latest.
@@ -118,7 +118,7 @@ TEST_F(EngineWithAFault, HandsItToTheCaller) {
   EXPECT_THROW(push_and_finish(engine), std::runtime_error);
   EXPECT_THROW(push(engine), std::runtime_error);
   EXPECT_THROW(engine.finish(), std::runtime_error);
-  EXPECT_THROW(static_cast<void>(engine.settled_trajectory()), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(engine.optimised_trajectory()), std::runtime_error);
   EXPECT_EQ(engine.report().frames, 1);
 }
 

@@ -20,11 +20,11 @@ std::vector<std::uint8_t> eight_bits(const host::GreyImage& image) {
 
 TEST(Quadtree, SpreadsAndKeepsTheStrongest) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<float> share(0.0F, 1.0F);
+  std::uniform_real_distribution<float> fraction(0.0F, 1.0F);
   std::vector<Corner> corners{{5.0F, 5.0F, 1000.0F}};
   for (int k = 0; k < 3000; ++k)
-    corners.push_back({300.0F + 30.0F * share(random), 200.0F + 30.0F * share(random), 50.0F});
-  for (int k = 0; k < 200; ++k) corners.push_back({640.0F * share(random), 480.0F * share(random), 10.0F});
+    corners.push_back({300.0F + 30.0F * fraction(random), 200.0F + 30.0F * fraction(random), 50.0F});
+  for (int k = 0; k < 200; ++k) corners.push_back({640.0F * fraction(random), 480.0F * fraction(random), 10.0F});
   const auto kept = spread(corners, 640.0F, 480.0F, 100);
   EXPECT_NEAR(static_cast<double>(kept.size()), 100.0, 5.0);
   const auto crowded = std::count_if(kept.begin(), kept.end(), [](const Corner& k) { return k.response == 50.0F; });
@@ -83,7 +83,7 @@ TEST_F(Turning, NoFeatureIsAStar) {
   }
 }
 
-TEST(StillFeatures, GoWhileTheBodyMovesAndStayWhenAllRests) {
+TEST(StaticFeatureFilter, GoWhileTheBodyMovesAndStayWhenAllRests) {
   std::mt19937_64 random(1);
   std::vector<Feature> still(20), moving(60);
   for (auto* group : {&still, &moving}) {
@@ -92,7 +92,7 @@ TEST(StillFeatures, GoWhileTheBodyMovesAndStayWhenAllRests) {
       feature.descriptor.bits = {random(), random(), random(), random()};
     }
   }
-  StillFeatures filter, resting;
+  StaticFeatureFilter filter, resting;
   std::vector<Feature> seen, all_rest;
   for (int frame = 0; frame < 15; ++frame) {
     seen = still;
@@ -100,9 +100,9 @@ TEST(StillFeatures, GoWhileTheBodyMovesAndStayWhenAllRests) {
       feature.pixel.x() += 2.0;
       seen.push_back(feature);
     }
-    filter.remove_still(seen);
+    filter.remove_static(seen);
     all_rest = still;
-    resting.remove_still(all_rest);
+    resting.remove_static(all_rest);
   }
   EXPECT_EQ(filter.removed(), 20);
   EXPECT_EQ(seen.size(), 60U);

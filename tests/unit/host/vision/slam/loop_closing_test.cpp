@@ -19,7 +19,7 @@ constexpr int kAround = 36;    // keyframes a turn
 constexpr int kSeenAgain = 5;  // beyond it
 constexpr int kLandmarks = 900;
 constexpr double kSigma_px = 0.1;
-constexpr double kLeastFacing = 0.4;
+constexpr double kMinFacing = 0.4;
 
 struct Landmark {
   Vector3 place;
@@ -28,7 +28,7 @@ struct Landmark {
 
 class LoopOfATurn : public ::testing::Test {
  protected:
-  LoopOfATurn() : landmarks_(ball()), recognition_(words()), closer_(kCamera, map_, recognition_) {}
+  LoopOfATurn() : landmarks_(ball()), keyframe_database_(words()), closer_(kCamera, map_, keyframe_database_) {}
 
   std::vector<Landmark> ball() {
     std::vector<Landmark> out;
@@ -42,7 +42,7 @@ class LoopOfATurn : public ::testing::Test {
   static CameraFromTarget truth(int k) { return turned_pose(kTurn * k / kAround); }
   static bool faces(const Landmark& landmark, const CameraFromTarget& pose) {
     const Vector3 to_eye = (pose.inverse().t - landmark.place).normalized();
-    return landmark.place.dot(to_eye) > kLeastFacing;
+    return landmark.place.dot(to_eye) > kMinFacing;
   }
 
   // Each view of a landmark has five of the descriptor's bits turned.
@@ -91,12 +91,12 @@ class LoopOfATurn : public ::testing::Test {
     for (std::size_t f = 0; f < shown.size(); ++f) {
       if (const auto at = points_.find(shown[f]); at != points_.end()) frame.points[f] = at->second;
     }
-    const KeyframeId id = map_.add_keyframe(frame, recognition_.words_of(frame.features)).id;
+    const KeyframeId id = map_.add_keyframe(frame, keyframe_database_.words_of(frame.features)).id;
     add_stereo_points(map_, id, kCamera);
     map_.update_neighbours(id);
     for (std::size_t f = 0; f < shown.size(); ++f) known[shown[f]] = map_.keyframes.at(id).points[f];
     points_ = known;
-    recognition_.add(map_.keyframes.at(id));
+    keyframe_database_.add(map_.keyframes.at(id));
     return id;
   }
 
@@ -119,7 +119,7 @@ class LoopOfATurn : public ::testing::Test {
   std::vector<Landmark> landmarks_;
   std::map<std::size_t, PointId> points_;  // of the landmarks that the last keyframe showed
   Map map_;
-  Recognition recognition_;
+  KeyframeDatabase keyframe_database_;
   LoopCloser closer_;
 };
 
@@ -178,10 +178,10 @@ TEST_F(LoopOfATurn, ALikenessInTheWrongPlacesIsRefused) {
   }
   frame.features = shuffled;
   frame.grid = FeatureGrid(frame.features, kCamera.width_px, kCamera.height_px);
-  const KeyframeId id = map_.add_keyframe(frame, recognition_.words_of(frame.features)).id;
+  const KeyframeId id = map_.add_keyframe(frame, keyframe_database_.words_of(frame.features)).id;
   add_stereo_points(map_, id, kCamera);
   map_.update_neighbours(id);
-  recognition_.add(map_.keyframes.at(id));
+  keyframe_database_.add(map_.keyframes.at(id));
   EXPECT_FALSE(closer_.find(id));
   EXPECT_EQ(closer_.refused(), 1);
 }

@@ -146,7 +146,7 @@ TEST_F(MapOfTurns, PointsThatAreSeldomFoundOrSeenByTooFewGo) {
   map_.points.at(ids_[1]).found = 26;
   for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[2], id);
   for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[3], id);
-  map_.points.at(ids_[3]).born_at = map_.newest() - 2;  // too young to be judged by how many see it
+  map_.points.at(ids_[3]).created_at = map_.newest() - 2;  // too young to be judged by how many see it
   std::vector<PointId> recent(ids_.begin(), ids_.begin() + 5);
   cull_points(map_, recent);
   EXPECT_EQ(map_.find_point(ids_[0]), nullptr);

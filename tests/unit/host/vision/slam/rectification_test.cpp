@@ -11,8 +11,8 @@ namespace {
 // Two cameras with barrel distortion, turned against each other and against their baseline.
 host::RigFile raw_rig() {
   host::RigFile rig;
-  rig.left.optics = {752, 480, 458.6, 457.3, 367.2, 248.4, {-0.283, 0.074, 0.0002, 0.00002, 0.0}};
-  rig.right.optics = {752, 480, 457.6, 456.1, 379.9, 255.2, {-0.284, 0.0745, -0.0001, -0.00003, 0.0}};
+  rig.left.intrinsics = {752, 480, 458.6, 457.3, 367.2, 248.4, {-0.283, 0.074, 0.0002, 0.00002, 0.0}};
+  rig.right.intrinsics = {752, 480, 457.6, 456.1, 379.9, 255.2, {-0.284, 0.0745, -0.0001, -0.00003, 0.0}};
   const Quaternion left(rotation_exp(Vector3(0.02, -0.01, 0.03))), right(rotation_exp(Vector3(-0.01, 0.02, 0.015)));
   rig.left.rotation_wxyz = {left.w(), left.x(), left.y(), left.z()};
   rig.right.rotation_wxyz = {right.w(), right.x(), right.y(), right.z()};
@@ -27,12 +27,12 @@ Vector2 rectified_place(const RectifyMap& map, const StereoCamera& camera, const
     return static_cast<double>(values[static_cast<std::size_t>(v * camera.width_px + u)]);
   };
   int best_u = 1, best_v = 1;
-  double least = 1e18;
+  double minimum = 1e18;
   for (int v = 1; v + 1 < camera.height_px; ++v) {
     for (int u = 1; u + 1 < camera.width_px; ++u) {
       const double d = (Vector2(at(map.u, u, v), at(map.v, u, v)) - raw).squaredNorm();
-      if (d < least) {
-        least = d;
+      if (d < minimum) {
+        minimum = d;
         best_u = u;
         best_v = v;
       }
@@ -56,8 +56,8 @@ TEST(Rectification, RowsAgreeAndDisparityTellsDepth) {
   EXPECT_NEAR(camera.baseline_m, (rig.left.pose().t - rig.right.pose().t).norm(), 1e-12);
   for (const Vector3& in_left : {Vector3(0.1, -0.2, 2.0), Vector3(-0.8, 0.5, 3.0), Vector3(0.6, 0.3, 1.5)}) {
     const Vector3 in_rig = rig.left.pose() * in_left;
-    const auto left = project(rig.left.optics, T_left_rig * in_rig);
-    const auto right = project(rig.right.optics, T_right_rig * in_rig);
+    const auto left = project(rig.left.intrinsics, T_left_rig * in_rig);
+    const auto right = project(rig.right.intrinsics, T_right_rig * in_rig);
     ASSERT_TRUE(left && right);
     const Vector2 l = rectified_place(rectified.maps[0], camera, *left);
     const Vector2 r = rectified_place(rectified.maps[1], camera, *right);
@@ -70,7 +70,7 @@ TEST(Rectification, RowsAgreeAndDisparityTellsDepth) {
 
 TEST(Rectification, LeavesARectifiedPairAlone) {
   host::RigFile rig;
-  rig.left.optics = rig.right.optics = {640, 480, 640.0, 640.0, 319.5, 239.5, {}};
+  rig.left.intrinsics = rig.right.intrinsics = {640, 480, 640.0, 640.0, 319.5, 239.5, {}};
   rig.right.position_m = {0.5, 0.0, 0.0};
   const Rectification rectified = rectify(rig, "rig.toml");
   EXPECT_FALSE(rectified.needed());
@@ -95,7 +95,7 @@ TEST(Rectification, RefusesRigsThatMeasureNoDepth) {
   std::swap(rig.left, rig.right);
   expect_refused(rig, "exchange");
   rig = raw_rig();
-  rig.right.optics.width_px = 640;
+  rig.right.intrinsics.width_px = 640;
   expect_refused(rig, "different sizes");
   rig = raw_rig();
   rig.right.rotation_wxyz = {0.5, 0.0, 0.8660254, 0.0};

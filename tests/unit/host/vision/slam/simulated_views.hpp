@@ -38,7 +38,7 @@ inline Observation seen(const Vector3& point, const CameraFromTarget& pose, doub
   const double across = sigma_px * noise(random);
   observation.pixel.x() += across;
   observation.pixel.y() += sigma_px * noise(random);
-  observation.right_u_px += across + kDisparityShare * sigma_px * noise(random);
+  observation.right_u_px += across + kDisparityFraction * sigma_px * noise(random);
   return observation;
 }
 

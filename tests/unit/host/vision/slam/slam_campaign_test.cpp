@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/vision/slam/slam_system.hpp"
-#include "tools/cli/reproduce/slam/table_one.hpp"
+#include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
 
 namespace pharos::slam {

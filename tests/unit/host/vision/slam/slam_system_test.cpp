@@ -66,27 +66,27 @@ class SlamOfATurn : public ::testing::Test {
 };
 
 // Squares of errors over what the covariances tell, a degree of freedom each, mean of the frames but the first.
-struct Honesty {
+struct Consistency {
   double attitude = 0.0, position = 0.0;
 };
 
 template <class Truth>
-Honesty honesty(const std::vector<TrackedFrame>& frames, Truth&& truth) {
-  Honesty mean;
-  const double share = 1.0 / (3.0 * static_cast<double>(frames.size() - 1));
+Consistency consistency(const std::vector<TrackedFrame>& frames, Truth&& truth) {
+  Consistency mean;
+  const double fraction = 1.0 / (3.0 * static_cast<double>(frames.size() - 1));
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const TrackedPose& told = *frames[k].placed;
     const Vector6 delta = pose_difference(truth(frames[k].number), told.pose);
     const Vector3 turn = delta.head<3>(), move = delta.tail<3>();
-    mean.attitude += share * turn.dot(told.covariance.topLeftCorner<3, 3>().inverse() * turn);
-    mean.position += share * move.dot(told.covariance.bottomRightCorner<3, 3>().inverse() * move);
+    mean.attitude += fraction * turn.dot(told.covariance.topLeftCorner<3, 3>().inverse() * turn);
+    mean.position += fraction * move.dot(told.covariance.bottomRightCorner<3, 3>().inverse() * move);
   }
   return mean;
 }
 
 // One short sequence errs much alike from frame to frame: a handful of independent numbers. Without drift in them the
 // covariances of a quarter turn would be three to thirteen times too small.
-void expect_honest(const Honesty& mean) {
+void expect_consistent(const Consistency& mean) {
   EXPECT_GT(mean.attitude, 0.25);
   EXPECT_LT(mean.attitude, 2.0);
   EXPECT_GT(mean.position, 0.25);
@@ -104,9 +104,9 @@ TEST_F(SlamOfATurn, FollowsTheAttitude) {
     const auto at = footage().sequence.truth(static_cast<int>(number));
     return Pose<frame::Camera, frame::Target>{at.R, at.t};
   };
-  expect_honest(honesty(live, truth));
+  expect_consistent(consistency(live, truth));
   slam->finish();
-  expect_honest(honesty(slam->trajectory(), truth));
+  expect_consistent(consistency(slam->trajectory(), truth));
   const auto trajectory = slam->trajectory();
   ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kFrames));
   for (int k = 0; k < kFrames; ++k) EXPECT_LT(error_deg(trajectory[static_cast<std::size_t>(k)], k), 0.5) << k;
@@ -134,10 +134,10 @@ TEST_F(SlamOfATurn, GivesTheSameBitsTwice) {
   for (int k = 0; k < 10; ++k) {
     push(*asked, k, k);
     push(*left_alone, k, k);
-    if (k == 6) asked->settled_trajectory();
+    if (k == 6) asked->optimised_trajectory();
   }
   EXPECT_EQ(attitudes_of(asked->trajectory()), attitudes_of(left_alone->trajectory()));
-  const auto settled = attitudes_of(asked->settled_trajectory());
+  const auto settled = attitudes_of(asked->optimised_trajectory());
   EXPECT_NE(settled, attitudes_of(asked->trajectory()));
   asked->finish();
   EXPECT_EQ(attitudes_of(asked->trajectory()), settled);
@@ -263,14 +263,14 @@ class SlamOfARoom : public ::testing::Test {
     return rendered;
   }
   // The right camera exposes by this share of the left one's time.
-  static void expect_followed(const std::function<double(int)>& right_share) {
+  static void expect_followed(const std::function<double(int)>& right_fraction) {
     SlamSettings settings;
     settings.scene = Scene::kStatic;
     const auto slam = make_slam(room().rig(), "rig.toml", settings);
     for (int k = 0; k < room().frames(); ++k) {
       auto [left, right] = pairs()[static_cast<std::size_t>(k)];
       for (std::uint8_t& value : right)
-        value = static_cast<std::uint8_t>(std::min(255L, std::lround(right_share(k) * value)));
+        value = static_cast<std::uint8_t>(std::min(255L, std::lround(right_fraction(k) * value)));
       ASSERT_TRUE(slam->push(0.05 * k, {left.data(), 564, 360}, {right.data(), 564, 360}).placed) << k;
     }
     slam->finish();

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "host/support/input_error.hpp"
-#include "host/vision/slam/recognition.hpp"
+#include "host/vision/slam/keyframe_database.hpp"
 
 namespace pharos::slam {
 namespace {
@@ -24,9 +24,9 @@ Descriptor near(Descriptor descriptor, int flips, std::mt19937_64& random) {
 }
 
 // Images of 20 out of 64 things, every thing a little different each time.
-class Things : public ::testing::Test {
+class VocabularyTree : public ::testing::Test {
  protected:
-  Things() {
+  VocabularyTree() {
     for (int k = 0; k < 64; ++k) things_.push_back({{random_(), random_(), random_(), random_()}});
     for (int k = 0; k < 40; ++k) images_.push_back(image(k));
   }
@@ -41,7 +41,7 @@ class Things : public ::testing::Test {
   std::vector<Image> images_;
 };
 
-TEST_F(Things, ViewsOfOneThingAreOneWord) {
+TEST_F(VocabularyTree, ViewsOfOneThingAreOneWord) {
   const Vocabulary vocabulary = Vocabulary::train(images_, 8, 2, 1);
   EXPECT_GT(vocabulary.words(), 30U);
   int alike = 0, tried = 0;
@@ -54,19 +54,19 @@ TEST_F(Things, ViewsOfOneThingAreOneWord) {
   EXPECT_GT(alike, 3 * tried / 4);
 }
 
-TEST_F(Things, ImagesOfTheSameThingsScoreHigher) {
+TEST_F(VocabularyTree, ImagesOfTheSameThingsScoreHigher) {
   const Vocabulary vocabulary = Vocabulary::train(images_, 8, 2, 1);
   const auto words = [&](int first) { return vocabulary.words_of(image(first)); };
   const WordVector ten = words(10);
-  EXPECT_NEAR(Recognition::score(ten, ten), 1.0, 1e-12);
-  const double again = Recognition::score(ten, words(10)), near_by = Recognition::score(ten, words(20)),
-               far_off = Recognition::score(ten, words(42));
+  EXPECT_NEAR(KeyframeDatabase::score(ten, ten), 1.0, 1e-12);
+  const double again = KeyframeDatabase::score(ten, words(10)), near_by = KeyframeDatabase::score(ten, words(20)),
+               far_off = KeyframeDatabase::score(ten, words(42));
   EXPECT_GT(again, near_by);
   EXPECT_GT(near_by, far_off);
   EXPECT_GE(far_off, 0.0);
 }
 
-TEST_F(Things, ARareWordWeighsMore) {
+TEST_F(VocabularyTree, ARareWordWeighsMore) {
   Image common = images_[0];
   std::vector<Image> images(10, {common[0]});
   images[3].push_back(common[1]);
@@ -78,13 +78,13 @@ TEST_F(Things, ARareWordWeighsMore) {
   EXPECT_NEAR(weight(common[1]), std::log(10.0), 1e-5);
 }
 
-TEST_F(Things, TrainsAlikeFromOneSeedAndReadsBackBitByBit) {
+TEST_F(VocabularyTree, TrainsAlikeFromOneSeedAndReadsBackBitByBit) {
   const auto bytes = Vocabulary::train(images_, 8, 2, 5).bytes();
   EXPECT_EQ(Vocabulary::train(images_, 8, 2, 5).bytes(), bytes);
   EXPECT_EQ(Vocabulary::parse(bytes, "it").bytes(), bytes);
 }
 
-TEST_F(Things, AFileCutShortSaysSo) {
+TEST_F(VocabularyTree, AFileCutShortSaysSo) {
   const auto bytes = Vocabulary::train(images_, 4, 2, 1).bytes();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     try {
@@ -99,7 +99,7 @@ TEST_F(Things, AFileCutShortSaysSo) {
   }
 }
 
-TEST_F(Things, NoDamagedByteGoesUnnoticed) {
+TEST_F(VocabularyTree, NoDamagedByteGoesUnnoticed) {
   auto bytes = Vocabulary::train(images_, 4, 2, 1).bytes();
   for (std::size_t k = 0; k < bytes.size(); k += 7) {
     bytes[k] ^= 0x10U;

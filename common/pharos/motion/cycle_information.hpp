@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pharos/base/axis.hpp"
+#include "pharos/motion/sweep_fit.hpp"
+
+namespace pharos::motion {
+
+/// The last sweep of each rotor taken together, as if solved alone: precision factors (22), what no pose explains, and
+/// how errors that stay with the sensors reach the pose.
+class CycleInformation {
+ public:
+  /// Residual of both sweeps that no pose and no shift common to a sweep explains: chi-squared and its degrees of
+  /// freedom (0: not to be told).
+  struct ResidualChi2 {
+    double square = 0.0;
+    double freedom = 0.0;
+  };
+
+  /// Takes a sweep's hits, their residuals against the prediction. `own_variance`: of a hit; noisier ones count less.
+  ResidualChi2 set(Axis axis, const HitFits& hits, double own_variance, std::int64_t time_ticks);
+  /// The belief was moved by `shift` after that sweep: its residuals are now against the belief moved.
+  void shifted(Axis axis, const Vector6& shift);
+
+  /// The two sweeps leave no direction open and are no older than a turn and a half.
+  bool known() const { return known_; }
+  /// Covariance of a pose solved from both sweeps by plain least squares, (17): for errors that each hit has of its own
+  /// with variance `own`, and one with variance `common` that all hits of a sweep share. The last one known, zero
+  /// before.
+  Matrix6 covariance_of(double own, double common) const;
+
+ private:
+  struct Sweep {
+    Matrix6 square = Matrix6::Zero();  // sum of h h^T
+    Vector6 sum = Vector6::Zero();     // sum of h
+    // The same, weighted, with the weighted mean taken out of h and residuals.
+    Matrix6 centred = Matrix6::Zero();
+    Vector6 by_residual = Vector6::Zero();
+    double residual_square = 0.0;
+    int hits = 0;
+    std::int64_t time_ticks = INT64_MIN;
+  };
+
+  std::array<Sweep, kAxes> sweep_;
+  Matrix6 unit_ = Matrix6::Zero();
+  bool known_ = false;
+};
+
+}  // namespace pharos::motion

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/calibrate/bundle.hpp"
+
+namespace pharos::calibrate {
+
+/// The unknowns as blocks of plain numbers, the way Ceres moves them. ParameterBlocks stay where they are in memory.
+struct ParameterBlocks {
+  explicit ParameterBlocks(const BundleProblem& problem);
+  /// The unknowns that the blocks stand for.
+  Unknowns unknowns(const BundleProblem& problem) const;
+
+  std::vector<std::array<double, 3>> sensor;              // m
+  std::vector<std::array<RotorParameters, kAxes>> rotor;  // by station
+  std::array<double, 6> station_delta{};                  // of the second station about its starting pose
+  std::vector<std::array<double, 6>> pose_delta;          // by still, about its starting pose
+  std::vector<std::vector<double>> common;                // by still and view, rad
+  bool pair = false;                                      // the second station's pose is an unknown
+  std::vector<bool> hit;                                  // by sensor: some bearing is of it
+};
+
+/// Index of a sensor number in the target; its size where there is none.
+std::size_t index_in(const Target& target, std::uint8_t sensor);
+
+/// Names and prior of the calibration's parameters, in the order of ParameterBlocks: sensors, rotors, second station.
+std::vector<Parameter> parameters_of(const BundleProblem& problem, const ParameterBlocks& blocks);
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/environment.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "host/device/frame_directory.hpp"
+#include "host/device/pair_names.hpp"
+#include "host/images/grey_image.hpp"
+#include "host/record/stream_reader.hpp"
+#include "host/support/input_error.hpp"
+#include "host/support/unique_fd.hpp"
+#include "host/vision/ring2/ring2_detector.hpp"
+#include "host/vision/ring2/ring2_rig.hpp"
+#include "host/vision/slam/rectification.hpp"
+#include "host/vision/slam/vocabulary.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A pipe would hang whoever opens it, a folder or a device is no recording either.
+void check_recording(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw InputError(file.string() + ": is not a file; give a recording made by pharosd's [recording]");
+  }
+  const StreamReader reads_the_head{ByteSource(file.string())};
+}
+
+// The whole optics is looked at, not only what the file's reader can see.
+void check_ring2(const RigFile& rig) { static_cast<void>(Ring2Detector(ring2_rig(rig), {})); }
+
+void check_slam(const RigFile& rig, const std::string& name) { static_cast<void>(slam::rectify(rig, name)); }
+
+void check_vocabulary(const std::string& path) {
+  static_cast<void>(slam::Vocabulary::read(path.empty() ? slam::shipped_vocabulary_path() : path));
+}
+
+void check_pairs(const fs::path& directory, const RigFile& rig) {
+  const PairName first = pair_names_in(directory.string(), 1.0).front();
+  const std::array<std::pair<const std::string*, const PinholeCamera*>, 2> sides{
+      {{&first.left, &rig.left.intrinsics}, {&first.right, &rig.right.intrinsics}}};
+  for (const auto& [file, intrinsics] : sides) {
+    const GreyImage image = read_grey_image(*file);
+    if (image.width_px == intrinsics->width_px && image.height_px == intrinsics->height_px) continue;
+    throw InputError(*file + ": has " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
+                     " pixels, the rig's camera " + std::to_string(intrinsics->width_px) + " x " +
+                     std::to_string(intrinsics->height_px) + "; name the rig file of these cameras");
+  }
+}
+
+void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }
+
+std::string identity(const std::string& path) {
+  struct stat about {};
+  if (::stat(path.c_str(), &about) == 0 && S_ISCHR(about.st_mode)) {
+    return "device " + std::to_string(major(about.st_rdev)) + ':' + std::to_string(minor(about.st_rdev));
+  }
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path : real.string();
+}
+
+// 0, or the errno that a new file in `folder` would meet. The file tried has no name and is gone when it is closed.
+int why_not_writable(const fs::path& folder) {
+  const UniqueFd unnamed(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+  if (unnamed.valid()) return 0;
+  if (errno != EOPNOTSUPP && errno != EISDIR) return errno;  // those two: a file system that knows no unnamed files
+  return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
+}
+
+void add_error(std::vector<std::string>& errors, const char* key, const fs::path& directory) {
+  std::error_code error;
+  fs::path folder = fs::absolute(directory, error).lexically_normal();
+  while (folder.has_relative_path() && fs::symlink_status(folder, error).type() == fs::file_type::not_found) {
+    folder = folder.parent_path();
+  }
+  const int reason = why_not_writable(folder);
+  if (reason == 0) return;
+  const std::string where = folder == directory ? "" : " (in " + folder.string() + ")";
+  errors.push_back(std::string(key) + ": " + directory.string() + ": cannot be written" + where + ": " +
+                   std::strerror(reason) + "; change its owner or permissions, or name another");
+}
+
+}  // namespace
+
+Environment host_environment() {
+  return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
+          read_camera_file, check_frames,     read_rig_file, check_ring2,
+          check_slam,       check_vocabulary, check_pairs};
+}
+
+calibrate::CalibrationFile Environment::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+RigFile Environment::no_rig(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+CameraFile Environment::no_camera(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+std::vector<std::string> directory_errors(const DaemonConfig& config) {
+  std::vector<std::string> errors;
+  if (!config.state_directory.empty()) add_error(errors, "state_directory", config.state_directory);
+  if (config.recording) add_error(errors, "recording.directory", config.recording->directory);
+  return errors;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/config/environment.hpp"
+#include "host/toml/strict_toml.hpp"
+
+namespace pharos::host {
+
+/// Every [[telescope]] of the daemon's configuration. Throws InputError with file, line and key.
+std::vector<PointingConfig> read_pointing(const TomlTable& root, const std::filesystem::path& folder,
+                                          const Environment& environment);
+
+}  // namespace pharos::host

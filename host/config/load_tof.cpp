@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/load_tof.hpp"
+
+#include <set>
+
+#include "host/config/config_parts.hpp"
+#include "host/config/load_device.hpp"
+#include "pharos/tof/tof_frame.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxAveraged = 1000;  // half a minute at 30 frames/s
+
+DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const Environment& environment) {
+  DepthCamera camera;
+  try {
+    camera = environment.read_camera(file.string()).camera;
+  } catch (const InputError& error) {
+    table.fail("camera_file", error.what());
+  }
+  const PinholeCamera& intrinsics = camera.intrinsics;
+  if (intrinsics.width_px > tof::kMaxWidth_px || intrinsics.height_px > tof::kMaxHeight_px) {
+    table.fail("camera_file", file.string() + ": " + std::to_string(intrinsics.width_px) + " x " +
+                                  std::to_string(intrinsics.height_px) + " pixels are more than " +
+                                  std::to_string(tof::kMaxWidth_px) + " x " + std::to_string(tof::kMaxHeight_px));
+  }
+  return camera;
+}
+
+void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, TofConfig& camera) {
+  refuse_beside_frames(table, {"serial", "address", "mode", "packet_size", "ptp"});
+  camera.frames = read_path(table, "frames", folder);
+  try {
+    environment.check_frames(camera.frames);
+  } catch (const InputError& error) {
+    table.fail("frames", error.what());
+  }
+}
+
+void read_device(const TomlTable& table, CameraSettings& device) {
+  read_which_camera(table, "frames = \"DIRECTORY\"", device);
+  device.mode = table.text_or("mode", "");
+  if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
+    table.fail("mode", "must be a word of the camera's Scan3dOperatingMode, as Distance5000mmMultiFreq");
+  }
+  read_transport(table, device);
+}
+
+tof::RingSettings read_ring(const TomlTable& table) {
+  tof::RingSettings ring;
+  constexpr Range kRadius_m{0.02, 10.0};
+  ring.min_outer_radius_m = table.number_or("least_outer_radius_m", ring.min_outer_radius_m, kRadius_m);
+  ring.max_outer_radius_m = table.number_or("most_outer_radius_m", ring.max_outer_radius_m, kRadius_m);
+  if (ring.max_outer_radius_m <= ring.min_outer_radius_m) {
+    table.fail(table.has("most_outer_radius_m") ? "most_outer_radius_m" : "least_outer_radius_m",
+               "the most must be more than the least");
+  }
+  return ring;
+}
+
+TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Environment& environment) {
+  TofConfig camera;
+  camera.name = read_name(table, "name", table.text("name"));
+  camera.target = read_name(table, "target", table.text("target"));
+  camera.camera_file = read_path(table, "camera_file", folder);
+  camera.camera = read_camera_of(table, camera.camera_file, environment);
+  if (table.has("frames")) {
+    read_frames(table, folder, environment, camera);
+  } else {
+    read_device(table, camera.device);
+  }
+  read_frame_rate(table, camera.device);
+  camera.device.width_px = camera.camera.intrinsics.width_px;
+  camera.device.height_px = camera.camera.intrinsics.height_px;
+  camera.average_frames = static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
+  camera.tof.ring = read_ring(table.table_or_empty("ring"));
+  return camera;
+}
+
+}  // namespace
+
+std::vector<TofConfig> read_tof(const TomlTable& root, const fs::path& folder, const Environment& environment) {
+  std::vector<TofConfig> cameras;
+  std::set<std::string> names;
+  std::set<std::string> devices;
+  for (const TomlTable& table : root.tables("camera")) {
+    cameras.push_back(read_camera_table(table, folder, environment));
+    const TofConfig& camera = cameras.back();
+    if (!names.insert(camera.name).second) table.fail("name", "\"" + camera.name + "\" is taken by another camera");
+    for (const char* key : {"serial", "address"}) {
+      const std::string& device = key[0] == 's' ? camera.device.serial : camera.device.address;
+      if (!device.empty() && !devices.insert(key + device).second) {
+        table.fail(key, "\"" + device + "\" is taken by another camera");
+      }
+    }
+  }
+  return cameras;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/config/daemon_config.hpp"
+#include "host/config/environment.hpp"
+#include "host/toml/strict_toml.hpp"
+
+namespace pharos::host {
+
+/// Every [[camera]] of the configuration, with its camera file. Throws InputError naming file, line and key.
+std::vector<TofConfig> read_tof(const TomlTable& root, const std::filesystem::path& folder,
+                                const Environment& environment);
+
+}  // namespace pharos::host

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/lighthouse_pipeline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "host/calibrate/calibration_file.hpp"
+#include "host/publish/words.hpp"
+#include "host/runtime/now.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+
+namespace pharos::host {
+namespace {
+
+// A target's clock that goes back by more than any reordering on the line was started anew.
+constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
+
+std::string version_text(const wire::Hello& hello) {
+  return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
+         std::to_string(hello.firmware_patch);
+}
+
+ReportedBearing reported(const track::TrackedBearing& bearing, std::int64_t cycle_ticks) {
+  ReportedBearing report;
+  report.sensor = bearing.raw.sensor;
+  report.axis = bearing.axis;
+  report.width_ticks = bearing.raw.width_ticks;
+  report.offset_ns = ticks_to_nanoseconds(bearing.raw.time_ticks - cycle_ticks);
+  report.raw_theta_rad = bearing.raw.theta_rad;
+  report.ideal_theta_rad = bearing.ideal_theta_rad;
+  report.used = bearing.used;
+  report.residual_rad = bearing.used ? bearing.residual_rad : 0.0;
+  return report;
+}
+
+}  // namespace
+
+LighthousePipeline::LighthousePipeline(const TargetConfig& config, const PublishConfig& publish,
+                                       const std::string& source, Publisher& publisher, CalibrationMemory& memory,
+                                       int line_baud)
+    : config_(config),
+      publish_(publish),
+      max_age_ns_(static_cast<std::int64_t>(publish.max_age_s * 1e9)),
+      source_(source),
+      publisher_(publisher),
+      memory_(memory),
+      tracker_(config_),
+      line_baud_(line_baud),
+      log_(config.name) {
+  if (!config_.remember_calibrations) return;
+  for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
+}
+
+void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
+  if (bytes.empty()) return;
+  arrival_ = arrival;
+  push_began_ns_ = monotonic_now_ns();
+  last_bytes_ns_ = arrival.monotonic_ns;
+  for (const std::uint8_t byte : bytes) {
+    ++frame_bytes_;
+    if (const auto event = link_.push(byte)) handle(*event);
+    // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
+    if (byte == wire::kFrameDelimiter) frame_bytes_ = 0;
+  }
+  log_unsupported_version();
+}
+
+void LighthousePipeline::handle(const report::LinkEvent& event) {
+  pace_.data_came(arrival_.monotonic_ns);
+  check_clock(event);
+  std::visit([this](const auto& value) { take(value); }, event);
+}
+
+void LighthousePipeline::check_clock(const report::LinkEvent& event) {
+  const auto ticks = report::newest_ticks(event);
+  if (!ticks) return;
+  // One false time is no restart: it takes two in a row.
+  const bool back = any_ticks_ && *ticks < newest_ticks_ - kRestart_ticks;
+  if (back && time_went_back_) restart("its clock went back");
+  time_went_back_ = back && any_ticks_;
+  const std::size_t frame_bytes = std::min(frame_bytes_, wire::kMaxLineFrame);
+  const bool taken = clock_.add(*ticks, arrival_.utc_ns, arrival_.monotonic_ns, line_time_ns(frame_bytes, line_baud_));
+  if (taken) {
+    newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
+    any_ticks_ = true;
+  }
+  if (host_jump_.look(clock_, arrival_.monotonic_ns)) {
+    log_.warn("host clock", host_jump_.notice(arrival_.monotonic_ns), arrival_.monotonic_ns);
+  }
+}
+
+// What the old time base and the old slot numbers told means nothing any more.
+void LighthousePipeline::restart(const char* why) {
+  log_.info("restart", std::string("target started anew (") + why + ')', arrival_.monotonic_ns);
+  ++counters_.target_restarts;
+  clock_.restart();
+  tracker_.restart();
+  calibrations_.forget_stations();
+  told_ = {};
+  any_ticks_ = false;
+  last_flash_ticks_ = 0;
+}
+
+void LighthousePipeline::line_lost() {
+  link_.restart();
+  frame_bytes_ = 0;
+  tracker_.restart();
+  believe_stations();
+}
+
+void LighthousePipeline::believe_stations() {
+  for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+    if (const auto* sent = calibrations_.in_use(station))
+      tracker_.set_calibration(station, effective_calibration(*sent));
+  }
+  const auto *first = calibrations_.in_use(0), *second = calibrations_.in_use(1);
+  if (first != nullptr && second != nullptr) tracker_.set_stations(first->id, second->id);
+}
+
+// ReportedCounters once: a station that was knocked, or a calibration of how they stood before.
+void LighthousePipeline::check_relative_pose() {
+  const bool refused = tracker_.relative_pose_rejected();
+  if (refused && !relative_pose_rejected_) {
+    ++counters_.station_pairs_refused;
+    log_.warn("stations moved",
+              "the two stations do not stand as " + config_.calibration_file.string() +
+                  " says: how they stand is learnt anew from what both see; calibrate again",
+              arrival_.monotonic_ns);
+  }
+  relative_pose_rejected_ = refused;
+}
+
+void LighthousePipeline::end_of_input() {
+  while (const auto result = tracker_.flush()) answer(*result);
+}
+
+void LighthousePipeline::take(const lighthouse::Sweep& sweep) {
+  ++counters_.sweeps;
+  if (sweep.flash.station >= kMaxStations) {
+    ++counters_.sweeps_bad_station;
+    return;
+  }
+  // After so long in the dark a station may have come back under another's number.
+  if (sweep.flash.start_ticks - last_flash_ticks_ > track::kLongestDark_ticks) {
+    tracker_.restart();
+    calibrations_.forget_stations();
+  }
+  last_flash_ticks_ = sweep.flash.start_ticks;
+  last_sweep_ns_ = arrival_.monotonic_ns;
+  if (const auto result = tracker_.push(sweep)) answer(*result);
+  check_relative_pose();
+}
+
+void LighthousePipeline::take(const lighthouse::OotxPayload& payload) {
+  ++counters_.ootx_payloads;
+  switch (calibrations_.push(payload)) {
+    case lighthouse::CalibrationStore::Verdict::kUnreadable:
+      ++counters_.ootx_unreadable;
+      return;
+    case lighthouse::CalibrationStore::Verdict::kFirstTime:
+    case lighthouse::CalibrationStore::Verdict::kUnchanged:
+      return;
+    case lighthouse::CalibrationStore::Verdict::kTakenIntoUse:
+      break;
+  }
+  const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
+  if (calibration == nullptr) return;
+  ++counters_.calibrations_taken;
+  believe_stations();
+  if (!config_.calibration_file.empty() && &effective_calibration(*calibration) == calibration) {
+    log_.warn("other station",
+              "station " + station_id_text(calibration->id) + " is not in " + config_.calibration_file.string() +
+                  ": what it sends of itself is used; calibrate with it",
+              arrival_.monotonic_ns);
+  }
+  log_.info("calibration",
+            "calibration of station " + std::to_string(payload.station) + " (" + station_id_text(calibration->id) +
+                ") in use",
+            arrival_.monotonic_ns);
+  if (config_.remember_calibrations) memory_.keep(*calibration);
+}
+
+// What the calibration file says of a station goes before what it sends of itself.
+const lighthouse::StationCalibration& LighthousePipeline::effective_calibration(
+    const lighthouse::StationCalibration& sent) const {
+  for (const lighthouse::StationCalibration& station : config_.calibrated_stations) {
+    if (station.id == sent.id) return station;
+  }
+  return sent;
+}
+
+void LighthousePipeline::take(const report::DecoderReport& report) { told_.decoder.take(report.counters); }
+
+void LighthousePipeline::take(const report::DeviceReport& report) { told_.device.take(report.counters); }
+
+void LighthousePipeline::take(const report::EdgesReport& edges) {
+  counters_.raw_edges += static_cast<std::int64_t>(edges.edges.size());
+}
+
+void LighthousePipeline::take(const wire::Time&) {}  // its time was taken by check_clock
+
+void LighthousePipeline::take(const wire::Hello& hello) {
+  const std::pair start{hello.unique_id, hello.start_count};
+  if (known_start_ && *known_start_ != start) restart("it says so");
+  known_start_ = start;
+  std::string identity = std::string(hello.board.view()) + ' ' + version_text(hello);
+  if (!hello.target.view().empty()) identity += " \"" + std::string(hello.target.view()) + '"';
+  if (hello.role == wire::Role::kLoader) identity += " (boot loader)";
+  if (hello.role == wire::Role::kSimulator) identity += " (simulated)";
+  if (identity == identity_) return;
+  identity_ = identity;
+  log_.info("identity", identity_ + " speaks", arrival_.monotonic_ns);
+}
+
+void LighthousePipeline::count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose) {
+  if (!pose) {
+    counters_.count_refusal(pose.error());
+    last_refusal_ = pose::name_of(pose.error());
+  } else if (pose->ambiguous()) {
+    ++counters_.cycles_ambiguous;
+  } else {
+    ++counters_.cycles_ok;
+  }
+}
+
+// The report of a cycle at this time, if it may be told at all: its UTC is known and not too long ago.
+std::optional<CycleReport> LighthousePipeline::timed_report(std::uint8_t station, std::int64_t time_ticks) {
+  const auto time = clock_.map(time_ticks);
+  if (!time) {
+    ++counters_.cycles_no_clock;
+    return std::nullopt;
+  }
+  CycleReport report;
+  report.utc_ns = time->utc_ns;
+  report.utc_sigma_ns = time->sigma_ns;
+  report.latency_ns = arrival_.monotonic_ns - time->monotonic_ns + monotonic_now_ns() - push_began_ns_;
+  if (std::abs(report.latency_ns) > max_age_ns_) {
+    ++counters_.cycles_stale;
+    return std::nullopt;
+  }
+  report.clock_was_set = !host_jump_.notice(arrival_.monotonic_ns).empty();
+  report.source = source_;
+  report.target = config_.name;
+  report.station = station;
+  if (const auto* calibration = calibrations_.in_use(station)) report.station_id = station_id_text(calibration->id);
+  return report;
+}
+
+void LighthousePipeline::answer(const track::EpochResult& result) {
+  if (result.pose && !(result.pose->pose.is_finite() && result.pose->covariance.allFinite())) {
+    ++counters_.cycles_not_finite;
+    return;
+  }
+  count_answer(result.pose);
+  auto report = timed_report(result.station, result.time_ticks);
+  if (!report) return;
+  report->sequence = sequence_++;
+  report->flags = result.flags;
+  report->observations = result.observations;
+  report->pose = result.pose;
+  if (report->pose) calibrate::widen_by_scale(*report->pose, config_.scale_sigma);
+  if (publisher_.publish_pose(*report) && result.pose) {
+    pace_.on_pose(arrival_.monotonic_ns);
+    latency_.add(monotonic_now_ns() - push_began_ns_);
+  }
+  if (!publish_.bearings) return;
+  for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) {
+    report->bearings.push_back(reported(tracker_.bearing(i), result.time_ticks));
+  }
+  publisher_.publish_bearings(*report);
+}
+
+void LighthousePipeline::take(const report::PoseReport& pose) {
+  ++counters_.board_poses;
+  auto report = timed_report(pose.station, pose.time_ticks);
+  if (!report) return;
+  report->sequence = board_sequence_++;
+  report->flags = pose.flags;
+  report->observations = pose.observations;
+  report->pose = pose.pose;
+  publisher_.publish_board_pose(*report);
+}
+
+void LighthousePipeline::log_unsupported_version() {
+  const auto version = link_.unsupported_version();
+  if (!version || version == logged_version_) return;
+  logged_version_ = version;
+  log_.error("version", unsupported_version_text(*version), arrival_.monotonic_ns);
+}
+
+std::string LighthousePipeline::unsupported_version_text(std::uint8_t version) {
+  return "the target speaks version " + std::to_string(version) + " of the serial protocol, this daemon version " +
+         std::to_string(wire::kProtocolVersion) + ": update the older one";
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "host/clock/clock_map.hpp"
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/clock_step_monitor.hpp"
+#include "host/daemon/lighthouse_counters.hpp"
+#include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/target_tracker.hpp"
+#include "host/daemon/unwrapped_counters.hpp"
+#include "host/publish/publisher.hpp"
+#include "host/runtime/latency_histogram.hpp"
+#include "pharos/lighthouse/calibration_store.hpp"
+#include "pharos/report/link_decoder.hpp"
+
+namespace pharos::host {
+
+/// When bytes arrived, on both clocks of this computer (of a replay: as they were when it was recorded).
+struct Arrival {
+  std::int64_t utc_ns = 0;
+  std::int64_t monotonic_ns = 0;
+};
+
+/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> publisher. Knows no port and no file.
+class LighthousePipeline {
+ public:
+  /// `publisher` and `memory` must outlive this. `source` is told in every message.
+  /// `line_baud`: speed of the wire, for the time that a frame certainly spends on it; 0 where bytes arrive at once.
+  LighthousePipeline(const TargetConfig& config, const PublishConfig& publish, const std::string& source,
+                     Publisher& publisher, CalibrationMemory& memory, int line_baud);
+
+  /// Bytes just read. Every cycle that they complete is published before this returns.
+  void push(std::span<const std::uint8_t> bytes, const Arrival& arrival);
+  /// The port was lost: what was cut in the middle is dropped, the target may come back with another clock.
+  void line_lost();
+  /// End of a recording: publishes the cycle still held back.
+  void end_of_input();
+
+  /// Everything that this line knows of its health; `port_error` is what its port says (empty: open). Ages are taken
+  /// from `monotonic_ns`, on the clock of the arrivals.
+  SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_error,
+                      std::int64_t monotonic_ns);
+
+  /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
+  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
+
+  const LighthouseCounters& counters() const { return counters_; }
+  /// From the last byte of a cycle read to its pose on LCM.
+  const LatencyHistogram& latency() const { return latency_; }
+
+ private:
+  // Of the target's present start.
+  struct ReportedCounters {
+    UnwrappedCounters decoder;
+    UnwrappedCounters device;
+  };
+
+  void handle(const report::LinkEvent& event);
+  void take(const lighthouse::Sweep& sweep);
+  void take(const lighthouse::OotxPayload& payload);
+  void take(const report::PoseReport& pose);
+  void take(const report::DecoderReport& report);
+  void take(const report::DeviceReport& report);
+  void take(const report::EdgesReport& edges);
+  void take(const wire::Time& time);
+  void take(const wire::Hello& hello);
+  template <class Other>
+  void take(const Other&) {
+    ++counters_.unexpected_events;
+  }
+
+  const lighthouse::StationCalibration& effective_calibration(const lighthouse::StationCalibration& sent) const;
+  void believe_stations();
+  void check_relative_pose();
+  void check_clock(const report::LinkEvent& event);
+  void restart(const char* why);
+  void answer(const track::EpochResult& result);
+  std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
+  void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
+  void log_unsupported_version();
+  static std::string unsupported_version_text(std::uint8_t version);
+  void assess(SourceHealth& health, std::int64_t monotonic_ns) const;
+  NamedCounts named_counts() const;
+
+  TargetConfig config_;
+  PublishConfig publish_;
+  std::int64_t max_age_ns_ = 0;
+  std::string source_;
+  Publisher& publisher_;
+  CalibrationMemory& memory_;
+
+  report::LinkDecoder link_;
+  ClockMap clock_;
+  lighthouse::CalibrationStore calibrations_;
+  TargetTracker tracker_;
+  int line_baud_ = 0;
+  Arrival arrival_;
+  std::int64_t push_began_ns_ = 0;  // this computer's monotonic time now, also in a replay
+  std::size_t frame_bytes_ = 0;     // since the last good frame
+  std::int64_t newest_ticks_ = 0;
+  bool any_ticks_ = false;
+  bool time_went_back_ = false;  // the last time told lay far before newest_ticks_
+  std::int64_t last_flash_ticks_ = 0;
+  std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
+
+  HostJump host_jump_;
+
+  LighthouseCounters counters_;
+  ReportedCounters told_;
+  RateLimitedLog log_;
+  std::string identity_;
+  LatencyHistogram latency_;
+  std::int64_t sequence_ = 0;
+  std::int64_t board_sequence_ = 0;
+  std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
+  std::int64_t last_sweep_ns_ = -1;
+  Pace pace_;
+  std::string last_refusal_;
+  bool relative_pose_rejected_ = false;
+  std::optional<std::uint8_t> logged_version_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/pointing_feed.hpp"
+
+#include <utility>
+
+#include "host/runtime/now.hpp"
+#include "host/support/input_error.hpp"
+
+namespace pharos::host {
+
+PointingFeed::PointingFeed(EventLoop& loop, const PointingConfig& config, Publisher& publisher)
+    : loop_(loop),
+      config_(config),
+      log_(config.name),
+      line_(config, publisher),
+      watch_(config.directory),
+      worker_(pointing_worker(config.camera)) {
+  loop_.watch(watch_.fd(), [this] { on_files(); });
+  loop_.watch(worker_.fd(), [this] { on_results(); });
+}
+
+PointingFeed::~PointingFeed() {
+  loop_.forget(watch_.fd());
+  loop_.forget(worker_.fd());
+}
+
+std::optional<PointingFeed::TrackState> PointingFeed::track_state() const {
+  std::error_code error;
+  TrackState state;
+  state.written = std::filesystem::last_write_time(config_.track_file, error);
+  if (error) return std::nullopt;
+  state.size = std::filesystem::file_size(config_.track_file, error);
+  return error ? std::nullopt : std::optional(state);
+}
+
+// Images wait for their rows; a file that did not change since it was last read has no new ones.
+void PointingFeed::match(bool always) {
+  if (!line_.is_waiting()) return;
+  const auto state = track_state();
+  if (!state || (!always && state == track_)) return;
+  track_ = state;
+  const std::int64_t now_ns = monotonic_now_ns();
+  try {
+    const pointing::TrackFile track =
+        pointing::read_track(ByteSource(config_.track_file.string()), LastLine::kDropUnfinished);
+    for (ImageJob& job : line_.match(track, now_ns)) post(std::move(job));
+  } catch (const InputError& error) {
+    line_.track_failed(error.what(), now_ns);
+  }
+}
+
+void PointingFeed::post(PointingJob job) {
+  if (const auto discarded = worker_.post(std::move(job))) line_.dropped(*discarded);
+}
+
+void PointingFeed::on_files() {
+  const std::string track_name = config_.track_file.filename().string();
+  for (const std::string& name : watch_.take()) {
+    if (name != track_name) line_.arrived(name);
+  }
+  match(true);
+}
+
+void PointingFeed::on_results() {
+  while (auto done = worker_.take()) {
+    std::visit([this](const auto& result) { line_.done(result, monotonic_now_ns()); }, done->answer);
+  }
+  attend(monotonic_now_ns());
+}
+
+void PointingFeed::attend(std::int64_t monotonic_ns) {
+  watch_.attend();
+  if (watch_.error() != told_) {
+    told_ = watch_.error();
+    if (told_.empty()) {
+      log_.info("watch", "watching " + config_.directory.string(), monotonic_ns);
+    } else {
+      log_.warn("watch", told_, monotonic_ns);
+    }
+  }
+  match(false);
+  if (auto pass = line_.take_finished_pass(monotonic_ns)) post(std::move(*pass));
+}
+
+SourceHealth PointingFeed::health(std::int64_t monotonic_ns) {
+  SourceHealth health = line_.health(monotonic_ns);
+  health.device = config_.directory.string();
+  health.counters.push_back({"directory_overflows", watch_.overflows()});
+  if (!watch_.watching()) {
+    health.state = SourceState::kGone;
+    health.message = watch_.error();
+  }
+  return health;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/pointing_pipeline.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "host/runtime/now.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::size_t kMaxPending = 1024;  // images without a row; then the oldest is given up
+constexpr double kNsPerSecond = 1e9;
+// What a 64-bit count of nanoseconds holds.
+constexpr double kMaxTime_s = 9.2e9;
+
+bool is_image(const std::string& name) {
+  if (name.empty() || name[0] == '.') return false;
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".png" || ending == ".pgm";
+}
+
+}  // namespace
+
+PointingPipeline::PointingPipeline(const PointingConfig& config, Publisher& publisher)
+    : config_(config),
+      publisher_(publisher),
+      log_(config.name),
+      R_earth_station_(pointing::station_to_earth(config.station)) {}
+
+void PointingPipeline::arrived(const std::string& name) {
+  ++counters_.files_arrived;
+  if (!is_image(name)) {
+    ++counters_.files_no_image;
+    return;
+  }
+  pace_.data_came(monotonic_now_ns());
+  if (std::find(pending_.begin(), pending_.end(), name) != pending_.end()) return;
+  pending_.push_back(name);
+  if (pending_.size() <= kMaxPending) return;
+  pending_.pop_front();
+  ++counters_.images_without_track;
+}
+
+std::vector<ImageJob> PointingPipeline::match(const pointing::TrackFile& track, std::int64_t monotonic_ns) {
+  std::vector<ImageJob> jobs;
+  // The newest row of a name counts. Jobs go in the track's order: that of time.
+  for (std::size_t i = 0; i < track.rows.size(); ++i) {
+    const pointing::TrackRow& row = track.rows[i];
+    const auto waiting = std::find(pending_.begin(), pending_.end(), row.image);
+    if (waiting == pending_.end()) continue;
+    pending_.erase(waiting);
+    if (row.refusal.empty()) {
+      jobs.push_back({config_.directory / row.image, row.observation});
+    } else {
+      refuse(row.observation, row.refusal,
+             row.image + ": its row of " + config_.track_file.string() + " is not complete or out of range",
+             monotonic_ns);
+    }
+  }
+  return jobs;
+}
+
+void PointingPipeline::dropped(const PointingJob& job) {
+  ++(std::holds_alternative<ImageJob>(job) ? counters_.images_dropped : counters_.passes_dropped);
+}
+
+void PointingPipeline::track_failed(const std::string& error, std::int64_t monotonic_ns) {
+  ++counters_.track_errors;
+  error_ = error;
+  log_.warn("track", error, monotonic_ns);
+}
+
+PointingReport PointingPipeline::report(double time_s) {
+  PointingReport result;
+  result.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * kNsPerSecond);
+  result.sequence = sequence_++;
+  result.source = "line/" + config_.name;
+  result.camera = config_.name;
+  result.target = config_.target;
+  return result;
+}
+
+void PointingPipeline::refuse(const pointing::Observation& observation, const std::string& reason,
+                              const std::string& error, std::int64_t monotonic_ns) {
+  ++counters_.images_refused;
+  ++counters_.refused[reason];
+  error_ = error;
+  log_.warn(reason.c_str(), "refused_" + reason + ": " + error, monotonic_ns);
+  PointingReport refused = report(observation.time_s);
+  refused.refusal = reason;
+  publisher_.publish_pointing(refused);
+}
+
+void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns) {
+  last_result_ns_ = monotonic_ns;
+  if (!result.refusal.empty()) {
+    refuse(result.observation, result.refusal, result.error, monotonic_ns);
+    return;
+  }
+  ++counters_.images_ok;
+  error_.clear();
+  pace_.on_pose(monotonic_ns);
+  if (config_.law) {
+    const bool late =
+        !pass_.empty() && std::abs(result.observation.time_s - pass_.back().observation.time_s) > config_.pass_gap_s;
+    if (late) over_.swap(pass_);
+    if (late) pass_.clear();
+    // An image that came late by file, not by time, has its place before.
+    const auto place = std::upper_bound(
+        pass_.begin(), pass_.end(), result.observation.time_s,
+        [](double time_s, const pointing::PassImage& image) { return time_s < image.observation.time_s; });
+    pass_.insert(place, {result.observation, result.planes_station});
+  }
+  PointingReport answered = report(result.observation.time_s);
+  answered.flags = result.flags;
+  answered.axis_station = result.axis.axis;
+  answered.axis_earth = R_earth_station_ * result.axis.axis;
+  answered.covariance_station = result.axis.covariance;
+  answered.plane_normal_station = pointing::signed_axis(result.axis.plane.normal);
+  answered.sigma_plane_rad = result.axis.sigma_plane_rad;
+  publisher_.publish_pointing(answered);
+}
+
+std::optional<PassJob> PointingPipeline::take_finished_pass(std::int64_t monotonic_ns) {
+  if (!config_.law) return std::nullopt;
+  const bool silent = !pass_.empty() && pending_.empty() && last_result_ns_ >= 0 &&
+                      static_cast<double>(monotonic_ns - last_result_ns_) > config_.pass_gap_s * kNsPerSecond;
+  if (over_.empty() && silent) over_.swap(pass_);
+  if (over_.empty()) return std::nullopt;
+  PassJob job{{}, {config_.station, *config_.law, pointing::PassOptions{}.max_spin_rad_s}};
+  job.images.swap(over_);
+  return job;
+}
+
+void PointingPipeline::done(const PassResult& result, std::int64_t monotonic_ns) {
+  const pointing::PassEstimate& pass = result.answer.estimate;
+  PointingReport told = report(pass.time_s);
+  told.from_pass = true;
+  told.images = pass.images;
+  told.flags = pointing::name_of(*config_.law);
+  if (result.answer.failure || !result.error.empty()) {
+    ++counters_.passes_refused;
+    told.refusal = result.error.empty() ? pointing::name_of(*result.answer.failure) : kInternalError;
+    log_.warn("pass",
+              "pass of " + std::to_string(pass.images) + " images: refused_" + told.refusal +
+                  (result.error.empty() ? "" : ": " + result.error),
+              monotonic_ns);
+  } else {
+    ++counters_.passes_ok;
+    told.ambiguous = pass.second_axis_station.has_value();
+    told.axis_station = pass.axis_station;
+    told.axis_earth = R_earth_station_ * pass.axis_station;
+    told.covariance_station = pass.covariance_station;
+  }
+  publisher_.publish_pointing(told);
+}
+
+SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
+  SourceHealth health;
+  health.source = "line/" + config_.name;
+  health.target = config_.target;
+  pace_.tell(health, monotonic_ns);
+  // A telescope between passes is well: silence is no fault of it.
+  health.state = pace_.any_pose() && error_.empty() ? SourceState::kOk : SourceState::kWaiting;
+  health.message = error_;
+  if (error_.empty() && !pace_.any_pose()) health.message = "no image came yet";
+  if (!pending_.empty()) {
+    health.message = std::to_string(pending_.size()) + " images wait for their row in " + config_.track_file.string();
+  }
+  const PointingCounters& c = counters_;
+  health.counters = {{"files_arrived", c.files_arrived},
+                     {"files_no_image", c.files_no_image},
+                     {"images_ok", c.images_ok},
+                     {"images_refused", c.images_refused},
+                     {"images_without_track", c.images_without_track},
+                     {"images_dropped", c.images_dropped},
+                     {"passes_ok", c.passes_ok},
+                     {"passes_refused", c.passes_refused},
+                     {"passes_dropped", c.passes_dropped},
+                     {"track_errors", c.track_errors},
+                     {"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())}};
+  for (const auto& [reason, count] : c.refused) health.counters.push_back({"refused." + reason, count});
+  return health;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/pointing_worker.hpp"
+#include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/rate_monitor.hpp"
+#include "host/publish/publisher.hpp"
+#include "host/vision/pointing/track_file.hpp"
+
+namespace pharos::host {
+
+/// What becomes of a telescope's files: each image is counted once.
+struct PointingCounters {
+  std::int64_t files_arrived = 0;
+  std::int64_t files_no_image = 0;  ///< of another kind, or hidden
+  std::int64_t images_ok = 0;
+  std::int64_t images_refused = 0;        ///< refused.<reason> says why
+  std::int64_t images_without_track = 0;  ///< given up: no row came
+  std::int64_t images_dropped = 0;        ///< more came than can be measured
+  std::int64_t passes_ok = 0;
+  std::int64_t passes_refused = 0;
+  std::int64_t passes_dropped = 0;  ///< as images
+  std::int64_t track_errors = 0;    ///< the track file could not be read
+  std::map<std::string, std::int64_t> refused;
+};
+
+/// One telescope's images to pointings on LCM: file and row of the track -> job -> result -> publisher, and passes.
+/// Knows no directory and no thread.
+class PointingPipeline {
+ public:
+  /// `publisher` must outlive this.
+  PointingPipeline(const PointingConfig& config, Publisher& publisher);
+
+  /// A file of this name has become whole in the directory.
+  void arrived(const std::string& name);
+  /// Images that wait for their row.
+  bool is_waiting() const { return !pending_.empty(); }
+  /// The track as it is now: the jobs of the images whose rows it has.
+  std::vector<ImageJob> match(const pointing::TrackFile& track, std::int64_t monotonic_ns);
+  void track_failed(const std::string& error, std::int64_t monotonic_ns);
+  /// A job that gave way to newer ones.
+  void dropped(const PointingJob& job);
+
+  void done(const ImageResult& result, std::int64_t monotonic_ns);
+  /// The pass that is over: no image for pass_gap_s, or the next one's time is that much later.
+  std::optional<PassJob> take_finished_pass(std::int64_t monotonic_ns);
+  void done(const PassResult& result, std::int64_t monotonic_ns);
+
+  const PointingCounters& counters() const { return counters_; }
+  SourceHealth health(std::int64_t monotonic_ns);
+
+ private:
+  PointingReport report(double time_s);
+  void refuse(const pointing::Observation& observation, const std::string& reason, const std::string& error,
+              std::int64_t monotonic_ns);
+
+  PointingConfig config_;
+  Publisher& publisher_;
+  RateLimitedLog log_;
+  Matrix3 R_earth_station_;
+  std::deque<std::string> pending_;
+  std::vector<pointing::PassImage> pass_;
+  std::vector<pointing::PassImage> over_;
+  PointingCounters counters_;
+  std::int64_t sequence_ = 0;
+  Pace pace_;
+  std::int64_t last_result_ns_ = -1;
+  std::string error_;  // of the last image
+};
+
+}  // namespace pharos::host

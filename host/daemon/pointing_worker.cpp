@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/pointing_worker.hpp"
+
+#include <memory>
+
+#include "host/images/grey_image.hpp"
+#include "host/support/flag_text.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/pointing/measure_panel.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::size_t kMaxWaitingImages = 512;  // a night's burst; then the oldest gives way
+
+ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
+  ImageResult result;
+  result.observation = job.observation;
+  try {
+    const GreyImage image = read_grey_image(job.file.string());
+    const auto panel = pointing::measure_panel(image.view(), camera);
+    if (!panel) {
+      result.refusal = pointing::name_of(panel.error());
+      result.error = job.file.string() + ": " + pointing::advice_of(panel.error());
+      return result;
+    }
+    const pointing::PointingResult answer = pointing::answer_of(*panel, job.observation.sight);
+    result.axis = answer.axis;
+    result.planes_station = answer.planes_station;
+    result.flags = joined_flags(answer.flags, pointing::kPointingFlagWords);
+  } catch (const InputError& error) {
+    result.refusal = "unreadable";
+    result.error = error.what();
+  }
+  return result;
+}
+
+PassResult solved(const PassJob& job) {
+  const auto workspace = std::make_unique<pointing::PassWorkspace>();
+  return {pointing::estimate_pass(job.images, job.options, *workspace), {}};
+}
+
+PointingJobResult failed(const PointingJob& job, const std::string& error) {
+  if (const auto* image = std::get_if<ImageJob>(&job)) {
+    ImageResult result;
+    result.observation = image->observation;
+    result.refusal = kInternalError;
+    result.error = image->file.string() + ": " + error;
+    return result;
+  }
+  const auto& images = std::get<PassJob>(job).images;
+  PassResult result;
+  result.error = error;
+  result.answer.estimate.images = static_cast<int>(images.size());
+  result.answer.estimate.time_s = images.front().observation.time_s;
+  return result;
+}
+
+}  // namespace
+
+PointingWorker pointing_worker(const PinholeCamera& camera) {
+  return PointingWorker(
+      kMaxWaitingImages,
+      [camera](const PointingJob& job) {
+        if (const auto* image = std::get_if<ImageJob>(&job)) return PointingJobResult(measured(*image, camera));
+        return PointingJobResult(solved(std::get<PassJob>(job)));
+      },
+      failed);
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "host/publish/health.hpp"
+
+namespace pharos::host {
+
+/// When a line's data and poses came, and how fast: what the health of every line begins with. Times are monotonic.
+class Pace {
+ public:
+  void data_came(std::int64_t now_ns) { last_data_ns_ = now_ns; }
+  void on_pose(std::int64_t now_ns) {
+    last_pose_ns_ = now_ns;
+    ++poses_;
+  }
+
+  bool any_data() const { return last_data_ns_ >= 0; }
+  bool any_pose() const { return last_pose_ns_ >= 0; }
+  bool data_within(std::int64_t span_ns, std::int64_t now_ns) const {
+    return any_data() && now_ns - last_data_ns_ < span_ns;
+  }
+  bool pose_within(std::int64_t span_ns, std::int64_t now_ns) const {
+    return any_pose() && now_ns - last_pose_ns_ < span_ns;
+  }
+
+  /// Both ages, and the poses a second since this was called before.
+  void tell(SourceHealth& health, std::int64_t now_ns) {
+    constexpr double kNsPerSecond = 1e9;
+    health.data_age_ns = any_data() ? now_ns - last_data_ns_ : -1;
+    health.pose_age_ns = any_pose() ? now_ns - last_pose_ns_ : -1;
+    if (reported_ns_ >= 0 && now_ns > reported_ns_) {
+      health.pose_rate_hz =
+          static_cast<double>(poses_ - poses_at_report_) * kNsPerSecond / static_cast<double>(now_ns - reported_ns_);
+    }
+    poses_at_report_ = poses_;
+    reported_ns_ = now_ns;
+  }
+
+ private:
+  std::int64_t last_data_ns_ = -1;
+  std::int64_t last_pose_ns_ = -1;
+  std::int64_t poses_ = 0;
+  std::int64_t poses_at_report_ = 0;
+  std::int64_t reported_ns_ = -1;
+};
+
+}  // namespace pharos::host

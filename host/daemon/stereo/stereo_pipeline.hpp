@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/stereo/pair_source.hpp"
+#include "host/daemon/stereo/pair_worker.hpp"
+#include "host/daemon/stereo/stereo_counters.hpp"
+#include "host/publish/publisher.hpp"
+#include "host/runtime/latency_histogram.hpp"
+
+namespace pharos::host {
+
+/// One system of one rig: pairs to poses on LCM. Knows no camera, no file and no thread.
+class StereoPipeline {
+ public:
+  /// `publisher` must outlive this. `source` is told in every message.
+  StereoPipeline(const StereoConfig& config, const PublishConfig& publish, const std::string& source,
+                 Publisher& publisher);
+
+  /// A pair that came: whether it is young enough to be measured.
+  bool take(const StereoPair& pair);
+  /// A pair that was to be measured and gave way to a newer one.
+  void dropped() { ++counters_.pairs_dropped; }
+  /// What became of a pair; published before this returns. `clock_was_set`: this computer's, a moment ago.
+  void done(const PairWorker::Done& done, bool clock_was_set);
+
+  SourceHealth health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns);
+  const StereoCounters& counters() const { return counters_; }
+
+ private:
+  StereoReport report(const StereoPair& pair, const PairResult& answer) const;
+  void publish_spin(const StereoReport& told, const SpinResult& answer);
+  bool stale(std::int64_t age_ns) const;
+  void count(const PairResult& answer, std::int64_t monotonic_ns);
+  void assess(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t monotonic_ns) const;
+  NamedCounts named_counts(const PairSourceStatus& pairs) const;
+
+  std::string name_;
+  std::string target_;
+  std::string source_;
+  Publisher& publisher_;
+  std::int64_t max_age_ns_;
+  RateLimitedLog log_;
+  StereoCounters counters_;
+  std::int64_t sequence_ = 0, spin_sequence_ = 0;
+  std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
+  NamedCounts figures_;       // of the estimator
+  Pace pace_;
+  // Stages of a pair: waiting for its estimator, that and its parts; and from the light to LCM.
+  LatencyHistogram waiting_;
+  LatencyHistogram estimator_;
+  std::map<std::string, LatencyHistogram> stages_;
+  LatencyHistogram latency_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "host/config/daemon_config.hpp"
+#include "host/daemon/clock_step_monitor.hpp"
+#include "host/daemon/frame_clock.hpp"
+#include "host/daemon/pose_average.hpp"
+#include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/tof_counters.hpp"
+#include "host/daemon/tof_estimator.hpp"
+#include "host/device/frame_source.hpp"
+#include "host/publish/publisher.hpp"
+#include "host/runtime/latency_histogram.hpp"
+
+namespace pharos::host {
+
+/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> publisher. Knows no camera and no file.
+class TofPipeline {
+ public:
+  using Measure = std::function<TofResult(const DepthFrame&)>;
+
+  /// `publisher` must outlive this. `source` is told in every message. `measure`: TofEstimator::measure, or a test's.
+  TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
+              Measure measure);
+
+  /// A whole frame, just taken. What it gives is published before this returns.
+  void take(const DepthFrame& frame);
+
+  SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
+  const TofCounters& counters() const { return counters_; }
+  /// That this computer's clock was set a moment ago, for people; empty when it was not.
+  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
+
+ private:
+  std::optional<MappedTime> time_of(const DepthFrame& frame);
+  void answer(const TofResult& answer, const MappedTime& time);
+  void count(const TofResult& answer);
+  TofReport report(const MappedTime& time) const;
+  void publish(TofReport& report);
+  void assess(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t monotonic_ns) const;
+  NamedCounts named_counts(const FrameSourceStatus& camera) const;
+
+  TofConfig config_;
+  std::string source_;
+  Publisher& publisher_;
+  Measure measure_;
+  std::int64_t max_age_ns_;
+  RateLimitedLog log_;
+  FrameClock clock_;
+  PoseAverage average_;
+  TofCounters counters_;
+  std::int64_t sequence_ = 0;
+  std::string last_refusal_;  // with what to do
+  std::int64_t last_utc_ns_ = 0;
+  HostJump host_jump_;
+  Pace pace_;
+  // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
+  LatencyHistogram transport_;
+  LatencyHistogram waiting_;
+  LatencyHistogram estimator_;
+  std::array<LatencyHistogram, tof::kTofStages> estimator_stages_;
+  LatencyHistogram latency_;
+};
+
+}  // namespace pharos::host

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/toml/strict_toml.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace pharos::host {
+
+struct TomlTable::State {
+  std::shared_ptr<const toml::table> root;  // keeps the nodes alive
+  const toml::table* table = nullptr;       // null: an absent table
+  std::string file;
+  std::string path;  // "station[1].rotor_x.", empty at top level
+  std::uint32_t line = 0;
+  mutable std::set<std::string, std::less<>> asked;
+  mutable std::map<std::string, std::shared_ptr<State>, std::less<>> children;
+
+  const toml::node* find(std::string_view key) const {
+    asked.emplace(key);
+    return table == nullptr ? nullptr : table->get(key);
+  }
+};
+
+namespace {
+
+std::string shown(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::string describe(Range range) {
+  if (std::isinf(range.high)) return "must be at least " + shown(range.low);
+  if (std::isinf(range.low)) return "must be at most " + shown(range.high);
+  return "must lie in " + shown(range.low) + " to " + shown(range.high);
+}
+
+std::string type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// Half of the word's letters wrong is no typing error any more.
+std::string resembling(std::string_view key, const std::set<std::string, std::less<>>& known) {
+  std::string best;
+  std::size_t best_distance = key.size() / 2 + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(key, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// The parser quotes what it did not expect, line breaks too.
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return line;
+}
+
+}  // namespace
+
+TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) {
+  auto state = std::make_shared<TomlTable::State>();
+  try {
+    state->root = std::make_shared<const toml::table>(toml::parse(text, name));
+  } catch (const toml::parse_error& error) {
+    throw InputError(name + ":" + std::to_string(error.source().begin.line) +
+                     ": not valid TOML: " + on_one_line(error.description()));
+  }
+  state->table = state->root.get();
+  state->file = name;
+  state->line = 1;
+  return TomlTable(std::move(state));
+}
+
+TomlTable TomlTable::parse_file(const std::filesystem::path& path) {
+  std::ostringstream content;
+  if (path == "-") {
+    content << std::cin.rdbuf();
+    return parse_text(content.str(), "standard input");
+  }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(path.string() + ": is a directory, not a TOML file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path.string() + ": cannot be opened; check the path and its permissions");
+  content << in.rdbuf();
+  if (in.bad()) throw InputError(path.string() + ": cannot be read");
+  return parse_text(content.str(), path.string());
+}
+
+bool TomlTable::has(std::string_view key) const { return state_->find(key) != nullptr; }
+const std::string& TomlTable::file() const { return state_->file; }
+
+std::uint32_t TomlTable::line_of(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  return node == nullptr ? state_->line : static_cast<std::uint32_t>(node->source().begin.line);
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> result;
+  if (state_->table != nullptr) {
+    for (const auto& [key, node] : *state_->table) result.emplace_back(key.str());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void TomlTable::fail(std::string_view key, const std::string& message) const {
+  throw InputError(state_->file + ":" + std::to_string(line_of(key)) + ": " + state_->path + std::string(key) + ": " +
+                   message);
+}
+
+double TomlTable::number(std::string_view key, Range range) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) fail(key, "is missing");
+  if (!node->is_number()) fail(key, "must be a number, not " + type_name(*node));
+  const double value = *node->value<double>();
+  if (!std::isfinite(value)) fail(key, "must be a finite number");
+  if (value < range.low || value > range.high) fail(key, describe(range) + ", not " + shown(value));
+  return value;
+}
+
+double TomlTable::number_or(std::string_view key, double fallback, Range range) const {
+  return has(key) ? number(key, range) : fallback;
+}
+
+std::int64_t TomlTable::integer(std::string_view key, std::int64_t low, std::int64_t high) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) fail(key, "is missing");
+  if (!node->is_integer()) fail(key, "must be an integer, not " + type_name(*node));
+  const std::int64_t value = **node->as_integer();
+  if (value < low || value > high) {
+    fail(key, "must lie in " + std::to_string(low) + " to " + std::to_string(high) + ", not " + std::to_string(value));
+  }
+  return value;
+}
+
+std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t fallback, std::int64_t low,
+                                   std::int64_t high) const {
+  return has(key) ? integer(key, low, high) : fallback;
+}
+
+bool TomlTable::boolean_or(std::string_view key, bool fallback) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return fallback;
+  if (!node->is_boolean()) fail(key, "must be true or false, not " + type_name(*node));
+  return **node->as_boolean();
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) fail(key, "is missing");
+  if (!node->is_string()) fail(key, "must be a string, not " + type_name(*node));
+  return **node->as_string();
+}
+
+std::string TomlTable::text_or(std::string_view key, const std::string& fallback) const {
+  return has(key) ? text(key) : fallback;
+}
+
+std::string TomlTable::choice(std::string_view key, std::initializer_list<std::string_view> words) const {
+  const std::string value = text(key);
+  if (std::find(words.begin(), words.end(), value) != words.end()) return value;
+  std::string list;
+  for (const std::string_view word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+  fail(key, "must be one of " + list + ", not \"" + value + "\"");
+}
+
+std::string TomlTable::choice_or(std::string_view key, const std::string& fallback,
+                                 std::initializer_list<std::string_view> words) const {
+  return has(key) ? choice(key, words) : fallback;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, Range range) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  if (!node->is_array()) fail(key, "must be an array of numbers, not " + type_name(*node));
+  std::vector<double> result;
+  for (const toml::node& element : *node->as_array()) {
+    if (!element.is_number()) fail(key, "must hold numbers only, not " + type_name(element));
+    const double value = *element.value<double>();
+    if (!std::isfinite(value)) fail(key, "must hold finite numbers only");
+    if (value < range.low || value > range.high) fail(key, "each " + describe(range) + ", not " + shown(value));
+    result.push_back(value);
+  }
+  return result;
+}
+
+std::vector<double> TomlTable::numbers_of_size(std::string_view key, std::size_t size, Range range) const {
+  if (!has(key)) fail(key, "is missing");
+  std::vector<double> result = numbers(key, range);
+  if (result.size() != size) {
+    fail(key, "must hold " + std::to_string(size) + " numbers, not " + std::to_string(result.size()));
+  }
+  return result;
+}
+
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t columns, Range range) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  if (!node->is_array()) fail(key, "must be an array of rows, not " + type_name(*node));
+  std::vector<std::vector<double>> result;
+  for (const toml::node& row : *node->as_array()) {
+    const std::string which = "row " + std::to_string(result.size() + 1) + " ";
+    if (!row.is_array() || row.as_array()->size() != columns) {
+      fail(key, which + "must be an array of " + std::to_string(columns) + " numbers");
+    }
+    std::vector<double> values;
+    for (const toml::node& element : *row.as_array()) {
+      if (!element.is_number()) fail(key, which + "must hold numbers only, not " + type_name(element));
+      values.push_back(*element.value<double>());
+      if (!std::isfinite(values.back()) || values.back() < range.low || values.back() > range.high) {
+        fail(key, which + "holds a number out of range: " + shown(values.back()));
+      }
+    }
+    result.push_back(std::move(values));
+  }
+  return result;
+}
+
+std::vector<std::int64_t> TomlTable::integers(std::string_view key, std::int64_t low, std::int64_t high) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  if (!node->is_array()) fail(key, "must be an array of integers, not " + type_name(*node));
+  std::vector<std::int64_t> result;
+  for (const toml::node& element : *node->as_array()) {
+    if (!element.is_integer()) fail(key, "must hold integers only, not " + type_name(element));
+    const std::int64_t value = **element.as_integer();
+    if (value < low || value > high) {
+      fail(key, "each must lie in " + std::to_string(low) + " to " + std::to_string(high) + ", not " +
+                    std::to_string(value));
+    }
+    result.push_back(value);
+  }
+  return result;
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  if (!node->is_array()) fail(key, "must be an array of strings, not " + type_name(*node));
+  std::vector<std::string> result;
+  for (const toml::node& element : *node->as_array()) {
+    if (!element.is_string()) fail(key, "must hold strings only, not " + type_name(element));
+    result.push_back(**element.as_string());
+  }
+  return result;
+}
+
+TomlTable TomlTable::table_or_empty(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node != nullptr && !node->is_table()) fail(key, "must be a table, not " + type_name(*node));
+  std::shared_ptr<TomlTable::State>& child = state_->children[std::string(key)];
+  if (!child) {
+    child = std::make_shared<TomlTable::State>();
+    child->root = state_->root;
+    child->table = node == nullptr ? nullptr : node->as_table();
+    child->file = state_->file;
+    child->path = state_->path + std::string(key) + ".";
+    child->line = line_of(key);
+  }
+  return TomlTable(child);
+}
+
+TomlTable TomlTable::table(std::string_view key) const {
+  if (!has(key)) fail(key, "this table is missing");
+  return table_or_empty(key);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  if (node->is_table()) return {table(key)};
+  if (!node->is_array()) fail(key, "must be a table, not " + type_name(*node));
+  std::vector<TomlTable> result;
+  for (const toml::node& element : *node->as_array()) {
+    const std::string name = std::string(key) + "[" + std::to_string(result.size()) + "]";
+    if (!element.is_table()) fail(key, "must hold tables only, not " + type_name(element));
+    std::shared_ptr<TomlTable::State>& child = state_->children[name];
+    if (!child) {
+      child = std::make_shared<TomlTable::State>();
+      child->root = state_->root;
+      child->table = element.as_table();
+      child->file = state_->file;
+      child->path = state_->path + name + ".";
+      child->line = static_cast<std::uint32_t>(element.source().begin.line);
+    }
+    result.push_back(TomlTable(child));
+  }
+  return result;
+}
+
+void TomlTable::reject_unknown() const {
+  if (state_->table != nullptr) {
+    for (const auto& [key, node] : *state_->table) {
+      if (state_->asked.contains(key.str())) continue;
+      const std::string like = resembling(key.str(), state_->asked);
+      fail(key.str(), "unknown key" + (like.empty() ? std::string() : "; did you mean \"" + like + "\"?"));
+    }
+  }
+  for (const auto& [name, child] : state_->children) TomlTable(child).reject_unknown();
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/panel_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::pointing {
+namespace {
+
+constexpr double kMinLength_px = 14.0;
+constexpr double kMinFraction = 0.12;    // of the longest edge
+constexpr double kMaxConvergence = 0.2;  // rad: perspective of a panel as deep as an eighth of its distance
+constexpr double kMinOverlap = 0.55;     // of the shorter edge; a body may hide the rest
+constexpr double kMinSeparation_px = 3.5;
+constexpr double kMaxSeparation = 3.0;  // times the overlap: foreshortened panels
+constexpr double kMinFill = 0.85;       // of the strip between the edges
+constexpr double kWingTurn = 0.08;      // rad between the middle lines of a wing's panels
+constexpr double kWingOff = 0.35;       // of one's middle from the other's line, in separations
+constexpr double kWingWidths = 1.7;     // ratio of separations
+constexpr double kWingBonus = 1.6;      // a second panel in line is no accident
+
+double fraction_filled(const TargetMask& target, const Segment& middle, double separation) {
+  constexpr int kAlong = 16, kAcross = 5;
+  int inside = 0;
+  for (int i = 0; i < kAlong; ++i) {
+    for (int k = 0; k < kAcross; ++k) {
+      const Vector2 place = middle.begin + (i + 0.5) / kAlong * (middle.end - middle.begin) +
+                            (0.7 * separation * ((k + 0.5) / kAcross - 0.5)) * middle.across();
+      inside += target.at(static_cast<std::int32_t>(std::lround(place.x())),
+                          static_cast<std::int32_t>(std::lround(place.y())))
+                    ? 1
+                    : 0;
+    }
+  }
+  return static_cast<double>(inside) / (kAlong * kAcross);
+}
+
+// Edges run with the target on their positive side, so two that face each other run opposite ways.
+std::optional<EdgePair> pair_of(const Segment& a, const Segment& b, const TargetMask& target) {
+  const double turn = std::acos(std::clamp(-a.along().dot(b.along()), -1.0, 1.0));
+  if (turn > kMaxConvergence) return std::nullopt;
+  const Segment back{b.end, b.begin};
+  const Vector2 along = (a.along() + back.along()).normalized();
+  const Vector2 across(-along.y(), along.x());
+  const auto at = [&](const Vector2& place) { return along.dot(place - a.begin); };
+  const double low = std::max(at(a.begin), at(back.begin)), high = std::min(at(a.end), at(back.end));
+  const double overlap = high - low;
+  if (overlap < kMinOverlap * std::min(a.length(), b.length())) return std::nullopt;
+  const auto place_on = [&](const Segment& edge, double station) {
+    const Vector2 d = edge.along();
+    return Vector2(edge.begin + (station - at(edge.begin)) / along.dot(d) * d);
+  };
+  EdgePair pair{
+      a, b, {0.5 * (place_on(a, low) + place_on(back, low)), 0.5 * (place_on(a, high) + place_on(back, high))}, 0.0};
+  pair.separation = across.dot(place_on(back, 0.5 * (low + high)) - place_on(a, 0.5 * (low + high)));
+  if (pair.separation < kMinSeparation_px || pair.separation > kMaxSeparation * overlap) return std::nullopt;
+  if (fraction_filled(target, pair.middle, pair.separation) < kMinFill) return std::nullopt;
+  return pair;
+}
+
+bool same(const Segment& a, const Segment& b) { return a.begin == b.begin && a.end == b.end; }
+
+bool is_wing(const EdgePair& a, const EdgePair& b) {
+  if (same(a.first, b.first) || same(a.first, b.second) || same(a.second, b.first) || same(a.second, b.second))
+    return false;
+  if (std::abs(a.middle.along().dot(b.middle.along())) < std::cos(kWingTurn)) return false;
+  const double widths = a.separation / b.separation;
+  if (widths > kWingWidths || widths < 1.0 / kWingWidths) return false;
+  const double apart = (a.middle.middle() - b.middle.middle()).norm();
+  if (apart < 0.5 * (a.middle.length() + b.middle.length())) return false;
+  const double narrower = std::min(a.separation, b.separation);
+  return std::abs(a.middle.offset(b.middle.middle())) < kWingOff * narrower &&
+         std::abs(b.middle.offset(a.middle.middle())) < kWingOff * narrower;
+}
+
+}  // namespace
+
+std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target) {
+  std::vector<EdgePair> pairs;
+  if (edges.empty()) return pairs;
+  const double minimum = std::max(kMinLength_px, kMinFraction * edges.front().length());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      if (edges[i].length() < minimum || edges[k].length() < minimum) continue;
+      if (const auto pair = pair_of(edges[i], edges[k], target)) pairs.push_back(*pair);
+    }
+  }
+  return pairs;
+}
+
+std::optional<PanelChoice> choose_panels(const std::vector<Segment>& edges, const TargetMask& target) {
+  const std::vector<EdgePair> pairs = facing_pairs(edges, target);
+  PanelChoice choice;
+  double best = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double alone = pairs[i].middle.length();
+    if (alone > best) {
+      best = alone;
+      choice.panels = {pairs[i]};
+    }
+    for (std::size_t k = i + 1; k < pairs.size(); ++k) {
+      const double both = kWingBonus * (alone + pairs[k].middle.length());
+      if (both <= best || !is_wing(pairs[i], pairs[k])) continue;
+      best = both;
+      choice.panels = {pairs[i], pairs[k]};
+    }
+  }
+  if (choice.panels.empty()) return std::nullopt;
+  return choice;
+}
+
+}  // namespace pharos::pointing

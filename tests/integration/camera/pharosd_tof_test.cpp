@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharosd as it is, with the simulated Helios before the simulated satellite.
+#include <csignal>
+
+#include "integration/camera/pharosd_tof_fixture.hpp"
+#include "tools/sim/tof/tof_writer.hpp"
+
+namespace pharos::host {
+namespace {
+
+const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new NetworkNamespace);
+
+class StationaryTofTest : public PharosdTofTest {
+ protected:
+  StationaryTofTest() {
+    render("tof_still.toml", 3);
+    play.frame_rate_hz = 5.0;
+  }
+};
+
+TEST_F(StationaryTofTest, MeasuresWhatTheCameraSees) {
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(poses_come(5)) << daemon.process().text();
+  expect_true_poses();
+  const pose_t& pose = daemon.poses().back();
+  EXPECT_EQ(pose.source, "tof/helios");
+  EXPECT_EQ(pose.station_or_camera, "helios");
+  ASSERT_TRUE(daemon.wait([&] { return daemon.counter("frames_ok", "client") > 0; }, kTimeout_s));
+  EXPECT_GT(daemon.counter("estimator_p50_us", "client"), 0);
+  EXPECT_GT(daemon.counter("estimator.edges_p50_us", "client"), 0);
+  EXPECT_GT(daemon.counter("estimator.connector_p50_us", "client"), 0);
+  EXPECT_EQ(daemon.source("client")->state, "ok");
+}
+
+TEST_F(StationaryTofTest, GoesOnWhenTheCameraComesBack) {
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  camera.reset();
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state != "ok"; }, kTimeout_s));
+  EXPECT_FALSE(daemon.source("client")->message.empty());
+  serve();
+  ASSERT_TRUE(poses_come(2)) << daemon.process().text();
+  expect_true_poses();
+}
+
+TEST_F(StationaryTofTest, PublishesNoWrongPoseWhilePacketsAreLost) {
+  play.loss = 0.001;
+  serve();
+  start(kByAddress);
+  ASSERT_TRUE(daemon.wait(
+      [&] { return daemon.valid_poses("client") >= 5 && daemon.counter("device.frames_incomplete", "client") >= 2; },
+      kTimeout_s))
+      << daemon.process().text();
+  expect_true_poses();
+}
+
+TEST_F(StationaryTofTest, StopsCleanlyWhileItLooksForACamera) {
+  start("address = '127.0.0.1'\n");
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state == "gone"; }, kTimeout_s));
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_exit(), 0);
+}
+
+// frames = "DIRECTORY": what a camera recorded, at its own beat; then the source says that it has come to its end.
+TEST_F(PharosdTofTest, MeasuresRecordedFrames) {
+  constexpr std::size_t kFrames = 3;
+  const std::filesystem::path folder = daemon.folder() / "recorded";
+  sim::TofScenario scenario = sim::read_tof_scenario(std::string(PHAROS_SCENARIOS) + "/tof_still.toml", 1);
+  scenario.poses.resize(kFrames);
+  sim::TofSimulator simulator(scenario, 1);
+  sim::write_tof_frames(simulator, folder, [] {});
+  std::filesystem::copy_file(folder / "camera.toml", daemon.folder() / "helios.toml");
+  sequence.frames.resize(1);
+  sequence.frames[0].T_camera_target = simulator.truth(0).T_camera_target;
+  start("frames = 'recorded'\nframe_rate_hz = 5\n");
+  ASSERT_TRUE(poses_come(kFrames)) << daemon.process().text();
+  expect_true_poses();
+  ASSERT_TRUE(
+      daemon.wait([&] { return daemon.source("client") && daemon.source("client")->state == "stale"; }, kTimeout_s));
+  EXPECT_NE(daemon.source("client")->message.find("end"), std::string::npos);
+  EXPECT_EQ(daemon.counter("frames_ok", "client"), kFrames);
+}
+
+}  // namespace
+}  // namespace pharos::host

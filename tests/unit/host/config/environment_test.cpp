@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/config/environment.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "host/record/stream_format.hpp"
+#include "host/support/input_error.hpp"
+#include "unit/host/record/temporary_folder.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class EnvironmentTest : public ::testing::Test {
+ protected:
+  std::string path(const char* name) const { return (folder_.path() / name).string(); }
+  std::string error_of_recording(const char* name) const {
+    try {
+      real_.check_recording(path(name));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::vector<std::string> errors(const fs::path& state, const fs::path& recording) const {
+    DaemonConfig config;
+    config.state_directory = state;
+    config.recording.emplace().directory = recording;
+    return directory_errors(config);
+  }
+  std::vector<fs::path> everything() const {
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) all.push_back(entry.path());
+    return all;
+  }
+
+  test::TemporaryFolder folder_;
+  Environment real_ = host_environment();
+};
+
+TEST_F(EnvironmentTest, ARecordingIsOpenedAndItsHeadRead) {
+  test::write_file(path("good"), stream_format::encode_head({"dock", 460'800, 1, 1}));
+  EXPECT_EQ(error_of_recording("good"), "");
+  EXPECT_THAT(error_of_recording("missing"), HasSubstr("missing"));
+  test::write_file(path("table"), {'s', 'e', 'n', 's', 'o', 'r'});
+  EXPECT_THAT(error_of_recording("table"), HasSubstr("is not a recorded serial stream"));
+  test::write_file(path("empty"), {});
+  EXPECT_THAT(error_of_recording("empty"), HasSubstr("is not a recorded serial stream"));
+  test::Bytes damaged = stream_format::encode_head({"dock", 460'800, 1, 1});
+  damaged.back() ^= 1;
+  test::write_file(path("damaged"), damaged);
+  EXPECT_THAT(error_of_recording("damaged"), HasSubstr("head of this recording is damaged"));
+}
+
+TEST_F(EnvironmentTest, APipeOrAFolderIsRefusedAtOnce) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);  // to open it would wait for a writer
+  EXPECT_THAT(error_of_recording("pipe"), HasSubstr("is not a file"));
+  fs::create_directory(path("folder"));
+  EXPECT_THAT(error_of_recording("folder"), HasSubstr("is not a file"));
+}
+
+TEST_F(EnvironmentTest, EverySpellingOfAPortIsTheSame) {
+  std::ofstream(path("port")) << "";
+  fs::create_symlink("port", path("link"));
+  fs::create_symlink(path("link"), path("second"));
+  fs::create_directory(path("folder"));
+  const std::string identity = real_.identity(path("port"));
+  EXPECT_EQ(real_.identity(path("link")), identity);
+  EXPECT_EQ(real_.identity(path("second")), identity);
+  EXPECT_EQ(real_.identity(path("folder") + "/../port"), identity);
+  EXPECT_NE(real_.identity(path("other")), identity);
+}
+
+TEST_F(EnvironmentTest, ADeviceIsToldByItsNumber) {
+  fs::create_symlink("/dev/null", path("link"));
+  EXPECT_EQ(real_.identity(path("link")), real_.identity("/dev/null"));
+  EXPECT_NE(real_.identity("/dev/zero"), real_.identity("/dev/null"));
+}
+
+TEST_F(EnvironmentTest, PortsNotPluggedInYetAreComparedByTheirPaths) {
+  EXPECT_EQ(real_.identity("/dev/./none"), real_.identity("/dev/none"));
+  EXPECT_NE(real_.identity("/dev/none0"), real_.identity("/dev/none1"));
+}
+
+TEST_F(EnvironmentTest, WritableDirectoriesPassAndNothingIsMade) {
+  fs::create_directory(path("state"));
+  const auto before = everything();
+  EXPECT_THAT(errors(path("state"), path("to/be/made")), IsEmpty());
+  EXPECT_EQ(everything(), before);
+}
+
+TEST_F(EnvironmentTest, AFileInADirectorysPlaceIsTold) {
+  std::ofstream(path("file")) << "";
+  EXPECT_THAT(errors(path("file"), path("file/below")),
+              ElementsAre(AllOf(HasSubstr("state_directory: "), HasSubstr("cannot be written: Not a directory")),
+                          AllOf(HasSubstr("recording.directory: "), HasSubstr("/file): Not a directory"))));
+}
+
+TEST_F(EnvironmentTest, ADirectoryWithoutPermissionIsTold) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::create_directory(path("closed"));
+  fs::permissions(path("closed"), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THAT(errors(path("closed"), path("closed/raw")),
+              ElementsAre(HasSubstr("Permission denied"), HasSubstr("Permission denied")));
+}
+
+}  // namespace
+}  // namespace pharos::host

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images that arrive in a directory, as pharosd's loop sees them.
+#include "host/daemon/pointing_feed.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#include "host/publish/messages.hpp"
+#include "host/runtime/now.hpp"
+#include "support/painted_panel.hpp"
+
+namespace pharos::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Messages : public MessageSink {
+ public:
+  bool send(const std::string& channel, std::span<const std::uint8_t> bytes) override {
+    EXPECT_EQ(channel, "PHAROS_LINE_POINTING");
+    pointing_t message{};
+    EXPECT_GT(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+    all.push_back(message);
+    return true;
+  }
+  std::vector<pointing_t> all;
+};
+
+class PointingFeedTest : public ::testing::Test {
+ protected:
+  PointingFeedTest() : publisher(messages, "PHAROS_") {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() / ("pharos_telescope_" + std::to_string(::getpid()) + test->name());
+    fs::create_directories(folder);
+    scene.set_axis(0.5, 0.3);
+    config.name = "dome";
+    config.target = "client";
+    config.camera = scene.camera;
+    config.directory = folder;
+    config.track_file = folder / "track.csv";
+    config.station = {0.6, 1.9, 100.0};
+    std::ofstream(config.track_file) << "image,time_s,azimuth_deg,elevation_deg\n";
+  }
+  ~PointingFeedTest() override { fs::remove_all(folder); }
+
+  void add_row(const std::string& image, double time_s) {
+    std::ofstream(config.track_file, std::ios::app)
+        << image << ',' << time_s << ',' << scene.sight.azimuth_rad * 180.0 / 3.14159265358979323846 << ','
+        << scene.sight.elevation_rad * 180.0 / 3.14159265358979323846 << '\n';
+  }
+  void write_image(const std::string& name) { write_grey_png((folder / name).string(), scene.image().view(), 16); }
+  /// Turns the loop until something is so; the daemon's attend timer is played.
+  bool until(const std::function<bool()>& what) {
+    const std::int64_t end_ns = monotonic_now_ns() + 60'000'000'000;
+    while (!what() && monotonic_now_ns() < end_ns) {
+      loop.turn(20);
+      feed->attend(monotonic_now_ns());
+    }
+    return what();
+  }
+  void start() { feed.emplace(loop, config, publisher); }
+  bool come(std::size_t count) {
+    return until([&] { return messages.all.size() >= count; });
+  }
+  std::int64_t counter(const std::string& name) {
+    for (const NamedCount& count : feed->health(monotonic_now_ns()).counters) {
+      if (count.name == name) return count.value;
+    }
+    return 0;
+  }
+
+  testing::PaintedPanel scene;
+  fs::path folder;
+  PointingConfig config;
+  Messages messages;
+  Publisher publisher;
+  EventLoop loop;
+  std::optional<PointingFeed> feed;
+};
+
+TEST_F(PointingFeedTest, TellsTheAxisOfAnImageThatArrives) {
+  start();
+  add_row("a.png", 1.7e9);
+  write_image("a.png");
+  ASSERT_TRUE(come(1));
+  const pointing_t& message = messages.all[0];
+  EXPECT_EQ(message.status, "ok");
+  EXPECT_EQ(message.source, "line/dome");
+  EXPECT_EQ(message.utime, 1'700'000'000'000'000);
+  EXPECT_EQ(message.from_pass, 0);
+  const Vector3 axis(message.axis_station);
+  EXPECT_LT(axis.cross(scene.axis_station).norm(), 0.005);
+  EXPECT_GE(axis.z(), 0.0);
+  EXPECT_NEAR(Vector3(message.axis_earth).norm(), 1.0, 1e-12);
+  EXPECT_GT(message.sigma_axis_rad, 0.0);
+  EXPECT_EQ(feed->health(monotonic_now_ns()).state, SourceState::kOk);
+}
+
+TEST_F(PointingFeedTest, AwaitsTheRestOfAFileAndTheRowOfAnImage) {
+  start();
+  const fs::path whole = folder / "whole.part";
+  write_grey_png(whole.string(), scene.image().view(), 16);
+  std::ifstream in(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::ofstream out(folder / "a.png", std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size() / 2)).flush();
+  add_row("a.png", 5.0);
+  ASSERT_TRUE(until([&] { return counter("files_arrived") >= 1; }));
+  EXPECT_TRUE(messages.all.empty());
+  out.write(bytes.data() + bytes.size() / 2, static_cast<std::streamsize>(bytes.size() - bytes.size() / 2));
+  out.close();
+  ASSERT_TRUE(come(1));
+  fs::rename(whole, folder / "b.png");  // whole at once, before its row
+  ASSERT_TRUE(until([&] { return feed->health(monotonic_now_ns()).message.find("wait") != std::string::npos; }));
+  add_row("b.png", 6.0);
+  ASSERT_TRUE(come(2));
+  EXPECT_EQ(messages.all[0].status, "ok");
+  EXPECT_EQ(messages.all[1].status, "ok");
+}
+
+TEST_F(PointingFeedTest, CountsAndNamesWhatIsNoImageOrHasNoAnswer) {
+  start();
+  for (const char* name : {"broken.png", "dark.png", "gap.png"}) {
+    if (std::string(name) == "gap.png") {
+      std::ofstream(config.track_file, std::ios::app) << "gap.png,,10,20\n";
+    } else {
+      add_row(name, std::string(name) == "dark.png" ? 2.0 : 1.0);
+    }
+  }
+  std::ofstream(folder / "broken.png") << "no image";
+  scene.light = 0.0;
+  write_image("dark.png");
+  write_image("gap.png");
+  std::ofstream(folder / "notes.txt") << "words";
+  ASSERT_TRUE(come(3));
+  for (const pointing_t& message : messages.all) {
+    EXPECT_EQ(message.valid, 0);
+    EXPECT_EQ(Vector3(message.axis_station).norm(), 0.0);
+  }
+  ASSERT_TRUE(until([&] { return counter("files_no_image") == 1; }));
+  EXPECT_EQ(counter("refused.unreadable"), 1);
+  EXPECT_EQ(counter("refused.black"), 1);
+  EXPECT_EQ(counter("refused.track_gap"), 1);
+  EXPECT_NE(feed->health(monotonic_now_ns()).message, "");
+}
+
+TEST_F(PointingFeedTest, TellsAPassOnceWhenItIsOver) {
+  config.law = pointing::AttitudeLaw::kInertial;
+  config.pass_gap_s = 30.0;
+  start();
+  for (int k = 0; k < 4; ++k) {
+    const std::string name = std::to_string(k) + ".png";
+    add_row(name, k < 3 ? 100.0 + 0.01 * k : 200.0);
+    write_image(name);
+    ASSERT_TRUE(come(static_cast<std::size_t>(k) + 1));
+  }
+  ASSERT_TRUE(come(5));
+  const pointing_t& pass = messages.all.back();
+  EXPECT_EQ(pass.from_pass, 1);
+  EXPECT_EQ(pass.images, 3);
+  EXPECT_EQ(pass.status, "ok");
+  EXPECT_EQ(pass.utime, 100'010'000);
+  EXPECT_LT(Vector3(pass.axis_station).cross(scene.axis_station).norm(), 0.005);
+  EXPECT_EQ(counter("passes_ok"), 1);
+}
+
+TEST_F(PointingFeedTest, ADirectoryThatIsMissingIsToldAndTakenUpWhenItComes) {
+  config.directory = folder / "later";
+  config.track_file = folder / "track.csv";
+  start();
+  EXPECT_EQ(feed->health(monotonic_now_ns()).state, SourceState::kGone);
+  EXPECT_NE(feed->health(monotonic_now_ns()).message, "");
+  fs::create_directories(config.directory);
+  ASSERT_TRUE(until([&] { return feed->health(monotonic_now_ns()).state != SourceState::kGone; }));
+  add_row("a.png", 1.0);
+  write_image("later/a.png");
+  ASSERT_TRUE(come(1));
+  EXPECT_EQ(messages.all[0].status, "ok");
+}
+
+}  // namespace
+}  // namespace pharos::host

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/tof_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/runtime/now.hpp"
+#include "pharos/pose_t.hpp"
+#include "unit/host/publish/message_list.hpp"
+
+namespace pharos::host {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 33'333'333;
+
+TofConfig camera_config() {
+  TofConfig config;
+  config.name = "helios";
+  config.target = "client";
+  config.camera.intrinsics.width_px = 4;
+  config.camera.intrinsics.height_px = 2;
+  return config;
+}
+
+TofResult good_answer() {
+  TofResult answer;
+  answer.estimate.pose.t = Vector3(0.1, 0.2, 4.0);
+  answer.estimate.covariance = Matrix6::Identity() * 1e-6;
+  answer.observations = 321;
+  return answer;
+}
+
+/// A line whose estimator answers as told, and a camera with a clock of its own that sends frames now.
+class TofPipelineTest : public ::testing::Test {
+ protected:
+  TofPipelineTest() { make(camera_config()); }
+
+  void make(const TofConfig& config) {
+    line.emplace(config, PublishConfig{}, "tof/helios", publisher, [this](const DepthFrame& frame) {
+      measured.push_back(frame.camera_ns);
+      return next_answer;
+    });
+  }
+  DepthFrame frame_now(CameraClock clock = CameraClock::kHost) {
+    DepthFrame frame;
+    frame.resize(4, 2);
+    frame.session = 1;
+    frame.clock = clock;
+    frame.arrival_utc_ns = utc_now_ns();
+    frame.arrival_monotonic_ns = frame.complete_monotonic_ns = monotonic_now_ns();
+    frame.camera_ns = frame.arrival_utc_ns;
+    return frame;
+  }
+  std::vector<pose_t> poses() const { return sink.all<pose_t>("PHAROS_TOF_POSE"); }
+  std::int64_t counter(const std::string& name, const FrameSourceStatus& camera = open_camera()) {
+    for (const NamedCount& count : line->health("dev", camera, monotonic_now_ns()).counters) {
+      if (count.name == name) return count.value;
+    }
+    return -1;
+  }
+  static FrameSourceStatus open_camera() {
+    FrameSourceStatus status;
+    status.state = CameraState::kOpen;
+    status.identity = "Helios 1";
+    return status;
+  }
+
+  MessageList sink;
+  Publisher publisher{sink, "PHAROS_"};
+  TofResult next_answer = good_answer();
+  std::vector<std::int64_t> measured;
+  std::optional<TofPipeline> line;
+};
+
+TEST_F(TofPipelineTest, PublishesAPoseForAFrame) {
+  const DepthFrame frame = frame_now();
+  line->take(frame);
+  ASSERT_EQ(poses().size(), 1u);
+  const pose_t pose = poses()[0];
+  EXPECT_EQ(pose.source, "tof/helios");
+  EXPECT_EQ(pose.station_or_camera, "helios");
+  EXPECT_EQ(pose.target, "client");
+  EXPECT_EQ(pose.parent_frame, "camera");
+  EXPECT_EQ(pose.child_frame, "target");
+  EXPECT_EQ(pose.status, "ok");
+  EXPECT_TRUE(pose.valid);
+  EXPECT_EQ(pose.utime, frame.camera_ns / 1000);
+  EXPECT_GE(pose.latency_us, 0);
+  EXPECT_EQ(pose.observations, 321);
+  EXPECT_EQ(pose.position_m[2], 4.0);
+  EXPECT_EQ(pose.residual_rms_rad, 0.0);
+  EXPECT_EQ(pose.covariance[7], 1e-6);
+}
+
+TEST_F(TofPipelineTest, TellsRefusedFramesWithTheirReason) {
+  next_answer = {};
+  next_answer.refusal = "no_ring_plane";
+  next_answer.advice = "look at a ring";
+  line->take(frame_now());
+  ASSERT_EQ(poses().size(), 1u);
+  EXPECT_EQ(poses()[0].status, "refused_no_ring_plane");
+  EXPECT_FALSE(poses()[0].valid);
+  EXPECT_EQ(poses()[0].orientation_wxyz[0], 0.0) << "no rotation";
+  EXPECT_EQ(counter("frames_refused"), 1);
+  EXPECT_EQ(counter("refused.no_ring_plane"), 1);
+  const SourceHealth health = line->health("dev", open_camera(), monotonic_now_ns());
+  EXPECT_EQ(health.state, SourceState::kWaiting);
+  EXPECT_EQ(health.message, "no pose: no_ring_plane: look at a ring");
+}
+
+TEST_F(TofPipelineTest, TellsTheTimeOfEachStageThatAFrameCameTo) {
+  next_answer.stage_ns[static_cast<std::size_t>(tof::TofStage::kEdges)] = 2'000'000;
+  for (int k = 0; k < 3; ++k) line->take(frame_now());
+  EXPECT_EQ(counter("estimator.edges_max_us"), 2000);
+  EXPECT_EQ(counter("estimator.edges_p50_us"), 2000);
+  EXPECT_EQ(counter("estimator.face_max_us"), 0) << "no frame came to it";
+}
+
+TEST_F(TofPipelineTest, NeitherMeasuresNorSendsWhatIsStale) {
+  DepthFrame frame = frame_now();
+  const std::int64_t second = 1'000'000'000;
+  frame.camera_ns -= second;
+  frame.arrival_monotonic_ns -= second;
+  line->take(frame);
+  EXPECT_TRUE(poses().empty());
+  EXPECT_TRUE(measured.empty());
+  EXPECT_EQ(counter("frames_stale"), 1);
+}
+
+TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
+  DepthFrame frame = frame_now();
+  line->take(frame);
+  line->take(frame);
+  frame.camera_ns -= kPeriod_ns;
+  line->take(frame);
+  EXPECT_EQ(poses().size(), 1u);
+  EXPECT_EQ(counter("frames_time_back"), 2);
+}
+
+TEST_F(TofPipelineTest, CountsFramesOfAnotherSize) {
+  DepthFrame frame = frame_now();
+  frame.resize(2, 2);
+  line->take(frame);
+  EXPECT_TRUE(poses().empty());
+  EXPECT_EQ(counter("frames_wrong_size"), 1);
+}
+
+// Nothing is lost silently: the counters of the line add up to the frames that it was given.
+TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
+  const std::int64_t zero_ns = monotonic_now_ns() - 40 * kPeriod_ns;
+  const std::int64_t utc_zero_ns = utc_now_ns() - 40 * kPeriod_ns;
+  constexpr int kFrames = 40;
+  for (int i = 0; i < kFrames; ++i) {
+    DepthFrame frame = frame_now(CameraClock::kOwn);
+    frame.camera_ns = i == 30 ? 5 : 1'000'000'000'000 + i * kPeriod_ns;
+    frame.arrival_monotonic_ns = zero_ns + i * kPeriod_ns;
+    frame.arrival_utc_ns = utc_zero_ns + i * kPeriod_ns;
+    line->take(frame);
+  }
+  const TofCounters& counters = line->counters();
+  EXPECT_EQ(counters.frames_time_back, 1);
+  EXPECT_GT(counters.frames_no_clock, 0);
+  EXPECT_GT(counters.frames_ok, 0);
+  std::int64_t sum = 0;
+  for_each_counter(counters, [&](const char*, std::int64_t value) { sum += value; });
+  EXPECT_EQ(sum, kFrames);
+}
+
+TEST_F(TofPipelineTest, NeverSendsWhatIsNotFinite) {
+  next_answer.estimate.covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  line->take(frame_now());
+  EXPECT_TRUE(poses().empty());
+  EXPECT_EQ(counter("frames_not_finite"), 1);
+}
+
+TEST_F(TofPipelineTest, SaysAmbiguousAndBothPoses) {
+  next_answer.estimate.second = {next_answer.estimate.pose, 0.0};
+  line->take(frame_now());
+  ASSERT_EQ(poses().size(), 1u);
+  EXPECT_EQ(poses()[0].status, "ambiguous");
+  EXPECT_TRUE(poses()[0].has_second);
+  EXPECT_EQ(counter("frames_ambiguous"), 1);
+}
+
+TEST_F(TofPipelineTest, SendsOneMeanForAWindowOfFrames) {
+  TofConfig config = camera_config();
+  config.average_frames = 5;
+  make(config);
+  for (int i = 0; i < 11; ++i) line->take(frame_now());
+  ASSERT_EQ(poses().size(), 2u);
+  EXPECT_EQ(poses()[0].sequence, 0);
+  EXPECT_EQ(poses()[1].sequence, 1);
+  EXPECT_NEAR(poses()[0].covariance[0], 1e-6 / 5, 1e-12);
+  EXPECT_EQ(poses()[0].observations, 5 * 321);
+  EXPECT_EQ(counter("frames_ok"), 11);
+}
+
+TEST_F(TofPipelineTest, TellsTheCamerasTroubleBeforeItsOwn) {
+  FrameSourceStatus camera = open_camera();
+  camera.state = CameraState::kTaken;
+  camera.error = "another program controls it";
+  camera.counters.camera_lost = 3;
+  const SourceHealth health = line->health("camera 7", camera, monotonic_now_ns());
+  EXPECT_EQ(health.state, SourceState::kError);
+  EXPECT_EQ(health.message, "another program controls it");
+  EXPECT_EQ(health.device, "camera 7");
+  EXPECT_EQ(health.identity, "Helios 1");
+  EXPECT_EQ(counter("device.camera_lost", camera), 3);
+}
+
+TEST(CameraOfFrame, TheCamerasOwnScaleGoesBeforeTheFiles) {
+  DepthCamera by_file;
+  by_file.depth_scale_m = 0.00025;
+  by_file.depth_origin_z_m = 0.02;
+  DepthFrame frame;
+  EXPECT_EQ(camera_of(frame, by_file).depth_scale_m, 0.00025);
+  frame.scale = CoordinateScale{{1e-3, 1e-3, 1e-4}, {-3.0, -3.0, 0.5}};
+  const DepthCamera camera = camera_of(frame, by_file);
+  EXPECT_NEAR(depth_z_m(camera, 10'000), 1.0 + 0.5 + 0.02, 1e-12);
+}
+
+}  // namespace
+}  // namespace pharos::host

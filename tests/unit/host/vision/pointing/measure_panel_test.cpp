@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/measure_panel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/vision/pointing/target_mask.hpp"
+#include "pharos/base/units.hpp"
+#include "support/painted_panel.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+using testing::PaintedPanel;
+
+double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
+
+PointingRefusal refusal_of(const host::GreyImage& image, const PinholeCamera& camera) {
+  const auto panel = measure_panel(image.view(), camera);
+  EXPECT_FALSE(panel.ok());
+  return panel.error();
+}
+
+TEST(MeasurePanel, FindsTheAxisOfAPaintedPanelAndItsErrorIsWhatIsStated) {
+  PaintedPanel scene;
+  double normalised = 0.0;
+  constexpr int kImages = 24;
+  for (int k = 0; k < kImages; ++k) {
+    scene.set_axis(0.27 * k, 0.5 - 0.04 * k);
+    const auto panel = measure_panel(scene.image(static_cast<unsigned>(k)).view(), scene.camera);
+    ASSERT_TRUE(panel.ok()) << k << " " << name_of(panel.error());
+    const PointingResult answer = answer_of(*panel, scene.sight);
+    const double error = angle_between(answer.axis.axis, scene.axis_station);
+    EXPECT_LT(error * kDegPerRad, 0.3) << k;
+    EXPECT_LT(std::abs(answer.axis.plane.normal.dot(scene.axis_station)), 5.0 * answer.axis.sigma_plane_rad) << k;
+    normalised += error * error / (answer.axis.sigma_rad() * answer.axis.sigma_rad()) / kImages;
+    EXPECT_NEAR(panel->blur_px, scene.blur_px, 0.15);
+    EXPECT_EQ(panel->long_planes.size(), 2u);
+    EXPECT_EQ(panel->short_planes.size(), 2u);
+    ASSERT_TRUE(answer.square_rad);
+    EXPECT_LT(0.5 * kPi - *answer.square_rad, 4.0 * answer.sigma_square_rad + 0.2 * kRadPerDeg) << k;
+    EXPECT_EQ(answer.flags & kFlagNotSquare, 0) << k;
+  }
+  EXPECT_NEAR(std::sqrt(normalised), 1.0, 0.4);
+}
+
+TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsTold) {
+  PaintedPanel scene;
+  scene.range_m = 500e3;
+  scene.camera.fx_px = scene.camera.fy_px = 15e6;
+  scene.set_axis(0.6, 0.5);
+  const auto panel = measure_panel(scene.image().view(), scene.camera);
+  ASSERT_TRUE(panel.ok());
+  const PointingResult answer = answer_of(*panel, scene.sight);
+  EXPECT_NE(answer.flags & kFlagPlaneOnly, 0);
+  EXPECT_GT(answer.axis.sigma_rad() * kDegPerRad, 40.0);
+  EXPECT_LT(std::abs(answer.axis.plane.normal.dot(scene.axis_station)), 4.0 * answer.axis.sigma_plane_rad);
+  EXPECT_LT(answer.axis.sigma_plane_rad * kDegPerRad, 0.02);
+}
+
+TEST(MeasurePanel, StarsEvenBrighterOnesChangeNothing) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.2);
+  host::GreyImage image = scene.image();
+  const auto before = measure_panel(image.view(), scene.camera);
+  for (int k = 0; k < 30; ++k) testing::add_star(image, 20.0 + 15.0 * k, k % 2 == 0 ? 30.0 : 470.0, 60000.0);
+  const auto after = measure_panel(image.view(), scene.camera);
+  ASSERT_TRUE(before.ok() && after.ok());
+  EXPECT_LT(angle_between(answer_of(*before, scene.sight).axis.axis, answer_of(*after, scene.sight).axis.axis),
+            0.02 * kRadPerDeg);
+}
+
+TEST(MeasurePanel, UndoesTheLens) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.3);
+  host::GreyImage image = scene.image();
+  // The same picture through a lens file that bends it: another line, another axis; without the bend the true one.
+  PinholeCamera bent = scene.camera;
+  bent.distortion = {-3.0, 0.0, 0.0, 0.0, 0.0};
+  const auto straight = measure_panel(image.view(), scene.camera), curved = measure_panel(image.view(), bent);
+  ASSERT_TRUE(straight.ok() && curved.ok());
+  EXPECT_GT(angle_between(answer_of(*straight, scene.sight).axis.axis, answer_of(*curved, scene.sight).axis.axis),
+            0.1 * kRadPerDeg);
+}
+
+TEST(MeasurePanelRefuses, WhatHasNoAnswerByItsName) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.2);
+  PaintedPanel dark = scene;
+  dark.light = 0.0;
+  EXPECT_EQ(refusal_of(dark.image(), scene.camera), PointingRefusal::kBlack);
+  host::GreyImage uniform = dark.image();
+  std::fill(uniform.pixels.begin(), uniform.pixels.end(), std::uint16_t{0});
+  EXPECT_EQ(refusal_of(uniform, scene.camera), PointingRefusal::kBlack);
+  std::fill(uniform.pixels.begin(), uniform.pixels.end(), std::uint16_t{65535});
+  EXPECT_EQ(refusal_of(uniform, scene.camera), PointingRefusal::kSaturated);
+  PaintedPanel bright = scene;
+  bright.light = 200000.0;
+  EXPECT_EQ(refusal_of(bright.image(), scene.camera), PointingRefusal::kSaturated);
+  host::GreyImage stars = dark.image();
+  testing::add_star(stars, 100.0, 100.0, 40000.0, 0.8);
+  EXPECT_EQ(refusal_of(stars, scene.camera), PointingRefusal::kStarsOnly);
+  PaintedPanel cut = scene;
+  cut.shift_m = {6.0, 2.5};
+  EXPECT_EQ(refusal_of(cut.image(), scene.camera), PointingRefusal::kCutByBorder);
+  PaintedPanel square = scene;
+  square.length_m = square.width_m = 4.0;
+  EXPECT_EQ(refusal_of(square.image(), scene.camera), PointingRefusal::kNoPanel);
+  PinholeCamera other = scene.camera;
+  other.width_px = 640;
+  EXPECT_EQ(refusal_of(scene.image(), other), PointingRefusal::kWrongSize);
+}
+
+TEST(MeasurePanelRefuses, ADimTargetWithoutAPanelAmongBrighterStars) {
+  PaintedPanel scene;
+  scene.light = 0.0;
+  host::GreyImage image = scene.image();
+  testing::add_star(image, 256.0, 256.0, 6000.0, 20.0);  // a patch of 13 x 13 px
+  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
+  for (int k = 0; k < 8; ++k) testing::add_star(image, 60.0 + 50.0 * k, k % 2 == 0 ? 40.0 : 460.0, 60000.0);
+  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kStarsBrighter);
+}
+
+TEST(MeasurePanelRefuses, AnEdgeBeyondWhatTheLensModelReaches) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.2);
+  // This lens folds its image back well before the panel's ends.
+  PinholeCamera folded = scene.camera;
+  folded.distortion = {-400.0, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(refusal_of(scene.image(), folded), PointingRefusal::kOutsideLens);
+}
+
+TEST(MeasurePanelRefuses, ATargetWithOneEdgeOnly) {
+  PaintedPanel scene;
+  scene.set_axis(0.4, 0.0);
+  host::GreyImage image = scene.image();
+  // Half of the panel fades into the sky: one long edge is left.
+  const Matrix3 R = pointing::camera_to_station(scene.sight);
+  const Vector3 axis = R.transpose() * scene.axis_station;
+  const Vector2 across(-axis.y(), axis.x());
+  for (int v = 0; v < image.height_px; ++v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      const double off = across.dot(Vector2(u - 255.5, v - 255.5));
+      auto& pixel = image.pixels[static_cast<std::size_t>(v) * 512 + static_cast<std::size_t>(u)];
+      const double fraction = std::clamp(1.0 - (off + 28.0) / 56.0, 0.0, 1.0);
+      pixel = static_cast<std::uint16_t>(600.0 + fraction * std::max(0.0, pixel - 600.0));
+    }
+  }
+  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kOneEdge);
+}
+
+TEST(Otsu, DividesTwoHeaps) {
+  std::vector<std::uint32_t> histogram(256);
+  histogram[10] = 1000;
+  histogram[12] = 900;
+  histogram[200] = 50;
+  histogram[205] = 60;
+  const int threshold = otsu(histogram);
+  EXPECT_GE(threshold, 12);
+  EXPECT_LT(threshold, 200);
+}
+
+}  // namespace
+}  // namespace pharos::pointing

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/support/calibration_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "host/support/input_error.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CalibrationFileTest : public ::testing::Test {
+ protected:
+  CalibrationFile read(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return CalibrationFile(path_);
+  }
+  std::string error_of(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const host::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+
+  std::string path_ = ::testing::TempDir() + "pharos_calibration_" +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+};
+
+TEST_F(CalibrationFileTest, FindsStationsByIdAndBySlot) {
+  const CalibrationFile file = read(
+      "[[station]]\nid = \"BEC08E38\"\nphase_rad = [0.01, 0.02]\n\n"
+      "[[station]]\nslot = 1\ntilt_rad = [0.003, -0.004]\ngibbous_phase_rad = [1.5, -3.0]\n");
+  ASSERT_NE(file.find(0, 0xBEC08E38u), nullptr);
+  EXPECT_EQ(file.find(0, 0xBEC08E38u)->rotor[1].phase_rad, 0.02);
+  EXPECT_EQ(file.find(0, 0xBEC08E38u)->rotor[1].tilt_rad, 0.0);
+  EXPECT_EQ(file.find(0, 0x12345678u), nullptr);
+  EXPECT_EQ(file.find(0, std::nullopt), nullptr);
+  ASSERT_NE(file.find(1, std::nullopt), nullptr);
+  EXPECT_EQ(file.find(1, 0xBEC08E38u)->rotor[0].tilt_rad, 0.003);  // the slot decides before the id
+}
+
+TEST_F(CalibrationFileTest, AFileWithoutStationsIsAMistake) { EXPECT_THAT(error_of(""), HasSubstr("no [[station]]")); }
+
+}  // namespace
+}  // namespace pharos::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/calibrate/camera/camera_calibration.hpp"
+#include "host/cameras/calibration_record.hpp"
+#include "tools/support/output.hpp"
+
+namespace pharos::tools {
+
+/// `parameter,value,sigma`, in the parameters' own units.
+void write_board_parameters(const calibrate::BundleOutcome& outcome, const OutputOptions& options);
+
+/// `image,status,points,rms_px,detail`: every image that was given.
+void write_image_statuses(const std::vector<calibrate::ImageOutcome>& images, const OutputOptions& options);
+
+/// On standard error: how many images were used, and why each other was not.
+void note_images(const std::vector<calibrate::ImageOutcome>& images);
+
+/// On standard error: how the points fit, and images that fit much worse than the rest.
+void note_fit(const calibrate::BundleOutcome& outcome, const std::vector<calibrate::ImageOutcome>& images,
+              const calibrate::Board& board);
+
+/// On standard error: where in the image points were.
+void note_coverage(const calibrate::Coverage& coverage, const std::string& whose);
+
+/// What goes into the file beside the values.
+host::CalibrationRecord record_of(const calibrate::BundleOutcome& outcome, std::size_t points,
+                                  const std::vector<std::string>& unobservable);
+
+}  // namespace pharos::tools

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/bench/bench_cpu_load.hpp"
+
+#include <variant>
+
+#include "host/support/input_error.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/report/link_decoder.hpp"
+#include "tools/evaluation/bench/target_images.hpp"
+#include "tools/evaluation/bench/target_input.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr int kSensors = 12;
+/// The image tells the clocks of three cycles an instruction, whatever the tape's core has (board/qemu_virt).
+constexpr double kReportedCycles = 3.0;
+/// Until both stations are found, less is done.
+constexpr std::int64_t kStart_ticks = 2 * kTicksPerSecond;
+
+}  // namespace
+
+CpuLoad cpu_load(const std::filesystem::path& images, int cycles) {
+  const std::string line = run_image_live(images, "decoder.qemu_virt", simulated_words(kSensors, cycles));
+  report::LinkDecoder link;
+  std::int64_t first_ticks = -1;
+  int seconds = 0;
+  CpuLoad fraction;
+  for (const char byte : line) {
+    const auto event = link.push(static_cast<std::uint8_t>(byte));
+    const auto* told = event ? std::get_if<report::DeviceReport>(&*event) : nullptr;
+    if (told == nullptr) continue;
+    if (first_ticks < 0) first_ticks = told->time_ticks;
+    if (told->time_ticks - first_ticks < kStart_ticks) continue;
+    ++seconds;
+    fraction.percent += 0.1 * told->counters.busy_permille * cycles / kReportedCycles;
+    fraction.lost = static_cast<double>(told->counters.edges_lost) + told->counters.frames_skipped;
+  }
+  if (seconds == 0) throw host::InputError("decoder.qemu_virt.elf: told no counters on its line; build it anew");
+  fraction.percent /= seconds;
+  return fraction;
+}
+
+}  // namespace pharos::tools

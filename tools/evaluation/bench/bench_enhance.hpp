@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/evaluation/bench/comparison_table.hpp"
+#include "tools/evaluation/bench/low_light_peers.hpp"
+
+namespace pharos::tools {
+
+struct EnhanceBench {
+  /// Where aloeL.jpg, building.jpg and graf1.png lie (Debian's opencv-doc).
+  std::string images = "/usr/share/doc/opencv-doc/examples/data";
+  int pairs = 20;  // of dark views of a satellite
+};
+
+/// The low-light enhancement at 640x480 beside its peers (null: alone), all in one run: the illumination against an
+/// exact sparse solve; BM3D and the fast denoiser against OpenCV's non-local means at its best strength, Gaussian noise
+/// of sigma 15; features that match between two dark views against plain images, CLAHE and a multi-scale retinex.
+/// Times are of one thread's processor. Throws host::InputError where the images are missing.
+std::vector<BenchRow> bench_enhance(const EnhanceBench& options, const LowLightPeers* peers);
+
+}  // namespace pharos::tools

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/comparison/comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "host/support/input_error.hpp"
+
+namespace pharos::tools {
+namespace {
+
+std::string rounded(double value) {
+  std::array<char, 32> text;
+  const int size = std::snprintf(text.data(), text.size(), "%.3g", value);
+  // %g falls into exponents early; whole numbers of people's size read better plain.
+  if (std::abs(value) >= 1000.0 && std::abs(value) < 1e7) {
+    return std::to_string(std::llround(value));
+  }
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+bool any_further(const std::vector<ComparisonRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const ComparisonRow& row) { return row.further.has_value(); });
+}
+
+}  // namespace
+
+std::optional<double> ratio_of(const ComparisonRow& row) {
+  double published = 0.0;
+  const char* end = row.expected.data() + row.expected.size();
+  const auto result = std::from_chars(row.expected.data(), end, published);
+  if (result.ec != std::errc{} || result.ptr != end || published == 0.0) return std::nullopt;
+  return row.ours / published;
+}
+
+void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options) {
+  std::vector<std::string> columns = {"item", "what", "unit", "published", "ours", "ratio", "remark"};
+  const bool further = any_further(rows);
+  if (further) columns.insert(columns.end(), {"calibrated", "motion", "both"});
+  Output output(options, columns);
+  for (const ComparisonRow& row : rows) {
+    host::RowWriter& out = output.rows();
+    out.text(row.item).text(row.what).text(row.unit).text(row.expected);
+    out.number(row.ours).number(ratio_of(row)).text(row.remark);
+    if (further && row.further) {
+      out.number(row.further->calibrated).number(row.further->motion).number(row.further->both);
+    } else if (further) {
+      out.none(3);
+    }
+    out.end_row();
+  }
+  output.finish();
+}
+
+void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path) {
+  const bool further = any_further(rows);
+  std::string text = "| item | what | published or asked | ours | ratio | remark |";
+  text += further ? " + calibration | + motion | both |\n|---|---|---|---|---|---|---|---|---|\n"
+                  : "\n|---|---|---|---|---|---|\n";
+  for (const ComparisonRow& row : rows) {
+    const std::optional<double> ratio = ratio_of(row);
+    const std::string unit = row.unit.empty() ? "" : " " + row.unit;
+    text += "| " + row.item + " | " + row.what + " | " + (row.expected.empty() ? "" : row.expected + unit) + " | " +
+            rounded(row.ours) + unit + " | " + (ratio ? rounded(*ratio) : "") + " | " + row.remark + " |";
+    if (further && row.further) {
+      const FurtherColumns& more = *row.further;
+      text += " " + rounded(more.calibrated) + unit + " | " + rounded(more.motion) + unit + " | " + rounded(more.both) +
+              unit + " |";
+    } else if (further) {
+      text += " | | |";
+    }
+    text += "\n";
+  }
+  const auto close = [](std::FILE* file) { return file == stdout ? 0 : std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(path == "-" ? stdout : std::fopen(path.c_str(), "w"), close);
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0) {
+    throw host::InputError(path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+void write_comparison(const std::vector<ComparisonRow>& rows, bool markdown, const OutputOptions& options) {
+  if (markdown) {
+    write_markdown(rows, options.path);
+  } else {
+    write_rows(rows, options);
+  }
+}
+
+}  // namespace pharos::tools

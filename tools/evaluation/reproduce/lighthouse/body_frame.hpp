@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/target.hpp"
+
+namespace pharos::tools {
+
+/// T_true_assumed: the motion that lays the sensors as believed on the sensors as built, by least squares.
+Pose<frame::Body, frame::Body> body_frame_of(const Target& assumed, const Target& built);
+
+}  // namespace pharos::tools

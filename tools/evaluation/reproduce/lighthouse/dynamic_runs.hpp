@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tools/evaluation/comparison/comparison.hpp"
+#include "tools/evaluation/reproduce/lighthouse/calibration_session.hpp"
+
+namespace pharos::tools {
+
+struct DynamicRunsOptions {
+  int runs = 10;  // as the paper; the table has no more
+  double run_s = 60.0;
+  CalibrationSession calibration;
+  std::uint64_t seed = 1;
+};
+
+/// Paper 002, section 4.3 and table 2: a target flown through 4 m x 4 m x 2 m, against truth. With the paper's noise
+/// and the systematic errors called workshop (each run draws its own). Four columns: the paper's method, that with
+/// target and station calibrated, motion-aware tracking, both.
+std::vector<ComparisonRow> reproduce_dynamic_runs(const DynamicRunsOptions& options);
+
+}  // namespace pharos::tools

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/reproduce/slam/add_reproduce_slam.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "tools/evaluation/reproduce/slam/table_one.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/progress.hpp"
+#include "tools/support/seed_option.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Stereo pairs of a turning satellite are rendered and tracked. With own rays and all turns each run takes some "
+    "three\n"
+    "minutes; with POV-Ray hours. Runs can be had one by one; together they share pictures.\n\n"
+    "Example:\n"
+    "  pharos reproduce slam --turns 30 60 --renderer rays --markdown\n"
+    "  pharos reproduce slam --runs low-enhanced --renderer rays --output low.csv";
+
+struct Options {
+  TableOneOptions table;
+  std::string renderer = "povray";
+  bool markdown = false;
+  OutputOptions output;
+};
+
+int run(Options options) {
+  require_writable(options.output.path);
+  options.table.povray = options.renderer == "povray";
+  Progress progress("reproduce slam", "pairs", table_one_pairs(options.table));
+  options.table.step = [&progress](std::size_t pairs) { progress.step(pairs); };
+  const std::vector<ComparisonRow> rows = reproduce_table_one(options.table);
+  write_comparison(rows, options.markdown, options.output);
+  return kExitAnswered;
+}
+
+}  // namespace
+
+void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
+  CLI::App* command = reproduce.add_subcommand("slam", "Paper 004: table 1, good and low light");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--turns", options->table.turns_deg, "Turns, deg (default 30 60 90 180 360 720)")
+      ->check(CLI::Range(1.0, 7200.0));
+  command->add_option("--runs", options->table.runs, "Which (default all): good, low-enhanced, low, and -no-loops")
+      ->check(CLI::IsMember(table_one_runs()));
+  command->add_option("--features", options->table.features, "Features a frame (default 1000)")
+      ->check(CLI::Range(100, 10'000));
+  command
+      ->add_option("--renderer", options->renderer, "povray (default), or rays: without gloss, in a tenth of the time")
+      ->check(CLI::IsMember({"povray", "rays"}));
+  add_seed_option(*command, options->table.seed, "Of textures, stars and noise");
+  command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/evaluation/comparison/comparison.hpp"
+
+namespace pharos::tools {
+
+/// Names of the ways in which a sequence is run: "good", "low-enhanced", "low", and the first two with "-no-loops".
+std::vector<std::string> table_one_runs();
+
+struct TableOneOptions {
+  std::vector<double> turns_deg{30.0, 60.0, 90.0, 180.0, 360.0, 720.0};
+  std::vector<std::string> runs = table_one_runs();  ///< those wanted
+  int features = 1000;
+  bool povray = true;
+  std::uint64_t seed = 1;
+  std::function<void(std::size_t)> step;  ///< called with the number of pairs done
+};
+
+/// Pairs that these options make of all runs.
+std::size_t table_one_pairs(const TableOneOptions& options);
+
+/// Table 1 of paper 004: each turn in good light, and in low light with and without enhancement; from 360 deg on also
+/// without loop closing. Rows: attitude RMSE, error of the last attitude, squares of errors over what the
+/// covariances say (mean, a degree of freedom), frames without a pose, loops closed.
+///
+/// A shorter turn is the beginning of a longer one, picture by picture, so each run goes once through the longest and
+/// is asked at the end of each what it would have answered there (SlamSystem::optimised_trajectory). Runs in the same
+/// light share pictures.
+std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options);
+
+}  // namespace pharos::tools

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/reproduce/tof/add_reproduce_tof.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "tools/evaluation/reproduce/tof/board_table.hpp"
+#include "tools/evaluation/reproduce/tof/four_tests.hpp"
+#include "tools/evaluation/reproduce/tof/success_campaign.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/seed_option.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Frames are rendered and go through the whole path: ellipses, ring, connector, pose.\n\n"
+    "Example:\n"
+    "  pharos reproduce tof --markdown\n"
+    "  pharos reproduce tof --frames 10\n"
+    "  pharos reproduce tof --success 1000";
+
+struct Options {
+  int frames = 100;
+  int boards = 20;
+  int success = 0;
+  std::uint64_t seed = 1;
+  bool markdown = false;
+  OutputOptions output;
+};
+
+std::vector<ComparisonRow> rows_of(const Options& options) {
+  if (options.success > 0) return reproduce_success(options.success, options.seed);
+  std::vector<ComparisonRow> rows;
+  if (options.boards > 0) rows = reproduce_board_table(options.boards, options.seed);
+  for (const ComparisonRow& row : reproduce_four_tests({options.frames, options.seed})) rows.push_back(row);
+  return rows;
+}
+
+int run(const Options& options) {
+  require_writable(options.output.path);
+  const std::vector<ComparisonRow> rows = rows_of(options);
+  write_comparison(rows, options.markdown, options.output);
+  return kExitAnswered;
+}
+
+}  // namespace
+
+void add_reproduce_tof(CLI::App& reproduce, int& exit_code) {
+  CLI::App* command = reproduce.add_subcommand("tof", "Paper 000: tables 1 to 3; or how many frames have a pose");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--frames", options->frames, "Of each of the four tests")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command->add_option("--boards", options->boards, "Images of each calibration board of table 1; 0: without")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--success", options->success,
+                   "Instead: this many random poses of either ring, a third of it hidden")
+      ->check(CLI::Range(1, 1'000'000));
+  add_seed_option(*command, options->seed, "Of foil, poses and noise");
+  command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos circles: ring and nozzle of a satellite from two views.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/images/grey_image.hpp"
+#include "host/support/input_error.hpp"
+#include "host/vision/ring2/ring2_rig.hpp"
+#include "pharos/ring2/paper_method.hpp"
+#include "tools/ring2/ellipse_table.hpp"
+#include "tools/ring2/overlay.hpp"
+#include "tools/ring2/ring2_rows.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/stopwatch.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos circles left.png right.png --rig rig.toml --overlay found.png\n"
+    "  pharos circles --ellipses ellipses.csv --rig rig.toml --method paper\n"
+    "Rig frame: x right, y down, z ahead. n = Rx(theta) Ry(gamma) (0, 0, -1) points from the ring towards the "
+    "cameras;\n"
+    "c is the ring's centre, the nozzle's is c + distance n. Neither radii nor distance need be known. --ellipses "
+    "takes\n"
+    "[problem,]view,feature,cx_px,cy_px,a_px,b_px,theta_rad[,sigma_px,points]: view left or right, feature ring or\n"
+    "nozzle, sigma_px of one edge point (0.1) and how many there are (one a pixel of contour); one ellipse of four "
+    "may\n"
+    "be missing, more where the rest can tell: `untold` says what they cannot. --method paper is paper 001 as "
+    "published.";
+
+struct Options {
+  std::vector<std::string> images;
+  std::string rig;
+  std::string ellipses;
+  std::string method = "exact";
+  std::string overlay;
+  int repeats = 0;
+  OutputOptions output;
+};
+
+using Solved = Result<ring2::Ring2Estimate, ring2::Ring2Failure>;
+
+Solved solved(const ring2::Rig& rig, const ring2::ContourSet& contours, bool by_paper) {
+  return by_paper ? ring2::solve_ring2_by_paper(rig, contours) : ring2::solve_ring2(rig, contours);
+}
+
+bool write(const Solved& estimate, bool by_paper, host::RowWriter& rows) {
+  if (estimate) {
+    write_ring2(*estimate, by_paper, 0, rows);
+  } else {
+    write_refusal(name_of(estimate.error()), rows);
+  }
+  return estimate.ok();
+}
+
+void print_time(const char* what, const Options& options, const std::function<void()>& work) {
+  std::vector<double> times_s;
+  for (int k = 0; k < options.repeats; ++k) times_s.push_back(seconds_of(work));
+  if (!times_s.empty()) {
+    std::fprintf(stderr, "%s: median %.3f ms (%d times)\n", what, 1e3 * middle_of(times_s), options.repeats);
+  }
+}
+
+bool from_table(const ring2::Rig& rig, const Options& options) {
+  const EllipseTable table = read_ellipse_table(host::ByteSource(options.ellipses));
+  if (table.problems.empty()) throw host::InputError(options.ellipses + ": no row; give at least two ellipses");
+  Output output(options.output, ring2_columns(table.has_problems));
+  const bool by_paper = options.method == "paper";
+  bool answered = false;
+  for (const EllipseProblem& problem : table.problems) {
+    if (table.has_problems) output.rows().text(problem.name);
+    answered = write(solved(rig, problem.contours, by_paper), by_paper, output.rows()) || answered;
+  }
+  output.finish();
+  print_time("all problems", options, [&] {
+    for (const EllipseProblem& problem : table.problems) static_cast<void>(solved(rig, problem.contours, by_paper));
+  });
+  return answered;
+}
+
+bool from_images(const ring2::Rig& rig, const Options& options) {
+  const std::array<host::GreyImage, 2> images{host::read_grey_image(options.images[0]),
+                                              host::read_grey_image(options.images[1])};
+  host::Ring2Detector finder(rig, {});
+  host::Ring2Detection circles = finder.find({images[0].view(), images[1].view()});
+  Output output(options.output, ring2_columns(false));
+  const bool by_paper = options.method == "paper";
+  if (circles.estimate && by_paper) {
+    const Solved estimate = solved(rig, circles.contours, true);
+    circles.estimate = estimate ? std::optional(*estimate) : std::nullopt;
+    if (!estimate) circles.refusal = name_of(estimate.error());
+  }
+  if (circles.estimate) {
+    write_ring2(*circles.estimate, by_paper, circles.one_edge, output.rows());
+  } else {
+    write_refusal(circles.refusal, output.rows());
+  }
+  if (!options.overlay.empty()) write_ring2_overlay(options.overlay, images, rig, circles);
+  output.finish();
+  print_time("a pair", options, [&] { finder.find({images[0].view(), images[1].view()}); });
+  return circles.estimate.has_value();
+}
+
+int run(const Options& options) {
+  const bool table = !options.ellipses.empty();
+  if (table != options.images.empty()) throw host::InputError("give two images LEFT RIGHT, or --ellipses FILE");
+  if (!table && options.images.size() != 2) throw host::InputError("give both images: LEFT RIGHT; one tells no length");
+  if (table && !options.overlay.empty()) throw host::InputError("--overlay draws on images; --ellipses has none");
+  const std::string& read = table ? options.ellipses : options.images[0];
+  const bool twice = read == "-" && (options.rig == "-" || (!table && options.images[1] == "-"));
+  if (twice) throw host::InputError("standard input (-) can be read once");
+  const ring2::Rig rig = host::ring2_rig(host::read_rig_file(options.rig));
+  return (table ? from_table(rig, options) : from_images(rig, options)) ? kExitAnswered : kExitNoAnswer;
+}
+
+}  // namespace
+
+void add_ring2(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("circles", "Docking ring and nozzle seen by two cameras to their attitude");
+  const auto options = std::make_shared<Options>();
+  command->add_option("IMAGES", options->images, "LEFT RIGHT: grey PNG or PGM of 8 or 16 bits; - is standard input")
+      ->expected(0, 2);
+  command->add_option("--rig", options->rig, "Rig file of both cameras (pharos calibrate stereo)")->required();
+  command->add_option("--ellipses", options->ellipses, "Ellipses instead of images; - is standard input");
+  command->add_option("--method", options->method, "exact, or paper: as published")
+      ->check(CLI::IsMember({"exact", "paper"}))
+      ->capture_default_str();
+  command->add_option("--overlay", options->overlay, "Draw what was found into this PNG");
+  command->add_option("--time", options->repeats, "Solve so many times more; median ms on standard error")
+      ->check(CLI::Range(1, 1'000'000));
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools

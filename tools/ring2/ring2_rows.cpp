@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ring2/ring2_rows.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "host/support/flag_text.hpp"
+#include "host/vision/ring2/rim.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using ring2::Ring2Estimate;
+
+constexpr std::array<FlagWord, 3> kUnobservableWords = {
+    {{ring2::kUnobservableScale, "scale"}, {ring2::kUnobservableRing, "ring"}, {ring2::kUnobservableNozzle, "nozzle"}}};
+
+constexpr std::array<FlagWord, 2> kOneEdgeWords = {{{host::kOneEdgeRing, "ring"}, {host::kOneEdgeNozzle, "nozzle"}}};
+
+const std::vector<std::string> kContract = {
+    "theta_deg",     "gamma_deg",       "nx",         "ny",        "nz",    "cx_m", "cy_m", "cz_m",
+    "ring_radius_m", "nozzle_radius_m", "distance_m", "sigma_deg", "status"};
+const std::vector<std::string> kDetails = {"sigma_position_mm",
+                                           "sigma_ring_radius_mm",
+                                           "sigma_nozzle_radius_mm",
+                                           "sigma_distance_mm",
+                                           "nozzle_cx_m",
+                                           "nozzle_cy_m",
+                                           "nozzle_cz_m",
+                                           "rms_px",
+                                           "chi2",
+                                           "ellipses",
+                                           "untold",
+                                           "alt_theta_deg",
+                                           "alt_gamma_deg",
+                                           "delta_chi2",
+                                           "one_edge"};
+
+void write_vector(const Vector3& vector, bool told, host::RowWriter& rows) {
+  for (int axis = 0; axis < 3; ++axis) rows.number(told ? std::optional<double>(vector[axis]) : std::nullopt);
+}
+
+// What is told of lengths.
+struct Observable {
+  explicit Observable(std::uint8_t unobservable)
+      : ring((unobservable & (ring2::kUnobservableScale | ring2::kUnobservableRing)) == 0),
+        nozzle((unobservable & (ring2::kUnobservableScale | ring2::kUnobservableNozzle)) == 0) {}
+  bool ring, nozzle;
+};
+
+void write_sigmas(const Ring2Estimate& e, const Observable& told, host::RowWriter& rows) {
+  const auto sigma_mm = [&e](int unknown) { return kMmPerM * std::sqrt(e.covariance(unknown, unknown)); };
+  const auto when = [](bool is_observable, double value) {
+    return is_observable ? std::optional<double>(value) : std::nullopt;
+  };
+  const int c = ring2::kCentre;
+  const double position_mm =
+      kMmPerM * std::sqrt(e.covariance(c, c) + e.covariance(c + 1, c + 1) + e.covariance(c + 2, c + 2));
+  // Without a ring the first circle's centre and radius are the nozzle's.
+  rows.number(when(told.ring || told.nozzle, position_mm));
+  rows.number(when(told.ring, sigma_mm(ring2::kRadius)));
+  rows.number(when(told.nozzle, sigma_mm(told.ring ? ring2::kSecondRadius : ring2::kRadius)));
+  rows.number(when(told.ring && told.nozzle, sigma_mm(ring2::kDistance)));
+}
+
+}  // namespace
+
+std::vector<std::string> ring2_columns(bool with_problem) {
+  std::vector<std::string> columns;
+  if (with_problem) columns.emplace_back("problem");
+  columns.insert(columns.end(), kContract.begin(), kContract.end());
+  columns.insert(columns.end(), kDetails.begin(), kDetails.end());
+  return columns;
+}
+
+std::string unobservable_words(std::uint8_t unobservable) {
+  return host::joined_flags(unobservable, kUnobservableWords);
+}
+
+void write_ring2(const Ring2Estimate& e, bool by_paper, std::uint8_t one_edge, host::RowWriter& rows) {
+  const ring2::Attitude attitude = ring2::attitude_of(e.normal);
+  const Observable told(e.unobservable);
+  const auto when = [](bool is_observable, double value) {
+    return is_observable ? std::optional<double>(value) : std::nullopt;
+  };
+  rows.number(attitude.theta_rad * kDegPerRad).number(attitude.gamma_rad * kDegPerRad);
+  write_vector(e.normal, true, rows);
+  write_vector(e.ring_centre_m, told.ring, rows);
+  rows.number(when(told.ring, e.ring_radius_m)).number(when(told.nozzle, e.nozzle_radius_m));
+  rows.number(when(told.ring && told.nozzle, e.distance_m));
+  rows.number(when(!by_paper, e.sigma_normal_rad() * kDegPerRad));
+  rows.text(e.ambiguous() ? "ambiguous" : "ok");
+  if (by_paper) {
+    rows.none(4);
+  } else {
+    write_sigmas(e, told, rows);
+  }
+  write_vector(e.nozzle_centre_m, told.nozzle, rows);
+  rows.number(when(!by_paper, e.rms_px)).number(when(!by_paper, e.chi2)).integer(e.ellipses);
+  rows.text(unobservable_words(e.unobservable));
+  if (e.second) {
+    const ring2::Attitude other = ring2::attitude_of(e.second->normal);
+    rows.number(other.theta_rad * kDegPerRad).number(other.gamma_rad * kDegPerRad).number(e.second->delta_chi2);
+  } else {
+    rows.none(3);
+  }
+  rows.text(host::joined_flags(one_edge, kOneEdgeWords)).end_row();
+}
+
+void write_refusal(const std::string& reason, host::RowWriter& rows) {
+  rows.none(kContract.size() - 1).text("refused_" + reason).none(kDetails.size()).end_row();
+}
+
+}  // namespace pharos::tools

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/ring2/ring2_writer.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "host/cameras/rig_file.hpp"
+#include "host/images/grey_image.hpp"
+#include "host/support/input_error.hpp"
+#include "host/table/row_writer.hpp"
+#include "tools/sim/povray/render_scene.hpp"
+#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/ring2/projected_ellipse.hpp"
+#include "tools/sim/table_file.hpp"
+
+namespace pharos::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 2> kViews{"left", "right"};
+// Least difference of light that is worth more rays: at every edge, not on even surfaces.
+constexpr double kAntialias = 0.01;
+
+host::RigCamera rig_camera(const StereoCamera& camera) {
+  host::RigCamera out;
+  out.intrinsics.width_px = camera.width_px;
+  out.intrinsics.height_px = camera.height_px;
+  out.intrinsics.fx_px = camera.fx_px;
+  out.intrinsics.fy_px = camera.fy_px;
+  out.intrinsics.cx_px = camera.cx_px;
+  out.intrinsics.cy_px = camera.cy_px;
+  out.intrinsics.distortion = camera.distortion;
+  const Quaternion q = canonical_quaternion(camera.R_rig_camera);
+  out.rotation_wxyz = {q.w(), q.x(), q.y(), q.z()};
+  const Vector3& t = camera.t_rig_camera_m;
+  out.position_m = {t.x(), t.y(), t.z()};
+  return out;
+}
+
+void write_rig(const fs::path& path, const StereoRig& rig) {
+  host::RigFile file;
+  file.left = rig_camera(rig[0]);
+  file.right = rig_camera(rig[1]);
+  std::ofstream out(path);
+  out << host::rig_text(file);
+  if (!out.flush()) refuse_output(path);
+}
+
+// Four digits, more where there are more pairs: names sort as the pairs follow each other.
+std::string number_of(std::size_t pair, std::size_t pairs) {
+  const std::size_t width = std::max<std::size_t>(4, std::to_string(pairs - 1).size());
+  const std::string digits = std::to_string(pair);
+  return std::string(width - digits.size(), '0') + digits;
+}
+
+void write_truth(const std::string& number, const Ring2Pose& pose, const RingAndNozzle& target, host::RowWriter& rows) {
+  rows.text(number).number(pose.theta_deg).number(pose.gamma_deg);
+  for (int axis = 0; axis < 3; ++axis) rows.number(target.normal[axis]);
+  for (int axis = 0; axis < 3; ++axis) rows.number(target.ring_centre_m[axis]);
+  rows.number(target.ring_radius_m).number(target.nozzle_radius_m).number(target.distance_m).end_row();
+}
+
+void write_ellipses(const std::string& number, const Ring2Scenario& scenario, const RingAndNozzle& target,
+                    RandomStream& random, host::RowWriter& rows) {
+  for (std::size_t v = 0; v < 2; ++v) {
+    for (const char* feature : {"ring", "nozzle"}) {
+      const SpaceCircle circle = std::strcmp(feature, "ring") == 0 ? target.ring() : target.nozzle();
+      int points = 0;
+      const auto ellipse = scenario.edge_sigma_px > 0.0
+                               ? noisy_ellipse(scenario.rig[v], circle, scenario.edge_sigma_px, random, points)
+                               : projected_ellipse(scenario.rig[v], circle);
+      if (!ellipse) continue;  // behind a camera: this view has none
+      rows.text(number).text(kViews[v]).text(feature).number(ellipse->cx_px).number(ellipse->cy_px);
+      rows.number(ellipse->a_px).number(ellipse->b_px).number(ellipse->theta_rad);
+      if (points > 0) {
+        rows.number(scenario.edge_sigma_px).integer(points);
+      } else {
+        rows.none(2);
+      }
+      rows.end_row();
+    }
+  }
+}
+
+void write_images(const fs::path& directory, const std::string& number, const Ring2Scenario& scenario, std::size_t pair,
+                  std::uint64_t seed) {
+  for (std::size_t v = 0; v < 2; ++v) {
+    const StereoCamera& camera = scenario.rig[v];
+    const LinearImage light = render_scene(ring2_scene_text(scenario, pair, v), {.width_px = camera.width_px,
+                                                                                 .height_px = camera.height_px,
+                                                                                 .rays_per_side = 4,
+                                                                                 .antialias_threshold = kAntialias});
+    RandomStream random(seed, std::string(kViews[v]) + " pixels " + number);
+    ImageSensor sensor;
+    sensor.bits = scenario.bits;
+    const host::GreyImage image = expose(blurred(light, scenario.blur_px), sensor, random);
+    host::write_grey_png((directory / (number + "_" + kViews[v] + ".png")).string(), image.view(), scenario.bits);
+  }
+}
+
+}  // namespace
+
+void write_ring2_pairs(const Ring2Scenario& scenario, std::uint64_t seed, const std::string& directory,
+                       const std::function<void()>& after_each) {
+  const fs::path folder(directory);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw host::InputError(directory + ": cannot be made: " + error.message() + "; choose another --output");
+  write_rig(folder / "rig.toml", scenario.rig);
+  TableFile truth(folder / "truth.csv", {"pair", "theta_deg", "gamma_deg", "nx", "ny", "nz", "cx_m", "cy_m", "cz_m",
+                                         "ring_radius_m", "nozzle_radius_m", "distance_m"});
+  TableFile ellipses(folder / "ellipses.csv", {"problem", "view", "feature", "cx_px", "cy_px", "a_px", "b_px",
+                                               "theta_rad", "sigma_px", "points"});
+  for (std::size_t pair = 0; pair < scenario.poses.size(); ++pair) {
+    const std::string number = number_of(pair, scenario.poses.size());
+    const RingAndNozzle target = scenario.target_at(pair);
+    RandomStream random(seed, "edges " + number);
+    write_truth(number, scenario.poses[pair], target, truth.rows());
+    write_ellipses(number, scenario, target, random, ellipses.rows());
+    if (scenario.render) write_images(folder, number, scenario, pair, seed);
+    truth.rows().flush();
+    ellipses.rows().flush();
+    after_each();
+  }
+}
+
+}  // namespace pharos::sim

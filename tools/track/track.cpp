@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos track: a recording and a target to poses of the target in each station's frame.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <type_traits>
+
+#include "host/support/input_error.hpp"
+#include "host/table/target_file.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/base/units.hpp"
+#include "pharos/motion/motion_tracker.hpp"
+#include "pharos/track/epoch_tracker.hpp"
+#include "tools/support/calibration_choice.hpp"
+#include "tools/support/commands.hpp"
+#include "tools/support/output.hpp"
+#include "tools/support/pose_columns.hpp"
+#include "tools/support/progress.hpp"
+#include "tools/support/recording.hpp"
+#include "tools/support/residual_table.hpp"
+#include "tools/support/solver_options.hpp"
+#include "tools/support/standard_input.hpp"
+#include "tools/support/target_notes.hpp"
+#include "tools/support/words.hpp"
+
+namespace pharos::tools {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
+    "Each row is T_lighthouse_body in the frame of the station in the column station.\n"
+    "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated, both stations' hits in\n"
+    "one estimate where both see it (flag fused); noise shared by all hits of a sweep is taken as 0.87 of a bearing's\n"
+    "variance unless --rho says otherwise. --method epoch: a row a cycle, time_s the mean time of the hits used.\n"
+    "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, fused, "
+    "residual_high\n"
+    "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
+
+struct Options {
+  std::string edges;
+  std::string target;
+  std::string method = "motion";
+  std::string calibration = "ootx";
+  std::string sensors;
+  int form = 1;
+  bool raw_flashes = false;
+  bool stats = false;
+  double largest_sigma_deg = motion::UncertaintyLimits{}.rotation_rad * kDegPerRad;
+  double largest_sigma_mm = motion::UncertaintyLimits{}.position_m * kMmPerM;
+  SolverOptions solver;
+  OutputOptions output;
+
+  motion::UncertaintyLimits limits() const { return {largest_sigma_deg * kRadPerDeg, largest_sigma_mm / kMmPerM}; }
+  track::TrackOptions track() const {
+    track::TrackOptions options;
+    options.solve = solver.solve();
+    options.form = form == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
+    options.smooth_flashes = !raw_flashes;
+    return options;
+  }
+};
+
+std::vector<std::string> columns() {
+  std::vector<std::string> last = {"sigma_rot_deg", "sigma_pos_mm", "adop_deg_per_rad", "pdop_m_per_rad",
+                                   "rms_arcsec",    "observations", "status",           "flags"};
+  for (const std::string& column : second_solution_columns()) last.push_back(column);
+  last.emplace_back("iterations");
+  last.emplace_back("station_id");
+  return with_pose_columns({"time_s", "station"}, last);
+}
+
+void write_result(const track::EpochResult& result, const std::string& station_id, host::RowWriter& rows) {
+  rows.number(ticks_to_seconds(result.time_ticks)).integer(result.station);
+  const LighthousePoseEstimate* estimate = result.pose ? &result.pose.value() : nullptr;
+  if (estimate != nullptr) {
+    write_pose(rows, estimate->pose);
+    rows.number(estimate->sigma_rotation_rad() * kDegPerRad).number(estimate->sigma_position_m() * kMmPerM);
+    // A moving target seen too little of late has a pose, but no cycle to tell a precision factor of.
+    const bool factors = estimate->pdop_m_per_rad > 0.0;
+    rows.number(factors ? std::optional(estimate->adop_deg_per_rad) : std::nullopt);
+    rows.number(factors ? std::optional(estimate->pdop_m_per_rad) : std::nullopt);
+    rows.number(estimate->residual_rms * kArcsecPerRad);
+  } else {
+    write_no_pose(rows);
+    rows.none(5);
+  }
+  rows.integer(result.observations).text(status_of(result.pose)).text(epoch_flag_words(result.flags));
+  write_second_solution(rows, estimate);
+  if (estimate != nullptr) {
+    rows.integer(estimate->iterations);
+  } else {
+    rows.none();
+  }
+  rows.text(station_id).end_row();
+}
+
+// One run over a recording.
+template <class Tracker>
+class Tracking {
+ public:
+  Tracking(const Options& options, CalibrationChoice calibration, Tracker tracker)
+      : calibration_(std::move(calibration)), tracker_(std::move(tracker)), output_(options.output, columns()) {
+    refresh_calibrations();
+  }
+
+  void push(const RecordingEvent& event) {
+    if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&event)) {
+      calibration_.push(*payload);
+      refresh_calibrations();
+    } else if (const auto* sweep = std::get_if<lighthouse::Sweep>(&event)) {
+      if (tracker_.after_long_dark(*sweep)) forget_stations();
+      if (const auto result = tracker_.push(*sweep)) take(*result);
+    }
+  }
+  void finish() {
+    while (const auto result = tracker_.flush()) take(*result);
+    output_.finish();
+  }
+  /// What came out so far.
+  void show() { output_.rows().flush(); }
+
+  const ResidualTable& residuals() const { return residuals_; }
+  std::size_t rows() { return output_.rows().rows(); }
+  std::size_t poses() const { return poses_; }
+  bool uncalibrated() const { return uncalibrated_ > 0; }
+  /// The stations do not stand as the calibration says.
+  bool stations_moved() const {
+    if constexpr (kMotion) return tracker_.pair().survey_refused();
+    return false;
+  }
+
+ private:
+  void forget_stations() {
+    tracker_.forget_stations();
+    calibration_.forget_stations();
+    known_ = {};
+    relative_known_ = false;
+    refresh_calibrations();  // a file may name them by slot
+  }
+  void refresh_calibrations() {
+    for (std::uint8_t station = 0; station < kMaxStations; ++station) {
+      const lighthouse::StationCalibration* now = calibration_.calibration(station);
+      if (now == nullptr || known_[station] == *now) continue;
+      known_[station] = *now;
+      tracker_.set_calibration(station, *now);
+    }
+    if constexpr (kMotion) {
+      if (relative_known_) return;
+      const auto relative = calibration_.relative();
+      if (relative) tracker_.set_relative(relative);
+      relative_known_ = relative.has_value();
+    }
+  }
+  void take(track::EpochResult result) {
+    if (result.pose) calibration_.widen(*result.pose);
+    write_result(result, station_id_text(calibration_.station_id(result.station)), output_.rows());
+    if ((result.flags & track::kEpochUncalibrated) != 0) ++uncalibrated_;
+    if (!result.pose) return;
+    ++poses_;
+    for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) residuals_.push(result.station, tracker_.bearing(i));
+  }
+
+  CalibrationChoice calibration_;
+  Tracker tracker_;
+  Output output_;
+  ResidualTable residuals_;
+  static constexpr bool kMotion = std::is_same_v<Tracker, motion::MotionTracker>;
+  std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> known_;
+  bool relative_known_ = false;
+  std::size_t poses_ = 0;
+  std::size_t uncalibrated_ = 0;
+};
+
+template <class Tracker>
+void print_summary(const Options& options, const std::string& name, Tracking<Tracker>& tracking) {
+  if (options.calibration == "ootx" && tracking.uncalibrated()) {
+    note(name + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
+  }
+  if (tracking.stations_moved()) {
+    note(name + ": the two stations do not stand as the [[pair]] of " + options.calibration +
+         " says: it was not used; calibrate anew");
+  }
+  if (tracking.poses() > 0) return;
+  note(tracking.rows() > 0 ? name + ": every pose was refused; see the column status"
+                           : name + ": no complete cycle; --stats says what became of its pulses");
+}
+
+void check_files(const Options& options) {
+  require_one_standard_input(
+      {{"EDGES", options.edges}, {"--target", options.target}, {"--calibration", options.calibration}});
+  if (options.sensors.empty()) return;
+  if (options.sensors == options.output.path) {
+    throw host::InputError("--sensors and --output both name " + options.sensors + "; give two files");
+  }
+  require_writable(options.sensors);
+}
+
+template <class Tracker>
+int run_with(const Options& options, CalibrationChoice calibration, Tracker tracker) {
+  Recording recording(options.edges);
+  const auto tracking = std::make_unique<Tracking<Tracker>>(options, std::move(calibration), std::move(tracker));
+  Progress progress("track", "sweeps and payloads");
+  recording.on_pause([&tracking] { tracking->show(); });
+  while (const std::optional<RecordingEvent> event = recording.next()) {
+    tracking->push(*event);
+    progress.step();
+  }
+  tracking->finish();
+  if (!options.sensors.empty()) tracking->residuals().write({options.output.json, options.sensors});
+  recording.print_remarks();
+  if (options.stats) recording.print_statistics();
+  print_summary(options, recording.name(), *tracking);
+  return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
+}
+
+int run(const Options& options) {
+  check_files(options);
+  const host::TargetFile target = host::read_target(options.target);
+  note_target_shape(options.target, target.shape);
+  CalibrationChoice calibration(options.calibration, options.edges);
+  const Target assumed = calibration.target(target.target, options.track().form);
+  if (options.method == "epoch") {
+    return run_with(options, std::move(calibration), track::EpochTracker(assumed, options.track()));
+  }
+  const auto motion = motion::motion_options(options.track(), calibration.systematic(), options.limits());
+  return run_with(options, std::move(calibration), motion::MotionTracker(assumed, motion));
+}
+
+}  // namespace
+
+void add_track(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("track", "A recording and a target to poses");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option(
+          "EDGES", options->edges,
+          "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
+      ->required();
+  command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
+  command
+      ->add_option("--method", options->method,
+                   "motion: every hit at its own instant, a row a sweep; epoch: each cycle alone, the paper's way")
+      ->check(CLI::IsMember({"motion", "epoch"}))
+      ->capture_default_str();
+  command
+      ->add_option("--calibration", options->calibration,
+                   "ootx (what the stations send; a file is read twice), none, or a TOML file: of `pharos calibrate "
+                   "lighthouse`, whose sensor positions hold too, or of [[station]] tables")
+      ->capture_default_str();
+  command
+      ->add_option("--form", options->form, "Sign form of the station model's curve term; real stations fit 1 better")
+      ->check(CLI::IsMember({1, 2}))
+      ->capture_default_str();
+  command
+      ->add_option("--largest-sigma-deg", options->largest_sigma_deg,
+                   "method motion: poses known less well (1 sigma) are refused, too_uncertain")
+      ->check(CLI::Range(0.001, 180.0))
+      ->capture_default_str();
+  command->add_option("--largest-sigma-mm", options->largest_sigma_mm, "The same of the position")
+      ->check(CLI::Range(0.01, 1e4))
+      ->capture_default_str();
+  command->add_flag("--raw-flashes", options->raw_flashes, "Flash times as measured, not smoothed");
+  command->add_option("--sensors", options->sensors, "File for what is left of each sensor: mean, sd, rms per station");
+  command->add_flag("--stats", options->stats, "Every counter at the end, on standard error");
+  add_solver_options(*command, options->solver);
+  add_output_options(*command, options->output);
+  command->footer(kExample);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pharos::tools
