@@ -72,6 +72,27 @@ class Includes(ScratchTree):
         self.plant("host/clock/clock.hpp", "")
         self.refused("firmware/app/main.cpp", '"host/clock/clock.hpp"', "may not reach host")
 
+    def test_a_row_does_not_open_the_rooms_in_its_folder(self):
+        self.plant("tools/sim/tof/scene.hpp", "")
+        self.refused("tools/sim/povray/render.cpp", '"tools/sim/tof/scene.hpp"', "may not reach tools/sim/tof")
+
+    def test_device_and_daemon_do_not_reach_each_other(self):
+        self.plant("host/daemon/daemon.hpp", "")
+        self.refused("host/device/source.cpp", '"host/daemon/daemon.hpp"', "may not reach host/daemon")
+
+    def test_a_folder_has_a_row_of_its_own(self):
+        self.plant("host/novelty/novelty.hpp", "")
+        code, output = run("includes.py", self.root)
+        self.assertEqual(code, 1, output)
+        self.assertIn("host/novelty: no row of its own", output)
+
+    def test_rows_allow_no_cycle(self):
+        rules = self.plant("rooms.toml", '[rooms]\n"host/a" = ["host/b"]\n"host/b" = ["host/c"]\n"host/c" = ["host/a"]\n'
+                           "[third_party]\n[standard]\nrestricted = []\nallowed = []\n")
+        code, output = run("includes.py", self.root, "--rules", rules)
+        self.assertEqual(code, 1, output)
+        self.assertIn("host/a -> host/b -> host/c -> host/a", output)
+
     def test_core_may_not_use_the_heap_s_containers(self):
         for header in ("vector", "string", "functional", "memory", "map", "new", "iostream", "chrono", "thread", "mutex"):
             with self.subTest(header):
@@ -90,7 +111,7 @@ class Includes(ScratchTree):
 
     def test_what_the_rules_allow_passes(self):
         self.plant("common/pharos/base/ring_buffer.hpp", "#include <array>\n")
-        self.plant("host/config/load.cpp", '#include <toml++/toml.h>\n#include <string>\n')
+        self.plant("host/toml/load.cpp", '#include <toml++/toml.h>\n#include <string>\n')
         self.allowed("common/pharos/geometry/pose.hpp", '"pharos/base/ring_buffer.hpp"')
 
 

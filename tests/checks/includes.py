@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the #include lines of every source file and fails when a room reaches where it may not (rooms.toml)."""
+"""Reads the #include lines of every source file and fails when a room reaches where it may not (rooms.toml), when a folder
+has no row of its own there, and when rows allow a cycle."""
 
 import argparse
 import fnmatch
@@ -13,6 +14,8 @@ FOLDERS = ("common", "firmware", "host", "tools", "tests")
 SUFFIXES = {".hpp", ".cpp", ".h", ".c", ".cc", ".in"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?P<open>[<"])(?P<name>[^>"]+)[>"]')
 INCLUDE_ROOTS = ("common", "", "tests")
+# Folders of these have a row each; tests may include all and is one room.
+LAYERED = ("common", "firmware", "host", "tools")
 
 
 def inside(path, room):
@@ -25,10 +28,19 @@ class Rules:
         self.rooms = table["rooms"]
         self.third_party = table["third_party"]
         self.standard = table["standard"]
+        self.parts = table.get("parts", {})
 
     def room_of(self, path):
         matches = [room for room in self.rooms if inside(path, room)]
         return max(matches, key=len, default=None)
+
+    def covers(self, allowed, path, room):
+        """A row that names a room means that room, not the rooms in its folder; any other path means all that lies in it."""
+        return room == allowed if allowed in self.rooms else inside(path, allowed)
+
+    def is_part(self, folder):
+        """Whether `folder` belongs to the room above it: rooms whose folders are chapters of one thing say so."""
+        return any(inside(folder, part) for part in self.parts.get("of_the_room_above", ()))
 
     def third_party_of(self, name):
         for library, rule in self.third_party.items():
@@ -42,9 +54,10 @@ class Rules:
         if room is None:
             return f"{file} belongs to no room of rooms.toml"
         if target is not None:
-            if inside(target, room) or any(inside(target, allowed) for allowed in self.rooms[room]):
+            other = self.room_of(target)
+            if other == room or any(self.covers(allowed, target, other) for allowed in self.rooms[room]):
                 return None
-            return f"{room} may not reach {self.room_of(target) or target}"
+            return f"{room} may not reach {other or target}"
         library = self.third_party_of(name)
         if library is not None:
             if any(inside(file, allowed) for allowed in self.third_party[library]["allowed"]):
@@ -86,15 +99,48 @@ def violations(root, rules):
                 yield f"{file}:{number}: {name}: {reason}"
 
 
+def folders_without_row(root, rules):
+    folders = {pathlib.PurePosixPath(file).parent.as_posix() for file in sources(root) if not file.endswith(".in")}
+    for folder in sorted(folders):
+        if folder.split("/")[0] in LAYERED and folder not in rules.rooms and not rules.is_part(folder):
+            yield f"{folder}: no row of its own in rooms.toml"
+
+
+def cycle(rules):
+    """Rooms that reach one another by their rows, in order, or None."""
+    reach = {room: sorted(other for other in rules.rooms
+                          if other != room and any(rules.covers(path, other, other) for path in allowed))
+             for room, allowed in rules.rooms.items() if room.split("/")[0] in LAYERED}
+    done, way = set(), []
+
+    def visit(room):
+        if room in way:
+            return way[way.index(room):] + [room]
+        if room in done:
+            return None
+        way.append(room)
+        found = next(filter(None, map(visit, reach.get(room, ()))), None)
+        way.pop()
+        done.add(room)
+        return found
+
+    return next(filter(None, map(visit, sorted(reach))), None)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--rules", type=pathlib.Path, default=pathlib.Path(__file__).with_name("rooms.toml"))
     arguments = parser.parse_args()
-    found = list(violations(arguments.root.resolve(), Rules(arguments.rules)))
+    rules = Rules(arguments.rules)
+    root = arguments.root.resolve()
+    found = [*violations(root, rules), *folders_without_row(root, rules)]
+    rooms = cycle(rules)
+    if rooms is not None:
+        found.append("rows of rooms.toml allow a cycle: " + " -> ".join(rooms))
     for violation in found:
         print(violation)
-    print(f"{len(found)} includes reach where they may not")
+    print(f"{len(found)} includes or rows break the layering")
     return 1 if found else 0
 
 
