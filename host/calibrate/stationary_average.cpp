@@ -110,10 +110,10 @@ struct RotorNoise {
 
 StationaryAverage average_interval(const RecordingLog& recording, std::size_t recording_index,
                                    const StationaryInterval& interval, std::span<const std::size_t> station_of_slot) {
-  StationaryAverage interval;
-  interval.recording = recording_index;
-  interval.from_s = ticks_to_seconds(interval.from_ticks);
-  interval.to_s = ticks_to_seconds(interval.to_ticks);
+  StationaryAverage average;
+  average.recording = recording_index;
+  average.from_s = ticks_to_seconds(interval.from_ticks);
+  average.to_s = ticks_to_seconds(interval.to_ticks);
   std::map<std::pair<std::uint8_t, Axis>, std::vector<const LoggedSweep*>> rotors;
   for (const LoggedSweep& sweep : recording.sweeps) {
     if (interval.holds(sweep.flash_ticks)) rotors[{sweep.slot, sweep.axis}].push_back(&sweep);
@@ -123,9 +123,9 @@ StationaryAverage average_interval(const RecordingLog& recording, std::size_t re
     RotorView view = view_of(candidates_of(sweeps), sweeps.size());
     view.station = station_of_slot[rotor.first];
     view.axis = rotor.second;
-    if (!view.bearings.empty()) interval.rotors.push_back(std::move(view));
+    if (!view.bearings.empty()) average.rotors.push_back(std::move(view));
   }
-  return interval;
+  return average;
 }
 
 void assign_sigmas(std::vector<StationaryAverage>& intervals) {

@@ -50,7 +50,7 @@ double KeyframeDatabase::score(const WordVector& a, const WordVector& b) {
   return 0.5 * sum;
 }
 
-std::vector<KeyframeDatabase::KeyframeScore> KeyframeDatabase::like(const WordVector& words, const Map& map,
+std::vector<KeyframeDatabase::KeyframeScore> KeyframeDatabase::detect_candidates(const WordVector& words, const Map& map,
                                                                     const std::set<KeyframeId>& but) const {
   std::map<KeyframeId, int> common;
   for (const auto& [word, weight] : words) {

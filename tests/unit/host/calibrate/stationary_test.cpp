@@ -67,9 +67,9 @@ TEST(StationaryIntervals, ReflectionsNeitherEndARestNorVanish) {
     const RecordingLog log = resting(extra_rad);
     const StationarySearch search = find_stationary_intervals(log.sweeps);
     ASSERT_EQ(search.intervals.size(), 1u);
-    const StationaryAverage interval = average_interval(log, 0, search.intervals.front(), kSlots);
-    ASSERT_EQ(interval.rotors.size(), 2u);
-    EXPECT_EQ(interval.rotors.front().bearings.size(), extra_rad == 0.0 ? 4u : 5u);
+    const StationaryAverage average = average_interval(log, 0, search.intervals.front(), kSlots);
+    ASSERT_EQ(average.rotors.size(), 2u);
+    EXPECT_EQ(average.rotors.front().bearings.size(), extra_rad == 0.0 ? 4u : 5u);
   }
 }
 
