@@ -173,7 +173,7 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
   config.log = read_log(root.table_or_empty("log"), folder);
   config.targets = read_targets(root, folder, environment);
-  config.cameras = read_tof(root, folder, environment);
+  config.cameras = read_tof_cameras(root, folder, environment);
   config.telescopes = read_pointing(root, folder, environment);
   config.stereos = read_stereos(root, folder, environment, config.cameras);
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {

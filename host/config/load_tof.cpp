@@ -82,7 +82,7 @@ TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, cons
 
 }  // namespace
 
-std::vector<TofConfig> read_tof(const TomlTable& root, const fs::path& folder, const Environment& environment) {
+std::vector<TofConfig> read_tof_cameras(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   std::vector<TofConfig> cameras;
   std::set<std::string> names;
   std::set<std::string> devices;

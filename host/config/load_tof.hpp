@@ -11,7 +11,7 @@
 namespace pharos::host {
 
 /// Every [[camera]] of the configuration, with its camera file. Throws InputError naming file, line and key.
-std::vector<TofConfig> read_tof(const TomlTable& root, const std::filesystem::path& folder,
-                                const Environment& environment);
+std::vector<TofConfig> read_tof_cameras(const TomlTable& root, const std::filesystem::path& folder,
+                                        const Environment& environment);
 
 }  // namespace pharos::host

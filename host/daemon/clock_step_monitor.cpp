@@ -12,7 +12,7 @@ constexpr std::int64_t kNotice_ns = 60'000'000'000;
 
 }  // namespace
 
-bool HostJump::look(const ClockMap& map, std::int64_t monotonic_ns) {
+bool ClockStepMonitor::update(const ClockMap& map, std::int64_t monotonic_ns) {
   if (map.counters().host_jumps == seen_) return false;
   seen_ = map.counters().host_jumps;
   at_ns_ = monotonic_ns;
@@ -20,7 +20,7 @@ bool HostJump::look(const ClockMap& map, std::int64_t monotonic_ns) {
   return true;
 }
 
-std::string HostJump::notice(std::int64_t monotonic_ns) const {
+std::string ClockStepMonitor::notice(std::int64_t monotonic_ns) const {
   if (at_ns_ < 0 || monotonic_ns - at_ns_ >= kNotice_ns) return "";
   const double jump_s = static_cast<double>(by_ns_) * 1e-9;
   std::array<char, 160> text{};

@@ -9,10 +9,10 @@
 namespace pharos::host {
 
 /// Remembers for a minute that somebody set this computer's clock, as a ClockMap saw it.
-class HostJump {
+class ClockStepMonitor {
  public:
   /// True when the map counted a jump that was not seen before.
-  bool look(const ClockMap& map, std::int64_t monotonic_ns);
+  bool update(const ClockMap& map, std::int64_t monotonic_ns);
   /// What happened, for people; empty a minute later.
   std::string notice(std::int64_t monotonic_ns) const;
 

@@ -37,7 +37,7 @@ struct Daemon::Channel {
   std::string name;
   std::optional<StreamRecorder> recorder;
   std::unique_ptr<LighthousePipeline> line;
-  std::unique_ptr<SerialFeed> feed;
+  std::unique_ptr<ByteFeed> feed;
 };
 
 Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed)
@@ -104,8 +104,8 @@ void Daemon::stop_when_all_ended() {
   }
 }
 
-std::unique_ptr<SerialFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
-  SerialFeedEvents events;
+std::unique_ptr<ByteFeed> Daemon::make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel) {
+  ByteFeedEvents events;
   // Poses first: they are what somebody waits for.
   events.bytes = [&channel](std::span<const std::uint8_t> bytes, const Arrival& arrival) {
     channel.line->push(bytes, arrival);
@@ -203,7 +203,7 @@ void Daemon::publish_health() {
   health.message = error();
   health.counters = named_counts();
   for (const auto& channel : channels_) {
-    const SerialFeed& feed = *channel->feed;
+    const ByteFeed& feed = *channel->feed;
     health.sources.push_back(channel->line->health(feed.device(), feed.state(), feed.error(), feed.monotonic_now()));
     NamedCounts& counts = health.sources.back().counters;
     const NamedCounts of_feed = feed.counters();

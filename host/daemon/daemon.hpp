@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/byte_feed.hpp"
 #include "host/daemon/calibration_memory.hpp"
-#include "host/daemon/lighthouse_pipeline.hpp"
 #include "host/daemon/pointing_feed.hpp"
 #include "host/daemon/replay_feed.hpp"
-#include "host/daemon/serial_feed.hpp"
 #include "host/daemon/stereo/stereo_feed.hpp"
+#include "host/daemon/target_pipeline.hpp"
 #include "host/daemon/tof_feed.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/record/stream_recorder.hpp"
@@ -38,7 +38,7 @@ class Daemon {
   struct Channel;
 
   void add_channel(const TargetConfig& target, ReplaySpeed replay_speed);
-  std::unique_ptr<SerialFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
+  std::unique_ptr<ByteFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
   void add_camera(const TofConfig& camera, ReplaySpeed replay_speed);
   void stop_when_all_ended();
   void load_memory();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of LighthousePipeline that tells how it fares.
 #include "host/daemon/health_parts.hpp"
-#include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/daemon/target_pipeline.hpp"
 #include "pharos/wire/message_type.hpp"
 
 namespace pharos::host {
@@ -26,7 +26,7 @@ SourceHealth LighthousePipeline::health(const std::string& device, SourceState p
   health.target = config_.name;
   health.device = device;
   health.identity = identity_;
-  pace_.tell(health, monotonic_ns);
+  rate_.report(health, monotonic_ns);
   health.clock_sigma_ns = clock_.synchronised() ? static_cast<double>(clock_.sigma_ns()) : 0.0;
   health.clock_drift_ppm = clock_.drift_ppm();
   health.counters = named_counts();
@@ -42,17 +42,17 @@ SourceHealth LighthousePipeline::health(const std::string& device, SourceState p
 // From the wire upwards: the lowest thing that is wrong is the one to tell.
 void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const {
   health.state = SourceState::kWaiting;
-  if (pace_.pose_within(kSilence_ns, now_ns)) {
+  if (rate_.pose_within(kSilence_ns, now_ns)) {
     health.state = SourceState::kOk;
   } else if (last_bytes_ns_ < 0) {
     health.message = "nothing came from the target yet: is it powered, is this its port?";
   } else if (!within(last_bytes_ns_, now_ns)) {
     health.state = SourceState::kStale;
     health.message = "the target has been silent for " + seconds_text(last_bytes_ns_, now_ns);
-  } else if (!pace_.data_within(kSilence_ns, now_ns) && logged_version_) {
+  } else if (!rate_.data_within(kSilence_ns, now_ns) && last_logged_version_) {
     health.state = SourceState::kError;
-    health.message = unsupported_version_text(*logged_version_);
-  } else if (!pace_.data_within(kSilence_ns, now_ns)) {
+    health.message = unsupported_version_text(*last_logged_version_);
+  } else if (!rate_.data_within(kSilence_ns, now_ns)) {
     health.state = SourceState::kError;
     health.message = "bytes come but no frame: is the baud rate that of the target?";
   } else if (!within(last_sweep_ns_, now_ns)) {
@@ -81,8 +81,8 @@ NamedCounts LighthousePipeline::named_counts() const {
   wire::for_each_counter(link_.counters(), add("link."));
   add_clock(counts, clock_.counters());
   counts.push_back({"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())});
-  told_.decoder.visit(lighthouse::DecoderCounters{}, add("decoder."));
-  told_.device.visit(wire::DeviceCounters{}, add("device."));
+  board_counters_.decoder.visit(lighthouse::DecoderCounters{}, add("decoder."));
+  board_counters_.device.visit(wire::DeviceCounters{}, add("device."));
   return counts;
 }
 

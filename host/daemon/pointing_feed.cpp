@@ -70,12 +70,12 @@ void PointingFeed::on_results() {
 
 void PointingFeed::attend(std::int64_t monotonic_ns) {
   watch_.attend();
-  if (watch_.error() != told_) {
-    told_ = watch_.error();
-    if (told_.empty()) {
+  if (watch_.error() != last_logged_) {
+    last_logged_ = watch_.error();
+    if (last_logged_.empty()) {
       log_.info("watch", "watching " + config_.directory.string(), monotonic_ns);
     } else {
-      log_.warn("watch", told_, monotonic_ns);
+      log_.warn("watch", last_logged_, monotonic_ns);
     }
   }
   match(false);

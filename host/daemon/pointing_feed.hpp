@@ -47,7 +47,7 @@ class PointingFeed {
   DirectoryWatch watch_;
   PointingWorker worker_;
   std::optional<TrackState> track_;
-  std::string told_;
+  std::string last_logged_;
 };
 
 }  // namespace pharos::host

@@ -36,7 +36,7 @@ void PointingPipeline::arrived(const std::string& name) {
     ++counters_.files_no_image;
     return;
   }
-  pace_.data_came(monotonic_now_ns());
+  rate_.on_data(monotonic_now_ns());
   if (std::find(pending_.begin(), pending_.end(), name) != pending_.end()) return;
   pending_.push_back(name);
   if (pending_.size() <= kMaxPending) return;
@@ -102,7 +102,7 @@ void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns
   }
   ++counters_.images_ok;
   error_.clear();
-  pace_.on_pose(monotonic_ns);
+  rate_.on_pose(monotonic_ns);
   if (config_.law) {
     const bool late =
         !pass_.empty() && std::abs(result.observation.time_s - pass_.back().observation.time_s) > config_.pass_gap_s;
@@ -162,11 +162,11 @@ SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
   SourceHealth health;
   health.source = "line/" + config_.name;
   health.target = config_.target;
-  pace_.tell(health, monotonic_ns);
+  rate_.report(health, monotonic_ns);
   // A telescope between passes is well: silence is no fault of it.
-  health.state = pace_.any_pose() && error_.empty() ? SourceState::kOk : SourceState::kWaiting;
+  health.state = rate_.any_pose() && error_.empty() ? SourceState::kOk : SourceState::kWaiting;
   health.message = error_;
-  if (error_.empty() && !pace_.any_pose()) health.message = "no image came yet";
+  if (error_.empty() && !rate_.any_pose()) health.message = "no image came yet";
   if (!pending_.empty()) {
     health.message = std::to_string(pending_.size()) + " images wait for their row in " + config_.track_file.string();
   }

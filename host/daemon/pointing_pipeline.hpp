@@ -71,7 +71,7 @@ class PointingPipeline {
   std::vector<pointing::PassImage> over_;
   PointingCounters counters_;
   std::int64_t sequence_ = 0;
-  Pace pace_;
+  RateMonitor rate_;
   std::int64_t last_result_ns_ = -1;
   std::string error_;  // of the last image
 };

@@ -40,7 +40,7 @@ PassResult solved(const PassJob& job) {
   return {pointing::estimate_pass(job.images, job.options, *workspace), {}};
 }
 
-PointingJobResult failed(const PointingJob& job, const std::string& error) {
+PointingResult failed(const PointingJob& job, const std::string& error) {
   if (const auto* image = std::get_if<ImageJob>(&job)) {
     ImageResult result;
     result.observation = image->observation;
@@ -62,8 +62,8 @@ PointingWorker pointing_worker(const PinholeCamera& camera) {
   return PointingWorker(
       kMaxWaitingImages,
       [camera](const PointingJob& job) {
-        if (const auto* image = std::get_if<ImageJob>(&job)) return PointingJobResult(measured(*image, camera));
-        return PointingJobResult(solved(std::get<PassJob>(job)));
+        if (const auto* image = std::get_if<ImageJob>(&job)) return PointingResult(measured(*image, camera));
+        return PointingResult(solved(std::get<PassJob>(job)));
       },
       failed);
 }

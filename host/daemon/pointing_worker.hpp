@@ -37,8 +37,8 @@ struct PassResult {
 };
 
 using PointingJob = std::variant<ImageJob, PassJob>;
-using PointingJobResult = std::variant<ImageResult, PassResult>;
-using PointingWorker = JobWorker<PointingJob, PointingJobResult>;
+using PointingResult = std::variant<ImageResult, PassResult>;
+using PointingWorker = JobWorker<PointingJob, PointingResult>;
 
 /// Images that `camera` took, and passes, each in its turn.
 PointingWorker pointing_worker(const PinholeCamera& camera);

@@ -13,7 +13,7 @@ constexpr std::size_t kReadBytes = 16 * 1024;
 
 }  // namespace
 
-PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, SerialFeedEvents events)
+PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, ByteFeedEvents events)
     : loop_(loop), log_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
 
 PortFeed::~PortFeed() {

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "host/daemon/byte_feed.hpp"
 #include "host/daemon/rate_limited_log.hpp"
-#include "host/daemon/serial_feed.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/serial/reopening_port.hpp"
 
 namespace pharos::host {
 
 /// Bytes of a serial port that may be missing, busy or unplugged at any time and is tried again until it comes.
-class PortFeed : public SerialFeed {
+class PortFeed : public ByteFeed {
  public:
   /// `loop` must outlive this. `name` is the target's, for the log.
-  PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, SerialFeedEvents events);
+  PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, ByteFeedEvents events);
   ~PortFeed() override;
 
   void attend(std::int64_t monotonic_ns) override;
@@ -31,7 +31,7 @@ class PortFeed : public SerialFeed {
   EventLoop& loop_;
   RateLimitedLog log_;
   ReopeningPort port_;
-  SerialFeedEvents events_;
+  ByteFeedEvents events_;
   std::vector<std::uint8_t> buffer_;
   bool was_lost_ = false;
 };

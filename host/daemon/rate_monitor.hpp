@@ -8,9 +8,9 @@
 namespace pharos::host {
 
 /// When a line's data and poses came, and how fast: what the health of every line begins with. Times are monotonic.
-class Pace {
+class RateMonitor {
  public:
-  void data_came(std::int64_t now_ns) { last_data_ns_ = now_ns; }
+  void on_data(std::int64_t now_ns) { last_data_ns_ = now_ns; }
   void on_pose(std::int64_t now_ns) {
     last_pose_ns_ = now_ns;
     ++poses_;
@@ -26,24 +26,24 @@ class Pace {
   }
 
   /// Both ages, and the poses a second since this was called before.
-  void tell(SourceHealth& health, std::int64_t now_ns) {
+  void report(SourceHealth& health, std::int64_t now_ns) {
     constexpr double kNsPerSecond = 1e9;
     health.data_age_ns = any_data() ? now_ns - last_data_ns_ : -1;
     health.pose_age_ns = any_pose() ? now_ns - last_pose_ns_ : -1;
-    if (reported_ns_ >= 0 && now_ns > reported_ns_) {
+    if (last_report_ns_ >= 0 && now_ns > last_report_ns_) {
       health.pose_rate_hz =
-          static_cast<double>(poses_ - poses_at_report_) * kNsPerSecond / static_cast<double>(now_ns - reported_ns_);
+          static_cast<double>(poses_ - poses_reported_) * kNsPerSecond / static_cast<double>(now_ns - last_report_ns_);
     }
-    poses_at_report_ = poses_;
-    reported_ns_ = now_ns;
+    poses_reported_ = poses_;
+    last_report_ns_ = now_ns;
   }
 
  private:
   std::int64_t last_data_ns_ = -1;
   std::int64_t last_pose_ns_ = -1;
   std::int64_t poses_ = 0;
-  std::int64_t poses_at_report_ = 0;
-  std::int64_t reported_ns_ = -1;
+  std::int64_t poses_reported_ = 0;
+  std::int64_t last_report_ns_ = -1;
 };
 
 }  // namespace pharos::host

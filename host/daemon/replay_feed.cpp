@@ -22,7 +22,7 @@ constexpr std::int64_t kLongestWait_ns = 10'000'000'000;
 }  // namespace
 
 ReplayFeed::ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed,
-                       SerialFeedEvents events)
+                       ByteFeedEvents events)
     : loop_(loop),
       name_(name),
       log_(std::move(name)),

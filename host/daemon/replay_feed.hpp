@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host/daemon/byte_feed.hpp"
 #include "host/daemon/rate_limited_log.hpp"
-#include "host/daemon/serial_feed.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/runtime/timer.hpp"
@@ -19,10 +19,10 @@ enum class ReplaySpeed : std::uint8_t { kReal, kFastest };
 
 /// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then. At
 /// real speed a silence lasts ten seconds at the most.
-class ReplayFeed : public SerialFeed {
+class ReplayFeed : public ByteFeed {
  public:
   /// Throws InputError when the file is no recording. `loop` must outlive this.
-  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, SerialFeedEvents events);
+  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, ByteFeedEvents events);
   ~ReplayFeed() override;
 
   const StreamHeader& header() const { return reader_.header(); }
@@ -46,7 +46,7 @@ class ReplayFeed : public SerialFeed {
   RateLimitedLog log_;
   StreamReader reader_;
   ReplaySpeed speed_;
-  SerialFeedEvents events_;
+  ByteFeedEvents events_;
   Timer timer_;
   std::optional<StreamChunk> next_;
   bool started_ = false;

@@ -9,26 +9,26 @@
 
 namespace pharos::host {
 
-/// The log of what changes at a source: every opening, and every trouble when it begins.
-class SourceNews {
+/// The log of what changes at a source: every opening, and every error when it begins.
+class SourceStateLog {
  public:
   /// `name`: of the line in the configuration.
-  explicit SourceNews(const std::string& name) : log_(name) {}
+  explicit SourceStateLog(const std::string& name) : log_(name) {}
 
-  void tell(const std::string& device, const SourceStatus& status, std::int64_t monotonic_ns) {
-    if (status.session != logged_session_) {
-      logged_session_ = status.session;
+  void update(const std::string& device, const SourceStatus& status, std::int64_t monotonic_ns) {
+    if (status.session != last_logged_session_) {
+      last_logged_session_ = status.session;
       log_.info("open", device + " is open: " + status.identity, monotonic_ns);
     }
-    if (status.error == told_) return;
-    told_ = status.error;
-    if (!told_.empty()) log_.warn("not open", told_, monotonic_ns);
+    if (status.error == last_logged_) return;
+    last_logged_ = status.error;
+    if (!last_logged_.empty()) log_.warn("not open", last_logged_, monotonic_ns);
   }
 
  private:
   RateLimitedLog log_;
-  std::string told_;
-  std::uint32_t logged_session_ = 0;
+  std::string last_logged_;
+  std::uint32_t last_logged_session_ = 0;
 };
 
 }  // namespace pharos::host

@@ -28,7 +28,7 @@ TofFeed::TofFeed(EventLoop& loop, const TofConfig& config, const PublishConfig& 
     : loop_(loop),
       name_(config.name),
       recorded_(config.is_recorded()),
-      news_(config.name),
+      state_log_(config.name),
       source_(source_of(config, fastest)),
       estimator_(config.camera, config.tof),
       line_(config, publish, "tof/" + config.name, publisher,
@@ -50,6 +50,8 @@ void TofFeed::on_readable() {
   }
 }
 
-void TofFeed::attend(std::int64_t monotonic_ns) { news_.tell(source_->device(), source_->status(), monotonic_ns); }
+void TofFeed::attend(std::int64_t monotonic_ns) {
+  state_log_.update(source_->device(), source_->status(), monotonic_ns);
+}
 
 }  // namespace pharos::host

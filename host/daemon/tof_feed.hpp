@@ -38,7 +38,7 @@ class TofFeed {
   EventLoop& loop_;
   std::string name_;
   bool recorded_;
-  SourceNews news_;
+  SourceStateLog state_log_;
   std::unique_ptr<FrameSource> source_;
   TofEstimator estimator_;
   TofPipeline line_;

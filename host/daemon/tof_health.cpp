@@ -18,7 +18,7 @@ SourceHealth TofPipeline::health(const std::string& device, const FrameSourceSta
   health.target = config_.target;
   health.device = device;
   health.identity = camera.identity;
-  pace_.tell(health, monotonic_ns);
+  rate_.report(health, monotonic_ns);
   const ClockMap& map = clock_.map();
   health.clock_sigma_ns = map.synchronised() ? static_cast<double>(map.sigma_ns()) : 0.0;
   if (clock_.by_ptp()) health.clock_sigma_ns = static_cast<double>(FrameClock::kPtpSigma_ns);
@@ -34,10 +34,10 @@ void TofPipeline::assess(SourceHealth& health, const FrameSourceStatus& camera, 
   health.state = state_of(camera.state);
   health.message = camera.error;
   if (health.state != SourceState::kOk) return;
-  if (pace_.pose_within(pose_wait_ns, now_ns)) return;
+  if (rate_.pose_within(pose_wait_ns, now_ns)) return;
   health.state = SourceState::kWaiting;
   const FrameSourceCounters& counters = camera.counters;
-  if (!pace_.data_within(kSilence_ns, now_ns)) {
+  if (!rate_.data_within(kSilence_ns, now_ns)) {
     health.message = counters.frames_incomplete > 0
                          ? "only incomplete frames come: is packet_size more than the network passes?"
                          : "no frame came yet";

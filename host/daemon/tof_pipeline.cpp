@@ -29,8 +29,8 @@ TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, 
 std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
   const std::uint64_t ignored = clock_.map().counters().pairs_ignored;
   const std::optional<MappedTime> time = clock_.time_of(frame);
-  if (host_jump_.look(clock_.map(), frame.complete_monotonic_ns)) {
-    log_.warn("host clock", host_jump_.notice(frame.complete_monotonic_ns), frame.complete_monotonic_ns);
+  if (clock_step_.update(clock_.map(), frame.complete_monotonic_ns)) {
+    log_.warn("host clock", clock_step_.notice(frame.complete_monotonic_ns), frame.complete_monotonic_ns);
     last_utc_ns_ = 0;
   }
   if (!time) {
@@ -47,7 +47,7 @@ std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
 
 void TofPipeline::take(const DepthFrame& frame) {
   const std::int64_t began_ns = monotonic_now_ns();
-  pace_.data_came(frame.complete_monotonic_ns);
+  rate_.on_data(frame.complete_monotonic_ns);
   transport_.add(frame.complete_monotonic_ns - frame.arrival_monotonic_ns);
   waiting_.add(began_ns - frame.complete_monotonic_ns);
   const PinholeCamera& intrinsics = config_.camera.intrinsics;
@@ -122,9 +122,9 @@ TofReport TofPipeline::report(const MappedTime& time) const {
 void TofPipeline::publish(TofReport& report) {
   report.sequence = sequence_++;
   const std::int64_t now_ns = monotonic_now_ns();
-  if (!host_jump_.notice(now_ns).empty()) report.flags = with_word(report.flags, "clock_set");
+  if (!clock_step_.notice(now_ns).empty()) report.flags = with_word(report.flags, "clock_set");
   if (!publisher_.publish_pose(report) || !report.refusal.empty()) return;
-  pace_.on_pose(now_ns);
+  rate_.on_pose(now_ns);
   latency_.add(report.latency_ns);
 }
 

@@ -35,7 +35,7 @@ class TofPipeline {
   SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
   const TofCounters& counters() const { return counters_; }
   /// That this computer's clock was set a moment ago, for people; empty when it was not.
-  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
+  std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
 
  private:
   std::optional<MappedTime> time_of(const DepthFrame& frame);
@@ -58,8 +58,8 @@ class TofPipeline {
   std::int64_t sequence_ = 0;
   std::string last_refusal_;  // with what to do
   std::int64_t last_utc_ns_ = 0;
-  HostJump host_jump_;
-  Pace pace_;
+  ClockStepMonitor clock_step_;
+  RateMonitor rate_;
   // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
   LatencyHistogram transport_;
   LatencyHistogram waiting_;

@@ -39,8 +39,8 @@ CameraPairs::CameraPairs(Cameras cameras, std::int64_t window_ns)
 std::string CameraPairs::device() const { return cameras_[0]->device() + " and " + cameras_[1]->device(); }
 
 std::string CameraPairs::clock_notice(std::int64_t monotonic_ns) const {
-  const std::string left = jumps_[0].notice(monotonic_ns);
-  return left.empty() ? jumps_[1].notice(monotonic_ns) : left;
+  const std::string left = clock_steps_[0].notice(monotonic_ns);
+  return left.empty() ? clock_steps_[1].notice(monotonic_ns) : left;
 }
 
 StereoPairPtr CameraPairs::take() {
@@ -55,7 +55,7 @@ StereoPairPtr CameraPairs::take() {
 StereoPairPtr CameraPairs::paired(std::size_t side, DepthFramePtr frame) {
   transport_[side].add(frame->complete_monotonic_ns - frame->arrival_monotonic_ns);
   const std::optional<MappedTime> time = clocks_[side].time_of(*frame);
-  if (jumps_[side].look(clocks_[side].map(), frame->complete_monotonic_ns)) {
+  if (clock_steps_[side].update(clocks_[side].map(), frame->complete_monotonic_ns)) {
     matcher_.clear();  // what waits is timed by the clock as it was
     last_utc_ns_ = 0;
   }

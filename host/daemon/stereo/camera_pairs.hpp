@@ -35,7 +35,7 @@ class CameraPairs : public PairSource {
 
   Cameras cameras_;
   std::array<FrameClock, 2> clocks_;
-  std::array<HostJump, 2> jumps_;
+  std::array<ClockStepMonitor, 2> clock_steps_;
   PairMatcher matcher_;
   std::int64_t last_utc_ns_ = 0;
   std::int64_t last_steady_ns_ = 0;

@@ -84,14 +84,14 @@ PairResult SlamEstimator::measure(const StereoPair& pair) {
     throw;
   }
   answer.stages = {{"light", lit_ns - start_ns}, {"tracking", monotonic_now_ns() - lit_ns}};
-  report_figures(answer);
+  add_figures(answer);
   return answer;
 }
 
-void SlamEstimator::report_figures(PairResult& answer) {
+void SlamEstimator::add_figures(PairResult& answer) {
   const std::int64_t now_ns = monotonic_now_ns();
-  if (now_ns - figures_reported_ns_ < kFiguresEvery_ns) return;
-  figures_reported_ns_ = now_ns;
+  if (now_ns - last_figures_ns_ < kFiguresEvery_ns) return;
+  last_figures_ns_ = now_ns;
   const slam::SlamReport report = system_->report();
   answer.figures = {{"slam.maps", maps_},
                     {"slam.keyframes", report.keyframes},

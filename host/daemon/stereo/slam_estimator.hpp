@@ -21,7 +21,7 @@ class SlamEstimator : public PairEstimator {
 
  private:
   void begin();
-  void report_figures(PairResult& answer);
+  void add_figures(PairResult& answer);
 
   RigFile rig_;
   std::string rig_name_;
@@ -33,7 +33,7 @@ class SlamEstimator : public PairEstimator {
   std::optional<std::int64_t> began_ns_;  // of the pairs' steady time
   bool map_started_ = false;
   std::int64_t maps_ = 0;
-  std::int64_t figures_reported_ns_ = 0;
+  std::int64_t last_figures_ns_ = 0;
 };
 
 }  // namespace pharos::host

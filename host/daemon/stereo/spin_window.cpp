@@ -36,8 +36,8 @@ std::optional<SpinResult> SpinWindow::push(const slam::TrackedFrame& frame) {
   });
   attitudes_.erase(attitudes_.begin(), old);
   if (attitudes_.size() > kMaxAttitudes) attitudes_.erase(attitudes_.begin());
-  if (reported_s_ && frame.time_s < *reported_s_ + kEvery_s) return std::nullopt;
-  reported_s_ = frame.time_s;
+  if (last_reported_s_ && frame.time_s < *last_reported_s_ + kEvery_s) return std::nullopt;
+  last_reported_s_ = frame.time_s;
   if (!frame.placed) return SpinResult{frame.lost ? "lost" : "no_map", {}};
   const auto fit = slam::fit_spin(attitudes_);
   if (!fit || !fit->rate_rad_s.allFinite() || !fit->covariance.allFinite()) return SpinResult{"too_few", {}};

@@ -26,7 +26,7 @@ class SpinWindow {
 
  private:
   std::vector<slam::TrackedFrame> attitudes_;
-  std::optional<double> reported_s_;
+  std::optional<double> last_reported_s_;
 };
 
 }  // namespace pharos::host

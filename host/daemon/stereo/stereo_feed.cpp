@@ -36,7 +36,7 @@ StereoFeed::StereoFeed(EventLoop& loop, const StereoConfig& config, const Publis
                        bool fastest, std::function<void()> finished)
     : loop_(loop),
       name_(config.name),
-      news_(config.name),
+      state_log_(config.name),
       source_(source_of(config, fastest)),
       finished_(std::move(finished)) {
   if (config.ring2) add_system(config, publish, "ring2/", publisher, std::make_unique<Ring2Estimator>(config.rig));
@@ -91,7 +91,9 @@ void StereoFeed::report_when_finished() {
   if (finish_reported_) finished_();
 }
 
-void StereoFeed::attend(std::int64_t monotonic_ns) { news_.tell(source_->device(), source_->status(), monotonic_ns); }
+void StereoFeed::attend(std::int64_t monotonic_ns) {
+  state_log_.update(source_->device(), source_->status(), monotonic_ns);
+}
 
 std::vector<SourceHealth> StereoFeed::health(std::int64_t monotonic_ns) {
   std::vector<SourceHealth> all;

@@ -50,7 +50,7 @@ class StereoFeed {
 
   EventLoop& loop_;
   std::string name_;
-  SourceNews news_;
+  SourceStateLog state_log_;
   std::unique_ptr<PairSource> source_;
   std::vector<std::unique_ptr<System>> systems_;
   std::function<void()> finished_;

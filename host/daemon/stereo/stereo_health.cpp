@@ -18,7 +18,7 @@ SourceHealth StereoPipeline::health(const std::string& device, const PairSourceS
   health.target = target_;
   health.device = device;
   health.identity = pairs.identity;
-  pace_.tell(health, monotonic_ns);
+  rate_.report(health, monotonic_ns);
   health.clock_sigma_ns = pairs.clock_sigma_ns;
   health.clock_drift_ppm = pairs.clock_drift_ppm;
   health.counters = named_counts(pairs);
@@ -31,13 +31,13 @@ void StereoPipeline::assess(SourceHealth& health, const PairSourceStatus& pairs,
   health.state = state_of(pairs.state);
   health.message = pairs.error;
   if (health.state != SourceState::kOk) return;
-  const bool pose = pace_.pose_within(kSilence_ns, now_ns);
+  const bool pose = rate_.pose_within(kSilence_ns, now_ns);
   if (pose && last_refusal_.empty()) return;
   health.state = pose ? SourceState::kOk : SourceState::kWaiting;
-  if (!pace_.data_within(kSilence_ns, now_ns)) {
+  if (!rate_.data_within(kSilence_ns, now_ns)) {
     if (health.message.empty()) {
       health.message =
-          pace_.any_data() ? "no pairs come any more: see frames_without_partner of each side" : "no pair came yet";
+          rate_.any_data() ? "no pairs come any more: see frames_without_partner of each side" : "no pair came yet";
     }
   } else if (!last_refusal_.empty()) {
     health.message = "no pose: " + last_refusal_;

@@ -26,7 +26,7 @@ bool StereoPipeline::stale(std::int64_t age_ns) const { return std::abs(age_ns) 
 
 bool StereoPipeline::take(const StereoPair& pair) {
   const std::int64_t now_ns = monotonic_now_ns();
-  pace_.data_came(now_ns);
+  rate_.on_data(now_ns);
   if (!stale(now_ns - pair.time.monotonic_ns)) return true;
   ++counters_.pairs_stale;
   return false;
@@ -94,7 +94,7 @@ void StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
   if (clock_was_set) told.flags += told.flags.empty() ? "clock_set" : "|clock_set";
   if (answer.spin) publish_spin(told, *answer.spin);
   if (!publisher_.publish_pose(told) || !told.refusal.empty()) return;
-  pace_.on_pose(now_ns);
+  rate_.on_pose(now_ns);
   latency_.add(told.latency_ns);
 }
 

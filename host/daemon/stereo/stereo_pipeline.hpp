@@ -51,7 +51,7 @@ class StereoPipeline {
   std::int64_t sequence_ = 0, spin_sequence_ = 0;
   std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
   NamedCounts figures_;       // of the estimator
-  Pace pace_;
+  RateMonitor rate_;
   // Stages of a pair: waiting for its estimator, that and its parts; and from the light to LCM.
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;

@@ -22,7 +22,7 @@ class ReplayFeedTest : public ::testing::Test {
     test::write_file(folder_.path() / "r.phraw", bytes);
     return (folder_.path() / "r.phraw").string();
   }
-  SerialFeedEvents events() {
+  ByteFeedEvents events() {
     return {
         [this](std::span<const std::uint8_t>, const Arrival& arrival) { arrivals_.push_back(arrival.monotonic_ns); },
         [] {}, [this] { finished_ = true; }};

@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "pharos/base/units.hpp"
-#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
+#include "unit/host/daemon/target_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {
 
 using ::testing::HasSubstr;
 
-TEST_F(LighthousePipelineTest, BytesBecomeThePoseThatMadeThem) {
+TEST_F(TargetPipelineTest, BytesBecomeThePoseThatMadeThem) {
   push_cycles(20);
   ASSERT_GE(poses().size(), 5u);  // the first 0.2 s map the clock
   const pose_t pose = poses().back();
@@ -28,7 +28,7 @@ TEST_F(LighthousePipelineTest, BytesBecomeThePoseThatMadeThem) {
   EXPECT_LT(error.tail<3>().norm(), 0.3e-3);
 }
 
-TEST_F(LighthousePipelineTest, UtimeIsWhenTheLightWasMeasured) {
+TEST_F(TargetPipelineTest, UtimeIsWhenTheLightWasMeasured) {
   push_cycles(60);
   // Mean of hits of a cycle that ends at ticks_: between its first flash and its end.
   const double end_us = static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3;
@@ -37,7 +37,7 @@ TEST_F(LighthousePipelineTest, UtimeIsWhenTheLightWasMeasured) {
   EXPECT_LT(before_end_us, 16'000.0);
 }
 
-TEST_F(LighthousePipelineTest, ADroppedFrameDoesNotMoveUtc) {
+TEST_F(TargetPipelineTest, ADroppedFrameDoesNotMoveUtc) {
   constexpr int kBaud = 460'800;
   LighthousePipeline line(config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, kBaud);
   const auto push_into_line = [&](int cycles) {
@@ -56,7 +56,7 @@ TEST_F(LighthousePipelineTest, ADroppedFrameDoesNotMoveUtc) {
   EXPECT_NEAR(static_cast<double>(push_into_line(600) - before_us), 0.0, 500.0);
 }
 
-TEST_F(LighthousePipelineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
+TEST_F(TargetPipelineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
   push(target_.hello("bench", ticks_, 1), ticks_);
   push_cycles(20);
   for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
@@ -72,7 +72,7 @@ TEST_F(LighthousePipelineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
   EXPECT_EQ(counter("target_restarts"), 1);
 }
 
-TEST_F(LighthousePipelineTest, APoseAndItsBearingsShareTheirNumber) {
+TEST_F(TargetPipelineTest, APoseAndItsBearingsShareTheirNumber) {
   push_cycles(20);
   const auto bearings = list_.all<bearings_t>("PHAROS_LIGHTHOUSE_BEARINGS");
   ASSERT_FALSE(bearings.empty());
@@ -85,7 +85,7 @@ TEST_F(LighthousePipelineTest, APoseAndItsBearingsShareTheirNumber) {
   }
 }
 
-TEST_F(LighthousePipelineTest, AStaleCycleIsCountedAndNeverSent) {
+TEST_F(TargetPipelineTest, AStaleCycleIsCountedAndNeverSent) {
   push_cycles(60);
   const std::size_t before = poses().size();
   ticks_ += kCycle_ticks;
@@ -96,7 +96,7 @@ TEST_F(LighthousePipelineTest, AStaleCycleIsCountedAndNeverSent) {
   EXPECT_EQ(poses().size(), before + 1) << "one late cycle must not spoil the next";
 }
 
-TEST_F(LighthousePipelineTest, ARefusedCycleIsToldWithoutAPose) {
+TEST_F(TargetPipelineTest, ARefusedCycleIsToldWithoutAPose) {
   push_cycles(20);
   const std::int64_t flash = ticks_ += kCycle_ticks;
   push(target_.bytes_of(target_.sweep(Axis::kX, flash, 2)), flash + kCycle_ticks / 3);
@@ -106,7 +106,7 @@ TEST_F(LighthousePipelineTest, ARefusedCycleIsToldWithoutAPose) {
   EXPECT_EQ(counter("cycles_refused_too_few_sensors"), 1);
 }
 
-TEST_F(LighthousePipelineTest, GarbageBetweenCyclesCostsNoPose) {
+TEST_F(TargetPipelineTest, GarbageBetweenCyclesCostsNoPose) {
   push_cycles(20);
   const std::size_t before = poses().size();
   for (int i = 0; i < 10; ++i) {
@@ -120,7 +120,7 @@ TEST_F(LighthousePipelineTest, GarbageBetweenCyclesCostsNoPose) {
   EXPECT_GT(counter("link.garbage_bytes"), 2500);
 }
 
-TEST_F(LighthousePipelineTest, CutInTheMiddleOfAFrameItTakesUpAgainAfterwards) {
+TEST_F(TargetPipelineTest, CutInTheMiddleOfAFrameItTakesUpAgainAfterwards) {
   push_cycles(20);
   const std::size_t before = poses().size();
   StationaryTarget::Bytes cut = target_.cycle(ticks_ += kCycle_ticks);
@@ -131,7 +131,7 @@ TEST_F(LighthousePipelineTest, CutInTheMiddleOfAFrameItTakesUpAgainAfterwards) {
   EXPECT_EQ(poses().size(), before + 3);
 }
 
-TEST_F(LighthousePipelineTest, ATargetThatStartsAnewIsFollowedOnItsNewClock) {
+TEST_F(TargetPipelineTest, ATargetThatStartsAnewIsFollowedOnItsNewClock) {
   push_cycles(60);
   const std::size_t before = poses().size();
   const std::int64_t old_ticks = ticks_;
@@ -146,7 +146,7 @@ TEST_F(LighthousePipelineTest, ATargetThatStartsAnewIsFollowedOnItsNewClock) {
   EXPECT_LT(std::abs(age_us), 20'000.0) << "mapped with the new clock, not the old one";
 }
 
-TEST_F(LighthousePipelineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) {
+TEST_F(TargetPipelineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) {
   push_cycles(20);
   push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
   push_cycles(1);
@@ -164,7 +164,7 @@ TEST_F(LighthousePipelineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemember
   EXPECT_EQ(again.counters().calibrations_taken, 1);
 }
 
-TEST_F(LighthousePipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
+TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   constexpr double kPhase_rad = 0.01;
   TargetConfig calibrated = config();
   calibrated.calibration_file = "calibrated.toml";
@@ -192,14 +192,14 @@ TEST_F(LighthousePipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   EXPECT_GT(std::sqrt(before.covariance[6 * 5 + 5]), 0.005 * 2.0);
 }
 
-TEST_F(LighthousePipelineTest, AnotherProtocolVersionIsNamedInItsHealth) {
+TEST_F(TargetPipelineTest, AnotherProtocolVersionIsNamedInItsHealth) {
   for (std::uint16_t i = 0; i < 3; ++i) push(frame_of_unsupported_version(9, i), ticks_);
   const SourceHealth health = line_.health("/dev/x", SourceState::kOk, "", now_ns());
   EXPECT_EQ(health.state, SourceState::kError);
   EXPECT_THAT(health.message, HasSubstr("speaks version 9"));
 }
 
-TEST_F(LighthousePipelineTest, HealthGoesFromSilenceToPoses) {
+TEST_F(TargetPipelineTest, HealthGoesFromSilenceToPoses) {
   EXPECT_EQ(health().state, SourceState::kWaiting);
   push({1, 2, 3, 4, 5, 6, 7, 8, 9, 0}, ticks_);
   EXPECT_THAT(health().message, HasSubstr("baud rate"));
@@ -214,14 +214,14 @@ TEST_F(LighthousePipelineTest, HealthGoesFromSilenceToPoses) {
   EXPECT_THAT(later.message, HasSubstr("silent"));
 }
 
-TEST_F(LighthousePipelineTest, TellsWhoSpeaksAndWhatTheBoardCounts) {
+TEST_F(TargetPipelineTest, TellsWhoSpeaksAndWhatTheBoardCounts) {
   push(target_.hello("test board"), ticks_);
   push(target_.counters(4711), ticks_);
   EXPECT_EQ(line_.health("", SourceState::kOk, "", 0).identity, "test board 0.1.0 (simulated)");
   EXPECT_EQ(counter("decoder.edges_in"), 4711);
 }
 
-TEST_F(LighthousePipelineTest, WhatThePortSaysGoesBeforeWhatTheLineSays) {
+TEST_F(TargetPipelineTest, WhatThePortSaysGoesBeforeWhatTheLineSays) {
   push_cycles(60);
   const SourceHealth health = line_.health("/dev/x", SourceState::kGone, "/dev/x: no such device", now_ns());
   EXPECT_EQ(health.state, SourceState::kGone);

@@ -6,22 +6,22 @@
 #include <span>
 #include <string>
 
-#include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/daemon/target_pipeline.hpp"
 #include "host/publish/health.hpp"
 
 namespace pharos::host {
 
 /// What a feed tells whoever works on its bytes.
-struct SerialFeedEvents {
+struct ByteFeedEvents {
   std::function<void(std::span<const std::uint8_t>, const Arrival&)> bytes;
   std::function<void()> lost;      // unplugged: the next bytes are not the rest of these
   std::function<void()> finished;  // a replay has come to its end
 };
 
 /// Where a target's bytes come from: a port, or a recording.
-class SerialFeed {
+class ByteFeed {
  public:
-  virtual ~SerialFeed() = default;
+  virtual ~ByteFeed() = default;
   /// Called several times a second by the loop's timer: opens what is not open.
   virtual void attend(std::int64_t monotonic_ns) = 0;
   /// kOk, or what keeps bytes from coming and what to do.

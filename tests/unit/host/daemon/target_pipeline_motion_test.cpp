@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "pharos/base/units.hpp"
-#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
+#include "unit/host/daemon/target_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {
 
 /// The same target, tracked with its motion.
-class LighthousePipelineMotionTest : public LighthousePipelineTest {
+class MotionPipelineTest : public TargetPipelineTest {
  protected:
   void move_on(int cycles) {
     for (int i = 0; i < cycles; ++i) {
@@ -30,7 +30,7 @@ class LighthousePipelineMotionTest : public LighthousePipelineTest {
 
 TEST(TargetConfigMethod, MotionUnlessToldOtherwise) { EXPECT_EQ(TargetConfig{}.method, TrackMethod::kMotion); }
 
-TEST_F(LighthousePipelineMotionTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
+TEST_F(MotionPipelineTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
   move_on(60);
   const auto all = poses();
   ASSERT_GE(all.size(), 90u);  // two a turn, but for the 0.2 s that map the clock
@@ -52,7 +52,7 @@ TEST_F(LighthousePipelineMotionTest, EverySweepBecomesAPoseWithItsTimeAndCovaria
 }
 
 // A sweep that comes over the line at once is a pose at once: it does not wait for the other rotor's.
-TEST_F(LighthousePipelineMotionTest, APoseIsOneSweepOldAtTheMost) {
+TEST_F(MotionPipelineTest, APoseIsOneSweepOldAtTheMost) {
   constexpr std::int64_t kSweep_us = StationaryTarget::kHalfTurn_ticks / 50;
   constexpr std::int64_t kLine_us = kMillisecond_ns / 1000;
   move_on(60);
@@ -74,7 +74,7 @@ TEST_F(LighthousePipelineMotionTest, APoseIsOneSweepOldAtTheMost) {
 }
 
 // Four sensors of one plane, nearly square on and far away: the tilt may as well be the other way.
-TEST_F(LighthousePipelineMotionTest, TheSecondSolutionGoesWithThePose) {
+TEST_F(MotionPipelineTest, TheSecondSolutionGoesWithThePose) {
   constexpr std::uint8_t kPlate = 4;
   TargetConfig flat = config(TrackMethod::kMotion);
   flat.target = StationaryTarget::target(kPlate);
@@ -114,7 +114,7 @@ TEST_F(LighthousePipelineMotionTest, TheSecondSolutionGoesWithThePose) {
   EXPECT_GT(sure, 0);
 }
 
-TEST_F(LighthousePipelineMotionTest, WhatIsKnownTooBadlyIsNoPose) {
+TEST_F(MotionPipelineTest, WhatIsKnownTooBadlyIsNoPose) {
   TargetConfig strict = config(TrackMethod::kMotion);
   strict.limits.position_m = 1e-7;
   LighthousePipeline line(strict, PublishConfig{}, "lighthouse/strict", publisher_, memory_, 0);
@@ -131,7 +131,7 @@ TEST_F(LighthousePipelineMotionTest, WhatIsKnownTooBadlyIsNoPose) {
 }
 
 // One second of darkness: nothing is told meanwhile, and what is told afterwards is right from its first word.
-TEST_F(LighthousePipelineMotionTest, ComesBackAfterDarknessWithoutAWrongPose) {
+TEST_F(MotionPipelineTest, ComesBackAfterDarknessWithoutAWrongPose) {
   move_on(60);
   const std::size_t before = poses().size();
   ticks_ += kTicksPerSecond;
@@ -149,7 +149,7 @@ TEST_F(LighthousePipelineMotionTest, ComesBackAfterDarknessWithoutAWrongPose) {
   EXPECT_GT(valid, 50u);
 }
 
-TEST_F(LighthousePipelineMotionTest, ATargetThatStartsAnewIsLookedForAnew) {
+TEST_F(MotionPipelineTest, ATargetThatStartsAnewIsLookedForAnew) {
   motion_.push(target_.hello("bench", ticks_, 1), arrival_at(ticks_));
   move_on(60);
   motion_.push(target_.hello("bench", ticks_, 2), arrival_at(ticks_));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/daemon/target_pipeline.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,11 +66,11 @@ void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival
     // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
     if (byte == wire::kFrameDelimiter) frame_bytes_ = 0;
   }
-  log_unsupported_version();
+  log_foreign_version();
 }
 
 void LighthousePipeline::handle(const report::LinkEvent& event) {
-  pace_.data_came(arrival_.monotonic_ns);
+  rate_.on_data(arrival_.monotonic_ns);
   check_clock(event);
   std::visit([this](const auto& value) { take(value); }, event);
 }
@@ -88,8 +88,8 @@ void LighthousePipeline::check_clock(const report::LinkEvent& event) {
     newest_ticks_ = any_ticks_ ? std::max(newest_ticks_, *ticks) : *ticks;
     any_ticks_ = true;
   }
-  if (host_jump_.look(clock_, arrival_.monotonic_ns)) {
-    log_.warn("host clock", host_jump_.notice(arrival_.monotonic_ns), arrival_.monotonic_ns);
+  if (clock_step_.update(clock_, arrival_.monotonic_ns)) {
+    log_.warn("host clock", clock_step_.notice(arrival_.monotonic_ns), arrival_.monotonic_ns);
   }
 }
 
@@ -100,7 +100,7 @@ void LighthousePipeline::restart(const char* why) {
   clock_.restart();
   tracker_.restart();
   calibrations_.forget_stations();
-  told_ = {};
+  board_counters_ = {};
   any_ticks_ = false;
   last_flash_ticks_ = 0;
 }
@@ -193,9 +193,9 @@ const lighthouse::StationCalibration& LighthousePipeline::effective_calibration(
   return sent;
 }
 
-void LighthousePipeline::take(const report::DecoderReport& report) { told_.decoder.take(report.counters); }
+void LighthousePipeline::take(const report::DecoderReport& report) { board_counters_.decoder.take(report.counters); }
 
-void LighthousePipeline::take(const report::DeviceReport& report) { told_.device.take(report.counters); }
+void LighthousePipeline::take(const report::DeviceReport& report) { board_counters_.device.take(report.counters); }
 
 void LighthousePipeline::take(const report::EdgesReport& edges) {
   counters_.raw_edges += static_cast<std::int64_t>(edges.edges.size());
@@ -242,7 +242,7 @@ std::optional<CycleReport> LighthousePipeline::timed_report(std::uint8_t station
     ++counters_.cycles_stale;
     return std::nullopt;
   }
-  report.clock_was_set = !host_jump_.notice(arrival_.monotonic_ns).empty();
+  report.clock_was_set = !clock_step_.notice(arrival_.monotonic_ns).empty();
   report.source = source_;
   report.target = config_.name;
   report.station = station;
@@ -264,7 +264,7 @@ void LighthousePipeline::answer(const track::EpochResult& result) {
   report->pose = result.pose;
   if (report->pose) calibrate::widen_by_scale(*report->pose, config_.scale_sigma);
   if (publisher_.publish_pose(*report) && result.pose) {
-    pace_.on_pose(arrival_.monotonic_ns);
+    rate_.on_pose(arrival_.monotonic_ns);
     latency_.add(monotonic_now_ns() - push_began_ns_);
   }
   if (!publish_.bearings) return;
@@ -285,10 +285,10 @@ void LighthousePipeline::take(const report::PoseReport& pose) {
   publisher_.publish_board_pose(*report);
 }
 
-void LighthousePipeline::log_unsupported_version() {
+void LighthousePipeline::log_foreign_version() {
   const auto version = link_.unsupported_version();
-  if (!version || version == logged_version_) return;
-  logged_version_ = version;
+  if (!version || version == last_logged_version_) return;
+  last_logged_version_ = version;
   log_.error("version", unsupported_version_text(*version), arrival_.monotonic_ns);
 }
 

@@ -9,7 +9,7 @@
 namespace pharos::host {
 
 // What a target's line counts of its own, once by name. X(name, what it counts)
-#define PHAROS_LINE_COUNTERS(X)                                                          \
+#define PHAROS_TARGET_COUNTERS(X)                                                        \
   X(sweeps, "sweeps received")                                                           \
   X(sweeps_bad_station, "sweeps dropped: a slot position that there is not")             \
   X(cycles_ok, "cycles with a pose")                                                     \
@@ -26,9 +26,9 @@ namespace pharos::host {
   X(target_restarts, "times the target's clock started anew")                            \
   X(unexpected_events, "good frames of types that only a host sends")
 
-struct LighthouseCounters {
+struct TargetCounters {
 #define PHAROS_X(name, text) std::int64_t name = 0;
-  PHAROS_LINE_COUNTERS(PHAROS_X)
+  PHAROS_TARGET_COUNTERS(PHAROS_X)
 #undef PHAROS_X
   /// Cycles without a pose, by pose::Refusal.
   std::array<std::int64_t, 16> refused{};
@@ -41,9 +41,9 @@ struct LighthouseCounters {
 
 /// Calls visit(name, value, what it counts) for every named counter.
 template <class Visitor>
-void for_each_counter(const LighthouseCounters& counters, Visitor&& visit) {
+void for_each_counter(const TargetCounters& counters, Visitor&& visit) {
 #define PHAROS_X(name, text) visit(#name, counters.name, text);
-  PHAROS_LINE_COUNTERS(PHAROS_X)
+  PHAROS_TARGET_COUNTERS(PHAROS_X)
 #undef PHAROS_X
 }
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/host/daemon/captured_log.hpp"
-#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
+#include "unit/host/daemon/target_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-class LighthousePipelineFaults : public LighthousePipelineTest {
+class TargetPipelineFaults : public TargetPipelineTest {
  protected:
   std::vector<std::string> log_lines(const std::string& words) const { return log_.lines(words); }
   // Nothing comes for `seconds`.
@@ -30,7 +30,7 @@ class LighthousePipelineFaults : public LighthousePipelineTest {
   test::CapturedLog log_;
 };
 
-TEST_F(LighthousePipelineFaults, ACalibrationOutlivesADarknessShorterThan240SecondsAndNoLonger) {
+TEST_F(TargetPipelineFaults, ACalibrationOutlivesADarknessShorterThan240SecondsAndNoLonger) {
   push_cycles(20);
   calibrate();
   pause(239);
@@ -45,7 +45,7 @@ TEST_F(LighthousePipelineFaults, ACalibrationOutlivesADarknessShorterThan240Seco
   EXPECT_EQ(poses().back().flags, "");
 }
 
-TEST_F(LighthousePipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
+TEST_F(TargetPipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
   push_cycles(60);
   calibrate();
   for (const std::int64_t false_s : {1000, -5, 2, -3}) {
@@ -59,7 +59,7 @@ TEST_F(LighthousePipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
   EXPECT_EQ(counter("clock.pairs_ignored"), 4);
 }
 
-TEST_F(LighthousePipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePosesThatFollow) {
+TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePosesThatFollow) {
   push_cycles(120);
   const std::int64_t before_us = poses().back().utime;
   EXPECT_EQ(line_.clock_notice(now_ns()), "");
@@ -91,7 +91,7 @@ TEST_F(LighthousePipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInTh
   EXPECT_EQ(log_lines("clock was set").size(), 1u);
 }
 
-TEST_F(LighthousePipelineFaults, TheComputersClockSetForwardIsToldToo) {
+TEST_F(TargetPipelineFaults, TheComputersClockSetForwardIsToldToo) {
   push_cycles(120);
   utc_minus_monotonic_ns_ += 3600 * kSecond_ns;
   push_cycles(20);
@@ -99,7 +99,7 @@ TEST_F(LighthousePipelineFaults, TheComputersClockSetForwardIsToldToo) {
   EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_at(ticks_, 0).utc_ns / 1000), 2e4);
 }
 
-TEST_F(LighthousePipelineFaults, TheBoardsCountersDoNotWrap) {
+TEST_F(TargetPipelineFaults, TheBoardsCountersDoNotWrap) {
   std::int64_t truth = 0;
   for (int i = 0; i < 6; ++i, truth += 1'000'000'000) {
     push(target_.counters(static_cast<std::uint32_t>(truth)), ticks_);
@@ -107,7 +107,7 @@ TEST_F(LighthousePipelineFaults, TheBoardsCountersDoNotWrap) {
   }
 }
 
-TEST_F(LighthousePipelineFaults, ATargetThatStartsAnewCountsFromItsNewStart) {
+TEST_F(TargetPipelineFaults, ATargetThatStartsAnewCountsFromItsNewStart) {
   push(target_.hello("bench", ticks_, 1), ticks_);
   push(target_.counters(4'000'000'000), ticks_);
   push(target_.hello("bench", ticks_, 2), ticks_);
@@ -115,7 +115,7 @@ TEST_F(LighthousePipelineFaults, ATargetThatStartsAnewCountsFromItsNewStart) {
   EXPECT_EQ(counter("decoder.edges_in"), 3);
 }
 
-TEST_F(LighthousePipelineFaults, ATargetThatStartsAnewAllTheTimeDoesNotFillTheLog) {
+TEST_F(TargetPipelineFaults, ATargetThatStartsAnewAllTheTimeDoesNotFillTheLog) {
   for (std::uint16_t start = 0; start < 300; ++start) {
     ticks_ += kTicksPerSecond / 100;
     push(target_.hello(start % 2 == 0 ? "left" : "right", ticks_, start), ticks_);
@@ -130,13 +130,13 @@ TEST_F(LighthousePipelineFaults, ATargetThatStartsAnewAllTheTimeDoesNotFillTheLo
   EXPECT_THAT(log_lines("started anew").back(), HasSubstr("295 more lines like this were held back"));
 }
 
-TEST_F(LighthousePipelineFaults, TwoForeignVersionsInTurnDoNotFillTheLog) {
+TEST_F(TargetPipelineFaults, TwoForeignVersionsInTurnDoNotFillTheLog) {
   for (std::uint16_t i = 0; i < 200; ++i) push(frame_of_unsupported_version(i % 2 == 0 ? 7 : 9, i), ticks_);
   EXPECT_LE(log_lines("of the serial protocol").size(), 4u);
   EXPECT_GT(counter("log_lines_held_back"), 190);
 }
 
-TEST_F(LighthousePipelineFaults, AnInventorOfStationsFillsNeitherMemoryNorLog) {
+TEST_F(TargetPipelineFaults, AnInventorOfStationsFillsNeitherMemoryNorLog) {
   for (std::uint32_t id = 1; id <= 500; ++id) {
     for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, id), ticks_);
   }

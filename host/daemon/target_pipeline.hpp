@@ -11,9 +11,9 @@
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/calibration_memory.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
-#include "host/daemon/lighthouse_counters.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/target_counters.hpp"
 #include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/publisher.hpp"
@@ -50,15 +50,15 @@ class LighthousePipeline {
                       std::int64_t monotonic_ns);
 
   /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
-  std::string clock_notice(std::int64_t monotonic_ns) const { return host_jump_.notice(monotonic_ns); }
+  std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
 
-  const LighthouseCounters& counters() const { return counters_; }
+  const TargetCounters& counters() const { return counters_; }
   /// From the last byte of a cycle read to its pose on LCM.
   const LatencyHistogram& latency() const { return latency_; }
 
  private:
   // Of the target's present start.
-  struct ReportedCounters {
+  struct BoardCounters {
     UnwrappedCounters decoder;
     UnwrappedCounters device;
   };
@@ -85,7 +85,7 @@ class LighthousePipeline {
   void answer(const track::EpochResult& result);
   std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
-  void log_unsupported_version();
+  void log_foreign_version();
   static std::string unsupported_version_text(std::uint8_t version);
   void assess(SourceHealth& health, std::int64_t monotonic_ns) const;
   NamedCounts named_counts() const;
@@ -111,10 +111,10 @@ class LighthousePipeline {
   std::int64_t last_flash_ticks_ = 0;
   std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
-  HostJump host_jump_;
+  ClockStepMonitor clock_step_;
 
-  LighthouseCounters counters_;
-  ReportedCounters told_;
+  TargetCounters counters_;
+  BoardCounters board_counters_;
   RateLimitedLog log_;
   std::string identity_;
   LatencyHistogram latency_;
@@ -122,10 +122,10 @@ class LighthousePipeline {
   std::int64_t board_sequence_ = 0;
   std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
   std::int64_t last_sweep_ns_ = -1;
-  Pace pace_;
+  RateMonitor rate_;
   std::string last_refusal_;
   bool relative_pose_rejected_ = false;
-  std::optional<std::uint8_t> logged_version_;
+  std::optional<std::uint8_t> last_logged_version_;
 };
 
 }  // namespace pharos::host

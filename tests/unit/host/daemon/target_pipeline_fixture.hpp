@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/daemon/target_pipeline.hpp"
 #include "integration/stationary_target.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/bearings_t.hpp"
@@ -19,7 +19,7 @@ inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 inline constexpr std::int64_t kCycle_ticks = StationaryTarget::kTurn_ticks;
 
 /// A target at rest whose bytes go straight into a LighthousePipeline, on clocks that the test moves.
-class LighthousePipelineTest : public ::testing::Test {
+class TargetPipelineTest : public ::testing::Test {
  protected:
   static LighthouseFromBody pose_ahead() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
