@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -135,6 +136,7 @@ struct LcmConfig {
 struct PublishConfig {
   /// A pose whose measurement is older than this when it is ready is counted and not published.
   double max_age_s = 0.2;
+  std::int64_t max_age_ns() const { return std::llround(max_age_s * 1e9); }
   double status_period_s = 1.0;
   bool bearings = true;
 };
@@ -156,8 +158,16 @@ struct LogConfig {
   std::filesystem::path file;  // of LogSink::kFile
 };
 
+/// What pharosd measures with: a list for each kind of source.
+struct SourceConfigs {
+  std::vector<TargetConfig> targets;
+  std::vector<TofConfig> cameras;
+  std::vector<PointingConfig> telescopes;
+  std::vector<StereoConfig> stereos;
+};
+
 /// Everything that `pharosd` was told.
-struct DaemonConfig {
+struct DaemonConfig : SourceConfigs {
   /// Told as the source in every message: which of several daemons.
   std::string source = "pharosd";
   /// Where accepted calibrations live across restarts; empty: nowhere.
@@ -166,10 +176,6 @@ struct DaemonConfig {
   PublishConfig publish;
   std::optional<RecordingConfig> recording;
   LogConfig log;
-  std::vector<TargetConfig> targets;
-  std::vector<TofConfig> cameras;
-  std::vector<PointingConfig> telescopes;
-  std::vector<StereoConfig> stereos;
 };
 
 }  // namespace pharos::host
