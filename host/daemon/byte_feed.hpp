@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "host/daemon/target_pipeline.hpp"
+#include "host/daemon/arrival.hpp"
 #include "host/publish/health.hpp"
 
 namespace pharos::host {
@@ -28,6 +28,8 @@ class ByteFeed {
   virtual SourceState state() const = 0;
   virtual std::string error() const = 0;
   virtual std::string device() const = 0;
+  /// Speed of the wire that they came over, 8N1.
+  virtual int baud() const = 0;
   virtual bool finished() const { return false; }
   /// The clock that its arrivals are on, now.
   virtual std::int64_t monotonic_now() const = 0;

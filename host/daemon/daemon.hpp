@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/byte_feed.hpp"
-#include "host/daemon/calibration_memory.hpp"
-#include "host/daemon/pointing_feed.hpp"
-#include "host/daemon/replay_feed.hpp"
-#include "host/daemon/stereo/stereo_feed.hpp"
-#include "host/daemon/target_pipeline.hpp"
-#include "host/daemon/tof_feed.hpp"
+#include "host/daemon/source.hpp"
 #include "host/publish/publisher.hpp"
-#include "host/record/stream_recorder.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/runtime/log_rate_limiter.hpp"
 #include "host/runtime/signals.hpp"
@@ -23,47 +17,40 @@
 
 namespace pharos::host {
 
-/// All targets, cameras and rigs of a configuration in one poll loop: feed -> recorder and line -> publisher, status
-/// beside it.
+/// All sources of a configuration in one poll loop, and the status beside them.
 class Daemon {
  public:
-  /// Throws InputError for a replay that is no recording. `sink` must outlive this. `signals` end run().
-  Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed);
-  ~Daemon();
+  /// Opens every source of every kind. Throws InputError for one that cannot be what the configuration says. `sink`,
+  /// `signals` and `clock` must outlive this. `signals` end run().
+  Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed, const Clock& clock,
+         const SourceKinds& kinds = source_kinds());
 
-  /// Until a signal comes, or every feed was a replay and has come to its end.
+  /// Until a signal comes, or every source was a recording and has come to its end.
   void run();
 
  private:
-  struct Channel;
-
-  void add_channel(const TargetConfig& target, ReplaySpeed replay_speed);
-  std::unique_ptr<ByteFeed> make_feed(const TargetConfig& target, ReplaySpeed replay_speed, Channel& channel);
-  void add_camera(const TofConfig& camera, ReplaySpeed replay_speed);
-  void stop_when_all_ended();
-  void load_memory();
+  void stop_when_all_finished();
   void attend();
   void on_signal();
   void publish_health();
   NamedCounts named_counts() const;
-  std::string recording_error() const;
   std::string error() const;
-  void warn(const char* kind, const std::string& error, std::int64_t now_ns);
+  std::string sources_text() const;
+  void warn(const char* kind, const std::string& text, std::int64_t now_ns);
 
   DaemonConfig config_;
   EventLoop loop_;
   Signals& signals_;
+  const Clock& clock_;
   Timer attend_timer_;
   Timer status_timer_;
   Publisher publisher_;
-  CalibrationMemory memory_;
   LogRateLimiter log_limit_;
-  std::vector<std::unique_ptr<Channel>> channels_;
-  std::vector<std::unique_ptr<TofFeed>> cameras_;
-  std::vector<std::unique_ptr<PointingFeed>> telescopes_;
-  std::vector<std::unique_ptr<StereoFeed>> stereos_;
+  SourceContext context_;
+  SourceList sources_;
+  std::vector<std::pair<std::string, std::size_t>> counts_;  // of sources by kind
   std::int64_t started_ns_ = 0;
-  std::int64_t failures_logged_ = 0;
+  std::int64_t last_logged_failed_ = 0;
   std::string message_;
 };
 

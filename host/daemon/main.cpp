@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/config/load_config.hpp"
+#include "host/config/replay_config.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/log_setup.hpp"
 #include "host/publish/lcm_sink.hpp"
@@ -28,24 +29,6 @@ struct Options {
   bool fast = false;
 };
 
-// The recording stands in for the port of the target that it names, or of the only target.
-void replay_instead(host::DaemonConfig& config, const std::string& file) {
-  const std::string recorded = host::StreamReader(host::ByteSource(file)).header().target;
-  host::TargetConfig* chosen = config.targets.size() == 1 ? &config.targets.front() : nullptr;
-  for (host::TargetConfig& target : config.targets) {
-    if (target.name == recorded) chosen = &target;
-  }
-  if (chosen == nullptr) {
-    throw host::InputError(file + ": is a recording of target \"" + recorded + "\", which the configuration has not");
-  }
-  host::TargetConfig target = *chosen;
-  target.port = host::TargetConfig::kReplayPrefix + file;
-  config.targets = {target};
-  config.cameras.clear();
-  config.stereos.clear();
-  config.telescopes.clear();
-}
-
 int run(const Options& options) {
   host::DaemonConfig config = host::load_daemon_config(options.config);
   const std::vector<std::string> errors = host::directory_errors(config);
@@ -56,7 +39,7 @@ int run(const Options& options) {
     }
     return errors.empty() ? 0 : kExitUsage;
   }
-  if (!options.replay.empty()) replay_instead(config, options.replay);
+  if (!options.replay.empty()) config = host::replay_config(config, options.replay);
   host::set_up_log(config.log);
   // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
   for (const std::string& error : errors) spdlog::warn("{}", error);
@@ -65,7 +48,9 @@ int run(const Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   host::Signals signals{SIGTERM, SIGINT, SIGHUP};
   host::LcmSink sink(config.lcm.url);
-  host::Daemon daemon(config, sink, signals, options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal);
+  const host::SystemClock clock;
+  const auto speed = options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal;
+  host::Daemon daemon(config, sink, signals, speed, clock);
   daemon.run();
   return 0;
 }

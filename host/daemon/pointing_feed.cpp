@@ -3,25 +3,24 @@
 
 #include <utility>
 
-#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
 
-PointingFeed::PointingFeed(EventLoop& loop, const PointingConfig& config, Publisher& publisher)
-    : loop_(loop),
+PointingFeed::PointingFeed(const SourceContext& context, const PointingConfig& config)
+    : context_(context),
       config_(config),
       log_(config.name),
-      line_(config, publisher),
+      pipeline_(config, context.publisher, context.clock),
       watch_(config.directory),
       worker_(pointing_worker(config.camera)) {
-  loop_.watch(watch_.fd(), [this] { on_files(); });
-  loop_.watch(worker_.fd(), [this] { on_results(); });
+  context_.loop.watch(watch_.fd(), [this] { on_files(); });
+  context_.loop.watch(worker_.fd(), [this] { on_results(); });
 }
 
 PointingFeed::~PointingFeed() {
-  loop_.forget(watch_.fd());
-  loop_.forget(worker_.fd());
+  context_.loop.forget(watch_.fd());
+  context_.loop.forget(worker_.fd());
 }
 
 std::optional<PointingFeed::TrackState> PointingFeed::track_state() const {
@@ -35,40 +34,41 @@ std::optional<PointingFeed::TrackState> PointingFeed::track_state() const {
 
 // Images wait for their rows; a file that did not change since it was last read has no new ones.
 void PointingFeed::match(bool always) {
-  if (!line_.is_waiting()) return;
+  if (!pipeline_.is_waiting()) return;
   const auto state = track_state();
   if (!state || (!always && state == track_)) return;
   track_ = state;
-  const std::int64_t now_ns = monotonic_now_ns();
+  const std::int64_t now_ns = context_.clock.monotonic_ns();
   try {
     const pointing::TrackFile track =
         pointing::read_track(ByteSource(config_.track_file.string()), LastLine::kDropUnfinished);
-    for (ImageJob& job : line_.match(track, now_ns)) post(std::move(job));
+    for (ImageJob& job : pipeline_.match(track, now_ns)) post(std::move(job));
   } catch (const InputError& error) {
-    line_.track_failed(error.what(), now_ns);
+    pipeline_.track_failed(error.what(), now_ns);
   }
 }
 
 void PointingFeed::post(PointingJob job) {
-  if (const auto discarded = worker_.post(std::move(job))) line_.dropped(*discarded);
+  if (const auto discarded = worker_.post(std::move(job))) pipeline_.dropped(*discarded);
 }
 
 void PointingFeed::on_files() {
   const std::string track_name = config_.track_file.filename().string();
   for (const std::string& name : watch_.take()) {
-    if (name != track_name) line_.arrived(name);
+    if (name != track_name) pipeline_.arrived(name);
   }
   match(true);
 }
 
 void PointingFeed::on_results() {
   while (auto done = worker_.take()) {
-    std::visit([this](const auto& result) { line_.done(result, monotonic_now_ns()); }, done->answer);
+    std::visit([this](const auto& result) { pipeline_.done(result, context_.clock.monotonic_ns()); }, done->answer);
   }
-  attend(monotonic_now_ns());
+  attend();
 }
 
-void PointingFeed::attend(std::int64_t monotonic_ns) {
+void PointingFeed::attend() {
+  const std::int64_t monotonic_ns = context_.clock.monotonic_ns();
   watch_.attend();
   if (watch_.error() != last_logged_) {
     last_logged_ = watch_.error();
@@ -79,18 +79,25 @@ void PointingFeed::attend(std::int64_t monotonic_ns) {
     }
   }
   match(false);
-  if (auto pass = line_.take_finished_pass(monotonic_ns)) post(std::move(*pass));
+  if (auto pass = pipeline_.take_finished_pass(monotonic_ns)) post(std::move(*pass));
 }
 
-SourceHealth PointingFeed::health(std::int64_t monotonic_ns) {
-  SourceHealth health = line_.health(monotonic_ns);
+std::vector<SourceHealth> PointingFeed::health() {
+  SourceHealth health = pipeline_.health(context_.clock.monotonic_ns());
   health.device = config_.directory.string();
   health.counters.push_back({"directory_overflows", watch_.overflows()});
   if (!watch_.watching()) {
     health.state = SourceState::kGone;
     health.message = watch_.error();
   }
-  return health;
+  return {std::move(health)};
+}
+
+std::size_t open_pointing_feeds(const SourceContext& context, SourceList& sources) {
+  for (const PointingConfig& telescope : context.config.telescopes) {
+    sources.push_back(std::make_unique<PointingFeed>(context, telescope));
+  }
+  return context.config.telescopes.size();
 }
 
 }  // namespace pharos::host

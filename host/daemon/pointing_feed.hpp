@@ -6,25 +6,23 @@
 #include <optional>
 #include <string>
 
-#include "host/config/daemon_config.hpp"
 #include "host/daemon/directory_watch.hpp"
 #include "host/daemon/pointing_pipeline.hpp"
 #include "host/daemon/pointing_worker.hpp"
-#include "host/runtime/event_loop.hpp"
+#include "host/daemon/source.hpp"
 
 namespace pharos::host {
 
-/// One telescope of the configuration in the loop: files that arrive in its directory -> line -> worker -> line.
-class PointingFeed {
+/// One telescope of the configuration: files that arrive in its directory -> pipeline -> worker -> pipeline.
+class PointingFeed final : public Source {
  public:
-  /// `loop` and `publisher` must outlive this.
-  PointingFeed(EventLoop& loop, const PointingConfig& config, Publisher& publisher);
-  ~PointingFeed();
+  PointingFeed(const SourceContext& context, const PointingConfig& config);
+  ~PointingFeed() override;
 
-  /// Called several times a second: a directory that was missing, rows that came after their images, a pass that is
-  /// over.
-  void attend(std::int64_t monotonic_ns);
-  SourceHealth health(std::int64_t monotonic_ns);
+  const std::string& name() const override { return config_.name; }
+  /// A directory that was missing, rows that came after their images, a pass that is over.
+  void attend() override;
+  std::vector<SourceHealth> health() override;
 
  private:
   // What tells that the track file has changed.
@@ -40,14 +38,17 @@ class PointingFeed {
   void post(PointingJob job);
   std::optional<TrackState> track_state() const;
 
-  EventLoop& loop_;
+  const SourceContext& context_;
   PointingConfig config_;
   RateLimitedLog log_;
-  PointingPipeline line_;
+  PointingPipeline pipeline_;
   DirectoryWatch watch_;
   PointingWorker worker_;
   std::optional<TrackState> track_;
   std::string last_logged_;
 };
+
+/// Every [[telescope]].
+std::size_t open_pointing_feeds(const SourceContext& context, SourceList& sources);
 
 }  // namespace pharos::host

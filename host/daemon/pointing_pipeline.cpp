@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "host/runtime/now.hpp"
+#include "host/publish/messages.hpp"
 
 namespace pharos::host {
 namespace {
@@ -24,11 +24,12 @@ bool is_image(const std::string& name) {
 
 }  // namespace
 
-PointingPipeline::PointingPipeline(const PointingConfig& config, Publisher& publisher)
+PointingPipeline::PointingPipeline(const PointingConfig& config, Publisher& publisher, const Clock& clock)
     : config_(config),
-      publisher_(publisher),
+      clock_(clock),
       log_(config.name),
-      R_earth_station_(pointing::station_to_earth(config.station)) {}
+      R_earth_station_(pointing::station_to_earth(config.station)),
+      gate_(publisher, counters_.pointings_not_finite) {}
 
 void PointingPipeline::arrived(const std::string& name) {
   ++counters_.files_arrived;
@@ -36,7 +37,7 @@ void PointingPipeline::arrived(const std::string& name) {
     ++counters_.files_no_image;
     return;
   }
-  rate_.on_data(monotonic_now_ns());
+  rate_.on_data(clock_.monotonic_ns());
   if (std::find(pending_.begin(), pending_.end(), name) != pending_.end()) return;
   pending_.push_back(name);
   if (pending_.size() <= kMaxPending) return;
@@ -55,9 +56,11 @@ std::vector<ImageJob> PointingPipeline::match(const pointing::TrackFile& track, 
     if (row.refusal.empty()) {
       jobs.push_back({config_.directory / row.image, row.observation});
     } else {
-      refuse(row.observation, row.refusal,
-             row.image + ": its row of " + config_.track_file.string() + " is not complete or out of range",
-             monotonic_ns);
+      ImageResult gap;
+      gap.observation = row.observation;
+      gap.refusal = row.refusal;
+      gap.advice = row.image + ": its row of " + config_.track_file.string() + " is not complete or out of range";
+      refuse(gap, monotonic_ns);
     }
   }
   return jobs;
@@ -69,59 +72,59 @@ void PointingPipeline::dropped(const PointingJob& job) {
 
 void PointingPipeline::track_failed(const std::string& error, std::int64_t monotonic_ns) {
   ++counters_.track_errors;
-  error_ = error;
+  last_error_ = error;
   log_.warn("track", error, monotonic_ns);
 }
 
-PointingReport PointingPipeline::report(double time_s) {
-  PointingReport result;
-  result.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * kNsPerSecond);
-  result.sequence = sequence_++;
-  result.source = "line/" + config_.name;
-  result.camera = config_.name;
-  result.target = config_.target;
-  return result;
+PointingReport PointingPipeline::report_of(const MeasurementOutcome& outcome, double time_s) const {
+  PointingReport report;
+  static_cast<MeasurementOutcome&>(report) = outcome;
+  report.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * kNsPerSecond);
+  report.source = "line/" + config_.name;
+  report.sensor = config_.name;
+  report.target = config_.target;
+  return report;
 }
 
-void PointingPipeline::refuse(const pointing::Observation& observation, const std::string& reason,
-                              const std::string& error, std::int64_t monotonic_ns) {
+void PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_ns) {
   ++counters_.images_refused;
-  ++counters_.refused[reason];
-  error_ = error;
-  log_.warn(reason.c_str(), "refused_" + reason + ": " + error, monotonic_ns);
-  PointingReport refused = report(observation.time_s);
-  refused.refusal = reason;
-  publisher_.publish_pointing(refused);
+  ++counters_.refused[result.refusal];
+  last_error_ = result.advice;
+  log_.warn(result.refusal.c_str(), "refused_" + result.refusal + ": " + result.advice, monotonic_ns);
+  PointingReport refused = report_of(result, result.observation.time_s);
+  gate_.publish(refused);
 }
 
 void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns) {
   last_result_ns_ = monotonic_ns;
-  if (!result.refusal.empty()) {
-    refuse(result.observation, result.refusal, result.error, monotonic_ns);
+  if (!result.answered()) {
+    refuse(result, monotonic_ns);
     return;
   }
+  PointingReport report = report_of(result, result.observation.time_s);
+  report.axis_station = result.axis.axis;
+  report.axis_earth = R_earth_station_ * result.axis.axis;
+  report.covariance_station = result.axis.covariance;
+  report.plane_normal_station = pointing::signed_axis(result.axis.plane.normal);
+  report.sigma_plane_rad = result.axis.sigma_plane_rad;
+  if (!gate_.passes(report)) return;
   ++counters_.images_ok;
-  error_.clear();
+  last_error_.clear();
   rate_.on_pose(monotonic_ns);
-  if (config_.law) {
-    const bool late =
-        !pass_.empty() && std::abs(result.observation.time_s - pass_.back().observation.time_s) > config_.pass_gap_s;
-    if (late) over_.swap(pass_);
-    if (late) pass_.clear();
-    // An image that came late by file, not by time, has its place before.
-    const auto place = std::upper_bound(
-        pass_.begin(), pass_.end(), result.observation.time_s,
-        [](double time_s, const pointing::PassImage& image) { return time_s < image.observation.time_s; });
-    pass_.insert(place, {result.observation, result.planes_station});
-  }
-  PointingReport answered = report(result.observation.time_s);
-  answered.flags = result.flags;
-  answered.axis_station = result.axis.axis;
-  answered.axis_earth = R_earth_station_ * result.axis.axis;
-  answered.covariance_station = result.axis.covariance;
-  answered.plane_normal_station = pointing::signed_axis(result.axis.plane.normal);
-  answered.sigma_plane_rad = result.axis.sigma_plane_rad;
-  publisher_.publish_pointing(answered);
+  if (config_.law) keep_for_pass(result);
+  gate_.publish(report);
+}
+
+void PointingPipeline::keep_for_pass(const ImageResult& result) {
+  const bool late =
+      !pass_.empty() && std::abs(result.observation.time_s - pass_.back().observation.time_s) > config_.pass_gap_s;
+  if (late) over_.swap(pass_);
+  if (late) pass_.clear();
+  // An image that came late by file, not by time, has its place before.
+  const auto place = std::upper_bound(
+      pass_.begin(), pass_.end(), result.observation.time_s,
+      [](double time_s, const pointing::PassImage& image) { return time_s < image.observation.time_s; });
+  pass_.insert(place, {result.observation, result.planes_station});
 }
 
 std::optional<PassJob> PointingPipeline::take_finished_pass(std::int64_t monotonic_ns) {
@@ -136,26 +139,25 @@ std::optional<PassJob> PointingPipeline::take_finished_pass(std::int64_t monoton
 }
 
 void PointingPipeline::done(const PassResult& result, std::int64_t monotonic_ns) {
-  const pointing::PassEstimate& pass = result.answer.estimate;
-  PointingReport told = report(pass.time_s);
-  told.from_pass = true;
-  told.images = pass.images;
-  told.flags = pointing::name_of(*config_.law);
-  if (result.answer.failure || !result.error.empty()) {
-    ++counters_.passes_refused;
-    told.refusal = result.error.empty() ? pointing::name_of(*result.answer.failure) : kInternalError;
-    log_.warn("pass",
-              "pass of " + std::to_string(pass.images) + " images: refused_" + told.refusal +
-                  (result.error.empty() ? "" : ": " + result.error),
-              monotonic_ns);
-  } else {
+  const pointing::PassEstimate& pass = result.estimate;
+  PointingReport report = report_of(result, pass.time_s);
+  report.from_pass = true;
+  report.images = pass.images;
+  if (report.answered()) {
+    report.ambiguous = pass.second_axis_station.has_value();
+    report.axis_station = pass.axis_station;
+    report.axis_earth = R_earth_station_ * pass.axis_station;
+    report.covariance_station = pass.covariance_station;
+    if (!gate_.passes(report)) return;
     ++counters_.passes_ok;
-    told.ambiguous = pass.second_axis_station.has_value();
-    told.axis_station = pass.axis_station;
-    told.axis_earth = R_earth_station_ * pass.axis_station;
-    told.covariance_station = pass.covariance_station;
+  } else {
+    ++counters_.passes_refused;
+    log_.warn("pass",
+              "pass of " + std::to_string(pass.images) + " images: refused_" + report.refusal +
+                  (report.advice.empty() ? "" : ": " + report.advice),
+              monotonic_ns);
   }
-  publisher_.publish_pointing(told);
+  gate_.publish(report);
 }
 
 SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
@@ -164,9 +166,9 @@ SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
   health.target = config_.target;
   rate_.report(health, monotonic_ns);
   // A telescope between passes is well: silence is no fault of it.
-  health.state = rate_.any_pose() && error_.empty() ? SourceState::kOk : SourceState::kWaiting;
-  health.message = error_;
-  if (error_.empty() && !rate_.any_pose()) health.message = "no image came yet";
+  health.state = rate_.any_pose() && last_error_.empty() ? SourceState::kOk : SourceState::kWaiting;
+  health.message = last_error_;
+  if (last_error_.empty() && !rate_.any_pose()) health.message = "no image came yet";
   if (!pending_.empty()) {
     health.message = std::to_string(pending_.size()) + " images wait for their row in " + config_.track_file.string();
   }
@@ -181,6 +183,7 @@ SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
                      {"passes_refused", c.passes_refused},
                      {"passes_dropped", c.passes_dropped},
                      {"track_errors", c.track_errors},
+                     {"pointings_not_finite", c.pointings_not_finite},
                      {"log_lines_held_back", static_cast<std::int64_t>(log_.suppressed())}};
   for (const auto& [reason, count] : c.refused) health.counters.push_back({"refused." + reason, count});
   return health;

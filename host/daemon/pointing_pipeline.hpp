@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/clock.hpp"
 #include "host/daemon/pointing_worker.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
-#include "host/publish/publisher.hpp"
+#include "host/publish/pointing_report.hpp"
+#include "host/publish/publish_gate.hpp"
 #include "host/vision/pointing/track_file.hpp"
 
 namespace pharos::host {
@@ -27,17 +29,18 @@ struct PointingCounters {
   std::int64_t images_dropped = 0;        ///< more came than can be measured
   std::int64_t passes_ok = 0;
   std::int64_t passes_refused = 0;
-  std::int64_t passes_dropped = 0;  ///< as images
-  std::int64_t track_errors = 0;    ///< the track file could not be read
+  std::int64_t passes_dropped = 0;        ///< as images
+  std::int64_t track_errors = 0;          ///< the track file could not be read
+  std::int64_t pointings_not_finite = 0;  ///< images and passes answered, not sent: not finite (a bug of ours)
   std::map<std::string, std::int64_t> refused;
 };
 
-/// One telescope's images to pointings on LCM: file and row of the track -> job -> result -> publisher, and passes.
+/// One telescope's images to pointings on LCM: file and row of the track -> job -> result -> gate, and passes.
 /// Knows no directory and no thread.
 class PointingPipeline {
  public:
-  /// `publisher` must outlive this.
-  PointingPipeline(const PointingConfig& config, Publisher& publisher);
+  /// `publisher` and `clock` must outlive this.
+  PointingPipeline(const PointingConfig& config, Publisher& publisher, const Clock& clock);
 
   /// A file of this name has become whole in the directory.
   void arrived(const std::string& name);
@@ -58,22 +61,22 @@ class PointingPipeline {
   SourceHealth health(std::int64_t monotonic_ns);
 
  private:
-  PointingReport report(double time_s);
-  void refuse(const pointing::Observation& observation, const std::string& reason, const std::string& error,
-              std::int64_t monotonic_ns);
+  PointingReport report_of(const MeasurementOutcome& outcome, double time_s) const;
+  void keep_for_pass(const ImageResult& result);
+  void refuse(const ImageResult& result, std::int64_t monotonic_ns);
 
   PointingConfig config_;
-  Publisher& publisher_;
+  const Clock& clock_;
   RateLimitedLog log_;
   Matrix3 R_earth_station_;
   std::deque<std::string> pending_;
   std::vector<pointing::PassImage> pass_;
   std::vector<pointing::PassImage> over_;
   PointingCounters counters_;
-  std::int64_t sequence_ = 0;
+  PublishGate gate_;
   RateMonitor rate_;
   std::int64_t last_result_ns_ = -1;
-  std::string error_;  // of the last image
+  std::string last_error_;  // of the last image
 };
 
 }  // namespace pharos::host

@@ -21,7 +21,7 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
     const auto panel = pointing::measure_panel(image.view(), camera);
     if (!panel) {
       result.refusal = pointing::name_of(panel.error());
-      result.error = job.file.string() + ": " + pointing::advice_of(panel.error());
+      result.advice = job.file.string() + ": " + pointing::advice_of(panel.error());
       return result;
     }
     const pointing::PointingResult answer = pointing::answer_of(*panel, job.observation.sight);
@@ -30,14 +30,19 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
     result.flags = joined_flags(answer.flags, pointing::kPointingFlagWords);
   } catch (const InputError& error) {
     result.refusal = "unreadable";
-    result.error = error.what();
+    result.advice = error.what();
   }
   return result;
 }
 
 PassResult solved(const PassJob& job) {
   const auto workspace = std::make_unique<pointing::PassWorkspace>();
-  return {pointing::estimate_pass(job.images, job.options, *workspace), {}};
+  const pointing::PassSolution answer = pointing::estimate_pass(job.images, job.options, *workspace);
+  PassResult result;
+  if (answer.failure) result.refusal = pointing::name_of(*answer.failure);
+  result.flags = pointing::name_of(job.options.law);
+  result.estimate = answer.estimate;
+  return result;
 }
 
 PointingResult failed(const PointingJob& job, const std::string& error) {
@@ -45,14 +50,16 @@ PointingResult failed(const PointingJob& job, const std::string& error) {
     ImageResult result;
     result.observation = image->observation;
     result.refusal = kInternalError;
-    result.error = image->file.string() + ": " + error;
+    result.advice = image->file.string() + ": " + error;
     return result;
   }
   const auto& images = std::get<PassJob>(job).images;
   PassResult result;
-  result.error = error;
-  result.answer.estimate.images = static_cast<int>(images.size());
-  result.answer.estimate.time_s = images.front().observation.time_s;
+  result.refusal = kInternalError;
+  result.advice = error;
+  result.flags = pointing::name_of(std::get<PassJob>(job).options.law);
+  result.estimate.images = static_cast<int>(images.size());
+  result.estimate.time_s = images.front().observation.time_s;
   return result;
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <variant>
 #include <vector>
 
+#include "host/publish/measurement_header.hpp"
 #include "host/runtime/job_worker.hpp"
 #include "pharos/pointing/axis_estimate.hpp"
 #include "pharos/pointing/pass.hpp"
@@ -17,11 +17,9 @@ struct ImageJob {
   std::filesystem::path file;
   pointing::Observation observation;
 };
-struct ImageResult {
+/// What became of it; the advice names the file.
+struct ImageResult : MeasurementOutcome {
   pointing::Observation observation;
-  std::string refusal;  ///< the word after refused_; empty where there is an answer
-  std::string error;    ///< what it means, with the file's name; empty where there is an answer
-  std::string flags;
   pointing::AxisEstimate axis;
   pointing::AxisPlanes planes_station;
 };
@@ -31,9 +29,9 @@ struct PassJob {
   std::vector<pointing::PassImage> images;
   pointing::PassOptions options;
 };
-struct PassResult {
-  pointing::PassSolution answer;
-  std::string error;  ///< of a fault of ours; else empty
+/// What became of it; advice only of a fault of ours. Of a refused one the estimate still tells images and time.
+struct PassResult : MeasurementOutcome {
+  pointing::PassEstimate estimate;
 };
 
 using PointingJob = std::variant<ImageJob, PassJob>;

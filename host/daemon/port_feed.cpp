@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "host/runtime/now.hpp"
-
 namespace pharos::host {
 namespace {
 
@@ -13,8 +11,15 @@ constexpr std::size_t kReadBytes = 16 * 1024;
 
 }  // namespace
 
-PortFeed::PortFeed(EventLoop& loop, std::string name, const std::string& path, int baud, ByteFeedEvents events)
-    : loop_(loop), log_(std::move(name)), port_(path, baud), events_(std::move(events)), buffer_(kReadBytes) {}
+PortFeed::PortFeed(EventLoop& loop, const Clock& clock, std::string name, const std::string& path, int baud,
+                   ByteFeedEvents events)
+    : loop_(loop),
+      clock_(clock),
+      log_(std::move(name)),
+      baud_(baud),
+      port_(path, baud),
+      events_(std::move(events)),
+      buffer_(kReadBytes) {}
 
 PortFeed::~PortFeed() {
   if (port_.is_open()) loop_.forget(port_.fd());
@@ -37,8 +42,8 @@ void PortFeed::attend(std::int64_t monotonic_ns) {
 
 void PortFeed::on_readable() {
   const int fd = port_.fd();
-  const Transfer transfer = port_.read(buffer_, monotonic_now_ns());
-  const Arrival arrival{utc_now_ns(), monotonic_now_ns()};
+  const Transfer transfer = port_.read(buffer_, clock_.monotonic_ns());
+  const Arrival arrival{clock_.utc_ns(), clock_.monotonic_ns()};
   if (transfer.bytes > 0) events_.bytes({buffer_.data(), transfer.bytes}, arrival);
   if (!transfer.gone) return;
   loop_.forget(fd);
@@ -58,8 +63,6 @@ std::string PortFeed::error() const {
   if (!port_.failure().message.empty()) return port_.failure().message;
   return port_.path() + (was_lost_ ? ": unplugged; waiting for it" : ": not opened yet");
 }
-
-std::int64_t PortFeed::monotonic_now() const { return monotonic_now_ns(); }
 
 NamedCounts PortFeed::counters() const {
   return {{"port.opened", static_cast<std::int64_t>(port_.times_opened())},

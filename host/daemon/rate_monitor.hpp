@@ -7,7 +7,8 @@
 
 namespace pharos::host {
 
-/// When a line's data and poses came, and how fast: what the health of every line begins with. Times are monotonic.
+/// When a pipeline's data and poses came, and how fast: what the health of every pipeline begins with. Times are
+/// monotonic.
 class RateMonitor {
  public:
   void on_data(std::int64_t now_ns) { last_data_ns_ = now_ns; }

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <utility>
 
-#include "host/runtime/now.hpp"
 #include "host/table/byte_source.hpp"
 
 namespace pharos::host {
@@ -21,9 +20,10 @@ constexpr std::int64_t kLongestWait_ns = 10'000'000'000;
 
 }  // namespace
 
-ReplayFeed::ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed,
-                       ByteFeedEvents events)
+ReplayFeed::ReplayFeed(EventLoop& loop, const Clock& clock, std::string name, const std::string& file,
+                       ReplaySpeed speed, ByteFeedEvents events)
     : loop_(loop),
+      clock_(clock),
       name_(name),
       log_(std::move(name)),
       reader_(ByteSource(file)),
@@ -67,14 +67,14 @@ void ReplayFeed::on_timer() {
 
 std::int64_t ReplayFeed::wait_for_next() {
   if (speed_ == ReplaySpeed::kFastest) return 0;
-  const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - monotonic_now_ns();
+  const std::int64_t wait_ns = next_->monotonic_ns + shift_ns_ - clock_.monotonic_ns();
   if (wait_ns <= kLongestWait_ns) return wait_ns;
   shift_ns_ -= wait_ns - kLongestWait_ns;
   ++silences_cut_;
   log_.info("silence",
             "a silence of " + std::to_string(wait_ns / kNsPerS) + " s in the recording is cut to " +
                 std::to_string(kLongestWait_ns / kNsPerS) + " s",
-            monotonic_now_ns());
+            clock_.monotonic_ns());
   return kLongestWait_ns;
 }
 

@@ -6,30 +6,31 @@
 #include <string>
 #include <vector>
 
+#include "host/config/daemon_config.hpp"
 #include "host/daemon/byte_feed.hpp"
+#include "host/daemon/clock.hpp"
 #include "host/daemon/rate_limited_log.hpp"
+#include "host/daemon/replay_speed.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/runtime/timer.hpp"
 
 namespace pharos::host {
 
-/// How fast a recording is played.
-enum class ReplaySpeed : std::uint8_t { kReal, kFastest };
-
 /// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then. At
 /// real speed a silence lasts ten seconds at the most.
 class ReplayFeed : public ByteFeed {
  public:
-  /// Throws InputError when the file is no recording. `loop` must outlive this.
-  ReplayFeed(EventLoop& loop, std::string name, const std::string& file, ReplaySpeed speed, ByteFeedEvents events);
+  /// Throws InputError when the file is no recording. `loop` and `clock` must outlive this.
+  ReplayFeed(EventLoop& loop, const Clock& clock, std::string name, const std::string& file, ReplaySpeed speed,
+             ByteFeedEvents events);
   ~ReplayFeed() override;
 
-  const StreamHeader& header() const { return reader_.header(); }
   void attend(std::int64_t monotonic_ns) override;
   SourceState state() const override { return finished_ ? SourceState::kStale : SourceState::kOk; }
   std::string error() const override { return finished_ ? "the recording has come to its end" : ""; }
   std::string device() const override { return TargetConfig::kReplayPrefix + reader_.name(); }
+  int baud() const override { return static_cast<int>(reader_.header().baud); }
   bool finished() const override { return finished_; }
   std::int64_t monotonic_now() const override { return played_ns_; }
   NamedCounts counters() const override;
@@ -42,6 +43,7 @@ class ReplayFeed : public ByteFeed {
   void finish();
 
   EventLoop& loop_;
+  const Clock& clock_;
   std::string name_;
   RateLimitedLog log_;
   StreamReader reader_;

@@ -2,14 +2,11 @@
 #include "host/daemon/target_pipeline.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "host/publish/messages.hpp"
 #include "host/publish/words.hpp"
-#include "host/runtime/now.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
@@ -37,19 +34,37 @@ ReportedBearing reported(const track::TrackedBearing& bearing, std::int64_t cycl
   return report;
 }
 
+// What the tracker or the board says, as a report without its time.
+template <class Report, class JobResult>
+Report report_of(const JobResult& answer) {
+  Report report;
+  if (answer.pose) {
+    report.pose = *answer.pose;
+    report.ambiguous = report.pose.ambiguous();
+  } else {
+    report.refusal = pose::name_of(answer.pose.error());
+  }
+  report.flags = flag_words(answer.flags);
+  report.observations = answer.observations;
+  return report;
+}
+
 }  // namespace
 
 LighthousePipeline::LighthousePipeline(const TargetConfig& config, const PublishConfig& publish,
-                                       const std::string& source, Publisher& publisher, CalibrationMemory& memory,
-                                       int line_baud)
+                                       const std::string& source, Publisher& publisher, const Clock& clock,
+                                       CalibrationMemory& memory, int line_baud)
     : config_(config),
       publish_(publish),
-      max_age_ns_(static_cast<std::int64_t>(publish.max_age_s * 1e9)),
       source_(source),
-      publisher_(publisher),
+      host_clock_(clock),
       memory_(memory),
       tracker_(config_),
       line_baud_(line_baud),
+      gate_(publisher, counters_.cycles_not_finite,
+            PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
+      board_gate_(publisher, counters_.cycles_not_finite,
+                  PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
       log_(config.name) {
   if (!config_.remember_calibrations) return;
   for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
@@ -58,7 +73,7 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
 void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
   if (bytes.empty()) return;
   arrival_ = arrival;
-  push_began_ns_ = monotonic_now_ns();
+  push_began_ns_ = host_clock_.monotonic_ns();
   last_bytes_ns_ = arrival.monotonic_ns;
   for (const std::uint8_t byte : bytes) {
     ++frame_bytes_;
@@ -227,62 +242,53 @@ void LighthousePipeline::count_answer(const Result<LighthousePoseEstimate, pose:
   }
 }
 
-// The report of a cycle at this time, if it may be told at all: its UTC is known and not too long ago.
-std::optional<CycleReport> LighthousePipeline::timed_report(std::uint8_t station, std::int64_t time_ticks) {
+// Time, names and flags of a cycle's report; false, and counted, while UTC is not known.
+bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks) {
   const auto time = clock_.map(time_ticks);
   if (!time) {
     ++counters_.cycles_no_clock;
-    return std::nullopt;
+    return false;
   }
-  CycleReport report;
   report.utc_ns = time->utc_ns;
   report.utc_sigma_ns = time->sigma_ns;
-  report.latency_ns = arrival_.monotonic_ns - time->monotonic_ns + monotonic_now_ns() - push_began_ns_;
-  if (std::abs(report.latency_ns) > max_age_ns_) {
-    ++counters_.cycles_stale;
-    return std::nullopt;
-  }
-  report.clock_was_set = !clock_step_.notice(arrival_.monotonic_ns).empty();
+  report.age_ns = arrival_.monotonic_ns - time->monotonic_ns + host_clock_.monotonic_ns() - push_began_ns_;
   report.source = source_;
   report.target = config_.name;
   report.station = station;
-  if (const auto* calibration = calibrations_.in_use(station)) report.station_id = station_id_text(calibration->id);
-  return report;
+  if (const auto* calibration = calibrations_.in_use(station)) report.sensor = station_id_text(calibration->id);
+  if (!clock_step_.notice(arrival_.monotonic_ns).empty()) add_flag_word(report.flags, kClockSetWord);
+  return true;
 }
 
 void LighthousePipeline::answer(const track::EpochResult& result) {
-  if (result.pose && !(result.pose->pose.is_finite() && result.pose->covariance.allFinite())) {
-    ++counters_.cycles_not_finite;
-    return;
-  }
+  auto report = report_of<CycleReport>(result);
+  if (!gate_.finite(report)) return;
   count_answer(result.pose);
-  auto report = timed_report(result.station, result.time_ticks);
-  if (!report) return;
-  report->sequence = sequence_++;
-  report->flags = result.flags;
-  report->observations = result.observations;
-  report->pose = result.pose;
-  if (report->pose) calibrate::widen_by_scale(*report->pose, config_.scale_sigma);
-  if (publisher_.publish_pose(*report) && result.pose) {
+  if (!stamp(report, result.station, result.time_ticks)) return;
+  if (report.answered()) calibrate::widen_by_scale(report.pose, config_.scale_sigma);
+  if (!gate_.passes(report)) return;
+  if (gate_.publish(report) && report.answered()) {
     rate_.on_pose(arrival_.monotonic_ns);
-    latency_.add(monotonic_now_ns() - push_began_ns_);
+    latency_.add(host_clock_.monotonic_ns() - push_began_ns_);
   }
-  if (!publish_.bearings) return;
+  if (publish_.bearings) publish_bearings(report, result);
+}
+
+void LighthousePipeline::publish_bearings(const CycleReport& report, const track::EpochResult& result) {
+  BearingsReport bearings;
+  static_cast<MeasurementHeader&>(bearings) = report;
+  bearings.station = report.station;
+  bearings.calibrated = (result.flags & track::kEpochUncalibrated) == 0;
   for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) {
-    report->bearings.push_back(reported(tracker_.bearing(i), result.time_ticks));
+    bearings.bearings.push_back(reported(tracker_.bearing(i), result.time_ticks));
   }
-  publisher_.publish_bearings(*report);
+  gate_.publish_companion(bearings);
 }
 
 void LighthousePipeline::take(const report::PoseReport& pose) {
   ++counters_.board_poses;
-  auto report = timed_report(pose.station, pose.time_ticks);
-  if (!report) return;
-  report->sequence = board_sequence_++;
-  report->flags = pose.flags;
-  report->observations = pose.observations;
-  report->pose = pose.pose;
-  publisher_.publish_board_pose(*report);
+  auto report = report_of<BoardPoseReport>(pose);
+  if (stamp(report, pose.station, pose.time_ticks)) board_gate_.publish(report);
 }
 
 void LighthousePipeline::log_foreign_version() {

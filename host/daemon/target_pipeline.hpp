@@ -9,33 +9,30 @@
 
 #include "host/clock/clock_map.hpp"
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/arrival.hpp"
 #include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/clock.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/target_counters.hpp"
 #include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
-#include "host/publish/publisher.hpp"
+#include "host/publish/cycle_report.hpp"
+#include "host/publish/publish_gate.hpp"
 #include "host/runtime/latency_histogram.hpp"
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/report/link_decoder.hpp"
 
 namespace pharos::host {
 
-/// When bytes arrived, on both clocks of this computer (of a replay: as they were when it was recorded).
-struct Arrival {
-  std::int64_t utc_ns = 0;
-  std::int64_t monotonic_ns = 0;
-};
-
-/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> publisher. Knows no port and no file.
+/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> gate. Knows no port and no file.
 class LighthousePipeline {
  public:
-  /// `publisher` and `memory` must outlive this. `source` is told in every message.
+  /// `publisher`, `clock` and `memory` must outlive this. `source` is told in every message.
   /// `line_baud`: speed of the wire, for the time that a frame certainly spends on it; 0 where bytes arrive at once.
   LighthousePipeline(const TargetConfig& config, const PublishConfig& publish, const std::string& source,
-                     Publisher& publisher, CalibrationMemory& memory, int line_baud);
+                     Publisher& publisher, const Clock& clock, CalibrationMemory& memory, int line_baud);
 
   /// Bytes just read. Every cycle that they complete is published before this returns.
   void push(std::span<const std::uint8_t> bytes, const Arrival& arrival);
@@ -83,7 +80,8 @@ class LighthousePipeline {
   void check_clock(const report::LinkEvent& event);
   void restart(const char* why);
   void answer(const track::EpochResult& result);
-  std::optional<CycleReport> timed_report(std::uint8_t station, std::int64_t time_ticks);
+  bool stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks);
+  void publish_bearings(const CycleReport& report, const track::EpochResult& result);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
   void log_foreign_version();
   static std::string unsupported_version_text(std::uint8_t version);
@@ -92,9 +90,8 @@ class LighthousePipeline {
 
   TargetConfig config_;
   PublishConfig publish_;
-  std::int64_t max_age_ns_ = 0;
   std::string source_;
-  Publisher& publisher_;
+  const Clock& host_clock_;
   CalibrationMemory& memory_;
 
   report::LinkDecoder link_;
@@ -103,7 +100,7 @@ class LighthousePipeline {
   TargetTracker tracker_;
   int line_baud_ = 0;
   Arrival arrival_;
-  std::int64_t push_began_ns_ = 0;  // this computer's monotonic time now, also in a replay
+  std::int64_t push_began_ns_ = 0;  // this computer's monotonic time, also in a replay
   std::size_t frame_bytes_ = 0;     // since the last good frame
   std::int64_t newest_ticks_ = 0;
   bool any_ticks_ = false;
@@ -114,12 +111,12 @@ class LighthousePipeline {
   ClockStepMonitor clock_step_;
 
   TargetCounters counters_;
+  PublishGate gate_;
+  PublishGate board_gate_;
   BoardCounters board_counters_;
   RateLimitedLog log_;
   std::string identity_;
   LatencyHistogram latency_;
-  std::int64_t sequence_ = 0;
-  std::int64_t board_sequence_ = 0;
   std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
   std::int64_t last_sweep_ns_ = -1;
   RateMonitor rate_;

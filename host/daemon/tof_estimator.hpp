@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "host/device/depth_frame.hpp"
 #include "host/publish/tof_report.hpp"
@@ -18,13 +17,9 @@ struct TofWorkspace;
 
 namespace pharos::host {
 
-/// What became of one frame.
-struct TofResult {
-  std::string refusal;  // tof::name_of(TofFailure); empty where there is a pose
-  std::string advice;   // the same for people, with what to do
+/// What became of one frame: a refusal is a tof::name_of(TofFailure); observations are depth pixels and edge points.
+struct TofResult : MeasurementOutcome {
   TofPoseEstimate estimate;
-  int observations = 0;  // depth pixels and edge points that it rests on
-  std::string flags;
   /// What each stage took, by TofStage; 0 where the frame did not come to it.
   std::array<std::int64_t, tof::kTofStages> stage_ns{};
 };

@@ -5,7 +5,6 @@
 
 #include "host/device/gige_module.hpp"
 #include "host/device/recorded_source.hpp"
-#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
@@ -13,45 +12,49 @@ namespace {
 // Of the camera that `pharos sim tof` simulates, and the Helios' own greatest.
 constexpr double kUsualRate_hz = 30.0;
 
-std::unique_ptr<FrameSource> source_of(const TofConfig& config, bool fastest) {
+std::unique_ptr<FrameSource> frames_of(const TofConfig& config, ReplaySpeed speed) {
   if (!config.is_recorded()) return open_gige_source(config.device);
   const double asked_hz = config.device.frame_rate_hz;
   const double rate_hz = asked_hz > 0.0 ? asked_hz : kUsualRate_hz;
   return std::make_unique<RecordedSource>(config.frames.string(), config.device.width_px, config.device.height_px,
-                                          fastest ? 0.0 : rate_hz);
+                                          speed == ReplaySpeed::kFastest ? 0.0 : rate_hz);
 }
 
 }  // namespace
 
-TofFeed::TofFeed(EventLoop& loop, const TofConfig& config, const PublishConfig& publish, Publisher& publisher,
-                 bool fastest, std::function<void()> finished)
-    : loop_(loop),
+TofFeed::TofFeed(const SourceContext& context, const TofConfig& config)
+    : context_(context),
       name_(config.name),
-      recorded_(config.is_recorded()),
       state_log_(config.name),
-      source_(source_of(config, fastest)),
+      frames_(frames_of(config, context.replay_speed)),
       estimator_(config.camera, config.tof),
-      line_(config, publish, "tof/" + config.name, publisher,
-            [this](const DepthFrame& frame) { return estimator_.measure(frame); }),
-      finished_(std::move(finished)) {
-  loop_.watch(source_->fd(), [this] { on_readable(); });
+      pipeline_(config, context.config.publish, "tof/" + config.name, context.publisher, context.clock,
+                [this](const DepthFrame& frame) { return estimator_.measure(frame); }) {
+  context_.loop.watch(frames_->fd(), [this] { on_readable(); });
 }
 
-TofFeed::~TofFeed() { loop_.forget(source_->fd()); }
+TofFeed::~TofFeed() { context_.loop.forget(frames_->fd()); }
 
 // One frame, then whoever else waits in the loop: the lighthouse's cycles must not wait for two.
 void TofFeed::on_readable() {
-  if (DepthFramePtr frame = source_->take()) {
-    line_.take(*frame);
-    source_->recycle(std::move(frame));
-  } else if (!finish_reported_ && source_->status().finished) {
-    finish_reported_ = true;
-    finished_();
+  if (DepthFramePtr frame = frames_->take()) {
+    pipeline_.take(*frame);
+    frames_->recycle(std::move(frame));
+  } else if (!finished_ && frames_->status().finished) {
+    finished_ = true;
+    context_.on_finished();
   }
 }
 
-void TofFeed::attend(std::int64_t monotonic_ns) {
-  state_log_.update(source_->device(), source_->status(), monotonic_ns);
+void TofFeed::attend() { state_log_.update(frames_->device(), frames_->status(), context_.clock.monotonic_ns()); }
+
+std::vector<SourceHealth> TofFeed::health() {
+  return {pipeline_.health(frames_->device(), frames_->status(), context_.clock.monotonic_ns())};
+}
+
+std::size_t open_tof_feeds(const SourceContext& context, SourceList& sources) {
+  for (const TofConfig& camera : context.config.cameras) sources.push_back(std::make_unique<TofFeed>(context, camera));
+  return context.config.cameras.size();
 }
 
 }  // namespace pharos::host

@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/tof_pipeline.hpp"
 
-#include <cmath>
 #include <utility>
 
-#include "host/runtime/now.hpp"
+#include "host/publish/messages.hpp"
+#include "host/publish/words.hpp"
 
 namespace pharos::host {
-namespace {
-
-constexpr double kNsPerSecond = 1e9;
-
-std::string with_word(const std::string& words, const char* word) { return words.empty() ? word : words + '|' + word; }
-
-}  // namespace
-
 TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source,
-                         Publisher& publisher, Measure measure)
+                         Publisher& publisher, const Clock& clock, Measure measure)
     : config_(config),
       source_(source),
-      publisher_(publisher),
+      host_clock_(clock),
       measure_(std::move(measure)),
-      max_age_ns_(std::llround(publish.max_age_s * kNsPerSecond)),
       log_(config.name),
-      average_(config.average_frames) {}
+      average_(config.average_frames),
+      gate_(publisher, counters_.frames_not_finite,
+            PublishGate::AgeLimit{publish.max_age_ns(), counters_.frames_stale}) {}
 
 /// When the frame was taken; empty, and counted, where it cannot be used.
 std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
@@ -46,7 +39,7 @@ std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
 }
 
 void TofPipeline::take(const DepthFrame& frame) {
-  const std::int64_t began_ns = monotonic_now_ns();
+  const std::int64_t began_ns = host_clock_.monotonic_ns();
   rate_.on_data(frame.complete_monotonic_ns);
   transport_.add(frame.complete_monotonic_ns - frame.arrival_monotonic_ns);
   waiting_.add(began_ns - frame.complete_monotonic_ns);
@@ -57,75 +50,68 @@ void TofPipeline::take(const DepthFrame& frame) {
   }
   const std::optional<MappedTime> time = time_of(frame);
   if (!time) return;
-  if (began_ns - time->monotonic_ns > max_age_ns_) {  // waited too long: the estimator has newer ones to work on
-    ++counters_.frames_stale;
-    return;
-  }
+  if (!gate_.fresh(began_ns - time->monotonic_ns)) return;  // waited too long: the estimator has newer ones to work on
   TofResult answered = measure_(frame);
-  estimator_.add(monotonic_now_ns() - began_ns);
+  estimator_.add(host_clock_.monotonic_ns() - began_ns);
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
     if (answered.stage_ns[k] > 0) estimator_stages_[k].add(answered.stage_ns[k]);
   }
-  if (frame.taken_in_turns) answered.flags = with_word(answered.flags, "in_turns");
+  if (frame.taken_in_turns) add_flag_word(answered.flags, "in_turns");
   answer(answered, *time);
 }
 
-void TofPipeline::count(const TofResult& answer) {
-  if (answer.refusal.empty()) {
-    ++(answer.estimate.ambiguous() ? counters_.frames_ambiguous : counters_.frames_ok);
+void TofPipeline::count(const TofReport& report) {
+  if (report.answered()) {
+    ++(report.ambiguous ? counters_.frames_ambiguous : counters_.frames_ok);
     return;
   }
   ++counters_.frames_refused;
-  ++counters_.refused[answer.refusal];
-  last_refusal_ = answer.refusal + ": " + answer.advice;
+  ++counters_.refused[report.refusal];
+  last_refusal_ = report.refusal + ": " + report.advice;
 }
 
-void TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
-  const bool has_pose = answer.refusal.empty();
-  if (has_pose && !(answer.estimate.pose.is_finite() && answer.estimate.covariance.allFinite())) {
-    ++counters_.frames_not_finite;
-    return;
-  }
-  TofReport told = report(time);
-  if (std::abs(told.latency_ns) > max_age_ns_) {
-    ++counters_.frames_stale;
-    return;
-  }
-  count(answer);
-  told.refusal = answer.refusal;
-  told.flags = answer.flags;
-  told.observations = answer.observations;
-  told.pose = answer.estimate;
-  if (has_pose && config_.average_frames > 1) {
-    if (answer.estimate.ambiguous()) return;  // which of the two would go into the mean?
-    const auto mean = average_.push({answer.estimate, time.utc_ns, answer.observations, answer.flags});
-    if (!mean) return;
-    told.utc_ns = mean->utc_ns;
-    told.flags = mean->moving ? with_word(mean->flags, "moving") : mean->flags;
-    told.observations = mean->observations;
-    told.pose = mean->estimate;
-  }
-  publish(told);
-}
-
-TofReport TofPipeline::report(const MappedTime& time) const {
+TofReport TofPipeline::report_of(const TofResult& answer, const MappedTime& time) const {
   TofReport report;
+  static_cast<MeasurementOutcome&>(report) = answer;
   report.utc_ns = time.utc_ns;
   report.utc_sigma_ns = time.sigma_ns;
-  report.latency_ns = monotonic_now_ns() - time.monotonic_ns;
+  report.age_ns = host_clock_.monotonic_ns() - time.monotonic_ns;
   report.source = source_;
-  report.camera = config_.name;
+  report.sensor = config_.name;
   report.target = config_.target;
+  report.pose = answer.estimate;
+  report.ambiguous = answer.estimate.ambiguous();
   return report;
 }
 
+// Puts the mean of a window in the place of its last frame; false where no window is full.
+bool TofPipeline::average(TofReport& report) {
+  if (report.ambiguous) return false;  // which of the two would go into the mean?
+  const auto mean = average_.push({report.pose, report.utc_ns, report.observations, report.flags});
+  if (!mean) return false;
+  report.utc_ns = mean->utc_ns;
+  report.flags = mean->flags;
+  if (mean->moving) add_flag_word(report.flags, "moving");
+  report.observations = mean->observations;
+  report.pose = mean->estimate;
+  report.ambiguous = mean->estimate.ambiguous();
+  return true;
+}
+
+void TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
+  TofReport report = report_of(answer, time);
+  if (!gate_.passes(report)) return;
+  count(report);
+  if (report.answered() && config_.average_frames > 1 && !average(report)) return;
+  publish(report);
+}
+
 void TofPipeline::publish(TofReport& report) {
-  report.sequence = sequence_++;
-  const std::int64_t now_ns = monotonic_now_ns();
-  if (!clock_step_.notice(now_ns).empty()) report.flags = with_word(report.flags, "clock_set");
-  if (!publisher_.publish_pose(report) || !report.refusal.empty()) return;
+  const std::int64_t now_ns = host_clock_.monotonic_ns();
+  if (!clock_step_.notice(now_ns).empty()) add_flag_word(report.flags, kClockSetWord);
+  if (!gate_.publish(report) || !report.answered()) return;
   rate_.on_pose(now_ns);
-  latency_.add(report.latency_ns);
+  latency_.add(report.age_ns);
 }
 
 }  // namespace pharos::host

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/clock.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/frame_clock.hpp"
 #include "host/daemon/pose_average.hpp"
@@ -15,19 +16,20 @@
 #include "host/daemon/tof_counters.hpp"
 #include "host/daemon/tof_estimator.hpp"
 #include "host/device/frame_source.hpp"
-#include "host/publish/publisher.hpp"
+#include "host/publish/publish_gate.hpp"
 #include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {
 
-/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> publisher. Knows no camera and no file.
+/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> gate. Knows no camera and no file.
 class TofPipeline {
  public:
   using Measure = std::function<TofResult(const DepthFrame&)>;
 
-  /// `publisher` must outlive this. `source` is told in every message. `measure`: TofEstimator::measure, or a test's.
+  /// `publisher` and `clock` must outlive this. `source` is told in every message. `measure`: TofEstimator::measure, or
+  /// a test's.
   TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
-              Measure measure);
+              const Clock& clock, Measure measure);
 
   /// A whole frame, just taken. What it gives is published before this returns.
   void take(const DepthFrame& frame);
@@ -40,22 +42,22 @@ class TofPipeline {
  private:
   std::optional<MappedTime> time_of(const DepthFrame& frame);
   void answer(const TofResult& answer, const MappedTime& time);
-  void count(const TofResult& answer);
-  TofReport report(const MappedTime& time) const;
+  void count(const TofReport& report);
+  TofReport report_of(const TofResult& answer, const MappedTime& time) const;
+  bool average(TofReport& report);
   void publish(TofReport& report);
   void assess(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t monotonic_ns) const;
   NamedCounts named_counts(const FrameSourceStatus& camera) const;
 
   TofConfig config_;
   std::string source_;
-  Publisher& publisher_;
+  const Clock& host_clock_;
   Measure measure_;
-  std::int64_t max_age_ns_;
   RateLimitedLog log_;
   FrameClock clock_;
   PoseAverage average_;
   TofCounters counters_;
-  std::int64_t sequence_ = 0;
+  PublishGate gate_;
   std::string last_refusal_;  // with what to do
   std::int64_t last_utc_ns_ = 0;
   ClockStepMonitor clock_step_;

@@ -2,15 +2,26 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "host/publish/frame_names.hpp"
+#include "host/publish/measurement_header.hpp"
 #include "pharos/base/axis.hpp"
-#include "pharos/base/result.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
-#include "pharos/pose/solve.hpp"
 
 namespace pharos::host {
+
+/// One cycle of one station on one target: what pose_t is made of. The sensor is the station, eight hex digits, empty
+/// while unknown.
+struct CycleReport : MeasurementHeader {
+  CycleReport() { frames = frames_of(pose); }
+
+  std::uint8_t station = 0;  // slot position
+  LighthousePoseEstimate pose;
+};
+
+/// The same of a pose that the capture board solved itself.
+struct BoardPoseReport : CycleReport {};
 
 /// One bearing of a cycle, with what the solver made of it.
 struct ReportedBearing {
@@ -24,21 +35,17 @@ struct ReportedBearing {
   double residual_rad = 0.0;
 };
 
-/// One cycle of one station on one target, in this computer's time: what pose_t and bearings_t are made of.
-struct CycleReport {
-  std::int64_t utc_ns = 0;        // of the measurement
-  std::int64_t utc_sigma_ns = 0;  // as the clock mapping states it
-  std::int64_t latency_ns = 0;    // from the last light used to now
-  std::int64_t sequence = 0;
-  std::string source;
-  std::string target;
-  std::string station_id;      // eight hex digits, empty while unknown
-  std::uint8_t station = 0;    // slot position
-  std::uint8_t flags = 0;      // of track::EpochFlag
-  bool clock_was_set = false;  // this computer's clock, a moment ago: utime may have gone backwards
-  int observations = 0;
-  Result<LighthousePoseEstimate, pose::Refusal> pose = pose::Refusal::kTooFewSensors;
+/// The bearings of a cycle: what bearings_t is made of. Header and station are those of the cycle.
+struct BearingsReport : MeasurementHeader {
+  std::uint8_t station = 0;
+  bool calibrated = false;  // ideal_theta_rad is corrected by the station's calibration
   std::vector<ReportedBearing> bearings;
 };
+
+const char* channel_of(const CycleReport& report);
+const char* channel_of(const BoardPoseReport& report);
+const char* channel_of(const BearingsReport& report);
+bool is_finite(const CycleReport& report);
+bool is_finite(const BearingsReport& report);
 
 }  // namespace pharos::host

@@ -15,14 +15,17 @@
 
 namespace pharos::host {
 
-// The daemon's values as LCM types: SI, times in microseconds, what does not apply is 0.
+// The daemon's values as LCM types: SI, times in microseconds, what does not apply is 0. Refusals hold no numbers.
 
-pose_t pose_message(const CycleReport& report);
-pose_t pose_message(const TofReport& report);
-pose_t pose_message(const StereoReport& report);
-pointing_t pointing_message(const PointingReport& report);
-spin_t spin_message(const SpinReport& report);
-bearings_t bearings_message(const CycleReport& report);
+pose_t message_of(const CycleReport& report);
+pose_t message_of(const TofReport& report);
+pose_t message_of(const StereoReport& report);
+pointing_t message_of(const PointingReport& report);
+spin_t message_of(const SpinReport& report);
+bearings_t message_of(const BearingsReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);
+
+/// All of a pose's message but the pose itself: what its header tells.
+pose_t pose_message_of(const MeasurementHeader& header);
 
 }  // namespace pharos::host

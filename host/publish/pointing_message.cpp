@@ -15,21 +15,19 @@ void fill(const Vector3& v, double (&out)[3]) {
 
 }  // namespace
 
-pointing_t pointing_message(const PointingReport& report) {
+pointing_t message_of(const PointingReport& report) {
   pointing_t message{};
   message.utime = report.utc_ns / kNsPerUs;
   message.sequence = report.sequence;
   message.source = report.source;
-  message.station_or_camera = report.camera;
+  message.station_or_camera = report.sensor;
   message.target = report.target;
   message.flags = report.flags;
   message.from_pass = report.from_pass ? 1 : 0;
   message.images = report.images;
-  const bool refused = !report.refusal.empty();
-  const char* answered = report.ambiguous ? "ambiguous" : "ok";
-  message.status = refused ? "refused_" + report.refusal : answered;
-  message.valid = refused ? 0 : 1;
-  if (refused) return message;
+  message.status = status_word(report);
+  message.valid = report.answered() ? 1 : 0;
+  if (!report.answered()) return message;
   const Vector3 &s = report.axis_station, &e = report.axis_earth;
   fill(s, message.axis_station);
   fill(e, message.axis_earth);

@@ -3,8 +3,6 @@
 #include <limits>
 
 #include "host/publish/messages.hpp"
-#include "host/publish/words.hpp"
-#include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
 namespace {
@@ -58,80 +56,63 @@ bearing_t bearing_message(const ReportedBearing& bearing) {
   return message;
 }
 
-// When, where from and how much: of CycleReport and CameraReport alike.
-template <class Report>
-pose_t message_of(const Report& report) {
-  pose_t message{};
-  message.utime = floor_us(report.utc_ns);
-  message.utime_sigma_us = saturated_us(report.utc_sigma_ns);
-  message.latency_us = saturated_us(report.latency_ns);
-  message.sequence = report.sequence;
-  message.source = report.source;
-  message.target = report.target;
-  message.observations = report.observations;
-  return message;
-}
-
-// All of a camera's message but the pose.
-pose_t camera_message(const CameraReport& report, bool ambiguous) {
-  pose_t message = message_of(report);
-  message.station_or_camera = report.camera;
-  message.parent_frame = "camera";
-  message.child_frame = "target";
-  const bool refused = !report.refusal.empty();
-  message.status = refused ? "refused_" + report.refusal : ambiguous ? "ambiguous" : "ok";
-  message.valid = refused ? 0 : 1;
-  message.flags = report.flags;
-  return message;
-}
-
 }  // namespace
 
-pose_t pose_message(const CycleReport& report) {
-  pose_t message = message_of(report);
-  message.station_or_camera = report.station_id;
+pose_t pose_message_of(const MeasurementHeader& header) {
+  pose_t message{};
+  message.utime = floor_us(header.utc_ns);
+  message.utime_sigma_us = saturated_us(header.utc_sigma_ns);
+  message.latency_us = saturated_us(header.age_ns);
+  message.sequence = header.sequence;
+  message.source = header.source;
+  message.station_or_camera = header.sensor;
+  message.target = header.target;
+  message.parent_frame = header.frames.parent;
+  message.child_frame = header.frames.child;
+  message.status = status_word(header);
+  message.valid = header.answered() ? 1 : 0;
+  message.flags = header.flags;
+  message.observations = header.observations;
+  return message;
+}
+
+pose_t message_of(const CycleReport& report) {
+  pose_t message = pose_message_of(report);
   message.station = static_cast<std::int8_t>(report.station);
-  message.parent_frame = "lighthouse";
-  message.child_frame = "body";
-  message.status = status_word(report.pose);
-  message.valid = report.pose.ok() ? 1 : 0;
-  message.flags = flag_words(report);
-  if (report.pose) {
-    fill_estimate(*report.pose, message);
-    message.residual_rms_rad = report.pose->residual_rms;
-  }
+  if (!report.answered()) return message;
+  fill_estimate(report.pose, message);
+  message.residual_rms_rad = report.pose.residual_rms;
   return message;
 }
 
-pose_t pose_message(const TofReport& report) {
-  pose_t message = camera_message(report, report.pose.ambiguous());
-  if (message.valid != 0) fill_estimate(report.pose, message);  // residuals are metres: residual_rms_rad stays 0
+pose_t message_of(const TofReport& report) {
+  pose_t message = pose_message_of(report);
+  if (report.answered()) fill_estimate(report.pose, message);  // residuals are metres: residual_rms_rad stays 0
   return message;
 }
 
-pose_t pose_message(const StereoReport& report) {
-  return std::visit(
-      [&report](const auto& pose) {
-        pose_t message = camera_message(report, pose.ambiguous());
-        if (!report.of_slam()) message.parent_frame = "rig";
-        if (message.valid == 0) return message;
+pose_t message_of(const StereoReport& report) {
+  pose_t message = pose_message_of(report);
+  if (!report.answered()) return message;
+  std::visit(
+      [&message](const auto& pose) {
         fill_estimate(pose, message);
         message.residual_rms_rad = pose.residual_rms;
-        return message;
       },
       report.pose);
+  return message;
 }
 
-bearings_t bearings_message(const CycleReport& report) {
+bearings_t message_of(const BearingsReport& report) {
   bearings_t message{};
   message.utime = floor_us(report.utc_ns);
   message.sequence = report.sequence;
   message.source = report.source;
-  message.station_or_camera = report.station_id;
+  message.station_or_camera = report.sensor;
   message.station = static_cast<std::int8_t>(report.station);
   message.target = report.target;
-  message.flags = flag_words(report);
-  message.calibrated = (report.flags & track::kEpochUncalibrated) == 0 ? 1 : 0;
+  message.flags = report.flags;
+  message.calibrated = report.calibrated ? 1 : 0;
   for (const ReportedBearing& bearing : report.bearings) message.bearings.push_back(bearing_message(bearing));
   message.count = static_cast<std::int32_t>(message.bearings.size());
   return message;

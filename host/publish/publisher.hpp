@@ -5,17 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "host/publish/cycle_report.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/message_sink.hpp"
-#include "host/publish/pointing_report.hpp"
-#include "host/publish/spin_report.hpp"
-#include "host/publish/stereo_report.hpp"
-#include "host/publish/tof_report.hpp"
+
+namespace pharos {
+class bearings_t;
+class pointing_t;
+class pose_t;
+class spin_t;
+class status_t;
+}  // namespace pharos
 
 namespace pharos::host {
 
-/// What went out, by kind.
+/// What went out, by kind of message.
 struct PublishCounters {
   std::int64_t poses = 0;
   std::int64_t bearings = 0;
@@ -24,47 +27,40 @@ struct PublishCounters {
   std::int64_t status = 0;
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink did not take
+
+  std::int64_t& of(const pose_t&) { return poses; }
+  std::int64_t& of(const bearings_t&) { return bearings; }
+  std::int64_t& of(const pointing_t&) { return pointings; }
+  std::int64_t& of(const spin_t&) { return spins; }
+  std::int64_t& of(const status_t&) { return status; }
 };
 
-/// Turns the daemon's values into LCM messages and sends them at once.
+/// Sends LCM messages at once and counts them. Measurements go through a PublishGate.
 class Publisher {
  public:
   /// `sink` must outlive this. Channels are `prefix` + LIGHTHOUSE_POSE, …
-  Publisher(MessageSink& sink, const std::string& prefix);
+  Publisher(MessageSink& sink, std::string prefix);
 
-  /// pose_t. A refused cycle is told too: `valid` is false and the pose all zero, so that nobody mistakes it for one.
-  bool publish_pose(const CycleReport& report);
-  /// pose_t of a pose that the capture board itself solved, on a channel of its own.
-  bool publish_board_pose(const CycleReport& report);
-  /// pose_t of a depth camera; refused frames are told as refused cycles are.
-  bool publish_pose(const TofReport& report);
-  /// pose_t of a stereo rig, on the channel of its system; refused pairs are told as refused cycles are.
-  bool publish_pose(const StereoReport& report);
-  /// spin_t of slam's target; why there is none is told too.
-  bool publish_spin(const SpinReport& report);
-  /// pointing_t of a telescope; refused images and passes are told as refused cycles are.
-  bool publish_pointing(const PointingReport& report);
-  /// bearings_t of the same cycle.
-  bool publish_bearings(const CycleReport& report);
   /// status_t.
   bool publish_health(const DaemonHealth& health);
 
   const PublishCounters& counters() const { return counters_; }
 
  private:
+  friend class PublishGate;
+
   template <class Message>
-  bool send(const std::string& channel, const Message& message);
+  bool send(const char* channel, const Message& message) {
+    const int size = message.getEncodedSize();
+    buffer_.resize(static_cast<std::size_t>(size));
+    const bool encoded = message.encode(buffer_.data(), 0, size) == size;
+    return send_buffer(channel, encoded, counters_.of(message));
+  }
+  bool send_buffer(const char* channel, bool encoded, std::int64_t& count);
 
   MessageSink& sink_;
-  std::string pose_channel_;
-  std::string board_pose_channel_;
-  std::string bearings_channel_;
-  std::string tof_channel_;
-  std::string ring2_channel_;
-  std::string slam_channel_;
-  std::string spin_channel_;
-  std::string pointing_channel_;
-  std::string status_channel_;
+  std::string prefix_;
+  std::string channel_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t status_sequence_ = 0;
   PublishCounters counters_;

@@ -5,19 +5,18 @@
 
 namespace pharos::host {
 
-spin_t spin_message(const SpinReport& report) {
+spin_t message_of(const SpinReport& report) {
   constexpr std::int64_t kNsPerUs = 1000;
   spin_t message{};
   message.utime = report.utc_ns / kNsPerUs;
   message.sequence = report.sequence;
   message.source = report.source;
-  message.station_or_camera = report.camera;
+  message.station_or_camera = report.sensor;
   message.target = report.target;
-  message.reference_frame = "camera";
-  const bool refused = !report.refusal.empty();
-  message.status = refused ? "refused_" + report.refusal : "ok";
-  message.valid = refused ? 0 : 1;
-  if (refused) return message;
+  message.reference_frame = report.frames.parent;
+  message.status = status_word(report);
+  message.valid = report.answered() ? 1 : 0;
+  if (!report.answered()) return message;
   const SpinEstimate& spin = report.spin;
   std::copy_n(spin.rate_rad_s.data(), 3, message.rate_rad_s);
   std::copy_n(spin.axis.data(), 3, message.axis);

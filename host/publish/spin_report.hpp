@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/publish/camera_report.hpp"
+#include "host/publish/measurement_header.hpp"
 #include "pharos/geometry/types.hpp"
 
 namespace pharos::host {
@@ -19,8 +19,11 @@ struct SpinEstimate {
 };
 
 /// How the target before a stereo rig turns: what spin_t is made of.
-struct SpinReport : CameraReport {
+struct SpinReport : MeasurementHeader {
   SpinEstimate spin;
 };
+
+const char* channel_of(const SpinReport& report);
+bool is_finite(const SpinReport& report);
 
 }  // namespace pharos::host

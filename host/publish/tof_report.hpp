@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/publish/camera_report.hpp"
+#include "host/publish/frame_names.hpp"
+#include "host/publish/measurement_header.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 
 namespace pharos::host {
@@ -9,8 +10,13 @@ namespace pharos::host {
 using TofPoseEstimate = PoseEstimate<frame::Camera, frame::Target>;
 
 /// One frame of a depth camera, or the mean of many: what pose_t is made of.
-struct TofReport : CameraReport {
+struct TofReport : MeasurementHeader {
+  TofReport() { frames = frames_of(pose); }
+
   TofPoseEstimate pose;
 };
+
+const char* channel_of(const TofReport& report);
+bool is_finite(const TofReport& report);
 
 }  // namespace pharos::host

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <variant>
 #include <vector>
 
 #include "host/daemon/stereo/spin_window.hpp"
@@ -21,12 +19,8 @@ struct StageTime {
 };
 
 /// What became of one pair.
-struct PairResult {
-  std::string refusal;  // the word after refused_; empty where there is a pose
-  std::string advice;   // the same for people, with what to do
-  std::string flags;    // words joined by '|'
-  int observations = 0;
-  std::variant<Ring2PoseEstimate, SlamPoseEstimate> pose;
+struct PairResult : MeasurementOutcome {
+  Ring2Pose pose;
   std::optional<SpinResult> spin;  // where one is due
   std::vector<StageTime> stages;
   NamedCounts figures;  // of the estimator so far; empty where it tells none

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "host/images/grey_image.hpp"
-#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -16,12 +15,13 @@ constexpr double kNsPerSecond = 1e9;
 
 }  // namespace
 
-RecordedPairs::RecordedPairs(const std::string& directory, const Options& options)
-    : path_(directory),
+RecordedPairs::RecordedPairs(const Clock& clock, const std::string& directory, const Options& options)
+    : clock_(clock),
+      path_(directory),
       options_(options),
       pairs_(pair_names_in(directory, options.rate_hz)),
-      began_utc_ns_(utc_now_ns()),
-      due_monotonic_ns_(monotonic_now_ns()) {
+      began_utc_ns_(clock.utc_ns()),
+      due_monotonic_ns_(clock.monotonic_ns()) {
   timer_.start(std::chrono::nanoseconds(0));
 }
 
@@ -36,7 +36,7 @@ void RecordedPairs::arm() {
   if (next_ < pairs_.size() && next_ > 0 && !options_.fastest) {
     due_monotonic_ns_ += std::min(time_ns(next_) - time_ns(next_ - 1), kLongestSilence_ns);
   }
-  const std::int64_t wait_ns = options_.fastest ? 0 : due_monotonic_ns_ - monotonic_now_ns();
+  const std::int64_t wait_ns = options_.fastest ? 0 : due_monotonic_ns_ - clock_.monotonic_ns();
   timer_.start(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 0)));
 }
 
@@ -75,7 +75,7 @@ StereoPairPtr RecordedPairs::take() {
   }
   auto pair = std::make_shared<StereoPair>();
   const bool good = read(pairs_[next_], *pair);
-  pair->time = {time_ns(next_), monotonic_now_ns(), 0};
+  pair->time = {time_ns(next_), clock_.monotonic_ns(), 0};
   pair->steady_ns = pair->time.utc_ns;
   pair->complete_monotonic_ns = pair->time.monotonic_ns;
   ++next_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/daemon/clock.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/device/pair_names.hpp"
 #include "host/runtime/timer.hpp"
@@ -21,8 +22,8 @@ class RecordedPairs : public PairSource {
     bool fastest = false;
     std::array<std::array<std::int32_t, 2>, 2> sizes_px{};  ///< width, height of left and right
   };
-  /// Throws InputError where there are no pairs.
-  RecordedPairs(const std::string& directory, const Options& options);
+  /// `clock` must outlive this. Throws InputError where there are no pairs.
+  RecordedPairs(const Clock& clock, const std::string& directory, const Options& options);
 
   std::vector<int> fds() const override { return {timer_.fd()}; }
   StereoPairPtr take() override;
@@ -39,6 +40,7 @@ class RecordedPairs : public PairSource {
   bool read(const PairName& name, StereoPair& pair);
   std::int64_t time_ns(std::size_t index) const;
 
+  const Clock& clock_;
   std::string path_;
   Options options_;
   std::vector<PairName> pairs_;

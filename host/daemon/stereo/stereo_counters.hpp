@@ -14,7 +14,8 @@ namespace pharos::host {
   X(pairs_refused, "pairs without a pose; refused.<reason> says why")                             \
   X(pairs_stale, "pairs older than publish.max_age_s, before or after the estimator")             \
   X(pairs_dropped, "pairs that gave way to newer ones: the estimator is slower than the cameras") \
-  X(pairs_not_finite, "pairs answered, not sent: not finite (a bug of ours)")
+  X(pairs_not_finite, "pairs answered, not sent: not finite (a bug of ours)")                     \
+  X(spins_not_finite, "spins answered, not sent: not finite (a bug of ours)")
 
 struct StereoCounters {
 #define PHAROS_X(name, text) std::int64_t name = 0;

@@ -10,98 +10,94 @@
 #include "host/daemon/stereo/ring2_estimator.hpp"
 #include "host/daemon/stereo/slam_estimator.hpp"
 #include "host/device/gige_module.hpp"
-#include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
 
-std::unique_ptr<PairSource> source_of(const StereoConfig& config, bool fastest) {
+std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoConfig& config) {
   if (!config.is_recorded()) {
     return std::make_unique<CameraPairs>(
         CameraPairs::Cameras{open_gige_source(config.devices[0]), open_gige_source(config.devices[1])},
         std::llround(config.pairing_window_s * 1e9));
   }
   RecordedPairs::Options options;
-  options.fastest = fastest;
+  options.fastest = context.replay_speed == ReplaySpeed::kFastest;
   if (config.devices[0].frame_rate_hz > 0.0) options.rate_hz = config.devices[0].frame_rate_hz;
   for (std::size_t side = 0; side < config.devices.size(); ++side) {
     options.sizes_px[side] = {config.devices[side].width_px, config.devices[side].height_px};
   }
-  return std::make_unique<RecordedPairs>(config.frames.string(), options);
+  return std::make_unique<RecordedPairs>(context.clock, config.frames.string(), options);
 }
 
 }  // namespace
 
-StereoFeed::StereoFeed(EventLoop& loop, const StereoConfig& config, const PublishConfig& publish, Publisher& publisher,
-                       bool fastest, std::function<void()> finished)
-    : loop_(loop),
-      name_(config.name),
-      state_log_(config.name),
-      source_(source_of(config, fastest)),
-      finished_(std::move(finished)) {
-  if (config.ring2) add_system(config, publish, "ring2/", publisher, std::make_unique<Ring2Estimator>(config.rig));
-  if (config.slam) add_system(config, publish, "slam/", publisher, std::make_unique<SlamEstimator>(config));
-  for (const int fd : source_->fds()) loop_.watch(fd, [this] { on_readable(); });
+StereoFeed::StereoFeed(const SourceContext& context, const StereoConfig& config)
+    : context_(context), name_(config.name), state_log_(config.name), pairs_(pairs_of(context, config)) {
+  if (config.ring2) add_system(config, "ring2/", std::make_unique<Ring2Estimator>(config.rig));
+  if (config.slam) add_system(config, "slam/", std::make_unique<SlamEstimator>(config));
+  for (const int fd : pairs_->fds()) context_.loop.watch(fd, [this] { on_readable(); });
 }
 
 StereoFeed::~StereoFeed() {
-  for (const int fd : source_->fds()) loop_.forget(fd);
-  for (const auto& system : systems_) loop_.forget(system->worker.fd());
+  for (const int fd : pairs_->fds()) context_.loop.forget(fd);
+  for (const auto& system : systems_) context_.loop.forget(system->worker.fd());
 }
 
-void StereoFeed::add_system(const StereoConfig& config, const PublishConfig& publish, const char* word,
-                            Publisher& publisher, std::unique_ptr<PairEstimator> estimator) {
-  systems_.push_back(std::unique_ptr<System>(
-      new System{StereoPipeline(config, publish, word + config.name, publisher), pair_worker(std::move(estimator))}));
+void StereoFeed::add_system(const StereoConfig& config, const char* word, std::unique_ptr<PairEstimator> estimator) {
+  systems_.push_back(std::unique_ptr<System>(new System{
+      StereoPipeline(config, context_.config.publish, word + config.name, context_.publisher, context_.clock),
+      pair_worker(std::move(estimator))}));
   System& system = *systems_.back();
-  loop_.watch(system.worker.fd(), [this, &system] { on_results(system); });
+  context_.loop.watch(system.worker.fd(), [this, &system] { on_results(system); });
 }
 
 void StereoFeed::on_readable() {
-  if (StereoPairPtr pair = source_->take()) {
+  if (StereoPairPtr pair = pairs_->take()) {
     for (const auto& system : systems_) {
-      if (!system->line.take(*pair)) continue;
+      if (!system->pipeline.take(*pair)) continue;
       if (auto discarded = system->worker.post(pair)) {
-        system->line.dropped();
+        system->pipeline.dropped();
         release(std::move(*discarded));
       }
     }
     release(std::move(pair));
   }
-  report_when_finished();
+  finish_when_all_answered();
 }
 
 void StereoFeed::on_results(System& system) {
   while (auto done = system.worker.take()) {
-    system.line.done(*done, !source_->clock_notice(monotonic_now_ns()).empty());
+    system.pipeline.done(*done, !clock_notice().empty());
     release(std::move(done->job));
   }
-  report_when_finished();
+  finish_when_all_answered();
 }
 
 // Pairs are held by the loop's thread and by workers that give them back to it: the last holder is always here.
 void StereoFeed::release(StereoPairPtr pair) {
-  if (pair.use_count() == 1) source_->recycle(std::move(pair));
+  if (pair.use_count() == 1) pairs_->recycle(std::move(pair));
 }
 
-void StereoFeed::report_when_finished() {
-  if (finish_reported_ || !source_->status().finished) return;
-  finish_reported_ =
-      std::all_of(systems_.begin(), systems_.end(), [](const auto& system) { return system->worker.idle(); });
-  if (finish_reported_) finished_();
+void StereoFeed::finish_when_all_answered() {
+  if (finished_ || !pairs_->status().finished) return;
+  finished_ = std::all_of(systems_.begin(), systems_.end(), [](const auto& system) { return system->worker.idle(); });
+  if (finished_) context_.on_finished();
 }
 
-void StereoFeed::attend(std::int64_t monotonic_ns) {
-  state_log_.update(source_->device(), source_->status(), monotonic_ns);
-}
+void StereoFeed::attend() { state_log_.update(pairs_->device(), pairs_->status(), context_.clock.monotonic_ns()); }
 
-std::vector<SourceHealth> StereoFeed::health(std::int64_t monotonic_ns) {
+std::vector<SourceHealth> StereoFeed::health() {
   std::vector<SourceHealth> all;
-  const PairSourceStatus status = source_->status();
+  const PairSourceStatus status = pairs_->status();
   for (const auto& system : systems_) {
-    all.push_back(system->line.health(source_->device(), status, monotonic_ns));
+    all.push_back(system->pipeline.health(pairs_->device(), status, context_.clock.monotonic_ns()));
   }
   return all;
+}
+
+std::size_t open_stereo_feeds(const SourceContext& context, SourceList& sources) {
+  for (const StereoConfig& rig : context.config.stereos) sources.push_back(std::make_unique<StereoFeed>(context, rig));
+  return context.config.stereos.size();
 }
 
 }  // namespace pharos::host

@@ -6,12 +6,15 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/clock.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/daemon/stereo/pair_worker.hpp"
 #include "host/daemon/stereo/stereo_counters.hpp"
-#include "host/publish/publisher.hpp"
+#include "host/publish/publish_gate.hpp"
+#include "host/publish/spin_report.hpp"
+#include "host/publish/stereo_report.hpp"
 #include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {
@@ -19,9 +22,9 @@ namespace pharos::host {
 /// One system of one rig: pairs to poses on LCM. Knows no camera, no file and no thread.
 class StereoPipeline {
  public:
-  /// `publisher` must outlive this. `source` is told in every message.
+  /// `publisher` and `clock` must outlive this. `source` is told in every message.
   StereoPipeline(const StereoConfig& config, const PublishConfig& publish, const std::string& source,
-                 Publisher& publisher);
+                 Publisher& publisher, const Clock& clock);
 
   /// A pair that came: whether it is young enough to be measured.
   bool take(const StereoPair& pair);
@@ -34,21 +37,20 @@ class StereoPipeline {
   const StereoCounters& counters() const { return counters_; }
 
  private:
-  StereoReport report(const StereoPair& pair, const PairResult& answer) const;
-  void publish_spin(const StereoReport& told, const SpinResult& answer);
-  bool stale(std::int64_t age_ns) const;
-  void count(const PairResult& answer, std::int64_t monotonic_ns);
+  StereoReport report_of(const StereoPair& pair, const PairResult& answer) const;
+  void publish_spin(const StereoReport& report, const SpinResult& answer);
+  void count(const StereoReport& report, std::int64_t monotonic_ns);
   void assess(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t monotonic_ns) const;
   NamedCounts named_counts(const PairSourceStatus& pairs) const;
 
   std::string name_;
   std::string target_;
   std::string source_;
-  Publisher& publisher_;
-  std::int64_t max_age_ns_;
+  const Clock& clock_;
   RateLimitedLog log_;
   StereoCounters counters_;
-  std::int64_t sequence_ = 0, spin_sequence_ = 0;
+  PublishGate gate_;
+  PublishGate spin_gate_;
   std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
   NamedCounts figures_;       // of the estimator
   RateMonitor rate_;

@@ -11,29 +11,17 @@
 #include <vector>
 
 #include "host/publish/messages.hpp"
-#include "host/runtime/now.hpp"
 #include "support/painted_panel.hpp"
+#include "unit/host/daemon/source_bench.hpp"
 
 namespace pharos::host {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Messages : public MessageSink {
- public:
-  bool send(const std::string& channel, std::span<const std::uint8_t> bytes) override {
-    EXPECT_EQ(channel, "PHAROS_LINE_POINTING");
-    pointing_t message{};
-    EXPECT_GT(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
-    all.push_back(message);
-    return true;
-  }
-  std::vector<pointing_t> all;
-};
-
 class PointingFeedTest : public ::testing::Test {
  protected:
-  PointingFeedTest() : publisher(messages, "PHAROS_") {
+  PointingFeedTest() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder = fs::temp_directory_path() / ("pharos_telescope_" + std::to_string(::getpid()) + test->name());
     fs::create_directories(folder);
@@ -54,32 +42,19 @@ class PointingFeedTest : public ::testing::Test {
         << scene.sight.elevation_rad * 180.0 / 3.14159265358979323846 << '\n';
   }
   void write_image(const std::string& name) { write_grey_png((folder / name).string(), scene.image().view(), 16); }
-  /// Turns the loop until something is so; the daemon's attend timer is played.
-  bool until(const std::function<bool()>& what) {
-    const std::int64_t end_ns = monotonic_now_ns() + 60'000'000'000;
-    while (!what() && monotonic_now_ns() < end_ns) {
-      loop.turn(20);
-      feed->attend(monotonic_now_ns());
-    }
-    return what();
+  void until(const std::function<bool()>& what) { bench.run_until(*feed, what); }
+  void start() { feed.emplace(bench.context, config); }
+  std::vector<pointing_t> messages() const { return bench.sink.all<pointing_t>("PHAROS_LINE_POINTING"); }
+  void wait_for(std::size_t count) {
+    bench.run_until(*feed, [&] { return messages().size() >= count; });
   }
-  void start() { feed.emplace(loop, config, publisher); }
-  bool come(std::size_t count) {
-    return until([&] { return messages.all.size() >= count; });
-  }
-  std::int64_t counter(const std::string& name) {
-    for (const NamedCount& count : feed->health(monotonic_now_ns()).counters) {
-      if (count.name == name) return count.value;
-    }
-    return 0;
-  }
+  SourceHealth health() { return feed->health().at(0); }
+  std::int64_t counter(const std::string& name) { return test::SourceBench::counter(*feed, name); }
 
   testing::PaintedPanel scene;
   fs::path folder;
   PointingConfig config;
-  Messages messages;
-  Publisher publisher;
-  EventLoop loop;
+  test::SourceBench bench;
   std::optional<PointingFeed> feed;
 };
 
@@ -87,8 +62,8 @@ TEST_F(PointingFeedTest, TellsTheAxisOfAnImageThatArrives) {
   start();
   add_row("a.png", 1.7e9);
   write_image("a.png");
-  ASSERT_TRUE(come(1));
-  const pointing_t& message = messages.all[0];
+  wait_for(1);
+  const pointing_t message = messages()[0];
   EXPECT_EQ(message.status, "ok");
   EXPECT_EQ(message.source, "line/dome");
   EXPECT_EQ(message.utime, 1'700'000'000'000'000);
@@ -98,7 +73,7 @@ TEST_F(PointingFeedTest, TellsTheAxisOfAnImageThatArrives) {
   EXPECT_GE(axis.z(), 0.0);
   EXPECT_NEAR(Vector3(message.axis_earth).norm(), 1.0, 1e-12);
   EXPECT_GT(message.sigma_axis_rad, 0.0);
-  EXPECT_EQ(feed->health(monotonic_now_ns()).state, SourceState::kOk);
+  EXPECT_EQ(health().state, SourceState::kOk);
 }
 
 TEST_F(PointingFeedTest, AwaitsTheRestOfAFileAndTheRowOfAnImage) {
@@ -110,17 +85,17 @@ TEST_F(PointingFeedTest, AwaitsTheRestOfAFileAndTheRowOfAnImage) {
   std::ofstream out(folder / "a.png", std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size() / 2)).flush();
   add_row("a.png", 5.0);
-  ASSERT_TRUE(until([&] { return counter("files_arrived") >= 1; }));
-  EXPECT_TRUE(messages.all.empty());
+  until([&] { return counter("files_arrived") >= 1; });
+  EXPECT_TRUE(messages().empty());
   out.write(bytes.data() + bytes.size() / 2, static_cast<std::streamsize>(bytes.size() - bytes.size() / 2));
   out.close();
-  ASSERT_TRUE(come(1));
+  wait_for(1);
   fs::rename(whole, folder / "b.png");  // whole at once, before its row
-  ASSERT_TRUE(until([&] { return feed->health(monotonic_now_ns()).message.find("wait") != std::string::npos; }));
+  until([&] { return health().message.find("wait") != std::string::npos; });
   add_row("b.png", 6.0);
-  ASSERT_TRUE(come(2));
-  EXPECT_EQ(messages.all[0].status, "ok");
-  EXPECT_EQ(messages.all[1].status, "ok");
+  wait_for(2);
+  EXPECT_EQ(messages()[0].status, "ok");
+  EXPECT_EQ(messages()[1].status, "ok");
 }
 
 TEST_F(PointingFeedTest, CountsAndNamesWhatIsNoImageOrHasNoAnswer) {
@@ -137,16 +112,16 @@ TEST_F(PointingFeedTest, CountsAndNamesWhatIsNoImageOrHasNoAnswer) {
   write_image("dark.png");
   write_image("gap.png");
   std::ofstream(folder / "notes.txt") << "words";
-  ASSERT_TRUE(come(3));
-  for (const pointing_t& message : messages.all) {
+  wait_for(3);
+  for (const pointing_t& message : messages()) {
     EXPECT_EQ(message.valid, 0);
     EXPECT_EQ(Vector3(message.axis_station).norm(), 0.0);
   }
-  ASSERT_TRUE(until([&] { return counter("files_no_image") == 1; }));
+  until([&] { return counter("files_no_image") == 1; });
   EXPECT_EQ(counter("refused.unreadable"), 1);
   EXPECT_EQ(counter("refused.black"), 1);
   EXPECT_EQ(counter("refused.track_gap"), 1);
-  EXPECT_NE(feed->health(monotonic_now_ns()).message, "");
+  EXPECT_NE(health().message, "");
 }
 
 TEST_F(PointingFeedTest, TellsAPassOnceWhenItIsOver) {
@@ -157,10 +132,10 @@ TEST_F(PointingFeedTest, TellsAPassOnceWhenItIsOver) {
     const std::string name = std::to_string(k) + ".png";
     add_row(name, k < 3 ? 100.0 + 0.01 * k : 200.0);
     write_image(name);
-    ASSERT_TRUE(come(static_cast<std::size_t>(k) + 1));
+    wait_for(static_cast<std::size_t>(k) + 1);
   }
-  ASSERT_TRUE(come(5));
-  const pointing_t& pass = messages.all.back();
+  wait_for(5);
+  const pointing_t pass = messages().back();
   EXPECT_EQ(pass.from_pass, 1);
   EXPECT_EQ(pass.images, 3);
   EXPECT_EQ(pass.status, "ok");
@@ -169,18 +144,38 @@ TEST_F(PointingFeedTest, TellsAPassOnceWhenItIsOver) {
   EXPECT_EQ(counter("passes_ok"), 1);
 }
 
+TEST_F(PointingFeedTest, SilenceEndsAPass) {
+  config.law = pointing::AttitudeLaw::kInertial;
+  config.pass_gap_s = 30.0;
+  start();
+  for (int k = 0; k < 3; ++k) {
+    const std::string name = std::to_string(k) + ".png";
+    add_row(name, 100.0 + 0.01 * k);
+    write_image(name);
+    wait_for(static_cast<std::size_t>(k) + 1);
+  }
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  bench.clock.advance(30 * kSecond_ns);
+  feed->attend();
+  EXPECT_EQ(messages().size(), 3u) << "an image may still come";
+  bench.clock.advance(kSecond_ns);
+  wait_for(4);
+  EXPECT_EQ(messages().back().from_pass, 1);
+  EXPECT_EQ(messages().back().images, 3);
+}
+
 TEST_F(PointingFeedTest, ADirectoryThatIsMissingIsToldAndTakenUpWhenItComes) {
   config.directory = folder / "later";
   config.track_file = folder / "track.csv";
   start();
-  EXPECT_EQ(feed->health(monotonic_now_ns()).state, SourceState::kGone);
-  EXPECT_NE(feed->health(monotonic_now_ns()).message, "");
+  EXPECT_EQ(health().state, SourceState::kGone);
+  EXPECT_NE(health().message, "");
   fs::create_directories(config.directory);
-  ASSERT_TRUE(until([&] { return feed->health(monotonic_now_ns()).state != SourceState::kGone; }));
+  until([&] { return health().state != SourceState::kGone; });
   add_row("a.png", 1.0);
   write_image("later/a.png");
-  ASSERT_TRUE(come(1));
-  EXPECT_EQ(messages.all[0].status, "ok");
+  wait_for(1);
+  EXPECT_EQ(messages()[0].status, "ok");
 }
 
 }  // namespace

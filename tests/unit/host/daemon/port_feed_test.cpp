@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "host/runtime/now.hpp"
 #include "unit/host/daemon/captured_log.hpp"
+#include "unit/host/daemon/manual_clock.hpp"
 #include "unit/host/record/temporary_folder.hpp"
 #include "unit/host/serial/pty.hpp"
 
@@ -21,8 +21,8 @@ class PortFeedTest : public ::testing::Test {
   void flap() {
     test::Pty pty;
     fs::create_symlink(pty.path, name_);
-    now_ns_ += kReopenPeriod_ns;
-    feed_.attend(now_ns_);
+    clock_.advance(kReopenPeriod_ns);
+    feed_.attend(clock_.monotonic_ns());
     fs::remove(name_);
     pty.unplug();
     while (feed_.state() == SourceState::kOk) loop_.turn(1000);
@@ -39,12 +39,10 @@ class PortFeedTest : public ::testing::Test {
   fs::path name_ = folder_.path() / "port";
   EventLoop loop_;
   int lost_ = 0;
-  std::int64_t now_ns_ = monotonic_now_ns();
-  PortFeed feed_{loop_,
-                 "dock",
-                 name_.string(),
-                 460'800,
-                 {[](std::span<const std::uint8_t>, const Arrival&) {}, [this] { ++lost_; }, [] {}}};
+  test::ManualClock clock_;
+  PortFeed feed_{loop_,   clock_,
+                 "dock",  name_.string(),
+                 460'800, {[](std::span<const std::uint8_t>, const Arrival&) {}, [this] { ++lost_; }, [] {}}};
 };
 
 TEST_F(PortFeedTest, APlugPulledAndPutInAgainIsToldInFull) {

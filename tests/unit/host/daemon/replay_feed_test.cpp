@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/support/input_error.hpp"
+#include "unit/host/daemon/manual_clock.hpp"
 #include "unit/host/record/temporary_folder.hpp"
 
 namespace pharos::host {
@@ -36,12 +37,13 @@ class ReplayFeedTest : public ::testing::Test {
 
   test::TemporaryFolder folder_;
   EventLoop loop_;
+  test::ManualClock clock_;
   std::vector<std::int64_t> arrivals_;
   bool finished_ = false;
 };
 
 TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
-  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDay_ns}), ReplaySpeed::kReal, events());
+  ReplayFeed feed(loop_, clock_, "dock", recording({0, 6 * kDay_ns}), ReplaySpeed::kReal, events());
   feed.attend(0);
   while (arrivals_.empty()) loop_.turn(1000);
   EXPECT_EQ(count(feed, "replay.silences_cut"), 1);
@@ -49,7 +51,8 @@ TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
 
 TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
   const std::string file = recording({0, 40'000 * kDay_ns, 10, 5, 20, std::numeric_limits<std::int64_t>::min(), 30});
-  ReplayFeed feed(loop_, "dock", file, ReplaySpeed::kReal, events());
+  ReplayFeed feed(loop_, clock_, "dock", file, ReplaySpeed::kReal, events());
+  clock_.step_at_readings(1000);
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
   EXPECT_EQ(arrivals_, (std::vector<std::int64_t>{0, 10, 20, 30}));
@@ -58,7 +61,7 @@ TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
 }
 
 TEST_F(ReplayFeedTest, AtFullSpeedNothingIsWaitedFor) {
-  ReplayFeed feed(loop_, "dock", recording({0, 6 * kDay_ns, 9 * kDay_ns}), ReplaySpeed::kFastest, events());
+  ReplayFeed feed(loop_, clock_, "dock", recording({0, 6 * kDay_ns, 9 * kDay_ns}), ReplaySpeed::kFastest, events());
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
   EXPECT_EQ(arrivals_.size(), 3u);

@@ -11,12 +11,11 @@
 #include <functional>
 #include <optional>
 
-#include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_pose.hpp"
 #include "pharos/pose_t.hpp"
 #include "support/painted_ring_pair.hpp"
-#include "unit/host/publish/message_list.hpp"
+#include "unit/host/daemon/source_bench.hpp"
 
 namespace pharos::host {
 namespace {
@@ -44,7 +43,6 @@ class StereoFeedTest : public ::testing::Test {
       device.width_px = 640;
       device.height_px = 512;
     }
-    publish.max_age_s = 60.0;  // of a busy machine
   }
   ~StereoFeedTest() override { fs::remove_all(folder); }
 
@@ -54,38 +52,25 @@ class StereoFeedTest : public ::testing::Test {
       write_grey_png((folder / (name + (side == 0 ? "_left.png" : "_right.png"))).string(), image.view(), 8);
     }
   }
-  void play(bool fastest = true) {
-    feed.emplace(loop, config, publish, publisher, fastest, [this] { finished = true; });
-    const std::int64_t end_ns = monotonic_now_ns() + 120'000'000'000;
-    while (!finished && monotonic_now_ns() < end_ns) {
-      loop.turn(20);
-      feed->attend(monotonic_now_ns());
-    }
-    EXPECT_TRUE(finished);
+  void play() {
+    feed.emplace(bench.context, config);
+    bench.run_until(*feed, [this] { return bench.finished; });
+    EXPECT_TRUE(feed->finished());
   }
-  std::vector<pose_t> poses() const { return sink.all<pose_t>("PHAROS_RING2_POSE"); }
-  SourceHealth health() { return feed->health(monotonic_now_ns()).at(0); }
-  std::int64_t counter(const std::string& name) {
-    for (const NamedCount& count : health().counters) {
-      if (count.name == name) return count.value;
-    }
-    return -1;
-  }
+  std::vector<pose_t> poses() const { return bench.sink.all<pose_t>("PHAROS_RING2_POSE"); }
+  SourceHealth health() { return feed->health().at(0); }
+  std::int64_t counter(const std::string& name) { return test::SourceBench::counter(*feed, name); }
 
-  test::PaintedRig painted;
+  pharos::test::PaintedRig painted;
   fs::path folder;
   StereoConfig config;
-  PublishConfig publish;
-  MessageList sink;
-  Publisher publisher{sink, "PHAROS_"};
-  EventLoop loop;
+  test::SourceBench bench;
   std::optional<StereoFeed> feed;
-  bool finished = false;
 };
 
 TEST_F(StereoFeedTest, TellsTheRingsPoseOfEveryPairInOrder) {
-  const std::vector<sim::RingAndNozzle> truths{test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg),
-                                               test::ring_at({-0.05, 0.04, 2.8}, -7.0 * kDeg, 14.0 * kDeg)};
+  const std::vector<sim::RingAndNozzle> truths{pharos::test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg),
+                                               pharos::test::ring_at({-0.05, 0.04, 2.8}, -7.0 * kDeg, 14.0 * kDeg)};
   for (std::size_t k = 0; k < truths.size(); ++k) write("170000000" + std::to_string(k) + "000000000", truths[k]);
   play();
   ASSERT_EQ(poses().size(), truths.size());
@@ -119,7 +104,7 @@ TEST_F(StereoFeedTest, TellsTheRingsPoseOfEveryPairInOrder) {
 }
 
 TEST_F(StereoFeedTest, CountsRefusalsByTheirReasonAndPassesOverWhatIsNoPair) {
-  write("0001", test::ring_at({0.0, 0.0, 2.7}, 0.1, 0.1));
+  write("0001", pharos::test::ring_at({0.0, 0.0, 2.7}, 0.1, 0.1));
   for (const char* name : {"0002_left.png", "0003_right.png"}) {
     fs::copy_file(folder / "0001_left.png", folder / name);
   }
@@ -137,9 +122,7 @@ TEST_F(StereoFeedTest, CountsRefusalsByTheirReasonAndPassesOverWhatIsNoPair) {
   EXPECT_EQ(health().state, SourceState::kStale) << "come to its end";
 }
 
-TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) {
-  EXPECT_THROW(StereoFeed(loop, config, publish, publisher, false, [] {}), InputError);
-}
+TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) { EXPECT_THROW(StereoFeed(bench.context, config), InputError); }
 
 /// Answers when it is let.
 class SlowEstimator : public PairEstimator {
@@ -184,8 +167,7 @@ TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
   EXPECT_FALSE(worker.idle());
   estimator.release(2);
   std::vector<std::string> answered;
-  const std::int64_t end_ns = monotonic_now_ns() + 30'000'000'000;
-  while (!worker.idle() && monotonic_now_ns() < end_ns) {
+  while (!worker.idle()) {
     while (auto done = worker.take()) answered.push_back(done->answer.refusal);
   }
   ASSERT_EQ(static_cast<std::int64_t>(answered.size()) + dropped, 50);
@@ -207,22 +189,21 @@ class FaultyEstimator : public PairEstimator {
 
 TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
   PairWorker worker = pair_worker(std::make_unique<FaultyEstimator>());
-  StereoPipeline line(config, publish, "ring2/bow", publisher);
+  StereoPipeline pipeline(config, PublishConfig{}, "ring2/bow", bench.publisher, bench.clock);
   for (std::int64_t k = 0; k < 3; ++k) {
     StereoPairPtr pair = numbered(k);
-    pair->time = {utc_now_ns(), monotonic_now_ns(), 0};
+    pair->time = {bench.clock.utc_ns(), bench.clock.monotonic_ns(), 0};
     worker.post(pair);
-    const std::int64_t end_ns = monotonic_now_ns() + 30'000'000'000;
-    while (!worker.idle() && monotonic_now_ns() < end_ns) {
-      if (const auto done = worker.take()) line.done(*done, false);
+    while (!worker.idle()) {
+      if (const auto done = worker.take()) pipeline.done(*done, false);
     }
     if (k == 0) {
-      EXPECT_THAT(line.health("", {}, monotonic_now_ns()).counters,
+      EXPECT_THAT(pipeline.health("", {}, bench.clock.monotonic_ns()).counters,
                   Contains(AllOf(Field(&NamedCount::name, "refused.internal_error"), Field(&NamedCount::value, 1))));
       PairSourceStatus open;
       open.state = CameraState::kOpen;
-      line.take(*pair);
-      EXPECT_THAT(line.health("", open, monotonic_now_ns()).message, HasSubstr("the seventh of six"));
+      pipeline.take(*pair);
+      EXPECT_THAT(pipeline.health("", open, bench.clock.monotonic_ns()).message, HasSubstr("the seventh of six"));
     }
   }
   ASSERT_EQ(poses().size(), 3u);

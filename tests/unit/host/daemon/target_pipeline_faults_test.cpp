@@ -62,12 +62,12 @@ TEST_F(TargetPipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
 TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePosesThatFollow) {
   push_cycles(120);
   const std::int64_t before_us = poses().back().utime;
-  EXPECT_EQ(line_.clock_notice(now_ns()), "");
+  EXPECT_EQ(pipeline_.clock_notice(now_ns()), "");
   utc_minus_monotonic_ns_ -= 3 * 3600 * kSecond_ns;
   push_cycles(120);
   EXPECT_THAT(log_lines("clock was set"),
               ::testing::ElementsAre(AllOf(HasSubstr("dock: this computer's clock was set back by 10800.0 s"))));
-  EXPECT_THAT(line_.clock_notice(now_ns()), HasSubstr("set back by 10800.0 s"));
+  EXPECT_THAT(pipeline_.clock_notice(now_ns()), HasSubstr("set back by 10800.0 s"));
   EXPECT_EQ(counter("clock.host_jumps"), 1);
   EXPECT_LT(poses().back().utime, before_us) << "at once, not in hours";
   EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_at(ticks_, 0).utc_ns / 1000), 2e4);
@@ -87,7 +87,7 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePos
   pause(61);
   push_cycles(20);
   EXPECT_EQ(poses().back().flags, "uncalibrated") << "told long enough";
-  EXPECT_EQ(line_.clock_notice(now_ns()), "");
+  EXPECT_EQ(pipeline_.clock_notice(now_ns()), "");
   EXPECT_EQ(log_lines("clock was set").size(), 1u);
 }
 
@@ -95,7 +95,7 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetForwardIsToldToo) {
   push_cycles(120);
   utc_minus_monotonic_ns_ += 3600 * kSecond_ns;
   push_cycles(20);
-  EXPECT_THAT(line_.clock_notice(now_ns()), HasSubstr("set forward by 3600.0 s"));
+  EXPECT_THAT(pipeline_.clock_notice(now_ns()), HasSubstr("set forward by 3600.0 s"));
   EXPECT_NEAR(static_cast<double>(poses().back().utime), static_cast<double>(arrival_at(ticks_, 0).utc_ns / 1000), 2e4);
 }
 

@@ -11,6 +11,7 @@
 #include "pharos/base/ticks.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "unit/host/daemon/manual_clock.hpp"
 #include "unit/host/publish/message_list.hpp"
 
 namespace pharos::host {
@@ -37,11 +38,11 @@ class TargetPipelineTest : public ::testing::Test {
     return {monotonic_ns + utc_minus_monotonic_ns_, monotonic_ns};
   }
   std::int64_t now_ns() const { return arrival_at(ticks_).monotonic_ns; }
-  SourceHealth health() { return line_.health("", SourceState::kOk, "", now_ns()); }
+  SourceHealth health() { return pipeline_.health("", SourceState::kOk, "", now_ns()); }
 
   // Bytes that are read `delay_ns` after the target's clock showed `ticks`.
   void push(const StationaryTarget::Bytes& bytes, std::int64_t ticks, std::int64_t delay_ns = kMillisecond_ns) {
-    line_.push(bytes, arrival_at(ticks, delay_ns));
+    pipeline_.push(bytes, arrival_at(ticks, delay_ns));
   }
   void push_cycles(int count) {
     for (int i = 0; i < count; ++i) {
@@ -60,8 +61,9 @@ class TargetPipelineTest : public ::testing::Test {
 
   MessageList list_;
   Publisher publisher_{list_, "PHAROS_"};
+  test::ManualClock clock_;
   CalibrationMemory memory_{""};
-  LighthousePipeline line_{config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, 0};
+  LighthousePipeline pipeline_{config(), PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0};
   StationaryTarget target_{pose_ahead()};
   std::int64_t ticks_ = 10 * kTicksPerSecond;
   std::int64_t utc_minus_monotonic_ns_ = 1'700'000'000'000'000'000;

@@ -39,21 +39,21 @@ TEST_F(TargetPipelineTest, UtimeIsWhenTheLightWasMeasured) {
 
 TEST_F(TargetPipelineTest, ADroppedFrameDoesNotMoveUtc) {
   constexpr int kBaud = 460'800;
-  LighthousePipeline line(config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, kBaud);
-  const auto push_into_line = [&](int cycles) {
+  LighthousePipeline pipeline(config(), PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, kBaud);
+  const auto push_into = [&](int cycles) {
     for (int i = 0; i < cycles; ++i) {
       ticks_ += kCycle_ticks;
-      line.push(target_.cycle(ticks_), arrival_at(ticks_, 5 * kMillisecond_ns));
+      pipeline.push(target_.cycle(ticks_), arrival_at(ticks_, 5 * kMillisecond_ns));
     }
     return poses().back().utime - arrival_at(ticks_, 0).utc_ns / 1000;
   };
-  const std::int64_t before_us = push_into_line(300);
+  const std::int64_t before_us = push_into(300);
   // As long as a frame may be: 11 ms on the wire, had it arrived together with the next one.
   StationaryTarget::Bytes garbage(500, 0x55);
   garbage.push_back(0);
-  line.push(garbage, arrival_at(ticks_, 5 * kMillisecond_ns));
-  line.push(target_.time(ticks_), arrival_at(ticks_, 5 * kMillisecond_ns));
-  EXPECT_NEAR(static_cast<double>(push_into_line(600) - before_us), 0.0, 500.0);
+  pipeline.push(garbage, arrival_at(ticks_, 5 * kMillisecond_ns));
+  pipeline.push(target_.time(ticks_), arrival_at(ticks_, 5 * kMillisecond_ns));
+  EXPECT_NEAR(static_cast<double>(push_into(600) - before_us), 0.0, 500.0);
 }
 
 TEST_F(TargetPipelineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
@@ -96,6 +96,19 @@ TEST_F(TargetPipelineTest, AStaleCycleIsCountedAndNeverSent) {
   EXPECT_EQ(poses().size(), before + 1) << "one late cycle must not spoil the next";
 }
 
+TEST_F(TargetPipelineTest, TheAgeCountsTheWorkOnACycle) {
+  push_cycles(60);
+  const std::int64_t before_us = poses().back().latency_us;
+  clock_.step_at_readings(50 * kMillisecond_ns);
+  push_cycles(1);
+  EXPECT_NEAR(static_cast<double>(poses().back().latency_us - before_us), 50'000.0, 1'000.0);
+  const std::size_t sent = poses().size();
+  clock_.step_at_readings(250 * kMillisecond_ns);
+  push_cycles(1);
+  EXPECT_EQ(poses().size(), sent);
+  EXPECT_EQ(counter("cycles_stale"), 1);
+}
+
 TEST_F(TargetPipelineTest, ARefusedCycleIsToldWithoutAPose) {
   push_cycles(20);
   const std::int64_t flash = ticks_ += kCycle_ticks;
@@ -126,7 +139,7 @@ TEST_F(TargetPipelineTest, CutInTheMiddleOfAFrameItTakesUpAgainAfterwards) {
   StationaryTarget::Bytes cut = target_.cycle(ticks_ += kCycle_ticks);
   cut.resize(cut.size() - 30);
   push(cut, ticks_);
-  line_.line_lost();
+  pipeline_.line_lost();
   push_cycles(3);
   EXPECT_EQ(poses().size(), before + 3);
 }
@@ -158,7 +171,7 @@ TEST_F(TargetPipelineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) 
   ASSERT_EQ(memory_.stations().size(), 1u);
 
   // After a restart of the daemon its first arrival is enough.
-  LighthousePipeline again(config(), PublishConfig{}, "lighthouse/test", publisher_, memory_, 0);
+  LighthousePipeline again(config(), PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
   StationaryTarget board(pose_ahead());
   again.push(board.ootx(ticks_, 0xBEC08E38), arrival_at(ticks_));
   EXPECT_EQ(again.counters().calibrations_taken, 1);
@@ -172,18 +185,18 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   calibrated.calibrated_stations.resize(1);
   calibrated.calibrated_stations[0].id = 0xBEC08E38;
   calibrated.calibrated_stations[0].rotor[0].phase_rad = kPhase_rad;
-  LighthousePipeline line(calibrated, PublishConfig{}, "lighthouse/test", publisher_, memory_, 0);
-  const auto push_into_line = [&](const StationaryTarget::Bytes& bytes) { line.push(bytes, arrival_at(ticks_)); };
+  LighthousePipeline pipeline(calibrated, PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
+  const auto push_into = [&](const StationaryTarget::Bytes& bytes) { pipeline.push(bytes, arrival_at(ticks_)); };
   const auto push_turns = [&] {
     for (int i = 0; i < 20; ++i) {
       ticks_ += kCycle_ticks;
-      push_into_line(target_.cycle(ticks_));
+      push_into(target_.cycle(ticks_));
     }
   };
   push_turns();
   const pose_t before = poses().back();
-  push_into_line(target_.ootx(ticks_, 0xBEC08E38));
-  push_into_line(target_.ootx(ticks_, 0xBEC08E38));
+  push_into(target_.ootx(ticks_, 0xBEC08E38));
+  push_into(target_.ootx(ticks_, 0xBEC08E38));
   push_turns();
   const pose_t after = poses().back();
   EXPECT_EQ(after.flags, "");
@@ -194,7 +207,7 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
 
 TEST_F(TargetPipelineTest, AnotherProtocolVersionIsNamedInItsHealth) {
   for (std::uint16_t i = 0; i < 3; ++i) push(frame_of_unsupported_version(9, i), ticks_);
-  const SourceHealth health = line_.health("/dev/x", SourceState::kOk, "", now_ns());
+  const SourceHealth health = pipeline_.health("/dev/x", SourceState::kOk, "", now_ns());
   EXPECT_EQ(health.state, SourceState::kError);
   EXPECT_THAT(health.message, HasSubstr("speaks version 9"));
 }
@@ -209,7 +222,7 @@ TEST_F(TargetPipelineTest, HealthGoesFromSilenceToPoses) {
   const SourceHealth now = health();
   EXPECT_EQ(now.state, SourceState::kOk);
   EXPECT_GE(now.pose_age_ns, 0);
-  const SourceHealth later = line_.health("", SourceState::kOk, "", now_ns() + 5'000 * kMillisecond_ns);
+  const SourceHealth later = pipeline_.health("", SourceState::kOk, "", now_ns() + 5'000 * kMillisecond_ns);
   EXPECT_EQ(later.state, SourceState::kStale);
   EXPECT_THAT(later.message, HasSubstr("silent"));
 }
@@ -217,13 +230,13 @@ TEST_F(TargetPipelineTest, HealthGoesFromSilenceToPoses) {
 TEST_F(TargetPipelineTest, TellsWhoSpeaksAndWhatTheBoardCounts) {
   push(target_.hello("test board"), ticks_);
   push(target_.counters(4711), ticks_);
-  EXPECT_EQ(line_.health("", SourceState::kOk, "", 0).identity, "test board 0.1.0 (simulated)");
+  EXPECT_EQ(pipeline_.health("", SourceState::kOk, "", 0).identity, "test board 0.1.0 (simulated)");
   EXPECT_EQ(counter("decoder.edges_in"), 4711);
 }
 
-TEST_F(TargetPipelineTest, WhatThePortSaysGoesBeforeWhatTheLineSays) {
+TEST_F(TargetPipelineTest, WhatThePortSaysGoesBeforeWhatThePipelineSays) {
   push_cycles(60);
-  const SourceHealth health = line_.health("/dev/x", SourceState::kGone, "/dev/x: no such device", now_ns());
+  const SourceHealth health = pipeline_.health("/dev/x", SourceState::kGone, "/dev/x: no such device", now_ns());
   EXPECT_EQ(health.state, SourceState::kGone);
   EXPECT_EQ(health.message, "/dev/x: no such device");
 }

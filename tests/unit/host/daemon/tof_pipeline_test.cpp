@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/runtime/now.hpp"
 #include "pharos/pose_t.hpp"
+#include "unit/host/daemon/manual_clock.hpp"
 #include "unit/host/publish/message_list.hpp"
 
 namespace pharos::host {
@@ -29,30 +29,32 @@ TofResult good_answer() {
   return answer;
 }
 
-/// A line whose estimator answers as told, and a camera with a clock of its own that sends frames now.
+/// A pipeline whose estimator answers as told, and a camera with a clock of its own that sends frames now.
 class TofPipelineTest : public ::testing::Test {
  protected:
   TofPipelineTest() { make(camera_config()); }
 
   void make(const TofConfig& config) {
-    line.emplace(config, PublishConfig{}, "tof/helios", publisher, [this](const DepthFrame& frame) {
+    pipeline.emplace(config, PublishConfig{}, "tof/helios", publisher, clock, [this](const DepthFrame& frame) {
       measured.push_back(frame.camera_ns);
+      clock.advance(busy_ns);
       return next_answer;
     });
   }
-  DepthFrame frame_now(CameraClock clock = CameraClock::kHost) {
+  DepthFrame frame_now(CameraClock camera_clock = CameraClock::kHost) {
+    clock.advance(kPeriod_ns);
     DepthFrame frame;
     frame.resize(4, 2);
     frame.session = 1;
-    frame.clock = clock;
-    frame.arrival_utc_ns = utc_now_ns();
-    frame.arrival_monotonic_ns = frame.complete_monotonic_ns = monotonic_now_ns();
+    frame.clock = camera_clock;
+    frame.arrival_utc_ns = clock.utc_ns();
+    frame.arrival_monotonic_ns = frame.complete_monotonic_ns = clock.monotonic_ns();
     frame.camera_ns = frame.arrival_utc_ns;
     return frame;
   }
   std::vector<pose_t> poses() const { return sink.all<pose_t>("PHAROS_TOF_POSE"); }
   std::int64_t counter(const std::string& name, const FrameSourceStatus& camera = open_camera()) {
-    for (const NamedCount& count : line->health("dev", camera, monotonic_now_ns()).counters) {
+    for (const NamedCount& count : pipeline->health("dev", camera, clock.monotonic_ns()).counters) {
       if (count.name == name) return count.value;
     }
     return -1;
@@ -66,14 +68,16 @@ class TofPipelineTest : public ::testing::Test {
 
   MessageList sink;
   Publisher publisher{sink, "PHAROS_"};
+  test::ManualClock clock;
   TofResult next_answer = good_answer();
   std::vector<std::int64_t> measured;
-  std::optional<TofPipeline> line;
+  std::int64_t busy_ns = 0;  // of the estimator
+  std::optional<TofPipeline> pipeline;
 };
 
 TEST_F(TofPipelineTest, PublishesAPoseForAFrame) {
   const DepthFrame frame = frame_now();
-  line->take(frame);
+  pipeline->take(frame);
   ASSERT_EQ(poses().size(), 1u);
   const pose_t pose = poses()[0];
   EXPECT_EQ(pose.source, "tof/helios");
@@ -84,7 +88,7 @@ TEST_F(TofPipelineTest, PublishesAPoseForAFrame) {
   EXPECT_EQ(pose.status, "ok");
   EXPECT_TRUE(pose.valid);
   EXPECT_EQ(pose.utime, frame.camera_ns / 1000);
-  EXPECT_GE(pose.latency_us, 0);
+  EXPECT_EQ(pose.latency_us, 0);
   EXPECT_EQ(pose.observations, 321);
   EXPECT_EQ(pose.position_m[2], 4.0);
   EXPECT_EQ(pose.residual_rms_rad, 0.0);
@@ -95,21 +99,21 @@ TEST_F(TofPipelineTest, TellsRefusedFramesWithTheirReason) {
   next_answer = {};
   next_answer.refusal = "no_ring_plane";
   next_answer.advice = "look at a ring";
-  line->take(frame_now());
+  pipeline->take(frame_now());
   ASSERT_EQ(poses().size(), 1u);
   EXPECT_EQ(poses()[0].status, "refused_no_ring_plane");
   EXPECT_FALSE(poses()[0].valid);
   EXPECT_EQ(poses()[0].orientation_wxyz[0], 0.0) << "no rotation";
   EXPECT_EQ(counter("frames_refused"), 1);
   EXPECT_EQ(counter("refused.no_ring_plane"), 1);
-  const SourceHealth health = line->health("dev", open_camera(), monotonic_now_ns());
+  const SourceHealth health = pipeline->health("dev", open_camera(), clock.monotonic_ns());
   EXPECT_EQ(health.state, SourceState::kWaiting);
   EXPECT_EQ(health.message, "no pose: no_ring_plane: look at a ring");
 }
 
 TEST_F(TofPipelineTest, TellsTheTimeOfEachStageThatAFrameCameTo) {
   next_answer.stage_ns[static_cast<std::size_t>(tof::TofStage::kEdges)] = 2'000'000;
-  for (int k = 0; k < 3; ++k) line->take(frame_now());
+  for (int k = 0; k < 3; ++k) pipeline->take(frame_now());
   EXPECT_EQ(counter("estimator.edges_max_us"), 2000);
   EXPECT_EQ(counter("estimator.edges_p50_us"), 2000);
   EXPECT_EQ(counter("estimator.face_max_us"), 0) << "no frame came to it";
@@ -120,18 +124,32 @@ TEST_F(TofPipelineTest, NeitherMeasuresNorSendsWhatIsStale) {
   const std::int64_t second = 1'000'000'000;
   frame.camera_ns -= second;
   frame.arrival_monotonic_ns -= second;
-  line->take(frame);
+  pipeline->take(frame);
   EXPECT_TRUE(poses().empty());
   EXPECT_TRUE(measured.empty());
   EXPECT_EQ(counter("frames_stale"), 1);
 }
 
+// What takes too long is stale when it is answered, however fresh it came.
+TEST_F(TofPipelineTest, SendsNothingThatBecameStaleWhileItWasMeasured) {
+  constexpr std::int64_t kMillisecond_ns = 1'000'000;
+  for (const std::int64_t work_ms : {150, 250}) {
+    busy_ns = work_ms * kMillisecond_ns;
+    pipeline->take(frame_now());
+  }
+  ASSERT_EQ(poses().size(), 1u);
+  EXPECT_EQ(poses()[0].latency_us, 150'000);
+  EXPECT_EQ(measured.size(), 2u);
+  EXPECT_EQ(counter("frames_ok"), 1);
+  EXPECT_EQ(counter("frames_stale"), 1);
+}
+
 TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
   DepthFrame frame = frame_now();
-  line->take(frame);
-  line->take(frame);
+  pipeline->take(frame);
+  pipeline->take(frame);
   frame.camera_ns -= kPeriod_ns;
-  line->take(frame);
+  pipeline->take(frame);
   EXPECT_EQ(poses().size(), 1u);
   EXPECT_EQ(counter("frames_time_back"), 2);
 }
@@ -139,24 +157,20 @@ TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
 TEST_F(TofPipelineTest, CountsFramesOfAnotherSize) {
   DepthFrame frame = frame_now();
   frame.resize(2, 2);
-  line->take(frame);
+  pipeline->take(frame);
   EXPECT_TRUE(poses().empty());
   EXPECT_EQ(counter("frames_wrong_size"), 1);
 }
 
-// Nothing is lost silently: the counters of the line add up to the frames that it was given.
+// Nothing is lost silently: the counters of the pipeline add up to the frames that it was given.
 TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
-  const std::int64_t zero_ns = monotonic_now_ns() - 40 * kPeriod_ns;
-  const std::int64_t utc_zero_ns = utc_now_ns() - 40 * kPeriod_ns;
   constexpr int kFrames = 40;
   for (int i = 0; i < kFrames; ++i) {
     DepthFrame frame = frame_now(CameraClock::kOwn);
     frame.camera_ns = i == 30 ? 5 : 1'000'000'000'000 + i * kPeriod_ns;
-    frame.arrival_monotonic_ns = zero_ns + i * kPeriod_ns;
-    frame.arrival_utc_ns = utc_zero_ns + i * kPeriod_ns;
-    line->take(frame);
+    pipeline->take(frame);
   }
-  const TofCounters& counters = line->counters();
+  const TofCounters& counters = pipeline->counters();
   EXPECT_EQ(counters.frames_time_back, 1);
   EXPECT_GT(counters.frames_no_clock, 0);
   EXPECT_GT(counters.frames_ok, 0);
@@ -167,14 +181,14 @@ TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
 
 TEST_F(TofPipelineTest, NeverSendsWhatIsNotFinite) {
   next_answer.estimate.covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();
-  line->take(frame_now());
+  pipeline->take(frame_now());
   EXPECT_TRUE(poses().empty());
   EXPECT_EQ(counter("frames_not_finite"), 1);
 }
 
 TEST_F(TofPipelineTest, SaysAmbiguousAndBothPoses) {
   next_answer.estimate.second = {next_answer.estimate.pose, 0.0};
-  line->take(frame_now());
+  pipeline->take(frame_now());
   ASSERT_EQ(poses().size(), 1u);
   EXPECT_EQ(poses()[0].status, "ambiguous");
   EXPECT_TRUE(poses()[0].has_second);
@@ -185,7 +199,7 @@ TEST_F(TofPipelineTest, SendsOneMeanForAWindowOfFrames) {
   TofConfig config = camera_config();
   config.average_frames = 5;
   make(config);
-  for (int i = 0; i < 11; ++i) line->take(frame_now());
+  for (int i = 0; i < 11; ++i) pipeline->take(frame_now());
   ASSERT_EQ(poses().size(), 2u);
   EXPECT_EQ(poses()[0].sequence, 0);
   EXPECT_EQ(poses()[1].sequence, 1);
@@ -199,7 +213,7 @@ TEST_F(TofPipelineTest, TellsTheCamerasTroubleBeforeItsOwn) {
   camera.state = CameraState::kTaken;
   camera.error = "another program controls it";
   camera.counters.camera_lost = 3;
-  const SourceHealth health = line->health("camera 7", camera, monotonic_now_ns());
+  const SourceHealth health = pipeline->health("camera 7", camera, clock.monotonic_ns());
   EXPECT_EQ(health.state, SourceState::kError);
   EXPECT_EQ(health.message, "another program controls it");
   EXPECT_EQ(health.device, "camera 7");

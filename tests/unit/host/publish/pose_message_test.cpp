@@ -5,6 +5,7 @@
 
 #include "host/publish/messages.hpp"
 #include "host/publish/words.hpp"
+#include "pharos/pose/solve.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
@@ -14,13 +15,13 @@ CycleReport answered() {
   CycleReport report;
   report.utc_ns = 1'700'000'000'123'456'789;
   report.utc_sigma_ns = 12'000;
-  report.latency_ns = 1'500'000;
+  report.age_ns = 1'500'000;
   report.sequence = 41;
   report.source = "lighthouse/pharosd";
   report.target = "dock";
-  report.station_id = station_id_text(0xBEC08E38);
+  report.sensor = station_id_text(0xBEC08E38);
   report.station = 1;
-  report.flags = track::kEpochOutliers | track::kEpochUncalibrated;
+  report.flags = flag_words(track::kEpochOutliers | track::kEpochUncalibrated);
   report.observations = 14;
   LighthousePoseEstimate estimate;
   estimate.pose.R = rotation_exp(Vector3(0.1, -2.9, 0.4));  // beyond pi/2, so that the sign of w matters
@@ -37,7 +38,7 @@ CycleReport answered() {
 
 TEST(PoseMessage, SaysThePoseInTheFramesAndUnitsPromised) {
   const CycleReport report = answered();
-  const pose_t message = pose_message(report);
+  const pose_t message = message_of(report);
   EXPECT_EQ(message.utime, 1'700'000'000'123'456);
   EXPECT_EQ(message.utime_sigma_us, 12);
   EXPECT_EQ(message.latency_us, 1500);
@@ -54,10 +55,10 @@ TEST(PoseMessage, SaysThePoseInTheFramesAndUnitsPromised) {
   const Quaternion q(message.orientation_wxyz[0], message.orientation_wxyz[1], message.orientation_wxyz[2],
                      message.orientation_wxyz[3]);
   EXPECT_GE(q.w(), 0.0);
-  EXPECT_LT((q.toRotationMatrix() - report.pose->pose.R).norm(), 1e-12);
-  EXPECT_EQ(Vector3(message.position_m[0], message.position_m[1], message.position_m[2]), report.pose->pose.t);
-  EXPECT_EQ(message.covariance[6 * 1 + 2], report.pose->covariance(1, 2));
-  EXPECT_EQ(message.covariance[6 * 5 + 0], report.pose->covariance(5, 0));
+  EXPECT_LT((q.toRotationMatrix() - report.pose.pose.R).norm(), 1e-12);
+  EXPECT_EQ(Vector3(message.position_m[0], message.position_m[1], message.position_m[2]), report.pose.pose.t);
+  EXPECT_EQ(message.covariance[6 * 1 + 2], report.pose.covariance(1, 2));
+  EXPECT_EQ(message.covariance[6 * 5 + 0], report.pose.covariance(5, 0));
   EXPECT_DOUBLE_EQ(message.sigma_rot_rad, std::sqrt(1.0 + 8.0 + 15.0));
   EXPECT_DOUBLE_EQ(message.sigma_pos_m, std::sqrt(22.0 + 29.0 + 36.0));
   EXPECT_FALSE(message.has_second);
@@ -65,8 +66,9 @@ TEST(PoseMessage, SaysThePoseInTheFramesAndUnitsPromised) {
 
 TEST(PoseMessage, AnAmbiguousPoseBringsItsRival) {
   CycleReport report = answered();
-  report.pose->second = SecondSolution<frame::Lighthouse, frame::Body>{{Matrix3::Identity(), Vector3(1, 2, 3)}, 3.5};
-  const pose_t message = pose_message(report);
+  report.ambiguous = true;
+  report.pose.second = SecondSolution<frame::Lighthouse, frame::Body>{{Matrix3::Identity(), Vector3(1, 2, 3)}, 3.5};
+  const pose_t message = message_of(report);
   EXPECT_EQ(message.status, "ambiguous");
   EXPECT_TRUE(message.valid);
   EXPECT_TRUE(message.has_second);
@@ -77,9 +79,9 @@ TEST(PoseMessage, AnAmbiguousPoseBringsItsRival) {
 
 TEST(PoseMessage, ARefusedCycleHasAReasonAndNoPose) {
   CycleReport report = answered();
-  report.pose = pose::Refusal::kTooFewSensors;
+  report.refusal = pose::name_of(pose::Refusal::kTooFewSensors);
   report.observations = 5;
-  const pose_t message = pose_message(report);
+  const pose_t message = message_of(report);
   EXPECT_EQ(message.status, std::string("refused_") + pose::name_of(pose::Refusal::kTooFewSensors));
   EXPECT_FALSE(message.valid);
   EXPECT_EQ(message.observations, 5);
@@ -90,9 +92,10 @@ TEST(PoseMessage, ARefusedCycleHasAReasonAndNoPose) {
 }
 
 TEST(PoseMessage, BearingsCarryTheirOwnInstants) {
-  CycleReport report = answered();
+  BearingsReport report;
+  report.sequence = 41;
   report.bearings.push_back({7, Axis::kY, 250, -4'000'000, 1.5, 1.51, true, -2e-5});
-  const bearings_t message = bearings_message(report);
+  const bearings_t message = message_of(report);
   ASSERT_EQ(message.count, 1);
   EXPECT_EQ(message.sequence, 41);
   EXPECT_FALSE(message.calibrated);
@@ -108,7 +111,7 @@ TEST(PoseMessage, BearingsCarryTheirOwnInstants) {
 TEST(PoseMessage, TimesBeforeTheEpochRoundDownToo) {
   CycleReport report = answered();
   report.utc_ns = -1;
-  EXPECT_EQ(pose_message(report).utime, -1);
+  EXPECT_EQ(message_of(report).utime, -1);
 }
 
 TEST(Words, EveryFlagHasItsWord) {

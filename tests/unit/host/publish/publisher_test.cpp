@@ -4,51 +4,71 @@
 #include <gtest/gtest.h>
 
 #include "host/publish/lcm_sink.hpp"
-#include "pharos/bearings_t.hpp"
-#include "pharos/pose_t.hpp"
-#include "pharos/spin_t.hpp"
-#include "pharos/status_t.hpp"
+#include "host/publish/messages.hpp"
+#include "host/publish/publish_gate.hpp"
 #include "unit/host/publish/message_list.hpp"
 
 namespace pharos::host {
 namespace {
 
+/// What a pipeline sends through, with the counters of what it does not.
+struct Gate {
+  explicit Gate(MessageSink& sink, const std::string& prefix = "TEST_") : publisher(sink, prefix) {}
+
+  Publisher publisher;
+  std::int64_t not_finite = 0;
+  PublishGate gate{publisher, not_finite};
+};
+
 TEST(Publisher, SendsEachKindOnItsChannelBehindThePrefix) {
   MessageList list;
-  Publisher publisher(list, "TEST_");
-  CycleReport report;
-  report.target = "dock";
-  EXPECT_TRUE(publisher.publish_pose(report));
-  EXPECT_TRUE(publisher.publish_board_pose(report));
-  EXPECT_TRUE(publisher.publish_bearings(report));
-  EXPECT_TRUE(publisher.publish_health({}));
-  EXPECT_EQ(list.all<pose_t>("TEST_LIGHTHOUSE_POSE").size(), 1u);
-  EXPECT_EQ(list.all<pose_t>("TEST_LIGHTHOUSE_BOARD_POSE").size(), 1u);
+  Gate out(list);
+  CycleReport cycle;
+  BoardPoseReport board;
+  BearingsReport bearings;
+  TofReport tof;
+  StereoReport ring2(Ring2PoseEstimate{}), slam(SlamPoseEstimate{});
+  PointingReport pointing;
+  EXPECT_TRUE(out.gate.publish(cycle));
+  EXPECT_TRUE(out.gate.publish(board));
+  EXPECT_TRUE(out.gate.publish(bearings));
+  EXPECT_TRUE(out.gate.publish(tof));
+  EXPECT_TRUE(out.gate.publish(ring2));
+  EXPECT_TRUE(out.gate.publish(slam));
+  EXPECT_TRUE(out.gate.publish(pointing));
+  EXPECT_TRUE(out.publisher.publish_health({}));
+  for (const char* channel : {"LIGHTHOUSE_POSE", "LIGHTHOUSE_BOARD_POSE", "TOF_POSE", "RING2_POSE", "SLAM_POSE"}) {
+    EXPECT_EQ(list.all<pose_t>(std::string("TEST_") + channel).size(), 1u) << channel;
+  }
   EXPECT_EQ(list.all<bearings_t>("TEST_LIGHTHOUSE_BEARINGS").size(), 1u);
+  EXPECT_EQ(list.all<pointing_t>("TEST_LINE_POINTING").size(), 1u);
   EXPECT_EQ(list.all<status_t>("TEST_STATUS").size(), 1u);
-  EXPECT_EQ(publisher.counters().poses, 2);
-  EXPECT_GT(publisher.counters().bytes, 0);
+  EXPECT_EQ(out.publisher.counters().poses, 5);
+  EXPECT_EQ(out.publisher.counters().bearings, 1);
+  EXPECT_EQ(out.publisher.counters().pointings, 1);
+  EXPECT_GT(out.publisher.counters().bytes, 0);
 }
 
 TEST(Publisher, ASpinIsSentWithItsCovarianceAndARefusedOneWithNothing) {
   MessageList list;
-  Publisher publisher(list, "TEST_");
+  Gate out(list);
   SpinReport report;
   report.utc_ns = 7'000'900;
-  report.sequence = 4;
   report.source = "slam/bow";
-  report.camera = "bow";
+  report.frames = {"camera", "target"};
+  report.sensor = "bow";
   report.target = "client";
   report.spin = {{0.0, -0.2, 0.1}, 1e-6 * Matrix3::Identity(), {0.0, -0.8, 0.6}, 1e-3, 2e-3, 3e-4, 50, 2.5};
   report.spin.covariance(0, 2) = report.spin.covariance(2, 0) = 2e-7;
-  EXPECT_TRUE(publisher.publish_spin(report));
+  EXPECT_TRUE(out.gate.publish(report));
   report.refusal = "lost";
-  EXPECT_TRUE(publisher.publish_spin(report));
+  EXPECT_TRUE(out.gate.publish(report));
   const auto messages = list.all<spin_t>("TEST_SLAM_SPIN");
   ASSERT_EQ(messages.size(), 2u);
   const spin_t &told = messages[0], &refused = messages[1];
   EXPECT_EQ(told.utime, 7000);
-  EXPECT_EQ(told.sequence, 4);
+  EXPECT_EQ(told.sequence, 0);
+  EXPECT_EQ(refused.sequence, 1);
   EXPECT_EQ(told.source + told.station_or_camera + told.target, "slam/bowbowclient");
   EXPECT_EQ(told.reference_frame, "camera");
   EXPECT_EQ(told.status, "ok");
@@ -63,17 +83,18 @@ TEST(Publisher, ASpinIsSentWithItsCovarianceAndARefusedOneWithNothing) {
   EXPECT_EQ(refused.status, "refused_lost");
   EXPECT_EQ(refused.valid, 0);
   EXPECT_EQ(Vector3(refused.rate_rad_s), Vector3::Zero());
-  EXPECT_EQ(publisher.counters().spins, 2);
+  EXPECT_EQ(out.publisher.counters().spins, 2);
 }
 
 TEST(Publisher, CountsWhatCouldNotBeSent) {
   MessageList list;
   list.broken = true;
-  Publisher publisher(list, "");
-  EXPECT_FALSE(publisher.publish_pose(CycleReport{}));
-  EXPECT_EQ(publisher.counters().failed, 1);
-  EXPECT_EQ(publisher.counters().poses, 0);
-  EXPECT_EQ(publisher.counters().bytes, 0);
+  Gate out(list);
+  CycleReport report;
+  EXPECT_FALSE(out.gate.publish(report));
+  EXPECT_EQ(out.publisher.counters().failed, 1);
+  EXPECT_EQ(out.publisher.counters().poses, 0);
+  EXPECT_EQ(out.publisher.counters().bytes, 0);
 }
 
 TEST(Publisher, StatusMessagesAreNumbered) {
@@ -88,7 +109,7 @@ TEST(Publisher, StatusMessagesAreNumbered) {
 
 TEST(LcmSink, SendsInsideOneProcess) {
   LcmSink sink("memq://");
-  EXPECT_TRUE(Publisher(sink, "PHAROS_").publish_pose(CycleReport{}));
+  EXPECT_TRUE(Publisher(sink, "PHAROS_").publish_health({}));
 }
 
 TEST(LcmSink, SaysWhatToDoWhenLcmCannotBeSetUp) {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/pointing_feed.hpp"
+#include "host/daemon/source.hpp"
+#include "host/daemon/stereo/stereo_feed.hpp"
+#include "host/daemon/target_feed.hpp"
+#include "host/daemon/tof_feed.hpp"
+
+namespace pharos::host {
+
+// In the order in which PHAROS_STATUS tells them. The first is told in the log even where there is none of it.
+const SourceKinds& source_kinds() {
+  static const SourceKinds kinds{{"target", open_target_feeds},
+                                 {"camera", open_tof_feeds},
+                                 {"telescope", open_pointing_feeds},
+                                 {"stereo rig", open_stereo_feeds}};
+  return kinds;
+}
+
+}  // namespace pharos::host
