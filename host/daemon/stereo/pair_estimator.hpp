@@ -32,6 +32,8 @@ class PairEstimator {
   virtual ~PairEstimator() = default;
   /// Throws for nothing that a pair may hold; must be fit for the next pair if it does throw.
   virtual PairResult measure(const StereoPair& pair) = 0;
+  /// A pose of this system's type, for answers without one: the type is what tells on which channel they go.
+  virtual Ring2Pose no_pose() const = 0;
 };
 
 }  // namespace pharos::host

@@ -13,11 +13,12 @@ namespace pharos::host {
 using PairWorker = JobWorker<StereoPairPtr, PairResult>;
 
 /// Pairs that the estimator throws at are refused, `internal_error`.
-inline PairWorker pair_worker(std::shared_ptr<PairEstimator> estimator) {
+inline PairWorker pair_worker(const std::shared_ptr<PairEstimator>& estimator) {
   return PairWorker(
-      1, [estimator = std::move(estimator)](const StereoPairPtr& pair) { return estimator->measure(*pair); },
-      [](const StereoPairPtr&, const std::string& error) {
+      1, [estimator](const StereoPairPtr& pair) { return estimator->measure(*pair); },
+      [estimator](const StereoPairPtr&, const std::string& error) {
         PairResult answer;
+        answer.pose = estimator->no_pose();
         answer.refusal = kInternalError;
         answer.advice = error;
         return answer;

@@ -13,6 +13,7 @@ class Ring2Estimator : public PairEstimator {
   /// Throws InputError for a rig that cannot measure.
   explicit Ring2Estimator(const RigFile& rig);
   PairResult measure(const StereoPair& pair) override;
+  Ring2Pose no_pose() const override { return Ring2PoseEstimate{}; }
 
  private:
   Ring2Detector finder_;

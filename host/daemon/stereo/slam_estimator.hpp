@@ -18,6 +18,7 @@ class SlamEstimator : public PairEstimator {
   /// Of a rig whose `slam` is set. Throws InputError for a rig or a vocabulary that is no good.
   explicit SlamEstimator(const StereoConfig& config);
   PairResult measure(const StereoPair& pair) override;
+  Ring2Pose no_pose() const override { return SlamPoseEstimate{}; }
 
  private:
   void begin();

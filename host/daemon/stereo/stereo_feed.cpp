@@ -33,8 +33,8 @@ std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoC
 
 StereoFeed::StereoFeed(const SourceContext& context, const StereoConfig& config)
     : context_(context), name_(config.name), state_log_(config.name), pairs_(pairs_of(context, config)) {
-  if (config.ring2) add_system(config, "ring2/", std::make_unique<Ring2Estimator>(config.rig));
-  if (config.slam) add_system(config, "slam/", std::make_unique<SlamEstimator>(config));
+  if (config.ring2) add_system(config, "ring2/", std::make_shared<Ring2Estimator>(config.rig));
+  if (config.slam) add_system(config, "slam/", std::make_shared<SlamEstimator>(config));
   for (const int fd : pairs_->fds()) context_.loop.watch(fd, [this] { on_readable(); });
 }
 
@@ -43,10 +43,11 @@ StereoFeed::~StereoFeed() {
   for (const auto& system : systems_) context_.loop.forget(system->worker.fd());
 }
 
-void StereoFeed::add_system(const StereoConfig& config, const char* word, std::unique_ptr<PairEstimator> estimator) {
+void StereoFeed::add_system(const StereoConfig& config, const char* word,
+                            const std::shared_ptr<PairEstimator>& estimator) {
   systems_.push_back(std::unique_ptr<System>(new System{
       StereoPipeline(config, context_.config.publish, word + config.name, context_.publisher, context_.clock),
-      pair_worker(std::move(estimator))}));
+      pair_worker(estimator)}));
   System& system = *systems_.back();
   context_.loop.watch(system.worker.fd(), [this, &system] { on_results(system); });
 }

@@ -33,7 +33,7 @@ class StereoFeed final : public Source {
     PairWorker worker;
   };
 
-  void add_system(const StereoConfig& config, const char* word, std::unique_ptr<PairEstimator> estimator);
+  void add_system(const StereoConfig& config, const char* word, const std::shared_ptr<PairEstimator>& estimator);
   void on_readable();
   void on_results(System& system);
   void release(StereoPairPtr pair);

@@ -135,6 +135,7 @@ class SlowEstimator : public PairEstimator {
     answer.refusal = std::to_string(pair.offset_ns);
     return answer;
   }
+  Ring2Pose no_pose() const override { return Ring2PoseEstimate{}; }
   void release(int count) {
     const std::lock_guard lock(mutex);
     let += count;
@@ -152,9 +153,9 @@ StereoPairPtr numbered(std::int64_t number) {
 }
 
 TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
-  auto slow = std::make_unique<SlowEstimator>();
+  const auto slow = std::make_shared<SlowEstimator>();
   SlowEstimator& estimator = *slow;
-  PairWorker worker = pair_worker(std::move(slow));
+  PairWorker worker = pair_worker(slow);
   EXPECT_TRUE(worker.idle());
   std::int64_t dropped = 0;
   for (std::int64_t k = 0; k < 50; ++k) {
@@ -183,12 +184,16 @@ class FaultyEstimator : public PairEstimator {
     if (pair.offset_ns == 1) throw 42;
     PairResult answer;
     answer.refusal = "no_ring";
+    answer.pose = no_pose();
     return answer;
   }
+  Ring2Pose no_pose() const override { return type; }
+
+  Ring2Pose type;
 };
 
 TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
-  PairWorker worker = pair_worker(std::make_unique<FaultyEstimator>());
+  PairWorker worker = pair_worker(std::make_shared<FaultyEstimator>());
   StereoPipeline pipeline(config, PublishConfig{}, "ring2/bow", bench.publisher, bench.clock);
   for (std::int64_t k = 0; k < 3; ++k) {
     StereoPairPtr pair = numbered(k);
@@ -210,6 +215,24 @@ TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
   EXPECT_EQ(poses()[0].status, "refused_internal_error");
   EXPECT_EQ(poses()[1].status, "refused_internal_error");
   EXPECT_EQ(poses()[2].status, "refused_no_ring");
+}
+
+TEST_F(StereoFeedTest, AFaultOfSlamGoesOutOnSlamsChannel) {
+  const auto faulty = std::make_shared<FaultyEstimator>();
+  faulty->type = SlamPoseEstimate{};
+  PairWorker worker = pair_worker(faulty);
+  StereoPipeline pipeline(config, PublishConfig{}, "slam/bow", bench.publisher, bench.clock);
+  StereoPairPtr pair = numbered(0);
+  pair->time = {bench.clock.utc_ns(), bench.clock.monotonic_ns(), 0};
+  worker.post(pair);
+  while (!worker.idle()) {
+    if (const auto done = worker.take()) pipeline.done(*done, false);
+  }
+  EXPECT_TRUE(poses().empty()) << "ring2 has nothing to do with it";
+  const auto of_slam = bench.sink.all<pose_t>("PHAROS_SLAM_POSE");
+  ASSERT_EQ(of_slam.size(), 1u);
+  EXPECT_EQ(of_slam[0].status, "refused_internal_error");
+  EXPECT_EQ(of_slam[0].parent_frame, "camera");
 }
 
 TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
