@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of LighthousePipeline that tells how it fares.
 #include "host/daemon/health_parts.hpp"
-#include "host/daemon/target_pipeline.hpp"
+#include "host/daemon/lighthouse_pipeline.hpp"
 #include "pharos/wire/message_type.hpp"
 
 namespace pharos::host {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/lighthouse_feed.hpp"
 #include "host/daemon/pointing_feed.hpp"
 #include "host/daemon/source.hpp"
 #include "host/daemon/stereo/stereo_feed.hpp"
-#include "host/daemon/target_feed.hpp"
 #include "host/daemon/tof_feed.hpp"
 
 namespace pharos::host {

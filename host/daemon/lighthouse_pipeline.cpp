@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/daemon/target_pipeline.hpp"
+#include "host/daemon/lighthouse_pipeline.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -124,10 +124,10 @@ void LighthousePipeline::line_lost() {
   link_.restart();
   frame_bytes_ = 0;
   tracker_.restart();
-  believe_stations();
+  apply_calibrations();
 }
 
-void LighthousePipeline::believe_stations() {
+void LighthousePipeline::apply_calibrations() {
   for (std::uint8_t station = 0; station < kMaxStations; ++station) {
     if (const auto* sent = calibrations_.in_use(station))
       tracker_.set_calibration(station, effective_calibration(*sent));
@@ -185,7 +185,7 @@ void LighthousePipeline::take(const lighthouse::OotxPayload& payload) {
   const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
   if (calibration == nullptr) return;
   ++counters_.calibrations_taken;
-  believe_stations();
+  apply_calibrations();
   if (!config_.calibration_file.empty() && &effective_calibration(*calibration) == calibration) {
     log_.warn("other station",
               "station " + station_id_text(calibration->id) + " is not in " + config_.calibration_file.string() +

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pharos/base/units.hpp"
-#include "unit/host/daemon/target_pipeline_fixture.hpp"
+#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/daemon/target_feed.hpp"
+#include "host/daemon/lighthouse_feed.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -46,7 +46,7 @@ class CalibrationKeeper final : public Source {
 
 }  // namespace
 
-TargetFeed::TargetFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory)
+LighthouseFeed::LighthouseFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory)
     : context_(context), name_(config.name) {
   const DaemonConfig& daemon = context.config;
   if (daemon.recording && !config.is_replay()) {
@@ -58,7 +58,7 @@ TargetFeed::TargetFeed(const SourceContext& context, const TargetConfig& config,
   pipeline_.emplace(config, daemon.publish, source, context.publisher, context.clock, memory, bytes_->baud());
 }
 
-std::unique_ptr<ByteFeed> TargetFeed::open(const TargetConfig& config) {
+std::unique_ptr<ByteFeed> LighthouseFeed::open(const TargetConfig& config) {
   ByteFeedEvents events;
   events.bytes = [this](std::span<const std::uint8_t> bytes, const Arrival& arrival) { on_bytes(bytes, arrival); };
   events.lost = [this] { pipeline_->line_lost(); };
@@ -75,12 +75,12 @@ std::unique_ptr<ByteFeed> TargetFeed::open(const TargetConfig& config) {
 }
 
 // Poses first: they are what somebody waits for.
-void TargetFeed::on_bytes(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
+void LighthouseFeed::on_bytes(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
   pipeline_->push(bytes, arrival);
   if (recorder_) recorder_->append(bytes, arrival.utc_ns, arrival.monotonic_ns);
 }
 
-std::vector<SourceHealth> TargetFeed::health() {
+std::vector<SourceHealth> LighthouseFeed::health() {
   SourceHealth health = pipeline_->health(bytes_->device(), bytes_->state(), bytes_->error(), bytes_->monotonic_now());
   NamedCounts& counts = health.counters;
   const NamedCounts of_bytes = bytes_->counters();
@@ -95,13 +95,15 @@ std::vector<SourceHealth> TargetFeed::health() {
   return {std::move(health)};
 }
 
-StorageError TargetFeed::storage_error() const { return {"recording", recorder_ ? recorder_->error() : std::string()}; }
+StorageError LighthouseFeed::storage_error() const {
+  return {"recording", recorder_ ? recorder_->error() : std::string()};
+}
 
 std::size_t open_target_feeds(const SourceContext& context, SourceList& sources) {
   auto keeper = std::make_unique<CalibrationKeeper>(context);
   CalibrationMemory& memory = keeper->memory();
   for (const TargetConfig& target : context.config.targets) {
-    sources.push_back(std::make_unique<TargetFeed>(context, target, memory));
+    sources.push_back(std::make_unique<LighthouseFeed>(context, target, memory));
   }
   sources.push_back(std::move(keeper));
   return context.config.targets.size();

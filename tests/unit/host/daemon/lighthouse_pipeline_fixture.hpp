@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/target_pipeline.hpp"
+#include "host/daemon/lighthouse_pipeline.hpp"
 #include "integration/stationary_target.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/bearings_t.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "pharos/base/units.hpp"
-#include "unit/host/daemon/target_pipeline_fixture.hpp"
+#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {

@@ -7,18 +7,18 @@
 
 #include "host/daemon/byte_feed.hpp"
 #include "host/daemon/calibration_memory.hpp"
+#include "host/daemon/lighthouse_pipeline.hpp"
 #include "host/daemon/source.hpp"
-#include "host/daemon/target_pipeline.hpp"
 #include "host/record/stream_recorder.hpp"
 
 namespace pharos::host {
 
 /// One target of the configuration: the bytes of its port or recording go to its pipeline, and to a file where that is
 /// asked for.
-class TargetFeed final : public Source {
+class LighthouseFeed final : public Source {
  public:
   /// `memory` is shared by all targets. Throws InputError for a replay that is no recording.
-  TargetFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory);
+  LighthouseFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory);
 
   const std::string& name() const override { return name_; }
   void attend() override { bytes_->attend(context_.clock.monotonic_ns()); }

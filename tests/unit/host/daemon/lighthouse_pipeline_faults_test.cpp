@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/host/daemon/captured_log.hpp"
-#include "unit/host/daemon/target_pipeline_fixture.hpp"
+#include "unit/host/daemon/lighthouse_pipeline_fixture.hpp"
 
 namespace pharos::host {
 namespace {

@@ -13,9 +13,9 @@
 #include "host/daemon/calibration_memory.hpp"
 #include "host/daemon/clock.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
+#include "host/daemon/lighthouse_counters.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
-#include "host/daemon/target_counters.hpp"
 #include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/cycle_report.hpp"
@@ -75,7 +75,7 @@ class LighthousePipeline {
   }
 
   const lighthouse::StationCalibration& effective_calibration(const lighthouse::StationCalibration& sent) const;
-  void believe_stations();
+  void apply_calibrations();
   void check_relative_pose();
   void check_clock(const report::LinkEvent& event);
   void restart(const char* why);
