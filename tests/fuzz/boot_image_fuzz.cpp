@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as an image file, and as what lies in a slot. First byte of the input: which.
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <vector>
 
 #include "pharos/boot_image/slot.hpp"
+#include "support/require.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::boot_image;
 using Input = std::span<const std::uint8_t>;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// What is taken is just what sealing would have made of it.
 void check_file(Input file) {

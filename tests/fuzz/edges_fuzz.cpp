@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/decoder.hpp"
@@ -13,16 +12,14 @@
 #include "pharos/report/convert.hpp"
 #include "pharos/wire/codec.hpp"
 #include "pharos/wire/frame.hpp"
+#include "support/require.hpp"
 #include "support/synthetic_light.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::lighthouse;
 using pharos::test::SyntheticLight;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 class Bytes {
  public:

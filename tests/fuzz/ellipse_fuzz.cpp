@@ -2,19 +2,16 @@
 // Any pixels as an image to look for ellipses in: what is found is finite, within the settings, and the same again.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "pharos/ellipse/detect.hpp"
+#include "support/require.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::ellipse;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 // The first byte tells the width and how values grow to 16 bits; the rest are pixels, repeated to fill the last row.
 std::vector<std::uint16_t> pixels_of(const std::uint8_t* data, std::size_t size, int width, bool steep) {

@@ -3,20 +3,17 @@
 // afterwards. First byte of the input: bytes (0) or frames.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
+#include "support/require.hpp"
 #include "unit/boot/host.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos;
 using namespace pharos::boot::test;
 using Input = std::span<const std::uint8_t>;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 const Bytes& good_image() {
   static const Bytes image = make_image(1, {.body_bytes = 64});

@@ -4,20 +4,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/lighthouse/ootx_fields.hpp"
 #include "pharos/lighthouse/ootx_frames.hpp"
+#include "support/require.hpp"
 #include "support/synthetic_light.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::lighthouse;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_fields(const std::vector<std::uint8_t>& bytes, CalibrationStore& store) {
   const auto fields = ootx_fields(bytes);

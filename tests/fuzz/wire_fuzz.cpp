@@ -3,21 +3,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 #include "pharos/report/convert.hpp"
 #include "pharos/report/link_decoder.hpp"
+#include "support/require.hpp"
 #include "unit/wire/random_messages.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::wire;
 using Input = std::span<const std::uint8_t>;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// Whatever decodes must encode to the very same bytes.
 template <class M>

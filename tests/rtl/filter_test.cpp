@@ -7,13 +7,13 @@
 namespace pharos::rtl {
 namespace {
 
-constexpr unsigned kSettle = PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS + 20;
+constexpr unsigned kFilterSettle = PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS + 20;
 
 void pulse(CaptureRig& rig, unsigned width) {
   rig.set_pins(1);
   rig.ticks(width);
   rig.set_pins(0);
-  rig.ticks(kSettle);
+  rig.ticks(kFilterSettle);
 }
 
 TEST(Filter, DropsAndCountsPulsesUpToItsLengthAndKeepsLongerOnesWithTheirWidth) {
@@ -53,7 +53,7 @@ TEST(Filter, DropsShortDarknessInsideAPulseToo) {
   rig.set_pins(1);
   rig.ticks(30);
   rig.set_pins(0);
-  rig.ticks(kSettle);
+  rig.ticks(kFilterSettle);
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), 2u);
   EXPECT_EQ(records[1].stamp - records[0].stamp, 61u);
@@ -69,7 +69,7 @@ TEST(Filter, StopsCountingGlitchesAtItsLargestNumber) {
     rig.set_pins(0);
     rig.ticks(2);
   }
-  rig.ticks(kSettle);
+  rig.ticks(kFilterSettle);
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_GLITCHES_OFFSET), 0xFFFFu);
   EXPECT_TRUE(rig.drain().empty());
 }

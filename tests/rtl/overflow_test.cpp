@@ -9,7 +9,7 @@
 namespace pharos::rtl {
 namespace {
 
-constexpr unsigned kSettle = PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS;
+constexpr unsigned kOverflowSettle = PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS;
 
 // All inputs change in each of `ticks` ticks.
 void toggle(CaptureRig& rig, unsigned ticks) {
@@ -31,11 +31,11 @@ TEST(Overflow, CountsEveryEdgeThatFoundNoRoom) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   EXPECT_FALSE(overflow(rig));
   for (unsigned beyond = 1; beyond <= 3; ++beyond) {
     toggle(rig, 1);
-    rig.ticks(kSettle);
+    rig.ticks(kOverflowSettle);
     EXPECT_TRUE(overflow(rig));
     EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(beyond * rig.build().inputs, max_lost(rig)));
   }
@@ -47,7 +47,7 @@ TEST(Overflow, FarBeyondLeavesTheOldestRecordsWhole) {
   const auto first = static_cast<std::uint32_t>(rig.ticks());
   const unsigned extra = 50 * rig.build().depth;
   toggle(rig, rig.build().depth + extra);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), std::min(extra * rig.build().inputs, max_lost(rig)));
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), rig.build().depth);
@@ -61,7 +61,7 @@ TEST(Overflow, StopsCountingAtItsLargestNumberInsteadOfStartingAnew) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth + max_lost(rig) + 40);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), max_lost(rig));
 }
 #endif
@@ -71,14 +71,14 @@ TEST(Overflow, MarksTheRecordBehindTheGapAndItsLevelsAreTrue) {
   rig.enable();
   const unsigned depth = rig.build().depth;
   toggle(rig, depth + 7);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   rig.read_record();
   rig.read_record();
   toggle(rig, 1);
   const std::uint32_t levels_behind = rig.pins();
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   toggle(rig, 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), depth);
   for (unsigned i = 0; i < depth; ++i) EXPECT_EQ(records[i].gap(), i == depth - 2) << i;
@@ -89,7 +89,7 @@ TEST(Overflow, IsToldUntilItIsClearedAndAgainWhenItComesAgain) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth + 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   rig.drain();
   EXPECT_TRUE(overflow(rig));
   rig.write(PHAROS_CAPTURE_STATUS_OFFSET, 0);
@@ -98,7 +98,7 @@ TEST(Overflow, IsToldUntilItIsClearedAndAgainWhenItComesAgain) {
   EXPECT_FALSE(overflow(rig));
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), rig.build().inputs);  // clearing the flag forgets no edge
   toggle(rig, rig.build().depth + 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   EXPECT_TRUE(overflow(rig));
 }
 
@@ -106,7 +106,7 @@ TEST(Overflow, IsNotForgottenWhenClearedInTheTickOfTheNextLoss) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   toggle(rig, 1);
   rig.ticks(PHAROS_CAPTURE_LATENCY_TICKS - 1);
   rig.write(PHAROS_CAPTURE_STATUS_OFFSET, PHAROS_CAPTURE_STATUS_OVERFLOW);
@@ -122,10 +122,10 @@ TEST(Overflow, LeavesEveryEdgeEitherRecordedOrCounted) {
   for (unsigned round = 0; round < 40 && made < max_lost(rig); ++round) {
     toggle(rig, 1 + (round * 7) % 5);
     made += (1 + (round * 7) % 5) * rig.build().inputs;
-    rig.ticks(kSettle);
+    rig.ticks(kOverflowSettle);
     if (round % 3 == 0) recorded += rig.read_record() ? rig.build().inputs : 0;
   }
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   recorded += rig.drain().size() * rig.build().inputs;
   EXPECT_EQ(recorded + rig.read(PHAROS_CAPTURE_LOST_OFFSET), made);
 }
@@ -134,13 +134,13 @@ TEST(Clearing, EmptiesTheFifoAndMarksWhatFollows) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   rig.write(PHAROS_CAPTURE_CONTROL_OFFSET, PHAROS_CAPTURE_CONTROL_ENABLE | PHAROS_CAPTURE_CONTROL_CLEAR_FIFO);
   EXPECT_TRUE(rig.drain().empty());
   toggle(rig, 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   toggle(rig, 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), 2u);
   EXPECT_TRUE(records[0].gap());
@@ -151,15 +151,15 @@ TEST(Disabling, KeepsRecordsAndMarksTheFirstOneAfterEnabling) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   rig.write(PHAROS_CAPTURE_CONTROL_OFFSET, 0);
   toggle(rig, 30);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   EXPECT_EQ(rig.drain().size(), 1u);
   EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), 0u);  // nobody asked for them
   rig.enable();
   toggle(rig, 1);
-  rig.ticks(kSettle);
+  rig.ticks(kOverflowSettle);
   const auto records = rig.drain();
   ASSERT_EQ(records.size(), 1u);
   EXPECT_TRUE(records[0].gap());

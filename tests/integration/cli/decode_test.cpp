@@ -15,7 +15,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const ExampleRecording& recording() { return ExampleRecording::get(); }
 Outcome decode(const std::string& more = "") { return pharos("decode " + recording().edges() + " " + more); }
 
 lighthouse::StationCalibration calibration_from(const Row& row) {

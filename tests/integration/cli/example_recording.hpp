@@ -35,6 +35,8 @@ class ExampleRecording {
   Target target_;
 };
 
+inline const ExampleRecording& recording() { return ExampleRecording::get(); }
+
 /// A solid target with normals; the frustum of tools/sim/scenarios.
 std::string solid_target_csv();
 /// Four sensors in one plane.

@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr const char* kHeader = "pose,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+constexpr const char* kPosesHeader = "pose,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
 
 Outcome precision(const std::string& poses, const std::string& more = "") {
   return pharos("precision --target " + ExampleRecording::get().target() + " --poses - " + more, poses);
@@ -25,7 +25,7 @@ std::string pose_row(const std::string& name, const LighthouseFromBody& pose) {
 }
 
 TEST(CliPrecision, PrintsTheColumnsOfTheContract) {
-  const Outcome run = precision(kHeader + pose_row("here", ExampleRecording::get().truth()));
+  const Outcome run = precision(kPosesHeader + pose_row("here", ExampleRecording::get().truth()));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(first_line(run.out),
               StartsWith("pose,visible,adop_deg_per_rad,pdop_m_per_rad,sigma_rot_deg,sigma_pos_mm"));
@@ -34,7 +34,7 @@ TEST(CliPrecision, PrintsTheColumnsOfTheContract) {
 TEST(CliPrecision, PredictsWhatTrackReportsOfTheSameView) {
   const ExampleRecording& recording = ExampleRecording::get();
   for (const char* noise : {"--rho 0", "--rho 0.8717", "--sigma-arcsec 60"}) {
-    const auto predicted = rows_of(precision(kHeader + pose_row("here", recording.truth()), noise).out).at(0);
+    const auto predicted = rows_of(precision(kPosesHeader + pose_row("here", recording.truth()), noise).out).at(0);
     const auto tracked = rows_of(
         pharos("track " + recording.edges() + " --method epoch --target " + recording.target() + " " + noise).out);
     const Row& last = tracked.at(tracked.size() / 2);
@@ -46,7 +46,7 @@ TEST(CliPrecision, PredictsWhatTrackReportsOfTheSameView) {
 }
 
 TEST(CliPrecision, KeepsPosesThatNobodyCouldMeasure) {
-  const Outcome run = precision(std::string(kHeader) + "away,1,0,0,0,0,0,2\nnone,,,,,,,\nfacing,0,1,0,0,0.2,0,2\n");
+  const Outcome run = precision(std::string(kPosesHeader) + "away,1,0,0,0,0,0,2\nnone,,,,,,,\nfacing,0,1,0,0,0.2,0,2\n");
   EXPECT_EQ(run.exit_code, 0);
   const auto rows = rows_of(run.out);
   ASSERT_EQ(rows.size(), 3u);
@@ -58,11 +58,11 @@ TEST(CliPrecision, KeepsPosesThatNobodyCouldMeasure) {
 }
 
 TEST(CliPrecision, EndsWith1WhenNoPoseCanBeMeasured) {
-  EXPECT_EQ(precision(std::string(kHeader) + "away,1,0,0,0,0,0,2\n").exit_code, 1);
+  EXPECT_EQ(precision(std::string(kPosesHeader) + "away,1,0,0,0,0,0,2\n").exit_code, 1);
 }
 
 TEST(CliPrecision, RefusesWhatIsNoRotation) {
-  const Outcome run = precision(std::string(kHeader) + "a,1,1,0,0,0,0,2\n");
+  const Outcome run = precision(std::string(kPosesHeader) + "a,1,1,0,0,0,0,2\n");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("line 2"));
 }

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr const char* kContractColumns =
+constexpr const char* kSolveColumns =
     "problem,qw,qx,qy,qz,tx_m,ty_m,tz_m,rms_arcsec,adop_deg_per_rad,pdop_m_per_rad,iterations,status";
 
 std::string exact(double value) {
@@ -45,7 +45,7 @@ TEST(CliSolve, PrintsTheColumnsOfTheContract) {
   const Outcome run = solve(kHeader + problem_rows("1", 8));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(first_line(run.out), StartsWith(kContractColumns));
+  EXPECT_THAT(first_line(run.out), StartsWith(kSolveColumns));
 }
 
 TEST(CliSolve, FindsTheTruthFromExactBearingsWhateverTheStart) {

@@ -16,7 +16,6 @@ constexpr const char* kContractColumns =
     "time_s,station,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,adop_deg_per_rad,pdop_m_per_rad,rms_arcsec,"
     "observations,status,flags,alt_qw,alt_qx,alt_qy,alt_qz,alt_tx_m,alt_ty_m,alt_tz_m,delta_chi2";
 
-const ExampleRecording& recording() { return ExampleRecording::get(); }
 Outcome track(const std::string& more = "") {
   return pharos("track " + recording().edges() + " --target " + recording().target() + " " + more);
 }

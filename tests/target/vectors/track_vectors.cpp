@@ -31,7 +31,7 @@ Sweep sweep_of(const Target& target, const LighthouseFromBody& pose, const Stati
   return sweep;
 }
 
-void print(const Sweep& sweep) {
+void print_sweep(const Sweep& sweep) {
   ResultLine line("track_input");
   line << sweep.flash.start_ticks;
   for (const auto& hit : sweep.hits) line << hit.sensor << hit.centre_half_ticks;
@@ -55,7 +55,7 @@ void track_vectors() {
     pose.t += Vector3(0.002, -0.001, 0.003);
     for (const Axis axis : {Axis::kX, Axis::kY}) {
       const Sweep sweep = sweep_of(target, pose, station, axis, (2 * cycle + index_of(axis)) * kHalfTurn, draw);
-      print(sweep);
+      print_sweep(sweep);
       const auto result = tracker.push(sweep);
       if (!result) continue;
       ResultLine("cycle") << result->station << result->flags << result->time_ticks << result->observations;

@@ -17,7 +17,7 @@ namespace {
 using test::Bytes;
 using test::TemporaryFolder;
 
-constexpr std::int64_t kUtc = 1'763'721'000'000'000'000;  // 2025-11-21T10:30:00Z
+constexpr std::int64_t kStartUtc_ns = 1'763'721'000'000'000'000;  // 2025-11-21T10:30:00Z
 constexpr std::int64_t kMs = 1'000'000;
 
 struct Appended {
@@ -30,7 +30,7 @@ std::vector<Appended> append_random(StreamRecorder& recorder, std::size_t chunks
   std::mt19937_64 random(seed);
   std::vector<Appended> all;
   for (std::size_t i = 0; i < chunks; ++i) {
-    Appended one{kUtc + static_cast<std::int64_t>(i) * 8 * kMs, 77 * kMs + static_cast<std::int64_t>(i) * 8 * kMs,
+    Appended one{kStartUtc_ns + static_cast<std::int64_t>(i) * 8 * kMs, 77 * kMs + static_cast<std::int64_t>(i) * 8 * kMs,
                  Bytes(1 + random() % 300)};
     for (auto& byte : one.bytes) byte = static_cast<std::uint8_t>(random());
     recorder.append(one.bytes, one.utc_ns, one.monotonic_ns);
@@ -66,7 +66,7 @@ TEST(Recording, GivesBackEveryByteWithItsTimes) {
   StreamReader reader{ByteSource(recorder.file())};
   EXPECT_EQ(reader.header().target, "chaser");
   EXPECT_EQ(reader.header().baud, 460'800u);
-  EXPECT_EQ(reader.header().utc_ns, kUtc);
+  EXPECT_EQ(reader.header().utc_ns, kStartUtc_ns);
   EXPECT_EQ(reader.header().monotonic_ns, 77 * kMs);
   expect_equal(read_all(reader), sent);
   EXPECT_FALSE(reader.cut_off());
@@ -117,7 +117,7 @@ TEST(Recording, PlaysBackIntoTheLinkDecoder) {
   TemporaryFolder folder;
   StreamRecorder recorder({folder.path(), "chaser", 460'800});
   report::Reporter reporter;
-  for (int i = 0; i < 100; ++i) recorder.append(reporter.report_time(i), kUtc + i, i);
+  for (int i = 0; i < 100; ++i) recorder.append(reporter.report_time(i), kStartUtc_ns + i, i);
   StreamReader reader{ByteSource(recorder.file())};
   report::LinkDecoder link;
   std::int64_t expected = 0;
@@ -162,7 +162,7 @@ TEST(Recording, SplitsWhatIsLongerThanAChunk) {
   TemporaryFolder folder;
   StreamRecorder recorder({folder.path(), "chaser", 460'800});
   const Bytes longer(200'000, 0xC5);
-  recorder.append(longer, kUtc, 0);
+  recorder.append(longer, kStartUtc_ns, 0);
   StreamReader reader{ByteSource(recorder.file())};
   Bytes got;
   for (const auto& chunk : read_all(reader)) got.insert(got.end(), chunk.bytes.begin(), chunk.bytes.end());

@@ -22,7 +22,7 @@ struct Reading {
   bool unfinished = false;
 };
 
-Reading read(std::string_view content) {
+Reading read_edges(std::string_view content) {
   const TemporaryFile file(content);
   EdgesReader reader{ByteSource(file.path())};
   Reading out;
@@ -35,31 +35,31 @@ Reading read(std::string_view content) {
   return out;
 }
 
-std::string error_of(std::string_view content) {
-  return message_of([&] { read(content); });
+std::string edges_error(std::string_view content) {
+  return message_of([&] { read_edges(content); });
 }
 
 TEST(EdgesReader, ReadsPulses) {
-  const Reading r = read("sensor,rise_ticks,fall_ticks\n2,0,121\n14,26,139\n");
+  const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n2,0,121\n14,26,139\n");
   EXPECT_THAT(r.sensors, ElementsAre(2, 14));
   EXPECT_THAT(r.rises, ElementsAre(0, 26));
   EXPECT_THAT(r.widths, ElementsAre(121, 113));
 }
 
 TEST(EdgesReader, PassesOverOtherColumnsInAnyOrder) {
-  const Reading r = read("note,fall_ticks,rise_ticks,x,sensor,y\na,200,100,,5,?\n");
+  const Reading r = read_edges("note,fall_ticks,rise_ticks,x,sensor,y\na,200,100,,5,?\n");
   EXPECT_THAT(r.sensors, ElementsAre(5));
   EXPECT_THAT(r.rises, ElementsAre(100));
 }
 
 TEST(EdgesReader, UnwrapsThe32BitCounter) {
-  const Reading r = read("sensor,rise_ticks,fall_ticks\n0,4294967290,4\n0,10,20\n");
+  const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n0,4294967290,4\n0,10,20\n");
   EXPECT_THAT(r.rises, ElementsAre(4294967290, 4294967296 + 10));
   EXPECT_THAT(r.widths, ElementsAre(10, 10));
 }
 
 TEST(EdgesReader, TakesUnwrappedTimesAsWritten) {
-  const Reading r = read(
+  const Reading r = read_edges(
       "sensor,rise_ticks,fall_ticks\n0,4294967290,4294967300\n0,4294967400,4294967410\n0,99999999999,99999999999\n");
   EXPECT_THAT(r.rises, ElementsAre(4294967290, 4294967400, 99999999999));
   EXPECT_THAT(r.widths, ElementsAre(10, 10, 0));
@@ -67,37 +67,37 @@ TEST(EdgesReader, TakesUnwrappedTimesAsWritten) {
 
 TEST(EdgesReader, IsNotPoisonedByAStaleStart) {
   // As in a real recording: 14.2 s ahead of the rest, then the rest from zero.
-  const Reading r = read("sensor,rise_ticks,fall_ticks\n12,711021111,711089377\n2,0,121\n14,26,139\n");
+  const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n12,711021111,711089377\n2,0,121\n14,26,139\n");
   EXPECT_THAT(r.rises, ElementsAre(711021111, 0, 26));
 }
 
 TEST(EdgesReader, HandsOddPulsesOnToTheDecoder) {
-  const Reading r = read("sensor,rise_ticks,fall_ticks\n40,100,90\n999999,100,110\n");
+  const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n40,100,90\n999999,100,110\n");
   EXPECT_THAT(r.sensors, ElementsAre(40, 255));
   EXPECT_THAT(r.widths, ElementsAre(-10, 10));
 }
 
 TEST(EdgesReader, DropsALineCutOffInWritingAndSaysSo) {
-  const Reading r = read("sensor,rise_ticks,fall_ticks\n0,100,200\n0,1000,11");
+  const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n0,100,200\n0,1000,11");
   EXPECT_THAT(r.rises, ElementsAre(100));
   EXPECT_TRUE(r.unfinished);
-  EXPECT_FALSE(read("sensor,rise_ticks,fall_ticks\r\n0,100,200\r\n").unfinished);
+  EXPECT_FALSE(read_edges("sensor,rise_ticks,fall_ticks\r\n0,100,200\r\n").unfinished);
 }
 
 TEST(EdgesReader, NamesLineAndColumnOfADefect) {
   const std::string head = "sensor,rise_ticks,fall_ticks\n0,1,2\n";
-  EXPECT_THAT(error_of(head + "0,1x,2\n"), AllOf(HasSubstr("line 3"), HasSubstr("'rise_ticks'"), HasSubstr("'1x'")));
-  EXPECT_THAT(error_of(head + "-1,1,2\n"), HasSubstr("'sensor'"));
-  EXPECT_THAT(error_of(head + "0,1\n"), HasSubstr("2 fields"));
-  EXPECT_THAT(error_of(head + "0,1,2,3\n"), HasSubstr("4 fields"));
-  EXPECT_THAT(error_of(head + "0,1,9223372036854775807\n"), HasSubstr("'fall_ticks'"));
+  EXPECT_THAT(edges_error(head + "0,1x,2\n"), AllOf(HasSubstr("line 3"), HasSubstr("'rise_ticks'"), HasSubstr("'1x'")));
+  EXPECT_THAT(edges_error(head + "-1,1,2\n"), HasSubstr("'sensor'"));
+  EXPECT_THAT(edges_error(head + "0,1\n"), HasSubstr("2 fields"));
+  EXPECT_THAT(edges_error(head + "0,1,2,3\n"), HasSubstr("4 fields"));
+  EXPECT_THAT(edges_error(head + "0,1,9223372036854775807\n"), HasSubstr("'fall_ticks'"));
 }
 
 TEST(EdgesReader, NamesTheMissingColumn) {
-  EXPECT_THAT(error_of("sensor,rise,fall\n"),
+  EXPECT_THAT(edges_error("sensor,rise,fall\n"),
               AllOf(HasSubstr("no column 'rise_ticks'"), HasSubstr("'sensor,rise,fall'")));
-  EXPECT_THAT(error_of("sensor,rise_ticks,fall_ticks,sensor\n"), HasSubstr("more than one column 'sensor'"));
-  EXPECT_THAT(error_of(""), HasSubstr("empty"));
+  EXPECT_THAT(edges_error("sensor,rise_ticks,fall_ticks,sensor\n"), HasSubstr("more than one column 'sensor'"));
+  EXPECT_THAT(edges_error(""), HasSubstr("empty"));
 }
 
 TEST(EdgesReader, KnowsATableFromAStream) {

@@ -15,7 +15,7 @@ using testing::message_of;
 using testing::TemporaryFile;
 
 // Reads all numbers of columns b and a (in this order) and gives what the error says, if any.
-std::string error_of(std::string_view content) {
+std::string table_error(std::string_view content) {
   const TemporaryFile file(content);
   return message_of([&] {
     TableReader table(ByteSource(file.path()), {"b", "a"});
@@ -69,30 +69,30 @@ TEST(TableReader, FindsOptionalColumns) {
 }
 
 TEST(TableReader, NamesTheMissingColumn) {
-  EXPECT_THAT(error_of("a,c\n1,2\n"), AllOf(HasSubstr("line 1"), HasSubstr("no column 'b'"), HasSubstr("'a,c'")));
+  EXPECT_THAT(table_error("a,c\n1,2\n"), AllOf(HasSubstr("line 1"), HasSubstr("no column 'b'"), HasSubstr("'a,c'")));
 }
 
-TEST(TableReader, RefusesAColumnTwice) { EXPECT_THAT(error_of("a,b,a\n1,2,3\n"), HasSubstr("'a' stands twice")); }
+TEST(TableReader, RefusesAColumnTwice) { EXPECT_THAT(table_error("a,b,a\n1,2,3\n"), HasSubstr("'a' stands twice")); }
 
-TEST(TableReader, RefusesAnEmptyFile) { EXPECT_THAT(error_of(""), HasSubstr("empty")); }
+TEST(TableReader, RefusesAnEmptyFile) { EXPECT_THAT(table_error(""), HasSubstr("empty")); }
 
 TEST(TableReader, NamesLineAndColumnOfWhatIsNoNumber) {
-  EXPECT_THAT(error_of("a,b\n1,2\n1,2x\n"), AllOf(HasSubstr("line 3"), HasSubstr("column 'b'"), HasSubstr("'2x'")));
+  EXPECT_THAT(table_error("a,b\n1,2\n1,2x\n"), AllOf(HasSubstr("line 3"), HasSubstr("column 'b'"), HasSubstr("'2x'")));
   for (const char* bad : {"", "nan", "inf", "1e999", "0x10", "1 2", "+1", "1,"}) {
-    EXPECT_NE(error_of(std::string("a,b\n1,") + bad + "\n"), "") << bad;
+    EXPECT_NE(table_error(std::string("a,b\n1,") + bad + "\n"), "") << bad;
   }
   for (const char* bad : {"", "1.0", "10", "-1", "99999999999999999999"}) {
-    EXPECT_NE(error_of(std::string("a,b\n") + bad + ",1\n"), "") << bad;
+    EXPECT_NE(table_error(std::string("a,b\n") + bad + ",1\n"), "") << bad;
   }
 }
 
 TEST(TableReader, RefusesRowsOfAnotherLength) {
-  EXPECT_THAT(error_of("a,b\n1\n"), AllOf(HasSubstr("line 2"), HasSubstr("1 fields"), HasSubstr("has 2")));
+  EXPECT_THAT(table_error("a,b\n1\n"), AllOf(HasSubstr("line 2"), HasSubstr("1 fields"), HasSubstr("has 2")));
 }
 
 TEST(TableReader, RefusesBinaryData) {
-  EXPECT_THAT(error_of(std::string_view("a,b\n\0\1\2\n", 8)), HasSubstr("binary"));
-  EXPECT_THAT(error_of(std::string(100'000, 'x')), HasSubstr("64 KiB"));
+  EXPECT_THAT(table_error(std::string_view("a,b\n\0\1\2\n", 8)), HasSubstr("binary"));
+  EXPECT_THAT(table_error(std::string(100'000, 'x')), HasSubstr("64 KiB"));
 }
 
 TEST(TableReader, DropsTheUnfinishedLineOfARecordingOnly) {

@@ -7,7 +7,7 @@
 namespace pharos::evaluate {
 namespace {
 
-constexpr double kSeconds = 20.0;
+constexpr double kDuration_s = 20.0;
 
 TEST(Distribution, IsWhatItsNamesSay) {
   std::vector<double> values;
@@ -22,7 +22,7 @@ TEST(Distribution, IsWhatItsNamesSay) {
 }
 
 TEST(Figures, SpreadLeavesOutAConstantOffsetThatErrorsHold) {
-  Planted planted = plant(*manoeuvre(kSeconds), kSeconds, {}, {0.0, 0.001, 0.0, 1.0});
+  Planted planted = plant(*manoeuvre(kDuration_s), kDuration_s, {}, {0.0, 0.001, 0.0, 1.0});
   for (auto& sample : planted.estimate.samples) sample.pose.t.x() += 0.010;
   const Comparison c = compare(planted.estimate, planted.truth, {});
   ASSERT_EQ(c.refused, "");
@@ -36,7 +36,7 @@ TEST(Figures, SpreadLeavesOutAConstantOffsetThatErrorsHold) {
 TEST(Figures, TellConsistentSigmasFromTooSmallOnes) {
   for (const double scale : {1.0, 0.5}) {
     const PlantedNoise noise{0.1 * kRadPerDeg, 0.001, 0.0, scale};
-    const Planted planted = plant(*manoeuvre(kSeconds), kSeconds, {}, noise);
+    const Planted planted = plant(*manoeuvre(kDuration_s), kDuration_s, {}, noise);
     const Comparison c = compare(planted.estimate, planted.truth, {});
     for (const Figures* half : {&c.figures.rotation, &c.figures.position}) {
       ASSERT_TRUE(half->consistency);
@@ -49,7 +49,7 @@ TEST(Figures, TellConsistentSigmasFromTooSmallOnes) {
 }
 
 TEST(Figures, SayNothingOfSigmasThatAreNotStated) {
-  const Planted planted = plant(*manoeuvre(kSeconds), kSeconds, {}, {});
+  const Planted planted = plant(*manoeuvre(kDuration_s), kDuration_s, {}, {});
   EXPECT_FALSE(compare(planted.estimate, planted.truth, {}).figures.rotation.consistency);
 }
 

@@ -76,12 +76,12 @@ INSTANTIATE_TEST_SUITE_P(Strategies, Illumination,
 // Equation (6) written out, sum by sum, for every pixel.
 TEST(SmoothnessWeightsTest, WindowIsThatOfThePaper) {
   const FloatImage start = test::painted_target(37, 29, 0.8F);
-  constexpr double kAlpha = 0.15, kSigma = 1.3;
+  constexpr double kAlpha = 0.15, kWindowSigma_px = 1.3;
   SmoothnessSystem system;
-  SmoothnessWeights().weigh(start, WeightStrategy::kWindow, kAlpha, kSigma, system);
-  const int radius = static_cast<int>(std::ceil(3.0 * kSigma));
+  SmoothnessWeights().weigh(start, WeightStrategy::kWindow, kAlpha, kWindowSigma_px, system);
+  const int radius = static_cast<int>(std::ceil(3.0 * kWindowSigma_px));
   double whole = 0.0;
-  const auto gauss = [&](int x, int y) { return std::exp(-(x * x + y * y) / (2.0 * kSigma * kSigma)); };
+  const auto gauss = [&](int x, int y) { return std::exp(-(x * x + y * y) / (2.0 * kWindowSigma_px * kWindowSigma_px)); };
   for (int y = -radius; y <= radius; ++y) {
     for (int x = -radius; x <= radius; ++x) whole += gauss(x, y);
   }

@@ -18,7 +18,7 @@
 namespace pharos::slam {
 namespace {
 
-using Image = std::vector<std::uint8_t>;
+using Bytes = std::vector<std::uint8_t>;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kFrames = 25;
 
@@ -26,11 +26,11 @@ constexpr int kFrames = 25;
 struct Footage {
   sim::TumblingScenario scenario{.turn_deg = 40.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
   sim::TumblingSequence sequence{scenario, 5};
-  std::vector<std::array<Image, 2>> pairs;
+  std::vector<std::array<Bytes, 2>> pairs;
 
-  const std::array<Image, 2>& pair(int frame) {
+  const std::array<Bytes, 2>& pair(int frame) {
     while (static_cast<int>(pairs.size()) <= frame) {
-      std::array<Image, 2> both;
+      std::array<Bytes, 2> both;
       for (int side = 0; side < 2; ++side) {
         for (const std::uint16_t value : sequence.image(static_cast<int>(pairs.size()), side).pixels) {
           both[static_cast<std::size_t>(side)].push_back(static_cast<std::uint8_t>(value >> 8U));
@@ -55,7 +55,7 @@ class SlamOfATurn : public ::testing::Test {
     settings.threads = threads;
     return make_slam(footage().sequence.rig(), "rig.toml", settings);
   }
-  static ImageView<const std::uint8_t> view(const Image& image) { return {image.data(), 480, 360}; }
+  static ImageView<const std::uint8_t> view(const Bytes& image) { return {image.data(), 480, 360}; }
   static TrackedFrame push(SlamSystem& slam, int slot, int shown) {
     const auto& pair = footage().pair(shown);
     return slam.push(0.05 * slot, view(pair[0]), view(pair[1]));
@@ -155,7 +155,7 @@ TEST_F(SlamOfATurn, ThreadsEndWithAMapAsGood) {
 TEST_F(SlamOfATurn, BlackAndSaturatedFramesHaveNoPoseAndItComesBack) {
   const auto slam = system();
   for (int k = 0; k < 8; ++k) push(*slam, k, k);
-  const Image black(480 * 360, 0), white(480 * 360, 255);
+  const Bytes black(480 * 360, 0), white(480 * 360, 255);
   EXPECT_FALSE(slam->push(0.4, view(black), view(black)).placed);
   EXPECT_FALSE(slam->push(0.45, view(white), view(white)).placed);
   TrackedFrame back;
@@ -217,7 +217,7 @@ TEST_F(SlamOfATurn, RightImagesThatAreLateAreNamed) {
 TEST_F(SlamOfATurn, ATargetThatWasAwayForLongIsFoundAgain) {
   const auto slam = system();
   for (int k = 0; k < 8; ++k) push(*slam, k, k);
-  const Image empty(480 * 360, 3);
+  const Bytes empty(480 * 360, 3);
   for (int k = 8; k < 60; ++k) EXPECT_FALSE(slam->push(0.05 * k, view(empty), view(empty)).placed);
   const TrackedFrame back = push(*slam, 60, 6);
   ASSERT_TRUE(back.placed);
@@ -228,7 +228,7 @@ TEST_F(SlamOfATurn, ATargetThatWasAwayForLongIsFoundAgain) {
 
 TEST_F(SlamOfATurn, AnotherImageSizeIsNamed) {
   const auto slam = system();
-  const Image small(320 * 240, 0);
+  const Bytes small(320 * 240, 0);
   try {
     slam->push(0.0, {small.data(), 320, 240}, {small.data(), 320, 240});
     FAIL();
@@ -241,7 +241,7 @@ TEST_F(SlamOfATurn, AnotherImageSizeIsNamed) {
 // Raw images of an unrectified, distorting rig: the walk's first metre.
 class SlamOfARoom : public ::testing::Test {
  protected:
-  using Pairs = std::vector<std::array<Image, 2>>;
+  using Pairs = std::vector<std::array<Bytes, 2>>;
 
   static const sim::RoomSequence& room() {
     static const sim::RoomSequence it({.path_m = 1.0, .width_px = 564, .height_px = 360}, 1);

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a table of ellipses: an InputError, or problems that the solver answers or refuses without a number that
 // is none.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "host/support/input_error.hpp"
+#include "support/memory_file.hpp"
+#include "support/require.hpp"
 #include "tools/ring2/ellipse_table.hpp"
 #include "tools/sim/ring2/stereo_rig.hpp"
 
 namespace {
 
+using pharos::test::MemoryFile;
+using pharos::test::require;
 using namespace pharos;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 ring2::Rig rig() {
   ring2::Rig rig;
@@ -45,13 +41,11 @@ void solve_all(const tools::EllipseTable& table) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const int fd = memfd_create("fuzz", 0);
-  if (::write(fd, data, size) != static_cast<ssize_t>(size)) std::abort();
+  const MemoryFile file(data, size);
   try {
-    solve_all(tools::read_ellipse_table(host::ByteSource("/proc/self/fd/" + std::to_string(fd))));
+    solve_all(tools::read_ellipse_table(host::ByteSource(file.path())));
   } catch (const host::InputError& error) {
     require(std::string(error.what()).find('\n') == std::string::npos);
   }
-  ::close(fd);
   return 0;
 }

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a body: an InputError, or a convex one with faces that look outwards.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdint>
-#include <cstdlib>
 
 #include "host/support/input_error.hpp"
+#include "support/memory_file.hpp"
+#include "support/require.hpp"
 #include "tools/layout/convex_body.hpp"
 
 namespace {
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using pharos::test::MemoryFile;
+using pharos::test::require;
 
 void check(const std::string& path) {
   const pharos::layout::ConvexBody body = pharos::layout::read_body(path);
@@ -30,13 +27,11 @@ void check(const std::string& path) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const int fd = memfd_create("fuzz", 0);
-  require(::write(fd, data, size) == static_cast<ssize_t>(size));
+  const MemoryFile file(data, size);
   try {
-    check("/proc/self/fd/" + std::to_string(fd));
+    check(file.path());
   } catch (const pharos::host::InputError& error) {
     require(error.what()[0] != '\0');
   }
-  ::close(fd);
   return 0;
 }

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
+#include "support/require.hpp"
 
 namespace {
 
+using pharos::test::require;
 using namespace pharos::host;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 // Any bytes are either a file that reads back as it was written, or an InputError of one line; never anything else.
 template <class Parse, class Write>

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a recording, a target and a pose table: an InputError or values within their documented range, and a
 // recording written again reads back the same.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -13,30 +9,16 @@
 #include "host/table/edges_reader.hpp"
 #include "host/table/pose_table.hpp"
 #include "host/table/target_file.hpp"
+#include "support/memory_file.hpp"
+#include "support/require.hpp"
 
 namespace {
 
 using pharos::host::ByteSource;
 using pharos::host::EdgesReader;
 using pharos::lighthouse::RawPulse;
-
-class MemoryFile {
- public:
-  MemoryFile(const void* data, std::size_t size) : fd_(memfd_create("fuzz", 0)) {
-    if (::write(fd_, data, size) != static_cast<ssize_t>(size)) std::abort();
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { ::close(fd_); }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
-
- private:
-  int fd_;
-};
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using pharos::test::MemoryFile;
+using pharos::test::require;
 
 std::vector<RawPulse> pulses_of(const std::string& path) {
   std::vector<RawPulse> pulses;

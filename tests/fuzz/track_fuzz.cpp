@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a track file: rows that can be worked with, or a complaint.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "host/support/input_error.hpp"
 #include "host/vision/pointing/track_file.hpp"
+#include "support/memory_file.hpp"
+#include "support/require.hpp"
 
 namespace {
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using pharos::test::MemoryFile;
+using pharos::test::require;
 
 void read_all(const std::string& path, pharos::host::LastLine last_line) {
   try {
@@ -37,11 +34,9 @@ void read_all(const std::string& path, pharos::host::LastLine last_line) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const int fd = memfd_create("fuzz", 0);
-  if (::write(fd, data, size) != static_cast<ssize_t>(size)) std::abort();
-  const std::string path = "/proc/self/fd/" + std::to_string(fd);
+  const MemoryFile file(data, size);
+  const std::string path = file.path();
   read_all(path, pharos::host::LastLine::kAccept);
   read_all(path, pharos::host::LastLine::kDropUnfinished);
-  ::close(fd);
   return 0;
 }

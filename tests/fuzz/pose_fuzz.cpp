@@ -2,22 +2,19 @@
 // Any bytes as observations of the frustum target, with or without a prior: a finite pose, or a refusal.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 
 #include "pharos/pose/solve.hpp"
+#include "support/require.hpp"
 #include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace {
 
 using pharos::pose::Observation;
+using pharos::test::require;
 
 constexpr std::size_t kHeader = 4;       // start, residual, sigma, prior
 constexpr std::size_t kObservation = 9;  // sensor and axis, theta
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 pharos::pose::SolveOptions options_from(const std::uint8_t* header) {
   pharos::pose::SolveOptions options;
