@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/motion/cycle_information.hpp"
 
+#include "pharos/geometry/packed_symmetric.hpp"
 #include "pharos/pose/covariance.hpp"
-#include "pharos/pose/packed_symmetric.hpp"
 
 namespace pharos::motion {
 namespace {
@@ -10,8 +10,8 @@ namespace {
 // A station of two pauses for a turn between its cycles.
 constexpr std::int64_t kOldest_ticks = 3 * 833'333 / 2;
 
-pose::PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {
-  pose::PackedSymmetric<6> packed;
+PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {
+  PackedSymmetric<6> packed;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j <= i; ++j) packed(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = a(i, j) + b(i, j);
   }
@@ -48,7 +48,7 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
 
   known_ = before.time_ticks != INT64_MIN && time_ticks - before.time_ticks <= kOldest_ticks;
   if (!known_) return {};
-  const pose::Factorisation<6> normal(packed_sum(now.square, before.square));
+  const Factorisation<6> normal(packed_sum(now.square, before.square));
   known_ = normal.smallest_ratio() > pose::kDegeneratePivotRatio;
   if (!known_) return {};
   for (int j = 0; j < 6; ++j) {
@@ -60,7 +60,7 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
 
   constexpr int kUnknowns = 6 + kAxes;  // a pose, and a shift of each sweep
   const int freedom = now.hits + before.hits - kUnknowns;
-  const pose::Factorisation<6> centred(packed_sum(now.centred, before.centred));
+  const Factorisation<6> centred(packed_sum(now.centred, before.centred));
   if (freedom <= 0 || centred.smallest_ratio() < pose::kDegeneratePivotRatio) return {};
   std::array<double, 6> right;
   for (int i = 0; i < 6; ++i) right[static_cast<std::size_t>(i)] = now.by_residual[i] + before.by_residual[i];

@@ -10,6 +10,8 @@
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/optimize/descent.hpp"
+#include "pharos/optimize/least_squares.hpp"
 #include "pharos/pointing/axis_estimate.hpp"
 #include "pharos/pointing/tangent.hpp"
 
@@ -19,8 +21,9 @@ namespace {
 constexpr int kSpinDirections = 500;       // of half the sphere: some 6 deg apart
 constexpr std::size_t kSearchPlanes = 64;  // the search looks at so many planes, spread over the pass
 constexpr std::size_t kStarts = 24;        // best of the search, each refined
-constexpr int kSteps = 40;
-constexpr double kSmallStep = 1e-10;
+constexpr int kMaxIterations = 40;
+// Of chi2, by which a last step may still lower it: a ten-thousandth of a standard deviation, squared.
+constexpr double kConverged = 1e-8;
 // What is left of one parameter's information once all others are free too: below it nothing is known of it.
 constexpr double kMinCondition = 1e-14;
 constexpr double kSameAxis = 5.0;  // sigmas
@@ -83,48 +86,31 @@ Starts search(const SpinProblem& problem, double max_rate) {
   return starts;
 }
 
-struct Normal {
-  Matrix5 information = Matrix5::Zero();
-  Eigen::Matrix<double, 5, 1> gradient = Eigen::Matrix<double, 5, 1>::Zero();
-  double chi2 = 0.0;
+// Planes against an axis that turns; chi-squared over the five of Spin::moved_by.
+struct SpinDescent : optimize::LeastSquares<5, Spin> {
+  static constexpr double kFirstDamping = 1e-3;  // from a grid of 6 deg the undamped step may leave the valley
+
+  explicit SpinDescent(const SpinProblem& m) : problem(m) {}
+
+  Normal linearise(const Spin& spin) const {
+    Normal normal;
+    for (std::size_t i = 0; i < problem.planes.size(); ++i) {
+      const AxisPlane& plane = problem.planes[i];
+      const Vector3 d = spin.at(problem.seconds[i]);
+      normal.add(spin_jacobian(spin, plane.normal, problem.seconds[i]).transpose(), plane.normal.dot(d),
+                 1.0 / variance_of(plane, d));
+    }
+    return normal;
+  }
+  Spin moved(const Spin& spin, const Delta& delta) const { return spin.moved_by(delta); }
+
+  SpinProblem problem;
 };
 
-Normal normal_equations(const SpinProblem& problem, const Spin& spin) {
-  Normal normal;
-  for (std::size_t i = 0; i < problem.planes.size(); ++i) {
-    const AxisPlane& plane = problem.planes[i];
-    const Vector3 d = spin.at(problem.seconds[i]);
-    const double weight = 1.0 / variance_of(plane, d), residual = plane.normal.dot(d);
-    const Row5 J = spin_jacobian(spin, plane.normal, problem.seconds[i]);
-    normal.information += weight * J.transpose() * J;
-    normal.gradient += weight * residual * J.transpose();
-    normal.chi2 += weight * residual * residual;
-  }
-  return normal;
-}
-
-// Levenberg-Marquardt; parameters scaled by the information's own diagonal.
-Start refined(const SpinProblem& problem, Spin spin) {
-  double damping = 1e-3;
-  Normal normal = normal_equations(problem, spin);
-  for (int step = 0; step < kSteps && damping < 1e10; ++step) {
-    Matrix5 damped = normal.information;
-    damped.diagonal() *= 1.0 + damping;
-    damped.diagonal().array() += 1e-12 * normal.information.trace();
-    const Eigen::Matrix<double, 5, 1> delta = -damped.ldlt().solve(normal.gradient);
-    const Spin moved = spin.moved_by(delta);
-    const Normal after = normal_equations(problem, moved);
-    if (!(after.chi2 < normal.chi2)) {
-      damping *= 10.0;
-      continue;
-    }
-    const bool still = normal.chi2 - after.chi2 < kSmallStep * normal.chi2;
-    spin = moved;
-    normal = after;
-    damping = std::max(1e-12, 0.1 * damping);
-    if (still) break;
-  }
-  return {spin, normal.chi2};
+Start refined(const SpinProblem& problem, const Spin& spin) {
+  optimize::Descent<SpinDescent> d;
+  optimize::descend(SpinDescent(problem), spin, {kMaxIterations, kConverged}, d);
+  return {d.state, d.normal.cost};
 }
 
 // Scaled to a diagonal of ones, so that what is known in rad and in rad/s counts alike.
@@ -188,7 +174,7 @@ Result<SpinEstimate, SpinFailure> fit_spin(std::span<const AxisPlane> planes, st
   const auto still = estimate_axis(planes);
   const double per_freedom = std::max(1.0, best.cost / estimate.degrees_of_freedom);
   if (still && still->chi2 - best.cost < kSeenChi2 * per_freedom) return SpinFailure::kNotSeen;
-  if (!is_inverse_sound(normal_equations(problem, best.spin).information, estimate.covariance)) {
+  if (!is_inverse_sound(SpinDescent(problem).linearise(best.spin).matrix, estimate.covariance)) {
     return SpinFailure::kNotSeen;
   }
   const Tangent tangent = tangent_of(best.spin.axis);

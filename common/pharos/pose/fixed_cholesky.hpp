@@ -4,7 +4,7 @@
 #include <array>
 
 #include "pharos/base/fixed_point.hpp"
-#include "pharos/pose/packed_symmetric.hpp"
+#include "pharos/geometry/packed_symmetric.hpp"
 
 namespace pharos::pose {
 

@@ -157,23 +157,23 @@ FixedStep FixedSystem::step(const FixedNormal& normal, double damping) const {
   return step;
 }
 
-FixedPose FixedSystem::stepped(const FixedPose& pose, const FixedStep& step) const {
-  const FixedVector half{step.delta[0] / 2, step.delta[1] / 2, step.delta[2] / 2};
+FixedPose FixedSystem::moved(const FixedPose& pose, const std::array<Q30, 6>& delta) const {
+  const FixedVector half{delta[0] / 2, delta[1] / 2, delta[2] / 2};
   const Q30 square = times(half[0], half[0]) + times(half[1], half[1]) + times(half[2], half[2]);
   const std::int32_t scale = fixed::reciprocal(fixed::kOne + square);  // Q27
-  FixedPose moved;
+  FixedPose to;
   for (std::size_t c = 0; c < 3; ++c) {
     const FixedVector once = cross(half, pose.column[c]);
     const FixedVector twice = cross(half, once);
     for (std::size_t i = 0; i < 3; ++i) {
-      moved.column[c][i] = pose.column[c][i] + static_cast<Q30>(product(once[i] + twice[i], scale) >> 26);
+      to.column[c][i] = pose.column[c][i] + static_cast<Q30>(product(once[i] + twice[i], scale) >> 26);
     }
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t sum = std::int64_t{pose.centroid[i]} + step.delta[i + 3];
-    moved.centroid[i] = fixed::clamped(sum, std::numeric_limits<std::int32_t>::max());
+    const std::int64_t sum = std::int64_t{pose.centroid[i]} + delta[i + 3];
+    to.centroid[i] = fixed::clamped(sum, std::numeric_limits<std::int32_t>::max());
   }
-  return moved;
+  return to;
 }
 
 double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const {

@@ -24,12 +24,15 @@ struct FixedStep {
   bool solved = false;                // false: too near to singular for these integers
 };
 
-/// The system of equations that `descend` and `both_minima` work on, in integers.
+/// The problem that `descend` and `both_minima` work on, in integers.
 class FixedSystem {
  public:
-  using Pose = FixedPose;
+  using State = FixedPose;
   using Normal = FixedNormal;
   using Step = FixedStep;
+  static constexpr double kFirstDamping = 0.0;
+  static constexpr bool kEndsWhereSingular = true;  // beyond these integers: double decides
+  static constexpr bool kSumsAtEnd = false;
   /// As kConvergedFraction; residuals are rounded to 1e-9 rad, which hides a decrease of 3e-4.
   static constexpr double kConverged = 1e-3;
   /// A linearisation costs more than to ask whether the next ones are worth it.
@@ -40,7 +43,7 @@ class FixedSystem {
   /// Cost: some 700 instructions a sensor on RV32IM.
   FixedNormal linearise(const FixedPose& pose) const;
   FixedStep step(const FixedNormal& normal, double damping) const;
-  FixedPose stepped(const FixedPose& pose, const FixedStep& step) const;
+  FixedPose moved(const FixedPose& pose, const std::array<fixed::Q30, 6>& delta) const;
   /// As mirrored_in_depth.
   FixedPose mirrored(const FixedPose& pose) const;
   bool ahead(const FixedPose& pose) const { return pose.centroid[2] > 0; }

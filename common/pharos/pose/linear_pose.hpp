@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "pharos/geometry/packed_symmetric.hpp"
 #include "pharos/geometry/types.hpp"
-#include "pharos/pose/packed_symmetric.hpp"
 
 namespace pharos::pose {
 

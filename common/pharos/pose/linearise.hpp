@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "pharos/geometry/packed_symmetric.hpp"
 #include "pharos/pose/observation_table.hpp"
-#include "pharos/pose/packed_symmetric.hpp"
 #include "pharos/pose/solve.hpp"
 
 namespace pharos::pose {

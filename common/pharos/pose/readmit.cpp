@@ -46,13 +46,13 @@ double scale_of(const Fit& fit, int freedom, double sigma_rad) {
 // Puts in what passes the gate and takes out what does not; how many are in, or -1 where nothing changed.
 int regate(HitCandidates& hits, const Fit& fit, double gate) {
   PlaceResiduals residuals;
-  sort_places(hits, fit.pose, residuals);
+  sort_places(hits, fit.state, residuals);
   const Factorisation<6> factor(fit.normal.matrix);
   int in = 0;
   bool changed = false;
   for (const PlaceResidual& r : residuals) {
     const bool was_in = hits.at(r.sensor, r.axis).chosen == r.observation;
-    const bool passes = (was_in ? r.size : studentised(hits, r, fit.pose, factor)) <= gate;
+    const bool passes = (was_in ? r.size : studentised(hits, r, fit.state, factor)) <= gate;
     changed = changed || passes != was_in;
     in += passes ? 1 : 0;
     hits.choose(r.sensor, r.axis, passes ? r.observation : HitCandidates::kNone);
@@ -66,11 +66,12 @@ double readmit_by(const Gates& gates, HitCandidates& hits, const SolveOptions& o
   sort_places(hits, pose, residuals);
   int in = core_size(static_cast<int>(residuals.size()));
   choose_first(hits, residuals, in);
-  const RefineLimits limits{options.max_iterations, kConvergedFraction * options.sigma_rad * options.sigma_rad, 1e300};
+  const optimize::DescentSettings settings{options.max_iterations,
+                                           kConvergedFraction * options.sigma_rad * options.sigma_rad, 1e300};
   double scale = options.sigma_rad;
   for (int round = 0; round < kMaxRounds && in > 0; ++round) {
-    const Fit fit = refine(hits.table, pose, Residual::kAngle, limits);
-    pose = fit.pose;
+    const Fit fit = refine(hits.table, pose, Residual::kAngle, settings);
+    pose = fit.state;
     const int freedom = in - kPoseUnknowns;
     scale = scale_of(fit, freedom, options.sigma_rad);
     in = regate(hits, fit, gate_for(gates, freedom) * scale);

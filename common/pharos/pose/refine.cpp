@@ -29,17 +29,17 @@ PackedSymmetric<6> damped(const PackedSymmetric<6>& matrix, double damping) {
 
 }  // namespace
 
-LighthouseFromBody stepped(const LighthouseFromBody& pose, const std::array<double, 6>& delta) {
+LighthouseFromBody moved(const LighthouseFromBody& pose, const std::array<double, 6>& delta) {
   const Vector3 half(0.5 * delta[0], 0.5 * delta[1], 0.5 * delta[2]);
   const double scale = 2.0 / (1.0 + half.squaredNorm());
-  LighthouseFromBody moved;
+  LighthouseFromBody to;
   for (int c = 0; c < 3; ++c) {
     const Vector3 column = pose.R.col(c);
     const Vector3 turned = half.cross(column);
-    moved.R.col(c) = column + scale * (turned + half.cross(turned));
+    to.R.col(c) = column + scale * (turned + half.cross(turned));
   }
-  moved.t = pose.t + Vector3(delta[3], delta[4], delta[5]);
-  return moved;
+  to.t = pose.t + Vector3(delta[3], delta[4], delta[5]);
+  return to;
 }
 
 DoubleStep DoubleSystem::step(const NormalEquations& normal, double damping) const {
@@ -67,13 +67,13 @@ double DoubleSystem::square_between(const LighthouseFromBody& a, const NormalEqu
 
 LighthouseFromBody gauss_newton_step(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual) {
   const DoubleSystem system(table, residual);
-  return system.stepped(pose, system.step(system.linearise(pose), 0.0));
+  return system.moved(pose, system.step(system.linearise(pose), 0.0).delta);
 }
 
 Fit refine(const ObservationTable& table, const LighthouseFromBody& start, Residual residual,
-           const RefineLimits& limits) {
+           const optimize::DescentSettings& settings) {
   Fit fit;
-  descend(DoubleSystem(table, residual), start, limits, fit);
+  optimize::descend(DoubleSystem(table, residual), start, settings, fit);
   return fit;
 }
 

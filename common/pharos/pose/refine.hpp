@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "pharos/pose/descent.hpp"
+#include "pharos/optimize/descent.hpp"
 #include "pharos/pose/linearise.hpp"
 
 namespace pharos::pose {
@@ -9,9 +9,9 @@ namespace pharos::pose {
 /// Fraction of sigma^2 by which a last step may still lower r^T r: the pose then is within 0.01 sigma of the minimum.
 inline constexpr double kConvergedFraction = 1e-4;
 
-/// The pose moved by delta. The rotation uses Cayley's map, which agrees with exp to the third order and needs neither
-/// sine nor cosine; only the size of a step depends on it, never the minimum.
-LighthouseFromBody stepped(const LighthouseFromBody& pose, const std::array<double, 6>& delta);
+/// The pose moved by delta: the retraction of both minima's descent. The rotation uses Cayley's map, which agrees with
+/// exp to the third order and needs neither sine nor cosine; only the size of a step depends on it, never the minimum.
+LighthouseFromBody moved(const LighthouseFromBody& pose, const std::array<double, 6>& delta);
 
 /// One step of a descent.
 struct DoubleStep {
@@ -21,24 +21,27 @@ struct DoubleStep {
   bool solved = true;  // double always can; the integers may not
 };
 
-/// The system of equations that `descend` and `both_minima` work on, in double.
+/// The problem that `descend` and `both_minima` work on, in double.
 class DoubleSystem {
  public:
-  using Pose = LighthouseFromBody;
+  using State = LighthouseFromBody;
   using Normal = NormalEquations;
   using Step = DoubleStep;
+  static constexpr double kFirstDamping = 0.0;
+  static constexpr bool kEndsWhereSingular = true;  // never: see Factorisation
+  static constexpr bool kSumsAtEnd = false;
   static constexpr double kConverged = kConvergedFraction;
   static constexpr bool kChecksBasin = false;
 
   DoubleSystem(const ObservationTable& table, Residual residual) : table_(table), residual_(residual) {}
 
-  NormalEquations linearise(const Pose& pose) const { return pose::linearise(table_, pose, residual_); }
+  NormalEquations linearise(const State& pose) const { return pose::linearise(table_, pose, residual_); }
   DoubleStep step(const NormalEquations& normal, double damping) const;
-  Pose stepped(const Pose& pose, const DoubleStep& step) const { return pose::stepped(pose, step.delta); }
-  Pose mirrored(const Pose& pose) const;
-  bool ahead(const Pose& pose) const { return (pose * table_.body_centroid()).z() > 0.0; }
+  State moved(const State& pose, const std::array<double, 6>& delta) const { return pose::moved(pose, delta); }
+  State mirrored(const State& pose) const;
+  bool ahead(const State& pose) const { return (pose * table_.body_centroid()).z() > 0.0; }
   /// Squared distance of two poses, d^T N d, by the first one's information.
-  double square_between(const Pose& a, const NormalEquations& normal, const Pose& b) const;
+  double square_between(const State& a, const NormalEquations& normal, const State& b) const;
   int rows() const { return table_.rows(); }
 
  private:
@@ -46,10 +49,10 @@ class DoubleSystem {
   Residual residual_;
 };
 
-using Fit = Descent<DoubleSystem>;
+using Fit = optimize::Descent<DoubleSystem>;
 
 Fit refine(const ObservationTable& table, const LighthouseFromBody& start, Residual residual,
-           const RefineLimits& limits);
+           const optimize::DescentSettings& settings);
 
 /// One undamped step from the pose.
 LighthouseFromBody gauss_newton_step(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual);

@@ -61,8 +61,8 @@ bool TrimmedSearch::all_places_agree(const PlaceResiduals& residuals, const Ligh
   choose_first(hits_, residuals, places);
   const Fit fit =
       refine(hits_.table, pose, Residual::kAngle, {options_.max_iterations, kConvergedFraction * variance, 1e300});
-  if (!fit.converged || fit.normal.cost > credible) return false;
-  best_ = fit.pose;
+  if (!fit.converged() || fit.normal.cost > credible) return false;
+  best_ = fit.state;
   return true;
 }
 

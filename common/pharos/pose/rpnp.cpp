@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "pharos/pose/packed_symmetric.hpp"
+#include "pharos/geometry/packed_symmetric.hpp"
 #include "pharos/pose/polynomial.hpp"
 
 namespace pharos::pose {

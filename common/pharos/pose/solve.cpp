@@ -51,8 +51,8 @@ void minima_from(Problem& problem, const LighthouseFromBody& start, Minima<Doubl
 }
 
 bool credible(const Problem& problem, const Fit& fit) {
-  return fit.converged && fit.normal.cost <= problem.options.chi2_threshold_factor *
-                                                 chi2_threshold(freedom_of(problem)) * problem.variance;
+  return fit.converged() && fit.normal.cost <= problem.options.chi2_threshold_factor *
+                                                   chi2_threshold(freedom_of(problem)) * problem.variance;
 }
 
 Refusal too_few(const Problem& problem, bool prior) {
@@ -84,13 +84,13 @@ bool confirmed(const Problem& problem) {
 
 Refusal verdict(const Problem& problem, const Fit& fit) {
   const int freedom = freedom_of(problem);
-  if (!fit.pose.is_finite() || !std::isfinite(fit.normal.cost)) return Refusal::kNotConverged;
+  if (!fit.state.is_finite() || !std::isfinite(fit.normal.cost)) return Refusal::kNotConverged;
   if (fit.smallest_pivot_ratio < kDegeneratePivotRatio) return Refusal::kDegenerate;
   if (freedom > 0 && fit.normal.cost > problem.options.max_reduced_chi2 * problem.variance * freedom) {
     return Refusal::kPoorFit;
   }
-  if (!fit.converged) return Refusal::kNotConverged;
-  if (!DoubleSystem(problem.hits.table, problem.options.residual).ahead(fit.pose)) return Refusal::kBehindStation;
+  if (!fit.converged()) return Refusal::kNotConverged;
+  if (!DoubleSystem(problem.hits.table, problem.options.residual).ahead(fit.state)) return Refusal::kBehindStation;
   return Refusal::kNone;
 }
 
@@ -109,9 +109,9 @@ void mark_used(const HitCandidates& hits, std::bitset<kMaxObservations>& used) {
   const ObservationTable& table = problem.hits.table;
   Solution solution;
   LighthousePoseEstimate& e = solution.estimate;
-  e.pose = minima.best.pose;
+  e.pose = minima.best.state;
   e.pose.R = orthonormalised(e.pose.R);
-  const Matrix6 unit = unit_covariance(table, minima.best.pose, options.residual, options.rho, minima.best.normal);
+  const Matrix6 unit = unit_covariance(table, minima.best.state, options.residual, options.rho, minima.best.normal);
   e.covariance = unit * problem.variance;
   e.adop_deg_per_rad = adop_of(unit);
   e.pdop_m_per_rad = pdop_of(unit);
@@ -121,7 +121,7 @@ void mark_used(const HitCandidates& hits, std::bitset<kMaxObservations>& used) {
   if (minima.has_second) {
     const double delta = (minima.second.normal.cost - minima.best.normal.cost) / problem.variance;
     if (delta < kAmbiguousDeltaChi2) {
-      e.second = {minima.second.pose, delta};
+      e.second = {minima.second.state, delta};
       e.second->pose.R = orthonormalised(e.second->pose.R);
     }
   }
@@ -140,7 +140,7 @@ StartPoses only(const LighthouseFromBody& pose) {
   StartPoses starts = prior != nullptr ? only(*prior) : start_poses(problem.hits.table, problem.options.start);
   if (!starts.empty() && !problem.hits.has_multiple) minima_from(problem, nearest(problem, starts), minima);
   if (!problem.hits.has_multiple && credible(problem, minima.best)) return Refusal::kNone;
-  if (minima.best.converged && !starts.full()) starts.push_back(minima.best.pose);
+  if (minima.best.converged() && !starts.full()) starts.push_back(minima.best.state);
   LighthouseFromBody start;
   const Search search = fit_rigid_body(problem.hits, starts, problem.options, start);
   if (search == Search::kNoStart) return Refusal::kNotConverged;

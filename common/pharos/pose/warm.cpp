@@ -13,7 +13,7 @@ namespace {
 using FixedMinima = Minima<FixedSystem>;
 
 bool credible(const FixedMinima& minima, int rows, double variance) {
-  return minima.best.converged && minima.best.normal.cost <= chi2_threshold(rows - kPoseUnknowns) * variance;
+  return minima.best.converged() && minima.best.normal.cost <= chi2_threshold(rows - kPoseUnknowns) * variance;
 }
 
 // The root of a positive number to 2^-30 of it: where a soft one takes 800 instructions.
@@ -26,13 +26,13 @@ double root(double value) {
 }
 
 bool fill(const FixedObservationTable& table, const FixedMinima& minima, double variance, LighthousePoseEstimate& e) {
-  if (!fixed_unit_covariance(table, minima.best.pose, minima.best.normal, e.covariance)) return false;
+  if (!fixed_unit_covariance(table, minima.best.state, minima.best.normal, e.covariance)) return false;
   e.adop_deg_per_rad = kDegPerRad * root(e.covariance.topLeftCorner<3, 3>().trace());
   e.pdop_m_per_rad = root(e.covariance.bottomRightCorner<3, 3>().trace());
   for (int a = 0; a < 6; ++a) {
     for (int b = 0; b <= a; ++b) e.covariance(a, b) = e.covariance(b, a) = e.covariance(a, b) * variance;
   }
-  e.pose = double_pose(table, minima.best.pose);
+  e.pose = double_pose(table, minima.best.state);
   e.observations = table.rows;
   if (minima.best.normal.cost > 0.0) {
     e.residual_rms = root(minima.best.normal.cost / static_cast<double>(table.rows));
@@ -40,7 +40,7 @@ bool fill(const FixedObservationTable& table, const FixedMinima& minima, double 
   e.iterations = minima.iterations;
   if (!minima.has_second) return true;
   const double delta = (minima.second.normal.cost - minima.best.normal.cost) / variance;
-  if (delta < kAmbiguousDeltaChi2) e.second = {double_pose(table, minima.second.pose), delta};
+  if (delta < kAmbiguousDeltaChi2) e.second = {double_pose(table, minima.second.state), delta};
   return true;
 }
 
@@ -59,7 +59,7 @@ std::optional<Solution> solve_warm(const Target& target, const Observations& obs
   both_minima(system, fixed_pose(table, prior), options.max_iterations, variance, minima);
   minima.has_second = minima.has_second && options.look_for_second;
   if (minima.undecided || !credible(minima, table.rows, options.chi2_threshold_factor * variance) ||
-      !system.ahead(minima.best.pose)) {
+      !system.ahead(minima.best.state)) {
     return std::nullopt;
   }
   std::optional<Solution> solution(std::in_place);

@@ -117,7 +117,7 @@ bool add_ellipse(const CircleModel& model, Circle circle, const RigView& view, c
   const std::optional<ShapeResidual> residual = shape_residual(model, circle, view, contour);
   if (!residual) return false;
   const Vector5 pulled = contour.information * residual->value;
-  sums.chi2 += residual->value.dot(pulled);
+  sums.cost += residual->value.dot(pulled);
   sums.largest_rms_px = std::max(sums.largest_rms_px, residual->rms_px);
   for (int j = 0; j < kUnknowns; ++j) {
     sums.gradient[j] += residual->slope.col(j).dot(pulled);

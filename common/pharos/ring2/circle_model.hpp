@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pharos/geometry/types.hpp"
+#include "pharos/optimize/least_squares.hpp"
 #include "pharos/ring2/contour.hpp"
 #include "pharos/ring2/rig.hpp"
 
@@ -32,11 +33,8 @@ using Matrix8 = Eigen::Matrix<double, 8, 8>;
 /// The model moved by a step of the unknowns.
 CircleModel moved(const CircleModel& model, const Vector8& step);
 
-/// Sums of the least squares over the ellipses: chi2(x + d) = chi2 + 2 gradient d + d matrix d.
-struct NormalEquations {
-  Matrix8 matrix = Matrix8::Zero();
-  Vector8 gradient = Vector8::Zero();
-  double chi2 = 0.0;
+/// Sums of the least squares over the ellipses; the cost is chi-squared.
+struct NormalEquations : optimize::NormalEquations<kUnknowns> {
   double largest_rms_px = 0.0;  ///< of the four contours' disagreements, the worst
 };
 

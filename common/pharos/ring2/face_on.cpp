@@ -23,7 +23,7 @@ std::optional<double> chi2_at(const CircleProblem& held, const ConeSet& cones, c
   if (!sums) return std::nullopt;
   const auto inverse = positive_inverse<kUnknowns>(sums->matrix);
   if (!inverse) return std::nullopt;
-  double chi2 = sums->chi2;
+  double chi2 = sums->cost;
   for (int i = 0; i < kUnknowns; ++i) {
     for (int j = 0; j < kUnknowns; ++j) chi2 -= sums->gradient[i] * (*inverse)(i, j) * sums->gradient[j];
   }

@@ -2,17 +2,16 @@
 #include "pharos/ring2/refine.hpp"
 
 #include <algorithm>
+#include <limits>
 
-#include "pharos/geometry/positive_inverse.hpp"
+#include "pharos/optimize/descent.hpp"
 
 namespace pharos::ring2 {
 namespace {
 
 constexpr int kMaxIterations = 30;
-constexpr int kMaxTrials = 8;  // of damping, for one step
-constexpr int kAbandonAfterSteps =
-    2;                               // steps: from a start within the noise of a minimum, Gauss-Newton is there by then
-constexpr double kConverged = 1e-6;  // squared step in standard deviations: what is left is a millionth of one
+// Of chi2, by which a last step may still lower it: the squared step in standard deviations.
+constexpr double kConverged = 1e-6;
 
 bool is_sound(const CircleModel& model) {
   return model.normal.allFinite() && model.centre_m.allFinite() && model.radius_m > 0.0 &&
@@ -20,25 +19,24 @@ bool is_sound(const CircleModel& model) {
          std::isfinite(model.second_radius_m);
 }
 
-std::optional<Vector8> damped_step(const NormalEquations& sums, double damping) {
-  Matrix8 matrix = sums.matrix;
-  for (int i = 0; i < kUnknowns; ++i) matrix(i, i) *= 1.0 + damping;
-  const auto inverse = positive_inverse<kUnknowns>(matrix);
-  if (!inverse) return std::nullopt;
-  Vector8 step = Vector8::Zero();
-  for (int i = 0; i < kUnknowns; ++i) {
-    for (int j = 0; j < kUnknowns; ++j) step[i] -= (*inverse)(i, j) * sums.gradient[j];
-  }
-  return step;
-}
+struct CircleDescent : optimize::LeastSquares<kUnknowns, CircleModel, NormalEquations> {
+  static constexpr bool kEndsWhereSingular = true;  // the unknowns are not told
+  static constexpr bool kSumsAtEnd = true;
 
-double squared_deviations(const NormalEquations& sums, const Vector8& step) {
-  double sum = 0.0;
-  for (int i = 0; i < kUnknowns; ++i) {
-    for (int j = 0; j < kUnknowns; ++j) sum += step[i] * sums.matrix(i, j) * step[j];
+  explicit CircleDescent(const CircleProblem& p) : problem(p) {}
+
+  NormalEquations linearise(const CircleModel& model) const {
+    if (is_sound(model)) {
+      if (const std::optional<NormalEquations> sums = ring2::linearise(problem, model)) return *sums;
+    }
+    NormalEquations none;
+    none.cost = std::numeric_limits<double>::infinity();
+    return none;
   }
-  return sum;
-}
+  CircleModel moved(const CircleModel& model, const Vector8& delta) const { return ring2::moved(model, delta); }
+
+  const CircleProblem& problem;
+};
 
 }  // namespace
 
@@ -72,30 +70,16 @@ std::optional<NormalEquations> linearise(const CircleProblem& problem, const Cir
 }
 
 std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double abandon_chi2) {
-  const std::optional<NormalEquations> first = linearise(problem, start);
-  if (!first) return std::nullopt;
-  RefinedCircles now{start, *first, 0};
-  double damping = 0.0;
-  for (int trials = 0; now.iterations < kMaxIterations && trials < kMaxTrials;) {
-    const std::optional<Vector8> step = damped_step(now.sums, damping);
-    if (!step) return std::nullopt;
-    const CircleModel next = moved(now.model, *step);
-    const std::optional<NormalEquations> sums =
-        is_sound(next) ? linearise(problem, next) : std::optional<NormalEquations>{};
-    // So near the minimum chi2 no longer tells better from worse: the step is the last, whatever it says.
-    const bool done = damping == 0.0 && squared_deviations(now.sums, *step) < kConverged;
-    if (!sums || (!done && !(sums->chi2 <= now.sums.chi2))) {
-      damping = std::max(1e-3, 10.0 * damping);
-      ++trials;
-      continue;
-    }
-    now = {next, *sums, now.iterations + 1};
-    if (done) break;
-    damping = damping < 1e-2 ? 0.0 : 0.1 * damping;
-    trials = 0;
-    if (now.iterations == kAbandonAfterSteps && now.sums.chi2 > abandon_chi2) return std::nullopt;
+  optimize::Descent<CircleDescent> d;
+  optimize::descend(CircleDescent(problem), start, {kMaxIterations, kConverged, abandon_chi2}, d);
+  switch (d.ending) {
+    case optimize::Ending::kBadStart:
+    case optimize::Ending::kSingular:
+    case optimize::Ending::kHopeless:
+      return std::nullopt;
+    default:  // the best that was found: flat minima of circles that face the cameras end without converging
+      return RefinedCircles{d.state, d.normal, d.iterations};
   }
-  return now;
 }
 
 }  // namespace pharos::ring2

@@ -28,8 +28,8 @@ struct RefinedCircles {
   int iterations = 0;
 };
 
-/// Gauss-Newton with Levenberg's damping where a step fails, to a millionth of a standard deviation. Empty where
-/// the unknowns are not told, or where chi2 still exceeds `abandon_chi2` after two steps.
+/// The descent to the nearest minimum, to a thousandth of a standard deviation and one step beyond. Empty where the
+/// unknowns are not told, or where a step shows that chi2 will stay above `abandon_chi2`.
 std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double abandon_chi2);
 
 }  // namespace pharos::ring2

@@ -97,10 +97,10 @@ double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.c
 // Keeps the best of what was found, and another minimum beside it.
 void take(const RefinedCircles& found, Minima& minima) {
   if (angle_between(found.model.normal, minima.best.model.normal) < kSameNormal_rad) return;
-  const bool better = found.sums.chi2 < minima.best.sums.chi2;
+  const bool better = found.sums.cost < minima.best.sums.cost;
   const RefinedCircles other = better ? minima.best : found;
   if (better) minima.best = found;
-  if (!minima.alternative || other.sums.chi2 < minima.alternative->sums.chi2) minima.alternative = other;
+  if (!minima.alternative || other.sums.cost < minima.alternative->sums.cost) minima.alternative = other;
 }
 
 std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& cones) {
@@ -109,7 +109,7 @@ std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& con
     const std::optional<CircleModel> start = model_along(problem, cones, normal);
     if (!start) continue;
     const double abandoned =
-        minima ? minima->best.sums.chi2 + kAbandonExcessChi2 : std::numeric_limits<double>::infinity();
+        minima ? minima->best.sums.cost + kAbandonExcessChi2 : std::numeric_limits<double>::infinity();
     const std::optional<RefinedCircles> found = refine(problem, *start, abandoned);
     if (!found) continue;
     if (minima) {
@@ -122,7 +122,7 @@ std::optional<Minima> minima_of(const CircleProblem& problem, const ConeSet& con
 }
 
 bool disagrees(const NormalEquations& sums, int freedom) {
-  return sums.largest_rms_px > kMaxRms_px && sums.chi2 > kMaxChi2PerFreedom * std::max(1, freedom);
+  return sums.largest_rms_px > kMaxRms_px && sums.cost > kMaxChi2PerFreedom * std::max(1, freedom);
 }
 
 // Whether the ellipses of the left view belong to the right and the other way round.
@@ -149,7 +149,7 @@ Ring2Estimate estimate_of(const CircleProblem& problem, const Roles& roles, cons
     estimate.nozzle_centre_m = model.centre_m + model.distance_m * model.normal;
     estimate.nozzle_radius_m = model.second_radius_m;
   }
-  estimate.chi2 = found.sums.chi2;
+  estimate.chi2 = found.sums.cost;
   estimate.degrees_of_freedom = problem.degrees_of_freedom();
   estimate.rms_px = found.sums.largest_rms_px;
   estimate.ellipses = problem.ellipses();
@@ -164,7 +164,7 @@ Ring2Estimate estimate_of(const CircleProblem& problem, const Roles& roles, cons
 }
 
 void add_alternative(const Minima& minima, Ring2Estimate& estimate) {
-  const double delta_chi2 = minima.alternative->sums.chi2 - minima.best.sums.chi2;
+  const double delta_chi2 = minima.alternative->sums.cost - minima.best.sums.cost;
   if (!(delta_chi2 < kAmbiguousDeltaChi2)) return;
   // Where the cost is flat, one minimum reached from two sides.
   const double apart = angle_between(minima.alternative->model.normal, estimate.normal);

@@ -4,64 +4,49 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "pharos/optimize/descent.hpp"
+#include "pharos/optimize/least_squares.hpp"
+
 namespace pharos::slam {
 namespace {
 
 constexpr int kRounds = 4;
-constexpr int kMaxSteps = 8;
-constexpr double kSmallStep = 1e-7;  // rad and m: nothing that a pixel shows
+constexpr int kMaxIterations = 9;
+// Of chi-squared, by which a last step may still lower it: a thousandth of a standard deviation, squared.
+constexpr double kConverged = 1e-6;
 constexpr int kMinPoints = 3;
 
 double limit_of(const Observation& observation) { return observation.stereo() ? kStereoChi2 : kMonoChi2; }
 
-struct Normal {
-  Matrix6 H = Matrix6::Zero();
-  Vector6 g = Vector6::Zero();
-  double cost = 0.0;
-};
+using Normal = optimize::NormalEquations<6>;
 
-Normal gather(const std::vector<Observation>& observations, const std::vector<bool>& inlier, const StereoCamera& camera,
-              const CameraFromTarget& pose) {
-  Normal normal;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    const Observation& observation = observations[k];
-    if (!inlier[k] || (pose * observation.point_m).z() < kMinDepth_m) continue;
-    const Vector3 e = residual_of(observation, camera, pose);
-    const Eigen::Matrix<double, 3, 6> J = residual_jacobian(observation, camera, pose);
-    const double chi2 = e.squaredNorm() / observation.variance_px2;
-    const bool far = chi2 > kHuberChi2;
-    const double weight = (far ? std::sqrt(kHuberChi2 / chi2) : 1.0) / observation.variance_px2;
-    normal.cost += far ? 2.0 * std::sqrt(kHuberChi2 * chi2) - kHuberChi2 : chi2;
-    normal.H += weight * J.transpose() * J;
-    normal.g += weight * J.transpose() * e;
-  }
-  return normal;
-}
+// Reprojections of the inliers, Huber's cost.
+struct PoseDescent : optimize::LeastSquares<6, CameraFromTarget> {
+  PoseDescent(const std::vector<Observation>& o, const std::vector<bool>& i, const StereoCamera& c)
+      : observations(o), inlier(i), camera(c) {}
 
-CameraFromTarget descend(const std::vector<Observation>& observations, const std::vector<bool>& inlier,
-                         const StereoCamera& camera, CameraFromTarget pose) {
-  Normal normal = gather(observations, inlier, camera, pose);
-  double damping = 1e-6;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    Matrix6 H = normal.H;
-    H.diagonal() *= 1.0 + damping;
-    const Vector6 delta = -H.ldlt().solve(normal.g);
-    if (!delta.allFinite()) break;
-    const CameraFromTarget next = pose.moved_by(delta);
-    const Normal there = gather(observations, inlier, camera, next);
-    if (there.cost > normal.cost) {
-      damping *= 100.0;
-      if (damping > 1e4) break;
-      continue;
+  Normal linearise(const CameraFromTarget& pose) const {
+    Normal normal;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+      const Observation& observation = observations[k];
+      if (!inlier[k] || (pose * observation.point_m).z() < kMinDepth_m) continue;
+      const Vector3 e = residual_of(observation, camera, pose);
+      const Eigen::Matrix<double, 3, 6> J = residual_jacobian(observation, camera, pose);
+      const double chi2 = e.squaredNorm() / observation.variance_px2;
+      const bool far = chi2 > kHuberChi2;
+      const double weight = (far ? std::sqrt(kHuberChi2 / chi2) : 1.0) / observation.variance_px2;
+      normal.cost += far ? 2.0 * std::sqrt(kHuberChi2 * chi2) - kHuberChi2 : chi2;
+      normal.matrix += weight * J.transpose() * J;
+      normal.gradient += weight * J.transpose() * e;
     }
-    pose = next;
-    normal = there;
-    damping = std::max(1e-9, 0.1 * damping);
-    if (delta.norm() < kSmallStep) break;
+    return normal;
   }
-  pose.R = orthonormalised(pose.R);
-  return pose;
-}
+  CameraFromTarget moved(const CameraFromTarget& pose, const Vector6& delta) const { return pose.moved_by(delta); }
+
+  const std::vector<Observation>& observations;
+  const std::vector<bool>& inlier;
+  const StereoCamera& camera;
+};
 
 }  // namespace
 
@@ -113,8 +98,11 @@ PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoC
   PoseOnly result;
   result.pose = start;
   result.inlier.assign(observations.size(), true);
+  optimize::Descent<PoseDescent> d;
   for (int round = 0; round < kRounds; ++round) {
-    result.pose = descend(observations, result.inlier, camera, result.pose);
+    optimize::descend(PoseDescent(observations, result.inlier, camera), result.pose, {kMaxIterations, kConverged}, d);
+    result.pose = d.state;
+    result.pose.R = orthonormalised(result.pose.R);
     result.inliers = 0;
     for (std::size_t k = 0; k < observations.size(); ++k) {
       const Observation& observation = observations[k];
@@ -127,8 +115,8 @@ PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoC
     if (result.inliers < kMinPoints) break;
   }
   if (result.inliers < kMinPoints) return result;
-  const Normal normal = gather(observations, result.inlier, camera, result.pose);
-  const Matrix6 covariance = normal.H.ldlt().solve(Matrix6::Identity());
+  const Normal normal = PoseDescent(observations, result.inlier, camera).linearise(result.pose);
+  const Matrix6 covariance = normal.matrix.ldlt().solve(Matrix6::Identity());
   if (covariance.allFinite()) result.covariance = covariance;
   result.rms_px = rms_of(observations, camera, result);
   return result;

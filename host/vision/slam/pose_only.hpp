@@ -44,8 +44,8 @@ struct PoseOnly {
   double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each
 };
 
-/// (10): least squares of the reprojections over the pose alone, Huber's cost, Gauss and Newton; outliers are sorted
-/// out and let in again four times. Some 0.3 ms for 300 points.
+/// (10): least squares of the reprojections over the pose alone, Huber's cost; outliers are sorted out and
+/// let in again four times. Some 0.3 ms for 300 points.
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
                      const CameraFromTarget& start);
 

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/spin.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "pharos/optimize/descent.hpp"
+#include "pharos/optimize/least_squares.hpp"
 
 namespace pharos::slam {
 namespace {
 
 constexpr std::size_t kMinFrames = 10;
-constexpr int kSteps = 8;
+constexpr int kMaxIterations = 20;
+// rad^2 over all attitudes, by which a last step may still lower the sum of squares.
+constexpr double kConverged = 1e-18;
 
 // d log(exp(phi + d) exp(-phi)) / d d.
 Matrix3 left_jacobian(const Vector3& phi) {
@@ -26,39 +31,51 @@ struct Attitude {
   Matrix3 R;
 };
 
-struct Fit {
+// A steady turn: exp(rate (t - mean_time)) R_mean.
+struct Turn {
   Vector3 rate = Vector3::Zero();
   Matrix3 R_mean = Matrix3::Identity();
-  Matrix6 H = Matrix6::Zero();
   double mean_time_s = 0.0;
 };
 
-Vector3 residual(const Fit& fit, const Attitude& attitude) {
-  const Matrix3 predicted = rotation_exp(fit.rate * (attitude.time_s - fit.mean_time_s)) * fit.R_mean;
+Vector3 residual(const Turn& turn, const Attitude& attitude) {
+  const Matrix3 predicted = rotation_exp(turn.rate * (attitude.time_s - turn.mean_time_s)) * turn.R_mean;
   return rotation_log(attitude.R * predicted.transpose());
 }
 
-// Gauss and Newton over the first `count` attitudes.
-void refine(Fit& fit, const std::vector<Attitude>& attitudes, std::size_t count) {
-  double mean = 0.0;
-  for (std::size_t k = 0; k < count; ++k) mean += attitudes[k].time_s / static_cast<double>(count);
-  fit.R_mean = rotation_exp(fit.rate * (mean - fit.mean_time_s)) * fit.R_mean;
-  fit.mean_time_s = mean;
-  for (int step = 0; step < kSteps; ++step) {
-    fit.H.setZero();
-    Vector6 g = Vector6::Zero();
-    for (std::size_t k = 0; k < count; ++k) {
-      const double t = attitudes[k].time_s - mean;
-      const Vector3 phi = fit.rate * t;
-      Eigen::Matrix<double, 3, 6> J;
+// Unknowns: the rate (rad/s), then the turn of R_mean from the left (rad).
+struct TurnDescent : optimize::LeastSquares<6, Turn> {
+  explicit TurnDescent(std::span<const Attitude> a) : attitudes(a) {}
+
+  Normal linearise(const Turn& turn) const {
+    Normal normal;
+    for (const Attitude& attitude : attitudes) {
+      const double t = attitude.time_s - turn.mean_time_s;
+      const Vector3 phi = turn.rate * t, e = residual(turn, attitude);
+      Eigen::Matrix<double, 3, 6> J;  // of the prediction
       J << t * left_jacobian(phi), rotation_exp(phi);
-      fit.H += J.transpose() * J;
-      g += J.transpose() * residual(fit, attitudes[k]);
+      normal.matrix += J.transpose() * J;
+      normal.gradient -= J.transpose() * e;
+      normal.cost += e.squaredNorm();
     }
-    const Vector6 delta = fit.H.ldlt().solve(g);
-    fit.rate += delta.head<3>();
-    fit.R_mean = rotation_exp(delta.tail<3>()) * fit.R_mean;
+    return normal;
   }
+  Turn moved(const Turn& turn, const Vector6& delta) const {
+    return {turn.rate + delta.head<3>(), rotation_exp(delta.tail<3>()) * turn.R_mean, turn.mean_time_s};
+  }
+
+  std::span<const Attitude> attitudes;
+};
+using Fit = optimize::Descent<TurnDescent>;
+
+// Over these attitudes, from the last fit.
+void refine(Fit& fit, std::span<const Attitude> attitudes) {
+  Turn start = fit.state;
+  double mean = 0.0;
+  for (const Attitude& attitude : attitudes) mean += attitude.time_s / static_cast<double>(attitudes.size());
+  start.R_mean = rotation_exp(start.rate * (mean - start.mean_time_s)) * start.R_mean;
+  start.mean_time_s = mean;
+  optimize::descend(TurnDescent(attitudes), start, {kMaxIterations, kConverged}, fit);
 }
 
 // How many neighbours one residual speaks for: the sum of the correlations up to their first zero, both ways.
@@ -94,24 +111,27 @@ std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {
   if (attitudes.size() < kMinFrames) return std::nullopt;
   Fit fit;
   const double first_s = attitudes[kMinFrames - 1].time_s - attitudes[0].time_s;
-  fit.rate = rotation_log(attitudes[kMinFrames - 1].R * attitudes[0].R.transpose()) / first_s;
-  fit.R_mean = attitudes[0].R;
-  fit.mean_time_s = attitudes[0].time_s;
+  fit.state.rate = rotation_log(attitudes[kMinFrames - 1].R * attitudes[0].R.transpose()) / first_s;
+  fit.state.R_mean = attitudes[0].R;
+  fit.state.mean_time_s = attitudes[0].time_s;
   // Ever longer parts, so that what is predicted for the next is never half a turn off.
-  for (std::size_t count = kMinFrames; count < attitudes.size(); count *= 2) refine(fit, attitudes, count);
-  refine(fit, attitudes, attitudes.size());
+  for (std::size_t count = kMinFrames; count < attitudes.size(); count *= 2) {
+    refine(fit, std::span(attitudes).first(count));
+  }
+  refine(fit, attitudes);
+  const Turn& turn = fit.state;
   std::vector<Vector3> residuals;
   double sum = 0.0;
   for (const Attitude& attitude : attitudes) {
-    residuals.push_back(residual(fit, attitude));
+    residuals.push_back(residual(turn, attitude));
     sum += residuals.back().squaredNorm();
   }
   const double variance = sum / (3.0 * static_cast<double>(residuals.size()) - 6.0);
   Spin spin;
-  spin.rate_rad_s = fit.rate;
-  spin.covariance = (fit.H.inverse() * (variance * correlation_length(residuals))).topLeftCorner<3, 3>();
+  spin.rate_rad_s = turn.rate;
+  spin.covariance = (fit.normal.matrix.inverse() * (variance * correlation_length(residuals))).topLeftCorner<3, 3>();
   spin.residual_rms_rad = std::sqrt(sum / static_cast<double>(residuals.size()));
-  spin.turned_rad = fit.rate.norm() * (attitudes.back().time_s - attitudes.front().time_s);
+  spin.turned_rad = turn.rate.norm() * (attitudes.back().time_s - attitudes.front().time_s);
   spin.frames = static_cast<int>(residuals.size());
   return spin;
 }

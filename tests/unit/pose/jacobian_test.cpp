@@ -169,10 +169,10 @@ INSTANTIATE_TEST_SUITE_P(BothResiduals, Linearisation, ::testing::Values(Residua
 TEST(Refinement, StepIsARotationThatAgreesWithTheExponentialToThirdOrder) {
   const LighthouseFromBody pose{rotation_exp({0.3, 0.8, -1.0}), {0.1, 0.2, 3.0}};
   const Vector6 delta = 1e-3 * (Vector6() << 1.0, -2.0, 0.5, 1.0, 1.0, 1.0).finished();
-  const LighthouseFromBody moved = stepped(pose, {delta[0], delta[1], delta[2], delta[3], delta[4], delta[5]});
-  EXPECT_NEAR((moved.R.transpose() * moved.R - Matrix3::Identity()).norm(), 0.0, 1e-14);
-  EXPECT_NEAR((moved.R - pose.moved_by(delta).R).norm(), 0.0, 1e-8);
-  EXPECT_EQ(moved.t, pose.moved_by(delta).t);
+  const LighthouseFromBody stepped = moved(pose, {delta[0], delta[1], delta[2], delta[3], delta[4], delta[5]});
+  EXPECT_NEAR((stepped.R.transpose() * stepped.R - Matrix3::Identity()).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((stepped.R - pose.moved_by(delta).R).norm(), 0.0, 1e-8);
+  EXPECT_EQ(stepped.t, pose.moved_by(delta).t);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace pharos::pose {
+namespace pharos {
 
 /// Symmetric N x N matrix, lower triangle by rows: what normal equations are summed in and solved from.
 template <std::size_t N, class Number = double>
@@ -66,4 +66,4 @@ class Factorisation {
   double smallest_ratio_ = 1.0;
 };
 
-}  // namespace pharos::pose
+}  // namespace pharos
