@@ -24,8 +24,7 @@ struct PaintedRig {
     for (std::size_t side = 0; side < 2; ++side) {
       const sim::StereoCamera& camera = rig[side];
       host::RigCamera& target = side == 0 ? out.left : out.right;
-      target.intrinsics = {camera.width_px, camera.height_px, camera.fx_px,     camera.fy_px,
-                           camera.cx_px,    camera.cy_px,     camera.distortion};
+      target.intrinsics = sim::optics_as<PinholeCamera>(camera);
       const Quaternion q = canonical_quaternion(camera.R_rig_camera);
       target.rotation_wxyz = {q.w(), q.x(), q.y(), q.z()};
       const Vector3& t = camera.t_rig_camera_m;

@@ -46,10 +46,9 @@ BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t see
   std::vector<calibrate::ImageOutcome> found;
   for (const auto& T_camera_board : sim::board_poses(sim::kPaperLens, sheet, images, seed)) {
     const std::uint64_t noise_seed = 1000 * seed + found.size();
-    const sim::BoardImage image =
+    const host::GreyImage image =
         renderer.render(sheet, T_camera_board, dots ? kRetroReflective : kPrinted, noise_seed);
-    const calibrate::GreyView view(image.pixels.data(), image.width_px, image.height_px);
-    found.push_back({std::to_string(found.size()), calibrate::find_board(view, choices.board)});
+    found.push_back({std::to_string(found.size()), calibrate::find_board(image.view(), choices.board)});
   }
   const calibrate::CameraCalibration result =
       calibrate::calibrate_camera(std::move(found), sim::kPaperLens.width_px, sim::kPaperLens.height_px, choices);

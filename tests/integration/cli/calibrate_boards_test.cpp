@@ -31,8 +31,7 @@ class BoardImages : public testing::Test {
     static const sim::BoardRenderer renderer(kSmallLens);
     sim::Exposure exposure;
     exposure.noise = 100.0;
-    const sim::BoardImage image = renderer.render(kSmallSheet, T, exposure, 1);
-    host::write_grey_png(path(name), {image.pixels.data(), image.width_px, image.height_px});
+    host::write_grey_png(path(name), renderer.render(kSmallSheet, T, exposure, 1).view());
   }
   void render_tilted(int count) const {
     const std::vector<Vector3> tilts{{0.5, 0.0, 0.0}, {-0.3, 0.5, 0.0}, {0.0, -0.5, 0.2}, {-0.5, -0.2, 0.0}};

@@ -54,8 +54,8 @@ sim::TofSimulator simulator_of(const Class& one, int frames) {
   limits.count = frames;
   limits.min_range_m = one.min_range_m;
   limits.max_range_m = one.max_range_m;
-  scenario.poses =
-      sim::random_poses(limits, scenario.satellite, sim::Lens(scenario.lens), sim::RandomStream(kSeed, "bench poses"));
+  scenario.poses = sim::random_poses(limits, scenario.satellite, sim::PixelRays(scenario.lens),
+                                     sim::RandomStream(kSeed, "bench poses"));
   return {std::move(scenario), kSeed};
 }
 

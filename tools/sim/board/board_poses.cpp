@@ -22,8 +22,9 @@ constexpr int kMaxTries = 100000;
 bool shows_all_of(const Lens& lens, const BoardSheet& sheet, const Pose<frame::Camera, frame::Board>& T) {
   for (const double column : {-1.0, 0.5 * (sheet.columns - 1), static_cast<double>(sheet.columns)}) {
     for (const double row : {-1.0, 0.5 * (sheet.rows - 1), static_cast<double>(sheet.rows)}) {
-      const auto [u, v] = pixel_of(lens, T * Vector3(column * sheet.pitch_m, row * sheet.pitch_m, 0.0));
-      if (u < 0.0 || v < 0.0 || u > lens.width_px - 1 || v > lens.height_px - 1) return false;
+      const Vector2 seen = pixel_of(lens, T * Vector3(column * sheet.pitch_m, row * sheet.pitch_m, 0.0));
+      if (seen.x() < 0.0 || seen.y() < 0.0 || seen.x() > lens.width_px - 1 || seen.y() > lens.height_px - 1)
+        return false;
     }
   }
   return true;

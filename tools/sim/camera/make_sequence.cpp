@@ -10,30 +10,21 @@
 #include "host/device/pair_names.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
+#include "tools/sim/optics/ray_grid.hpp"
 #include "tools/sim/tof/tof_simulator.hpp"
 
 namespace pharos::sim {
 namespace {
 
-std::vector<std::array<float, 2>> rays_of(const LensModel& model) {
-  const Lens lens(model);
+std::vector<std::array<float, 2>> rays_of(const Lens& lens) {
+  const RayGrid grid = RayGrid::pixel_centres(lens, 0);
   std::vector<std::array<float, 2>> rays;
-  for (int v = 0; v < model.height_px; ++v) {
-    for (int u = 0; u < model.width_px; ++u) {
-      const Vector2& ray = lens.ray(u, v);
-      rays.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y())});
+  for (int v = 0; v < grid.rows(); ++v) {
+    for (int u = 0; u < grid.columns(); ++u) {
+      rays.push_back({static_cast<float>(grid.at(u, v).x()), static_cast<float>(grid.at(u, v).y())});
     }
   }
   return rays;
-}
-
-PinholeCamera optics_of(const LensModel& lens) {
-  return {lens.width_px, lens.height_px, lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px, lens.distortion};
-}
-
-LensModel lens_of(const PinholeCamera& intrinsics) {
-  return {intrinsics.width_px, intrinsics.height_px, intrinsics.fx_px,     intrinsics.fy_px,
-          intrinsics.cx_px,    intrinsics.cy_px,     intrinsics.distortion};
 }
 
 }  // namespace
@@ -45,7 +36,7 @@ FrameSequence sequence_of_scenario(const std::string& scenario, std::uint64_t se
   FrameSequence sequence{about.lens.width_px, about.lens.height_px, about.depth.scale_m, rays_of(about.lens), {}};
   if (!camera_file.empty()) {
     host::CameraFile file;
-    file.camera.intrinsics = optics_of(about.lens);
+    file.camera.intrinsics = optics_as<PinholeCamera>(about.lens);
     file.camera.depth_scale_m = about.depth.scale_m;
     file.camera.depth_origin_z_m = about.depth.origin_z_m;
     std::ofstream out(camera_file);

@@ -77,12 +77,12 @@ int serve(CameraOptions options) {
   options.play.freezes = parse_intervals("--freeze", options.freezes);
   options.play.grey = !options.view.empty();
   options.play.clock_jitter_s = options.jitter_ms * 1e-3;
-  const sim::FrameSequence sequence = make_reel(options);
+  const sim::FrameSequence reel = make_reel(options);
   block_stop_signals();
   // There before the camera is, so that whoever waits for it finds both.
   if (!options.play.truth_file.empty()) std::ofstream(options.play.truth_file).flush();
   std::cout << options.play.address << std::endl;
-  const sim::CameraPlaySummary summary = sim::serve_camera_by_module(sequence, options.play);
+  const sim::CameraPlaySummary summary = sim::serve_camera_by_module(reel, options.play);
   std::cerr << "served " << summary.frames << " frames in " << summary.played_s << " s\n";
   return 0;
 }

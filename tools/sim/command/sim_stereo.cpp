@@ -5,8 +5,8 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/sim/command/add_sim.hpp"
+#include "tools/sim/command/tumbling_options.hpp"
 #include "tools/sim/ring2/ring2_writer.hpp"
-#include "tools/sim/stereo_tumbling/tumbling_options.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <vector>
+#include <string>
+#include <utility>
 
 #include "pharos/base/units.hpp"
+#include "tools/sim/optics/blur.hpp"
 #include "tools/sim/povray/render_scene.hpp"
 
 namespace pharos::sim {
@@ -39,17 +40,6 @@ void add_stars(LinearImage& image, const PointingImaging& imaging, RandomStream&
   }
 }
 
-// The satellite's own, however small it stands in the image: all but the brightest thousandth of its pixels.
-double brightest_of(const LinearImage& image) {
-  std::vector<float> lit;
-  std::copy_if(image.light.begin(), image.light.end(), std::back_inserter(lit),
-               [](float light) { return light > 0.0F; });
-  if (lit.empty()) return 1.0;
-  const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(lit.size() - 1));
-  std::nth_element(lit.begin(), lit.begin() + rank, lit.end());
-  return static_cast<double>(lit[static_cast<std::size_t>(rank)]);
-}
-
 }  // namespace
 
 host::GreyImage pointing_image(const PointingScenario& scenario, std::size_t index, std::uint64_t seed) {
@@ -64,7 +54,9 @@ host::GreyImage pointing_image(const PointingScenario& scenario, std::size_t ind
   settings.antialias_threshold = imaging.antialias_threshold;
   LinearImage light = render_scene(pointing_scene(scenario, scenario.views[index], middle), settings);
   ImageSensor sensor = imaging.sensor;
-  sensor.electrons_per_light = imaging.peak * sensor.full_well_e / std::max(1e-3, brightest_of(light));
+  // The satellite's own light, however small it stands in the image; 1 where it is not in it.
+  const double peak = peak_light(light, true);
+  sensor.electrons_per_light = imaging.peak * sensor.full_well_e / (peak > 0.0 ? std::max(1e-3, peak) : 1.0);
   add_stars(light, imaging, random);
   for (float& pixel : light.light) pixel += static_cast<float>(imaging.sky_light);
   return expose(blurred(light, imaging.seeing_px), sensor, random);

@@ -6,17 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "pharos/geometry/types.hpp"
-#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
+#include "tools/sim/optics/lens.hpp"
 
 namespace pharos::sim {
 
-/// A telescope's camera: no lens distortion; pixel (0, 0) is the centre of the first pixel.
-struct PointingCamera {
-  std::int32_t width_px = 1024;
-  std::int32_t height_px = 1024;
-  double focal_px = 6000.0;
-};
+/// The telescope's focal length: 600 px for 10 m at 100 m.
+inline constexpr double kLineFocal_px = 6000.0;
 
 /// A body with a wing of one or two panels along its x axis, on trusses; z is the panels' bright side.
 struct PointingSatellite {
@@ -58,7 +54,7 @@ struct PointingView {
 };
 
 struct PointingScenario {
-  PointingCamera camera;
+  Lens camera = centred_lens(1024, 1024, kLineFocal_px);  ///< without distortion
   PointingSatellite satellite;
   PointingImaging imaging;
   PointingStation station;

@@ -24,12 +24,10 @@ double angle_or(const TomlTable& table, const char* key, double fallback_rad, Ra
   return table.number_or(key, fallback_rad * kDegPerRad, range_deg) * kRadPerDeg;
 }
 
-PointingCamera read_camera(const TomlTable& table) {
-  PointingCamera camera;
-  camera.width_px = static_cast<std::int32_t>(table.integer_or("width_px", camera.width_px, 64, 8192));
-  camera.height_px = static_cast<std::int32_t>(table.integer_or("height_px", camera.height_px, 64, 8192));
-  camera.focal_px = table.number_or("focal_px", camera.focal_px, {100.0, 1e10});
-  return camera;
+Lens read_camera(const TomlTable& table) {
+  const auto width_px = static_cast<std::int32_t>(table.integer_or("width_px", 1024, 64, 8192));
+  const auto height_px = static_cast<std::int32_t>(table.integer_or("height_px", 1024, 64, 8192));
+  return centred_lens(width_px, height_px, table.number_or("focal_px", kLineFocal_px, {100.0, 1e10}));
 }
 
 PointingSatellite read_satellite(const TomlTable& table) {

@@ -70,16 +70,10 @@ constexpr const char* kTextures =
 }  // namespace
 
 std::string pointing_scene(const PointingScenario& scenario, const PointingView& view, const Vector2& middle_px) {
-  const PointingCamera& camera = scenario.camera;
-  const PovrayView intrinsics{camera.width_px,
-                              camera.height_px,
-                              camera.focal_px,
-                              camera.focal_px,
-                              0.5 * (camera.width_px - 1),
-                              0.5 * (camera.height_px - 1)};
+  const Lens& camera = scenario.camera;
   const Matrix3 R_camera_station = station_from_camera(view.azimuth_rad, view.elevation_rad).transpose();
-  const Vector3 place = view.range_m * Vector3((middle_px.x() - intrinsics.cx_px) / camera.focal_px,
-                                               (middle_px.y() - intrinsics.cy_px) / camera.focal_px, 1.0);
+  const Vector3 place = view.range_m * Vector3((middle_px.x() - camera.cx_px) / camera.fx_px,
+                                               (middle_px.y() - camera.cy_px) / camera.fy_px, 1.0);
   const Vector3 to_sun = R_camera_station * view.to_sun_station;
   const PointingSatellite& satellite = scenario.satellite;
   const double inner = 0.5 * satellite.body_m.x() + satellite.truss_m;
@@ -87,7 +81,7 @@ std::string pointing_scene(const PointingScenario& scenario, const PointingView&
   if (satellite.panels == 2) {
     parts += panel(satellite, -inner - satellite.panel_length_m) + truss(satellite, -inner);
   }
-  return povray_preamble() + povray_camera(intrinsics, Matrix3::Identity(), -place) + kTextures + "light_source { " +
+  return povray_preamble() + povray_camera(camera, Matrix3::Identity(), -place) + kTextures + "light_source { " +
          povray_vector(1e5 * to_sun) + " rgb 1 parallel point_at <0,0,0>" + " }\nunion {\n" + parts +
          placed(R_camera_station * view.R_station_body) + "}\n";
 }

@@ -2,41 +2,19 @@
 #include "tools/sim/pointing/pointing_writer.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
+#include <cmath>
 #include <string>
 
 #include "host/cameras/camera_file.hpp"
-#include "host/support/input_error.hpp"
-#include "host/table/row_writer.hpp"
 #include "pharos/base/units.hpp"
+#include "tools/sim/output_files.hpp"
 #include "tools/sim/pointing/pointing_image.hpp"
 #include "tools/sim/pointing/sky_frames.hpp"
-#include "tools/sim/table_file.hpp"
 
 namespace pharos::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Names sort as the images follow each other.
-std::string name_of(std::size_t index, std::size_t images) {
-  const std::size_t width = std::max<std::size_t>(4, std::to_string(images - 1).size());
-  const std::string digits = std::to_string(index);
-  return std::string(width - digits.size(), '0') + digits + ".png";
-}
-
-void write_camera(const PointingCamera& camera, const fs::path& path) {
-  host::CameraFile file;
-  file.camera.intrinsics.width_px = camera.width_px;
-  file.camera.intrinsics.height_px = camera.height_px;
-  file.camera.intrinsics.fx_px = file.camera.intrinsics.fy_px = camera.focal_px;
-  file.camera.intrinsics.cx_px = 0.5 * (camera.width_px - 1);
-  file.camera.intrinsics.cy_px = 0.5 * (camera.height_px - 1);
-  std::ofstream out(path);
-  out << host::camera_text(file);
-  if (!out.flush()) refuse_output(path);
-}
 
 // The upper end of the axis, as formula (1) and the rule for its sign have it.
 Vector3 upper(const Vector3& axis) { return axis.z() < 0.0 || (axis.z() == 0.0 && axis.y() < 0.0) ? -axis : axis; }
@@ -70,10 +48,10 @@ void write_truth(host::RowWriter& rows, const std::string& name, const PointingV
 
 void write_pointing_images(const PointingScenario& scenario, std::uint64_t seed, const fs::path& folder,
                            const std::function<void()>& done) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw host::InputError(folder.string() + ": cannot be made: " + error.message());
-  write_camera(scenario.camera, folder / "camera.toml");
+  make_output_folder(folder);
+  host::CameraFile file;
+  file.camera.intrinsics = optics_as<PinholeCamera>(scenario.camera);
+  write_output(folder / "camera.toml", host::camera_text(file));
   std::vector<std::string> columns{"image",        "time_s",        "azimuth_deg", "elevation_deg",
                                    "latitude_deg", "longitude_deg", "height_m"};
   if (scenario.write_range) columns.emplace_back("range_m");
@@ -82,7 +60,7 @@ void write_pointing_images(const PointingScenario& scenario, std::uint64_t seed,
                   {"image", "time_s", "pitch_deg", "yaw_deg", "sx", "sy", "sz", "earth_pitch_deg", "earth_yaw_deg",
                    "ex", "ey", "ez", "short_x", "short_y", "short_z", "range_m"});
   for (std::size_t k = 0; k < scenario.views.size(); ++k) {
-    const std::string name = name_of(k, scenario.views.size());
+    const std::string name = file_number(k, scenario.views.size()) + ".png";
     host::write_grey_png((folder / name).string(), pointing_image(scenario, k, seed).view(),
                          scenario.imaging.sensor.bits);
     write_track(track.rows(), name, scenario.views[k], scenario);

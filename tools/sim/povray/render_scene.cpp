@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,32 +16,10 @@
 #include "host/images/grey_image.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/support/input_error.hpp"
+#include "tools/sim/povray/temporary_folder.hpp"
 
 namespace pharos::sim {
 namespace {
-
-// A directory that goes with its owner.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "pharos-povray-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw host::InputError(pattern + ": cannot be made (" + std::strerror(errno) +
-                             "); set TMPDIR to a directory that can be written");
-    }
-    path_ = pattern;
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string settings_text(const RenderSettings& settings) {
   std::ostringstream text;
@@ -122,7 +99,7 @@ std::string error_in(const std::filesystem::path& log) {
 }  // namespace
 
 LinearImage render_scene(const std::string& scene, const RenderSettings& settings) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory("pharos-povray");
   write_text(directory.path() / "scene.pov", scene);
   write_text(directory.path() / "render.ini", settings_text(settings));
   const std::filesystem::path log = directory.path() / "log";

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tools/sim/povray/linear_image.hpp"
+#include "tools/sim/optics/linear_image.hpp"
 
 namespace pharos::sim {
 

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 
-#include "pharos/geometry/types.hpp"
+#include "tools/sim/optics/lens.hpp"
 
 namespace pharos::sim {
-
-/// A camera without lens distortion. Pixel (0, 0) is the centre of the first pixel; the principal point may lie
-/// anywhere.
-struct PovrayView {
-  std::int32_t width_px = 0;
-  std::int32_t height_px = 0;
-  double fx_px = 0.0;
-  double fy_px = 0.0;
-  double cx_px = 0.0;
-  double cy_px = 0.0;
-};
 
 /// A vector of a right-handed frame (x right, y down, z ahead) in POV-Ray's left-handed one (x right, y up, z ahead):
 /// "<x, -y, z>", metres or no unit. Every point, normal and axis of a scene goes through here.
 std::string povray_vector(const Vector3& vector);
 
 /// The `camera { ... }` of a scene: where it stands and how it is turned in the scene's frame (p_world = R p_camera +
-/// t).
-std::string povray_camera(const PovrayView& view, const Matrix3& R_world_camera, const Vector3& t_world_camera_m);
+/// t). Lens distortion is left out: POV-Ray has none. The principal point may lie anywhere.
+std::string povray_camera(const Lens& lens, const Matrix3& R_world_camera, const Vector3& t_world_camera_m);
 
 /// What a scene begins with: the language's version, linear light, and no light but the scene's own.
 std::string povray_preamble();

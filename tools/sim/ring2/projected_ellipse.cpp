@@ -18,10 +18,6 @@ using Matrix2 = Eigen::Matrix<double, 2, 2>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 
-bool is_ideal(const StereoCamera& camera) {
-  return std::all_of(camera.distortion.begin(), camera.distortion.end(), [](double term) { return term == 0.0; });
-}
-
 // Two unit vectors across a direction.
 std::array<Vector3, 2> across(const Vector3& direction) {
   const Vector3 helper = std::abs(direction.x()) < 0.5 ? Vector3::UnitX() : Vector3::UnitY();
@@ -38,7 +34,7 @@ ImageEllipse from_shape(const Vector2& centre, const Matrix2& shape) {
   return {centre.x(), centre.y(), std::sqrt(mean + difference), std::sqrt(mean - difference), theta};
 }
 
-// Conic of the homography from the circle's plane to the image.
+// Without the lens distortion: conic of the homography from the circle's plane to the image.
 ImageEllipse ellipse_of_conic(const StereoCamera& camera, const SpaceCircle& circle) {
   const auto [e1, e2] = across(circle.normal);
   Matrix3 plane;  // (x, y, 1), the circle being x^2 + y^2 = 1, to the camera's frame
@@ -94,14 +90,7 @@ double foot_of(const Triangle& ellipse, const Vector2& point) {
 std::optional<Vector2> pixel_of(const StereoCamera& camera, const Vector3& point_rig_m) {
   const Vector3 p = camera.R_rig_camera.transpose() * (point_rig_m - camera.t_rig_camera_m);
   if (p.z() <= 0.0) return std::nullopt;
-  const double x = p.x() / p.z();
-  const double y = p.y() / p.z();
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2;
-  const double bent_x = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x);
-  const double bent_y = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
-  return Vector2(camera.fx_px * bent_x + camera.cx_px, camera.fy_px * bent_y + camera.cy_px);
+  return pixel_of(static_cast<const Lens&>(camera), p);
 }
 
 std::vector<Vector2> contour_points(const StereoCamera& camera, const SpaceCircle& circle, int points) {
@@ -157,13 +146,11 @@ std::optional<ImageEllipse> projected_ellipse(const StereoCamera& camera, const 
   for (int k = 0; k < 16; ++k) {
     if (!pixel_of(camera, point_on(circle, axes, 2.0 * kPi * k / 16))) return std::nullopt;
   }
-  StereoCamera ideal = camera;
-  ideal.distortion.fill(0.0);
-  const ImageEllipse undistorted = ellipse_of_conic(ideal, circle);
-  if (is_ideal(camera)) return undistorted;
+  const ImageEllipse ideal = ellipse_of_conic(camera, circle);
+  if (!has_distortion(camera)) return ideal;
   const std::vector<Vector2> points = contour_points(camera, circle);
   if (points.empty()) return std::nullopt;
-  return fitted_ellipse(undistorted, points);
+  return fitted_ellipse(ideal, points);
 }
 
 std::optional<ImageEllipse> noisy_ellipse(const StereoCamera& camera, const SpaceCircle& circle, double sigma_px,

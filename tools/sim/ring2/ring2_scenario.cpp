@@ -87,10 +87,8 @@ Ring2Scenario read(const TomlTable& root, std::uint64_t seed) {
   root.reject_unknown();
   if (scenario.poses.empty())
     root.fail("poses", "is missing: give rows x_m, y_m, z_m, theta_deg, gamma_deg or [random] count");
-  for (const double term : scenario.rig[0].distortion) {
-    if (scenario.render && term != 0.0) {
-      root.fail("render", "images are rendered without lens distortion; set render = false for ellipses with it");
-    }
+  if (scenario.render && has_distortion(scenario.rig[0])) {
+    root.fail("render", "images are rendered without lens distortion; set render = false for ellipses with it");
   }
   return scenario;
 }

@@ -71,11 +71,9 @@ std::string lights_text(const Ring2Scenario& scenario) {
 std::string ring2_scene_text(const Ring2Scenario& scenario, std::size_t pair, std::size_t view) {
   const StereoCamera& camera = scenario.rig[view];
   const RingAndNozzle target = scenario.target_at(pair);
-  const PovrayView intrinsics{camera.width_px, camera.height_px, camera.fx_px,
-                              camera.fy_px,    camera.cx_px,     camera.cy_px};
-  return povray_preamble() + povray_camera(intrinsics, camera.R_rig_camera, camera.t_rig_camera_m) +
-         lights_text(scenario) + "union {\n" + ring_text(target.ring_radius_m) + nozzle_text(target) +
-         body_text(target.ring_radius_m) + placing_of(target) + "\n}\n";
+  return povray_preamble() + povray_camera(camera, camera.R_rig_camera, camera.t_rig_camera_m) + lights_text(scenario) +
+         "union {\n" + ring_text(target.ring_radius_m) + nozzle_text(target) + body_text(target.ring_radius_m) +
+         placing_of(target) + "\n}\n";
 }
 
 }  // namespace pharos::sim

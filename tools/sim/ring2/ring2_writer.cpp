@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/ring2/ring2_writer.hpp"
 
-#include <cstdio>
+#include <array>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "host/cameras/rig_file.hpp"
 #include "host/images/grey_image.hpp"
-#include "host/support/input_error.hpp"
-#include "host/table/row_writer.hpp"
+#include "tools/sim/optics/blur.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
+#include "tools/sim/output_files.hpp"
 #include "tools/sim/povray/render_scene.hpp"
-#include "tools/sim/povray/sensor.hpp"
 #include "tools/sim/ring2/projected_ellipse.hpp"
-#include "tools/sim/table_file.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -24,35 +23,9 @@ constexpr std::array<const char*, 2> kViews{"left", "right"};
 constexpr double kAntialias = 0.01;
 
 host::RigCamera rig_camera(const StereoCamera& camera) {
-  host::RigCamera out;
-  out.intrinsics.width_px = camera.width_px;
-  out.intrinsics.height_px = camera.height_px;
-  out.intrinsics.fx_px = camera.fx_px;
-  out.intrinsics.fy_px = camera.fy_px;
-  out.intrinsics.cx_px = camera.cx_px;
-  out.intrinsics.cy_px = camera.cy_px;
-  out.intrinsics.distortion = camera.distortion;
   const Quaternion q = canonical_quaternion(camera.R_rig_camera);
-  out.rotation_wxyz = {q.w(), q.x(), q.y(), q.z()};
   const Vector3& t = camera.t_rig_camera_m;
-  out.position_m = {t.x(), t.y(), t.z()};
-  return out;
-}
-
-void write_rig(const fs::path& path, const StereoRig& rig) {
-  host::RigFile file;
-  file.left = rig_camera(rig[0]);
-  file.right = rig_camera(rig[1]);
-  std::ofstream out(path);
-  out << host::rig_text(file);
-  if (!out.flush()) refuse_output(path);
-}
-
-// Four digits, more where there are more pairs: names sort as the pairs follow each other.
-std::string number_of(std::size_t pair, std::size_t pairs) {
-  const std::size_t width = std::max<std::size_t>(4, std::to_string(pairs - 1).size());
-  const std::string digits = std::to_string(pair);
-  return std::string(width - digits.size(), '0') + digits;
+  return {optics_as<PinholeCamera>(camera), {q.w(), q.x(), q.y(), q.z()}, {t.x(), t.y(), t.z()}};
 }
 
 void write_truth(const std::string& number, const Ring2Pose& pose, const RingAndNozzle& target, host::RowWriter& rows) {
@@ -105,16 +78,14 @@ void write_images(const fs::path& directory, const std::string& number, const Ri
 void write_ring2_pairs(const Ring2Scenario& scenario, std::uint64_t seed, const std::string& directory,
                        const std::function<void()>& after_each) {
   const fs::path folder(directory);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw host::InputError(directory + ": cannot be made: " + error.message() + "; choose another --output");
-  write_rig(folder / "rig.toml", scenario.rig);
+  make_output_folder(folder);
+  write_output(folder / "rig.toml", host::rig_text({rig_camera(scenario.rig[0]), rig_camera(scenario.rig[1]), {}}));
   TableFile truth(folder / "truth.csv", {"pair", "theta_deg", "gamma_deg", "nx", "ny", "nz", "cx_m", "cy_m", "cz_m",
                                          "ring_radius_m", "nozzle_radius_m", "distance_m"});
   TableFile ellipses(folder / "ellipses.csv", {"problem", "view", "feature", "cx_px", "cy_px", "a_px", "b_px",
                                                "theta_rad", "sigma_px", "points"});
   for (std::size_t pair = 0; pair < scenario.poses.size(); ++pair) {
-    const std::string number = number_of(pair, scenario.poses.size());
+    const std::string number = file_number(pair, scenario.poses.size());
     const RingAndNozzle target = scenario.target_at(pair);
     RandomStream random(seed, "edges " + number);
     write_truth(number, scenario.poses[pair], target, truth.rows());

@@ -4,20 +4,13 @@
 #include <array>
 #include <cstdint>
 
-#include "pharos/geometry/types.hpp"
+#include "tools/sim/optics/lens.hpp"
 
 namespace pharos::sim {
 
-/// One camera of a simulated rig. Pixel (0, 0) is the centre of the first pixel; distortion k1, k2, p1, p2, k3 as in
-/// OpenCV; p_rig = R p_camera + t, both frames x right, y down, z ahead.
-struct StereoCamera {
-  std::int32_t width_px = 1280;
-  std::int32_t height_px = 1024;
-  double fx_px = 0.0;
-  double fy_px = 0.0;
-  double cx_px = 0.0;
-  double cy_px = 0.0;
-  std::array<double, 5> distortion{};
+/// One camera of a simulated rig: a lens and where it stands, p_rig = R p_camera + t, both frames x right, y down, z
+/// ahead.
+struct StereoCamera : Lens {
   Matrix3 R_rig_camera = Matrix3::Identity();
   Vector3 t_rig_camera_m = Vector3::Zero();
 };

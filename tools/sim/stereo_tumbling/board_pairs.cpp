@@ -5,17 +5,13 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/sim/board/board_poses.hpp"
+#include "tools/sim/output_files.hpp"
 #include "tools/sim/stereo_tumbling/sequence_files.hpp"
 
 namespace pharos::sim {
 namespace {
 
 constexpr int kTries = 100;  // poses for the left camera, for each that the right one sees too
-
-Lens lens_of(const PinholeCamera& intrinsics) {
-  return {intrinsics.width_px, intrinsics.height_px, intrinsics.fx_px,     intrinsics.fy_px,
-          intrinsics.cx_px,    intrinsics.cy_px,     intrinsics.distortion};
-}
 
 Exposure exposure() {
   Exposure light;
@@ -25,12 +21,6 @@ Exposure exposure() {
   light.noise = 1.0;
   light.bits = 8;
   return light;
-}
-
-host::GreyImage grey(const BoardImage& image) {
-  host::GreyImage out{image.width_px, image.height_px, 8, image.pixels};
-  for (std::uint16_t& pixel : out.pixels) pixel = static_cast<std::uint16_t>(pixel * 257);
-  return out;
 }
 
 }  // namespace
@@ -45,10 +35,10 @@ void write_board_pairs(const host::RigFile& rig, int pairs, std::uint64_t seed, 
   for (const auto& T_left_board : board_poses(lenses[0], kPairSheet, kTries * pairs, seed)) {
     const std::array<Pose<frame::Camera, frame::Board>, 2> T{T_left_board, T_right_left * T_left_board};
     if (!shows_all_of(lenses[1], kPairSheet, T[1])) continue;
-    const std::string stem = (made < 10 ? "0" : "") + std::to_string(made);
+    const std::string stem = padded_number(static_cast<std::size_t>(made), 2);
     for (std::size_t side = 0; side < 2; ++side) {
       const std::uint64_t noise = seed + 2 * static_cast<std::uint64_t>(made) + side;
-      files.image(stem, static_cast<int>(side), grey(renderers[side].render(kPairSheet, T[side], exposure(), noise)));
+      files.image(stem, static_cast<int>(side), renderers[side].render(kPairSheet, T[side], exposure(), noise));
     }
     step();
     if (++made == pairs) return;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/optics/blur.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
 #include "tools/sim/stereo_tumbling/cast_panels.hpp"
 #include "tools/sim/stereo_tumbling/sequence_files.hpp"
 #include "tools/sim/stereo_tumbling/textures.hpp"
@@ -53,15 +54,17 @@ host::RigFile raw_rig(const RoomScenario& scenario) {
 }  // namespace
 
 RoomSequence::RoomSequence(const RoomScenario& scenario, std::uint64_t seed)
-    : scenario_(scenario), seed_(seed), rig_(raw_rig(scenario)) {
+    : scenario_(scenario),
+      seed_(seed),
+      rig_(raw_rig(scenario)),
+      lenses_{lens_of(rig_.left.intrinsics), lens_of(rig_.right.intrinsics)},
+      rays_{RayGrid::inside_pixels(lenses_[0], kRaysPerSide), RayGrid::inside_pixels(lenses_[1], kRaysPerSide)} {
   RandomStream random(seed, "room");
   add_textured_box(room_, Vector3::Zero(), kRoomHalf_m, random);
   for (const Vector3& place : {Vector3(3.2, 0.9, 2.4), Vector3(-3.3, 0.7, 2.2), Vector3(3.3, 1.0, -2.4),
                                Vector3(-3.2, 0.9, -2.3), Vector3(0.0, 1.1, 0.0)}) {
     add_textured_box(room_, place, {0.4, kRoomHalf_m.y() - place.y(), 0.4}, random);
   }
-  rays_[0] = pixel_rays(rig_.left.intrinsics, kRaysPerSide);
-  rays_[1] = pixel_rays(rig_.right.intrinsics, kRaysPerSide);
 }
 
 int RoomSequence::frames() const {
@@ -88,12 +91,11 @@ Pose<frame::Camera, frame::Camera> RoomSequence::truth(int frame) const {
 
 host::GreyImage RoomSequence::image(int frame, int side) const {
   const auto k = static_cast<std::size_t>(side);
-  const PinholeCamera& intrinsics = side == 0 ? rig_.left.intrinsics : rig_.right.intrinsics;
   RandomStream random(seed_, (side == 0 ? "left " : "right ") + std::to_string(frame));
   ImageSensor sensor;
   sensor.electrons_per_light = kGain_e;
-  return expose(blurred(cast_panels(room_, kLighting, intrinsics, rays_[k], kRaysPerSide, pose(frame, side)), kBlur_px),
-                sensor, random);
+  const LinearImage light = cast_panels(room_, kLighting, lenses_[k], rays_[k], kRaysPerSide, pose(frame, side));
+  return expose(blurred(light, kBlur_px), sensor, random);
 }
 
 void write_room(const RoomScenario& scenario, std::uint64_t seed, const std::string& directory,

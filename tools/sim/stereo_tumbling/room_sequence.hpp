@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "host/cameras/rig_file.hpp"
 #include "host/images/grey_image.hpp"
+#include "tools/sim/optics/ray_grid.hpp"
 #include "tools/sim/stereo_tumbling/panel_scene.hpp"
 
 namespace pharos::sim {
@@ -40,8 +40,9 @@ class RoomSequence {
   RoomScenario scenario_;
   std::uint64_t seed_;
   host::RigFile rig_;
+  std::array<Lens, 2> lenses_;
+  std::array<RayGrid, 2> rays_;
   PanelScene room_;
-  std::array<std::vector<Vector2>, 2> rays_;
 };
 
 /// DIR/left and right/STAMP.png (ns), rig.toml and truth.tum (of the camera). `step` is called after every pair.

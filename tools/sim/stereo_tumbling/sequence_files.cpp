@@ -3,20 +3,13 @@
 
 #include "host/support/exact_number.hpp"
 #include "host/support/fixed_number.hpp"
-#include "host/support/input_error.hpp"
+#include "tools/sim/output_files.hpp"
 
 namespace pharos::sim {
 
 SequenceFiles::SequenceFiles(const std::string& directory, const host::RigFile& rig) : root_(directory) {
-  for (const char* side : {"left", "right"}) {
-    std::error_code error;
-    std::filesystem::create_directories(root_ / side, error);
-    if (error) throw host::InputError((root_ / side).string() + ": cannot be made: " + error.message());
-  }
-  std::ofstream rig_file(root_ / "rig.toml");
-  if (!(rig_file << host::rig_text(rig)).flush()) {
-    throw host::InputError((root_ / "rig.toml").string() + ": cannot be written");
-  }
+  for (const char* side : {"left", "right"}) make_output_folder(root_ / side);
+  write_output(root_ / "rig.toml", host::rig_text(rig));
 }
 
 void SequenceFiles::image(const std::string& stem, int side, const host::GreyImage& image) const {
@@ -33,7 +26,7 @@ void SequenceFiles::truth(double time_s, const Vector3& t_m, const Quaternion& q
 }
 
 void SequenceFiles::finish() {
-  if (!truth_.flush()) throw host::InputError((root_ / "truth.tum").string() + ": cannot be written");
+  if (!truth_.flush()) refuse_output(root_ / "truth.tum");
 }
 
 }  // namespace pharos::sim

@@ -3,14 +3,15 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
+#include <optional>
 
-#include "host/support/input_error.hpp"
+#include "tools/sim/optics/blur.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
+#include "tools/sim/output_files.hpp"
 #include "tools/sim/povray/render_scene.hpp"
 #include "tools/sim/povray/scene_text.hpp"
-#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/povray/temporary_folder.hpp"
 #include "tools/sim/stereo_tumbling/cast_panels.hpp"
 #include "tools/sim/stereo_tumbling/povray_panels.hpp"
 #include "tools/sim/stereo_tumbling/satellite_scene.hpp"
@@ -33,63 +34,32 @@ Matrix3 start_attitude() {
          rotation_exp(Vector3(0.5 * std::numbers::pi, 0.0, 0.0));
 }
 
-std::string frame_name(int frame) {
-  const std::string digits = std::to_string(frame);
-  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
-}
-
-class TextureFolder {
- public:
-  TextureFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "pharos-textures-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw host::InputError(pattern + ": cannot be made; set TMPDIR");
-    path_ = pattern;
-  }
-  TextureFolder(const TextureFolder&) = delete;
-  TextureFolder& operator=(const TextureFolder&) = delete;
-  ~TextureFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 struct TumblingSequence::Work {
   PanelScene satellite;
   std::vector<Star> stars;
-  std::array<PinholeCamera, 2> cameras;
+  std::array<Lens, 2> lenses;
   std::array<Pose<frame::Rig, frame::Camera>, 2> T_rig_camera;
-  std::vector<Vector2> rays;
-  TextureFolder textures;
+  std::optional<RayGrid> rays;
+  TemporaryFolder textures{"pharos-textures"};
   ImageSensor sensor;
   int rendered_frame = -1, rendered_side = -1;
   LinearImage rendered;
 
   LinearImage render(const PanelScene& scene, const Lighting& lighting, std::size_t side, bool povray) const {
-    const PinholeCamera& camera = cameras[side];
-    if (!povray) return cast_panels(scene, lighting, camera, rays, kRaysPerSide, T_rig_camera[side]);
-    const PovrayView view{camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
-    return render_scene(povray_preamble() + povray_camera(view, T_rig_camera[side].R, T_rig_camera[side].t) +
+    const Lens& lens = lenses[side];
+    if (!povray) return cast_panels(scene, lighting, lens, *rays, kRaysPerSide, T_rig_camera[side]);
+    return render_scene(povray_preamble() + povray_camera(lens, T_rig_camera[side].R, T_rig_camera[side].t) +
                             povray_panels(scene, lighting, textures.path(), kGloss),
-                        {camera.width_px, camera.height_px, kRaysPerSide, kAntialias, 1});
+                        {lens.width_px, lens.height_px, kRaysPerSide, kAntialias, 1});
   }
 };
 
 host::RigFile tumbling_rig(const TumblingScenario& scenario) {
   const double focal = scenario.focal_px * scenario.width_px / 640.0;
   host::RigFile rig;
-  rig.left.intrinsics = {scenario.width_px,
-                         scenario.height_px,
-                         focal,
-                         focal,
-                         0.5 * (scenario.width_px - 1),
-                         0.5 * (scenario.height_px - 1),
-                         {}};
+  rig.left.intrinsics = optics_as<PinholeCamera>(centred_lens(scenario.width_px, scenario.height_px, focal));
   rig.right.intrinsics = rig.left.intrinsics;
   rig.left.position_m = {-0.5 * scenario.baseline_m, 0.0, 0.0};
   rig.right.position_m = {0.5 * scenario.baseline_m, 0.0, 0.0};
@@ -102,12 +72,12 @@ TumblingSequence::TumblingSequence(const TumblingScenario& scenario, std::uint64
   work.satellite = satellite_scene(seed);
   work.stars = star_field(scenario.stars, seed);
   const host::RigFile rig = tumbling_rig(scenario);
-  work.cameras = {rig.left.intrinsics, rig.right.intrinsics};
+  work.lenses = {lens_of(rig.left.intrinsics), lens_of(rig.right.intrinsics)};
   work.T_rig_camera = {rig.left.pose(), rig.right.pose()};
   if (scenario.povray) {
     write_texture_files(work.satellite, work.textures.path());
   } else {
-    work.rays = pixel_rays(work.cameras[0], kRaysPerSide);
+    work.rays = RayGrid::inside_pixels(work.lenses[0], kRaysPerSide);
   }
   // The gain that lets good light peak at 80 % of the well, for low light too.
   const auto start = pose(0);
@@ -143,7 +113,7 @@ host::GreyImage TumblingSequence::image(int frame, int side) {
     const auto here = pose(frame);
     const Lighting light{scenario_.ambient, scenario_.good_light ? 0.9 : 0.0, kLamp_m};
     work.rendered = work.render(moved(work.satellite, here.R, here.t), light, k, scenario_.povray);
-    draw_stars(work.rendered, work.stars, work.cameras[k], work.T_rig_camera[k]);
+    draw_stars(work.rendered, work.stars, work.lenses[k], work.T_rig_camera[k]);
     work.rendered = blurred(work.rendered, kBlur_px);
     work.rendered_frame = frame;
     work.rendered_side = side;
@@ -157,7 +127,8 @@ void write_tumbling(const TumblingScenario& scenario, std::uint64_t seed, const 
   TumblingSequence sequence(scenario, seed);
   SequenceFiles files(directory, sequence.rig());
   for (int frame = 0; frame < sequence.frames(); ++frame) {
-    for (int side = 0; side < 2; ++side) files.image(frame_name(frame), side, sequence.image(frame, side));
+    for (int side = 0; side < 2; ++side)
+      files.image(padded_number(static_cast<std::size_t>(frame), 6), side, sequence.image(frame, side));
     const auto pose = sequence.truth(frame);
     files.truth(frame / scenario.rate_hz, pose.t, pose.quaternion());
     step();

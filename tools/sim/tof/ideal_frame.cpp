@@ -2,9 +2,11 @@
 #include "tools/sim/tof/ideal_frame.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "tools/sim/optics/blur.hpp"
+#include "tools/sim/render/subpixels.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -12,18 +14,6 @@ namespace {
 constexpr int kTile_px = 16;  // rays of a tile share the list of parts that they may meet
 // Steps of depth between neighbours that are an edge and no slope, over the distance.
 constexpr float kDepthStep = 0.006F;
-constexpr int kSubpixels = 16;
-
-// Hammersley's points: every row and column of a 16 x 16 grid once, so that straight edges are covered evenly.
-constexpr std::array<std::array<double, 2>, kSubpixels> make_subpixels() {
-  std::array<std::array<double, 2>, kSubpixels> points{};
-  for (int i = 0; i < kSubpixels; ++i) {
-    const int reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
-    points[static_cast<std::size_t>(i)] = {(i + 0.5) / kSubpixels - 0.5, (reversed + 0.5) / kSubpixels - 0.5};
-  }
-  return points;
-}
-constexpr auto kSubpixel = make_subpixels();
 
 struct Light {
   double amplitude = 0.0;
@@ -32,12 +22,12 @@ struct Light {
 
 class Picture {
  public:
-  Picture(const Scene& scene, const Lens& lens, const ImagingModel& imaging)
+  Picture(const Scene& scene, const PixelRays& rays, const ImagingModel& imaging)
       : scene_(scene),
-        lens_(lens),
+        rays_(rays),
         imaging_(imaging),
-        width_(lens.model().width_px),
-        height_(lens.model().height_px),
+        width_(rays.lens().width_px),
+        height_(rays.lens().height_px),
         tiles_across_((width_ + kTile_px - 1) / kTile_px) {
     const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     amplitude_.resize(count);
@@ -56,8 +46,10 @@ class Picture {
         if (on_edge(u, v)) cast_area(u, v);
       }
     }
-    blur(amplitude_, width_, height_, imaging_.blur_px);
-    blur(moment_, width_, height_, imaging_.blur_px);
+    // Pixels are averages over their area already.
+    const Kernel kernel = gaussian_at_pixels(imaging_.blur_px);
+    convolve(amplitude_, width_, height_, kernel);
+    convolve(moment_, width_, height_, kernel);
     for (std::size_t i = 0; i < moment_.size(); ++i) {
       moment_[i] = amplitude_[i] > 0.0F ? moment_[i] / amplitude_[i] : 0.0F;
     }
@@ -73,7 +65,7 @@ class Picture {
     for (int v = 0; v < height_; v += kTile_px) {
       for (int u = 0; u < width_; u += kTile_px) {
         const auto direction = [&](int across, int down) {
-          const Vector2& ray = lens_.ray(std::min(u + across, width_), std::min(v + down, height_));
+          const Vector2& ray = rays_.ray(std::min(u + across, width_), std::min(v + down, height_));
           return Vector3(ray.x(), ray.y(), 1.0).normalized();
         };
         const Vector3 middle = direction(kTile_px / 2, kTile_px / 2);
@@ -101,9 +93,9 @@ class Picture {
   }
 
   void cast_centre(int u, int v) {
-    const Vector2& ray = lens_.ray(u, v);
+    const Vector2& ray = rays_.ray(u, v);
     const Hit hit = scene_.trace(ray, parts(u, v));
-    const Light light = light_of(hit, lens_.range_per_depth(u, v));
+    const Light light = light_of(hit, rays_.range_per_depth(u, v));
     const std::size_t i = index(u, v);
     amplitude_[i] = static_cast<float>(light.amplitude);
     moment_[i] = static_cast<float>(light.amplitude_range);
@@ -112,18 +104,19 @@ class Picture {
   }
 
   void cast_area(int u, int v) {
-    const Vector2& middle = lens_.ray(u, v);
-    const Eigen::Matrix2d slope = lens_.slope(u, v);
+    const Vector2& middle = rays_.ray(u, v);
+    const Eigen::Matrix2d slope = rays_.slope(u, v);
     Light sum;
-    for (const auto& [across, down] : kSubpixel) {
+    for (const auto& [across, down] : kHammersleySubpixels) {
       const Vector2 ray = middle + slope * Vector2(across, down);
       const Light light = light_of(scene_.trace(ray, parts(u, v)), std::sqrt(1.0 + ray.squaredNorm()));
       sum.amplitude += light.amplitude;
       sum.amplitude_range += light.amplitude_range;
     }
     const std::size_t i = index(u, v);
-    amplitude_[i] = static_cast<float>(sum.amplitude / kSubpixels);
-    moment_[i] = static_cast<float>(sum.amplitude_range / kSubpixels);
+    constexpr auto kCount = static_cast<double>(kHammersleySubpixels.size());
+    amplitude_[i] = static_cast<float>(sum.amplitude / kCount);
+    moment_[i] = static_cast<float>(sum.amplitude_range / kCount);
   }
 
   bool on_edge(int u, int v) const {
@@ -137,7 +130,7 @@ class Picture {
   }
 
   const Scene& scene_;
-  const Lens& lens_;
+  const PixelRays& rays_;
   const ImagingModel& imaging_;
   int width_;
   int height_;
@@ -149,62 +142,10 @@ class Picture {
   std::vector<std::uint8_t> surface_;
 };
 
-std::vector<float> gaussian(double sigma_px) {
-  const int half = std::max(1, static_cast<int>(std::ceil(3.0 * sigma_px)));
-  std::vector<float> kernel;
-  double sum = 0.0;
-  for (int i = -half; i <= half; ++i) {
-    const double value = std::exp(-0.5 * i * i / (sigma_px * sigma_px));
-    kernel.push_back(static_cast<float>(value));
-    sum += value;
-  }
-  for (float& value : kernel) value /= static_cast<float>(sum);
-  return kernel;
-}
-
-// out[i] = sum over k of kernel[k] line[i + k].
-void convolve(const float* line, const std::vector<float>& kernel, float* out, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) out[i] = kernel[0] * line[i];
-  for (std::size_t k = 1; k < kernel.size(); ++k) {
-    const float weight = kernel[k];
-    for (std::size_t i = 0; i < count; ++i) out[i] += weight * line[i + k];
-  }
-}
-
 }  // namespace
 
-void blur(std::vector<float>& image, int width_px, int height_px, double sigma_px) {
-  if (sigma_px <= 0.0) return;
-  const std::vector<float> kernel = gaussian(sigma_px);
-  const auto half = static_cast<int>(kernel.size() / 2);
-  const auto width = static_cast<std::size_t>(width_px);
-  std::vector<float> line(width + kernel.size());
-  for (int v = 0; v < height_px; ++v) {
-    float* row = image.data() + static_cast<std::size_t>(v) * width;
-    for (int u = -half; u < width_px + half; ++u) {
-      const int mirrored = u < 0 ? -u - 1 : u >= width_px ? 2 * width_px - 1 - u : u;
-      line[static_cast<std::size_t>(u + half)] = row[mirrored];
-    }
-    convolve(line.data(), kernel, row, width);
-  }
-  // Down the columns: whole rows are added, from copies of the rows that are overwritten on the way.
-  const std::vector<float> across = image;
-  const auto row_of = [&](int v) {
-    const int mirrored = v < 0 ? -v - 1 : v >= height_px ? 2 * height_px - 1 - v : v;
-    return across.data() + static_cast<std::size_t>(mirrored) * width;
-  };
-  for (int v = 0; v < height_px; ++v) {
-    float* out = image.data() + static_cast<std::size_t>(v) * width;
-    for (int k = -half; k <= half; ++k) {
-      const float weight = kernel[static_cast<std::size_t>(k + half)];
-      const float* in = row_of(v + k);
-      for (std::size_t u = 0; u < width; ++u) out[u] = (k == -half ? 0.0F : out[u]) + weight * in[u];
-    }
-  }
-}
-
-IdealFrame render_ideal(const Scene& scene, const Lens& lens, const ImagingModel& imaging) {
-  return Picture(scene, lens, imaging).render();
+IdealFrame render_ideal(const Scene& scene, const PixelRays& rays, const ImagingModel& imaging) {
+  return Picture(scene, rays, imaging).render();
 }
 
 }  // namespace pharos::sim

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/sim/tof/lens.hpp"
+#include "tools/sim/tof/pixel_rays.hpp"
 #include "tools/sim/tof/scene.hpp"
 
 namespace pharos::sim {
@@ -26,9 +26,6 @@ inline constexpr double kNominalRange_m = 3.16;  // paper 000, test 3
 
 /// Casts one ray a pixel, more where neighbours met different surfaces, then blurs: amplitudes mix, and ranges mix by
 /// amplitude, which makes flying pixels at edges.
-IdealFrame render_ideal(const Scene& scene, const Lens& lens, const ImagingModel& imaging);
-
-/// Gaussian blur in place, mirrored at the border. Kernel of 3 sigma half width.
-void blur(std::vector<float>& image, int width_px, int height_px, double sigma_px);
+IdealFrame render_ideal(const Scene& scene, const PixelRays& rays, const ImagingModel& imaging);
 
 }  // namespace pharos::sim

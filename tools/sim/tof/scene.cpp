@@ -2,56 +2,18 @@
 #include "tools/sim/tof/scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "pharos/base/units.hpp"
+#include "tools/sim/render/primitives.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMultipathDecay_m = 0.08;  // how far from a corner the light that came round it still counts
 constexpr int kFacesOfConnector = 3;
 
 int number_of(SurfaceKind kind) { return static_cast<int>(kind); }
-
-// Both parameters at which o + s d meets the cone of radius base + slope (z - base_z) around z; first <= second. The
-// mirrored half of the cone is left to the caller's limits in z.
-std::array<double, 2> meet_cone(const Vector3& o, const Vector3& d, double base, double slope, double base_z) {
-  const double radius = base + slope * (o.z() - base_z);
-  const double growth = slope * d.z();
-  const double a = d.x() * d.x() + d.y() * d.y() - growth * growth;
-  const double b = o.x() * d.x() + o.y() * d.y() - radius * growth;
-  const double c = o.x() * o.x() + o.y() * o.y() - radius * radius;
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0.0 || std::abs(a) < 1e-12) return {kNever, kNever};
-  const double root = std::sqrt(discriminant);
-  const double first = (-b - root) / a;
-  const double second = (-b + root) / a;
-  return first < second ? std::array{first, second} : std::array{second, first};
-}
-
-struct BoxEntry {
-  double at = kNever;
-  int axis = 0;
-};
-
-BoxEntry enter_box(const Vector3& o, const Vector3& d, const Vector3& low, const Vector3& high) {
-  BoxEntry entry{-kNever, 0};
-  double leave = kNever;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double inverse = 1.0 / d[axis];
-    const double one = (low[axis] - o[axis]) * inverse;
-    const double other = (high[axis] - o[axis]) * inverse;
-    const double enter = std::min(one, other);
-    if (enter > entry.at) entry = {enter, axis};
-    leave = std::min(leave, std::max(one, other));
-  }
-  if (entry.at > leave || entry.at <= 0.0) return {};
-  return entry;
-}
 
 double multipath_path(double distance_m) { return distance_m * std::exp(-distance_m / kMultipathDecay_m); }
 
@@ -203,7 +165,7 @@ void Scene::shade_face(const Ray& ray, Hit& hit) const {
 void Scene::trace_ring(const Ray& ray, Hit& hit) const {
   const Ring& ring = *satellite_.ring;
   const Vector3& d = ray.direction;
-  const double front = -camera_T_.z() / d.z();
+  const double front = meet_level(camera_T_, d, 0.0);
   const double radius2 = (camera_T_ + front * d).head<2>().squaredNorm();
   if (front > 0.0 && front < hit.depth_m && radius2 <= ring.outer_radius_m * ring.outer_radius_m &&
       radius2 >= ring.inner_radius_m * ring.inner_radius_m) {
@@ -239,7 +201,7 @@ void Scene::trace_nozzle(const Ray& ray, Hit& hit) const {
            number_of(inside ? SurfaceKind::kNozzleInside : SurfaceKind::kNozzleOutside)};
     return;
   }
-  const double at = (nozzle.throat_z_m - camera_T_.z()) / d.z();
+  const double at = meet_level(camera_T_, d, nozzle.throat_z_m);
   if (at > 0.0 && at < hit.depth_m &&
       (camera_T_ + at * d).head<2>().squaredNorm() < nozzle.throat_radius_m * nozzle.throat_radius_m) {
     hit = {at, 0.3 * nozzle.albedo * std::abs(ray.to_camera.z()), nozzle.throat_radius_m,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/sim/optics/blur.hpp"
+
 namespace pharos::sim {
 namespace {
 
@@ -30,20 +32,12 @@ std::vector<float> normal_quantiles() {
 
 // Unit variance, correlation exp(-distance^2 / correlation^2): white noise blurred by half the distance.
 std::vector<float> correlated_noise(const Lens& lens, double correlation_px, RandomStream& random) {
-  const int width = lens.model().width_px;
-  const int height = lens.model().height_px;
-  std::vector<float> noise(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<float> noise(static_cast<std::size_t>(lens.width_px) * static_cast<std::size_t>(lens.height_px));
   fill_normal(noise, random);
   if (correlation_px <= 0.0) return noise;
-  const double sigma_px = 0.5 * correlation_px;
-  blur(noise, width, height, sigma_px);
-  // What blurring leaves of the variance: the sum of the kernel's squares, once for each direction.
-  std::vector<float> pulse(63 * 63);
-  pulse[31 * 63 + 31] = 1.0F;
-  blur(pulse, 63, 63, sigma_px);
-  double squares = 0.0;
-  for (const float value : pulse) squares += static_cast<double>(value) * static_cast<double>(value);
-  const auto gain = static_cast<float>(1.0 / std::sqrt(squares));
+  const Kernel kernel = gaussian_at_pixels(0.5 * correlation_px);
+  convolve(noise, lens.width_px, lens.height_px, kernel);
+  const auto gain = static_cast<float>(1.0 / std::sqrt(variance_ratio(kernel)));
   for (float& value : noise) value *= gain;
   return noise;
 }
@@ -60,14 +54,14 @@ void fill_normal(std::vector<float>& values, RandomStream& random) {
   }
 }
 
-TofPixels expose(const IdealFrame& ideal, const Lens& lens, const SensorModel& sensor, double nominal_counts,
+TofPixels expose(const IdealFrame& ideal, const PixelRays& rays, const SensorModel& sensor, double nominal_counts,
                  const DepthScale& scale, RandomStream random) {
-  TofPixels pixels{lens.model().width_px, lens.model().height_px, {}, {}};
+  TofPixels pixels{rays.lens().width_px, rays.lens().height_px, {}, {}};
   const std::size_t count = ideal.amplitude_counts.size();
   pixels.intensity.resize(count);
   pixels.depth.resize(count);
   const double common_m = sensor.common_sigma_m * random.normal();
-  const std::vector<float> depth_noise = correlated_noise(lens, sensor.correlation_px, random);
+  const std::vector<float> depth_noise = correlated_noise(rays.lens(), sensor.correlation_px, random);
   std::vector<float> light_noise(count);
   fill_normal(light_noise, random);
   const double sigma_counts_m = sensor.sigma_nominal_m * nominal_counts;
@@ -87,7 +81,7 @@ TofPixels expose(const IdealFrame& ideal, const Lens& lens, const SensorModel& s
         const double sigma_m = sigma_counts_m / std::max(ideal_counts, sensor.min_counts);
         double range = static_cast<double>(ideal.range_m[i]) + common_m + sigma_m * static_cast<double>(depth_noise[i]);
         if (range >= sensor.range_limit_m) range = std::fmod(range, sensor.range_limit_m);
-        const double z = range / lens.range_per_depth(u, v) - scale.origin_z_m;
+        const double z = range / rays.range_per_depth(u, v) - scale.origin_z_m;
         depth_counts = z / scale.scale_m + 0.5;  // cut off below: rounded
       }
       const bool fits = depth_counts >= 1.0 && depth_counts < kLastCount + 1.0;

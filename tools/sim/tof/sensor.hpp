@@ -38,7 +38,7 @@ struct TofPixels {
 
 /// Draws noise over an ideal frame. The depth noise is proportional to the inverse of the amplitude: at equal
 /// reflectance it grows with the square of the range, as sigma_nominal_m (range / kNominalRange_m)^2.
-TofPixels expose(const IdealFrame& ideal, const Lens& lens, const SensorModel& sensor, double nominal_counts,
+TofPixels expose(const IdealFrame& ideal, const PixelRays& rays, const SensorModel& sensor, double nominal_counts,
                  const DepthScale& scale, RandomStream random);
 
 /// Standard normal numbers for whole images, four from one draw of 64 bits: quantiles of 2^16 equal shares, so none

@@ -39,20 +39,21 @@ std::vector<Vector3> outline(const Satellite& satellite) {
   return points;
 }
 
-bool in_picture(const std::vector<Vector3>& points, const CameraFromTarget& pose, const Lens& lens, double margin_px) {
+bool in_picture(const std::vector<Vector3>& points, const CameraFromTarget& pose, const PixelRays& rays,
+                double margin_px) {
   return std::all_of(points.begin(), points.end(), [&](const Vector3& point) {
     const Vector3 p = pose * point;
     if (p.z() <= 0.0) return false;
-    const Vector2 pixel = lens.project(p);
-    return pixel.x() > margin_px && pixel.y() > margin_px && pixel.x() < lens.model().width_px - 1 - margin_px &&
-           pixel.y() < lens.model().height_px - 1 - margin_px;
+    const Vector2 pixel = rays.project(p);
+    return pixel.x() > margin_px && pixel.y() > margin_px && pixel.x() < rays.lens().width_px - 1 - margin_px &&
+           pixel.y() < rays.lens().height_px - 1 - margin_px;
   });
 }
 
-CameraFromTarget draw(const RandomPoses& limits, const Lens& lens, RandomStream& random) {
-  const int u = random.below(lens.model().width_px);
-  const int v = random.below(lens.model().height_px);
-  const Vector3 sight = Vector3(lens.ray(u, v).x(), lens.ray(u, v).y(), 1.0).normalized();
+CameraFromTarget draw(const RandomPoses& limits, const PixelRays& rays, RandomStream& random) {
+  const int u = random.below(rays.lens().width_px);
+  const int v = random.below(rays.lens().height_px);
+  const Vector3 sight = Vector3(rays.ray(u, v).x(), rays.ray(u, v).y(), 1.0).normalized();
   CameraFromTarget pose;
   pose.t = sight * random.uniform(limits.min_range_m, limits.max_range_m);
   // Facing along the line of sight, turned about it, then tilted about a random axis square to it.
@@ -79,18 +80,18 @@ PaperAngles angles_of(const Matrix3& R_camera_target) {
           std::atan2(-R(0, 1), R(0, 0)) / kRadPerDeg};
 }
 
-std::vector<CameraFromTarget> random_poses(const RandomPoses& limits, const Satellite& satellite, const Lens& lens,
+std::vector<CameraFromTarget> random_poses(const RandomPoses& limits, const Satellite& satellite, const PixelRays& rays,
                                            RandomStream random) {
   const std::vector<Vector3> points = outline(satellite);
   std::vector<CameraFromTarget> poses;
   for (int i = 0; i < limits.count; ++i) {
     int draws = 0;
-    CameraFromTarget pose = draw(limits, lens, random);
-    while (!in_picture(points, pose, lens, limits.margin_px)) {
+    CameraFromTarget pose = draw(limits, rays, random);
+    while (!in_picture(points, pose, rays, limits.margin_px)) {
       if (++draws == kMaxDraws) {
         throw host::InputError("trajectory: min_range_m: no random pose keeps the ring in the picture; raise it");
       }
-      pose = draw(limits, lens, random);
+      pose = draw(limits, rays, random);
     }
     poses.push_back(pose);
   }

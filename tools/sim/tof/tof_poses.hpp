@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/sim/random_stream.hpp"
-#include "tools/sim/tof/lens.hpp"
+#include "tools/sim/tof/pixel_rays.hpp"
 #include "tools/sim/tof/satellite.hpp"
 
 namespace pharos::sim {
@@ -31,7 +31,7 @@ struct RandomPoses {
 
 /// Range, tilt and turn uniform; the direction uniform over the picture among those that keep ring and connectors in
 /// it. Throws host::InputError where 10,000 draws give none.
-std::vector<CameraFromTarget> random_poses(const RandomPoses& limits, const Satellite& satellite, const Lens& lens,
+std::vector<CameraFromTarget> random_poses(const RandomPoses& limits, const Satellite& satellite, const PixelRays& rays,
                                            RandomStream random);
 
 /// From one pose to another at constant speed and turning rate, while the body spins about Z' and Z' nods.

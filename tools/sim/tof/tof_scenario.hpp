@@ -16,7 +16,7 @@ namespace pharos::sim {
 /// Defaults are those of the file; README.md lists keys and where the numbers come from.
 struct TofScenario {
   double frames_per_s = 30.0;
-  LensModel lens;
+  Lens lens = kPaperLens;
   DepthScale depth;
   ImagingModel imaging;
   SensorModel sensor;

@@ -17,8 +17,8 @@ constexpr Range kReflectance{0.0, 100.0};
 constexpr Range kTurn_deg{-360.0, 360.0};
 constexpr std::int64_t kMaxFrames = 1'000'000;
 
-LensModel read_lens(const TomlTable& table) {
-  LensModel lens;
+Lens read_lens(const TomlTable& table) {
+  Lens lens = kPaperLens;
   lens.width_px = static_cast<int>(table.integer_or("width_px", lens.width_px, 32, 4096));
   lens.height_px = static_cast<int>(table.integer_or("height_px", lens.height_px, 32, 4096));
   lens.fx_px = table.number_or("fx_px", lens.fx_px, {10.0, 1e5});
@@ -181,7 +181,7 @@ std::vector<CameraFromTarget> read_random(const TomlTable& table, const TofScena
   limits.max_range_m = table.number_or("max_range_m", limits.max_range_m, {limits.min_range_m, 100.0});
   limits.max_tilt_deg = table.number_or("max_tilt_deg", limits.max_tilt_deg, {0.0, 89.0});
   limits.margin_px = table.number_or("margin_px", limits.margin_px, {-1e4, 1e4});
-  return random_poses(limits, scenario.satellite, Lens(scenario.lens), RandomStream(seed, "tof poses"));
+  return random_poses(limits, scenario.satellite, PixelRays(scenario.lens), RandomStream(seed, "tof poses"));
 }
 
 std::vector<CameraFromTarget> read_approach(const TomlTable& table, double frames_per_s) {

@@ -28,7 +28,7 @@ std::string purpose(const char* what, int frame) { return "tof " + std::string(w
 TofSimulator::TofSimulator(TofScenario scenario, std::uint64_t seed)
     : scenario_(std::move(scenario)),
       seed_(seed),
-      lens_(scenario_.lens),
+      rays_(scenario_.lens),
       foil_(scenario_.satellite.foil.height_m, RandomStream(seed, "tof foil")) {}
 
 TofTruth TofSimulator::truth(int frame) const {
@@ -53,14 +53,14 @@ const IdealFrame& TofSimulator::ideal(int frame) {
   if (!same) {
     Satellite satellite = scenario_.satellite;
     satellite.occluder = occluder_of(frame);
-    ideal_ = render_ideal(Scene(satellite, foil_, pose(frame)), lens_, scenario_.imaging);
+    ideal_ = render_ideal(Scene(satellite, foil_, pose(frame)), rays_, scenario_.imaging);
   }
   rendered_ = frame;
   return ideal_;
 }
 
 TofPixels TofSimulator::fresh_pixels(int frame) {
-  return expose(ideal(frame), lens_, scenario_.sensor, scenario_.imaging.nominal_counts, scenario_.depth,
+  return expose(ideal(frame), rays_, scenario_.sensor, scenario_.imaging.nominal_counts, scenario_.depth,
                 RandomStream(seed_, purpose("noise", frame)));
 }
 
@@ -76,7 +76,7 @@ TofPixels TofSimulator::pixels(int frame) {
   return pixels;
 }
 
-std::vector<std::uint8_t> abcy16_of(const TofPixels& pixels, const Lens& lens, const DepthScale& depth,
+std::vector<std::uint8_t> abcy16_of(const TofPixels& pixels, const PixelRays& rays, const DepthScale& depth,
                                     const RawCoordinates& raw) {
   constexpr std::uint16_t kNone = 0xFFFF;
   std::vector<std::uint8_t> bytes;
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> abcy16_of(const TofPixels& pixels, const Lens& lens, c
       const bool valid = pixels.depth[i] != 0;
       const double z = pixels.depth[i] * depth.scale_m;
       const double from_centre = z + depth.origin_z_m;
-      const Vector3 point(lens.ray(u, v).x() * from_centre, lens.ray(u, v).y() * from_centre, z);
+      const Vector3 point(rays.ray(u, v).x() * from_centre, rays.ray(u, v).y() * from_centre, z);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double count =
             std::round((point[static_cast<Eigen::Index>(axis)] - raw.offset_m[axis]) / raw.scale_m[axis]);

@@ -20,11 +20,11 @@ struct TofTruth {
 /// and number give the same pixels. About 50 ms a frame on one core; 15 ms where the pose is that of the frame before.
 class TofSimulator {
  public:
-  /// Throws host::InputError where the lens cannot be (see Lens).
+  /// Throws host::InputError where the lens cannot be (see PixelRays).
   TofSimulator(TofScenario scenario, std::uint64_t seed);
 
   const TofScenario& scenario() const { return scenario_; }
-  const Lens& lens() const { return lens_; }
+  const PixelRays& rays() const { return rays_; }
   int frames() const { return static_cast<int>(scenario_.poses.size()); }
 
   TofTruth truth(int frame) const;
@@ -38,7 +38,7 @@ class TofSimulator {
 
   TofScenario scenario_;
   std::uint64_t seed_;
-  Lens lens_;
+  PixelRays rays_;
   FoilTexture foil_;
   IdealFrame ideal_;
   int rendered_ = -1;  // frame of ideal_
@@ -50,7 +50,7 @@ struct RawCoordinates {
   std::array<double, 3> scale_m{0.00025, 0.00025, 0.00025};
   std::array<double, 3> offset_m{-8.192, -8.192, 0.0};
 };
-std::vector<std::uint8_t> abcy16_of(const TofPixels& pixels, const Lens& lens, const DepthScale& depth,
+std::vector<std::uint8_t> abcy16_of(const TofPixels& pixels, const PixelRays& rays, const DepthScale& depth,
                                     const RawCoordinates& raw);
 
 }  // namespace pharos::sim

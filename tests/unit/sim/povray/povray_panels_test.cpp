@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kRaysPerSide = 4;
 // The middle of the satellite, 8 mm a pixel, its edge and a panel.
-const PinholeCamera kCamera{160, 120, 640.0, 630.0, 20.0, 70.0, {}};
+const Lens kLens{160, 120, 640.0, 630.0, 20.0, 70.0, {}};
 
 struct Both {
   LinearImage povray, rays;
@@ -31,12 +31,11 @@ Both rendered(const Lighting& lighting) {
   const PanelScene scene = moved(satellite_scene(1), rotation_exp({0.35, 0.4, 0.1}), {0.1, 0.0, 5.0});
   const Pose<frame::Rig, frame::Camera> T_scene_camera{rotation_exp({0.01, -0.02, 0.03}), Vector3(-0.25, 0.05, 0.0)};
   write_texture_files(scene, folder);
-  const PovrayView view{kCamera.width_px, kCamera.height_px, kCamera.fx_px,
-                        kCamera.fy_px,    kCamera.cx_px,     kCamera.cy_px};
-  const std::string text = povray_preamble() + povray_camera(view, T_scene_camera.R, T_scene_camera.t) +
+  const std::string text = povray_preamble() + povray_camera(kLens, T_scene_camera.R, T_scene_camera.t) +
                            povray_panels(scene, lighting, folder, 0.0);
-  Both both{render_scene(text, {kCamera.width_px, kCamera.height_px, kRaysPerSide, 0.0, 1}),
-            cast_panels(scene, lighting, kCamera, pixel_rays(kCamera, kRaysPerSide), kRaysPerSide, T_scene_camera)};
+  const RayGrid rays = RayGrid::inside_pixels(kLens, kRaysPerSide);
+  Both both{render_scene(text, {kLens.width_px, kLens.height_px, kRaysPerSide, 0.0, 1}),
+            cast_panels(scene, lighting, kLens, rays, kRaysPerSide, T_scene_camera)};
   std::filesystem::remove_all(folder);
   return both;
 }

@@ -45,13 +45,13 @@ Blob blob_in(const LinearImage& image, double light) {
 
 TEST(RenderScene, PutsAPointWhereThePinholeHasIt) {
   // Principal point far from the middle, unequal focal lengths, a camera that stands and looks somewhere else.
-  const PovrayView view{160, 120, 300.0, 280.0, 61.3, 70.8};
+  const Lens lens{160, 120, 300.0, 280.0, 61.3, 70.8, {}};
   const Matrix3 R_world_camera = rotation_exp({0.2, -0.4, 0.7});
   const Vector3 t_world_camera(0.5, -1.0, 2.0);
   const Vector3 ball_camera(0.12, -0.09, 3.0);
   const Vector3 ball_world = R_world_camera * ball_camera + t_world_camera;
   const LinearImage image = render_scene(
-      povray_preamble() + povray_camera(view, R_world_camera, t_world_camera) + glowing_ball(ball_world, 0.06, 0.5),
+      povray_preamble() + povray_camera(lens, R_world_camera, t_world_camera) + glowing_ball(ball_world, 0.06, 0.5),
       {.width_px = 160, .height_px = 120, .rays_per_side = 9, .antialias_threshold = 0.0});
   const Blob blob = blob_in(image, 0.5);
   // A small ball's image is an ellipse whose centre lies (radius/range)^2 farther out than its centre's image.
@@ -61,10 +61,10 @@ TEST(RenderScene, PutsAPointWhereThePinholeHasIt) {
 }
 
 TEST(RenderScene, LightIsLinear) {
-  const PovrayView view{8, 8, 10.0, 10.0, 3.5, 3.5};
+  const Lens lens = centred_lens(8, 8, 10.0);
   const auto light_of = [&](double light) {
     const LinearImage image =
-        render_scene(povray_preamble() + povray_camera(view, Matrix3::Identity(), Vector3::Zero()) +
+        render_scene(povray_preamble() + povray_camera(lens, Matrix3::Identity(), Vector3::Zero()) +
                          glowing_ball({0, 0, 5}, 4.0, light),
                      {.width_px = 8, .height_px = 8, .rays_per_side = 1});
     return static_cast<double>(image.at(4, 4));

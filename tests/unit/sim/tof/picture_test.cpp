@@ -11,9 +11,9 @@
 namespace pharos::sim {
 namespace {
 
-const Lens& lens() {
-  static const Lens kLens{LensModel{}};
-  return kLens;
+const PixelRays& rays() {
+  static const PixelRays kRays(kPaperLens);
+  return kRays;
 }
 
 const FoilTexture& foil() {
@@ -31,7 +31,7 @@ CameraFromTarget tilted() { return {attitude_of({12.0, -20.0, 35.0}), {0.15, -0.
 
 IdealFrame picture(const Satellite& satellite, const CameraFromTarget& pose, const ImagingModel& imaging = {}) {
   const FoilTexture& texture = satellite.foil.height_m > 0.0 ? foil() : flat();
-  return render_ideal(Scene(satellite, texture, pose), lens(), imaging);
+  return render_ideal(Scene(satellite, texture, pose), rays(), imaging);
 }
 
 std::size_t at(int u, int v) { return static_cast<std::size_t>(v) * 640 + static_cast<std::size_t>(u); }
@@ -56,10 +56,10 @@ TEST(IdealFrame, TheRingsFrontLiesInThePlaneOfThePose) {
   const Vector3 normal = tilted().R.col(2);
   const double middle = 0.5 * (satellite.ring->outer_radius_m + satellite.ring->inner_radius_m);
   for (int i = 0; i < 60; ++i) {
-    const Vector2 pixel = lens().project(tilted() * on_circle(middle, i * std::numbers::pi / 30.0));
+    const Vector2 pixel = rays().project(tilted() * on_circle(middle, i * std::numbers::pi / 30.0));
     const int u = static_cast<int>(std::lround(pixel.x()));
     const int v = static_cast<int>(std::lround(pixel.y()));
-    const Vector3 ray(lens().ray(u, v).x(), lens().ray(u, v).y(), 1.0);
+    const Vector3 ray(rays().ray(u, v).x(), rays().ray(u, v).y(), 1.0);
     const double depth = static_cast<double>(frame.range_m[at(u, v)]) / ray.norm();
     EXPECT_NEAR(normal.dot(depth * ray - tilted().t), 0.0, 2e-5) << i;
   }
@@ -80,8 +80,8 @@ TEST(IdealFrame, TheRingsEdgesAreWhereItsCirclesProject) {
     constexpr int kPlaces = 180;
     for (int i = 0; i < kPlaces; ++i) {
       const double angle = i * 2.0 * std::numbers::pi / kPlaces;
-      const Vector2 edge = lens().project(facing * on_circle(radius, angle));
-      const Vector2 ringwards = (lens().project(facing * on_circle(radius + 0.01 * inward, angle)) - edge).normalized();
+      const Vector2 edge = rays().project(facing * on_circle(radius, angle));
+      const Vector2 ringwards = (rays().project(facing * on_circle(radius + 0.01 * inward, angle)) - edge).normalized();
       const double full = amplitude_at(frame, edge + 4.0 * ringwards);
       double place = -2.0;
       while (place < 2.0 && amplitude_at(frame, edge + place * ringwards) < 0.5 * full) place += 0.01;
@@ -97,7 +97,7 @@ TEST(IdealFrame, AmplitudeFallsWithTheSquareOfRangeAndIsNominalForTheRing) {
     const CameraFromTarget pose{attitude_of({0.0, 0.0, 0.0}), {0.0, 0.0, range}};
     const IdealFrame frame = picture(satellite, pose);
     const Vector3 point = pose * on_circle(0.5 * (0.55 + 0.4895), 0.8);
-    const Vector2 pixel = lens().project(point);
+    const Vector2 pixel = rays().project(point);
     const double near = kNominalRange_m / point.norm();
     EXPECT_NEAR(amplitude_at(frame, pixel), 8000.0 * near * near * point.z() / point.norm(), 20.0);
   }
@@ -109,7 +109,7 @@ TEST(IdealFrame, ConnectorsStandAboveTheFaceWhereTheyWerePut) {
   for (const Connector& connector : satellite.connectors) {
     const Vector3 top = tilted() * on_circle(connector.distance_m, connector.direction_deg * std::numbers::pi / 180.0,
                                              satellite.face_z_m + connector.height_m);
-    const Vector2 pixel = lens().project(top);
+    const Vector2 pixel = rays().project(top);
     const int u = static_cast<int>(std::lround(pixel.x()));
     const int v = static_cast<int>(std::lround(pixel.y()));
     EXPECT_NEAR(static_cast<double>(frame.range_m[at(u, v)]), top.norm(), 0.004);
@@ -121,7 +121,7 @@ TEST(IdealFrame, NozzleIsDeepInTheMiddleAndItsRimStandsBeforeTheRing) {
   const CameraFromTarget facing{attitude_of({0.0, 0.0, 0.0}), {0.0, 0.0, 3.0}};
   const IdealFrame frame = picture(satellite, facing);
   const auto range = [&](const Vector3& p) {
-    const Vector2 pixel = lens().project(facing * p);
+    const Vector2 pixel = rays().project(facing * p);
     return static_cast<double>(
         frame.range_m[at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())))]);
   };
@@ -142,7 +142,7 @@ TEST(IdealFrame, FlyingPixelsLieBetweenTheTwoSidesOfAnEdge) {
   int between = 0;
   for (int v = 150; v < 330; ++v) {
     for (int u = 230; u < 410; ++u) {
-      const double z = static_cast<double>(frame.range_m[at(u, v)]) / lens().range_per_depth(u, v);
+      const double z = static_cast<double>(frame.range_m[at(u, v)]) / rays().range_per_depth(u, v);
       EXPECT_GT(z, 4.0 - 1e-4);
       EXPECT_LT(z, 4.0 - satellite.face_z_m + 1e-4);
       if (z > 4.02 && z < 4.08) ++between;
@@ -160,7 +160,7 @@ TEST(IdealFrame, MultipathMakesTheRingsInsideSeemFartherAndLeavesItsFront) {
   const IdealFrame with = picture(satellite, facing);
   const IdealFrame clean = picture(satellite, facing, without);
   const auto added = [&](double radius, double z) {
-    const Vector2 pixel = lens().project(facing * on_circle(radius, 0.5, z));
+    const Vector2 pixel = rays().project(facing * on_circle(radius, 0.5, z));
     const std::size_t i = at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
     return static_cast<double>(with.range_m[i] - clean.range_m[i]);
   };
@@ -177,7 +177,7 @@ TEST(IdealFrame, TheBoomHidesItsShareOfTheRing) {
   for (int i = 0; i < kPlaces; ++i) {
     const Vector3 point =
         tilted() * on_circle(satellite.ring->outer_radius_m - 0.01, i * 2 * std::numbers::pi / kPlaces);
-    const Vector2 pixel = lens().project(point);
+    const Vector2 pixel = rays().project(point);
     const std::size_t j = at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
     if (static_cast<double>(frame.range_m[j]) < point.norm() - 0.2) ++hidden;
   }
@@ -192,7 +192,7 @@ TEST(IdealFrame, PaintedCirclesShowInLightAndNotInDepth) {
   satellite.circles = {PaintedCircle{}};
   const CameraFromTarget facing{attitude_of({0.0, 0.0, 0.0}), {0.0, 0.0, 3.0}};
   const IdealFrame frame = picture(satellite, facing);
-  const auto pixel = [&](double radius) { return lens().project(facing * on_circle(radius, 0.3, satellite.face_z_m)); };
+  const auto pixel = [&](double radius) { return rays().project(facing * on_circle(radius, 0.3, satellite.face_z_m)); };
   EXPECT_GT(amplitude_at(frame, pixel(0.1)), 3.0 * amplitude_at(frame, pixel(0.05)));
   const Vector2 line = pixel(0.1);
   const std::size_t i = at(static_cast<int>(std::lround(line.x())), static_cast<int>(std::lround(line.y())));

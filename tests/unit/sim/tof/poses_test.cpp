@@ -27,12 +27,12 @@ TEST(PaperAngles, ComeBackFromTheAttitude) {
 }
 
 TEST(RandomPoses, KeepTheirLimitsAndTheRingInThePicture) {
-  const Lens lens{LensModel{}};
+  const PixelRays rays(kPaperLens);
   const Satellite satellite = satellite_of_ring(1.1);
   RandomPoses limits;
   limits.count = 300;
   double largest_tilt = 0.0;
-  for (const CameraFromTarget& pose : random_poses(limits, satellite, lens, RandomStream(3, "poses"))) {
+  for (const CameraFromTarget& pose : random_poses(limits, satellite, rays, RandomStream(3, "poses"))) {
     EXPECT_GE(pose.t.norm(), 2.5);
     EXPECT_LE(pose.t.norm(), 6.0);
     EXPECT_NEAR((pose.R.transpose() * pose.R - Matrix3::Identity()).norm(), 0.0, 1e-12);
@@ -42,7 +42,7 @@ TEST(RandomPoses, KeepTheirLimitsAndTheRingInThePicture) {
     largest_tilt = std::max(largest_tilt, tilt);
     for (int i = 0; i < 90; ++i) {
       const double angle = i * std::numbers::pi / 45.0;
-      const Vector2 pixel = lens.project(pose * Vector3(0.55 * std::cos(angle), 0.55 * std::sin(angle), 0.0));
+      const Vector2 pixel = rays.project(pose * Vector3(0.55 * std::cos(angle), 0.55 * std::sin(angle), 0.0));
       EXPECT_TRUE(pixel.x() > 7.0 && pixel.x() < 632.0 && pixel.y() > 7.0 && pixel.y() < 472.0);
     }
   }
@@ -52,7 +52,7 @@ TEST(RandomPoses, KeepTheirLimitsAndTheRingInThePicture) {
 TEST(RandomPoses, SayWhenTheRingCannotFit) {
   RandomPoses limits;
   limits.min_range_m = limits.max_range_m = 0.8;
-  EXPECT_THROW(random_poses(limits, satellite_of_ring(1.1), Lens{LensModel{}}, RandomStream(1, "poses")),
+  EXPECT_THROW(random_poses(limits, satellite_of_ring(1.1), PixelRays(kPaperLens), RandomStream(1, "poses")),
                host::InputError);
 }
 
@@ -99,7 +99,7 @@ TEST(TofSimulator, RawCoordinatesSayTheSameAsDepth) {
   TofSimulator simulator(two_poses(), 7);
   const TofPixels pixels = simulator.pixels(0);
   const RawCoordinates raw;
-  const std::vector<std::uint8_t> bytes = abcy16_of(pixels, simulator.lens(), {}, raw);
+  const std::vector<std::uint8_t> bytes = abcy16_of(pixels, simulator.rays(), {}, raw);
   ASSERT_EQ(bytes.size(), 640u * 480u * 8u);
   int valid = 0;
   for (std::size_t i = 0; i < pixels.depth.size(); i += 97) {
@@ -114,7 +114,7 @@ TEST(TofSimulator, RawCoordinatesSayTheSameAsDepth) {
     const int u = static_cast<int>(i % 640);
     const int v = static_cast<int>(i / 640);
     const double x = word(0) * raw.scale_m[0] + raw.offset_m[0];
-    EXPECT_NEAR(x, simulator.lens().ray(u, v).x() * pixels.depth[i] * 0.00025, 0.000126);
+    EXPECT_NEAR(x, simulator.rays().ray(u, v).x() * pixels.depth[i] * 0.00025, 0.000126);
   }
   EXPECT_GT(valid, 500);
 }

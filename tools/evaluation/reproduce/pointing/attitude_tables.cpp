@@ -36,7 +36,7 @@ std::string number(double value) {
 
 sim::PointingScenario scenario_of(std::uint64_t seed) {
   sim::PointingScenario scenario;
-  scenario.camera.width_px = scenario.camera.height_px = kSide_px;
+  scenario.camera = sim::centred_lens(kSide_px, kSide_px, sim::kLineFocal_px);
   scenario.imaging.sensor.bits = 16;
   scenario.station = {kLatitude_deg * kRadPerDeg, kLongitude_deg * kRadPerDeg, 0.0};
   sim::RandomStream random(seed, "line views");
@@ -82,14 +82,7 @@ void add_rows(std::vector<ComparisonRow>& rows, std::size_t k, const pointing::P
 
 std::vector<ComparisonRow> reproduce_attitudes(std::uint64_t seed) {
   const sim::PointingScenario scenario = scenario_of(seed);
-  const sim::PointingCamera& lens = scenario.camera;
-  const PinholeCamera camera{lens.width_px,
-                             lens.height_px,
-                             lens.focal_px,
-                             lens.focal_px,
-                             0.5 * (lens.width_px - 1),
-                             0.5 * (lens.height_px - 1),
-                             {}};
+  const auto camera = sim::optics_as<PinholeCamera>(scenario.camera);
   std::vector<ComparisonRow> rows;
   int answered = 0;
   for (std::size_t k = 0; k < scenario.views.size(); ++k) {

@@ -19,8 +19,7 @@ inline Rig core_rig(const sim::StereoRig& from) {
   Rig rig;
   for (std::size_t v = 0; v < kViews; ++v) {
     const sim::StereoCamera& camera = from[v];
-    rig.views[v].intrinsics = {camera.width_px, camera.height_px, camera.fx_px,     camera.fy_px,
-                               camera.cx_px,    camera.cy_px,     camera.distortion};
+    rig.views[v].intrinsics = sim::optics_as<PinholeCamera>(camera);
     rig.views[v].T_rig_camera = {camera.R_rig_camera, camera.t_rig_camera_m};
   }
   return rig;

@@ -10,9 +10,8 @@ namespace pharos::tools {
 
 /// The core's camera for a simulated one.
 inline DepthCamera depth_camera_of(const sim::TofScenario& scenario) {
-  const sim::LensModel& lens = scenario.lens;
   DepthCamera camera;
-  camera.intrinsics = {lens.width_px, lens.height_px, lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px, lens.distortion};
+  camera.intrinsics = sim::optics_as<PinholeCamera>(scenario.lens);
   camera.depth_scale_m = scenario.depth.scale_m;
   camera.depth_origin_z_m = scenario.depth.origin_z_m;
   return camera;

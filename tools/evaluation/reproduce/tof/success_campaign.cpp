@@ -25,7 +25,7 @@ sim::TofSimulator simulator_of(const CampaignOptions& options) {
   limits.count = options.frames;
   limits.min_range_m = options.min_range_m;
   limits.max_range_m = options.max_range_m;
-  scenario.poses = sim::random_poses(limits, scenario.satellite, sim::Lens(scenario.lens),
+  scenario.poses = sim::random_poses(limits, scenario.satellite, sim::PixelRays(scenario.lens),
                                      sim::RandomStream(options.seed, "campaign poses"));
   return {std::move(scenario), options.seed};
 }

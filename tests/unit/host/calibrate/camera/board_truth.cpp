@@ -14,8 +14,7 @@ constexpr int kSpokes = 40;
 constexpr double kStep_m = 1e-6;
 
 Vector2 seen(const sim::Lens& lens, const CameraFromBoard& T, const Vector3& p_board) {
-  const auto [u, v] = sim::pixel_of(lens, T * p_board);
-  return {u, v};
+  return sim::pixel_of(lens, T * p_board);
 }
 
 }  // namespace
@@ -66,9 +65,7 @@ std::vector<double> values_of(const PinholeCamera& camera, bool fix_k3) {
   return values;
 }
 
-PinholeCamera camera_of(const sim::Lens& lens) {
-  return {lens.width_px, lens.height_px, lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px, lens.distortion};
-}
+PinholeCamera camera_of(const sim::Lens& lens) { return sim::optics_as<PinholeCamera>(lens); }
 
 std::vector<double> values_of(const sim::Lens& lens, bool fix_k3) { return values_of(camera_of(lens), fix_k3); }
 

@@ -31,6 +31,4 @@ struct Errors {
 };
 Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool fix_k3);
 
-inline GreyView view_of(const sim::BoardImage& image) { return {image.pixels.data(), image.width_px, image.height_px}; }
-
 }  // namespace pharos::calibrate

@@ -33,12 +33,12 @@ CameraCalibration calibrated(const std::vector<CameraFromBoard>& poses, double s
 CameraCalibration calibrated_from_renders(const sim::BoardSheet& sheet, const CalibrationChoices& choices, int count,
                                           const sim::Exposure& exposure) {
   static const sim::BoardRenderer renderer(sim::kPaperLens);
-  std::vector<sim::BoardImage> images;
+  std::vector<host::GreyImage> images;
   for (const CameraFromBoard& T : sim::board_poses(sim::kPaperLens, sheet, count, 3)) {
     images.push_back(renderer.render(sheet, T, exposure, images.size()));
   }
   std::vector<BoardPicture> pictures;
-  for (const sim::BoardImage& image : images) pictures.push_back({std::to_string(pictures.size()), view_of(image)});
+  for (const host::GreyImage& image : images) pictures.push_back({std::to_string(pictures.size()), image.view()});
   return calibrate_camera(pictures, choices);
 }
 

@@ -23,8 +23,7 @@ CameraFromBoard in_the_middle(const sim::BoardSheet& sheet) {
 
 BoardSearch search(const sim::BoardSheet& sheet, const CameraFromBoard& T, const sim::Exposure& exposure,
                    const Board& board = {}) {
-  const sim::BoardImage image = renderer().render(sheet, T, exposure, 1);
-  return find_dots(view_of(image), board);
+  return find_dots(renderer().render(sheet, T, exposure, 1).view(), board);
 }
 
 TEST(FindDots, CentresAreNearTheNoiseBoundAndTheirSigmasAreTrue) {

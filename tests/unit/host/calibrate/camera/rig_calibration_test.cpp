@@ -84,7 +84,7 @@ TEST(RigCalibration, RenderedPairsGiveTheRigAndNameWhatWasNotUsed) {
   const sim::BoardRenderer renderer(sim::kPaperLens);
   sim::Exposure exposure;
   exposure.noise = 280.0;
-  std::vector<sim::BoardImage> images;
+  std::vector<host::GreyImage> images;
   for (const Vector3& tilt : {Vector3(0.5, 0.0, 0.0), Vector3(-0.3, 0.5, 0.0), Vector3(0.0, -0.5, 0.2)}) {
     const CameraFromBoard T = sim::board_at(sheet, {0.04, 0.01, 0.45}, tilt);
     images.push_back(renderer.render(sheet, T, exposure, images.size()));
@@ -92,11 +92,11 @@ TEST(RigCalibration, RenderedPairsGiveTheRigAndNameWhatWasNotUsed) {
   }
   std::vector<BoardPicture> left, right;
   for (std::size_t i = 0; i < images.size(); i += 2) {
-    left.push_back({"left" + std::to_string(i), view_of(images[i])});
-    right.push_back({"right" + std::to_string(i), view_of(images[i + 1])});
+    left.push_back({"left" + std::to_string(i), images[i].view()});
+    right.push_back({"right" + std::to_string(i), images[i + 1].view()});
   }
   const std::vector<std::uint16_t> dark(640 * 480);
-  left.push_back({"left_good", view_of(images[0])});
+  left.push_back({"left_good", images[0].view()});
   right.push_back({"right_dark", {dark.data(), 640, 480}});
   const RigCalibration result = calibrate_rig(left, right, {{}, true});
   ASSERT_EQ(result.refusal, "");

@@ -19,16 +19,6 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-PinholeCamera camera_of(const sim::PointingCamera& camera) {
-  return {camera.width_px,
-          camera.height_px,
-          camera.focal_px,
-          camera.focal_px,
-          0.5 * (camera.width_px - 1),
-          0.5 * (camera.height_px - 1),
-          {}};
-}
-
 pointing::LineOfSight sight_of(const sim::PointingView& view) { return {view.azimuth_rad, view.elevation_rad}; }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
@@ -40,7 +30,8 @@ struct Figures {
 
   void add(const sim::PointingScenario& scenario, std::size_t index) {
     ++images;
-    const auto panel = measure_panel(sim::pointing_image(scenario, index, kSeed).view(), camera_of(scenario.camera));
+    const auto panel = measure_panel(sim::pointing_image(scenario, index, kSeed).view(),
+                                     sim::optics_as<PinholeCamera>(scenario.camera));
     if (!panel) return;
     ++answered;
     const PointingResult answer = answer_of(*panel, sight_of(scenario.views[index]));
@@ -96,7 +87,8 @@ class PointingCampaignAt : public ::testing::TestWithParam<double> {};
 TEST_P(PointingCampaignAt, TheSigmaStatesWhatIsKnown) {
   const double range_m = GetParam();
   sim::PointingScenario scenario = sim::read_pointing_scenario(scenario_file("line_attitudes.toml"), kSeed);
-  scenario.camera.focal_px *= range_m / 100.0;
+  scenario.camera.fx_px *= range_m / 100.0;
+  scenario.camera.fy_px *= range_m / 100.0;
   scenario.views.resize(12);
   Figures figures;
   for (std::size_t k = 0; k < scenario.views.size(); ++k) {
@@ -129,7 +121,8 @@ TEST_P(PointingCampaignPass, TellsTheAxisUnderItsLawAndRejectsAnother) {
   std::vector<pointing::PassImage> images;
   for (std::size_t k = 0; k < scenario.views.size(); ++k) {
     const sim::PointingView& view = scenario.views[k];
-    const auto panel = measure_panel(sim::pointing_image(scenario, k, kSeed).view(), camera_of(scenario.camera));
+    const auto panel =
+        measure_panel(sim::pointing_image(scenario, k, kSeed).view(), sim::optics_as<PinholeCamera>(scenario.camera));
     if (!panel) continue;
     // No ranges: what an optical station knows.
     images.push_back({{view.time_s, sight_of(view), 0.0}, answer_of(*panel, sight_of(view)).planes_station});

@@ -6,8 +6,9 @@
 #include "host/images/grey_image.hpp"
 #include "host/vision/ring2/ring2_detector.hpp"
 #include "tools/evaluation/reproduce/ring2/simulated_pair.hpp"
+#include "tools/sim/optics/blur.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
 #include "tools/sim/povray/render_scene.hpp"
-#include "tools/sim/povray/sensor.hpp"
 #include "tools/sim/ring2/ring2_scenario.hpp"
 
 namespace pharos::host {

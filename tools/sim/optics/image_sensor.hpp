@@ -2,12 +2,12 @@
 #pragma once
 
 #include "host/images/grey_image.hpp"
-#include "tools/sim/povray/linear_image.hpp"
+#include "tools/sim/optics/linear_image.hpp"
 #include "tools/sim/random_stream.hpp"
 
 namespace pharos::sim {
 
-/// The camera of all simulated images: light to electrons to counts.
+/// The sensor of all simulated grey images: light to electrons to counts.
 struct ImageSensor {
   double full_well_e = 10000.0;
   double read_noise_e = 6.0;
@@ -16,17 +16,14 @@ struct ImageSensor {
   /// scene with its lights turned down and this value left alone.
   double electrons_per_light = 8000.0;
   int bits = 8;  ///< of the counts: 8 or 16; a full well is the largest
+  bool shot_noise = true;
 };
 
-/// Optics or seeing: the image convolved with a Gaussian of `sigma_px`; beyond its border the image goes on as it ends.
-/// 0 leaves it alone.
-LinearImage blurred(const LinearImage& image, double sigma_px);
+/// The light that all but the brightest thousandth of the pixels stay below, whatever glints; with `lit_only` of the
+/// pixels that have any. 0 where there are none.
+double peak_light(const LinearImage& image, bool lit_only = false);
 
-/// The light that all but the brightest thousandth of the pixels stay below: what a scene's light peaks at, whatever
-/// glints.
-double peak_light(const LinearImage& image);
-
-/// One exposure: shot noise, read noise, a well that overflows, rounding to counts. The pixels are 16-bit values as
+/// One exposure: shot noise, a well that overflows, read noise, rounding to counts. The pixels are 16-bit values as
 /// read_grey_image would give them (8 bits: count * 257).
 host::GreyImage expose(const LinearImage& image, const ImageSensor& sensor, RandomStream& random);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/sim/povray/sensor.hpp"
+#include "tools/sim/optics/image_sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,26 +46,34 @@ TEST(ImageSensor, AFullWellIsTheLargestCount) {
   EXPECT_EQ(expose(image, {.read_noise_e = 0.0, .bits = 16}, random).pixels[0], 65535);
 }
 
-TEST(Blur, KeepsLightAndSpreadsItAsAsked) {
-  LinearImage image{41, 31, std::vector<float>(41 * 31, 0.0F)};
-  image.at(20, 15) = 1.0F;
-  const LinearImage soft = blurred(image, 1.5);
-  double total = 0.0;
-  double square = 0.0;
-  for (std::int32_t v = 0; v < 31; ++v) {
-    for (std::int32_t u = 0; u < 41; ++u) {
-      total += static_cast<double>(soft.at(u, v));
-      square += static_cast<double>(soft.at(u, v)) * (u - 20) * (u - 20);
-    }
-  }
-  EXPECT_NEAR(total, 1.0, 1e-5);
-  EXPECT_NEAR(square, 1.5 * 1.5 + 1.0 / 12.0, 0.01);  // the pixel's own width adds 1/12
+TEST(ImageSensor, WithoutShotNoiseOnlyReadingIsNoise) {
+  const Moments moments = exposed(0.5F, {.read_noise_e = 20.0, .bits = 16, .shot_noise = false});
+  EXPECT_NEAR(moments.mean, 4000.0, 0.5);
+  EXPECT_NEAR(moments.sigma, 20.0, 0.3);
 }
 
-TEST(Blur, PeakLightIgnoresGlints) {
+TEST(ImageSensor, EightBitsRoundToTheNearestCountAndComeAsReadFromAFile) {
+  // 10 of 255 counts are 392.2 electrons of the well.
+  const LinearImage image{2, 1, {390.0F / 8000.0F, 415.0F / 8000.0F}};
+  RandomStream random(1, "sensor");
+  const host::GreyImage grey = expose(image, {.read_noise_e = 0.0, .bits = 8, .shot_noise = false}, random);
+  EXPECT_EQ(grey.bits, 8);
+  EXPECT_EQ(grey.pixels[0], 10 * 257);
+  EXPECT_EQ(grey.pixels[1], 11 * 257);
+}
+
+TEST(PeakLight, IgnoresGlints) {
   LinearImage image{100, 100, std::vector<float>(10000, 0.4F)};
   for (int i = 0; i < 9; ++i) image.light[static_cast<std::size_t>(i * 1000)] = 1.0F;
   EXPECT_FLOAT_EQ(static_cast<float>(peak_light(image)), 0.4F);
+}
+
+TEST(PeakLight, OfTheLitPixelsIsThatOfAThingHoweverSmallItStandsInTheImage) {
+  LinearImage image{100, 100, std::vector<float>(10000, 0.0F)};
+  image.at(50, 50) = 0.7F;
+  EXPECT_EQ(peak_light(image), 0.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(peak_light(image, true)), 0.7F);
+  EXPECT_EQ(peak_light({2, 1, {0.0F, 0.0F}}, true), 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/sim/stereo_tumbling/tumbling_options.hpp"
+#include "tools/sim/command/tumbling_options.hpp"
 
 #include <memory>
 
