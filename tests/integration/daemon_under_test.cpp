@@ -39,9 +39,9 @@ DaemonUnderTest::DaemonUnderTest()
     lcm_->subscribe(std::string("PHAROS_") + system + "_POSE", &DaemonUnderTest::on_pose, this)
         ->setQueueCapacity(kMessages);
   }
-  lcm_->subscribe("PHAROS_LINE_POINTING", &DaemonUnderTest::on_pointing, this);
-  lcm_->subscribe("PHAROS_SLAM_SPIN", &DaemonUnderTest::on_spin, this);
-  lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this);
+  lcm_->subscribe("PHAROS_LINE_POINTING", &DaemonUnderTest::on_pointing, this)->setQueueCapacity(kMessages);
+  lcm_->subscribe("PHAROS_SLAM_SPIN", &DaemonUnderTest::on_spin, this)->setQueueCapacity(kMessages);
+  lcm_->subscribe("PHAROS_STATUS", &DaemonUnderTest::on_status, this)->setQueueCapacity(kMessages);
   listen(1);
 }
 
