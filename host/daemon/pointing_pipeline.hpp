@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/pointing_worker.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/publish/pointing_report.hpp"
 #include "host/publish/publish_gate.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/vision/pointing/track_file.hpp"
 
 namespace pharos::host {

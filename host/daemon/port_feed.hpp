@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "host/daemon/byte_feed.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/rate_limited_log.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/serial/reopening_port.hpp"
 

@@ -8,10 +8,10 @@
 
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/byte_feed.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/replay_speed.hpp"
 #include "host/record/stream_reader.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/runtime/timer.hpp"
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/replay_speed.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/publisher.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/event_loop.hpp"
 
 namespace pharos::host {

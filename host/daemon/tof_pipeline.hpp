@@ -7,7 +7,6 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/frame_clock.hpp"
 #include "host/daemon/pose_average.hpp"
@@ -17,6 +16,7 @@
 #include "host/daemon/tof_estimator.hpp"
 #include "host/device/frame_source.hpp"
 #include "host/publish/publish_gate.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "host/daemon/clock.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/device/pair_names.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/timer.hpp"
 
 namespace pharos::host {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/clock.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
@@ -15,6 +14,7 @@
 #include "host/publish/publish_gate.hpp"
 #include "host/publish/spin_report.hpp"
 #include "host/publish/stereo_report.hpp"
+#include "host/runtime/clock.hpp"
 #include "host/runtime/latency_histogram.hpp"
 
 namespace pharos::host {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/daemon/clock.hpp"
+#include "host/runtime/clock.hpp"
 
 namespace pharos::host::test {
 
