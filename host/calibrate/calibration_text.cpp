@@ -14,7 +14,7 @@ using host::exact_number;
 
 std::array<double, 3> array_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::string id_text(std::uint32_t id) {
+std::string quoted_id(std::uint32_t id) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "\"%08X\"", static_cast<unsigned>(id));
   return text.data();
@@ -62,7 +62,7 @@ std::string pair_text(const Unknowns& unknowns) {
   const std::array<double, 4> wxyz = {q.w(), q.x(), q.y(), q.z()};
   return "\n# The second station's pose in the reference's frame: p_reference = R p_station + position.\n[[pair]]\n"
          "reference = " +
-         id_text(unknowns.station[0].id) + "\nstation = " + id_text(unknowns.station[1].id) +
+         quoted_id(unknowns.station[0].id) + "\nstation = " + quoted_id(unknowns.station[1].id) +
          "\norientation_wxyz = " + exact_list(wxyz) + "\nposition_m = " + exact_list(array_of(T.t)) + "\n";
 }
 

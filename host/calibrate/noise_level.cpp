@@ -9,7 +9,7 @@
 namespace pharos::calibrate {
 namespace {
 
-constexpr double kHuber = 3.0;  // residuals beyond it count as it: they are outliers, not the level
+constexpr double kNoiseHuber = 3.0;  // residuals beyond it count as it: they are outliers, not the level
 constexpr double kOutlier = 6.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kMax_rad = 600.0 * kRadPerArcsec;
@@ -33,7 +33,7 @@ double usual(const std::vector<BearingResidual>& residuals) {
 double unmodelled_level(const std::vector<BearingResidual>& residuals, double present_rad) {
   double freedom = 0.0;
   for (const BearingResidual& r : residuals) freedom += std::max(1.0 - r.leverage, 0.0);
-  const double limit = kHuber * usual(residuals);
+  const double limit = kNoiseHuber * usual(residuals);
   const auto excess = [&](double level_rad) {
     double sum = 0.0;
     for (const BearingResidual& r : residuals) {

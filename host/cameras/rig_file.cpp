@@ -31,7 +31,7 @@ RigCamera read_camera(const TomlTable& table) {
   return camera;
 }
 
-RigFile read(const TomlTable& root) {
+RigFile read_rig(const TomlTable& root) {
   RigFile file;
   file.left = read_camera(root.table("left"));
   const TomlTable right = root.table("right");
@@ -57,9 +57,11 @@ Pose<frame::Rig, frame::Camera> RigCamera::pose() const {
   return {Quaternion(w, x, y, z).normalized().toRotationMatrix(), Vector3(position_m.data())};
 }
 
-RigFile read_rig_file(const std::string& path) { return read(TomlTable::parse_file(path)); }
+RigFile read_rig_file(const std::string& path) { return read_rig(TomlTable::parse_file(path)); }
 
-RigFile parse_rig(std::string_view text, const std::string& name) { return read(TomlTable::parse_text(text, name)); }
+RigFile parse_rig(std::string_view text, const std::string& name) {
+  return read_rig(TomlTable::parse_text(text, name));
+}
 
 std::string rig_text(const RigFile& file) {
   std::string out =

@@ -14,7 +14,7 @@ namespace pharos::host {
 namespace {
 
 constexpr std::array<std::string_view, 3> kNames = {"sensor", "rise_ticks", "fall_ticks"};
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kEdgesByteOrderMark = "\xEF\xBB\xBF";
 // Readings stay so far inside 64 bits that no sum of a few can overflow; 2^60 ticks are 731 years.
 constexpr std::int64_t kLargestReading = std::int64_t{1} << 60;
 
@@ -41,7 +41,7 @@ bool EdgesReader::looks_like(std::string_view first_bytes) {
 void EdgesReader::read_header() {
   std::optional<std::string_view> line = lines_.next();
   if (!line) throw InputError(name() + ": empty; a recording starts with the header row sensor,rise_ticks,fall_ticks");
-  if (line->starts_with(kByteOrderMark)) line->remove_prefix(kByteOrderMark.size());
+  if (line->starts_with(kEdgesByteOrderMark)) line->remove_prefix(kEdgesByteOrderMark.size());
   std::array<int, kColumns> found{};
   std::string_view rest = *line;
   for (bool more = true; more;) {

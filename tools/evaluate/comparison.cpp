@@ -9,7 +9,7 @@
 namespace pharos::evaluate {
 namespace {
 
-constexpr double kGapIntervals = 3.5;  // two lost samples are bridged
+constexpr double kMaxGapIntervals = 3.5;  // two lost samples are bridged
 constexpr double kMinExtent_m = 1e-3;
 constexpr std::size_t kMinPairsToAlign = 10;
 
@@ -98,8 +98,8 @@ Comparison compare(const TrajectoryFile<EstimatePose>& estimate, const Trajector
                    const ComparisonOptions& options) {
   if (auto refused = unusable(estimate, truth)) return *refused;
   Comparison c;
-  c.max_gap_s = options.max_gap_s.value_or(kGapIntervals * median_interval_s(truth.samples));
-  c.coverage_gap_s = kGapIntervals * median_interval_s(estimate.samples);
+  c.max_gap_s = options.max_gap_s.value_or(kMaxGapIntervals * median_interval_s(truth.samples));
+  c.coverage_gap_s = kMaxGapIntervals * median_interval_s(estimate.samples);
   double offset_s = options.time_offset_s.value_or(0.0);
   if (!options.time_offset_s) {
     const CoarseOffset coarse = coarse_time_offset(estimate.samples, truth.samples);

@@ -7,7 +7,7 @@
 namespace pharos::evaluate {
 namespace {
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
 
 /// One half of the errors.
 struct Half {
@@ -37,7 +37,7 @@ std::optional<Consistency> consistency_of(const Half& half) {
   const double each = 1.0 / static_cast<double>(half.errors.size());
   for (std::size_t i = 0; i < half.errors.size(); ++i) {
     const double ratio = half.errors[i].norm() / half.sigmas[i];
-    consistency.normalised_square += each * square(ratio);
+    consistency.normalised_square += each * squared(ratio);
     for (std::size_t k = 0; k < consistency.within.size(); ++k) {
       if (ratio <= static_cast<double>(k + 1)) consistency.within[k] += each;
     }
@@ -114,7 +114,7 @@ std::vector<PoseError> errors_of(const std::vector<Pair>& pairs, const Alignment
 Distribution distribution_of(std::vector<double> norms) {
   std::sort(norms.begin(), norms.end());
   double sum = 0.0;
-  for (const double norm : norms) sum += square(norm);
+  for (const double norm : norms) sum += squared(norm);
   // The smallest value that is not exceeded by the share.
   const auto quantile = [&norms](double fraction) {
     const double rank = std::ceil(fraction * static_cast<double>(norms.size()));

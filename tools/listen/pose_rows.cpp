@@ -12,7 +12,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr std::int64_t kUsPerSecond = 1'000'000;
+constexpr std::int64_t kMicrosecondsPerSecond = 1'000'000;
 constexpr double kMsPerS = 1e3;
 
 std::string attitude_text(const ReceivedPose& pose) {
@@ -29,10 +29,11 @@ std::string attitude_text(const ReceivedPose& pose) {
 }  // namespace
 
 std::string clock_text(std::int64_t utime_us) {
-  const std::time_t seconds = utime_us / kUsPerSecond;
+  const std::time_t seconds = utime_us / kMicrosecondsPerSecond;
   std::tm utc{};
   ::gmtime_r(&seconds, &utc);
-  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec, utime_us % kUsPerSecond / 1000);
+  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec,
+                     utime_us % kMicrosecondsPerSecond / 1000);
 }
 
 std::string pose_line(const ReceivedPose& pose) {

@@ -8,7 +8,7 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr double kFraction = 0.1;
+constexpr double kNearFraction = 0.1;
 constexpr double kRound = 0.9;
 // Two contours nearer than this along half of their length cannot both have edges of their own after a filter of
 // sigma = 1 px.
@@ -19,14 +19,14 @@ constexpr int kPlaces = 32;
 
 bool similar(const Ellipse& one, const Ellipse& other) {
   const double minimum = std::min(one.b_px, other.b_px);
-  if (std::abs(one.cx_px - other.cx_px) > kFraction * minimum ||
-      std::abs(one.cy_px - other.cy_px) > kFraction * minimum)
+  if (std::abs(one.cx_px - other.cx_px) > kNearFraction * minimum ||
+      std::abs(one.cy_px - other.cy_px) > kNearFraction * minimum)
     return false;
-  if (std::abs(one.a_px - other.a_px) > kFraction * std::max(one.a_px, other.a_px)) return false;
-  if (std::abs(one.b_px - other.b_px) > kFraction * std::max(one.b_px, other.b_px)) return false;
+  if (std::abs(one.a_px - other.a_px) > kNearFraction * std::max(one.a_px, other.a_px)) return false;
+  if (std::abs(one.b_px - other.b_px) > kNearFraction * std::max(one.b_px, other.b_px)) return false;
   if (one.b_px >= kRound * one.a_px && other.b_px >= kRound * other.a_px) return true;
   const double turn = std::abs(std::remainder(one.theta_rad - other.theta_rad, std::numbers::pi));
-  return turn <= kFraction * std::numbers::pi;
+  return turn <= kNearFraction * std::numbers::pi;
 }
 
 bool same_ellipse(const DetectedEllipse& one, const DetectedEllipse& other) {

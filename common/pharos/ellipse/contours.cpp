@@ -8,7 +8,7 @@ namespace pharos::ellipse {
 namespace {
 
 // Shorter lines tell nothing about an ellipse.
-constexpr std::uint32_t kMinPoints = 5;
+constexpr std::uint32_t kMinContourPoints = 5;
 // Next point: within 60 deg of the edge's direction, its gradient within 60 deg of this one's.
 constexpr float kMinAlignment = 0.5F;
 
@@ -59,7 +59,7 @@ class Follower {
     std::reverse(workspace_.order.begin() + begin, workspace_.order.begin() + count_);
     --count_;  // the seed comes again as the first of the other way
     walk(seed, 1.0F);
-    if (count_ - begin < kMinPoints) count_ = begin;
+    if (count_ - begin < kMinContourPoints) count_ = begin;
   }
   std::uint32_t count() const { return count_; }
 
@@ -86,7 +86,7 @@ constexpr float kMinJoinAlignment = 0.77F;
 // So near the direction of the gap is noise.
 constexpr float kTouching_px = 1.5F;
 // Directions at ends are taken over this many points: the last gradient is often bent by what ends the line.
-constexpr std::uint32_t kEndPoints = 6;
+constexpr std::uint32_t kContourEndPoints = 6;
 constexpr std::uint16_t kNone = 0xFFFF;
 
 class Joiner {
@@ -116,7 +116,7 @@ class Joiner {
     const float length = std::sqrt(dot(s, s));
     return length > 0.0F ? Step{s.u / length, s.v / length} : Step{};
   }
-  std::uint32_t reach(std::size_t k) const { return std::min(kEndPoints, lines_[k].end - lines_[k].begin) - 1; }
+  std::uint32_t reach(std::size_t k) const { return std::min(kContourEndPoints, lines_[k].end - lines_[k].begin) - 1; }
   Step start_direction(std::size_t k) const { return unit(between(start(k), point(lines_[k].begin + reach(k)))); }
   Step finish_direction(std::size_t k) const { return unit(between(point(lines_[k].end - 1 - reach(k)), finish(k))); }
 

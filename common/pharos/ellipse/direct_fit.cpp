@@ -12,7 +12,7 @@ namespace {
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 
-constexpr std::size_t kMinPoints = 6;
+constexpr std::size_t kMinFitPoints = 6;
 // Keeps the scatter of points that lie exactly on a conic invertible.
 constexpr double kRidge = 1e-11;
 
@@ -137,7 +137,7 @@ std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linea
 }  // namespace
 
 std::optional<Ellipse> fit_direct(std::span<const PointF> points) {
-  if (points.size() < kMinPoints) return std::nullopt;
+  if (points.size() < kMinFitPoints) return std::nullopt;
   const Frame frame = frame_of(points);
   if (!(frame.scale > 0.0)) return std::nullopt;
   Scatter sums;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kIterations = 10;
 constexpr double kConverged_px = 1e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
-constexpr double kSigmaOfMedian = 1.4826;
+constexpr double kMedianToSigma = 1.4826;
 // No edge is known better than this, however few points agree by chance.
 constexpr double kMinSigma_px = 0.02;
 // Blur moves the edge of a disc of radius r inwards by sigma^2 / 2r (the steepest place of a blurred disc: its profile
@@ -40,9 +40,9 @@ struct Distances {
   Column value;
 };
 
-class Contour {
+class FittedContour {
  public:
-  explicit Contour(const Ellipse& e)
+  explicit FittedContour(const Ellipse& e)
       : e_(e), turned_(e.theta_rad), ka_(1.0 / (e.a_px * e.a_px)), kb_(1.0 / (e.b_px * e.b_px)) {}
 
   void measure(std::span<const PointF> points, Distances& d) const {
@@ -94,7 +94,7 @@ double scatter_of(const Column& distances, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) sizes[k] = static_cast<float>(std::abs(distances[k]));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kMinSigma_px, kSigmaOfMedian * static_cast<double>(*middle));
+  return std::max(kMinSigma_px, kMedianToSigma * static_cast<double>(*middle));
 }
 
 struct Normal {
@@ -104,7 +104,7 @@ struct Normal {
 };
 
 // Lower triangles only.
-Normal normal_equations(const Contour& contour, std::span<const PointF> points) {
+Normal normal_equations(const FittedContour& contour, std::span<const PointF> points) {
   Distances distances;
   contour.measure(points, distances);
   Normal normal;
@@ -148,7 +148,7 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
   if (points.size() <= 5) return std::nullopt;
   RefinedFit fit{start, Matrix5::Zero(), 0.0};
   for (int k = 0; k < kIterations; ++k) {
-    const Contour contour(fit.ellipse);
+    const FittedContour contour(fit.ellipse);
     const Normal normal = normal_equations(contour, points);
     const Eigen::LDLT<Matrix5, Eigen::Lower> solver(normal.matrix);
     if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 1e-12 * normal.matrix.trace()) {

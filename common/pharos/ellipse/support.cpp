@@ -9,7 +9,7 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr float kMinAlignment = 0.906F;  // cos 25 deg
+constexpr float kMinSupportAlignment = 0.906F;  // cos 25 deg
 // Beyond what rounding can do to a square.
 constexpr float kNearly = 1.0001F;
 
@@ -63,7 +63,8 @@ class Contact {
     distance = f / slope;
     const float gx = cos_ * gradient.u + sin_ * gradient.v, gy = cos_ * gradient.v - sin_ * gradient.u;
     const float along = sign_ * (gx * x + gy * y);
-    return along > 0.0F && 4.0F * along * along >= kMinAlignment * kMinAlignment * slope * slope * (gx * gx + gy * gy);
+    return along > 0.0F &&
+           4.0F * along * along >= kMinSupportAlignment * kMinSupportAlignment * slope * slope * (gx * gx + gy * gy);
   }
 
  private:

@@ -20,7 +20,7 @@ constexpr double kLargestPhase_rad = 0.125, kLargestTilt_rad = 0.03125, kLargest
 constexpr Q30 kWidest = q30(1.44);
 /// The step after one this small would be a thirtieth of it at the most: 8e-9 rad.
 constexpr Q30 kConverged = 256;
-constexpr int kMaxSteps = 12;
+constexpr int kMaxFixedSteps = 12;
 constexpr std::int64_t kQuarterTurn = static_cast<std::int64_t>(kPi / 2 * kOne);
 
 fixed::SineCosine any_sine_cosine(double angle_rad) {
@@ -91,7 +91,7 @@ std::optional<ThetaPair> FixedStationModel::ideal_from_raw(const ThetaPair& raw)
   }
   const auto raw_x = static_cast<Q30>(wide_x), raw_y = static_cast<Q30>(wide_y);
   Q30 x = raw_x + last_x_, y = raw_y + last_y_;
-  for (int step = 0; step < kMaxSteps && !wide(x) && !wide(y); ++step) {
+  for (int step = 0; step < kMaxFixedSteps && !wide(x) && !wide(y); ++step) {
     const Angle angle_x{x, fixed::sine_cosine(x)}, angle_y{y, fixed::sine_cosine(y)};
     const Q30 dx = raw_x - raw_of(rotor_[0], angle_x, angle_y, 1);
     const Q30 dy = raw_y - raw_of(rotor_[1], angle_y, angle_x, -1);
@@ -112,7 +112,7 @@ std::optional<double> FixedStationModel::ideal_from_raw(Axis axis, double raw_ra
     const auto raw = static_cast<Q30>(wide_raw), other = static_cast<Q30>(wide_across);
     const Angle across{other, fixed::sine_cosine(other)};
     Q30 swept = raw + (axis == Axis::kX ? last_x_ : last_y_);
-    for (int step = 0; step < kMaxSteps && !wide(swept); ++step) {
+    for (int step = 0; step < kMaxFixedSteps && !wide(swept); ++step) {
       const Q30 correction = raw - raw_of(rotor_[static_cast<std::size_t>(index_of(axis))],
                                           {swept, fixed::sine_cosine(swept)}, across, axis == Axis::kX ? 1 : -1);
       swept += correction;

@@ -6,6 +6,7 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
+#include "pharos/tof/constants.hpp"
 #include "pharos/tof/layer_intensity.hpp"
 
 namespace pharos::tof {
@@ -18,13 +19,12 @@ constexpr int kSides = 4;
 constexpr int kPointsPerSide = 24;
 // Corners are round in the image: the part of a side between them.
 constexpr double kUsedFraction = 0.75;
-constexpr int kSearch_px = 4;
-constexpr int kRounds = 3;
-constexpr double kGate = 3.0;
-constexpr double kMedianToSigma = 1.4826;
-constexpr double kMinStrength = 0.3;
+constexpr int kSideSearch_px = 4;
+constexpr int kSideRounds = 3;
+constexpr double kSideGate = 3.0;
+constexpr double kMinSideStrength = 0.3;
 // A pixel darker than this share of the ring and without depth is dark background.
-constexpr double kDarkFraction = 0.3;
+constexpr double kDarkSideFraction = 0.3;
 constexpr int kMinPerSide = 4;
 // A box' face is square to within this; what is not is no rectangle that was found.
 constexpr double kMaxSlender = 1.6;
@@ -58,7 +58,7 @@ class FaceFitter {
         ring_(ring.model),
         axes_(axes_of(ring.model.normal)),
         plane_(ring.model.plane()),
-        dark_counts_(kDarkFraction * ring.amplitude) {}
+        dark_counts_(kDarkSideFraction * ring.amplitude) {}
 
   ConnectorFace fit(const RegionReport& region) {
     ConnectorFace face;
@@ -70,7 +70,7 @@ class FaceFitter {
     const double coarse = kCentroidSigma_px * metres_per_px_;
     face.covariance = coarse * coarse * Matrix2::Identity();
     ConnectorFace refined = face;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kSideRounds; ++round) {
       find_points(refined);
       if (!improve(refined)) return face;
     }
@@ -179,7 +179,7 @@ class FaceFitter {
     if (points_.empty()) return;
     std::array<double, kSides * kPointsPerSide> strengths{};
     for (std::size_t i = 0; i < points_.size(); ++i) strengths[i] = points_[i].strength;
-    const double minimum = kMinStrength * median(strengths.data(), points_.size());
+    const double minimum = kMinSideStrength * median(strengths.data(), points_.size());
     std::size_t kept = 0;
     for (const SidePoint& p : points_) {
       if (p.strength >= minimum) points_[kept++] = p;
@@ -201,9 +201,10 @@ class FaceFitter {
       const Matrix23 slope = project_jacobian(camera_.intrinsics, p);
       const Vector2 direction = (slope * normal_3d).normalized();
       LightProfile light;
-      if (!sample_light(frame_, camera_, rays_, plane_, *pixel, direction, kSearch_px, dark_counts_, light)) continue;
+      if (!sample_light(frame_, camera_, rays_, plane_, *pixel, direction, kSideSearch_px, dark_counts_, light))
+        continue;
       const ProfileEdge edge =
-          steepest_of_samples(light_of_layer(light, kSearch_px, face.height_m, base_m_), kSearch_px, -1.0);
+          steepest_of_samples(light_of_layer(light, kSideSearch_px, face.height_m, base_m_), kSideSearch_px, -1.0);
       if (!(edge.strength > 0.0)) continue;
       // Positive where the wall below this side is in sight.
       const double wall_fraction = p.dot(normal_3d) / p.dot(ring_.normal);
@@ -267,7 +268,7 @@ class FaceFitter {
       for (std::size_t i = 0; i < count; ++i) {
         sizes[i] = std::fabs(residual(face.rectangle, points_[i]) - row_of(face.rectangle, points_[i]).dot(change));
       }
-      gate = std::max(0.1 * metres_per_px_, kGate * kMedianToSigma * median(sizes.data(), count));
+      gate = std::max(0.1 * metres_per_px_, kSideGate * kMedianToSigma * median(sizes.data(), count));
     }
     face.rectangle.centre_m += change.head<2>();
     face.rectangle.angle_rad += change[2];

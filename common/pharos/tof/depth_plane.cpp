@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "pharos/tof/constants.hpp"
 #include "pharos/tof/ransac_sampler.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
@@ -13,17 +14,15 @@ namespace {
 
 // Pixels that the start is chosen among, and triples tried: with 55 % good pixels all triples are bad once in 50,000.
 constexpr std::int32_t kStartPixels = 300;
-constexpr int kTriples = 64;
+constexpr int kPlaneTriples = 64;
 // Deviations within which a pixel belongs to the plane.
-constexpr double kGate = 3.0;
-// Median of |normal| over its deviation.
-constexpr double kMedianToSigma = 1.4826;
+constexpr double kPlaneGate = 3.0;
 constexpr int kPasses = 3;
 // Amplitude's weight stays within this factor of the median's, so that a glint does not decide.
 constexpr double kMaxWeight = 4.0;
 
 // In columns, as compilers take two at a time.
-struct Samples {
+struct PlaneSamples {
   using Column = std::array<double, static_cast<std::size_t>(kStartPixels)>;
   Column ray_x, ray_y, inverse_z;
   std::size_t count = 0;
@@ -78,7 +77,7 @@ class Fitter {
     if (!(sigma > 0.0)) return std::nullopt;
     Sums sums;
     for (int pass = 0; pass < kPasses; ++pass) {
-      sums = summed(q, kGate * sigma, Pass::kFit);
+      sums = summed(q, kPlaneGate * sigma, Pass::kFit);
       if (sums.residuals.count() < kMinPlanePixels) return std::nullopt;
       const Vector3 next = sums.normal().inverse() * Vector3(sums.right_x, sums.right_y, sums.right);
       if (!next.allFinite()) return std::nullopt;
@@ -90,7 +89,7 @@ class Fitter {
   }
 
  private:
-  // A normal distribution cut at kGate has this much less deviation than the whole.
+  // A normal distribution cut at kPlaneGate has this much less deviation than the whole.
   static constexpr double kGateLoss = 1.0 / 0.98657;
 
   template <class Visit>
@@ -139,8 +138,8 @@ class Fitter {
     if (count < kMinPlanePixels / 2) return 0.0;
     RansacSampler ransac_sampler;
     double best_median = -1.0;
-    Samples::Column distance;
-    for (int k = 0; k < kTriples; ++k) {
+    PlaneSamples::Column distance;
+    for (int k = 0; k < kPlaneTriples; ++k) {
       Matrix3 rows;
       Vector3 right;
       for (int i = 0; i < 3; ++i) {
@@ -214,7 +213,7 @@ class Fitter {
   }
 
   std::optional<PlaneFit> answer(const Vector3& q, double sigma) const {
-    const Sums sums = summed(q, kGate * sigma, Pass::kLast);
+    const Sums sums = summed(q, kPlaneGate * sigma, Pass::kLast);
     const std::int32_t used = sums.residuals.count();
     if (used < kMinPlanePixels) return std::nullopt;
     PlaneFit fit;
@@ -235,7 +234,7 @@ class Fitter {
   const RingRegion& region_;
   std::int32_t pixels_ = 0;
   std::int32_t with_depth_ = 0;
-  Samples start_;
+  PlaneSamples start_;
   double amplitude_ = 1.0;
   double weight_scale_ = 1.0;
   double floor_ = 0.0;  // of the deviation, 1/m

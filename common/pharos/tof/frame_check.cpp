@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "pharos/tof/constants.hpp"
+
 namespace pharos::tof {
 namespace {
 
 // A ring of a few thousand pixels is all that is needed, but so few in a whole frame are noise.
 constexpr std::int32_t kMinDepthFraction = 200;  // one pixel in this many
-constexpr std::uint16_t kFullScale = 65535;
 // Rows without anything in them, or rows that agree by chance, are fewer.
 constexpr std::int32_t kMinStaleRows = 8;
 

@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "pharos/tof/constants.hpp"
+
 namespace pharos::tof {
 namespace {
 
-constexpr std::uint16_t kFullScale = 65535;
 // Variance of an edge's image across, px^2: the filter's 1, pixel and interpolation 0.2, lens 0.25 to 0.5.
 constexpr double kBlur_px2 = 1.5;
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "pharos/tof/constants.hpp"
 #include "pharos/tof/ransac_sampler.hpp"
 
 namespace pharos::tof {
@@ -24,10 +25,9 @@ constexpr int kRefinements = 2;
 // Foil's wrinkles (4 mm) and its own noise: it is a third as bright as what DepthNoise holds for.
 constexpr double kWrinkles_m = 0.008;
 constexpr double kFoilNoise = 3.0;
-constexpr std::uint16_t kFullScale = 65535;
 
 // Columns, so that compilers take two at a time.
-struct Samples {
+struct ReliefSamples {
   using Column = std::array<double, static_cast<std::size_t>(kColumns* kRows)>;
   Column ray_x, ray_y, z_m;
   Column gate_m;  // how far from a plane a sample of foil still belongs to it
@@ -49,7 +49,7 @@ double gate_of(const DepthNoise& noise, double z_m) {
 
 // Those behind `front`, where there is one.
 void take(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const DepthNoise& noise,
-          const DepthPlane* front, Samples& samples) {
+          const DepthPlane* front, ReliefSamples& samples) {
   for (std::int32_t row = 0; row < kRows; ++row) {
     const std::int32_t v = (2 * row + 1) * frame.depth.height_px / (2 * kRows);
     for (std::int32_t column = 0; column < kColumns; ++column) {
@@ -65,7 +65,7 @@ void take(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
 
 class FaceFinder {
  public:
-  explicit FaceFinder(const Samples& samples) : samples_(samples) {}
+  explicit FaceFinder(const ReliefSamples& samples) : samples_(samples) {}
 
   std::optional<DepthPlane> find() {
     std::optional<DepthPlane> best;
@@ -139,7 +139,7 @@ class FaceFinder {
     return better;
   }
 
-  const Samples& samples_;
+  const ReliefSamples& samples_;
   RansacSampler ransac_sampler_;
 };
 
@@ -147,7 +147,7 @@ class FaceFinder {
 
 std::optional<DepthPlane> face_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                      const DepthNoise& noise, const DepthPlane* front) {
-  Samples samples;
+  ReliefSamples samples;
   take(frame, camera, rays, noise, front, samples);
   if (samples.count < kMinOnFace) return std::nullopt;
   return FaceFinder(samples).find();

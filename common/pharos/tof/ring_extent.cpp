@@ -16,10 +16,10 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 // The band beside the edge: past the mixed pixels, and still within narrow rings.
 constexpr double kBandNear_px = 1.25;
 constexpr double kBandFar_px = 4.5;
-constexpr double kMinInliers = 0.35;
+constexpr double kMinExtentInliers = 0.35;
 constexpr double kScanStep_px = 0.5;
 // Nothing narrower is a ring.
-constexpr double kMinWidth_px = 2.5;
+constexpr double kMinExtent_px = 2.5;
 constexpr int kDirections = 72;
 
 RingRegion band_beside(const ellipse::Ellipse& shape, RingEdge known) {
@@ -84,7 +84,7 @@ double end_of_plane(const PlaneScan& scan, double start_m, double step_m, double
 std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                             const ellipse::Ellipse& shape, RingEdge known, double min_ratio) {
   const auto plane = fit_plane(frame, camera, rays, band_beside(shape, known));
-  if (!plane || plane->inlier_fraction < kMinInliers) return std::nullopt;
+  if (!plane || plane->inlier_fraction < kMinExtentInliers) return std::nullopt;
   auto model = ring_on_plane(plane->plane, rays, shape, shape);
   if (!model) return std::nullopt;
   const double radius = model->radius(known);
@@ -94,7 +94,7 @@ std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCa
   const double limit = known == RingEdge::kInner ? radius / min_ratio : radius * min_ratio;
   const double start = radius + outwards * 0.5 * (kBandNear_px + kBandFar_px) * metres_per_px;
   const double other = end_of_plane(scan, start, outwards * kScanStep_px * metres_per_px, limit, 0.0);
-  if (other == 0.0 || std::fabs(other - radius) < kMinWidth_px * metres_per_px) return std::nullopt;
+  if (other == 0.0 || std::fabs(other - radius) < kMinExtent_px * metres_per_px) return std::nullopt;
   model->radius_m[index_of(known == RingEdge::kInner ? RingEdge::kOuter : RingEdge::kInner)] = other;
   return model;
 }

@@ -7,6 +7,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/tof/constants.hpp"
 #include "pharos/tof/sector_sums.hpp"
 
 namespace pharos::tof {
@@ -19,7 +20,6 @@ constexpr int kRounds = 3;
 constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
 constexpr int kSteps = 3;  // of reweighting in each round
 constexpr double kGate = 3.0;
-constexpr double kMedianToSigma = 1.4826;
 constexpr double kMinEdgeSigma_px = 0.02;
 constexpr std::size_t kMinEdgePoints = 24;
 // How well the wall's share in an edge is known, of itself: its light need not go with the cosine.

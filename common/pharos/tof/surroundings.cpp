@@ -5,17 +5,18 @@
 #include <array>
 #include <cmath>
 
+#include "pharos/tof/constants.hpp"
+
 namespace pharos::tof {
 namespace {
 
 // How many pixels are looked at, at most.
 constexpr std::size_t kMaxSamples = 512;
-constexpr double kMedianToSigma = 1.4826;
 // A face with specks grown on to it is at least a third of its region: this quantile lies on the face.
 constexpr double kFaceQuantile = 0.85;
 
 // Counts of the height image.
-struct Samples {
+struct HeightSamples {
   std::array<std::uint16_t, kMaxSamples> height;  // `count` of them
   std::size_t count = 0;
 
@@ -31,8 +32,8 @@ struct Samples {
 };
 
 // Of the region's pixels, row by row between its outline; holes are few.
-Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) {
-  Samples samples;
+HeightSamples inside_of(ImageView<const std::uint16_t> heights, const Region& region) {
+  HeightSamples samples;
   const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMaxSamples);
   std::int32_t passed = stride - 1;
   for (std::int32_t v = region.top; v <= region.bottom; ++v) {
@@ -49,9 +50,9 @@ Samples inside_of(ImageView<const std::uint16_t> heights, const Region& region) 
 std::int32_t reach_around(const Region& region) { return std::max<std::int32_t>({6, region.rows(), region.columns()}); }
 std::int32_t stride_around(const Region& region) { return 1 + reach_around(region) / 16; }
 
-Samples around(ImageView<const std::uint16_t> heights, const Region& region) {
+HeightSamples around(ImageView<const std::uint16_t> heights, const Region& region) {
   const std::int32_t reach = reach_around(region), stride = stride_around(region);
-  Samples samples;
+  HeightSamples samples;
   for (std::int32_t v = region.top - reach; v <= region.bottom + reach && !samples.full(); v += stride) {
     if (v < 0 || v >= heights.height_px) continue;
     const bool own_row = v >= region.top - 1 && v <= region.bottom + 1;
@@ -70,7 +71,7 @@ Samples around(ImageView<const std::uint16_t> heights, const Region& region) {
 Surroundings surroundings_of(ImageView<const std::uint16_t> heights, const Region& region) {
   Surroundings found;
   found.stride_px = stride_around(region);
-  Samples samples = around(heights, region);
+  HeightSamples samples = around(heights, region);
   found.samples = samples.count;
   if (samples.count < kMinSurroundings) return found;
   const std::uint16_t base = samples.quantile(0.5);
@@ -83,13 +84,13 @@ Surroundings surroundings_of(ImageView<const std::uint16_t> heights, const Regio
 }
 
 void mark_face(ImageView<const std::uint16_t> heights, const Region& region, double min_height_m, BitImage& faces) {
-  Samples own = inside_of(heights, region);
+  HeightSamples own = inside_of(heights, region);
   if (own.count == 0) return;
-  Samples beside = around(heights, region);
+  HeightSamples beside = around(heights, region);
   const double base = beside.count < kMinSurroundings ? -kMaxHeight_m : height_of(beside.quantile(0.5));
   const double high = height_of(own.quantile(kFaceQuantile));
   if (high - base < min_height_m) return;
-  Samples face;
+  HeightSamples face;
   for (std::size_t i = 0; i < own.count; ++i) {
     if (height_of(own.height[i]) > 0.5 * (high + base)) face.add(own.height[i]);
   }

@@ -11,7 +11,7 @@
 namespace pharos::enhance {
 namespace {
 
-constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
+constexpr auto kBlockSide = static_cast<std::int32_t>(kBlock_px);
 constexpr std::size_t kMinBlocks = 16;
 constexpr float kTrace = 1e-5F;  // high frequencies that rounding of floats leaves
 
@@ -21,8 +21,8 @@ struct Block {
 };
 
 bool cut_off(ImageView<const float> image, std::int32_t u, std::int32_t v) {
-  for (std::int32_t y = v; y < v + kSide; ++y) {
-    const auto [low, high] = std::minmax_element(image.row(y) + u, image.row(y) + u + kSide);
+  for (std::int32_t y = v; y < v + kBlockSide; ++y) {
+    const auto [low, high] = std::minmax_element(image.row(y) + u, image.row(y) + u + kBlockSide);
     if (*low <= 0.0F || *high >= 1.0F) return true;
   }
   return false;
@@ -49,8 +49,8 @@ Block measure(const std::array<float, kBlockPixels>& coefficients) {
 double noise_level(ImageView<const float> image) {
   std::vector<Block> blocks;
   std::array<float, kBlockPixels> coefficients;
-  for (std::int32_t v = 0; v + kSide <= image.height_px; v += kSide) {
-    for (std::int32_t u = 0; u + kSide <= image.width_px; u += kSide) {
+  for (std::int32_t v = 0; v + kBlockSide <= image.height_px; v += kBlockSide) {
+    for (std::int32_t u = 0; u + kBlockSide <= image.width_px; u += kBlockSide) {
       if (cut_off(image, u, v)) continue;
       forward_transform<BlockTransform::kCosine>(&image.at(u, v), image.stride_px, coefficients.data());
       const Block block = measure(coefficients);

@@ -25,7 +25,7 @@ struct StaticSet {
   PoseSpread measured;        // (23)
 };
 
-track::TrackOptions paper_method_at_rest() {
+track::TrackOptions static_paper_method() {
   track::TrackOptions options;
   options.solve.rho = kPaperRho;
   options.smooth_flashes = false;
@@ -42,7 +42,7 @@ StaticSet run_set(const sim::RoomFromBody& pose, double set_s, std::uint64_t see
   std::vector<LighthouseFromBody> poses;
   double adop = 0.0;
   double pdop = 0.0;
-  run.track(paper_method_at_rest(), [&](const track::EpochResult& result, const LighthouseFromBody&) {
+  run.track(static_paper_method(), [&](const track::EpochResult& result, const LighthouseFromBody&) {
     ++set.frames;
     if (!result.pose) {
       ++set.refused;
