@@ -9,7 +9,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(pharos_warnings INTERFACE
     -Wduplicated-cond -Wlogical-op
     # GCC 12 sees null pointers and overruns inside Eigen's and libstdc++'s inlined code that are not there.
-    -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-restrict)
+    -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-restrict
+    # In a unity build every source is included: what is in a namespace without a name looks as if from a header.
+    $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endif()
 
 # The build type of the sanitizer presets: assertions on, quick enough for Eigen, line numbers in reports.
