@@ -9,7 +9,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(pharos_warnings INTERFACE
     -Wduplicated-cond -Wlogical-op
     # GCC 12 sees null pointers and overruns inside Eigen's and libstdc++'s inlined code that are not there.
-    -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-restrict)
+    -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-restrict
+    # In a unity build every source is included: what is in a namespace without a name looks as if from a header.
+    $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endif()
 
 # The build type of the sanitizer presets: assertions on, quick enough for Eigen, line numbers in reports.
@@ -90,8 +92,8 @@ function(pharos_core_library name)
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 
-# pharos_module(NAME SOURCES...): what only few commands need (OpenCV, Aravis, Ceres), loaded when one of them runs
-# (host/support/module_function.hpp); beside the programs in the build tree, installed in lib/pharos.
+# pharos_module(NAME SOURCES...): what would cost every start of a program too much (README.md: which and why), loaded
+# when it is asked for (host/support/module_function.hpp); beside the programs in the build tree, installed in lib/pharos.
 function(pharos_module name)
   add_library(${name} MODULE ${ARGN})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -107,20 +109,6 @@ function(pharos_host_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PRIVATE pharos_warnings)
   pharos_reads_headers(${name} host)
-endfunction()
-
-# pharos_position_independent(TARGETS...): rooms that a module links.
-pharos_headers(independent HEADERS ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS -fPIC)
-function(pharos_position_independent)
-  foreach(target IN LISTS ARGN)
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    get_target_property(options ${target} COMPILE_OPTIONS)
-    if(options MATCHES "exceptions")
-      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-    else()
-      pharos_reads_headers(${target} independent)
-    endif()
-  endforeach()
 endfunction()
 
 # pharos_command_library(NAME SOURCES...): a subcommand's options and the order of its work. CLI11's templates cost more to

@@ -11,18 +11,18 @@ namespace pharos::tof {
 namespace {
 
 // How many pixels are looked at, at most.
-constexpr std::size_t kMaxSamples = 512;
+constexpr std::size_t kMaxHeights = 512;
 // A face with specks grown on to it is at least a third of its region: this quantile lies on the face.
 constexpr double kFaceQuantile = 0.85;
 
 // Counts of the height image.
 struct HeightSamples {
-  std::array<std::uint16_t, kMaxSamples> height;  // `count` of them
+  std::array<std::uint16_t, kMaxHeights> height;  // `count` of them
   std::size_t count = 0;
 
-  bool full() const { return count == kMaxSamples; }
+  bool full() const { return count == kMaxHeights; }
   void add(std::uint16_t value) {
-    if (count < kMaxSamples) height[count++] = value;
+    if (count < kMaxHeights) height[count++] = value;
   }
   std::uint16_t quantile(double fraction) {
     const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(count - 1));
@@ -34,7 +34,7 @@ struct HeightSamples {
 // Of the region's pixels, row by row between its outline; holes are few.
 HeightSamples inside_of(ImageView<const std::uint16_t> heights, const Region& region) {
   HeightSamples samples;
-  const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMaxSamples);
+  const std::int32_t stride = 1 + region.rows() * region.columns() / static_cast<std::int32_t>(kMaxHeights);
   std::int32_t passed = stride - 1;
   for (std::int32_t v = region.top; v <= region.bottom; ++v) {
     const Region::Extent& row = region.row[static_cast<std::size_t>(v - region.top)];

@@ -41,8 +41,8 @@ struct BundleOutcome {
   double area_ratio = 1.0;
 };
 
-/// Least squares over all points of all views (Levenberg-Marquardt; board poses eliminated point by point). Nothing
-/// where no step helps from the start or the covariance does not exist.
+/// Least squares over all points of all views, by Ceres. Nothing where the start shows a point behind a camera or the
+/// covariance does not exist.
 std::optional<BundleOutcome> adjust_boards(BundleState start, const BundleData& data);
 
 }  // namespace pharos::calibrate

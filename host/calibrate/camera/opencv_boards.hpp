@@ -8,8 +8,7 @@
 
 namespace pharos::calibrate {
 
-/// What OpenCV does here: corners of chessboards, and adjustments of its own that ours start from and stand beside. It
-/// is loaded (as a module beside the program) by the first call; throws host::InputError where it is not there.
+/// What OpenCV does here: corners of chessboards, and adjustments of its own that ours start from and stand beside.
 /// Nothing where OpenCV has no answer.
 
 /// Inner corners in the board's order. The edge is how many pixels grey values take to rise across a square's side,

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "host/support/input_error.hpp"
-#include "host/support/module_function.hpp"
-#include "host/vision/pointing/lsd_module.hpp"
 #include "host/vision/pointing/segment.hpp"
 
 namespace pharos::pointing {
 namespace {
 
 // A satellite's outline has some dozens.
-constexpr int kMaxSegments = 4096;
+constexpr std::size_t kMaxSegments = 4096;
 // OpenCV's own scale, and what larger images are looked at with: its time goes by pixels, of which it sorts all. Edges
 // are then found to a pixel, and refitted on the grey image anyway.
 constexpr double kUsualScale = 0.8;
@@ -22,26 +21,19 @@ double scale_for(ImageView<const std::uint8_t> image) {
   return std::clamp(std::sqrt(kMaxPixels / static_cast<double>(image.pixels())), kMinScale, kUsualScale);
 }
 
-LsdFunction detector() {
-  static const auto function = reinterpret_cast<LsdFunction>(host::module_function(kLsdModuleName, kLsdModuleFunction));
-  return function;
-}
-
 }  // namespace
 
-std::vector<Segment> find_segments(ImageView<const std::uint8_t> image) {
-  std::vector<float> numbers(std::size_t{4} * kMaxSegments);
-  const int count =
-      detector()(image.data, image.width_px, image.height_px, scale_for(image), numbers.data(), kMaxSegments);
-  if (count < 0)
-    throw host::InputError("OpenCV's line segment detector failed on an image of " + std::to_string(image.width_px) +
-                           " x " + std::to_string(image.height_px));
+std::vector<Segment> find_segments(ImageView<const std::uint8_t> image) try {
+  const cv::Mat grey(image.height_px, image.width_px, CV_8U, const_cast<std::uint8_t*>(image.data));
+  std::vector<cv::Vec4f> found;
+  cv::createLineSegmentDetector(cv::LSD_REFINE_STD, scale_for(image))->detect(grey, found);
+  found.resize(std::min(found.size(), kMaxSegments));
   std::vector<Segment> segments;
-  for (std::size_t i = 0; i < 4U * static_cast<std::size_t>(count); i += 4) {
-    const auto at = [&](std::size_t k) { return static_cast<double>(numbers[i + k]); };
-    segments.push_back({{at(0), at(1)}, {at(2), at(3)}});
-  }
+  for (const cv::Vec4d segment : found) segments.push_back({{segment[0], segment[1]}, {segment[2], segment[3]}});
   return segments;
+} catch (const cv::Exception&) {
+  throw host::InputError("OpenCV's line segment detector failed on an image of " + std::to_string(image.width_px) +
+                         " x " + std::to_string(image.height_px));
 }
 
 }  // namespace pharos::pointing

@@ -27,8 +27,7 @@ struct Segment {
   double station(const Vector2& place) const { return along().dot(place - begin); }
 };
 
-/// OpenCV's line segment detector (von Gioi 2010), from a module that is loaded by the first call. Throws
-/// host::InputError where the module is not there.
+/// OpenCV's line segment detector (von Gioi 2010). Throws host::InputError where it cannot take the image.
 std::vector<Segment> find_segments(ImageView<const std::uint8_t> image);
 
 }  // namespace pharos::pointing

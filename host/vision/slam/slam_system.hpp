@@ -32,8 +32,7 @@ struct SlamPoint {
   int observers = 0;
 };
 
-/// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017). Lives in
-/// a module that make_slam() loads, as OpenCV and Ceres do.
+/// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017).
 ///
 /// Where one of its own threads has failed (no memory), push(), finish() and optimised_trajectory() throw
 /// std::runtime_error from then on: the map may be half changed, and only another system has a whole one.
@@ -62,7 +61,7 @@ class SlamSystem {
 /// Descriptors of an image's ORB features, for training a vocabulary.
 std::vector<Descriptor> describe_image(ImageView<const std::uint8_t> image, int features);
 
-/// Throws InputError where the module, the vocabulary or the rig is no good; `rig_name` is for messages.
+/// Throws InputError where the vocabulary or the rig is no good; `rig_name` is for messages.
 std::unique_ptr<SlamSystem> make_slam(const host::RigFile& rig, const std::string& rig_name,
                                       const SlamSettings& settings);
 

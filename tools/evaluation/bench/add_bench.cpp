@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos bench: speed and accuracy beside peers, in one run.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -12,7 +11,6 @@
 #include "tools/evaluation/bench/bench_pose.hpp"
 #include "tools/evaluation/bench/bench_target.hpp"
 #include "tools/evaluation/bench/bench_tof.hpp"
-#include "tools/evaluation/bench/peer_module.hpp"
 #include "tools/support/commands.hpp"
 
 namespace pharos::tools {
@@ -51,19 +49,11 @@ int run_target(const Options& options) {
 
 constexpr int kImages = 100;
 
-EdgeDrawingFunction edge_drawing() {
-  const EdgeDrawingFunction peer = load_edge_drawing();
-  if (peer == nullptr) std::fprintf(stderr, "pharos bench: %s has no EdgeDrawing: no peer\n", kPeerModuleName);
-  return peer;
-}
-
 std::vector<BenchRow> run_enhance(const Options& options) {
-  const LowLightPeers* peers = load_low_light();
-  if (peers == nullptr) std::fprintf(stderr, "pharos bench: %s has no peers of enhancement\n", kPeerModuleName);
   EnhanceBench bench;
   if (!options.images.empty()) bench.images = options.images;
   if (options.problems) bench.pairs = *options.problems;
-  return bench_enhance(bench, peers);
+  return bench_enhance(bench);
 }
 
 int run(const Options& options) {
@@ -78,21 +68,14 @@ int run(const Options& options) {
     return kExitAnswered;
   }
   if (options.what == "tof") {
-    write_rows(bench_tof(options.problems.value_or(kImages), edge_drawing()), form_of(options));
+    write_rows(bench_tof(options.problems.value_or(kImages), load_edge_drawing()), form_of(options));
     return kExitAnswered;
   }
   std::vector<BenchRow> rows;
   const auto append = [&](const std::vector<BenchRow>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
   const auto wanted = [&](const char* what) { return options.what == "all" || options.what == what; };
-  if (wanted("pose")) {
-    const PeerFunction peers = load_peers();
-    if (peers == nullptr) {
-      std::fprintf(stderr, "pharos bench: %s is not beside the program (built without OpenCV): no peers\n",
-                   kPeerModuleName);
-    }
-    append(bench_pose(options.problems.value_or(kProblems), peers));
-  }
-  if (wanted("ellipses")) append(bench_ellipses(options.problems.value_or(kImages), edge_drawing()));
+  if (wanted("pose")) append(bench_pose(options.problems.value_or(kProblems)));
+  if (wanted("ellipses")) append(bench_ellipses(options.problems.value_or(kImages), load_edge_drawing()));
   if (wanted("decode")) append(bench_decode(options.edges));
   if (wanted("motion")) append(bench_motion());
   write_rows(rows, form_of(options));

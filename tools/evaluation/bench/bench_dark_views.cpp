@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/vision/enhance/enhancer.hpp"
+#include "tools/evaluation/bench/low_light_peers.hpp"
 #include "tools/evaluation/bench/rim_halo.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 #include "tools/support/stopwatch.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using enhance::Denoiser;
 using enhance::Enhancer;
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = GreyBytes;
 
 constexpr int kApart = 10;  // frames of 0.5 deg
 constexpr int kSide = 0;    // left
@@ -58,28 +59,25 @@ Bytes enhanced(Enhancer& enhancer, const host::GreyImage& image) {
   return out;
 }
 
-void add_matches(double ambient, int pairs, const LowLightPeers& peers, std::vector<BenchRow>& rows) {
+void add_matches(double ambient, int pairs, std::vector<BenchRow>& rows) {
   sim::TumblingSequence dark(scenario(ambient), kSeed), even(scenario(kEven), kSeed);
   Enhancer enhancer;
-  std::vector<double> plain, ours, clahe, retinex;
+  std::vector<double> plain, ours, equalised, retinex;
   Halos rim_ours, rim_retinex;
   const int step = std::max(1, (dark.frames() - kApart - 1) / pairs);
   for (int k = 0; k < pairs; ++k) {
     const host::GreyImage a = dark.image(k * step, kSide), b = dark.image(k * step + kApart, kSide);
     const int width = a.width_px, height = a.height_px;
     const auto count = [&](const Bytes& x, const Bytes& y) {
-      return static_cast<double>(peers.inliers(x.data(), y.data(), width, height));
+      return static_cast<double>(inliers_of_orb(x, y, width, height));
     };
     const auto through = [&](auto filter, const host::GreyImage& image) {
-      const Bytes in = bytes_of(image);
-      Bytes out(in.size());
-      filter(in.data(), width, height, out.data());
-      return out;
+      return filter(bytes_of(image), width, height);
     };
     plain.push_back(count(bytes_of(a), bytes_of(b)));
-    clahe.push_back(count(through(peers.clahe, a), through(peers.clahe, b)));
-    const Bytes retinex_a = through(peers.multi_scale_retinex, a);
-    retinex.push_back(count(retinex_a, through(peers.multi_scale_retinex, b)));
+    equalised.push_back(count(through(clahe, a), through(clahe, b)));
+    const Bytes retinex_a = through(multi_scale_retinex, a);
+    retinex.push_back(count(retinex_a, through(multi_scale_retinex, b)));
     const Bytes ours_a = enhanced(enhancer, a);
     ours.push_back(count(ours_a, enhanced(enhancer, b)));
     const host::GreyImage in_even_light = even.image(k * step, kSide);
@@ -88,7 +86,7 @@ void add_matches(double ambient, int pairs, const LowLightPeers& peers, std::vec
   }
   const std::string what = "ambient " + std::to_string(ambient).substr(0, 4) + ": inliers ";
   rows.push_back({what + "(peer: as it is)", middle_of(ours), middle_of(plain), "", false});
-  rows.push_back({what + "(peer: CLAHE)", middle_of(ours), middle_of(clahe), "", false});
+  rows.push_back({what + "(peer: CLAHE)", middle_of(ours), middle_of(equalised), "", false});
   rows.push_back({what + "(peer: multi-scale retinex)", middle_of(ours), middle_of(retinex), "", false});
   const std::string rim = "ambient " + std::to_string(ambient).substr(0, 4) + ": off ";
   rows.push_back({rim + "outside the rim, at most (peer: retinex)", rim_ours.outside, rim_retinex.outside, "of 255"});
@@ -119,10 +117,8 @@ void add_rate(const char* name, Denoiser denoiser, const enhance::Bm3dSettings& 
 
 }  // namespace
 
-void add_dark_views(int pairs, const LowLightPeers* peers, std::vector<BenchRow>& rows) {
-  if (peers != nullptr) {
-    for (const double ambient : {0.1, 0.01}) add_matches(ambient, pairs, *peers, rows);
-  }
+void add_dark_views(int pairs, std::vector<BenchRow>& rows) {
+  for (const double ambient : {0.1, 0.01}) add_matches(ambient, pairs, rows);
   add_rate("BM3D", Denoiser::kBm3d, {}, rows);
   add_rate("BM3D for video", Denoiser::kBm3d, enhance::kVideoBm3d, rows);
   add_rate("fast", Denoiser::kFast, {}, rows);

@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "tools/evaluation/bench/comparison_table.hpp"
-#include "tools/evaluation/bench/low_light_peers.hpp"
 
 namespace pharos::tools {
 
 /// Two views, 5 deg apart, of a satellite lit by ambient light 0.1 and 0.01 alone: features that match after
 /// enhancement and after each of its peers (medians over the pairs), light around the target's rim, and pairs a second.
-/// Without peers only the last.
-void add_dark_views(int pairs, const LowLightPeers* peers, std::vector<BenchRow>& rows);
+void add_dark_views(int pairs, std::vector<BenchRow>& rows);
 
 }  // namespace pharos::tools

@@ -13,6 +13,7 @@
 #include "host/vision/enhance/noise_level.hpp"
 #include "tools/evaluation/bench/bench_dark_views.hpp"
 #include "tools/evaluation/bench/exact_illumination.hpp"
+#include "tools/evaluation/bench/low_light_peers.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
@@ -101,20 +102,17 @@ struct BestNlm {
   double psnr_db = 0.0, seconds = 0.0;
 };
 
-BestNlm best_nlm(const std::vector<std::uint8_t>& noisy, const std::vector<std::uint8_t>& clean,
-                 const LowLightPeers& peers) {
+BestNlm best_nlm(const GreyBytes& noisy, const GreyBytes& clean) {
   BestNlm best;
-  std::vector<std::uint8_t> out(noisy.size());
+  GreyBytes out;
   for (float strength = 10.0F; strength <= 22.0F; strength += 1.0F) {
-    const double seconds =
-        processor_seconds_of([&] { peers.non_local_means(noisy.data(), kWidth, kHeight, strength, out.data()); });
+    const double seconds = processor_seconds_of([&] { out = non_local_means(noisy, kWidth, kHeight, strength); });
     if (psnr_db(out, clean) > best.psnr_db) best = {psnr_db(out, clean), seconds};
   }
   return best;
 }
 
-void add_denoising(const std::string& name, const FloatImage& image, const LowLightPeers* peers,
-                   std::vector<BenchRow>& rows) {
+void add_denoising(const std::string& name, const FloatImage& image, std::vector<BenchRow>& rows) {
   const std::vector<std::uint8_t> clean = bytes_of(image);
   FloatImage noisy = image, quiet;
   std::mt19937 random(1);
@@ -124,18 +122,12 @@ void add_denoising(const std::string& name, const FloatImage& image, const LowLi
   }
   const std::vector<std::uint8_t> noisy_bytes = bytes_of(noisy);
   const double before = psnr_db(noisy_bytes, clean);
-  std::optional<BestNlm> nlm;
-  if (peers != nullptr) nlm = best_nlm(noisy_bytes, clean, *peers);
+  const BestNlm nlm = best_nlm(noisy_bytes, clean);
   const auto add = [&](const char* what, auto&& denoise) {
     const double seconds = best_seconds(denoise);
-    std::optional<double> their_gain, their_ms;
-    if (nlm) {
-      their_gain = nlm->psnr_db - before;
-      their_ms = kMs * nlm->seconds;
-    }
     rows.push_back({name + ", " + what + ": gain (peer: NLM at its best)", psnr_db(bytes_of(quiet), clean) - before,
-                    their_gain, "dB", false});
-    rows.push_back({name + ", " + what + ": processor time (peer: NLM)", kMs * seconds, their_ms, "ms"});
+                    nlm.psnr_db - before, "dB", false});
+    rows.push_back({name + ", " + what + ": processor time (peer: NLM)", kMs * seconds, kMs * nlm.seconds, "ms"});
   };
   enhance::BlockDenoiser blocks;
   constexpr double kFraction = kSigma / 255.0;
@@ -149,14 +141,14 @@ void add_denoising(const std::string& name, const FloatImage& image, const LowLi
 
 }  // namespace
 
-std::vector<BenchRow> bench_enhance(const EnhanceBench& options, const LowLightPeers* peers) {
+std::vector<BenchRow> bench_enhance(const EnhanceBench& options) {
   std::vector<BenchRow> rows;
   for (const char* name : {"aloeL.jpg", "building.jpg", "graf1.png"}) {
     const FloatImage image = middle_of_file(options.images + "/" + name);
     add_illumination(name, image, rows);
-    add_denoising(name, image, peers, rows);
+    add_denoising(name, image, rows);
   }
-  add_dark_views(options.pairs, peers, rows);
+  add_dark_views(options.pairs, rows);
   return rows;
 }
 

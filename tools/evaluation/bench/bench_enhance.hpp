@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tools/evaluation/bench/comparison_table.hpp"
-#include "tools/evaluation/bench/low_light_peers.hpp"
 
 namespace pharos::tools {
 
@@ -15,10 +14,10 @@ struct EnhanceBench {
   int pairs = 20;  // of dark views of a satellite
 };
 
-/// The low-light enhancement at 640x480 beside its peers (null: alone), all in one run: the illumination against an
+/// The low-light enhancement at 640x480 beside its peers, all in one run: the illumination against an
 /// exact sparse solve; BM3D and the fast denoiser against OpenCV's non-local means at its best strength, Gaussian noise
 /// of sigma 15; features that match between two dark views against plain images, CLAHE and a multi-scale retinex.
 /// Times are of one thread's processor. Throws host::InputError where the images are missing.
-std::vector<BenchRow> bench_enhance(const EnhanceBench& options, const LowLightPeers* peers);
+std::vector<BenchRow> bench_enhance(const EnhanceBench& options);
 
 }  // namespace pharos::tools

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "tools/evaluation/bench/peer_solver.hpp"
 #include "tools/evaluation/problems/pnp_problems.hpp"
 #include "tools/support/stopwatch.hpp"
 
@@ -65,26 +66,19 @@ void run_ours(const Target& target, const Problem& problem, const LighthouseFrom
   record.score.add(problem.pnp, solution->estimate.pose, solution->estimate.ambiguous(), problem.bound);
 }
 
-void run_peer(PeerFunction peers, Peer peer, const Problem& problem, Record& record) {
-  const int count = static_cast<int>(problem.pnp.seen.count());
-  std::array<double, 9> rotation{};
-  LighthouseFromBody pose;
-  bool solved = false;
-  record.seconds.push_back(min_seconds([&] {
-    solved = peers(static_cast<int>(peer), problem.body.data(), problem.tangents.data(), count, rotation.data(),
-                   pose.t.data());
-  }));
-  if (!solved) return record.score.add_refusal();
-  pose.t /= kPeerUnitsPerMetre;
-  pose.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
-  record.score.add(problem.pnp, pose, false, problem.bound);
+void run_peer(Peer peer, const Problem& problem, Record& record) {
+  std::optional<LighthouseFromBody> pose;
+  record.seconds.push_back(min_seconds([&] { pose = solve_by_peer(peer, problem.body, problem.tangents); }));
+  if (!pose) return record.score.add_refusal();
+  pose->t /= kPeerUnitsPerMetre;
+  record.score.add(problem.pnp, *pose, false, problem.bound);
 }
 
 struct Records {
   Record ours, ours_with_prior, ours_of_six, sqpnp, epnp, iterative;
 };
 
-Records run_all(int problems, PeerFunction peers) {
+Records run_all(int problems) {
   const Target target = test::frustum_target();
   test::PnpSet set;
   set.coplanar_views = false;
@@ -96,18 +90,17 @@ Records run_all(int problems, PeerFunction peers) {
     run_ours(target, problem, nullptr, r.ours);
     run_ours(target, problem, &problem.prior, r.ours_with_prior);
     if (six) run_ours(target, problem, nullptr, r.ours_of_six);
-    if (peers == nullptr) continue;
-    run_peer(peers, Peer::kSqpnp, problem, r.sqpnp);
-    run_peer(peers, Peer::kEpnp, problem, r.epnp);
-    if (six) run_peer(peers, Peer::kIterative, problem, r.iterative);
+    run_peer(Peer::kSqpnp, problem, r.sqpnp);
+    run_peer(Peer::kEpnp, problem, r.epnp);
+    if (six) run_peer(Peer::kIterative, problem, r.iterative);
   }
   return r;
 }
 
 }  // namespace
 
-std::vector<BenchRow> bench_pose(int problems, PeerFunction peers) {
-  const Records r = run_all(problems, peers);
+std::vector<BenchRow> bench_pose(int problems) {
+  const Records r = run_all(problems);
   std::vector<BenchRow> rows;
   const auto add = [&](const std::string& what, double ours, const Record& peer, double theirs, const char* unit) {
     rows.push_back({what, ours, peer.seconds.empty() ? std::nullopt : std::optional<double>(theirs), unit, true});

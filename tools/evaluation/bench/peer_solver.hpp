@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "pharos/geometry/pose.hpp"
+
 namespace pharos::tools {
 
-/// Pose solvers of other projects that the benchmark runs beside ours.
-enum class Peer : int { kSqpnp = 0, kEpnp = 1, kIterative = 2 };
+/// OpenCV's pose solvers that the benchmark runs beside ours.
+enum class Peer { kSqpnp, kEpnp, kIterative };
 
-/// What the module of peers offers: a pose from points (x, y, z in turn, body frame, m) and their tangents (x/z, y/z in
-/// turn, lighthouse frame). Rotation row by row, R_lighthouse_body. False where the peer gives no answer.
-using PeerFunction = bool (*)(int peer, const double* body, const double* tangents, int count, double* rotation,
-                              double* translation);
-
-inline constexpr const char* kPeerFunctionName = "pharos_bench_peer";
-inline constexpr const char* kPeerModuleName = "libpharos_bench_opencv.so";
+/// A pose from points (x, y, z in turn, body frame, in any unit) and their tangents (x/z, y/z in turn, lighthouse
+/// frame); its translation is in that unit. Nothing where the peer gives no answer.
+std::optional<LighthouseFromBody> solve_by_peer(Peer peer, const std::vector<double>& body,
+                                                const std::vector<double>& tangents);
 
 }  // namespace pharos::tools

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "host/support/input_error.hpp"
-#include "tools/sim/camera/camera_module.hpp"
+#include "tools/sim/camera/camera_play.hpp"
 #include "tools/sim/camera/make_sequence.hpp"
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/support/number_option.hpp"
@@ -82,7 +82,7 @@ int serve(CameraOptions options) {
   // There before the camera is, so that whoever waits for it finds both.
   if (!options.play.truth_file.empty()) std::ofstream(options.play.truth_file).flush();
   std::cout << options.play.address << std::endl;
-  const sim::CameraPlaySummary summary = sim::serve_camera_by_module(reel, options.play);
+  const sim::CameraPlaySummary summary = sim::serve_camera(reel, options.play);
   std::cerr << "served " << summary.frames << " frames in " << summary.played_s << " s\n";
   return 0;
 }

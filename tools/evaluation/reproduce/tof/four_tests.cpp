@@ -92,8 +92,7 @@ class FourTests {
   explicit FourTests(const FourTestsOptions& options)
       : options_(options),
         simulator_(paper_scenario(options.frames), options.seed),
-        camera_(depth_camera_of(simulator_.scenario())),
-        orb_(load_orb_motion()) {}
+        camera_(depth_camera_of(simulator_.scenario())) {}
 
   void run() {
     Progress progress("paper 000's tests", "frames", static_cast<std::size_t>(simulator_.frames()));
@@ -101,7 +100,7 @@ class FourTests {
       const auto test = static_cast<std::size_t>(frame / options_.frames);
       const sim::TofPixels pixels = simulator_.pixels(frame);
       measure(pixels, results_[test]);
-      if (orb_ != nullptr && test > 0) measure_by_orb(frame, pixels, results_[test].orb);
+      if (test > 0) measure_by_orb(frame, pixels, results_[test].orb);
       if (frame % options_.frames == 0) first_ = pixels;
       if (frame % options_.frames == options_.frames - 1) last_first_ = first_;
       progress.step();
@@ -112,7 +111,6 @@ class FourTests {
     return values_of(simulator_.truth(static_cast<int>(test) * options_.frames).T_camera_target);
   }
   const TestResult& result(std::size_t test) const { return results_[test]; }
-  bool has_orb() const { return orb_ != nullptr; }
 
  private:
   void measure(const sim::TofPixels& pixels, TestResult& result) {
@@ -128,27 +126,15 @@ class FourTests {
 
   // From the last test's first frame to this one, applied to the last test's true pose.
   void measure_by_orb(int frame, const sim::TofPixels& pixels, Spread& spread) const {
-    const auto of = [](const sim::TofPixels& p) {
-      return OrbFrame{p.intensity.data(), p.depth.data(), p.width_px, p.height_px};
-    };
-    const PinholeCamera& intrinsics = camera_.intrinsics;
-    const auto& d = intrinsics.distortion;
-    const OrbCamera camera{
-        {intrinsics.fx_px, intrinsics.fy_px, intrinsics.cx_px, intrinsics.cy_px, d[0], d[1], d[2], d[3], d[4]},
-        camera_.depth_scale_m};
-    const OrbFrame from = of(last_first_);
-    const OrbFrame to = of(pixels);
-    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R;
-    Vector3 t;
-    if (!orb_(&from, &to, &camera, R.data(), t.data())) return;
+    const auto moved = orb_motion(last_first_, pixels, camera_);
+    if (!moved) return;
     const sim::CameraFromTarget before = simulator_.truth(frame - options_.frames).T_camera_target;
-    spread.add(values_of({R * before.R, R * before.t + t}));
+    spread.add(values_of(*moved * before));
   }
 
   FourTestsOptions options_;
   sim::TofSimulator simulator_;
   DepthCamera camera_;
-  OrbMotionFunction orb_;
   std::unique_ptr<tof::TofWorkspace> workspace_ = std::make_unique<tof::TofWorkspace>();
   std::array<TestResult, kTests> results_;
   sim::TofPixels first_;       // of this test
@@ -200,7 +186,7 @@ std::vector<ComparisonRow> reproduce_four_tests(const FourTestsOptions& options)
       orb[i] = to.orb.mean(i) - truth_to[i];
     }
     add_errors(rows, pair, "ours", kPublishedError[pair], ours, count_text(to.ours, options.frames));
-    if (tests.has_orb() && to.orb.count() > 0) {
+    if (to.orb.count() > 0) {
       add_errors(rows, pair, "ORB", kPublishedOrb[pair], orb, count_text(to.orb, options.frames));
     }
   }

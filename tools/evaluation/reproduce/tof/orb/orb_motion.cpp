@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV's ORB, matcher and RANSAC behind one function: what the paper compares itself with.
+// OpenCV's ORB, matcher and RANSAC: what the paper compares itself with.
 #include "tools/evaluation/reproduce/tof/orb/orb_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
 #include <opencv2/features2d.hpp>
 #include <vector>
 
+namespace pharos::tools {
 namespace {
 
-using pharos::tools::OrbCamera;
-using pharos::tools::OrbFrame;
+using sim::TofPixels;
 
 constexpr int kFeatures = 1000;
 constexpr double kFullPicture = 255.0;
@@ -32,8 +33,8 @@ struct Features {
 };
 
 // The grey picture of 8 bits that ORB takes, by the square root, so that the dark foil keeps its texture.
-cv::Mat picture(const OrbFrame& frame) {
-  const cv::Mat raw(frame.height_px, frame.width_px, CV_16U, const_cast<std::uint16_t*>(frame.intensity));
+cv::Mat picture(const TofPixels& frame) {
+  const cv::Mat raw(frame.height_px, frame.width_px, CV_16U, const_cast<std::uint16_t*>(frame.intensity.data()));
   cv::Mat grey;
   raw.convertTo(grey, CV_32F);
   cv::Mat sorted;
@@ -45,18 +46,22 @@ cv::Mat picture(const OrbFrame& frame) {
   return result;
 }
 
-Features features_of(const OrbFrame& frame) {
+Features features_of(const TofPixels& frame) {
   Features features;
   cv::ORB::create(kFeatures)->detectAndCompute(picture(frame), cv::noArray(), features.points, features.words);
   return features;
 }
 
+int depth_counts(const TofPixels& frame, const cv::Point2d& place) {
+  return frame.depth[static_cast<std::size_t>(cvRound(place.y) * frame.width_px + cvRound(place.x))];
+}
+
 // Median distance along z between where the motion puts the points and what the second frame's depths say there.
 double depth_error_m(const std::vector<cv::Point3d>& points, const std::vector<cv::Point2d>& to, const cv::Mat& R,
-                     const cv::Mat& t, const OrbFrame& second, const OrbCamera& camera) {
+                     const cv::Mat& t, const TofPixels& second, const DepthCamera& camera) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int counts = second.depth[cvRound(to[i].y) * second.width_px + cvRound(to[i].x)];
+    const int counts = depth_counts(second, to[i]);
     if (counts == 0) continue;
     const cv::Point3d& p = points[i];
     const double z = R.at<double>(2, 0) * p.x + R.at<double>(2, 1) * p.y + R.at<double>(2, 2) * p.z + t.at<double>(2);
@@ -68,23 +73,23 @@ double depth_error_m(const std::vector<cv::Point3d>& points, const std::vector<c
   return *middle;
 }
 
-bool motion(const OrbFrame& first, const OrbFrame& second, const OrbCamera& camera, cv::Mat& R, cv::Mat& t) {
+bool motion(const TofPixels& first, const TofPixels& second, const DepthCamera& camera, cv::Mat& R, cv::Mat& t) {
   const Features one = features_of(first);
   const Features other = features_of(second);
   if (one.words.empty() || other.words.empty()) return false;
   std::vector<std::vector<cv::DMatch>> matches;
   cv::BFMatcher(cv::NORM_HAMMING).knnMatch(one.words, other.words, matches, 2);
 
-  const auto& v = camera.values;
-  const cv::Mat K = (cv::Mat_<double>(3, 3) << v[0], 0, v[2], 0, v[1], v[3], 0, 0, 1);
-  const cv::Mat distortion = (cv::Mat_<double>(1, 5) << v[4], v[5], v[6], v[7], v[8]);
+  const PinholeCamera& lens = camera.intrinsics;
+  const cv::Matx33d K(lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1);
+  const cv::Mat distortion(lens.distortion, true);
   std::vector<cv::Point2d> from;
   std::vector<cv::Point2d> to;
   std::vector<double> depth_m;
   for (const std::vector<cv::DMatch>& match : matches) {
     if (match.size() < 2 || match[0].distance > kRatio * match[1].distance) continue;
     const cv::Point2f place = one.points[static_cast<std::size_t>(match[0].queryIdx)].pt;
-    const int counts = first.depth[cvRound(place.y) * first.width_px + cvRound(place.x)];
+    const int counts = depth_counts(first, place);
     if (counts == 0) continue;
     from.emplace_back(place);
     to.emplace_back(other.points[static_cast<std::size_t>(match[0].trainIdx)].pt);
@@ -117,16 +122,16 @@ bool motion(const OrbFrame& first, const OrbFrame& second, const OrbCamera& came
 
 }  // namespace
 
-extern "C" bool pharos_orb_motion(const OrbFrame* first, const OrbFrame* second, const OrbCamera* camera,
-                                  double* rotation, double* translation_m) {
-  try {
-    cv::Mat R;
-    cv::Mat t;
-    if (!motion(*first, *second, *camera, R, t)) return false;
-    std::copy_n(R.ptr<double>(), 9, rotation);
-    std::copy_n(t.ptr<double>(), 3, translation_m);
-    return true;
-  } catch (const cv::Exception&) {
-    return false;
-  }
+std::optional<Pose<frame::Camera, frame::Camera>> orb_motion(const TofPixels& first, const TofPixels& second,
+                                                             const DepthCamera& camera) try {
+  cv::Mat R, t;
+  if (!motion(first, second, camera, R, t)) return std::nullopt;
+  Pose<frame::Camera, frame::Camera> moved;
+  cv::cv2eigen(R, moved.R);
+  cv::cv2eigen(t, moved.t);
+  return moved;
+} catch (const cv::Exception&) {
+  return std::nullopt;
 }
+
+}  // namespace pharos::tools
