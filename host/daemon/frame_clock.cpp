@@ -3,12 +3,11 @@
 
 #include <cstdlib>
 
+#include "host/support/time_units.hpp"
 #include "pharos/base/ticks.hpp"
 
 namespace pharos::host {
 namespace {
-
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 std::int64_t nearest_second_ns(std::int64_t ns) {
   const std::int64_t half = ns < 0 ? -kNsPerSecond / 2 : kNsPerSecond / 2;

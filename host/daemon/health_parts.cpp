@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/health_parts.hpp"
 
+#include "host/support/time_units.hpp"
+
 namespace pharos::host {
-namespace {
-
-constexpr std::int64_t kNsPerUs = 1000;
-
-}  // namespace
-
 SourceState state_of(CameraState camera) {
   switch (camera) {
     case CameraState::kOpen:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "host/clock/clock_map.hpp"
@@ -10,7 +11,10 @@
 
 namespace pharos::host {
 
-// What the health of several lines tells alike.
+// What the health of several pipelines tells alike.
+
+/// A source without data for so long is silent.
+inline constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 /// What a camera's state makes of the health of what is measured with it.
 SourceState state_of(CameraState camera);

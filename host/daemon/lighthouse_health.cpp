@@ -2,14 +2,13 @@
 // The part of LighthousePipeline that tells how it fares.
 #include "host/daemon/health_parts.hpp"
 #include "host/daemon/lighthouse_pipeline.hpp"
+#include "host/support/time_units.hpp"
 #include "pharos/wire/message_type.hpp"
 
 namespace pharos::host {
 namespace {
 
 // Counters, hellos and times come at least once a second: twice that is silence.
-constexpr std::int64_t kSilence_ns = 2'000'000'000;
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 bool within(std::int64_t event_ns, std::int64_t now_ns) { return event_ns >= 0 && now_ns - event_ns < kSilence_ns; }
 

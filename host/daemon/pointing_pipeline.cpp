@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "host/publish/messages.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 namespace {
 
 constexpr std::size_t kMaxPending = 1024;  // images without a row; then the oldest is given up
-constexpr double kNsPerSecond = 1e9;
 // What a 64-bit count of nanoseconds holds.
 constexpr double kMaxTime_s = 9.2e9;
 
@@ -79,7 +79,7 @@ void PointingPipeline::track_failed(const std::string& error, std::int64_t monot
 PointingReport PointingPipeline::report_of(const MeasurementOutcome& outcome, double time_s) const {
   PointingReport report;
   static_cast<MeasurementOutcome&>(report) = outcome;
-  report.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * kNsPerSecond);
+  report.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * static_cast<double>(kNsPerSecond));
   report.source = "line/" + config_.name;
   report.sensor = config_.name;
   report.target = config_.target;
@@ -129,8 +129,9 @@ void PointingPipeline::keep_for_pass(const ImageResult& result) {
 
 std::optional<PassJob> PointingPipeline::take_finished_pass(std::int64_t monotonic_ns) {
   if (!config_.law) return std::nullopt;
-  const bool silent = !pass_.empty() && pending_.empty() && last_result_ns_ >= 0 &&
-                      static_cast<double>(monotonic_ns - last_result_ns_) > config_.pass_gap_s * kNsPerSecond;
+  const bool silent =
+      !pass_.empty() && pending_.empty() && last_result_ns_ >= 0 &&
+      static_cast<double>(monotonic_ns - last_result_ns_) > config_.pass_gap_s * static_cast<double>(kNsPerSecond);
   if (over_.empty() && silent) over_.swap(pass_);
   if (over_.empty()) return std::nullopt;
   PassJob job{{}, {config_.station, *config_.law, pointing::PassOptions{}.max_spin_rad_s}};

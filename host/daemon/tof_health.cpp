@@ -7,7 +7,6 @@ namespace pharos::host {
 namespace {
 
 // Thirty times a second, or three in turns: as long without any is silence.
-constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 }  // namespace
 

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "host/publish/messages.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 namespace {
-
-constexpr std::int64_t kNsPerUs = 1000;
 
 void fill(const Vector3& v, double (&out)[3]) {
   for (int i = 0; i < 3; ++i) out[i] = v[i];

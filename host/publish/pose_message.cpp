@@ -3,11 +3,10 @@
 #include <limits>
 
 #include "host/publish/messages.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 namespace {
-
-constexpr std::int64_t kNsPerUs = 1000;
 
 std::int32_t saturated_us(std::int64_t ns) {
   constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();

@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "host/publish/messages.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 
 spin_t message_of(const SpinReport& report) {
-  constexpr std::int64_t kNsPerUs = 1000;
   spin_t message{};
   message.utime = report.utc_ns / kNsPerUs;
   message.sequence = report.sequence;

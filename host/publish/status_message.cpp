@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "host/publish/messages.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kNsPerUs = 1000;
 constexpr double kNsPerUsReal = 1e3;
 
 std::vector<counter_t> counters_of(const NamedCounts& counts) {

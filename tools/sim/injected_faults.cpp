@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "tools/sim/lighthouse_simulator.hpp"
+#include "tools/sim/ticks.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr double kTick_s = 20e-9;
 constexpr std::int64_t kSaturated_ticks = 68266;  // 65,535 ticks at 48 MHz, as devices send it
-
-double seconds(double ticks) { return ticks * kTick_s; }
 
 }  // namespace
 

@@ -5,17 +5,15 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "tools/sim/ticks.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr double kTick_s = 20e-9;
 // Longest look-back from a slot's start to a pulse of that slot: jitter, wander and reflections before the hit.
 constexpr std::int64_t kSlotMargin_ticks = 2000;
 constexpr double kHitSearchEnd_rad = 1e-11;
 constexpr int kHitSearchSteps = 12;
-
-double seconds(double ticks) { return ticks * kTick_s; }
 
 }  // namespace
 

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "tools/sim/ticks.hpp"
 
 namespace pharos::sim {
 namespace {
 
-constexpr double kTick_s = 20e-9;
 constexpr std::size_t index(Rotor rotor) { return static_cast<std::size_t>(rotor); }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace pharos::sim {
 namespace {
 
-constexpr double kStep_s = 0.005;
+constexpr double kTruthStep_s = 0.005;
 
 void append(std::string& text, double value, char end) {
   char digits[32];
@@ -34,8 +34,8 @@ void TruthLog::start(std::int64_t utc_us, double speed) {
 
 void TruthLog::write_until(double time_s) {
   std::string rows;
-  for (; static_cast<double>(row_) * kStep_s <= std::min(time_s, truth_.end_s); ++row_) {
-    const double at_s = static_cast<double>(row_) * kStep_s;
+  for (; static_cast<double>(row_) * kTruthStep_s <= std::min(time_s, truth_.end_s); ++row_) {
+    const double at_s = static_cast<double>(row_) * kTruthStep_s;
     const std::int64_t utime = start_utc_us_ + std::llround(at_s / speed_ * 1e6);
     for (std::size_t station = 0; station < truth_.stations; ++station) {
       const LighthouseFromBody T = truth_.at(station, at_s);

@@ -7,7 +7,7 @@
 namespace pharos::pointing {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kFitRounds = 6;
 constexpr std::size_t kMaxLags = 24;
 constexpr std::size_t kPointsPerLag = 10;
 // Mean absolute deviation to standard deviation, of a normal distribution.
@@ -107,7 +107,7 @@ Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
   if (points.size() < kMinEdgePoints) return LineFailure::kTooFewPoints;
   Straight straight = straight_through(points, [](const EdgePoint&) { return true; });
   double limit = 0.0, scale = 0.0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const Straight before = straight;
     double deviation = 0.0;
     std::size_t used = 0;

@@ -9,7 +9,7 @@
 namespace pharos::pointing {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kPassRounds = 6;
 // Squared sigmas beyond which an image contradicts the rest.
 constexpr double kContradiction = 25.0;
 // Standard normal deviate of 99.99 %.
@@ -203,8 +203,9 @@ PassSolution estimate_pass(std::span<const PassImage> images, const PassOptions&
   const Law law{options.law, tellable_spin(workspace, options.max_spin_rad_s)};
   const int max_rejected = static_cast<int>(kMaxRejectedFraction * gathered.images);
   auto fit = fit_planes(workspace, law);
-  for (int round = 0; round < kRounds && fit && !is_fitting(fit->chi2, fit->degrees_of_freedom); ++round) {
-    const int taken = rejected(workspace, *fit, std::min(max_rejected - estimate.rejected, 1 + max_rejected / kRounds));
+  for (int round = 0; round < kPassRounds && fit && !is_fitting(fit->chi2, fit->degrees_of_freedom); ++round) {
+    const int taken =
+        rejected(workspace, *fit, std::min(max_rejected - estimate.rejected, 1 + max_rejected / kPassRounds));
     if (taken == 0) break;
     estimate.rejected += taken;
     fit = fit_planes(workspace, law);

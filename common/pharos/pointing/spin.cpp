@@ -37,7 +37,7 @@ struct Start {
 };
 using Starts = StaticVector<Start, kStarts>;
 
-double variance_of(const AxisPlane& plane, const Vector3& d) { return std::max(1e-30, d.dot(plane.covariance * d)); }
+double axis_variance(const AxisPlane& plane, const Vector3& d) { return std::max(1e-30, d.dot(plane.covariance * d)); }
 
 // Keeps the best; starts come in order of directions, so one of each direction is enough.
 void keep(Starts& starts, const Start& start) {
@@ -98,7 +98,7 @@ struct SpinDescent : optimize::LeastSquares<5, Spin> {
       const AxisPlane& plane = problem.planes[i];
       const Vector3 d = spin.at(problem.seconds[i]);
       normal.add(spin_jacobian(spin, plane.normal, problem.seconds[i]).transpose(), plane.normal.dot(d),
-                 1.0 / variance_of(plane, d));
+                 1.0 / axis_variance(plane, d));
     }
     return normal;
   }

@@ -26,12 +26,12 @@ Lane arctangent(const Lane& opposite, const Lane& adjacent) {
 }
 
 // Residual of one axis and its derivatives by the point's coordinate along the axis and ahead; weighted.
-struct AxisTerms {
+struct LaneTerms {
   Lane residual, by_along, by_ahead;
 };
 
 struct AngleTerms {
-  AxisTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+  LaneTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
     const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
     const Lane scale = weight / (along * along + ahead * ahead);
     return {weight * arctangent(ahead * cosine - along * sine, along * cosine + ahead * sine), -ahead * scale,
@@ -40,7 +40,7 @@ struct AngleTerms {
 };
 
 struct TangentTerms {
-  AxisTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
+  LaneTerms operator()(const ObservationTable::AxisColumns& c, int i, const Lane& along, const Lane& ahead) const {
     const Lane cosine = load(c.cosine, i), sine = load(c.sine, i), weight = load(c.weight, i);
     const Lane inverse = weight / ahead;
     return {along * inverse - weight * cosine / sine, inverse, -along * inverse / ahead};
@@ -79,7 +79,7 @@ struct AxisSums {
     along_along = along_ahead = ahead_ahead = along_residual = ahead_residual = residual_residual = Lane::Zero();
   }
 
-  void add(const Lane& r0, const Lane& r1, const Lane& r2, const AxisTerms& terms) {
+  void add(const Lane& r0, const Lane& r1, const Lane& r2, const LaneTerms& terms) {
     rotation_rotation[0] += r0 * r0;
     rotation_rotation[1] += r1 * r0;
     rotation_rotation[2] += r1 * r1;
@@ -132,9 +132,9 @@ NormalEquations linearise_with(const ObservationTable& s, const LighthouseFromBo
   AxisSums sum_x, sum_y;
   for (int i = 0; i < s.count; i += 2) {
     const Points p = points_at(s, i, T);
-    const AxisTerms x = terms_of(s.axis[0], i, p.px, p.pz);
+    const LaneTerms x = terms_of(s.axis[0], i, p.px, p.pz);
     sum_x.add(p.qy * x.by_ahead, p.qz * x.by_along - p.qx * x.by_ahead, -p.qy * x.by_along, x);
-    const AxisTerms y = terms_of(s.axis[1], i, p.py, p.pz);
+    const LaneTerms y = terms_of(s.axis[1], i, p.py, p.pz);
     sum_y.add(p.qy * y.by_ahead - p.qz * y.by_along, -p.qx * y.by_ahead, p.qx * y.by_along, y);
   }
   return joined(sum_x, sum_y);

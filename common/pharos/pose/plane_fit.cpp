@@ -10,24 +10,24 @@ namespace {
 // 16th power.
 constexpr int kSquarings = 4;
 
-struct Symmetric {
+struct Scatter {
   double xx, yy, zz, xy, xz, yz;
 };
 
-Symmetric adjugate(const Symmetric& m) {
+Scatter adjugate(const Scatter& m) {
   return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
           m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy, m.xy * m.xz - m.yz * m.xx};
 }
 
-Symmetric squared_at_unit_trace(const Symmetric& m) {
+Scatter squared_at_unit_trace(const Scatter& m) {
   const double s = 1.0 / (m.xx + m.yy + m.zz);
-  const Symmetric a{m.xx * s, m.yy * s, m.zz * s, m.xy * s, m.xz * s, m.yz * s};
+  const Scatter a{m.xx * s, m.yy * s, m.zz * s, m.xy * s, m.xz * s, m.yz * s};
   return {a.xx * a.xx + a.xy * a.xy + a.xz * a.xz, a.xy * a.xy + a.yy * a.yy + a.yz * a.yz,
           a.xz * a.xz + a.yz * a.yz + a.zz * a.zz, a.xx * a.xy + a.xy * a.yy + a.xz * a.yz,
           a.xx * a.xz + a.xy * a.yz + a.xz * a.zz, a.xy * a.xz + a.yy * a.yz + a.yz * a.zz};
 }
 
-Vector3 largest_column(const Symmetric& m) {
+Vector3 largest_column(const Scatter& m) {
   if (m.xx >= m.yy && m.xx >= m.zz) return {m.xx, m.xy, m.xz};
   if (m.yy >= m.zz) return {m.xy, m.yy, m.yz};
   return {m.xz, m.yz, m.zz};
@@ -47,7 +47,7 @@ void PlaneFit::add(const Vector3& point) {
 }
 
 Vector3 PlaneFit::normal() const {
-  Symmetric power = adjugate({xx_, yy_, zz_, xy_, xz_, yz_});
+  Scatter power = adjugate(Scatter{xx_, yy_, zz_, xy_, xz_, yz_});
   if (!(power.xx + power.yy + power.zz > 0.0)) return Vector3::UnitZ();
   for (int k = 0; k < kSquarings; ++k) power = squared_at_unit_trace(power);
   const Vector3 column = largest_column(power);

@@ -15,14 +15,14 @@ using ellipse::Matrix5;
 using ellipse::Vector5;
 
 // A conic has five parameters; more points than these only average what distortion leaves of the ellipse.
-constexpr std::size_t kPoints = 16;
-using Rays = std::array<Vector2, kPoints>;
+constexpr std::size_t kConePoints = 16;
+using Rays = std::array<Vector2, kConePoints>;
 
 std::optional<Rays> rays_of(const ellipse::Ellipse& e, const PinholeCamera& intrinsics) {
   Rays rays;
-  for (std::size_t k = 0; k < kPoints; ++k) {
+  for (std::size_t k = 0; k < kConePoints; ++k) {
     const ellipse::PointPx point =
-        ellipse::point_at(e, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kPoints));
+        ellipse::point_at(e, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kConePoints));
     const Result<Vector2, CameraFailure> ray = undistort(intrinsics, {point.u, point.v});
     if (!ray) return std::nullopt;
     rays[k] = *ray;
@@ -33,9 +33,9 @@ std::optional<Rays> rays_of(const ellipse::Ellipse& e, const PinholeCamera& intr
 // Least squares on x^T A x + b^T x = 1 about the points' mean, in units of their spread.
 std::optional<Matrix3> conic_through(const Rays& rays) {
   Vector2 mean = Vector2::Zero();
-  for (const Vector2& ray : rays) mean += ray / static_cast<double>(kPoints);
+  for (const Vector2& ray : rays) mean += ray / static_cast<double>(kConePoints);
   double square = 0.0;
-  for (const Vector2& ray : rays) square += (ray - mean).squaredNorm() / static_cast<double>(kPoints);
+  for (const Vector2& ray : rays) square += (ray - mean).squaredNorm() / static_cast<double>(kConePoints);
   const double per_spread = 1.0 / std::sqrt(square);
   Matrix5 normal = Matrix5::Zero();
   Vector5 right = Vector5::Zero();

@@ -92,11 +92,11 @@ struct Minima {
   std::optional<RefinedCircles> alternative;
 };
 
-double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 // Keeps the best of what was found, and another minimum beside it.
 void take(const RefinedCircles& found, Minima& minima) {
-  if (angle_between(found.model.normal, minima.best.model.normal) < kSameNormal_rad) return;
+  if (angle_of(found.model.normal, minima.best.model.normal) < kSameNormal_rad) return;
   const bool better = found.sums.cost < minima.best.sums.cost;
   const RefinedCircles other = better ? minima.best : found;
   if (better) minima.best = found;
@@ -167,7 +167,7 @@ void add_alternative(const Minima& minima, Ring2Estimate& estimate) {
   const double delta_chi2 = minima.alternative->sums.cost - minima.best.sums.cost;
   if (!(delta_chi2 < kAmbiguousDeltaChi2)) return;
   // Where the cost is flat, one minimum reached from two sides.
-  const double apart = angle_between(minima.alternative->model.normal, estimate.normal);
+  const double apart = angle_of(minima.alternative->model.normal, estimate.normal);
   if (apart < kSameMinimum * estimate.sigma_normal_rad()) return;
   estimate.second = {minima.alternative->model.normal, minima.alternative->model.centre_m, delta_chi2};
 }

@@ -7,14 +7,9 @@
 
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
-namespace {
-
-constexpr double kNsPerSecond = 1e9;
-
-}  // namespace
-
 RecordedPairs::RecordedPairs(const Clock& clock, const std::string& directory, const Options& options)
     : clock_(clock),
       path_(directory),
@@ -28,7 +23,7 @@ RecordedPairs::RecordedPairs(const Clock& clock, const std::string& directory, c
 std::int64_t RecordedPairs::time_ns(std::size_t index) const {
   const PairName& pair = pairs_[index];
   if (pair.stamp_ns) return *pair.stamp_ns;
-  return began_utc_ns_ + std::llround((pair.time_s - pairs_.front().time_s) * kNsPerSecond);
+  return began_utc_ns_ + std::llround((pair.time_s - pairs_.front().time_s) * static_cast<double>(kNsPerSecond));
 }
 
 // For the pair next_, or for the end behind the last one.

@@ -6,6 +6,7 @@
 #include "host/runtime/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "host/support/input_error.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 namespace {
@@ -17,7 +18,6 @@ enum SlamFlag : std::uint8_t {
 constexpr std::array<FlagWord, 2> kSlamFlagWords{{{kMapStart, "map_start"}, {kRelocalised, "relocalised"}}};
 
 constexpr std::int64_t kFiguresEvery_ns = 1'000'000'000;  // they cost a lock and a sort
-constexpr double kNsPerSecond = 1e9;
 
 std::optional<enhance::EnhanceSettings> settings_of(LowLight light) {
   if (light == LowLight::kOff) return std::nullopt;
@@ -51,7 +51,7 @@ PairResult SlamEstimator::measure(const StereoPair& pair) {
   SlamPoseEstimate estimate;
   answer.pose = estimate;
   if (!began_ns_) began_ns_ = pair.steady_ns;
-  const double time_s = static_cast<double>(pair.steady_ns - *began_ns_) / kNsPerSecond;
+  const double time_s = static_cast<double>(pair.steady_ns - *began_ns_) / static_cast<double>(kNsPerSecond);
   const std::int64_t start_ns = monotonic_now_ns();
   const auto [left, right] = eight_bits_.both(pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view());
   const std::int64_t lit_ns = monotonic_now_ns();

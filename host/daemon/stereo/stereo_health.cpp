@@ -7,7 +7,6 @@ namespace pharos::host {
 namespace {
 
 // A pair a second is the slowest rig that is not silent.
-constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 }  // namespace
 

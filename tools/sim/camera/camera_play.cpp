@@ -25,7 +25,7 @@ bool told_to_stop() {
 }
 
 bool dead(const CameraPlay& play, double time_s) {
-  for (const Interval& death : play.deaths) {
+  for (const Outage& death : play.deaths) {
     if (death.holds(time_s)) return true;
   }
   return false;

@@ -10,7 +10,7 @@
 namespace pharos::sim {
 
 /// From `at_s` for `for_s` seconds, of the time since the camera came up.
-struct Interval {
+struct Outage {
   double at_s = 0.0;
   double for_s = 0.0;
   bool holds(double time_s) const { return time_s >= at_s && time_s < at_s + for_s; }
@@ -31,9 +31,9 @@ struct CameraPlay {
   double scale_m = 0.00025;
 
   double loss = 0.0;              // share of packets
-  std::vector<Interval> stalls;   // no packet goes out; the camera still answers
-  std::vector<Interval> deaths;   // no camera is there
-  std::vector<Interval> freezes;  // the same picture and the same time again and again
+  std::vector<Outage> stalls;   // no packet goes out; the camera still answers
+  std::vector<Outage> deaths;   // no camera is there
+  std::vector<Outage> freezes;  // the same picture and the same time again and again
 
   double clock_start_s = 1000.0;  // what its clock shows at its start
   double clock_ppm = 0.0;         // how much it runs fast

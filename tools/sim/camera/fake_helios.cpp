@@ -23,7 +23,7 @@ namespace {
 
 using host::GObjectPtr;
 
-constexpr double kNsPerSecond = 1e9;
+constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kUsPerSecond = 1e6;
 constexpr double kMmPerM = 1e3;
 constexpr std::size_t kFineModes = 2;  // up to 3000 mm
@@ -41,8 +41,8 @@ std::uint32_t first_format(OfferedFormats offered) {
   return offered == OfferedFormats::kDepth ? host::kCoord3dAbcy16 : host::kCoord3dC16;
 }
 
-bool any_holds(const std::vector<Interval>& intervals, double time_s) {
-  return std::any_of(intervals.begin(), intervals.end(), [&](const Interval& one) { return one.holds(time_s); });
+bool any_holds(const std::vector<Outage>& intervals, double time_s) {
+  return std::any_of(intervals.begin(), intervals.end(), [&](const Outage& one) { return one.holds(time_s); });
 }
 
 // Aravis takes the description as a file only.
@@ -150,7 +150,7 @@ void FakeHelios::Parts::apply_ptp() const {
 std::int64_t FakeHelios::Parts::camera_time_ns(std::int64_t utc_ns, std::int64_t monotonic_ns) const {
   if (read(kPtpStatusRegister) == kPtpSlave) return utc_ns;
   const double since_start_ns = static_cast<double>(monotonic_ns - clock_began_ns);
-  return std::llround(play.clock_start_s * kNsPerSecond + since_start_ns * (1.0 + play.clock_ppm * 1e-6));
+  return std::llround(play.clock_start_s * kNanosecondsPerSecond + since_start_ns * (1.0 + play.clock_ppm * 1e-6));
 }
 
 // Which frame is shown, and the time that the camera tells of it.
@@ -165,7 +165,8 @@ void FakeHelios::Parts::take_picture(std::int64_t utc_ns) {
   const auto period_ns = static_cast<std::int64_t>(read(ARV_FAKE_CAMERA_REGISTER_ACQUISITION_FRAME_PERIOD_US)) * 1000;
   const std::int64_t since_trigger_ns = utc_ns % period_ns;
   shown = static_cast<std::uint64_t>(utc_ns / period_ns) + 1;
-  const double off_ns = std::normal_distribution<double>(0.0, 1.0)(jitter) * play.clock_jitter_s * kNsPerSecond;
+  const double off_ns =
+      std::normal_distribution<double>(0.0, 1.0)(jitter) * play.clock_jitter_s * kNanosecondsPerSecond;
   last_camera_ns = camera_time_ns(utc_ns - since_trigger_ns, now_ns - since_trigger_ns) + std::llround(off_ns);
 }
 
@@ -176,7 +177,7 @@ void FakeHelios::Parts::lose(double fraction) {
 
 // In the thread of Aravis that also answers the control channel: must be over within a frame.
 void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
-  const double time_s = static_cast<double>(host::monotonic_now_ns() - began_ns) / kNsPerSecond;
+  const double time_s = static_cast<double>(host::monotonic_now_ns() - began_ns) / kNanosecondsPerSecond;
   apply_ptp();
   const std::int64_t utc_ns = host::utc_now_ns();
   const bool frozen = any_holds(play.freezes, time_s) && shown > 0;

@@ -36,10 +36,10 @@ struct CameraOptions {
   sim::CameraPlay play;
 };
 
-std::vector<sim::Interval> parse_intervals(const char* option, const std::vector<std::string>& texts) {
-  std::vector<sim::Interval> intervals;
+std::vector<sim::Outage> parse_intervals(const char* option, const std::vector<std::string>& texts) {
+  std::vector<sim::Outage> intervals;
   for (const std::string& text : texts) {
-    sim::Interval& interval = intervals.emplace_back();
+    sim::Outage& interval = intervals.emplace_back();
     const std::size_t comma = text.find(',');
     const char* const end = text.data() + text.size();
     const auto at = std::from_chars(text.data(), end, interval.at_s);

@@ -31,7 +31,7 @@ constexpr double kLead_s = 0.001;  // longer than any pulse: whoever is lit now 
 constexpr double kTail_s = 1.2;    // after the last pulse, for the last sweep, counters and time to be said
 constexpr double kOldest_s = 0.01;
 
-struct Options {
+struct CaptureArguments {
   std::string input;
   std::string output = "-";
   std::string truth;
@@ -67,7 +67,7 @@ class Sink {
 
 class CapturePlayer {
  public:
-  CapturePlayer(sim::PlaybackInput input, const Options& options)
+  CapturePlayer(sim::PlaybackInput input, const CaptureArguments& options)
       : input_(std::move(input)), options_(options), sink_(options.output) {
     if (!options.truth.empty()) truth_.emplace(sim::truth_of(input_, options.truth));
   }
@@ -118,7 +118,7 @@ class CapturePlayer {
   }
 
   sim::PlaybackInput input_;
-  const Options& options_;
+  const CaptureArguments& options_;
   Sink sink_;
   std::optional<sim::TruthLog> truth_;
   sim::CaptureFeed feed_;
@@ -129,7 +129,7 @@ class CapturePlayer {
 }  // namespace
 
 void add_sim_capture(CLI::App& sim, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CaptureArguments>();
   CLI::App* command = sim.add_subcommand("capture", "Play a scenario or a recording as the capture block's registers");
   command
       ->add_option("INPUT", options->input,

@@ -18,7 +18,7 @@ namespace {
 
 using host::InputError;
 
-struct Options {
+struct SerialArguments {
   std::string input;
   std::string link;
   std::string truth;
@@ -42,7 +42,7 @@ sim::Unplug parse_unplug(const std::string& text) {
   return unplug;
 }
 
-int play(const Options& options) {
+int play(const SerialArguments& options) {
   sim::PlaybackInput input = sim::open_playback_input(options.input, options.serial.seed);
   std::optional<sim::PlayTruth> truth;
   if (!options.truth.empty()) truth = sim::truth_of(input, options.truth);
@@ -72,7 +72,7 @@ int play(const Options& options) {
 }  // namespace
 
 void add_sim_serial(CLI::App& sim, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SerialArguments>();
   CLI::App* command = sim.add_subcommand("serial", "Play a scenario or a recording as a target on a serial line");
   command
       ->add_option("INPUT", options->input,

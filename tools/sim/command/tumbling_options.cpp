@@ -11,14 +11,14 @@
 namespace pharos::tools {
 namespace {
 
-struct Options {
+struct SceneArguments {
   std::string scene, renderer = "povray", light = "good";
   sim::TumblingScenario scenario;
   sim::RoomScenario room;
   int board_pairs = 15;
 };
 
-bool write_scene(Options options, std::uint64_t seed, const std::string& directory) {
+bool write_scene(SceneArguments options, std::uint64_t seed, const std::string& directory) {
   if (options.scene.empty()) return false;
   if (options.scene == "room") {
     Progress progress("rendered", "pairs", static_cast<std::size_t>(sim::RoomSequence(options.room, seed).frames()));
@@ -42,7 +42,7 @@ bool write_scene(Options options, std::uint64_t seed, const std::string& directo
 }  // namespace
 
 std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SceneArguments>();
   command
       .add_option(
           "--scene", options->scene,

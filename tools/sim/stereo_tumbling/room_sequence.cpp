@@ -13,8 +13,8 @@
 namespace pharos::sim {
 namespace {
 
-constexpr int kRaysPerSide = 2;
-constexpr double kBlur_px = 0.6;
+constexpr int kRoomRaysPerSide = 2;
+constexpr double kRoomBlur_px = 0.6;
 constexpr double kGain_e = 9000.0;  // of a white wall facing the lamp: below the well
 const Lighting kLighting{0.35, 0.5, Vector3(0.0, -1.0, 0.0)};
 constexpr double kLap_rad = 2.0 * std::numbers::pi;
@@ -58,7 +58,8 @@ RoomSequence::RoomSequence(const RoomScenario& scenario, std::uint64_t seed)
       seed_(seed),
       rig_(raw_rig(scenario)),
       lenses_{lens_of(rig_.left.intrinsics), lens_of(rig_.right.intrinsics)},
-      rays_{RayGrid::inside_pixels(lenses_[0], kRaysPerSide), RayGrid::inside_pixels(lenses_[1], kRaysPerSide)} {
+      rays_{RayGrid::inside_pixels(lenses_[0], kRoomRaysPerSide),
+            RayGrid::inside_pixels(lenses_[1], kRoomRaysPerSide)} {
   RandomStream random(seed, "room");
   add_textured_box(room_, Vector3::Zero(), kRoomHalf_m, random);
   for (const Vector3& place : {Vector3(3.2, 0.9, 2.4), Vector3(-3.3, 0.7, 2.2), Vector3(3.3, 1.0, -2.4),
@@ -94,8 +95,8 @@ host::GreyImage RoomSequence::image(int frame, int side) const {
   RandomStream random(seed_, (side == 0 ? "left " : "right ") + std::to_string(frame));
   ImageSensor sensor;
   sensor.electrons_per_light = kGain_e;
-  const LinearImage light = cast_panels(room_, kLighting, lenses_[k], rays_[k], kRaysPerSide, pose(frame, side));
-  return expose(blurred(light, kBlur_px), sensor, random);
+  const LinearImage light = cast_panels(room_, kLighting, lenses_[k], rays_[k], kRoomRaysPerSide, pose(frame, side));
+  return expose(blurred(light, kRoomBlur_px), sensor, random);
 }
 
 void write_room(const RoomScenario& scenario, std::uint64_t seed, const std::string& directory,

@@ -10,7 +10,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 33'333'333;
+constexpr std::int64_t kFramePeriod_ns = 33'333'333;
 
 TofConfig camera_config() {
   TofConfig config;
@@ -42,7 +42,7 @@ class TofPipelineTest : public ::testing::Test {
     });
   }
   DepthFrame frame_now(CameraClock camera_clock = CameraClock::kHost) {
-    clock.advance(kPeriod_ns);
+    clock.advance(kFramePeriod_ns);
     DepthFrame frame;
     frame.resize(4, 2);
     frame.session = 1;
@@ -148,7 +148,7 @@ TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
   DepthFrame frame = frame_now();
   pipeline->take(frame);
   pipeline->take(frame);
-  frame.camera_ns -= kPeriod_ns;
+  frame.camera_ns -= kFramePeriod_ns;
   pipeline->take(frame);
   EXPECT_EQ(poses().size(), 1u);
   EXPECT_EQ(counter("frames_time_back"), 2);
@@ -167,7 +167,7 @@ TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
   constexpr int kFrames = 40;
   for (int i = 0; i < kFrames; ++i) {
     DepthFrame frame = frame_now(CameraClock::kOwn);
-    frame.camera_ns = i == 30 ? 5 : 1'000'000'000'000 + i * kPeriod_ns;
+    frame.camera_ns = i == 30 ? 5 : 1'000'000'000'000 + i * kFramePeriod_ns;
     pipeline->take(frame);
   }
   const TofCounters& counters = pipeline->counters();

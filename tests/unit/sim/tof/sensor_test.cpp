@@ -10,7 +10,7 @@
 namespace pharos::sim {
 namespace {
 
-const PixelRays& rays() {
+const PixelRays& sensor_rays() {
   static const PixelRays kRays({160, 120, kPaperLens.fx_px, kPaperLens.fy_px, 80.0, 60.0, kPaperLens.distortion});
   return kRays;
 }
@@ -24,7 +24,7 @@ IdealFrame even(double counts, double range_m) {
 }
 
 TofPixels exposed(const IdealFrame& ideal, const SensorModel& sensor, std::uint64_t seed = 1) {
-  return expose(ideal, rays(), sensor, kNominal, kFine, RandomStream(seed, "sensor test"));
+  return expose(ideal, sensor_rays(), sensor, kNominal, kFine, RandomStream(seed, "sensor test"));
 }
 
 // Ranges minus what they should be.
@@ -33,7 +33,7 @@ std::vector<double> errors(const TofPixels& pixels, double range_m) {
   for (std::size_t i = 0; i < kPixels; ++i) {
     const int u = static_cast<int>(i % 160);
     const int v = static_cast<int>(i / 160);
-    result.push_back(pixels.depth[i] * kFine.scale_m * rays().range_per_depth(u, v) - range_m);
+    result.push_back(pixels.depth[i] * kFine.scale_m * sensor_rays().range_per_depth(u, v) - range_m);
   }
   return result;
 }
@@ -136,7 +136,7 @@ TEST(Sensor, DepthCountsFromTheGivenOrigin) {
   SensorModel sensor;
   sensor.sigma_nominal_m = sensor.common_sigma_m = 0.0;
   const TofPixels pixels =
-      expose(even(kNominal, 3.0), rays(), sensor, kNominal, from_front, RandomStream(1, "sensor test"));
+      expose(even(kNominal, 3.0), sensor_rays(), sensor, kNominal, from_front, RandomStream(1, "sensor test"));
   EXPECT_NEAR(pixels.depth[60 * 160 + 80] * 0.00025, 3.0 - 0.05, 0.0002);
 }
 
