@@ -2,11 +2,10 @@
 #include "host/calibrate/camera/blobs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
+#include <opencv2/imgproc.hpp>
 
 namespace pharos::calibrate {
 namespace {
@@ -20,49 +19,6 @@ constexpr double kLargestFraction = 0.02;  // of the image
 // Area over that of the ellipse with the same moments; 1 for an ellipse, a square has 0.95, a cross of dots 0.6.
 constexpr double kMinFill = 0.85;
 constexpr double kMaxElongated = 5.0;
-
-// Sums over any rectangle from four reads.
-class RunningSums {
- public:
-  explicit RunningSums(GreyView image) : width_(image.width_px), height_(image.height_px) {
-    const auto across = static_cast<std::size_t>(width_) + 1;
-    sums_.resize(across * (static_cast<std::size_t>(height_) + 1));
-    for (std::int32_t v = 0; v < height_; ++v) {
-      std::array<double, 2> row{};
-      for (std::int32_t u = 0; u < width_; ++u) {
-        const double grey = image.at(u, v);
-        row[0] += grey;
-        row[1] += grey * grey;
-        const std::array<double, 2>& above = at(u + 1, v);
-        at(u + 1, v + 1) = {above[0] + row[0], above[1] + row[1]};
-      }
-    }
-  }
-
-  struct Level {
-    double mean = 0.0;
-    double deviation = 0.0;
-  };
-  Level around(std::int32_t u, std::int32_t v, std::int32_t reach) {
-    const std::int32_t left = std::max(u - reach, 0), right = std::min(u + reach + 1, width_);
-    const std::int32_t top = std::max(v - reach, 0), bottom = std::min(v + reach + 1, height_);
-    const double count = static_cast<double>(right - left) * (bottom - top);
-    const auto sum = [&](std::size_t k) {
-      return at(right, bottom)[k] - at(left, bottom)[k] - at(right, top)[k] + at(left, top)[k];
-    };
-    const double mean = sum(0) / count;
-    return {mean, std::sqrt(std::max(sum(1) / count - mean * mean, 0.0))};
-  }
-
- private:
-  std::array<double, 2>& at(std::int32_t u, std::int32_t v) {
-    return sums_[static_cast<std::size_t>(v) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(u)];
-  }
-
-  std::int32_t width_;
-  std::int32_t height_;
-  std::vector<std::array<double, 2>> sums_;
-};
 
 // Noise of a pixel, 1 sigma, from the median difference of second neighbours: edges are few.
 double noise_of(GreyView image) {
@@ -79,16 +35,26 @@ double noise_of(GreyView image) {
   return std::max(*middle / (0.6745 * std::sqrt(6.0)), 0.5);  // a count is never known better than by half
 }
 
-std::vector<std::uint8_t> mask_of(GreyView image, int window_px, bool bright) {
-  RunningSums sums(image);
+// 1 where a pixel is beyond the mean of its window.
+cv::Mat mask_of(GreyView image, int window_px, bool bright) {
+  const cv::Mat grey(image.height_px, image.width_px, CV_16U, const_cast<std::uint16_t*>(image.data),
+                     sizeof(std::uint16_t) * static_cast<std::size_t>(image.stride_px));
+  cv::Mat sums, squares, mask(grey.size(), CV_8U);
+  cv::integral(grey, sums, squares, CV_64F, CV_64F);
   const double min_deviation = kMinContrast * noise_of(image);
-  std::vector<std::uint8_t> mask(image.pixels());
-  std::size_t at = 0;
-  for (std::int32_t v = 0; v < image.height_px; ++v) {
-    for (std::int32_t u = 0; u < image.width_px; ++u, ++at) {
-      const RunningSums::Level level = sums.around(u, v, window_px / 2);
-      const double above = bright ? image.at(u, v) - level.mean : level.mean - image.at(u, v);
-      mask[at] = level.deviation > min_deviation && above > kThresholdDeviations * level.deviation ? 1 : 0;
+  const int reach = window_px / 2;
+  for (int v = 0; v < grey.rows; ++v) {
+    const int top = std::max(v - reach, 0), bottom = std::min(v + reach + 1, grey.rows);
+    for (int u = 0; u < grey.cols; ++u) {
+      const int left = std::max(u - reach, 0), right = std::min(u + reach + 1, grey.cols);
+      const auto sum = [&](const cv::Mat& of) {
+        const double *upper = of.ptr<double>(top), *lower = of.ptr<double>(bottom);
+        return lower[right] - lower[left] - upper[right] + upper[left];
+      };
+      const double count = static_cast<double>(right - left) * (bottom - top), mean = sum(sums) / count;
+      const double deviation = std::sqrt(std::max(sum(squares) / count - mean * mean, 0.0));
+      const double above = bright ? image.at(u, v) - mean : mean - image.at(u, v);
+      mask.at<std::uint8_t>(v, u) = deviation > min_deviation && above > kThresholdDeviations * deviation ? 1 : 0;
     }
   }
   return mask;
@@ -101,34 +67,23 @@ struct Moments {
   bool cut = false;
 };
 
-// Takes the connected pixels (four neighbours) out of the mask.
-Moments take_region(std::vector<std::uint8_t>& mask, std::int32_t width, std::int32_t height, std::size_t seed,
-                    std::vector<std::size_t>& queue) {
-  Moments moments;
-  queue.assign(1, seed);
-  mask[seed] = 0;
-  for (std::size_t next = 0; next < queue.size(); ++next) {
-    const auto u = static_cast<std::int32_t>(queue[next] % static_cast<std::size_t>(width));
-    const auto v = static_cast<std::int32_t>(queue[next] / static_cast<std::size_t>(width));
-    const Vector2 pixel(u, v);
-    moments.area += 1.0;
-    moments.sum += pixel;
-    moments.squares += pixel * pixel.transpose();
-    constexpr std::array<std::pair<int, int>, 4> kNeighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-    for (const auto& [du, dv] : kNeighbours) {
-      const std::int32_t nu = u + du, nv = v + dv;
-      if (nu < 0 || nv < 0 || nu >= width || nv >= height) {
-        moments.cut = true;
-        continue;
-      }
-      const std::size_t index =
-          static_cast<std::size_t>(nv) * static_cast<std::size_t>(width) + static_cast<std::size_t>(nu);
-      if (mask[index] == 0) continue;
-      mask[index] = 0;
-      queue.push_back(index);
+// Of the mask's connected pixels (four neighbours); the first are those of the rest.
+std::vector<Moments> regions_of(const cv::Mat& mask) {
+  cv::Mat labels;
+  std::vector<Moments> regions(static_cast<std::size_t>(cv::connectedComponents(mask, labels, 4, CV_32S)));
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      const int label = labels.at<int>(v, u);
+      if (label == 0) continue;
+      Moments& region = regions[static_cast<std::size_t>(label)];
+      const Vector2 pixel(u, v);
+      region.area += 1.0;
+      region.sum += pixel;
+      region.squares += pixel * pixel.transpose();
+      region.cut = region.cut || u == 0 || v == 0 || u + 1 == mask.cols || v + 1 == mask.rows;
     }
   }
-  return moments;
+  return regions;
 }
 
 bool is_elliptic(const Blob& blob, double area) {
@@ -145,13 +100,9 @@ bool is_elliptic(const Blob& blob, double area) {
 double Blob::area_px() const { return 4.0 * std::numbers::pi * std::sqrt(covariance_px2.determinant()); }
 
 std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright) {
-  std::vector<std::uint8_t> mask = mask_of(image, window_px, bright);
   const double largest = kLargestFraction * static_cast<double>(image.pixels());
   std::vector<Blob> blobs;
-  std::vector<std::size_t> queue;
-  for (std::size_t seed = 0; seed < mask.size(); ++seed) {
-    if (mask[seed] == 0) continue;
-    const Moments moments = take_region(mask, image.width_px, image.height_px, seed, queue);
+  for (const Moments& moments : regions_of(mask_of(image, window_px, bright))) {
     if (moments.area < kMinArea_px || moments.area > largest) continue;
     Blob blob;
     blob.cut = moments.cut;
