@@ -115,6 +115,31 @@ class Includes(ScratchTree):
         self.allowed("common/pharos/geometry/pose.hpp", '"pharos/base/ring_buffer.hpp"')
 
 
+class Vocabulary(ScratchTree):
+    def refused(self, name, text, word):
+        self.plant(name, text)
+        code, output = run("vocabulary.py", self.root)
+        self.assertEqual(code, 1, output)
+        self.assertIn(f"'{word}' is retired", output)
+
+    def test_retired_identifiers_are_refused(self):
+        for text, word in (("constexpr int kLeastPoints = 3;", "kLeastPoints"), ("constexpr double kMostSpread_rad = 1;", "kMostSpread_rad"),
+                           ("int most_sensors = 0;", "most_sensors"), ("double inlier_share = 0;", "inlier_share"),
+                           ("constexpr long kSilenceNs = 1;", "kSilenceNs"), ("class MotionBank;", "MotionBank"),
+                           ("class TelescopeLine;", "TelescopeLine"), ("void startle();", "startle"), ("std::string trouble_;", "trouble_")):
+            with self.subTest(word):
+                self.refused("host/daemon/planted.hpp", text + "\n", word)
+
+    def test_a_file_s_name_counts_too(self):
+        self.refused("common/pharos/motion/motion_bank.cpp", "", "motion_bank")
+
+    def test_keys_comments_and_english_pass(self):
+        self.plant("host/config/planted.cpp", 'read("least_outer_radius_m", value.min_outer_radius_m);  // kLeastPoints of old\n'
+                   "auto most_probable = at_least(3); bool share = true; auto p = std::make_shared<int>(3);\n")
+        code, output = run("vocabulary.py", self.root)
+        self.assertEqual(code, 0, output)
+
+
 class CoreSymbols(ScratchTree):
     def compiled(self, text):
         source = self.plant("planted.cpp", text)
