@@ -17,7 +17,7 @@
 namespace pharos::calibrate {
 namespace {
 
-constexpr int kMaxSteps = 100;
+constexpr int kMaxBundleSteps = 100;
 constexpr double kConverged = 1e-12;  // relative change of the squares
 constexpr int kIntrinsics = 9;        // fx, fy, cx, cy, k1, k2, p1, p2, k3
 constexpr int kPose = 6;
@@ -26,9 +26,9 @@ constexpr std::array<const char*, kPose> kRigNames{"right.rotation_x_rad", "righ
                                                    "right.rotation_z_rad", "right.position_x_m",
                                                    "right.position_y_m",   "right.position_z_m"};
 
-using Optics = std::array<double, kIntrinsics>;
+using BundleOptics = std::array<double, kIntrinsics>;
 
-Optics optics_of(const PinholeCamera& camera) {
+BundleOptics optics_of(const PinholeCamera& camera) {
   const auto& d = camera.distortion;
   return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, d[0], d[1], d[2], d[3], d[4]};
 }
@@ -99,7 +99,7 @@ class Adjustment {
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (double* block : blocks()) options.linear_solver_ordering->AddElementToGroup(block, 1);
     for (Vector6& board : boards_) options.linear_solver_ordering->AddElementToGroup(board.data(), 0);  // moves it
-    options.max_num_iterations = kMaxSteps;
+    options.max_num_iterations = kMaxBundleSteps;
     options.function_tolerance = kConverged;
     options.gradient_tolerance = 0.0;
     options.parameter_tolerance = 0.0;
@@ -157,7 +157,7 @@ class Adjustment {
 
   std::vector<double*> blocks() {
     std::vector<double*> blocks;
-    for (Optics& intrinsics : optics_) blocks.push_back(intrinsics.data());
+    for (BundleOptics& intrinsics : optics_) blocks.push_back(intrinsics.data());
     if (optics_.size() > 1) blocks.push_back(rig_.data());
     for (Vector6& board : boards_) blocks.push_back(board.data());
     return blocks;
@@ -191,7 +191,7 @@ class Adjustment {
 
   BundleState state_;
   const BundleData& data_;
-  std::vector<Optics> optics_;
+  std::vector<BundleOptics> optics_;
   Vector6 rig_ = Vector6::Zero();
   std::vector<Vector6> boards_;
   ceres::Problem ceres_;

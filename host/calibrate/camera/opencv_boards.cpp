@@ -17,9 +17,9 @@ using Points = std::vector<cv::Point3f>;
 // Half of the window that a corner is told from, of the shortest side: along the diagonal too its neighbours stay
 // outside.
 constexpr double kWindow = 0.35;
-constexpr int kMaxSteps = 100;
+constexpr int kMaxOpenCvSteps = 100;
 constexpr double kSmallestStep = 1e-12;
-const cv::TermCriteria kUntilStill(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMaxSteps, kSmallestStep);
+const cv::TermCriteria kUntilStill(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMaxOpenCvSteps, kSmallestStep);
 
 // OpenCV's own optimum is a start and a comparison: its floats are good to 1e-5 px.
 std::vector<Pixels> pixels_of(const std::vector<FoundBoard>& views) {

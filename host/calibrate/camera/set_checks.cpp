@@ -21,7 +21,7 @@ constexpr double kMinSpread_rad = 8.0 * kRadPerDeg;
 constexpr double kMaxSigma = 0.01;  // of the focal length, or of the image's width
 constexpr double kMaxCornerSigma_px = 0.5;
 
-std::string decimal(double value) {
+std::string to_tenth(double value) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.1f", value);
   return text.data();
@@ -90,7 +90,7 @@ std::string what_is_degenerate(const BundleOutcome& outcome) {
   }
   const double spread = spread_of_normals(poses);
   if (spread < kMinSpread_rad) {
-    return "all boards are parallel within " + decimal(spread / kRadPerDeg) +
+    return "all boards are parallel within " + to_tenth(spread / kRadPerDeg) +
            " deg: such images cannot tell focal length from distance; tilt the board by 20 to 40 deg, each way";
   }
   for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
@@ -103,7 +103,7 @@ std::string what_is_degenerate(const BundleOutcome& outcome) {
     const bool middle = name.ends_with("cx_px") || name.ends_with("cy_px");
     const double fraction = focal ? sigma / lens.fx_px : middle ? sigma / lens.width_px : 0.0;
     if (fraction > kMaxSigma) {
-      return name + " is known to " + decimal(sigma) +
+      return name + " is known to " + to_tenth(sigma) +
              " px only (1 sigma); tilt the board more, each way, and fill the image with it";
     }
   }
@@ -120,7 +120,7 @@ std::vector<std::string> what_is_unobservable(const BundleOutcome& outcome, std:
   if (!std::isfinite(sigma)) {
     unobservable.push_back(prefix + "the lens model folds within the image's corners: it holds only where points were");
   } else if (sigma > kMaxCornerSigma_px) {
-    unobservable.push_back(prefix + "distortion in the corners is known to " + decimal(sigma) + " px (1 sigma)");
+    unobservable.push_back(prefix + "distortion in the corners is known to " + to_tenth(sigma) + " px (1 sigma)");
   }
   if (fixed_k3) unobservable.push_back(prefix + "k3 was held at 0");
   return unobservable;

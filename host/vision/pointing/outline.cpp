@@ -7,9 +7,9 @@
 namespace pharos::pointing {
 namespace {
 
-constexpr double kMaxTurn = 0.05;        // rad between segments of one edge
-constexpr double kMaxOff_px = 1.6;       // of a segment's ends from the edge that it continues
-constexpr double kOffPerLength = 0.004;  // and for every pixel away: LSD's own ends are that good
+constexpr double kMaxTurn = 0.05;          // rad between segments of one edge
+constexpr double kMaxOutlineOff_px = 1.6;  // of a segment's ends from the edge that it continues
+constexpr double kOffPerLength = 0.004;    // and for every pixel away: LSD's own ends are that good
 constexpr double kMaxGap_px = 10.0;
 constexpr double kMaxGapFraction = 0.1;  // the body between a wing's panels is more
 constexpr double kMinLength_px = 6.0;
@@ -54,7 +54,7 @@ bool continues(const Segment& edge, const Segment& segment) {
   const double gap = std::max({0.0, first - length, -last});
   if (gap > std::max(kMaxGap_px, kMaxGapFraction * (length + segment.length()))) return false;
   const double away = std::max({0.0, last - length, -first});
-  const double maximum = kMaxOff_px + kOffPerLength * away;
+  const double maximum = kMaxOutlineOff_px + kOffPerLength * away;
   return std::abs(edge.offset(segment.begin)) < maximum && std::abs(edge.offset(segment.end)) < maximum;
 }
 

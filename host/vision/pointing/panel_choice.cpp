@@ -7,10 +7,10 @@
 namespace pharos::pointing {
 namespace {
 
-constexpr double kMinLength_px = 14.0;
-constexpr double kMinFraction = 0.12;    // of the longest edge
-constexpr double kMaxConvergence = 0.2;  // rad: perspective of a panel as deep as an eighth of its distance
-constexpr double kMinOverlap = 0.55;     // of the shorter edge; a body may hide the rest
+constexpr double kMinPanelLength_px = 14.0;
+constexpr double kMinPanelFraction = 0.12;  // of the longest edge
+constexpr double kMaxConvergence = 0.2;     // rad: perspective of a panel as deep as an eighth of its distance
+constexpr double kMinOverlap = 0.55;        // of the shorter edge; a body may hide the rest
 constexpr double kMinSeparation_px = 3.5;
 constexpr double kMaxSeparation = 3.0;  // times the overlap: foreshortened panels
 constexpr double kMinFill = 0.85;       // of the strip between the edges
@@ -78,7 +78,7 @@ bool is_wing(const EdgePair& a, const EdgePair& b) {
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target) {
   std::vector<EdgePair> pairs;
   if (edges.empty()) return pairs;
-  const double minimum = std::max(kMinLength_px, kMinFraction * edges.front().length());
+  const double minimum = std::max(kMinPanelLength_px, kMinPanelFraction * edges.front().length());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = i + 1; k < edges.size(); ++k) {
       if (edges[i].length() < minimum || edges[k].length() < minimum) continue;

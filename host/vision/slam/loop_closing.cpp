@@ -11,10 +11,10 @@ namespace pharos::slam {
 namespace {
 
 constexpr KeyframeId kMinApart = 10;  // keyframes since the start and since the last loop
-constexpr std::size_t kMaxCandidates = 3;
+constexpr std::size_t kMaxLoopCandidates = 3;
 constexpr int kMinDescriptorMatches = 20, kMinInliers = 40;
 constexpr std::size_t kSurroundings = 10;
-constexpr double kRadius_px = 5.0;
+constexpr double kLoopRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
 
 // Whatever the feature was aligned with, it was not this point's patch.
@@ -59,7 +59,7 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
     for (const auto& [other, also] : map_.keyframes.at(near).neighbours) connected.insert(other);
   }
   const auto candidates = keyframe_database_.detect_candidates(here.words, map_, connected);
-  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxCandidates); ++k) {
+  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxLoopCandidates); ++k) {
     if (auto loop = check(here, candidates[k].keyframe)) return loop;
   }
   refused_ += candidates.empty() ? 0 : 1;
@@ -81,7 +81,7 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   std::vector<Candidate> candidates;
   for (const PointId id : points_around(map_, candidate)) {
     const MapPoint& point = map_.points.at(id);
-    candidates.push_back({id, point.position_m, point.descriptor, point.level, kRadius_px, 0.0});
+    candidates.push_back({id, point.position_m, point.descriptor, point.level, kLoopRadius_px, 0.0});
   }
   const auto matches =
       match_by_projection(candidates, here, {}, camera_, placed->pose, {kHighDistanceThreshold, 0.9, false});
@@ -158,7 +158,7 @@ void LoopCloser::correct(const Loop& loop) {
   }
   const std::set<PointId> around = points_around(map_, loop.there);
   const std::vector<PointId> theirs(around.begin(), around.end());
-  for (const KeyframeId id : side) fuse_points(map_, theirs, id, camera_, kRadius_px);
+  for (const KeyframeId id : side) fuse_points(map_, theirs, id, camera_, kLoopRadius_px);
   Keyframe& here = map_.keyframes.at(loop.here);
   Keyframe& there = map_.keyframes.at(loop.there);
   here.loops[loop.there] = here.pose * there.pose.inverse();

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFade = 0.97;       // a frame: some 30 frames count
 constexpr double kMinFrames = 12.0;  // faded ones
-constexpr double kMinPoints = 1000.0;
+constexpr double kMinSkewPoints = 1000.0;
 constexpr double kMinMoved_px = 0.25;  // scatter (1 sigma) of rows moved
 constexpr double kSigma = 0.1;         // of the slope, in frames
 // Images several frames apart match only where little moved, and that too seldom for such a sigma; but the slope is far
@@ -36,7 +36,7 @@ void PairSkew::end_frame() {
 }
 
 std::optional<double> PairSkew::frames_late() const {
-  if (frames_ < kMinFrames || count_ < kMinPoints) return std::nullopt;
+  if (frames_ < kMinFrames || count_ < kMinSkewPoints) return std::nullopt;
   const double xx = xx_ / count_ - x_ * x_ / (count_ * count_);
   const double xy = xy_ / count_ - x_ * y_ / (count_ * count_);
   const double yy = yy_ / count_ - y_ * y_ / (count_ * count_);

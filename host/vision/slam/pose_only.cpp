@@ -14,7 +14,7 @@ constexpr int kRounds = 4;
 constexpr int kMaxIterations = 9;
 // Of chi-squared, by which a last step may still lower it: a thousandth of a standard deviation, squared.
 constexpr double kConverged = 1e-6;
-constexpr int kMinPoints = 3;
+constexpr int kMinPosePoints = 3;
 
 double limit_of(const Observation& observation) { return observation.stereo() ? kStereoChi2 : kMonoChi2; }
 
@@ -112,9 +112,9 @@ PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoC
       result.inlier[k] = chi2 <= limit_of(observation);
       result.inliers += result.inlier[k] ? 1 : 0;
     }
-    if (result.inliers < kMinPoints) break;
+    if (result.inliers < kMinPosePoints) break;
   }
-  if (result.inliers < kMinPoints) return result;
+  if (result.inliers < kMinPosePoints) return result;
   const Normal normal = PoseDescent(observations, result.inlier, camera).linearise(result.pose);
   const Matrix6 covariance = normal.matrix.ldlt().solve(Matrix6::Identity());
   if (covariance.allFinite()) result.covariance = covariance;

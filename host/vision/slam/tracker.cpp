@@ -17,7 +17,7 @@ constexpr int kMinPlaced = 15;      // inliers of a first placement
 constexpr int kMinInLocalMap = 30;  // inliers in the local map: below, the frame is lost
 constexpr int kMinRelocalised = 50;
 constexpr std::size_t kMaxCandidates = 5;  // keyframes tried to relocalise
-constexpr double kMaxSteps = 20.0;         // missing frames that a prediction bridges
+constexpr double kMaxTurnSteps = 20.0;     // missing frames that a prediction bridges
 // Section 2.2, rules (1) to (4).
 constexpr std::int64_t kFramesBetween = 20;
 constexpr int kMinTracked = 50;
@@ -44,7 +44,7 @@ PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
 std::optional<PoseOnly> Tracker::track_motion_model(Frame& frame) {
   CameraFromTarget predicted = last_pose();
   if (has_step_) {
-    const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMaxSteps);
+    const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMaxTurnSteps);
     for (int k = 0; k < static_cast<int>(steps); ++k) predicted = step_ * predicted;
   }
   // Points of the map that the last frame showed, and its own stereo features that no point stands for.

@@ -19,9 +19,9 @@ using test::RingScore;
 using test::RingSet;
 using test::TrueEllipse;
 
-constexpr int kRepeats = 3;
-constexpr std::uint64_t kSeed = 1;
-constexpr double kMs = 1e3;
+constexpr int kEllipseRepeats = 3;
+constexpr std::uint64_t kEllipseSeed = 1;
+constexpr double kEllipseMs = 1e3;
 
 struct NamedSet {
   const char* name;
@@ -36,7 +36,7 @@ std::array<NamedSet, 4> sets() {
   return {{{"to 60 deg", tilted}, {"to 35 deg", facing}, {"a third hidden", hidden}, {"noise x 3", noisy}}};
 }
 
-struct Record {
+struct EllipseRecord {
   RingScore score;
   std::vector<double> seconds;
 };
@@ -66,10 +66,10 @@ class OurDetector {
 };
 
 template <class Detect>
-void run_one(const RingImage& image, Record& record, Detect&& detect) {
+void run_one(const RingImage& image, EllipseRecord& record, Detect&& detect) {
   double minimum = 1e9;
   std::vector<TrueEllipse> found;
-  for (int k = 0; k < kRepeats; ++k) {
+  for (int k = 0; k < kEllipseRepeats; ++k) {
     double seconds = 0.0;
     found = detect(seconds);
     minimum = std::min(minimum, seconds);
@@ -98,9 +98,9 @@ std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
   std::vector<BenchRow> rows;
   for (const NamedSet& named : sets()) {
     const RingSet& set = named.set;
-    Record ours, theirs;
+    EllipseRecord ours, theirs;
     OurDetector detector(set);
-    test::RingGenerator generator(set, kSeed);
+    test::RingGenerator generator(set, kEllipseSeed);
     for (int k = 0; k < images; ++k) {
       const RingImage image = generator.next();
       run_one(image, ours, [&](double& seconds) { return detector.detect(image, set, {}, seconds); });
@@ -115,7 +115,7 @@ std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
     add("F", ours.score.f(), theirs.score.f(), "", false);
     add("median error of an axis", middle_of(ours.score.axis_errors_px), middle_of(theirs.score.axis_errors_px), "px",
         true);
-    add("time", kMs * middle_of(ours.seconds), kMs * middle_of(theirs.seconds), "ms", true);
+    add("time", kEllipseMs * middle_of(ours.seconds), kEllipseMs * middle_of(theirs.seconds), "ms", true);
   }
   return rows;
 }
@@ -126,7 +126,7 @@ void write_threshold_sweep(int images, BenchForm form) {
   for (const NamedSet& named : sets()) {
     const RingSet& set = named.set;
     OurDetector detector(set);
-    test::RingGenerator generator(set, kSeed + 1);
+    test::RingGenerator generator(set, kEllipseSeed + 1);
     for (int k = 0; k < images; ++k) {
       const RingImage image = generator.next();
       for (std::size_t t = 0; t < kThresholds.size(); ++t) {

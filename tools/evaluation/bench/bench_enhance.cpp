@@ -22,9 +22,9 @@ namespace {
 using enhance::FloatImage;
 
 constexpr std::int32_t kWidth = 640, kHeight = 480;
-constexpr double kMs = 1e3;
+constexpr double kEnhanceMs = 1e3;
 constexpr double kSigma = 15.0;  // of 255
-constexpr int kRepeats = 3;
+constexpr int kEnhanceRepeats = 3;
 
 // The middle of an image in grey, as 8 bits would hold it.
 FloatImage middle_of_file(const std::string& path) {
@@ -58,7 +58,7 @@ double psnr_db(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_
 template <class Work>
 double best_seconds(Work&& work) {
   double best = 1e9;
-  for (int k = 0; k < kRepeats; ++k) best = std::min(best, processor_seconds_of(work));
+  for (int k = 0; k < kEnhanceRepeats; ++k) best = std::min(best, processor_seconds_of(work));
   return best;
 }
 
@@ -79,17 +79,18 @@ void add_illumination(const std::string& name, const FloatImage& image, std::vec
     return system;
   };
   FloatImage exact;
-  const double exact_ms = kMs * processor_seconds_of([&] { exact = exact_illumination(of_illumination(dark), dark); });
+  const double exact_ms =
+      kEnhanceMs * processor_seconds_of([&] { exact = exact_illumination(of_illumination(dark), dark); });
   double cold_ms = 1e9, warm_ms = 1e9, cold_off = 0.0, warm_off = 0.0;
-  for (int k = 0; k < kRepeats; ++k) {
+  for (int k = 0; k < kEnhanceRepeats; ++k) {
     const enhance::Enhanced* steps = nullptr;
     const auto illuminate = [&] { steps = &enhancer.illuminate(dark); };
     enhancer.forget();
-    cold_ms = std::min(cold_ms, kMs * processor_seconds_of(illuminate));
+    cold_ms = std::min(cold_ms, kEnhanceMs * processor_seconds_of(illuminate));
     cold_off = rms_of_range(steps->refined, exact);
     enhancer.forget();
     enhancer.illuminate(before);
-    warm_ms = std::min(warm_ms, kMs * processor_seconds_of(illuminate));
+    warm_ms = std::min(warm_ms, kEnhanceMs * processor_seconds_of(illuminate));
     warm_off = rms_of_range(steps->refined, exact);
   }
   rows.push_back({"illumination of " + name + ", cold (peer: exact solve)", cold_ms, exact_ms, "ms"});
@@ -127,7 +128,8 @@ void add_denoising(const std::string& name, const FloatImage& image, std::vector
     const double seconds = best_seconds(denoise);
     rows.push_back({name + ", " + what + ": gain (peer: NLM at its best)", psnr_db(bytes_of(quiet), clean) - before,
                     nlm.psnr_db - before, "dB", false});
-    rows.push_back({name + ", " + what + ": processor time (peer: NLM)", kMs * seconds, kMs * nlm.seconds, "ms"});
+    rows.push_back(
+        {name + ", " + what + ": processor time (peer: NLM)", kEnhanceMs * seconds, kEnhanceMs * nlm.seconds, "ms"});
   };
   enhance::BlockDenoiser blocks;
   constexpr double kFraction = kSigma / 255.0;

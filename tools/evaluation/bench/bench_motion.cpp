@@ -13,7 +13,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr int kRepeats = 9;
+constexpr int kMotionRepeats = 9;
 constexpr double kFlight_s = 20.0;
 
 // The paper's manoeuvre before one station, or before two that stand 2 m apart and both see it.
@@ -47,7 +47,7 @@ BenchRow cost_of_a_hit(const std::string& what, const Target& target, int statio
   std::size_t hits = 0;
   for (const lighthouse::Sweep& sweep : sweeps) hits += sweep.hits.size();
   double best_s = 1e9;
-  for (int k = 0; k < kRepeats; ++k) {
+  for (int k = 0; k < kMotionRepeats; ++k) {
     const auto tracker = std::make_unique<motion::MotionTracker>(target, motion::MotionOptions{});
     for (std::uint8_t station = 0; station < stations; ++station) tracker->set_calibration(station, {});
     best_s = std::min(best_s, seconds_of([&] {

@@ -11,9 +11,9 @@
 namespace pharos::tools {
 namespace {
 
-constexpr int kRepeats = 9;
+constexpr int kPoseRepeats = 9;
 constexpr int kIterativeSensors = 6;  // OpenCV's ITERATIVE starts from DLT
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kPoseSeed = 1;
 constexpr double kUs = 1e6;
 // Peers get their best: in metres OpenCV's SQPNP takes the equations of so small a target for rank deficient (30 %
 // wrong).
@@ -46,7 +46,7 @@ Problem problem_of(const Target& target, const test::PnpSet& set, test::PnpGener
 }
 
 // Times and errors of one solver over all problems.
-struct Record {
+struct PoseRecord {
   std::vector<double> seconds;
   test::PnpScore score;
   double median_us() const { return middle_of(seconds) * kUs; }
@@ -55,18 +55,18 @@ struct Record {
 template <class Solve>
 double min_seconds(Solve&& solve) {
   double minimum = 1e9;
-  for (int k = 0; k < kRepeats; ++k) minimum = std::min(minimum, seconds_of(solve));
+  for (int k = 0; k < kPoseRepeats; ++k) minimum = std::min(minimum, seconds_of(solve));
   return minimum;
 }
 
-void run_ours(const Target& target, const Problem& problem, const LighthouseFromBody* prior, Record& record) {
+void run_ours(const Target& target, const Problem& problem, const LighthouseFromBody* prior, PoseRecord& record) {
   Result<pose::Solution, pose::Refusal> solution = pose::Refusal::kNotConverged;
   record.seconds.push_back(min_seconds([&] { solution = pose::solve(target, problem.pnp.observations, {}, prior); }));
   if (!solution.ok()) return record.score.add_refusal();
   record.score.add(problem.pnp, solution->estimate.pose, solution->estimate.ambiguous(), problem.bound);
 }
 
-void run_peer(Peer peer, const Problem& problem, Record& record) {
+void run_peer(Peer peer, const Problem& problem, PoseRecord& record) {
   std::optional<LighthouseFromBody> pose;
   record.seconds.push_back(min_seconds([&] { pose = solve_by_peer(peer, problem.body, problem.tangents); }));
   if (!pose) return record.score.add_refusal();
@@ -75,14 +75,14 @@ void run_peer(Peer peer, const Problem& problem, Record& record) {
 }
 
 struct Records {
-  Record ours, ours_with_prior, ours_of_six, sqpnp, epnp, iterative;
+  PoseRecord ours, ours_with_prior, ours_of_six, sqpnp, epnp, iterative;
 };
 
 Records run_all(int problems) {
   const Target target = test::frustum_target();
   test::PnpSet set;
   set.coplanar_views = false;
-  test::PnpGenerator generator(target, set, kSeed);
+  test::PnpGenerator generator(target, set, kPoseSeed);
   Records r;
   for (int k = 0; k < problems; ++k) {
     const Problem problem = problem_of(target, set, generator);
@@ -102,10 +102,10 @@ Records run_all(int problems) {
 std::vector<BenchRow> bench_pose(int problems) {
   const Records r = run_all(problems);
   std::vector<BenchRow> rows;
-  const auto add = [&](const std::string& what, double ours, const Record& peer, double theirs, const char* unit) {
+  const auto add = [&](const std::string& what, double ours, const PoseRecord& peer, double theirs, const char* unit) {
     rows.push_back({what, ours, peer.seconds.empty() ? std::nullopt : std::optional<double>(theirs), unit, true});
   };
-  const auto add_time = [&](const std::string& what, const Record& ours, const Record& peer) {
+  const auto add_time = [&](const std::string& what, const PoseRecord& ours, const PoseRecord& peer) {
     add(what, ours.median_us(), peer, peer.median_us(), "us");
   };
   add_time("pose from nothing / OpenCV SQPNP", r.ours, r.sqpnp);
@@ -116,8 +116,8 @@ std::vector<BenchRow> bench_pose(int problems) {
       "");
   add("position x CRB / OpenCV SQPNP", r.ours.score.position_over_bound(), r.sqpnp, r.sqpnp.score.position_over_bound(),
       "");
-  const auto add_failures = [&](const std::string& what, const Record& ours, const Record& peer) {
-    const auto fraction = [](const Record& record) {
+  const auto add_failures = [&](const std::string& what, const PoseRecord& ours, const PoseRecord& peer) {
+    const auto fraction = [](const PoseRecord& record) {
       return 100.0 * (record.score.failures + record.score.refused) / std::max(1, record.score.problems);
     };
     add(what, fraction(ours), peer, fraction(peer), "%");

@@ -15,7 +15,7 @@ namespace pharos::tools {
 namespace {
 
 constexpr double kCoreHz = 50e6;
-constexpr int kSensors = 12;
+constexpr int kTargetSensors = 12;
 constexpr int kFromNothing = 50;
 constexpr double kStatedCycles = 3.0;  // per instruction, for which the limits hold
 
@@ -131,7 +131,7 @@ double host_ns_an_edge(const std::string& edges) {
 std::vector<TargetRow> bench_target(const TargetBench& options) {
   const std::filesystem::path images = find_images(options.images);
   Rows rows;
-  const TargetFigures simulated = run_image(images, "measure_light", simulated_light(kSensors));
+  const TargetFigures simulated = run_image(images, "measure_light", simulated_light(kTargetSensors));
   const bool recorded = !options.edges.empty();
   const TargetFigures light = recorded ? run_image(images, "measure_light", recorded_light(options.edges)) : simulated;
   add_edges(light, host_ns_an_edge(options.edges), rows);

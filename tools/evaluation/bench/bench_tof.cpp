@@ -16,9 +16,9 @@
 namespace pharos::tools {
 namespace {
 
-constexpr int kRepeats = 5;
-constexpr std::uint64_t kSeed = 1;
-constexpr double kMs = 1e3;
+constexpr int kTofRepeats = 5;
+constexpr std::uint64_t kTofSeed = 1;
+constexpr double kTofMs = 1e3;
 
 using StageSeconds = std::array<double, tof::kTofStages>;
 
@@ -55,8 +55,8 @@ sim::TofSimulator simulator_of(const Class& one, int frames) {
   limits.min_range_m = one.min_range_m;
   limits.max_range_m = one.max_range_m;
   scenario.poses = sim::random_poses(limits, scenario.satellite, sim::PixelRays(scenario.lens),
-                                     sim::RandomStream(kSeed, "bench poses"));
-  return {std::move(scenario), kSeed};
+                                     sim::RandomStream(kTofSeed, "bench poses"));
+  return {std::move(scenario), kTofSeed};
 }
 
 // Stretched so that one pixel of 200 is white: glints are many times as bright as what is looked for.
@@ -83,7 +83,7 @@ class TofTimer {
 
   void add(const sim::TofPixels& pixels, const DepthCamera& camera) {
     StageSeconds minimum = seconds_of_stages(pixels, camera);
-    for (int k = 1; k < kRepeats; ++k) {
+    for (int k = 1; k < kTofRepeats; ++k) {
       const StageSeconds again = seconds_of_stages(pixels, camera);
       for (std::size_t i = 0; i < minimum.size(); ++i) minimum[i] = std::min(minimum[i], again[i]);
     }
@@ -110,7 +110,7 @@ class TofTimer {
     constexpr int kMax = 256;
     std::array<double, 5 * kMax> found{};
     double minimum = 1e9;
-    for (int k = 0; k < kRepeats; ++k) {
+    for (int k = 0; k < kTofRepeats; ++k) {
       double seconds = 0.0;
       peer_(bytes.data(), pixels.width_px, pixels.height_px, found.data(), kMax, &seconds);
       minimum = std::min(minimum, seconds);
@@ -145,13 +145,13 @@ std::vector<BenchRow> bench_tof(int frames, EdgeDrawingFunction peer) {
   const Times& times = timer.times();
   std::vector<BenchRow> rows;
   const auto add = [&](const std::string& what, double ours, std::optional<double> theirs = std::nullopt) {
-    rows.push_back({"depth frame: " + what, kMs * ours, theirs, "ms", true});
+    rows.push_back({"depth frame: " + what, kTofMs * ours, theirs, "ms", true});
   };
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
     if (!times.stages[k].empty()) add(tof::name_of(static_cast<tof::TofStage>(k)), middle_of(times.stages[k]));
   }
   add("edges and ellipses", middle_of(times.ellipses),
-      peer == nullptr ? std::nullopt : std::optional<double>(kMs * middle_of(times.peer)));
+      peer == nullptr ? std::nullopt : std::optional<double>(kTofMs * middle_of(times.peer)));
   add("all stages, median", middle_of(times.all));
   add("all stages, 95 of 100 frames", largest_but_five_percent(times.all));
   return rows;

@@ -21,10 +21,10 @@
 namespace pharos::tools {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kInputSeed = 1;
 constexpr double kDomeRadius_m = 0.06;
 constexpr double kSimulated_s = 10.0;
-constexpr double kPriorRotation_rad = 5e-3, kPriorPosition_m = 5e-3;  // a cycle's motion, 1 sigma an axis
+constexpr double kInputPriorRotation_rad = 5e-3, kInputPriorPosition_m = 5e-3;  // a cycle's motion, 1 sigma an axis
 // Stamps that step back by more start another stretch of time (a device's stale first pulses).
 constexpr std::int64_t kStretch_ticks = 2'500'000;
 
@@ -162,7 +162,7 @@ std::vector<char> recorded_light(const std::string& edges) {
 
 std::vector<char> simulated_light(int sensors) {
   const sim::LighthouseScenario scenario = full_rate(sensors);
-  sim::LighthouseSimulator simulator(scenario, kSeed);
+  sim::LighthouseSimulator simulator(scenario, kInputSeed);
   const std::vector<lighthouse::RawPulse> pulses = pulses_of(simulator);
   const std::vector<lighthouse::Edge> edges = edges_of(pulses);
   std::vector<char> bytes;
@@ -182,7 +182,7 @@ std::vector<char> simulated_light(int sensors) {
 
 std::vector<char> simulated_words(int sensors, int cycles) {
   constexpr std::uint32_t kSpeed = 0xFFFFFFFE;  // firmware/board/qemu_virt/capture_replay.hpp
-  sim::LighthouseSimulator simulator(full_rate(sensors), kSeed);
+  sim::LighthouseSimulator simulator(full_rate(sensors), kInputSeed);
   std::vector<lighthouse::RawPulse> pulses = pulses_of(simulator);
   std::stable_sort(pulses.begin(), pulses.end(),
                    [](const auto& a, const auto& b) { return a.rise_ticks < b.rise_ticks; });
@@ -205,7 +205,7 @@ PoseInput pose_problems(const Target& target, int min_seen, int max_seen, int pr
   set.coplanar_views = false;
   set.min_sensors = min_seen;
   set.max_sensors = max_seen;
-  test::PnpGenerator generator(target, set, kSeed);
+  test::PnpGenerator generator(target, set, kInputSeed);
   PoseInput input;
   bench::PoseHeader header;
   header.sensors = static_cast<std::uint32_t>(target.size());
@@ -216,7 +216,7 @@ PoseInput pose_problems(const Target& target, int min_seen, int max_seen, int pr
   while (header.problems < static_cast<std::uint32_t>(problems)) {
     Posed posed{generator.next(), {}};
     Vector6 off;
-    for (int i = 0; i < 6; ++i) off[i] = (i < 3 ? kPriorRotation_rad : kPriorPosition_m) * generator.normal();
+    for (int i = 0; i < 6; ++i) off[i] = (i < 3 ? kInputPriorRotation_rad : kInputPriorPosition_m) * generator.normal();
     posed.prior = posed.problem.truth.moved_by(off);
     Result<pose::Solution, pose::Refusal> host = pose::Refusal::kNotConverged;
     const auto solve = [&](const LighthouseFromBody* prior) {
