@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "host/publish/health.hpp"
+#include "host/support/time_units.hpp"
 
 namespace pharos::host {
 
@@ -28,12 +29,11 @@ class RateMonitor {
 
   /// Both ages, and the poses a second since this was called before.
   void report(SourceHealth& health, std::int64_t now_ns) {
-    constexpr double kNsPerSecond = 1e9;
     health.data_age_ns = any_data() ? now_ns - last_data_ns_ : -1;
     health.pose_age_ns = any_pose() ? now_ns - last_pose_ns_ : -1;
     if (last_report_ns_ >= 0 && now_ns > last_report_ns_) {
-      health.pose_rate_hz =
-          static_cast<double>(poses_ - poses_reported_) * kNsPerSecond / static_cast<double>(now_ns - last_report_ns_);
+      health.pose_rate_hz = static_cast<double>(poses_ - poses_reported_) * static_cast<double>(kNsPerSecond) /
+                            static_cast<double>(now_ns - last_report_ns_);
     }
     poses_reported_ = poses_;
     last_report_ns_ = now_ns;
