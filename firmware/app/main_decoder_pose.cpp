@@ -30,7 +30,7 @@ namespace {
 
 int main() {
   static const pharos::hal::Board board = pharos::hal::start_board();
-  static pharos::app::PoseTask& poses = start_poses(board);
+  pharos::app::PoseTask& poses = start_poses(board);
   static pharos::app::Program program(board, &poses);
   pharos::hal::call_every_millisecond([](void* context) { static_cast<pharos::app::Program*>(context)->poll(); },
                                       &program);

@@ -25,6 +25,13 @@ track::TrackOptions warm() {
   return options;
 }
 
+// What a station is not calibrated for is not searched: it would take this core seconds (pose_task.hpp).
+tracking::CalibrationPolicy calibrated_only() {
+  tracking::CalibrationPolicy policy;
+  policy.answer_uncalibrated = false;
+  return policy;
+}
+
 // The oldest entry of a ring that the interrupt fills.
 template <class T, std::size_t N>
 std::optional<T> take_oldest(RingBuffer<T, N>& ring) {
@@ -35,7 +42,8 @@ std::optional<T> take_oldest(RingBuffer<T, N>& ring) {
 
 }  // namespace
 
-PoseTask::PoseTask(hal::System& system, const Target& target) : system_(system), tracker_(target, warm()) {}
+PoseTask::PoseTask(hal::System& system, const Target& target)
+    : system_(system), tracker_(calibrated_only(), target, warm()) {}
 
 void PoseTask::take(const lighthouse::Sweep& sweep) {
   if (sweeps_.full()) {
@@ -71,10 +79,7 @@ bool PoseTask::take_alive() {
 bool PoseTask::solve() {
   alive_ = true;
   if (const auto payload = take_oldest(payloads_)) {
-    calibrations_.push(*payload);
-    if (const auto* calibration = calibrations_.in_use(payload->station)) {
-      tracker_.set_calibration(payload->station, *calibration);
-    }
+    tracker_.push(*payload);
     return true;
   }
   const auto sweep = take_oldest(sweeps_);
@@ -103,13 +108,8 @@ void PoseTask::count_until_now() {
 
 // False where the station is not calibrated.
 bool PoseTask::solve(const lighthouse::Sweep& sweep) {
-  if (tracker_.after_long_dark(sweep)) {
-    calibrations_.forget_stations();
-    tracker_.forget_stations();
-  }
-  if (calibrations_.in_use(sweep.flash.station) == nullptr) return false;
   if (const auto result = tracker_.push(sweep)) answer(*result);
-  return true;
+  return tracker_.effective_calibration(sweep.flash.station) != nullptr;
 }
 
 void PoseTask::answer(const track::EpochResult& result) {

@@ -6,8 +6,8 @@
 #include "firmware/app/pose_solver.hpp"
 #include "firmware/hal/system.hpp"
 #include "pharos/base/ring_buffer.hpp"
-#include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/track/epoch_tracker.hpp"
+#include "pharos/tracking/calibrated_tracker.hpp"
 
 namespace pharos::app {
 
@@ -42,8 +42,7 @@ class PoseTask final : public PoseSolver {
   void answer(const track::EpochResult& result);
 
   hal::System& system_;
-  track::EpochTracker tracker_;
-  lighthouse::CalibrationStore calibrations_;
+  tracking::CalibratedTracker<track::EpochTracker> tracker_;
   /// Sweeps, dark ones among them, that come while a cycle is solved: four in two slots, and one.
   static constexpr std::size_t kWaiting = 5;
 

@@ -139,14 +139,6 @@ Target calibrated_target(const CalibrationFile& file, const Target& nominal) {
   return target;
 }
 
-std::optional<motion::StationRelative> relative_pose(const CalibratedPair& pair, std::uint32_t first_id,
-                                                     std::uint32_t second_id) {
-  const motion::StationRelative relative{pair.T_reference_station, pair.covariance};
-  if (pair.reference == first_id && pair.station == second_id) return relative;
-  if (pair.reference == second_id && pair.station == first_id) return relative.seen_from_the_other();
-  return std::nullopt;
-}
-
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma) {
   // A target that is larger by s stands farther away by s.
   const Vector3 shift_m = scale_sigma * estimate.pose.t;

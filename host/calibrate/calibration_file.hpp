@@ -10,16 +10,9 @@
 #include "host/stations/station_file.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/motion/hypothesis.hpp"
-#include "pharos/motion/station_pair.hpp"
+#include "pharos/tracking/station_survey.hpp"
 
 namespace pharos::calibrate {
-
-/// How two stations stand to one another: T_reference_station and the covariance of its error (Pose::moved_by).
-struct CalibratedPair {
-  std::uint32_t reference = 0, station = 0;  // their ids
-  ReferenceFromStation T_reference_station;
-  Matrix6 covariance = Matrix6::Zero();
-};
 
 /// What a file of calibrations says: stations alone (host/stations), or with the target that was calibrated with them.
 struct CalibrationFile {
@@ -29,7 +22,7 @@ struct CalibrationFile {
   std::vector<Vector3> nominal_m;  // of each of them, as the target's table gave it
   double scale_sigma = 0.0;        // relative, of the target's size and so of every range
   int model_form = 0;              // 0: the file does not say
-  std::optional<CalibratedPair> pair;
+  std::optional<tracking::CalibratedPair> pair;
   std::vector<std::string> parameters;
   std::vector<std::vector<double>> covariance;
 
@@ -46,10 +39,6 @@ CalibrationFile parse_calibration(std::string_view text, const std::string& name
 /// the file is of another target: other sensor numbers, or positions other than those that it was calibrated from (1
 /// mm).
 Target calibrated_target(const CalibrationFile& file, const Target& nominal);
-
-/// Where the second slot's station stands in the frame of the first slot's, if the pair is these two.
-std::optional<motion::StationRelative> relative_pose(const CalibratedPair& pair, std::uint32_t first_id,
-                                                     std::uint32_t second_id);
 
 /// What a file leaves wrong with sensors and rotors, from its own covariance: root mean squares over the sensors' axes
 /// (their common size, which widen_by_scale() counts, taken out) and over all rotors in directions to 30 deg off axis.

@@ -15,15 +15,14 @@
 #include "host/vision/slam/slam_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
-#include "pharos/motion/motion_tracker.hpp"
 #include "pharos/pointing/pass.hpp"
 #include "pharos/tof/tof_settings.hpp"
-#include "pharos/track/epoch_tracker.hpp"
+#include "pharos/tracking/method_tracker.hpp"
+#include "pharos/tracking/station_survey.hpp"
 
 namespace pharos::host {
 
-/// How poses are found: every hit at its own instant (common/pharos/motion), or each cycle alone, the paper's way.
-enum class TrackMethod : std::uint8_t { kMotion, kEpoch };
+using TrackMethod = tracking::Method;
 
 /// One cooperative target: the port that its capture board hangs on and how its pose is found.
 struct TargetConfig {
@@ -37,9 +36,9 @@ struct TargetConfig {
   TargetShape shape;
   /// Of `pharos calibrate lighthouse`; empty: the target's table and what stations send hold.
   std::filesystem::path calibration_file;
-  std::vector<lighthouse::StationCalibration> calibrated_stations;
-  std::optional<calibrate::CalibratedPair> calibrated_pair;  // of two stations
-  double scale_sigma = 0.0;                                  // relative, of the target's size
+  std::vector<tracking::KnownStation> calibrated_stations;  // all by id
+  std::optional<tracking::CalibratedPair> calibrated_pair;  // of two stations
+  double scale_sigma = 0.0;                                 // relative, of the target's size
   /// What nobody knows of sensors and rotors: of the calibration, or without one.
   motion::SystematicErrors systematic = motion::kUncalibratedErrors;
   TrackMethod method = TrackMethod::kMotion;

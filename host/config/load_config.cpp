@@ -100,7 +100,7 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Envi
     target.calibrated_pair = file.pair;
     for (const StationEntry& station : file.stations) {
       if (!station.id) throw InputError(file.name + ": a [[station]] without id; the daemon knows stations by theirs");
-      target.calibrated_stations.push_back(station.calibration);
+      target.calibrated_stations.push_back({station.id, std::nullopt, station.calibration});
     }
     if (file.model_form != 0 && file.model_form != static_cast<int>(target.track.form)) {
       throw InputError(file.name + ": calibrated with sign form " + std::to_string(file.model_form) +

@@ -8,7 +8,6 @@
 #include "host/publish/messages.hpp"
 #include "host/publish/words.hpp"
 #include "pharos/base/ticks.hpp"
-#include "pharos/track/epoch_tracker.hpp"
 
 namespace pharos::host {
 namespace {
@@ -49,6 +48,12 @@ Report report_of(const JobResult& answer) {
   return report;
 }
 
+tracking::CalibrationPolicy policy_of(const tracking::StationSurvey& survey) {
+  tracking::CalibrationPolicy policy;
+  policy.survey = &survey;
+  return policy;
+}
+
 }  // namespace
 
 LighthousePipeline::LighthousePipeline(const TargetConfig& config, const PublishConfig& publish,
@@ -59,7 +64,9 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
       source_(source),
       host_clock_(clock),
       memory_(memory),
-      tracker_(config_),
+      survey_{config_.calibrated_stations, config_.calibrated_pair ? &*config_.calibrated_pair : nullptr},
+      tracker_(policy_of(survey_), config_.target,
+               tracking::MethodOptions{config_.method, config_.track, config_.systematic, config_.limits}),
       line_baud_(line_baud),
       gate_(publisher, counters_.cycles_not_finite,
             PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
@@ -67,7 +74,9 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
                   PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
       log_(config.name) {
   if (!config_.remember_calibrations) return;
-  for (const lighthouse::StationCalibration& station : memory_.stations()) calibrations_.remember(station);
+  lighthouse::CalibrationStore accepted;
+  for (const lighthouse::StationCalibration& station : memory_.stations()) accepted.remember(station);
+  tracker_.resume(accepted);
 }
 
 void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
@@ -114,31 +123,19 @@ void LighthousePipeline::restart(const char* why) {
   ++counters_.target_restarts;
   clock_.restart();
   tracker_.restart();
-  calibrations_.forget_stations();
   board_counters_ = {};
   any_ticks_ = false;
-  last_flash_ticks_ = 0;
 }
 
 void LighthousePipeline::line_lost() {
   link_.restart();
   frame_bytes_ = 0;
-  tracker_.restart();
-  apply_calibrations();
-}
-
-void LighthousePipeline::apply_calibrations() {
-  for (std::uint8_t station = 0; station < kMaxStations; ++station) {
-    if (const auto* sent = calibrations_.in_use(station))
-      tracker_.set_calibration(station, effective_calibration(*sent));
-  }
-  const auto *first = calibrations_.in_use(0), *second = calibrations_.in_use(1);
-  if (first != nullptr && second != nullptr) tracker_.set_stations(first->id, second->id);
+  tracker_.restart_tracking();
 }
 
 // ReportedCounters once: a station that was knocked, or a calibration of how they stood before.
 void LighthousePipeline::check_relative_pose() {
-  const bool refused = tracker_.relative_pose_rejected();
+  const bool refused = tracker_.tracker().relative_pose_rejected();
   if (refused && !relative_pose_rejected_) {
     ++counters_.station_pairs_refused;
     log_.warn("stations moved",
@@ -159,12 +156,6 @@ void LighthousePipeline::take(const lighthouse::Sweep& sweep) {
     ++counters_.sweeps_bad_station;
     return;
   }
-  // After so long in the dark a station may have come back under another's number.
-  if (sweep.flash.start_ticks - last_flash_ticks_ > track::kLongestDark_ticks) {
-    tracker_.restart();
-    calibrations_.forget_stations();
-  }
-  last_flash_ticks_ = sweep.flash.start_ticks;
   last_sweep_ns_ = arrival_.monotonic_ns;
   if (const auto result = tracker_.push(sweep)) answer(*result);
   check_relative_pose();
@@ -172,7 +163,7 @@ void LighthousePipeline::take(const lighthouse::Sweep& sweep) {
 
 void LighthousePipeline::take(const lighthouse::OotxPayload& payload) {
   ++counters_.ootx_payloads;
-  switch (calibrations_.push(payload)) {
+  switch (tracker_.push(payload)) {
     case lighthouse::CalibrationStore::Verdict::kUnreadable:
       ++counters_.ootx_unreadable;
       return;
@@ -182,11 +173,10 @@ void LighthousePipeline::take(const lighthouse::OotxPayload& payload) {
     case lighthouse::CalibrationStore::Verdict::kTakenIntoUse:
       break;
   }
-  const lighthouse::StationCalibration* calibration = calibrations_.in_use(payload.station);
+  const lighthouse::StationCalibration* calibration = tracker_.sent().in_use(payload.station);
   if (calibration == nullptr) return;
   ++counters_.calibrations_taken;
-  apply_calibrations();
-  if (!config_.calibration_file.empty() && &effective_calibration(*calibration) == calibration) {
+  if (!config_.calibration_file.empty() && tracker_.effective_calibration(payload.station) == calibration) {
     log_.warn("other station",
               "station " + station_id_text(calibration->id) + " is not in " + config_.calibration_file.string() +
                   ": what it sends of itself is used; calibrate with it",
@@ -197,15 +187,6 @@ void LighthousePipeline::take(const lighthouse::OotxPayload& payload) {
                 ") in use",
             arrival_.monotonic_ns);
   if (config_.remember_calibrations) memory_.keep(*calibration);
-}
-
-// What the calibration file says of a station goes before what it sends of itself.
-const lighthouse::StationCalibration& LighthousePipeline::effective_calibration(
-    const lighthouse::StationCalibration& sent) const {
-  for (const lighthouse::StationCalibration& station : config_.calibrated_stations) {
-    if (station.id == sent.id) return station;
-  }
-  return sent;
 }
 
 void LighthousePipeline::take(const report::DecoderReport& report) { board_counters_.decoder.take(report.counters); }
@@ -255,7 +236,7 @@ bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::i
   report.source = source_;
   report.target = config_.name;
   report.station = station;
-  if (const auto* calibration = calibrations_.in_use(station)) report.sensor = station_id_text(calibration->id);
+  if (const auto* calibration = tracker_.sent().in_use(station)) report.sensor = station_id_text(calibration->id);
   if (!clock_step_.notice(arrival_.monotonic_ns).empty()) add_flag_word(report.flags, kClockSetWord);
   return true;
 }
@@ -279,8 +260,9 @@ void LighthousePipeline::publish_bearings(const CycleReport& report, const track
   static_cast<MeasurementHeader&>(bearings) = report;
   bearings.station = report.station;
   bearings.calibrated = (result.flags & track::kEpochUncalibrated) == 0;
-  for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) {
-    bearings.bearings.push_back(reported(tracker_.bearing(i), result.time_ticks));
+  const tracking::MethodTracker& tracker = tracker_.tracker();
+  for (std::size_t i = 0; i < tracker.bearing_count(); ++i) {
+    bearings.bearings.push_back(reported(tracker.bearing(i), result.time_ticks));
   }
   gate_.publish_companion(bearings);
 }

@@ -15,14 +15,13 @@
 #include "host/daemon/lighthouse_counters.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
-#include "host/daemon/target_tracker.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/publish_gate.hpp"
 #include "host/runtime/clock.hpp"
 #include "host/runtime/latency_histogram.hpp"
-#include "pharos/lighthouse/calibration_store.hpp"
 #include "pharos/report/link_decoder.hpp"
+#include "pharos/tracking/calibrated_tracker.hpp"
 
 namespace pharos::host {
 
@@ -74,8 +73,6 @@ class LighthousePipeline {
     ++counters_.unexpected_events;
   }
 
-  const lighthouse::StationCalibration& effective_calibration(const lighthouse::StationCalibration& sent) const;
-  void apply_calibrations();
   void check_relative_pose();
   void check_clock(const report::LinkEvent& event);
   void restart(const char* why);
@@ -96,8 +93,8 @@ class LighthousePipeline {
 
   report::LinkDecoder link_;
   ClockMap clock_;
-  lighthouse::CalibrationStore calibrations_;
-  TargetTracker tracker_;
+  tracking::StationSurvey survey_;  // of config_
+  tracking::CalibratedTracker<tracking::MethodTracker> tracker_;
   int line_baud_ = 0;
   Arrival arrival_;
   std::int64_t push_began_ns_ = 0;  // this computer's monotonic time, also in a replay
@@ -105,7 +102,6 @@ class LighthousePipeline {
   std::int64_t newest_ticks_ = 0;
   bool any_ticks_ = false;
   bool time_went_back_ = false;  // the last time told lay far before newest_ticks_
-  std::int64_t last_flash_ticks_ = 0;
   std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
   ClockStepMonitor clock_step_;

@@ -2,23 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "pharos/lighthouse/station_calibration.hpp"
+#include "pharos/tracking/station_survey.hpp"
 
 namespace pharos::host {
 
 class TomlTable;
 
-/// One [[station]] of a station file: by id as its OOTX says, by slot position whatever its id, or both.
-struct StationEntry {
-  std::optional<std::uint32_t> id;
-  std::optional<std::uint8_t> slot;
-  lighthouse::StationCalibration calibration;  // its id is `id`, 0 where the file gives none
-};
+/// One [[station]] of a station file.
+using StationEntry = tracking::KnownStation;
 
 /// Reads a station file (README.md shows one; `-` is standard input). Throws InputError naming file, line and key for
 /// what is not one: an entry without id and slot, an unknown key, an angle that no station has.

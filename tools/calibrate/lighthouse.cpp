@@ -91,7 +91,7 @@ calibrate::RecordingLog read_log(const std::string& path, const std::optional<Ca
   recording.print_remarks();
   if (!file) return log;
   for (std::uint8_t slot = 0; slot < kMaxStations; ++slot) {
-    const lighthouse::StationCalibration* known = file->find(slot, stations.id(slot));
+    const lighthouse::StationCalibration* known = file->survey().find(slot, stations.id(slot));
     log.station[slot] = known != nullptr ? std::optional(*known) : std::nullopt;
   }
   return log;

@@ -7,12 +7,20 @@
 namespace pharos::tools {
 
 CalibrationChoice::CalibrationChoice(const std::string& choice, const std::string& recording_path)
-    : kind_(choice == "ootx"   ? Kind::kOotx
-            : choice == "none" ? Kind::kNone
-                               : Kind::kFile) {
-  if (kind_ == Kind::kFile) file_.emplace(choice);
+    : use_sent_(choice == "ootx") {
+  if (!use_sent_ && choice != "none") {
+    file_.emplace(choice);
+    survey_ = file_->survey();
+  }
   stations_ = read_ahead(recording_path);
   if (file_ && file_->content().has_target()) require_a_station();
+}
+
+tracking::CalibrationPolicy CalibrationChoice::policy() const {
+  tracking::CalibrationPolicy policy;
+  policy.use_sent = use_sent_;
+  policy.survey = file_ ? &survey_ : nullptr;
+  return policy;
 }
 
 void CalibrationChoice::require_a_station() const {
@@ -20,7 +28,7 @@ void CalibrationChoice::require_a_station() const {
   for (std::uint8_t slot = 0; slot < kMaxStations; ++slot) {
     const std::optional<std::uint32_t> id = stations_.id(slot);
     if (!id) continue;
-    if (file_->find(slot, id) != nullptr) return;
+    if (survey_.find(slot, id) != nullptr) return;
     seen += (seen.empty() ? "" : ", ") + station_id_text(id);
   }
   if (seen.empty()) return;  // nobody knows yet; rows of unknown stations are flagged uncalibrated
@@ -38,30 +46,12 @@ Target CalibrationChoice::target(const Target& nominal, lighthouse::ModelForm fo
   return calibrate::calibrated_target(content, nominal);
 }
 
-std::optional<motion::StationRelative> CalibrationChoice::relative() const {
-  const auto first = stations_.id(0), second = stations_.id(1);
-  if (!file_ || !file_->content().pair || !first || !second) return std::nullopt;
-  return calibrate::relative_pose(*file_->content().pair, *first, *second);
-}
-
 motion::SystematicErrors CalibrationChoice::systematic() const {
   return file_ ? calibrate::systematic_errors(file_->content()) : motion::kUncalibratedErrors;
 }
 
 void CalibrationChoice::widen(LighthousePoseEstimate& estimate) const {
   if (file_) calibrate::widen_by_scale(estimate, file_->content().scale_sigma);
-}
-
-const lighthouse::StationCalibration* CalibrationChoice::calibration(std::uint8_t station) const {
-  switch (kind_) {
-    case Kind::kOotx:
-      return stations_.calibration(station);
-    case Kind::kNone:
-      return nullptr;
-    case Kind::kFile:
-      return file_->find(station, stations_.id(station));
-  }
-  return nullptr;
 }
 
 }  // namespace pharos::tools

@@ -10,15 +10,8 @@ CalibrationFile::CalibrationFile(const std::string& path) : content_(calibrate::
   throw host::InputError(path + ": no [[station]] in the file; give one a station (see tools/README.md)");
 }
 
-const lighthouse::StationCalibration* CalibrationFile::find(std::uint8_t slot,
-                                                            const std::optional<std::uint32_t>& id) const {
-  for (const host::StationEntry& entry : content_.stations) {
-    if (entry.slot == slot) return &entry.calibration;
-  }
-  for (const host::StationEntry& entry : content_.stations) {
-    if (!entry.slot && id && entry.id == id) return &entry.calibration;
-  }
-  return nullptr;
+tracking::StationSurvey CalibrationFile::survey() const {
+  return {content_.stations, content_.pair ? &*content_.pair : nullptr};
 }
 
 }  // namespace pharos::tools

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "pharos/tracking/station_survey.hpp"
 
 namespace pharos::tools {
 
@@ -15,8 +14,8 @@ class CalibrationFile {
   /// Throws InputError naming file, line and key.
   explicit CalibrationFile(const std::string& path);
 
-  /// The entry for this slot position, else the one for this id; null where the file has neither.
-  const lighthouse::StationCalibration* find(std::uint8_t slot, const std::optional<std::uint32_t>& id) const;
+  /// What it says of stations; a view of this object.
+  tracking::StationSurvey survey() const;
   const calibrate::CalibrationFile& content() const { return content_; }
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,18 +15,17 @@ class Stations {
  public:
   /// Takes a payload in; true when it changed the calibration in use of its station.
   bool push(const lighthouse::OotxPayload& payload);
-  /// Forgets who stands in which slot, not the calibrations that were accepted: one more payload brings one back.
-  void forget();
   /// Calibration in use (came twice); null until there is one.
-  const lighthouse::StationCalibration* calibration(std::uint8_t station) const;
-  /// The station's id: of the calibration in use, else of the first readable payload.
-  std::optional<std::uint32_t> id(std::uint8_t station) const;
+  const lighthouse::StationCalibration* calibration(std::uint8_t station) const { return store_.in_use(station); }
+  /// The station's id: of the calibration in use, else of the last readable payload.
+  std::optional<std::uint32_t> id(std::uint8_t station) const { return store_.named_id(station); }
   /// Every station was identified and calibrated.
   bool complete() const;
+  /// For a tracker that goes on from here.
+  const lighthouse::CalibrationStore& store() const { return store_; }
 
  private:
   lighthouse::CalibrationStore store_;
-  std::array<std::optional<std::uint32_t>, kMaxStations> first_id_;
 };
 
 /// Reads a file's OOTX ahead, so that what it says holds from the first row: up to where every station is calibrated,

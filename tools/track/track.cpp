@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos track: a recording and a target to poses of the target in each station's frame.
 #include <CLI/CLI.hpp>
-#include <array>
-#include <type_traits>
+#include <memory>
 
 #include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/base/units.hpp"
-#include "pharos/motion/motion_tracker.hpp"
-#include "pharos/track/epoch_tracker.hpp"
+#include "pharos/tracking/calibrated_tracker.hpp"
+#include "pharos/tracking/method_tracker.hpp"
 #include "tools/support/calibration_choice.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
@@ -58,6 +57,9 @@ struct Options {
     options.smooth_flashes = !raw_flashes;
     return options;
   }
+  tracking::MethodOptions tracker(const motion::SystematicErrors& systematic) const {
+    return {method == "epoch" ? tracking::Method::kEpoch : tracking::Method::kMotion, track(), systematic, limits()};
+  }
 };
 
 std::vector<std::string> columns() {
@@ -95,20 +97,20 @@ void write_result(const track::EpochResult& result, const std::string& station_i
 }
 
 // One run over a recording.
-template <class Tracker>
 class Tracking {
  public:
-  Tracking(const Options& options, CalibrationChoice calibration, Tracker tracker)
-      : calibration_(std::move(calibration)), tracker_(std::move(tracker)), output_(options.output, columns()) {
-    refresh_calibrations();
+  // The calibration must outlive this.
+  Tracking(const Options& options, const CalibrationChoice& calibration, const Target& target)
+      : calibration_(calibration),
+        tracker_(calibration.policy(), target, options.tracker(calibration.systematic())),
+        output_(options.output, columns()) {
+    tracker_.resume(calibration.sent_ahead());
   }
 
   void push(const RecordingEvent& event) {
     if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&event)) {
-      calibration_.push(*payload);
-      refresh_calibrations();
+      tracker_.push(*payload);
     } else if (const auto* sweep = std::get_if<lighthouse::Sweep>(&event)) {
-      if (tracker_.after_long_dark(*sweep)) forget_stations();
       if (const auto result = tracker_.push(*sweep)) take(*result);
     }
   }
@@ -124,55 +126,28 @@ class Tracking {
   std::size_t poses() const { return poses_; }
   bool uncalibrated() const { return uncalibrated_ > 0; }
   /// The stations do not stand as the calibration says.
-  bool stations_moved() const {
-    if constexpr (kMotion) return tracker_.pair().survey_refused();
-    return false;
-  }
+  bool stations_moved() const { return tracker_.tracker().relative_refused(); }
 
  private:
-  void forget_stations() {
-    tracker_.forget_stations();
-    calibration_.forget_stations();
-    known_ = {};
-    relative_known_ = false;
-    refresh_calibrations();  // a file may name them by slot
-  }
-  void refresh_calibrations() {
-    for (std::uint8_t station = 0; station < kMaxStations; ++station) {
-      const lighthouse::StationCalibration* now = calibration_.calibration(station);
-      if (now == nullptr || known_[station] == *now) continue;
-      known_[station] = *now;
-      tracker_.set_calibration(station, *now);
-    }
-    if constexpr (kMotion) {
-      if (relative_known_) return;
-      const auto relative = calibration_.relative();
-      if (relative) tracker_.set_relative(relative);
-      relative_known_ = relative.has_value();
-    }
-  }
   void take(track::EpochResult result) {
     if (result.pose) calibration_.widen(*result.pose);
-    write_result(result, station_id_text(calibration_.station_id(result.station)), output_.rows());
+    write_result(result, station_id_text(tracker_.sent().named_id(result.station)), output_.rows());
     if ((result.flags & track::kEpochUncalibrated) != 0) ++uncalibrated_;
     if (!result.pose) return;
     ++poses_;
-    for (std::size_t i = 0; i < tracker_.bearing_count(); ++i) residuals_.push(result.station, tracker_.bearing(i));
+    const tracking::MethodTracker& tracker = tracker_.tracker();
+    for (std::size_t i = 0; i < tracker.bearing_count(); ++i) residuals_.push(result.station, tracker.bearing(i));
   }
 
-  CalibrationChoice calibration_;
-  Tracker tracker_;
+  const CalibrationChoice& calibration_;
+  tracking::CalibratedTracker<tracking::MethodTracker> tracker_;
   Output output_;
   ResidualTable residuals_;
-  static constexpr bool kMotion = std::is_same_v<Tracker, motion::MotionTracker>;
-  std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> known_;
-  bool relative_known_ = false;
   std::size_t poses_ = 0;
   std::size_t uncalibrated_ = 0;
 };
 
-template <class Tracker>
-void print_summary(const Options& options, const std::string& name, Tracking<Tracker>& tracking) {
+void print_summary(const Options& options, const std::string& name, Tracking& tracking) {
   if (options.calibration == "ootx" && tracking.uncalibrated()) {
     note(name + ": rows flagged uncalibrated: a station's OOTX did not come twice; give --calibration FILE");
   }
@@ -195,10 +170,14 @@ void check_files(const Options& options) {
   require_writable(options.sensors);
 }
 
-template <class Tracker>
-int run_with(const Options& options, CalibrationChoice calibration, Tracker tracker) {
+int run(const Options& options) {
+  check_files(options);
+  const host::TargetFile target = host::read_target(options.target);
+  note_target_shape(options.target, target.shape);
+  const CalibrationChoice calibration(options.calibration, options.edges);
+  const Target calibrated = calibration.target(target.target, options.track().form);
   Recording recording(options.edges);
-  const auto tracking = std::make_unique<Tracking<Tracker>>(options, std::move(calibration), std::move(tracker));
+  const auto tracking = std::make_unique<Tracking>(options, calibration, calibrated);
   Progress progress("track", "sweeps and payloads");
   recording.on_pause([&tracking] { tracking->show(); });
   while (const std::optional<RecordingEvent> event = recording.next()) {
@@ -211,19 +190,6 @@ int run_with(const Options& options, CalibrationChoice calibration, Tracker trac
   if (options.stats) recording.print_statistics();
   print_summary(options, recording.name(), *tracking);
   return tracking->poses() > 0 ? kExitAnswered : kExitNoAnswer;
-}
-
-int run(const Options& options) {
-  check_files(options);
-  const host::TargetFile target = host::read_target(options.target);
-  note_target_shape(options.target, target.shape);
-  CalibrationChoice calibration(options.calibration, options.edges);
-  const Target assumed = calibration.target(target.target, options.track().form);
-  if (options.method == "epoch") {
-    return run_with(options, std::move(calibration), track::EpochTracker(assumed, options.track()));
-  }
-  const auto motion = motion::motion_options(options.track(), calibration.systematic(), options.limits());
-  return run_with(options, std::move(calibration), motion::MotionTracker(assumed, motion));
 }
 
 }  // namespace

@@ -46,9 +46,11 @@ const StationCalibration* CalibrationStore::in_use(std::uint8_t station) const {
   return station < kMaxStations && station_[station].in_use ? &*station_[station].in_use : nullptr;
 }
 
-std::uint32_t CalibrationStore::id_of(std::uint8_t station) const {
-  const StationCalibration* calibration = in_use(station);
-  return calibration != nullptr ? calibration->id : 0;
+std::optional<std::uint32_t> CalibrationStore::named_id(std::uint8_t station) const {
+  if (station >= kMaxStations) return std::nullopt;
+  const Station& there = station_[station];
+  if (there.in_use) return there.in_use->id;
+  return there.candidate ? std::optional(there.candidate->id) : std::nullopt;
 }
 
 bool CalibrationStore::is_remembered(const StationCalibration& calibration) const {

@@ -38,8 +38,9 @@ class CalibrationStore {
 
   /// Calibration in use for a station number; null until there is one.
   const StationCalibration* in_use(std::uint8_t station) const;
-  /// Id that a station last took into use; 0 where unknown.
-  std::uint32_t id_of(std::uint8_t station) const;
+  /// Who stands there: the id of the calibration in use, else of the newest payload that waits for its confirmation (a
+  /// name that proves wrong is corrected by the next one); empty until there is one.
+  std::optional<std::uint32_t> named_id(std::uint8_t station) const;
   /// Every calibration accepted, oldest first.
   std::span<const StationCalibration> accepted() const { return {accepted_.data(), accepted_.size()}; }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "pharos/geometry/pose.hpp"
+#include "pharos/motion/station_relative.hpp"
 #include "pharos/motion/sweep_information.hpp"
 
 namespace pharos::motion {
@@ -23,9 +24,6 @@ Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_cova
 
 /// What the innovation makes of a pose with this error covariance.
 Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
-
-/// T_to_from between the frames of two stations.
-using StationFromStation = Pose<frame::Lighthouse, frame::Lighthouse>;
 
 /// Whose sweep it is: that of the station in whose frame the belief is kept, or that of a second one.
 enum class Observer : std::uint8_t { kReference, kSecond };

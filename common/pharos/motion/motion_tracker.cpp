@@ -62,16 +62,17 @@ void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::Stat
   s.calibration = calibration;
 }
 
-void MotionTracker::set_relative(const std::optional<StationRelative>& relative) { pair_.survey(relative); }
-
-bool MotionTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
-  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > track::kLongestDark_ticks;
+void MotionTracker::clear_calibration(std::uint8_t station) {
+  if (station >= kMaxStations || !stations_[station].calibration) return;
+  stations_[station] = {};
+  pair_.forget_learnt();
 }
+
+void MotionTracker::set_relative(const std::optional<StationRelative>& relative) { pair_.survey(relative); }
 
 void MotionTracker::forget_stations() {
   stations_ = {};
   pair_ = {};
-  newest_flash_ticks_.reset();
 }
 
 StationView MotionTracker::view_of(const Station& station) const {
@@ -80,8 +81,6 @@ StationView MotionTracker::view_of(const Station& station) const {
 
 std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& sweep) {
   if (sweep.flash.station >= kMaxStations) return std::nullopt;
-  if (after_long_dark(sweep)) forget_stations();
-  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(sweep.flash.start_ticks), sweep.flash.start_ticks);
   Station& station = stations_[sweep.flash.station];
   const Axis axis = sweep.flash.axis;
   const lighthouse::SmoothedFlash smoothed = station.smoother[static_cast<std::size_t>(index_of(axis))].push(sweep);

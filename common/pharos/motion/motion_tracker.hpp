@@ -52,13 +52,15 @@ class MotionTracker {
  public:
   MotionTracker(const Target& target, const MotionOptions& options);
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
-  /// Where slot 1's station stands, as measured; empty: learnt from what both stations see. What is known stays until
-  /// the next call or forget_stations().
+  /// None is known any more (another station stands there): what was known of this slot goes with it. Nothing changes
+  /// where none was known.
+  void clear_calibration(std::uint8_t station);
+  /// Where slot 1's station stands, as measured; empty: learnt from what both stations see. Holds until another one is
+  /// set, or forget_stations(); the same again changes nothing.
   void set_relative(const std::optional<StationRelative>& relative);
   /// What became of it, and what is known now.
   const StationPair& pair() const { return pair_; }
   /// As EpochTracker's.
-  bool after_long_dark(const lighthouse::Sweep& sweep) const;
   void forget_stations();
   std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep);
   /// As EpochTracker's; nothing is ever held back.
@@ -99,7 +101,6 @@ class MotionTracker {
   MotionOptions options_;
   std::array<Station, kMaxStations> stations_;
   StationPair pair_;
-  std::optional<std::int64_t> newest_flash_ticks_;
   // The sweep last answered.
   StaticVector<track::TrackedBearing, kMaxHitsPerSweep> bearings_;
   InnovationStatistics innovation_;

@@ -50,21 +50,17 @@ std::int64_t now_of(const StationPair::Tracks& tracks) {
 
 }  // namespace
 
-StationRelative StationRelative::seen_from_the_other() const {
-  Matrix6 by = Matrix6::Zero();
-  by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = -T_0_1.R.transpose();
-  by.bottomLeftCorner<3, 3>() = -T_0_1.R.transpose() * skew(T_0_1.t);
-  return {T_0_1.inverse(), by.lazyProduct(Matrix6(covariance.lazyProduct(by.transpose())))};
-}
-
 void StationPair::survey(const std::optional<StationRelative>& relative) {
+  std::optional<Known> surveyed;
+  if (relative) {
+    const StationRelative other = relative->seen_from_the_other();
+    surveyed = {other.T_0_1, other.covariance};
+  }
+  if (surveyed == surveyed_) return;
   lose();
   learnt_.reset();
-  surveyed_.reset();
+  surveyed_ = surveyed;
   survey_refused_ = false;
-  if (!relative) return;
-  const StationRelative other = relative->seen_from_the_other();
-  surveyed_ = {other.T_0_1, other.covariance};
 }
 
 void StationPair::lose() {

@@ -6,19 +6,10 @@
 #include <optional>
 
 #include "pharos/base/capacity.hpp"
+#include "pharos/motion/station_relative.hpp"
 #include "pharos/motion/station_track.hpp"
 
 namespace pharos::motion {
-
-/// Where the station of slot 1 stands: T_0_1, its pose in the frame of slot 0's, and the covariance of that pose's
-/// error (Pose::moved_by).
-struct StationRelative {
-  StationFromStation T_0_1;
-  Matrix6 covariance = Matrix6::Zero();
-
-  /// T_1_0 and the covariance of its error.
-  StationRelative seen_from_the_other() const;
-};
 
 /// Both stations' sweeps in one hypothesis, in the frame of slot 0's station, with where slot 1's stands as part of the
 /// state.
@@ -31,7 +22,8 @@ class StationPair {
  public:
   using Tracks = std::array<const StationTrack*, kMaxStations>;
 
-  /// The relative pose as measured; empty: to be learnt from what both stations see.
+  /// The relative pose as measured; empty: to be learnt from what both stations see. The same again changes nothing: a
+  /// measured one that was refused stays so, a learnt one stays.
   void survey(const std::optional<StationRelative>& relative);
   /// Takes a sweep that the station's own track has taken.
   void push(const lighthouse::SweepBearings& bearings, Axis axis, std::uint8_t station, const Tracks& tracks,
@@ -53,6 +45,10 @@ class StationPair {
   struct Known {
     StationFromStation T_1_0;
     Matrix6 covariance;
+
+    bool operator==(const Known& other) const {
+      return T_1_0.R == other.T_1_0.R && T_1_0.t == other.T_1_0.t && covariance == other.covariance;
+    }
   };
 
   const Known* known() const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/track/epoch_tracker.hpp"
 
-#include <algorithm>
-
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 #include "pharos/pose/place_residuals.hpp"
@@ -56,14 +54,11 @@ void EpochTracker::set_calibration(std::uint8_t station, const lighthouse::Stati
   if (station < kMaxStations) stations_[station].calibration = calibration;
 }
 
-bool EpochTracker::after_long_dark(const lighthouse::Sweep& sweep) const {
-  return newest_flash_ticks_ && sweep.flash.start_ticks - *newest_flash_ticks_ > kLongestDark_ticks;
+void EpochTracker::clear_calibration(std::uint8_t station) {
+  if (station < kMaxStations && stations_[station].calibration) stations_[station] = {};
 }
 
-void EpochTracker::forget_stations() {
-  stations_ = {};
-  newest_flash_ticks_.reset();
-}
+void EpochTracker::forget_stations() { stations_ = {}; }
 
 [[gnu::noinline]] const Cycle* EpochTracker::take(Station& station, const lighthouse::Sweep& sweep,
                                                   const lighthouse::SmoothedFlash& smoothed, bool may_complete) {
@@ -79,8 +74,6 @@ void EpochTracker::forget_stations() {
 std::optional<EpochResult> EpochTracker::push(const lighthouse::Sweep& sweep) {
   const lighthouse::Flash& flash = sweep.flash;
   if (flash.station >= kMaxStations) return std::nullopt;
-  if (after_long_dark(sweep)) forget_stations();
-  newest_flash_ticks_ = std::max(newest_flash_ticks_.value_or(flash.start_ticks), flash.start_ticks);
   Station& station = stations_[flash.station];
   const auto axis = static_cast<std::size_t>(index_of(flash.axis));
   const lighthouse::SmoothedFlash smoothed = station.smoother[axis].push(sweep);

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "pharos/base/ticks.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/lighthouse/flash_smoother.hpp"
@@ -35,10 +34,6 @@ struct TrackOptions {
   /// the station's next ones are refused for this long (kSearchLimit), or a bad view would take all of a slow core.
   std::int64_t search_cooldown_ticks = 0;
 };
-
-/// Without a flash for this long a station may come back under another's number (decoders extrapolate rotors for 300
-/// s), so nothing that was known of a number holds any more.
-inline constexpr std::int64_t kLongestDark_ticks = 240 * kTicksPerSecond;
 
 /// Words said about one cycle's answer; a bit set.
 enum EpochFlag : std::uint8_t {
@@ -89,9 +84,9 @@ class EpochTracker {
   EpochTracker(const Target& target, const TrackOptions& options);
   /// Calibration of the station in this slot position, from now on.
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
-  /// Whether more than kLongestDark_ticks lie between the newest flash so far and this sweep's. Whoever keeps
-  /// calibrations by station number forgets them then, as push() does with those that were set here.
-  bool after_long_dark(const lighthouse::Sweep& sweep) const;
+  /// None is known any more (another station stands there): what was known of this slot goes with it. Nothing changes
+  /// where none was known.
+  void clear_calibration(std::uint8_t station);
   /// Everything known of the stations: calibrations, flashes, last poses, cycles not complete.
   void forget_stations();
   /// The answer of the cycle that this sweep completed, if any: the y sweep completes its cycle at once; a cycle whose
@@ -134,7 +129,6 @@ class EpochTracker {
   Target target_;
   TrackOptions options_;
   std::array<Station, kMaxStations> stations_;
-  std::optional<std::int64_t> newest_flash_ticks_;
   // The cycle last answered.
   IdealObservations ideal_;
   std::bitset<pose::kMaxObservations> used_;

@@ -198,11 +198,25 @@ TEST(CalibrationStore, UsesACalibrationOnlyWhenItCameTwice) {
   EXPECT_EQ(store.in_use(0), nullptr);
   EXPECT_EQ(store.push(payload), CalibrationStore::Verdict::kTakenIntoUse);
   ASSERT_NE(store.in_use(0), nullptr);
-  EXPECT_EQ(store.id_of(0), 0xBEC08E38U);
   EXPECT_EQ(store.in_use(1), nullptr);
-  EXPECT_EQ(store.id_of(1), 0U);
   EXPECT_EQ(store.push(payload), CalibrationStore::Verdict::kUnchanged);
   EXPECT_EQ(store.accepted().size(), 1U);
+}
+
+TEST(CalibrationStore, NamesAStationFromItsFirstPayload) {
+  CalibrationStore store;
+  EXPECT_EQ(store.named_id(0), std::nullopt);
+  store.push(payload_of(test::from_hex(kStationC33B4DE1)));
+  EXPECT_EQ(store.named_id(0), 0xC33B4DE1U);
+  store.push(payload_of(test::from_hex(kStationBEC08E38)));
+  EXPECT_EQ(store.named_id(0), 0xBEC08E38U) << "the first one was false, or this one is: the next one tells";
+  store.push(payload_of(test::from_hex(kStationBEC08E38)));
+  store.push(payload_of(test::from_hex(kStationC33B4DE1)));
+  EXPECT_EQ(store.named_id(0), 0xBEC08E38U) << "the one in use";
+  EXPECT_EQ(store.named_id(1), std::nullopt);
+  EXPECT_EQ(store.named_id(2), std::nullopt);
+  store.forget_stations();
+  EXPECT_EQ(store.named_id(0), std::nullopt);
 }
 
 TEST(CalibrationStore, AccelerationAndCountersDoNotMatter) {
@@ -235,7 +249,7 @@ TEST(CalibrationStore, WhatWasAcceptedOnceIsAcceptedAtOnce) {
   store.remember(ootx_fields(bytes)->calibration);
   EXPECT_EQ(store.in_use(0), nullptr);
   EXPECT_EQ(store.push(payload_of(bytes, 1)), CalibrationStore::Verdict::kTakenIntoUse);
-  EXPECT_EQ(store.id_of(1), 0xF77E21F3U);
+  EXPECT_EQ(store.named_id(1), 0xF77E21F3U);
   store.forget_stations();
   EXPECT_EQ(store.in_use(1), nullptr);
   EXPECT_EQ(store.push(payload_of(bytes, 0)), CalibrationStore::Verdict::kTakenIntoUse);

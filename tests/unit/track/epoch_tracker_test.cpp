@@ -6,59 +6,22 @@
 #include <cmath>
 
 #include "pharos/base/ticks.hpp"
-#include "pharos/base/units.hpp"
-#include "pharos/lighthouse/station_model.hpp"
+#include "support/ideal_sweep.hpp"
 
 namespace pharos::track {
 namespace {
 
-using lighthouse::StationCalibration;
 using lighthouse::Sweep;
+using test::cube_target;
+using test::kHalfTurn;
+using test::kTurn;
+using test::make_sweep;
+using test::some_calibration;
+using test::some_pose;
 
-constexpr std::int64_t kHalfTurn = 416'667;
-constexpr double kTurn = 833'334.0;
 // Hits are stamped to half a tick: 3.8 urad. What that does to a pose of this target at 2 m.
 constexpr double kPoseTolerance_m = 1e-3;
 constexpr double kPoseTolerance_rad = 2e-3;
-
-Target cube_target() {
-  Target target;
-  const double h = 0.06;
-  std::uint8_t number = 3;  // numbers need not start at 0
-  for (const double x : {-h, h}) {
-    for (const double y : {-h, h}) {
-      for (const double z : {-h, 0.7 * h}) target.push_back({number++, {x, y, z}, Vector3::Zero()});
-    }
-  }
-  return target;
-}
-
-LighthouseFromBody some_pose() { return {rotation_exp({0.4, -0.8, 0.3}), {0.3, -0.2, 2.0}}; }
-
-StationCalibration some_calibration() {
-  StationCalibration c;
-  c.id = 0xBEC08E38;
-  c.rotor[0] = {0.0156, 0.0003, -0.0018, -0.327, 0.00425};
-  c.rotor[1] = {0.0382, 0.0022, -0.0017, -1.508, -0.00576};
-  return c;
-}
-
-// The sweep that an ideal receiver would report: no noise but the half tick.
-Sweep make_sweep(const Target& target, const LighthouseFromBody& pose, const StationCalibration& c, Axis axis,
-                 std::int64_t flash_ticks, std::uint8_t station = 0) {
-  Sweep sweep;
-  sweep.flash.start_ticks = flash_ticks;
-  sweep.flash.length_ticks = 3125;
-  sweep.flash.station = station;
-  sweep.flash.axis = axis;
-  sweep.flash.sensors = 8;
-  sweep.period_sixteenth_ticks = static_cast<std::uint32_t>(kTurn * 16);
-  for (const SensorPlacement& s : target) {
-    const double theta = raw_theta(c, lighthouse::ModelForm::kForm1, axis, pose * s.position_m);
-    sweep.hits.push_back({s.sensor, 200, static_cast<std::int32_t>(std::lround(2.0 * theta / kTwoPi * kTurn))});
-  }
-  return sweep;
-}
 
 void expect_pose(const EpochResult& result, const LighthouseFromBody& truth) {
   ASSERT_TRUE(result.pose.ok());
@@ -91,22 +54,18 @@ TEST(EpochTracker, AnswersACycleWithItsPoseAtTheMeanHitTime) {
   }
 }
 
-TEST(EpochTracker, ForgetsItsStationsInALongDark) {
+TEST(EpochTracker, KnowsNothingOfASlotWhoseCalibrationWasCleared) {
   const Target target = cube_target();
-  const auto flags_after = [&](std::int64_t dark_ticks) {
-    EpochTracker tracker(target, {});
-    tracker.set_calibration(0, some_calibration());
-    tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
-    tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn));
-    const auto next = make_sweep(target, some_pose(), some_calibration(), Axis::kX, kHalfTurn + dark_ticks);
-    EXPECT_EQ(tracker.after_long_dark(next), dark_ticks > kLongestDark_ticks);
-    tracker.push(next);
-    const auto result =
-        tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, kHalfTurn + dark_ticks + kHalfTurn));
-    return result ? static_cast<int>(result->flags) : -1;
-  };
-  EXPECT_EQ(flags_after(kLongestDark_ticks) & kEpochUncalibrated, 0);
-  EXPECT_EQ(flags_after(kLongestDark_ticks + 1) & kEpochUncalibrated, kEpochUncalibrated);
+  EpochTracker tracker(target, {});
+  tracker.set_calibration(0, some_calibration());
+  tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 0));
+  tracker.clear_calibration(0);
+  EXPECT_FALSE(tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kX, 2 * kHalfTurn)));
+  tracker.clear_calibration(0);  // changes nothing any more
+  const auto result = tracker.push(make_sweep(target, some_pose(), some_calibration(), Axis::kY, 3 * kHalfTurn));
+  ASSERT_TRUE(result);
+  EXPECT_NE(result->flags & kEpochUncalibrated, 0);
+  EXPECT_EQ(result->observations, 16);
 }
 
 TEST(EpochTracker, SaysWhenNoCalibrationIsKnownAndThenMeasuresWrong) {

@@ -75,7 +75,7 @@ TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
   EXPECT_EQ(target.calibration_file, "/etc/pharos/cal.toml");
   EXPECT_EQ(target.target[0].position_m.x(), 0.0004);
   ASSERT_EQ(target.calibrated_stations.size(), 1u);
-  EXPECT_EQ(target.calibrated_stations[0].rotor[0].phase_rad, 0.01);
+  EXPECT_EQ(target.calibrated_stations[0].calibration.rotor[0].phase_rad, 0.01);
   EXPECT_EQ(target.scale_sigma, 0.002);
   const auto refusal = [&](const std::string& text) -> std::string {
     try {

@@ -45,6 +45,15 @@ TEST_F(TargetPipelineFaults, ACalibrationOutlivesADarknessShorterThan240SecondsA
   EXPECT_EQ(poses().back().flags, "");
 }
 
+// The daemon may start long after the board: its first sweep ends no darkness, and what was heard before it is not old.
+TEST_F(TargetPipelineFaults, WhatWasHeardBeforeTheFirstSweepHoldsHoweverLongTheBoardHasRun) {
+  pause(3600);
+  for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push_cycles(20);
+  EXPECT_EQ(poses().back().flags, "");
+  EXPECT_EQ(poses().back().station_or_camera, "BEC08E38");
+}
+
 TEST_F(TargetPipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
   push_cycles(60);
   calibrate();

@@ -183,8 +183,8 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   calibrated.calibration_file = "calibrated.toml";
   calibrated.scale_sigma = 0.005;
   calibrated.calibrated_stations.resize(1);
-  calibrated.calibrated_stations[0].id = 0xBEC08E38;
-  calibrated.calibrated_stations[0].rotor[0].phase_rad = kPhase_rad;
+  calibrated.calibrated_stations[0].calibration.id = 0xBEC08E38;
+  calibrated.calibrated_stations[0].calibration.rotor[0].phase_rad = kPhase_rad;
   LighthousePipeline pipeline(calibrated, PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
   const auto push_into = [&](const StationaryTarget::Bytes& bytes) { pipeline.push(bytes, arrival_at(ticks_)); };
   const auto push_turns = [&] {
