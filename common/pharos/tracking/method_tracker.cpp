@@ -25,7 +25,7 @@ void MethodTracker::set_relative(const std::optional<motion::StationRelative>& r
   if (auto* motion = std::get_if<motion::MotionTracker>(&tracker_)) motion->set_relative(relative);
 }
 
-bool MethodTracker::relative_refused() const {
+bool MethodTracker::relative_pose_rejected() const {
   const auto* motion = std::get_if<motion::MotionTracker>(&tracker_);
   return motion != nullptr && motion->pair().survey_refused();
 }

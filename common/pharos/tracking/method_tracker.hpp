@@ -32,7 +32,7 @@ class MethodTracker {
   /// Method epoch has no use for it.
   void set_relative(const std::optional<motion::StationRelative>& relative);
   /// What both stations see contradicts how they stand by set_relative(), which is not used any more.
-  bool relative_refused() const;
+  bool relative_pose_rejected() const;
   void forget_stations();
   std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep);
   std::optional<track::EpochResult> flush();
