@@ -126,7 +126,7 @@ class Tracking {
   std::size_t poses() const { return poses_; }
   bool uncalibrated() const { return uncalibrated_ > 0; }
   /// The stations do not stand as the calibration says.
-  bool stations_moved() const { return tracker_.tracker().relative_refused(); }
+  bool stations_moved() const { return tracker_.tracker().relative_pose_rejected(); }
 
  private:
   void take(track::EpochResult result) {
