@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "host/device/frame_directory.hpp"
 #include "host/device/pair_names.hpp"
@@ -43,17 +44,29 @@ void check_vocabulary(const std::string& path) {
   static_cast<void>(slam::Vocabulary::read(path.empty() ? slam::shipped_vocabulary_path() : path));
 }
 
+void require_size(const std::string& file, const GreyImage& image, const PinholeCamera& intrinsics) {
+  if (image.width_px == intrinsics.width_px && image.height_px == intrinsics.height_px) return;
+  throw InputError(file + ": has " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
+                   " pixels, the rig's camera " + std::to_string(intrinsics.width_px) + " x " +
+                   std::to_string(intrinsics.height_px) + "; name the rig file of these cameras");
+}
+
+// Of the first pair that can be read: one that cannot costs that pair alone.
 void check_pairs(const fs::path& directory, const RigFile& rig) {
-  const PairName first = pair_names_in(directory.string(), 1.0).front();
-  const std::array<std::pair<const std::string*, const PinholeCamera*>, 2> sides{
-      {{&first.left, &rig.left.intrinsics}, {&first.right, &rig.right.intrinsics}}};
-  for (const auto& [file, intrinsics] : sides) {
-    const GreyImage image = read_grey_image(*file);
-    if (image.width_px == intrinsics->width_px && image.height_px == intrinsics->height_px) continue;
-    throw InputError(*file + ": has " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
-                     " pixels, the rig's camera " + std::to_string(intrinsics->width_px) + " x " +
-                     std::to_string(intrinsics->height_px) + "; name the rig file of these cameras");
+  std::optional<InputError> first_trouble;
+  for (const PairName& pair : pair_names_in(directory.string(), 1.0)) {
+    std::array<GreyImage, 2> images;
+    try {
+      images = {read_grey_image(pair.left), read_grey_image(pair.right)};
+    } catch (const InputError& error) {
+      if (!first_trouble) first_trouble = error;
+      continue;
+    }
+    require_size(pair.left, images[0], rig.left.intrinsics);
+    require_size(pair.right, images[1], rig.right.intrinsics);
+    return;
   }
+  throw InputError(*first_trouble);
 }
 
 void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }

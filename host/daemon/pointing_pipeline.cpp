@@ -2,9 +2,9 @@
 #include "host/daemon/pointing_pipeline.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "host/images/image_names.hpp"
 #include "host/publish/messages.hpp"
 #include "host/support/time_units.hpp"
 
@@ -15,12 +15,7 @@ constexpr std::size_t kMaxPending = 1024;  // images without a row; then the old
 // What a 64-bit count of nanoseconds holds.
 constexpr double kMaxTime_s = 9.2e9;
 
-bool is_image(const std::string& name) {
-  if (name.empty() || name[0] == '.') return false;
-  std::string ending = std::filesystem::path(name).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".png" || ending == ".pgm";
-}
+bool is_image(const std::string& name) { return !name.empty() && name[0] != '.' && has_image_ending(name); }
 
 }  // namespace
 
@@ -97,6 +92,8 @@ void PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_
 
 void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns) {
   last_result_ns_ = monotonic_ns;
+  if (!result.remark.empty() && !remarked_) log_.info("remark", result.remark, monotonic_ns);
+  remarked_ = remarked_ || !result.remark.empty();
   if (!result.answered()) {
     refuse(result, monotonic_ns);
     return;

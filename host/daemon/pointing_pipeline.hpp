@@ -77,6 +77,7 @@ class PointingPipeline {
   RateMonitor rate_;
   std::int64_t last_result_ns_ = -1;
   std::string last_error_;  // of the last image
+  bool remarked_ = false;
 };
 
 }  // namespace pharos::host

@@ -18,6 +18,7 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
   result.observation = job.observation;
   try {
     const GreyImage image = read_grey_image(job.file.string());
+    if (image.from_colour) result.remark = colour_remark(job.file.string());
     const auto panel = pointing::measure_panel(image.view(), camera);
     if (!panel) {
       result.refusal = pointing::name_of(panel.error());

@@ -20,6 +20,7 @@ struct ImageJob {
 /// What became of it; the advice names the file.
 struct ImageResult : MeasurementOutcome {
   pointing::Observation observation;
+  std::string remark;  ///< what was made of the image; mostly empty
   pointing::AxisEstimate axis;
   pointing::AxisPlanes planes_station;
 };

@@ -9,7 +9,7 @@
 
 namespace pharos::host {
 
-/// The log of what changes at a source: every opening, and every error when it begins.
+/// The log of what changes at a source: every opening, every error when it begins, and its remark, once.
 class SourceStateLog {
  public:
   /// `name`: of the line in the configuration.
@@ -20,6 +20,8 @@ class SourceStateLog {
       last_logged_session_ = status.session;
       log_.info("open", device + " is open: " + status.identity, monotonic_ns);
     }
+    if (!status.remark.empty() && !remarked_) log_.info("remark", status.remark, monotonic_ns);
+    remarked_ = remarked_ || !status.remark.empty();
     if (status.error == last_logged_) return;
     last_logged_ = status.error;
     if (!last_logged_.empty()) log_.warn("not open", last_logged_, monotonic_ns);
@@ -29,6 +31,7 @@ class SourceStateLog {
   RateLimitedLog log_;
   std::string last_logged_;
   std::uint32_t last_logged_session_ = 0;
+  bool remarked_ = false;
 };
 
 }  // namespace pharos::host

@@ -8,6 +8,7 @@
 
 #include "host/device/pixel_format.hpp"
 #include "host/images/grey_image.hpp"
+#include "host/images/image_names.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -15,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kIntensity = "_intensity.png";
-constexpr const char* kDepth = "_depth.png";
+constexpr const char* kIntensity = "_intensity";
+constexpr const char* kDepth = "_depth";
 constexpr const char* kRaw = "_abcy16.raw";
 
 bool take_suffix(std::string_view& name, std::string_view suffix) {
@@ -41,15 +42,29 @@ void read_raw(const fs::path& path, std::int32_t width_px, std::int32_t height_p
   unpack_abcy16(bytes, frame.depth, frame.intensity);
 }
 
-void read_image(const fs::path& path, std::int32_t width_px, std::int32_t height_px,
-                std::vector<std::uint16_t>& pixels) {
+GreyImage read_image(const fs::path& path, std::int32_t width_px, std::int32_t height_px) {
   GreyImage image = read_grey_image(path.string());
-  if (image.width_px != width_px || image.height_px != height_px || image.bits != 16) {
+  if (image.width_px != width_px || image.height_px != height_px) {
     throw InputError(path.string() + ": has " + std::to_string(image.width_px) + " x " +
-                     std::to_string(image.height_px) + " pixels of " + std::to_string(image.bits) + " bits, not " +
-                     std::to_string(width_px) + " x " + std::to_string(height_px) + " of 16; is it of this camera?");
+                     std::to_string(image.height_px) + " pixels, not " + std::to_string(width_px) + " x " +
+                     std::to_string(height_px) + "; is it of this camera?");
   }
-  pixels = std::move(image.pixels);
+  return image;
+}
+
+// Depths are counts: neither 8 bits stretched to 16 nor the luma of a colour is one.
+std::vector<std::uint16_t> depths_of(GreyImage&& image, const fs::path& path) {
+  if (image.bits != 16 || image.from_colour) {
+    throw InputError(path.string() + ": is " + (image.from_colour ? "in colour" : "of 8 bits") +
+                     "; depths are grey values of 16 bits: is it a depth image?");
+  }
+  return std::move(image.pixels);
+}
+
+// One file for each half of a frame.
+void take(std::string& place, const std::string& file) {
+  if (!place.empty()) throw InputError(file + " and " + place + " are one frame's; remove one");
+  place = file;
 }
 
 }  // namespace
@@ -59,24 +74,26 @@ FrameDirectory::FrameDirectory(const std::string& path) : folder_(path) {
   fs::directory_iterator files(folder_, error);
   if (error) throw InputError(path + ": cannot be read: " + error.message() + "; give a directory of frames");
   for (const fs::directory_entry& file : files) {
-    const std::string full = file.path().filename().string();
+    const std::string full = file.path().filename().string(), stem = file.path().stem().string();
     std::string_view name = full;
     const bool raw = take_suffix(name, kRaw);
-    const bool intensity = !raw && take_suffix(name, kIntensity);
-    const bool depth = !raw && !intensity && take_suffix(name, kDepth);
+    if (!raw) name = stem;
+    const bool image = !raw && has_image_ending(file.path());
+    const bool intensity = image && take_suffix(name, kIntensity);
+    const bool depth = image && !intensity && take_suffix(name, kDepth);
     std::uint64_t number = 0;
     const auto [end, bad] = std::from_chars(name.data(), name.data() + name.size(), number);
     if (!(raw || intensity || depth) || bad != std::errc() || end != name.data() + name.size()) continue;
     Entry& entry = entry_of(std::string(name), number);
     entry.raw |= raw;
-    entry.intensity |= intensity;
-    entry.depth |= depth;
+    if (intensity) take(entry.intensity, full);
+    if (depth) take(entry.depth, full);
   }
   if (entries_.empty()) throw InputError(path + ": holds no frames (NNNN_intensity.png and NNNN_depth.png)");
   for (const Entry& entry : entries_) {
-    if (!entry.raw && entry.intensity != entry.depth) {
-      throw InputError(path_of(entry, entry.depth ? kIntensity : kDepth).string() +
-                       ": is missing; intensity and depth belong together");
+    if (!entry.raw && entry.intensity.empty() != entry.depth.empty()) {
+      const std::string missing = entry.name + (entry.depth.empty() ? kDepth : kIntensity) + ".png";
+      throw InputError((folder_ / missing).string() + ": is missing; intensity and depth belong together");
     }
   }
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.number < b.number; });
@@ -84,20 +101,23 @@ FrameDirectory::FrameDirectory(const std::string& path) : folder_(path) {
 
 FrameDirectory::Entry& FrameDirectory::entry_of(const std::string& name, std::uint64_t number) {
   const auto [place, is_new] = places_.try_emplace(name, entries_.size());
-  if (is_new) entries_.push_back({name, number, false, false, false});
+  if (is_new) entries_.push_back({name, number, false, {}, {}});
   return entries_[place->second];
 }
 
-fs::path FrameDirectory::path_of(const Entry& entry, const char* suffix) const {
-  return folder_ / (entry.name + suffix);
-}
-
-void FrameDirectory::read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const {
+std::string FrameDirectory::read(std::size_t index, std::int32_t width_px, std::int32_t height_px,
+                                 DepthFrame& frame) const {
   const Entry& entry = entries_[index];
-  if (entry.raw) return read_raw(path_of(entry, kRaw), width_px, height_px, frame);
+  if (entry.raw) {
+    read_raw(folder_ / (entry.name + kRaw), width_px, height_px, frame);
+    return {};
+  }
   frame.resize(width_px, height_px);
-  read_image(path_of(entry, kIntensity), width_px, height_px, frame.intensity);
-  read_image(path_of(entry, kDepth), width_px, height_px, frame.depth);
+  const fs::path intensity = folder_ / entry.intensity, depth = folder_ / entry.depth;
+  GreyImage image = read_image(intensity, width_px, height_px);
+  frame.intensity = std::move(image.pixels);
+  frame.depth = depths_of(read_image(depth, width_px, height_px), depth);
+  return image.from_colour ? intensity.string() : std::string();
 }
 
 }  // namespace pharos::host

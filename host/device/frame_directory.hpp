@@ -13,7 +13,8 @@
 namespace pharos::host {
 
 /// A directory of recorded frames, as `pharos sim tof` writes it: NNNN_intensity.png and NNNN_depth.png (16 bits), or
-/// NNNN_abcy16.raw, in the order of their numbers.
+/// NNNN_abcy16.raw, in the order of their numbers. Any image that read_grey_image takes will do: intensities of 8 or 16
+/// bits, grey or colour (luma); depths grey and of 16 bits.
 class FrameDirectory {
  public:
   /// Throws InputError where there is no frame, or a half of one.
@@ -23,19 +24,17 @@ class FrameDirectory {
   /// The name before `_`, as the file has it.
   const std::string& name(std::size_t index) const { return entries_[index].name; }
   /// Reads sizes and pixels of one frame. `width`, `height`: those of the camera; throws InputError for files of
-  /// another size, and for files that cannot be read.
-  void read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const;
+  /// another size, and for files that cannot be read. Returns the intensity's file where its luma was taken.
+  std::string read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const;
 
  private:
   struct Entry {
     std::string name;
     std::uint64_t number = 0;
     bool raw = false;
-    bool intensity = false;
-    bool depth = false;
+    std::string intensity, depth;  // files
   };
   Entry& entry_of(const std::string& name, std::uint64_t number);
-  std::filesystem::path path_of(const Entry& entry, const char* suffix) const;
 
   std::filesystem::path folder_;
   std::vector<Entry> entries_;                 // by number

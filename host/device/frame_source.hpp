@@ -46,6 +46,7 @@ enum class CameraState : std::uint8_t {
 struct SourceStatus {
   CameraState state = CameraState::kGone;
   std::string error;          // what is wrong and what to do; empty when open
+  std::string remark;         // to be said once: what was made of a recording's images
   std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets
   std::uint32_t session = 0;  // grows with every opening of a camera
   bool finished = false;      // a recording has come to its end

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "host/images/image_names.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -20,11 +21,10 @@ std::vector<fs::path> images_in(const std::string& folder) {
   std::error_code error;
   std::vector<fs::path> images;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".png" || extension == ".pgm") images.push_back(entry.path());
+    if (has_image_ending(entry.path())) images.push_back(entry.path());
   }
   if (error) throw InputError(folder + ": " + error.message() + "; name a folder of images");
-  if (images.empty()) throw InputError(folder + ": holds no .png or .pgm image");
+  if (images.empty()) throw InputError(folder + ": holds no " + kImageEndings + " image");
   std::sort(images.begin(), images.end());
   return images;
 }

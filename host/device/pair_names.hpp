@@ -17,10 +17,10 @@ struct PairName {
   std::string stem;                      ///< of the left file, for pictures
 };
 
-/// Pairs of the PNG and PGM images of two folders by sorted name. Time: the name where it is a number of 16 to 19
-/// digits (ns), else index / rate. Throws InputError for a folder without images, for different numbers of images, for
-/// an image without a namesake where other names are those of both sides (stamps excepted), and for times that do not
-/// grow or of which left and right differ by more than half a frame.
+/// Pairs of the images of two folders (by their endings, see has_image_ending) by sorted name. Time: the name where it
+/// is a number of 16 to 19 digits (ns), else index / rate. Throws InputError for a folder without images, for different
+/// numbers of images, for an image without a namesake where other names are those of both sides (stamps excepted), and
+/// for times that do not grow or of which left and right differ by more than half a frame.
 ///
 /// With `alone`, images without a partner are named there and left out instead: an index counts them, stamps are paired
 /// within half a frame. Refused where fewer pairs than lone images remain, and where names differ and numbers too.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "host/images/grey_image.hpp"
 #include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 
@@ -44,7 +45,8 @@ DepthFramePtr RecordedSource::take() {
   }
   DepthFramePtr frame = blank_ ? std::exchange(blank_, nullptr) : std::make_unique<DepthFrame>();
   try {
-    directory_.read(next_, width_px_, height_px_, *frame);
+    const std::string colour = directory_.read(next_, width_px_, height_px_, *frame);
+    if (!colour.empty() && status_.remark.empty()) status_.remark = colour_remark(colour);
     ++status_.counters.frames_received;
   } catch (const InputError& error) {
     ++status_.counters.frames_wrong_size;

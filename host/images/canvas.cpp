@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
-#include "host/images/letters.hpp"
 #include "host/images/png_format.hpp"
 
 namespace pharos::host {
@@ -13,8 +14,9 @@ namespace {
 
 constexpr double kBrightest = 200.0;  // of the grey ground
 constexpr double kAway = 30000.0;     // nothing is drawn from or to farther places
+constexpr int kFractionBits = 8;      // of OpenCV's coordinates: 1/256 px
 
-// The value that `share` of the pixels stay below.
+// The value that `fraction` of the pixels stay below.
 std::uint16_t percentile(const std::vector<std::uint16_t>& sorted, double fraction) {
   return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
 }
@@ -39,6 +41,9 @@ struct Stretch {
   }
 };
 
+cv::Scalar scalar(Colour colour) { return {1.0 * colour.red, 1.0 * colour.green, 1.0 * colour.blue}; }
+int thickness(double width) { return std::max(1, static_cast<int>(std::lround(width))); }
+
 }  // namespace
 
 Canvas::Canvas(ImageView<const std::uint16_t> image, int zoom)
@@ -62,67 +67,69 @@ Colour Canvas::pixel(std::int32_t x, std::int32_t y) const {
   return {rgb_[at], rgb_[at + 1], rgb_[at + 2]};
 }
 
-void Canvas::blend(std::int32_t x, std::int32_t y, Colour colour, double fraction) {
-  if (x < 0 || y < 0 || x >= width_ || y >= height_ || fraction <= 0.0) return;
-  const double kept = 1.0 - std::min(1.0, fraction);
-  const std::size_t at =
-      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
-  const std::array<std::uint8_t, 3> over = {colour.red, colour.green, colour.blue};
-  for (std::size_t k = 0; k < 3; ++k) {
-    rgb_[at + k] = static_cast<std::uint8_t>(kept * rgb_[at + k] + (1.0 - kept) * over[k] + 0.5);
-  }
+// Runs `draw` with the pixels as OpenCV sees them.
+template <class Draw>
+void Canvas::paint(Draw&& draw) {
+  cv::Mat pixels(height_, width_, CV_8UC3, rgb_.data());
+  draw(pixels);
 }
 
-// Each pixel by its distance from the line: edges are smooth without further care.
-void Canvas::stroke(Spot a, Spot b, Colour colour, double width) {
-  for (const double value : {a.x, a.y, b.x, b.y}) {
-    if (!(std::abs(value) < kAway)) return;
-  }
-  const double half = 0.5 * width, reach = half + 1.0;
-  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
-  const auto low = [&](double p, double q) {
-    return std::max(0, static_cast<std::int32_t>(std::floor(std::min(p, q) - reach)));
-  };
-  const auto high = [&](double p, double q, std::int32_t end) {
-    return std::min(end - 1, static_cast<std::int32_t>(std::ceil(std::max(p, q) + reach)));
-  };
-  for (std::int32_t y = low(a.y, b.y); y <= high(a.y, b.y, height_); ++y) {
-    for (std::int32_t x = low(a.x, b.x); x <= high(a.x, b.x, width_); ++x) {
-      const double along = squared > 0.0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
-      blend(x, y, colour, half + 0.5 - std::hypot(x - a.x - along * dx, y - a.y - along * dy));
+// The colour over what is there, `fraction` of it (1 covers), where the rectangle lies within the picture.
+void Canvas::cover(std::int32_t left, std::int32_t top, std::int32_t width, std::int32_t height, Colour colour,
+                   double fraction) {
+  const cv::Rect within = cv::Rect(left, top, width, height) & cv::Rect(0, 0, width_, height_);
+  const double covered = std::clamp(fraction, 0.0, 1.0);
+  const std::array<std::uint8_t, 3> over = {colour.red, colour.green, colour.blue};
+  for (std::int32_t y = within.y; y < within.y + within.height; ++y) {
+    for (std::int32_t x = within.x; x < within.x + within.width; ++x) {
+      std::uint8_t* pixel =
+          &rgb_[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+      for (std::size_t k = 0; k < 3; ++k) {
+        pixel[k] = static_cast<std::uint8_t>((1.0 - covered) * pixel[k] + covered * over[k] + 0.5);
+      }
     }
   }
 }
 
-void Canvas::line(Place from, Place to, Colour colour, double width) {
-  // In pieces: the box around a slanted piece stays small.
-  const Spot a = spot(from), b = spot(to);
-  const double length = std::hypot(b.x - a.x, b.y - a.y);
-  if (!(length < 2.0 * kAway)) return;
-  const int pieces = std::max(1, static_cast<int>(length / 16.0));
-  for (int k = 0; k < pieces; ++k) {
-    const double p = static_cast<double>(k) / pieces, q = static_cast<double>(k + 1) / pieces;
-    stroke({a.x + p * (b.x - a.x), a.y + p * (b.y - a.y)}, {a.x + q * (b.x - a.x), a.y + q * (b.y - a.y)}, colour,
-           width);
+void Canvas::stroke(std::span<const Place> places, Colour colour, double width) {
+  const auto fixed = [](double value) { return static_cast<int>(std::lround(value * (1 << kFractionBits))); };
+  std::vector<cv::Point> run;
+  const auto draw_run = [&] {
+    paint([&](cv::Mat& pixels) {
+      if (run.size() > 1) {
+        cv::polylines(pixels, run, false, scalar(colour), thickness(width), cv::LINE_AA, kFractionBits);
+      }
+    });
+    run.clear();
+  };
+  for (const Place& place : places) {
+    const Spot at = spot(place);
+    const bool near = std::abs(at.x) < kAway && std::abs(at.y) < kAway;
+    if (near) run.emplace_back(fixed(at.x), fixed(at.y));
+    if (!near) draw_run();
   }
+  draw_run();
 }
 
-void Canvas::polyline(std::span<const Place> places, Colour colour, double width) {
-  for (std::size_t k = 1; k < places.size(); ++k) line(places[k - 1], places[k], colour, width);
+void Canvas::line(Place from, Place to, Colour colour, double width) {
+  stroke(std::array<Place, 2>{from, to}, colour, width);
 }
 
+void Canvas::polyline(std::span<const Place> places, Colour colour, double width) { stroke(places, colour, width); }
+
+// As a polygon: cv::ellipse rounds the angle to whole degrees.
 void Canvas::ellipse(Place centre, double a_px, double b_px, double theta_rad, Colour colour, double width,
                      bool dashed) {
   if (!std::isfinite(a_px)) return;
   const int pieces = 2 * static_cast<int>(std::clamp(a_px * zoom_ / 4.0, 24.0, 1000.0));
   const double c = std::cos(theta_rad), s = std::sin(theta_rad);
-  const auto place = [&](int k) {
+  std::vector<Place> places;
+  for (int k = 0; k <= pieces; ++k) {
     const double t = 2.0 * std::numbers::pi * k / pieces, x = a_px * std::cos(t), y = b_px * std::sin(t);
-    return Place{centre.u_px + c * x - s * y, centre.v_px + s * x + c * y};
-  };
-  for (int k = 0; k < pieces; ++k) {
-    if (!dashed || k % 2 == 0) stroke(spot(place(k)), spot(place(k + 1)), colour, width);
+    places.push_back({centre.u_px + c * x - s * y, centre.v_px + s * x + c * y});
   }
+  if (!dashed) return stroke(places, colour, width);
+  for (std::size_t k = 0; k + 1 < places.size(); k += 2) line(places[k], places[k + 1], colour, width);
 }
 
 void Canvas::arrow(Place from, Place to, Colour colour, double width) {
@@ -135,38 +142,43 @@ void Canvas::arrow(Place from, Place to, Colour colour, double width) {
   }
 }
 
-void Canvas::dot(Place at, Colour colour, double radius) { stroke(spot(at), spot(at), colour, 2.0 * radius); }
+void Canvas::dot(Place at, Colour colour, double radius) {
+  const Spot s = spot(at);
+  if (!(std::abs(s.x) < kAway) || !(std::abs(s.y) < kAway)) return;
+  constexpr double kScale = 1 << kFractionBits;
+  paint([&](cv::Mat& pixels) {
+    const cv::Point centre(static_cast<int>(std::lround(s.x * kScale)), static_cast<int>(std::lround(s.y * kScale)));
+    cv::circle(pixels, centre, static_cast<int>(std::lround(radius * kScale)), scalar(colour), cv::FILLED, cv::LINE_AA,
+               kFractionBits);
+  });
+}
 
 void Canvas::cross(Place at, Colour colour, double half) {
-  const Spot s = spot(at);
-  stroke({s.x - half, s.y}, {s.x + half, s.y}, colour, 1.5);
-  stroke({s.x, s.y - half}, {s.x, s.y + half}, colour, 1.5);
+  const double reach = half / zoom_;
+  line({at.u_px - reach, at.v_px}, {at.u_px + reach, at.v_px}, colour, 1.5);
+  line({at.u_px, at.v_px - reach}, {at.u_px, at.v_px + reach}, colour, 1.5);
 }
 
 void Canvas::tint(std::int32_t u, std::int32_t v, Colour colour, double fraction) {
-  for (int dy = 0; dy < zoom_; ++dy) {
-    for (int dx = 0; dx < zoom_; ++dx) blend(u * zoom_ + dx, v * zoom_ + dy, colour, fraction);
-  }
+  if (u < 0 || v < 0 || u >= width_ / zoom_ || v >= height_ / zoom_) return;
+  cover(u * zoom_, v * zoom_, zoom_, zoom_, colour, fraction);
 }
 
 void Canvas::text(Place at, std::string_view words, Colour colour, int size) {
   const Spot corner = spot(at);
   if (!(std::abs(corner.x) < kAway) || !(std::abs(corner.y) < kAway)) return;
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
   const auto left = static_cast<std::int32_t>(corner.x), top = static_cast<std::int32_t>(corner.y);
-  const auto across = static_cast<std::int32_t>(words.size()) * 6 * size;
+  const int height = 7 * size, pen = thickness(0.5 * size);
+  const double scale = cv::getFontScaleFromHeight(kFont, height, pen);
+  const std::string line(words);
+  int below = 0;
+  const cv::Size box = cv::getTextSize(line, kFont, scale, pen, &below);
   constexpr double kGround = 0.6;
-  for (std::int32_t y = -size; y < 8 * size; ++y) {
-    for (std::int32_t x = -size; x < across; ++x) blend(left + x, top + y, colours::kBlack, kGround);
-  }
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    const Letter& letter = letter_of(words[k]);
-    for (int x = 0; x < 5 * size; ++x) {
-      for (int y = 0; y < 7 * size; ++y) {
-        const bool inked = (letter[static_cast<std::size_t>(x / size)] >> (y / size) & 1) != 0;
-        if (inked) blend(left + static_cast<std::int32_t>(k) * 6 * size + x, top + y, colour, 1.0);
-      }
-    }
-  }
+  cover(left - size, top - size, box.width + 2 * size, height + below + size, colours::kBlack, kGround);
+  paint([&](cv::Mat& pixels) {
+    cv::putText(pixels, line, {left, top + height}, kFont, scale, scalar(colour), pen, cv::LINE_AA);
+  });
 }
 
 void Canvas::write_png(const std::string& path) const {

@@ -29,8 +29,8 @@ struct Place {
   double v_px = 0.0;
 };
 
-/// A colour picture over a grey image, `zoom` picture pixels to one of the image's. All places are the image's, all
-/// widths and text sizes the picture's. What lies outside is cut off.
+/// A colour picture over a grey image, drawn upon by OpenCV, `zoom` picture pixels to one of the image's. All places
+/// are the image's, all widths and text sizes the picture's. What lies outside is cut off.
 class Canvas {
  public:
   /// The image in grey, its 1st to 99.5th percentile stretched over the range, dimmed so that drawings stand out.
@@ -46,9 +46,9 @@ class Canvas {
   void arrow(Place from, Place to, Colour colour, double width = 2.0);
   void dot(Place at, Colour colour, double radius = 2.0);
   void cross(Place at, Colour colour, double half = 5.0);
-  /// One pixel of the image, tinted: share 1 covers it. For masks of regions.
+  /// One pixel of the image, tinted: fraction 1 covers it. For masks of regions.
   void tint(std::int32_t u, std::int32_t v, Colour colour, double fraction);
-  /// Printable ASCII in letters of 6 x 8 times `size`, on a dark ground; the place is its upper left corner.
+  /// Printable ASCII in capital letters of 7 times `size`, on a dark ground; the place is its upper left corner.
   void text(Place at, std::string_view words, Colour colour, int size = 2);
 
   std::int32_t width() const { return width_; }
@@ -63,8 +63,11 @@ class Canvas {
     double x, y;
   };
   Spot spot(Place place) const { return {(place.u_px + 0.5) * zoom_ - 0.5, (place.v_px + 0.5) * zoom_ - 0.5}; }
-  void blend(std::int32_t x, std::int32_t y, Colour colour, double fraction);
-  void stroke(Spot from, Spot to, Colour colour, double width);
+  template <class Draw>
+  void paint(Draw&& draw);
+  void cover(std::int32_t left, std::int32_t top, std::int32_t width, std::int32_t height, Colour colour,
+             double fraction);
+  void stroke(std::span<const Place> places, Colour colour, double width);
 
   std::int32_t width_ = 0, height_ = 0;
   int zoom_ = 1;

@@ -2,27 +2,38 @@
 #include "host/images/grey_image.hpp"
 
 #include "host/images/png_format.hpp"
-#include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
 
-GreyImage grey(Picture&& picture, const std::string& name) {
-  if (picture.channels != 1) {
-    throw InputError(name +
-                     ": is in colour; a plain grey image is needed (convert IN -alpha off -colorspace Gray OUT)");
+GreyImage grey(Picture&& picture) {
+  GreyImage image{picture.width_px, picture.height_px, picture.bits, {}, false};
+  if (picture.channels == 1) {
+    image.pixels = std::move(picture.values);
+    return image;
   }
-  return {picture.width_px, picture.height_px, picture.bits, std::move(picture.values)};
+  image.pixels.resize(picture.pixels());
+  const std::uint16_t* rgb = picture.values.data();
+  for (std::uint16_t& value : image.pixels) {
+    const std::uint32_t red = rgb[0], green = rgb[1], blue = rgb[2];
+    rgb += 3;
+    if (red != green || green != blue) image.from_colour = true;
+    value = static_cast<std::uint16_t>((299 * red + 587 * green + 114 * blue + 500) / 1000);
+  }
+  return image;
 }
 
 }  // namespace
 
 GreyImage decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return grey(decode_picture(bytes, name), name);
+  return grey(decode_picture(bytes, name));
 }
 
-GreyImage read_grey_image(const std::string& path) {
-  return grey(read_picture(path), path == "-" ? "standard input" : path);
+GreyImage read_grey_image(const std::string& path) { return grey(read_picture(path)); }
+
+std::string colour_remark(const std::string& file) {
+  return (file == "-" ? "standard input" : file) +
+         ": is in colour; its luma (ITU-R BT.601) is taken, also of images that follow";
 }
 
 void write_grey_png(const std::string& path, ImageView<const std::uint16_t> image, int bits) {

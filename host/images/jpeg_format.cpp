@@ -1,124 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-// libjpeg reports errors by a function that must not return: the functions that call it hold no objects to be destroyed
-// and say what went wrong through a plain structure; only their callers throw.
 #include "host/images/jpeg_format.hpp"
 
-#include <jpeglib.h>
+#include <turbojpeg.h>
 
-#include <array>
-#include <csetjmp>
-#include <cstdio>  // jpeglib.h needs it before
+#include <memory>
 
+#include "host/images/limits.hpp"
+#include "host/images/samples.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
 
-// A progressive file of a few bytes a scan would keep the decoder busy for minutes; cameras make ten scans.
+using Bytes = std::span<const std::uint8_t>;
+
+// A progressive file of a few bytes a scan would keep the decoder busy for minutes; cameras make ten scans. The
+// library's own limit (TJFLAG_LIMITSCANS) is 500.
 constexpr int kMaxScans = 100;
 // A block of 8 x 8 takes one bit at least.
 constexpr std::size_t kMaxPixelsPerByte = 8 * 64;
+constexpr std::uint8_t kMarker = 0xFF, kStartOfScan = 0xDA;
 
-struct Trouble {
-  jpeg_error_mgr manager{};  // first: libjpeg hands out its address
-  std::jmp_buf way_out{};
-  std::array<char, JMSG_LENGTH_MAX> text{};
-  bool damaged = false;
+struct Destroy {
+  void operator()(void* decoder) const { tjDestroy(decoder); }
 };
 
-Trouble& error_of(j_common_ptr jpeg) { return *reinterpret_cast<Trouble*>(jpeg->err); }
-
-[[noreturn]] void on_error(j_common_ptr jpeg) {
-  Trouble& error = error_of(jpeg);
-  jpeg->err->format_message(jpeg, error.text.data());
-  error.damaged = true;
-  std::longjmp(error.way_out, 1);
-}
-
-// libjpeg makes up what is missing and warns (level -1); here that is a damaged file.
-void on_message(j_common_ptr jpeg, int level) {
-  if (level >= 0 || error_of(jpeg).damaged) return;
-  jpeg->err->format_message(jpeg, error_of(jpeg).text.data());
-  error_of(jpeg).damaged = true;
-}
-
-struct Reader {
-  explicit Reader(std::span<const std::uint8_t> all) : bytes(all) {
-    jpeg.err = jpeg_std_error(&error.manager);
-    error.manager.error_exit = on_error;
-    error.manager.emit_message = on_message;
-    error.manager.output_message = [](j_common_ptr) {};
+// Within a scan's data a byte of 0xFF is followed by 0 or a restart: each 0xFF 0xDA begins a scan (or one of a small
+// picture within the comments).
+int scans_in(Bytes bytes) {
+  int scans = 0;
+  for (std::size_t k = 1; k < bytes.size(); ++k) {
+    if (bytes[k] == kStartOfScan && bytes[k - 1] == kMarker) ++scans;
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { jpeg_destroy_decompress(&jpeg); }
-
-  std::span<const std::uint8_t> bytes;
-  Trouble error;
-  jpeg_progress_mgr progress{};
-  jpeg_decompress_struct jpeg{};
-};
-
-bool read_header(Reader& reader) {
-  if (setjmp(reader.error.way_out) != 0) return false;
-  jpeg_create_decompress(&reader.jpeg);
-  reader.progress.progress_monitor = [](j_common_ptr jpeg) {
-    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMaxScans) return;
-    std::snprintf(error_of(jpeg).text.data(), error_of(jpeg).text.size(), "more than %d scans", kMaxScans);
-    error_of(jpeg).damaged = true;
-    std::longjmp(error_of(jpeg).way_out, 1);
-  };
-  reader.jpeg.progress = &reader.progress;
-  jpeg_mem_src(&reader.jpeg, reader.bytes.data(), reader.bytes.size());
-  jpeg_read_header(&reader.jpeg, TRUE);
-  return true;
-}
-
-bool read_rows(Reader& reader, std::uint8_t* rows, std::size_t stride) {
-  if (setjmp(reader.error.way_out) != 0) return false;
-  jpeg_start_decompress(&reader.jpeg);
-  while (reader.jpeg.output_scanline < reader.jpeg.output_height) {
-    JSAMPROW row = rows + reader.jpeg.output_scanline * stride;
-    jpeg_read_scanlines(&reader.jpeg, &row, 1);
-    if (reader.error.damaged) return false;
-  }
-  jpeg_finish_decompress(&reader.jpeg);
-  return !reader.error.damaged;
-}
-
-[[noreturn]] void damaged(const std::string& name, const Trouble& error) {
-  throw InputError(name + ": damaged JPEG (" + error.text.data() + "); save or copy it again");
+  return scans;
 }
 
 }  // namespace
 
-bool is_jpeg(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
+bool is_jpeg(Bytes bytes) {
+  return bytes.size() >= 3 && bytes[0] == kMarker && bytes[1] == 0xD8 && bytes[2] == kMarker;
 }
 
-Picture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Reader reader(bytes);
-  if (!read_header(reader)) damaged(name, reader.error);
-  const jpeg_decompress_struct& jpeg = reader.jpeg;
-  require_readable_size(jpeg.image_width, jpeg.image_height, name);
-  Picture picture{static_cast<std::int32_t>(jpeg.image_width),
-                  static_cast<std::int32_t>(jpeg.image_height),
-                  jpeg.num_components == 1 ? 1 : 3,
-                  8,
-                  {}};
-  if (jpeg.num_components != 1 && jpeg.num_components != 3) {
-    throw InputError(name + ": has " + std::to_string(jpeg.num_components) +
-                     " colours; grey or red, green and blue are needed (convert IN -colorspace sRGB OUT)");
+Picture decode_jpeg(Bytes bytes, const std::string& name) {
+  const std::unique_ptr<void, Destroy> decoder(tjInitDecompress());
+  if (!decoder) throw InputError(name + ": no memory to read it");
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  const auto size = static_cast<unsigned long>(bytes.size());
+  if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &colours) != 0) {
+    refuse_damaged(name, "JPEG", tjGetErrorStr2(decoder.get()));
   }
-  if (picture.pixels() > kMaxPixelsPerByte * bytes.size()) {
-    throw InputError(name + ": damaged JPEG (less data than its header says); save or copy it again");
+  require_readable_size(static_cast<std::size_t>(width), static_cast<std::size_t>(height), name);
+  if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
+    throw InputError(name +
+                     ": has 4 colours; grey or red, green and blue are needed (convert IN -colorspace sRGB OUT)");
   }
-  reader.jpeg.out_color_space = picture.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
-  const std::size_t stride = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.channels);
-  std::vector<std::uint8_t> rows(stride * static_cast<std::size_t>(picture.height_px));
-  if (!read_rows(reader, rows.data(), stride)) damaged(name, reader.error);
-  picture.values.reserve(rows.size());
-  for (const std::uint8_t value : rows) picture.values.push_back(static_cast<std::uint16_t>(value * 257));
+  Picture picture{width, height, colours == TJCS_GRAY ? 1 : 3, 8, {}};
+  if (picture.pixels() > kMaxPixelsPerByte * bytes.size()) refuse_damaged(name, "JPEG", kLessData);
+  if (scans_in(bytes) > kMaxScans) {
+    refuse_damaged(name, "JPEG", "more than " + std::to_string(kMaxScans) + " scans");
+  }
+  std::vector<std::uint8_t> rows(picture.pixels() * static_cast<std::size_t>(picture.channels));
+  const int format = picture.channels == 1 ? TJPF_GRAY : TJPF_RGB;
+  // The library makes up what is missing and warns; here that is a damaged file.
+  if (tjDecompress2(decoder.get(), bytes.data(), size, rows.data(), width, 0, height, format, TJFLAG_STOPONWARNING) !=
+      0) {
+    refuse_damaged(name, "JPEG", tjGetErrorStr2(decoder.get()));
+  }
+  picture.values = widened(rows);
   return picture;
 }
 

@@ -6,16 +6,15 @@
 #include <cstring>
 #include <memory>
 
+#include "host/images/bmp_format.hpp"
 #include "host/images/jpeg_format.hpp"
 #include "host/images/png_format.hpp"
 #include "host/images/pnm_format.hpp"
+#include "host/images/tiff_format.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
-
-// No file that can be read is larger: the limit at 16 bits in colour, uncompressed, with room for comments.
-constexpr std::size_t kMaxFileBytes = 6 * kMaxImagePixels + (std::size_t{1} << 20);
 
 std::vector<std::uint8_t> bytes_of(const std::string& path, const std::string& name) {
   struct Close {
@@ -33,7 +32,7 @@ std::vector<std::uint8_t> bytes_of(const std::string& path, const std::string& n
     const std::size_t got = std::fread(bytes.data() + size, 1, kPiece, file.get());
     size += got;
     if (std::ferror(file.get()) != 0) throw InputError(name + ": cannot be read: " + std::strerror(errno));
-    if (size > kMaxFileBytes) throw InputError(name + ": larger than any image that is read");
+    if (size > kMaxImageFileBytes) throw InputError(name + ": larger than any image that is read; scale it down");
     if (got == 0) {
       bytes.resize(size);
       return bytes;
@@ -43,20 +42,14 @@ std::vector<std::uint8_t> bytes_of(const std::string& path, const std::string& n
 
 }  // namespace
 
-void require_readable_size(std::size_t width_px, std::size_t height_px, const std::string& name) {
-  constexpr auto kMaxSide = static_cast<std::size_t>(kMaxImageSide_px);
-  if (width_px <= kMaxSide && height_px <= kMaxSide && width_px * height_px <= kMaxImagePixels) return;
-  throw InputError(name + ": claims " + std::to_string(width_px) + " x " + std::to_string(height_px) +
-                   " pixels; at most " + std::to_string(kMaxImagePixels) + " and " + std::to_string(kMaxImageSide_px) +
-                   " a side are read");
-}
-
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (is_png(bytes)) return decode_png(bytes, name);
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name);
+  if (is_tiff(bytes)) return decode_tiff(bytes, name);
   if (is_pnm(bytes)) return decode_pnm(bytes, name);
-  if (bytes.empty()) throw InputError(name + ": is empty; a PNG, JPEG, PGM or PPM is needed");
-  throw InputError(name + ": is no PNG, no JPEG and no binary PGM or PPM; convert it to one of them");
+  if (is_bmp(bytes)) return decode_bmp(bytes, name);
+  if (bytes.empty()) throw InputError(name + ": is empty; a PNG, TIFF, JPEG, BMP, PGM or PPM is needed");
+  throw InputError(name + ": is no PNG, TIFF, JPEG, BMP and no binary PGM or PPM; convert it to one of them");
 }
 
 Picture read_picture(const std::string& path) {

@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace pharos::host {
+#include "host/images/limits.hpp"
 
-/// Largest side and most pixels of an image that is read or written: what 16-bit columns can name, and 64 MiB of grey.
-/// A few bytes of PNG can claim gigabytes.
-inline constexpr std::int32_t kMaxImageSide_px = 32767;
-inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 25;
+namespace pharos::host {
 
 /// A grey or colour image in memory, row by row without gaps, pixel by pixel one value or three (red, green, blue).
 /// Files of 8 bits come as 16 (value * 257: white is 65535 either way).
@@ -26,8 +23,11 @@ struct Picture {
   std::size_t pixels() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px); }
 };
 
-/// Reads a PNG, JPEG or binary PGM or PPM, told by content; `-` is standard input. Throws InputError for what is
-/// missing, no such image, transparent, too large, damaged, or has less or more data than its header says.
+/// Reads an image, told by its content and not by its name; `-` is standard input: PNG, TIFF and binary PGM and PPM of
+/// 8 or 16 bits, JPEG and BMP of 8. Rows stand as the file stores them: a note about how to turn them (EXIF) is not
+/// followed, because a camera file is of the sensor's rows. Opacity is dropped where all pixels are opaque. Throws
+/// InputError for what is missing, no such image, transparent, larger than the limits, damaged, or has less data than
+/// its header says.
 Picture read_picture(const std::string& path);
 
 /// The same from a file's bytes; `name` is for messages.
@@ -36,8 +36,5 @@ Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& n
 /// Writes a PNG of the picture's bits (8 keeps the upper half of each value); `-` is standard output. Throws InputError
 /// where it cannot be written.
 void write_picture(const std::string& path, const Picture& picture);
-
-/// Throws InputError, in the name of the file, for sides and pixels beyond the limits above.
-void require_readable_size(std::size_t width_px, std::size_t height_px, const std::string& name);
 
 }  // namespace pharos::host

@@ -1,183 +1,220 @@
 // SPDX-License-Identifier: Apache-2.0
-// libpng reports errors by longjmp: the functions that call it hold no objects to be destroyed, and say what went wrong
-// through a plain structure; only their callers throw.
 #include "host/images/png_format.hpp"
 
-#include <png.h>
+#include <spng.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csetjmp>
 #include <cstdio>
 #include <cstring>
-#include <string_view>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "host/images/limits.hpp"
+#include "host/images/samples.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
 
-constexpr std::size_t kSignature = 8;
+constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+// No row of deflated data shrinks to less than a thousandth: a claim beyond is told before memory is taken.
+constexpr std::size_t kMaxDeflation = 1100;
+// Colour profiles and comments, which are not looked at: enough for any profile, too little for a deflate bomb.
+constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 24;
 
-struct Trouble {
-  std::array<char, 128> text{};
-  bool too_much_data = false;
+struct Free {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, Free>;
 
-  void say(const char* message) { std::snprintf(text.data(), text.size(), "%s", message); }
+// How a picture's pixels leave libspng.
+struct Layout {
+  int format = SPNG_FMT_PNG;
+  int channels = 1;  // of colour: 1 or 3
+  bool opacity = false;
 };
 
-Trouble& error_of(png_structp png) { return *static_cast<Trouble*>(png_get_error_ptr(png)); }
-
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  error_of(png).say(message);
-  png_longjmp(png, 1);
+Layout layout_of(const spng_ihdr& header) {
+  Layout layout;
+  const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE;
+  if (grey && header.bit_depth < 8) layout.format = SPNG_FMT_G8;
+  layout.channels = grey || header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA ? 1 : 3;
+  layout.opacity =
+      header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA || header.color_type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+  return layout;
 }
 
-// Most warnings are about colour profiles and do no harm; an image of more data than its header says is another matter.
-void on_warning(png_structp png, png_const_charp message) {
-  const std::string_view text = message;
-  if (text.find("Extra compressed data") != std::string_view::npos ||
-      text.find("Too much image data") != std::string_view::npos) {
-    error_of(png).too_much_data = true;
+// Whether the chunks (length, type, data, check) run on to the last one: libspng does without it.
+bool has_its_end(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kAround = 12;
+  std::size_t at = kSignature.size();
+  while (bytes.size() - at >= kAround) {
+    if (std::equal(bytes.begin() + static_cast<std::ptrdiff_t>(at + 4),
+                   bytes.begin() + static_cast<std::ptrdiff_t>(at + 8), "IEND"))
+      return true;
+    std::size_t length = 0;
+    for (std::size_t k = 0; k < 4; ++k) length = length << 8 | bytes[at + k];
+    if (length > bytes.size() - at - kAround) return false;
+    at += length + kAround;
   }
+  return false;
 }
 
-struct Bytes {
-  const std::uint8_t* next;
-  std::size_t left;
-};
-
-void take(png_structp png, png_bytep out, std::size_t count) {
-  Bytes& bytes = *static_cast<Bytes*>(png_get_io_ptr(png));
-  if (count > bytes.left) png_error(png, "the file ends too soon");
-  std::memcpy(out, bytes.next, count);
-  bytes.next += count;
-  bytes.left -= count;
-}
-
-struct Header {
-  png_uint_32 width = 0, height = 0;
-  int bits = 0, colour = 0;
-};
-
-// A reader whose ends are freed however it is left.
-struct Reader {
-  explicit Reader(std::span<const std::uint8_t> all) : bytes{all.data(), all.size()} {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_error, on_warning);
-    if (png != nullptr) info = png_create_info_struct(png);
-    if (info == nullptr) return;
-    png_set_read_fn(png, &bytes, take);
-    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours are checked after, and named in the message
+class PngReader {
+ public:
+  PngReader(std::span<const std::uint8_t> bytes, const std::string& name)
+      : context_(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)), bytes_(bytes), name_(name) {
+    if (!context_) throw InputError(name + ": no memory to read it");
+    constexpr std::uint32_t kAny = std::numeric_limits<std::int32_t>::max();
+    spng_set_image_limits(context_.get(), kAny, kAny);  // ours are checked after, and named in the message
+    spng_set_chunk_limits(context_.get(), kMaxChunkBytes, kMaxChunkBytes);
+    require(spng_set_png_buffer(context_.get(), bytes.data(), bytes.size()));
+    require(spng_get_ihdr(context_.get(), &header_));
+    require_readable_size(header_.width, header_.height, name);
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 
-  Bytes bytes;
-  Trouble error;
-  png_structp png = nullptr;
-  png_infop info = nullptr;
+  Picture read() {
+    Picture picture{static_cast<std::int32_t>(header_.width),
+                    static_cast<std::int32_t>(header_.height),
+                    1,
+                    header_.bit_depth == 16 ? 16 : 8,
+                    {}};
+    require_enough_bytes(picture.pixels());
+    if (header_.color_type == SPNG_COLOR_TYPE_INDEXED) {
+      read_palette(picture);
+    } else {
+      read_values(picture);
+    }
+    if (!has_its_end(bytes_)) refuse_damaged(name_, "PNG", "the file ends too soon");
+    return picture;
+  }
+
+ private:
+  void require(int code) const {
+    if (code != 0) refuse_damaged(name_, "PNG", spng_strerror(code));
+  }
+
+  void require_enough_bytes(std::size_t pixels) const {
+    const std::size_t values = header_.color_type == SPNG_COLOR_TYPE_TRUECOLOR ? 3 : 1;
+    if (pixels * values * header_.bit_depth / 8 > kMaxDeflation * bytes_.size()) {
+      refuse_damaged(name_, "PNG", kLessData);
+    }
+  }
+
+  std::optional<spng_trns> transparency() {
+    spng_trns found{};
+    const int code = spng_get_trns(context_.get(), &found);
+    if (code == SPNG_ECHUNKAVAIL) return std::nullopt;
+    require(code);
+    return found;
+  }
+
+  void decode(void* out, std::size_t size, int format) {
+    require(spng_decode_image(context_.get(), out, size, format, 0));
+  }
+
+  void read_values(Picture& picture) {
+    const Layout layout = layout_of(header_);
+    picture.channels = layout.channels;
+    const std::optional<spng_trns> key = transparency();
+    const std::size_t values =
+        picture.pixels() * (static_cast<std::size_t>(layout.channels) + (layout.opacity ? 1 : 0));
+    if (picture.bits == 16) {
+      picture.values.resize(values);
+      decode(picture.values.data(), 2 * values, layout.format);
+    } else {
+      const auto narrow = std::make_unique_for_overwrite<std::uint8_t[]>(values);
+      decode(narrow.get(), values, layout.format);
+      picture.values = widened({narrow.get(), values});
+    }
+    if (key) refuse_colour_key(picture, *key);
+    if (layout.opacity) drop_opacity(picture, name_);
+  }
+
+  void read_palette(Picture& picture) {
+    spng_plte table{};
+    require(spng_get_plte(context_.get(), &table));
+    std::vector<PaletteEntry> palette;
+    for (std::size_t k = 0; k < table.n_entries; ++k) {
+      palette.push_back({table.entries[k].red, table.entries[k].green, table.entries[k].blue});
+    }
+    const std::optional<spng_trns> opacity = transparency();
+    const std::vector<std::uint8_t> indices = unpacked_indices();
+    if (opacity) {
+      for (const std::uint8_t index : indices) {
+        if (index < opacity->n_type3_entries && opacity->type3_alpha[index] != 255) refuse_transparency();
+      }
+    }
+    apply_palette(picture, indices, palette, name_, "PNG");
+  }
+
+  // Rows of 1, 2, 4 or 8 bits an index, the first one uppermost in its byte.
+  std::vector<std::uint8_t> unpacked_indices() {
+    const std::size_t bits = header_.bit_depth, row_bytes = (std::size_t{header_.width} * bits + 7) / 8;
+    std::vector<std::uint8_t> packed(row_bytes * header_.height);
+    decode(packed.data(), packed.size(), SPNG_FMT_PNG);
+    if (bits == 8) return packed;
+    std::vector<std::uint8_t> indices;
+    indices.reserve(std::size_t{header_.width} * header_.height);
+    for (std::size_t v = 0; v < header_.height; ++v) {
+      for (std::size_t u = 0; u < header_.width; ++u) {
+        const std::size_t bit = u * bits;
+        const unsigned byte = packed[v * row_bytes + bit / 8];
+        indices.push_back(static_cast<std::uint8_t>(byte >> (8 - bits - bit % 8) & ((1U << bits) - 1)));
+      }
+    }
+    return indices;
+  }
+
+  [[noreturn]] void refuse_transparency() const {
+    throw InputError(name_ + ": has transparency; an image without is needed (convert IN -alpha off OUT)");
+  }
+
+  // One grey value or colour stands for transparency: harmless where no pixel has it.
+  void refuse_colour_key(const Picture& picture, const spng_trns& key) const {
+    const int maximum = (1 << header_.bit_depth) - 1;
+    const auto scaled = [&](std::uint16_t value) { return static_cast<std::uint16_t>(value * 65535LL / maximum); };
+    std::vector<std::uint16_t> wanted{scaled(key.gray)};
+    if (picture.channels == 3) wanted = {scaled(key.red), scaled(key.green), scaled(key.blue)};
+    for (std::size_t k = 0; k < picture.values.size(); k += wanted.size()) {
+      if (!std::equal(wanted.begin(), wanted.end(), picture.values.begin() + static_cast<std::ptrdiff_t>(k))) continue;
+      refuse_transparency();
+    }
+  }
+
+  Context context_;
+  std::span<const std::uint8_t> bytes_;
+  const std::string& name_;
+  spng_ihdr header_{};
 };
 
-bool read_header(Reader& reader, Header& header) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  png_read_info(reader.png, reader.info);
-  png_get_IHDR(reader.png, reader.info, &header.width, &header.height, &header.bits, &header.colour, nullptr, nullptr,
-               nullptr);
-  return true;
-}
-
-bool read_rows(Reader& reader, png_bytep* rows, bool swap) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  png_set_expand_gray_1_2_4_to_8(reader.png);
-  png_set_palette_to_rgb(reader.png);
-  if (swap) png_set_swap(reader.png);
-  png_set_interlace_handling(reader.png);
-  png_read_update_info(reader.png, reader.info);
-  png_read_image(reader.png, rows);
-  png_read_end(reader.png, nullptr);
-  return true;
-}
-
-void check(const Header& header, bool transparent_colour, const std::string& name) {
-  if ((header.colour & PNG_COLOR_MASK_ALPHA) != 0 || transparent_colour) {
-    throw InputError(name + ": has transparency; an image without is needed (convert IN -alpha off OUT)");
-  }
-  require_readable_size(header.width, header.height, name);
-}
-
-[[noreturn]] void damaged(const std::string& name, const char* why) {
-  throw InputError(name + ": damaged PNG (" + why + "); save or copy it again");
-}
-
-struct Writer {
-  explicit Writer(Trouble& error) {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, on_error, nullptr);
-    if (png != nullptr) info = png_create_info_struct(png);
-  }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-};
-
-bool write_all(Writer& writer, std::FILE* file, png_uint_32 width, png_uint_32 height, PngPixels pixels,
-               png_const_bytep rows, std::size_t stride) {
-  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+// 0, or libspng's error code.
+int encode(std::FILE* file, const spng_ihdr& header, std::span<const std::uint8_t> rows) {
+  const Context context(spng_ctx_new(SPNG_CTX_ENCODER));
+  if (!context) return SPNG_EMEM;
   constexpr int kQuick = 1;  // overlays and frames are looked at, not archived
-  png_init_io(writer.png, file);
-  png_set_compression_level(writer.png, kQuick);
-  const bool wide = pixels == PngPixels::kGrey16 || pixels == PngPixels::kRgb16;
-  const bool colour = pixels == PngPixels::kRgb8 || pixels == PngPixels::kRgb16;
-  png_set_IHDR(writer.png, writer.info, width, height, wide ? 16 : 8, colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(writer.png, writer.info);
-  for (png_uint_32 v = 0; v < height; ++v) png_write_row(writer.png, rows + v * stride);
-  png_write_end(writer.png, writer.info);
-  return true;
+  spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, kQuick);
+  spng_ihdr copy = header;
+  int code = spng_set_ihdr(context.get(), &copy);
+  if (code == 0) code = spng_set_png_file(context.get(), file);
+  if (code == 0) {
+    code = spng_encode_image(context.get(), rows.data(), rows.size(), SPNG_FMT_RAW, SPNG_ENCODE_FINALIZE);
+  }
+  return code;
 }
 
 }  // namespace
 
 bool is_png(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= kSignature && png_sig_cmp(bytes.data(), 0, kSignature) == 0;
+  return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
 }
 
 Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Reader reader(bytes);
-  if (reader.info == nullptr) throw InputError(name + ": no memory to read it");
-  Header header;
-  if (!read_header(reader, header)) damaged(name, reader.error.text.data());
-  check(header, png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0, name);
-  const std::size_t pixels = static_cast<std::size_t>(header.width) * header.height;
-  const bool palette = header.colour == PNG_COLOR_TYPE_PALETTE;
-  const std::size_t file_channels = header.colour == PNG_COLOR_TYPE_RGB ? 3 : 1;
-  // No row of deflated data shrinks to less than a thousandth: a claim beyond is told before memory is taken.
-  constexpr std::size_t kMaxDeflation = 1100;
-  if (pixels * file_channels * static_cast<std::size_t>(header.bits) / 8 > kMaxDeflation * bytes.size()) {
-    damaged(name, "less data than its header says");
-  }
-  Picture picture;
-  picture.width_px = static_cast<std::int32_t>(header.width);
-  picture.height_px = static_cast<std::int32_t>(header.height);
-  picture.channels = file_channels == 3 || palette ? 3 : 1;
-  picture.bits = header.bits == 16 ? 16 : 8;
-  const std::size_t channels = static_cast<std::size_t>(picture.channels);
-  picture.values.resize(pixels * channels);
-  const std::size_t value_bytes = header.bits == 16 ? 2 : 1;
-  auto* all = reinterpret_cast<png_bytep>(picture.values.data());
-  std::vector<png_bytep> rows(header.height);
-  for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = all + v * header.width * channels * value_bytes;
-  if (!read_rows(reader, rows.data(), header.bits == 16)) damaged(name, reader.error.text.data());
-  if (reader.error.too_much_data) damaged(name, "more data than its header says");
-  if (value_bytes == 1) {  // widened in place, from the end
-    for (std::size_t k = picture.values.size(); k-- > 0;) picture.values[k] = static_cast<std::uint16_t>(all[k] * 257);
-  }
-  return picture;
+  return PngReader(bytes, name).read();
 }
 
 void write_png(const std::string& path, std::int32_t width_px, std::int32_t height_px, PngPixels pixels,
@@ -187,16 +224,18 @@ void write_png(const std::string& path, std::int32_t width_px, std::int32_t heig
     throw InputError((path == "-" ? "standard output" : path) + ": cannot be written: " + why);
   };
   if (file == nullptr) refuse(std::strerror(errno));
-  Trouble error;
-  bool written = false;
-  {
-    Writer writer(error);
-    const std::size_t stride = rows.size() / static_cast<std::size_t>(std::max(1, height_px));
-    written = writer.info != nullptr && write_all(writer, file, static_cast<png_uint_32>(width_px),
-                                                  static_cast<png_uint_32>(height_px), pixels, rows.data(), stride);
-  }
+  const bool wide = pixels == PngPixels::kGrey16 || pixels == PngPixels::kRgb16;
+  const bool colour = pixels == PngPixels::kRgb8 || pixels == PngPixels::kRgb16;
+  spng_ihdr header{};
+  header.width = static_cast<std::uint32_t>(width_px);
+  header.height = static_cast<std::uint32_t>(height_px);
+  header.bit_depth = wide ? 16 : 8;
+  header.color_type = colour ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_GRAYSCALE;
+  errno = 0;
+  const int code = encode(file, header, rows);
+  const int reason = errno;
   const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
-  if (!written) refuse(error.text.data());
+  if (code != 0) refuse(code == SPNG_IO_ERROR && reason != 0 ? std::strerror(reason) : spng_strerror(code));
   if (!closed) refuse(std::strerror(errno));
 }
 

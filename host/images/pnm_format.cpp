@@ -65,8 +65,7 @@ Picture decode_pnm(Bytes bytes, const std::string& name) {
   const std::size_t value_bytes = picture.bits == 16 ? 2 : 1;
   const Bytes data = header.rest();
   if (data.size() != values * value_bytes) {
-    throw InputError(name + ": damaged " + kind + " (" + (data.size() < values * value_bytes ? "less" : "more") +
-                     " data than its header says); save or copy it again");
+    refuse_damaged(name, kind.c_str(), data.size() < values * value_bytes ? kLessData : kMoreData);
   }
   picture.values.resize(values);
   for (std::size_t k = 0; k < values; ++k) {

@@ -44,9 +44,18 @@ void draw_residuals(Canvas& canvas, const ImageOutcome& image, const calibrate::
 
 }  // namespace
 
-BoardPictures::BoardPictures(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) images_.push_back(host::read_grey_image(path));
-  for (std::size_t i = 0; i < paths.size(); ++i) pictures_.push_back({paths[i], images_[i].view()});
+BoardPictures::BoardPictures(const std::vector<std::string>& paths, ImageInput& input) {
+  images_.resize(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    std::string error;
+    try {
+      images_[i] = input.read(paths[i]);
+    } catch (const host::InputError& error) {
+      input.leave_out(error);
+      error = error.what();
+    }
+    pictures_.push_back({paths[i], std::as_const(images_[i]).view(), error});
+  }
 }
 
 void write_board_overlays(const std::string& folder, const std::string& prefix, const BoardPictures& pictures,
@@ -57,6 +66,7 @@ void write_board_overlays(const std::string& folder, const std::string& prefix, 
   if (error) throw host::InputError(folder + ": cannot be made: " + error.message() + "; choose another folder");
   for (std::size_t i = 0; i < images.size(); ++i) {
     const ImageOutcome& image = images[i];
+    if (image.search.status == ImageStatus::kUnreadable) continue;
     const calibrate::GreyView view = pictures.pictures()[i].image;
     Canvas canvas(view, Canvas::zoom_for(view.width_px));
     if (!image.search.board.points.empty()) draw_points(canvas, image.search.board);

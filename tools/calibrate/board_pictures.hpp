@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "host/calibrate/camera/camera_calibration.hpp"
-#include "host/images/grey_image.hpp"
+#include "tools/support/image_input.hpp"
 
 namespace pharos::tools {
 
 /// Images of a board, in memory.
 class BoardPictures {
  public:
-  /// Throws InputError for the first file that is no grey image.
-  explicit BoardPictures(const std::vector<std::string>& paths);
+  /// An image that `input` cannot read is told, counted, and a picture without pixels.
+  BoardPictures(const std::vector<std::string>& paths, ImageInput& input);
 
   const std::vector<calibrate::BoardPicture>& pictures() const { return pictures_; }
 

@@ -75,7 +75,8 @@ void note_images(const std::vector<ImageOutcome>& images) {
   text.pop_back();
   note(text);
   for (const ImageOutcome& image : images) {
-    if (image.search.status == ImageStatus::kUsed) continue;
+    // What could not be read was told when it was met.
+    if (image.search.status == ImageStatus::kUsed || image.search.status == ImageStatus::kUnreadable) continue;
     note(image.name + ": " + name_of(image.search.status) + ": " + image.search.detail);
   }
 }

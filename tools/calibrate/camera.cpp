@@ -21,7 +21,8 @@ constexpr const char* kExample =
     "  pharos calibrate camera board*.png --board dots --columns 12 --rows 8 --pitch-mm 20 --radius-mm 5 --output "
     "camera.toml\n"
     "  pharos calibrate camera board*.png --board chessboard --columns 9 --rows 6 --pitch-mm 25 --output camera.toml\n"
-    "Grey PNG or PGM of 8 or 16 bits, all of one size. Show the whole board in each, in ten or more poses: all over "
+    "PNG, TIFF, PGM or PPM of 8 or 16 bits, JPEG or BMP, all of one size. Show the whole board in each, in ten or more "
+    "poses: all over "
     "the\n"
     "image, near and far, tilted by 20 to 40 degrees each way. On standard output: parameter,value,sigma. Exit code 1\n"
     "where the images cannot tell a camera; standard error says what became of each and what is missing.";
@@ -44,7 +45,9 @@ void write_outputs(const Options& options, const calibrate::CalibrationChoices& 
 int run(const Options& options) {
   const calibrate::CalibrationChoices choices = choices_of(options.board);
   if (options.board.output != "-") require_writable(options.board.output);
-  const BoardPictures pictures(options.images);
+  ImageInput input;
+  const BoardPictures pictures(options.images, input);
+  if (input.nothing_read()) return input.finish(false);
   calibrate::CameraCalibration result;
   {
     Progress progress("looking for boards", "images", options.images.size());
@@ -54,7 +57,7 @@ int run(const Options& options) {
   write_outputs(options, choices, pictures, result);
   if (!result.refusal.empty()) {
     note("no camera: " + result.refusal);
-    return kExitNoAnswer;
+    return input.finish(false);
   }
   const calibrate::BundleOutcome& outcome = *result.outcome;
   note_fit(outcome, result.images, choices.board);
@@ -67,7 +70,7 @@ int run(const Options& options) {
       record_of(outcome, outcome.state.T_camera_board.size() * choices.board.size(), result.unobservable);
   write_text_file(options.board.output, "# Written by `pharos calibrate camera`.\n" + host::camera_text(file));
   if (options.board.output != "-") write_board_parameters(outcome, {options.board.json, "-"});
-  return kExitAnswered;
+  return input.finish(true);
 }
 
 }  // namespace

@@ -67,7 +67,9 @@ int run(const Options& options) {
   }
   const calibrate::CalibrationChoices choices = choices_of(options.board);
   if (options.board.output != "-") require_writable(options.board.output);
-  const BoardPictures left(options.left), right(options.right);
+  ImageInput input;
+  const BoardPictures left(options.left, input), right(options.right, input);
+  if (input.nothing_read()) return input.finish(false);
   calibrate::RigCalibration result;
   {
     Progress progress("looking for boards", "images", 2 * options.left.size());
@@ -79,7 +81,7 @@ int run(const Options& options) {
   if (!options.board.overlay.empty()) write_overlays(options, choices.board, {&left, &right}, result);
   if (!result.refusal.empty()) {
     note("no rig: " + result.refusal);
-    return kExitNoAnswer;
+    return input.finish(false);
   }
   note_fit(*result.outcome, images, choices.board);
   note(printf_text("epipolar rms %.4f px from %zu pairs", result.epipolar_rms_px, result.pairs));
@@ -91,7 +93,7 @@ int run(const Options& options) {
   write_text_file(options.board.output,
                   "# Written by `pharos calibrate stereo`.\n" + host::rig_text(file_of(result, choices.board)));
   if (options.board.output != "-") write_board_parameters(*result.outcome, {options.board.json, "-"});
-  return kExitAnswered;
+  return input.finish(true);
 }
 
 }  // namespace

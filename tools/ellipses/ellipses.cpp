@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
-#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/ellipse/detect.hpp"
 #include "tools/ellipses/overlay.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
@@ -28,7 +29,7 @@ constexpr const char* kExample =
     "One row an ellipse, best score first; an image without any has no row and a note. Pixel (0, 0) is the centre of\n"
     "the first pixel; a_px >= b_px are semi-axes, theta_rad runs from +u (right) towards +v (down). score is F_val,\n"
     "coverage the share of the contour that has edges, bright_inside 1 where the inside is the brighter side.\n"
-    "Images: grey PNG or binary PGM, 8 or 16 bits; - is standard input.";
+    "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits, JPEG or BMP, grey or colour (luma); - is standard input.";
 
 struct Options {
   std::vector<std::string> images;
@@ -101,9 +102,13 @@ int run(const Options& options) {
   Output output(options.output, kColumns);
   Detector detector;
   Progress progress("ellipses", "images", options.images.size());
+  ImageInput images;
   std::size_t ellipses = 0;
   for (const std::string& name : options.images) {
-    const host::GreyImage image = host::read_grey_image(name);
+    const std::optional<host::GreyImage> read = images.try_read(name);
+    progress.step();
+    if (!read) continue;
+    const host::GreyImage& image = *read;
     const std::span<const DetectedEllipse> found = detector.detect(image, options.settings);
     for (const DetectedEllipse& e : found) write_row(name, e, output.rows());
     ellipses += found.size();
@@ -116,10 +121,9 @@ int run(const Options& options) {
       canvas.write_png(options.overlay);
     }
     if (options.repeats > 0) time_image(name, image, options, detector);
-    progress.step();
   }
-  output.finish();
-  return ellipses > 0 ? kExitAnswered : kExitNoAnswer;
+  if (!images.nothing_read()) output.finish();
+  return images.finish(ellipses > 0);
 }
 
 }  // namespace
@@ -127,7 +131,8 @@ int run(const Options& options) {
 void add_ellipses(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("ellipses", "Images to the ellipses in them");
   const auto options = std::make_shared<Options>();
-  command->add_option("IMAGE", options->images, "Grey PNG or PGM of 8 or 16 bits; - is standard input")->required();
+  command->add_option("IMAGE", options->images, "Images (PNG, TIFF, PGM, PPM, JPEG, BMP); - is standard input")
+      ->required();
   command->add_option("--min-minor", options->settings.min_minor_px, "Least semi-minor axis, px")
       ->capture_default_str()
       ->check(number_from(2.0, 10'000.0));

@@ -12,6 +12,7 @@
 #include "tools/enhance/image_files.hpp"
 #include "tools/enhance/step_files.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
@@ -27,9 +28,9 @@ constexpr const char* kExample =
     "  pharos enhance dark.png bright.png --illumination light.png --reflectance reflectance.png\n"
     "  pharos enhance frames enhanced --denoiser fast --report frames.csv\n"
     "  pharos enhance noisy.png quiet.png --denoise-only --noise 15\n"
-    "IN: a PNG, JPEG, PGM or PPM, grey or colour, 8 or 16 bits; - is standard input. Or a folder of them, taken in "
-    "the\n"
-    "order of their names as a video (each starts from the illumination of the one before); OUT and the files of the\n"
+    "IN: a PNG, TIFF, PGM or PPM of 8 or 16 bits, a JPEG or BMP, grey or colour; - is standard input. Or a folder of\n"
+    "them, taken in the order of their names as a video (each starts from the illumination of the one before); OUT and "
+    "the files of the\n"
     "steps are then folders. OUT: a PNG of the input's bits and colours; - is standard output. Steps: 16 bits.\n"
     "--report writes a row an image: its mean before and after, the noise found, and what became of it.";
 
@@ -65,19 +66,24 @@ double mean_of(const enhance::FloatImage& image) {
   return sum / static_cast<double>(image.values.size());
 }
 
+// Throws InputError for what cannot be read.
+host::Picture read_image(const std::string& from, const std::string& name) {
+  host::Picture picture = host::read_picture(from);
+  if (picture.pixels() > kMaxPixels) {
+    throw host::InputError(name + ": has " + std::to_string(picture.pixels()) + " pixels; at most " +
+                           std::to_string(kMaxPixels) + " are enhanced: cut it or scale it down");
+  }
+  return picture;
+}
+
 class Worker {
  public:
   explicit Worker(const Options& options) : options_(options), enhancer_(options.settings) {}
 
-  /// Throws InputError for what cannot be read or written; black and white images are refused in their row.
-  Outcome work(const std::string& from, const std::string& to, const StepFiles& steps) {
+  /// Throws InputError for what cannot be written; black and white images are refused in their row.
+  Outcome work(host::Picture&& picture, const std::string& name, const std::string& to, const StepFiles& steps) {
     Outcome outcome;
-    outcome.picture = host::read_picture(from);
-    const std::string name = from == "-" ? "standard input" : from;
-    if (outcome.picture.pixels() > kMaxPixels) {
-      throw host::InputError(name + ": has " + std::to_string(outcome.picture.pixels()) + " pixels; at most " +
-                             std::to_string(kMaxPixels) + " are enhanced: cut it or scale it down");
-    }
+    outcome.picture = std::move(picture);
     const auto [low, high] = std::minmax_element(outcome.picture.values.begin(), outcome.picture.values.end());
     if (*high == 0) return refused(std::move(outcome), name, "black", "every pixel is black: nothing to enhance");
     if (*low == 65535)
@@ -141,21 +147,28 @@ int run_folder(const Options& options, Output* report) {
   for (const std::string& folder : options.steps.names()) make_folder(folder);
   Worker worker(options);
   Progress progress("enhance", "images", files.size());
+  ImageInput input;
   bool any = false;
   for (const ImageFile& file : files) {
     Outcome outcome;
+    std::optional<host::Picture> picture;
     try {
-      outcome = worker.work(file.path, (std::filesystem::path(options.out) / file.png_name).string(),
-                            options.steps.inside(file.png_name));
+      picture = read_image(file.path, file.path);
+      input.count_read();
     } catch (const host::InputError& error) {
-      note(error.what());
+      input.leave_out(error);
       outcome.status = "refused_unreadable";
+    }
+    if (picture) {
+      outcome =
+          worker.work(std::move(*picture), file.path, (std::filesystem::path(options.out) / file.png_name).string(),
+                      options.steps.inside(file.png_name));
     }
     any |= outcome.status == "ok";
     if (report != nullptr) write_row(file.path, outcome, report->rows());
     progress.step();
   }
-  return any ? kExitAnswered : kExitNoAnswer;
+  return input.finish(any);
 }
 
 int run(Options options) {
@@ -180,8 +193,9 @@ int run(Options options) {
     answer = run_folder(options, report ? &*report : nullptr);
   } else {
     Worker worker(options);
-    const Outcome outcome = worker.work(options.in, options.out, options.steps);
-    if (report) write_row(options.in == "-" ? "standard input" : options.in, outcome, report->rows());
+    const std::string name = options.in == "-" ? "standard input" : options.in;
+    const Outcome outcome = worker.work(read_image(options.in, name), name, options.out, options.steps);
+    if (report) write_row(name, outcome, report->rows());
     answer = outcome.status == "ok" ? kExitAnswered : kExitNoAnswer;
   }
   if (report) report->finish();

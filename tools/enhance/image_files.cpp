@@ -2,10 +2,9 @@
 #include "tools/enhance/image_files.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
 
+#include "host/images/image_names.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::tools {
@@ -13,18 +12,15 @@ namespace pharos::tools {
 namespace fs = std::filesystem;
 
 std::vector<ImageFile> image_files(const std::string& folder) {
-  constexpr std::array kEndings = {".png", ".jpg", ".jpeg", ".pgm", ".ppm"};
   std::error_code error;
   fs::directory_iterator entries(folder, error);
   if (error) throw host::InputError(folder + ": cannot be read: " + error.message());
   std::vector<ImageFile> files;
   for (const fs::directory_entry& entry : entries) {
-    std::string ending = entry.path().extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) continue;
+    if (!host::has_image_ending(entry.path())) continue;
     files.push_back({entry.path().string(), entry.path().stem().string() + ".png"});
   }
-  if (files.empty()) throw host::InputError(folder + ": holds no PNG, JPEG, PGM or PPM");
+  if (files.empty()) throw host::InputError(folder + ": holds no " + host::kImageEndings + " image");
   std::sort(files.begin(), files.end(), [](const ImageFile& a, const ImageFile& b) { return a.path < b.path; });
   for (std::size_t k = 1; k < files.size(); ++k) {
     if (files[k].png_name == files[k - 1].png_name) {

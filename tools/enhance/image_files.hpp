@@ -11,8 +11,8 @@ struct ImageFile {
   std::string png_name;  ///< its own name, ending in .png
 };
 
-/// The images of a folder (PNG, JPEG, PGM, PPM by their names), sorted. Throws InputError for a folder that cannot be
-/// read, without images, or with two that would have one name as PNG.
+/// The images of a folder (by their names, see host::has_image_ending), sorted. Throws InputError for a folder that
+/// cannot be read, without images, or with two that would have one name as PNG.
 std::vector<ImageFile> image_files(const std::string& folder);
 
 /// Throws InputError where there is none and none can be made.

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "host/cameras/camera_file.hpp"
-#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/pointing/track_file.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/pointing/pointing_overlay.hpp"
 #include "tools/pointing/pointing_table.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
@@ -122,7 +122,8 @@ int run_image(const Options& options) {
     throw host::InputError("an image needs --azimuth-deg and --elevation-deg: where the telescope pointed");
   }
   const auto station = station_of(options);
-  const host::GreyImage image = host::read_grey_image(options.image);
+  ImageInput input;
+  const host::GreyImage image = input.read(options.image);
   Output output(options.output, pointing_columns());
   Measurer measurer(options, station, output.rows());
   const pointing::LineOfSight sight{*options.azimuth_deg * kRadPerDeg, *options.elevation_deg * kRadPerDeg};
@@ -142,7 +143,7 @@ std::string picture_of(const Options& options, const std::string& image) {
 
 // The images of a pass, a row each.
 std::vector<pointing::PassImage> measure_rows(const Options& options, const pointing::TrackFile& track,
-                                              Measurer& measurer) {
+                                              ImageInput& input, Measurer& measurer) {
   std::vector<pointing::PassImage> images;
   Progress progress("line", "images", track.rows.size());
   for (const pointing::TrackRow& row : track.rows) {
@@ -151,15 +152,13 @@ std::vector<pointing::PassImage> measure_rows(const Options& options, const poin
       measurer.refuse(row.image, row.refusal, "the track file's row is not complete or out of range");
       continue;
     }
-    host::GreyImage image;
-    try {
-      image = host::read_grey_image(pointing::image_path(options.track, row.image).string());
-    } catch (const host::InputError& error) {
-      measurer.refuse(row.image, "unreadable", error.what());
-      note(error.what());
+    const auto image = input.try_read(pointing::image_path(options.track, row.image).string());
+    if (!image) {
+      measurer.refuse(row.image, "unreadable", "it could not be read");
       continue;
     }
-    if (const auto planes = measurer.measure(row.image, image, row.observation.sight, picture_of(options, row.image))) {
+    if (const auto planes =
+            measurer.measure(row.image, *image, row.observation.sight, picture_of(options, row.image))) {
       images.push_back({row.observation, *planes});
     }
   }
@@ -179,8 +178,9 @@ int run_track(const Options& options) {
     if (error) throw host::InputError(options.overlay + ": cannot be made: " + error.message());
   }
   Output output(options.output, pointing_columns());
+  ImageInput input;
   Measurer measurer(options, station, output.rows());
-  const std::vector<pointing::PassImage> images = measure_rows(options, track, measurer);
+  const std::vector<pointing::PassImage> images = measure_rows(options, track, input, measurer);
   bool answered = !images.empty();
   if (!station) {
     write_pointing_refusal(output.rows(), "pass", "no_station");
@@ -197,9 +197,8 @@ int run_track(const Options& options) {
       note(std::string("pass: refused_") + pointing::name_of(*answer.failure) + " (law " + options.law + ")");
   }
   output.finish();
-  if (answered) return kExitAnswered;
-  note(options.track + ": no image has an answer; the last one: " + measurer.last_error());
-  return kExitNoAnswer;
+  if (!answered) note(options.track + ": no image has an answer; the last one: " + measurer.last_error());
+  return input.finish(answered);
 }
 
 }  // namespace
@@ -207,7 +206,7 @@ int run_track(const Options& options) {
 void add_pointing(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("line", "Solar-panel edges of a telescope's images to the panel's axis");
   const auto options = std::make_shared<Options>();
-  auto* image = command->add_option("IMAGE", options->image, "A grey image (PNG or PGM, 8 or 16 bits)");
+  auto* image = command->add_option("IMAGE", options->image, "An image (PNG, TIFF, PGM, PPM, JPEG, BMP)");
   command->add_option("--track", options->track, "A pass: image,time_s,azimuth_deg,elevation_deg; - is standard input")
       ->excludes(image);
   command->add_option("--camera", options->camera, "Camera file (TOML)")->required();

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "host/cameras/rig_file.hpp"
-#include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"
@@ -12,6 +11,7 @@
 #include "tools/ring2/overlay.hpp"
 #include "tools/ring2/ring2_rows.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/stopwatch.hpp"
 
@@ -83,8 +83,8 @@ bool from_table(const ring2::Rig& rig, const Options& options) {
 }
 
 bool from_images(const ring2::Rig& rig, const Options& options) {
-  const std::array<host::GreyImage, 2> images{host::read_grey_image(options.images[0]),
-                                              host::read_grey_image(options.images[1])};
+  ImageInput input;
+  const std::array<host::GreyImage, 2> images{input.read(options.images[0]), input.read(options.images[1])};
   host::Ring2Detector finder(rig, {});
   host::Ring2Detection circles = finder.find({images[0].view(), images[1].view()});
   Output output(options.output, ring2_columns(false));
@@ -122,7 +122,7 @@ int run(const Options& options) {
 void add_ring2(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("circles", "Docking ring and nozzle seen by two cameras to their attitude");
   const auto options = std::make_shared<Options>();
-  command->add_option("IMAGES", options->images, "LEFT RIGHT: grey PNG or PGM of 8 or 16 bits; - is standard input")
+  command->add_option("IMAGES", options->images, "LEFT RIGHT: PNG, TIFF, PGM, PPM, JPEG or BMP; - is standard input")
       ->expected(0, 2);
   command->add_option("--rig", options->rig, "Rig file of both cameras (pharos calibrate stereo)")->required();
   command->add_option("--ellipses", options->ellipses, "Ellipses instead of images; - is standard input");

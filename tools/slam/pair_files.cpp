@@ -60,8 +60,11 @@ std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& f
   return choice.pairs > 0 ? prolonged(pairs, choice.pairs) : pairs;
 }
 
-PairImages read_pair(const host::PairName& pair, const host::RigFile& rig) {
-  PairImages images{read_luma(pair.left), read_luma(pair.right)};
+PairImages read_pair(const host::PairName& pair) {
+  return {host::read_grey_image(pair.left), host::read_grey_image(pair.right)};
+}
+
+void require_size(const host::PairName& pair, const PairImages& images, const host::RigFile& rig) {
   const PinholeCamera& intrinsics = rig.left.intrinsics;
   for (const auto& [image, path] : {std::pair{&images.left, &pair.left}, {&images.right, &pair.right}}) {
     if (image->width_px == intrinsics.width_px && image->height_px == intrinsics.height_px) continue;
@@ -69,7 +72,6 @@ PairImages read_pair(const host::PairName& pair, const host::RigFile& rig) {
                            std::to_string(image->height_px) + " pixels; the rig's cameras have " +
                            std::to_string(intrinsics.width_px) + " x " + std::to_string(intrinsics.height_px));
   }
-  return images;
 }
 
 }  // namespace pharos::tools

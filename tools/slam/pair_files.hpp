@@ -26,7 +26,10 @@ struct PairImages {
   host::GreyImage left, right;
 };
 
-/// Throws InputError for what cannot be read and for other sizes than the rig's.
-PairImages read_pair(const host::PairName& pair, const host::RigFile& rig);
+/// Throws InputError for what cannot be read.
+PairImages read_pair(const host::PairName& pair);
+
+/// Throws InputError for other sizes than the rig's.
+void require_size(const host::PairName& pair, const PairImages& images, const host::RigFile& rig);
 
 }  // namespace pharos::tools

@@ -12,6 +12,7 @@
 #include "tools/slam/pair_files.hpp"
 #include "tools/slam/slam_files.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
 
@@ -24,8 +25,9 @@ constexpr const char* kExample =
     "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
     "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
     "row. --scene static: nothing is masked, the camera moves; --output camera tells its path.\n"
-    "Images: PNG or PGM, 8 or 16 bits (of which the upper 8 count, unless enhanced), of colour the luma. One without\n"
-    "partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
+    "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits (of which the upper 8 count, unless enhanced), JPEG or BMP; of "
+    "colour\n"
+    "the luma. One without partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
     "--overlay: DIR/NAME_slam.png, green: of the map, yellow: with depth, red: without; what is masked is blue.";
 
 struct Options {
@@ -53,22 +55,17 @@ class Feeder {
   Feeder(const Options& options, const host::RigFile& rig, slam::SlamSystem& system)
       : options_(options), rig_(rig), system_(system), lit_(enhance_settings(options.enhance)) {}
 
-  /// A bad first pair is an error: so would all others be. Later ones are told and left out.
+  /// Pairs that cannot be read, or are of another size than the first one, are told and left out. A first pair of
+  /// another size than the rig's cameras is an error: so would all others be.
   void feed(const host::PairName& pair, RunFigures& figures) {
-    try {
-      images_ = read_pair(pair, rig_);
-    } catch (const host::InputError& error) {
-      if (!any_) throw;
-      note(error.what());
-      ++figures.unreadable;
-      return;
-    }
-    any_ = true;
+    const std::optional<PairImages> images = fitting_pair(pair);
+    figures.unreadable = static_cast<int>(input_.left_out());
+    if (!images) return;
     const auto start = std::chrono::steady_clock::now();
     const auto ms = [&start] {
       return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     };
-    const auto [left, right] = lit_.both(images_.left.view(), images_.right.view());
+    const auto [left, right] = lit_.both(images->left.view(), images->right.view());
     figures.light_ms.push_back(ms());
     const slam::TrackedFrame frame = system_.push(pair.time_s, left, right);
     figures.to_pose_ms.push_back(ms());
@@ -77,13 +74,30 @@ class Feeder {
     if (frame.relocalised) note(pair.left + ": found again");
     if (!options_.overlay.empty()) write_slam_overlay(options_.overlay, pair.stem, system_);
   }
+  const ImageInput& input() const { return input_; }
 
  private:
+  std::optional<PairImages> fitting_pair(const host::PairName& pair) {
+    bool read = false;
+    try {
+      PairImages images = read_pair(pair);
+      read = true;
+      require_size(pair, images, rig_);
+      input_.count_read(images.left.from_colour ? pair.left : images.right.from_colour ? pair.right : "");
+      any_ = true;
+      return images;
+    } catch (const host::InputError& error) {
+      if (read && !any_) throw;
+      input_.leave_out(error);
+      return std::nullopt;
+    }
+  }
+
   const Options& options_;
   const host::RigFile& rig_;
   slam::SlamSystem& system_;
   enhance::EightBitPairs lit_;
-  PairImages images_;
+  ImageInput input_{"pair"};
   bool any_ = false, lost_ = false;
 };
 
@@ -110,10 +124,11 @@ int run(Options options) {
   const int rows = write_tum(trajectory, options.output == "camera");
   if (!options.map.empty()) write_map_ply(options.map, system->points());
   if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
-  if (rows > 0) return kExitAnswered;
-  note(options.names.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
-       " pairs, none with enough stereo features");
-  return kExitNoAnswer;
+  if (rows == 0 && !feeder.input().nothing_read()) {
+    note(options.names.left + ": no frame could be placed: " + std::to_string(system->report().frames) +
+         " pairs, none with enough stereo features");
+  }
+  return feeder.input().finish(rows > 0);
 }
 
 }  // namespace

@@ -68,21 +68,6 @@ void add_sigmas(nlohmann::ordered_json& json, const std::vector<slam::TrackedFra
 
 }  // namespace
 
-host::GreyImage read_luma(const std::string& path) {
-  host::Picture picture = host::read_picture(path);
-  host::GreyImage grey{picture.width_px, picture.height_px, picture.bits, {}};
-  if (picture.channels == 1) {
-    grey.pixels = std::move(picture.values);
-    return grey;
-  }
-  grey.pixels.reserve(picture.pixels());
-  for (std::size_t k = 0; k < picture.values.size(); k += 3) {
-    const std::uint32_t red = picture.values[k], green = picture.values[k + 1], blue = picture.values[k + 2];
-    grey.pixels.push_back(static_cast<std::uint16_t>((299 * red + 587 * green + 114 * blue + 500) / 1000));
-  }
-  return grey;
-}
-
 std::vector<std::uint8_t> eight_bits(const host::GreyImage& image) {
   std::vector<std::uint8_t> out;
   out.reserve(image.pixels.size());

@@ -10,10 +10,6 @@
 
 namespace pharos::tools {
 
-/// Reads an image of `pharos slam`: grey as it is, of colour the luma (ITU-R BT.601). Throws InputError as
-/// host::read_picture does.
-host::GreyImage read_luma(const std::string& path);
-
 /// The upper 8 of 16 bits a pixel: what ORB works on.
 std::vector<std::uint8_t> eight_bits(const host::GreyImage& image);
 

@@ -10,6 +10,7 @@
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/slam/slam_files.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
 
@@ -26,13 +27,17 @@ struct Options {
 int run(const Options& options) {
   require_writable(options.output);
   std::vector<std::vector<slam::Descriptor>> described;
+  ImageInput input;
   Progress progress("vocabulary", "images", options.images.size());
   for (const std::string& path : options.images) {
-    const host::GreyImage image = read_luma(path);
-    const std::vector<std::uint8_t> pixels = eight_bits(image);
-    described.push_back(slam::describe_image({pixels.data(), image.width_px, image.height_px}, options.features));
     progress.step();
+    const auto image = input.try_read(path);
+    if (!image) continue;
+    const std::vector<std::uint8_t> pixels = eight_bits(*image);
+    described.push_back(slam::describe_image({pixels.data(), image->width_px, image->height_px}, options.features));
   }
+  const int exit_code = input.finish(!described.empty());
+  if (described.empty()) return exit_code;
   const slam::Vocabulary vocabulary = slam::Vocabulary::train(described, options.branches, options.depth, options.seed);
   const std::vector<std::uint8_t> bytes = vocabulary.bytes();
   std::ofstream file(options.output, std::ios::binary);
@@ -40,7 +45,7 @@ int run(const Options& options) {
   if (!file.flush()) throw host::InputError(options.output + ": cannot be written");
   note(std::to_string(vocabulary.words()) + " words of " + std::to_string(described.size()) + " images, " +
        std::to_string(bytes.size()) + " bytes");
-  return kExitAnswered;
+  return exit_code;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "host/support/input_error.hpp"
 #include "pharos/tof/tof_pose.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/tof/overlay.hpp"
@@ -21,9 +22,10 @@ namespace {
 constexpr const char* kExample =
     "Example:\n"
     "  pharos tof recording --camera camera.toml --overlay pictures > poses.csv\n"
-    "The folder holds NNNN_intensity.png with NNNN_depth.png (16 bits) or NNNN_abcy16.raw. Poses are T_camera_target: "
-    "the\n"
-    "ring's centre, and (8) of the paper for the angles. Without a connector (flag no_connector) gamma and the\n"
+    "The folder holds NNNN_intensity.png with NNNN_depth.png (16 bits), or the same as TIFF or PGM, or "
+    "NNNN_abcy16.raw.\n"
+    "Poses are T_camera_target: the ring's centre, and (8) of the paper for the angles. Without a connector (flag "
+    "no_connector) gamma and the\n"
     "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.";
 
 struct Options {
@@ -55,13 +57,14 @@ class Measurer {
 
   std::size_t frames() const { return frames_.frames(); }
   const std::string& name(std::size_t index) const { return frames_.name(index); }
+  const ImageInput& input() const { return input_; }
 
   Outcome measure(std::size_t index) {
     host::DepthFrame frame;
     try {
-      frames_.read(index, camera_.intrinsics.width_px, camera_.intrinsics.height_px, frame);
+      input_.count_read(frames_.read(index, camera_.intrinsics.width_px, camera_.intrinsics.height_px, frame));
     } catch (const host::InputError& error) {
-      note(error.what());
+      input_.leave_out(error);
       return {std::nullopt, "unreadable"};
     }
     if (options_.depth_bits < 16) quantise_depth(frame.depth, options_.depth_bits);
@@ -79,6 +82,7 @@ class Measurer {
   const Options& options_;
   DepthCamera camera_;
   host::FrameDirectory frames_;
+  ImageInput input_{"frame"};
   std::unique_ptr<tof::TofWorkspace> workspace_;
 };
 
@@ -140,9 +144,9 @@ int run(Options options) {
   }
   if (options.summary && rows.summary().frames() > 0) write_summary(output.rows(), rows.summary());
   output.finish();
-  if (rows.summary().frames() > 0) return kExitAnswered;
-  note(options.folder + ": no frame has a pose; the last one was refused_" + reason);
-  return kExitNoAnswer;
+  const bool answered = rows.summary().frames() > 0;
+  if (!answered) note(options.folder + ": no frame has a pose; the last one was refused_" + reason);
+  return measurer.input().finish(answered);
 }
 
 }  // namespace

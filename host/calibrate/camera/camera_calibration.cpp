@@ -26,12 +26,15 @@ std::string too_few(std::size_t views, std::size_t images) {
 
 std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures, const Board& board,
                                       const StepDone& step_done) {
+  const GreyView first = first_readable(pictures);
   std::vector<ImageOutcome> images;
   for (const BoardPicture& picture : pictures) {
     ImageOutcome outcome;
     outcome.name = picture.name;
-    const GreyView& first = pictures.front().image;
-    if (picture.image.same_size(first)) {
+    if (!picture.error.empty()) {
+      outcome.search.status = ImageStatus::kUnreadable;
+      outcome.search.detail = picture.error;
+    } else if (picture.image.same_size(first)) {
       outcome.search = find_board(picture.image, board);
     } else {
       outcome.search.status = ImageStatus::kOtherSize;
@@ -75,7 +78,7 @@ CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_p
 
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, const CalibrationChoices& choices,
                                    const StepDone& step_done) {
-  const GreyView first = pictures.empty() ? GreyView{} : pictures.front().image;
+  const GreyView first = first_readable(pictures);
   return calibrate_camera(find_boards(pictures, choices.board, step_done), first.width_px, first.height_px, choices);
 }
 

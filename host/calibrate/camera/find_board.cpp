@@ -81,6 +81,11 @@ BoardSearch find_chessboard(GreyView image, const Board& board) {
 
 }  // namespace
 
+GreyView first_readable(const std::vector<BoardPicture>& pictures) {
+  const auto first = std::find_if(pictures.begin(), pictures.end(), [](const auto& p) { return p.error.empty(); });
+  return first == pictures.end() ? GreyView{} : first->image;
+}
+
 BoardSearch find_board(GreyView image, const Board& board) {
   return board.kind == BoardKind::kDots ? find_dots(image, board) : find_chessboard(image, board);
 }

@@ -9,11 +9,15 @@
 
 namespace pharos::calibrate {
 
-/// An image and what to call it. The pixels are somebody else's.
+/// An image and what to call it. The pixels are somebody else's; there are none where it could not be read.
 struct BoardPicture {
   std::string name;
   GreyView image;
+  std::string error = {};  // why it could not be read; empty where it could
 };
+
+/// The first image that could be read: the others must have its size. Empty where none could.
+GreyView first_readable(const std::vector<BoardPicture>& pictures);
 
 /// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's own symmetry
 /// lets anybody tell: a board of dots, and a chessboard of even squares, look the same after half a turn.

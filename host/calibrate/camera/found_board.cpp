@@ -21,6 +21,8 @@ const char* name_of(ImageStatus status) {
       return "too_small";
     case ImageStatus::kOtherSize:
       return "other_size";
+    case ImageStatus::kUnreadable:
+      return "unreadable";
     case ImageStatus::kNoPartner:
       return "no_partner";
   }

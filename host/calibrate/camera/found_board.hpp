@@ -37,6 +37,7 @@ enum class ImageStatus : std::uint8_t {
   kTooSmall,
   kOtherSize,  // than the first image
   kNoPartner,  // the other image of its pair was not used
+  kUnreadable,
 };
 /// used, no_board, partly_outside, …
 const char* name_of(ImageStatus status);

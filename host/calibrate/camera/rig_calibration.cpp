@@ -117,8 +117,7 @@ RigCalibration calibrate_rig(const std::vector<BoardPicture>& left, const std::v
   result.images = {find_boards(left, choices.board, step_done), find_boards(right, choices.board, step_done)};
   pair_up(result.images);
   result.pairs = used(result.images[0]);
-  const std::array<GreyView, 2> first{left.empty() ? GreyView{} : left.front().image,
-                                      right.empty() ? GreyView{} : right.front().image};
+  const std::array<GreyView, 2> first{first_readable(left), first_readable(right)};
   const std::array<CameraCalibration, 2> alone = each_alone(result, first, choices);
   if (!result.refusal.empty()) return result;
   const BundleState &left_state = alone[0].outcome->state, &right_state = alone[1].outcome->state;

@@ -40,6 +40,7 @@ bool RecordedPairs::read(const PairName& name, StereoPair& pair) {
     for (std::size_t side = 0; side < pair.frames.size(); ++side) {
       const std::string& file = side == 0 ? name.left : name.right;
       GreyImage image = read_grey_image(file);
+      if (image.from_colour && remark_.empty()) remark_ = colour_remark(file);
       const auto& [width_px, height_px] = options_.sizes_px[side];
       if (image.width_px != width_px || image.height_px != height_px) {
         throw InputError(file + ": has " + std::to_string(image.width_px) + " x " + std::to_string(image.height_px) +
@@ -86,6 +87,7 @@ PairSourceStatus RecordedPairs::status() const {
   PairSourceStatus status;
   status.state = finished_ ? CameraState::kSilent : CameraState::kOpen;
   status.error = finished_ ? "the recorded pairs have come to their end" : error_;
+  status.remark = remark_;
   status.identity = std::to_string(pairs_.size()) + " recorded pairs";
   status.counters = {{"device.pairs_read", pairs_read_}, {"device.pairs_unreadable", pairs_unreadable_}};
   status.session = 1;

@@ -50,7 +50,7 @@ class RecordedPairs : public PairSource {
   std::int64_t due_monotonic_ns_ = 0;
   std::int64_t pairs_read_ = 0;
   std::int64_t pairs_unreadable_ = 0;
-  std::string error_;
+  std::string error_, remark_;
   bool finished_ = false;
 };
 

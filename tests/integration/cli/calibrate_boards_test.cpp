@@ -47,7 +47,6 @@ class BoardImages : public testing::Test {
     return names;
   }
 
- private:
   Folder folder_;
 };
 
@@ -75,6 +74,34 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheFateOfEachImage) {
   EXPECT_EQ(fates[0].at("status"), "used");
   EXPECT_EQ(fates[4].at("status"), "no_board");
   EXPECT_EQ(fates[4].at("rms_px"), "");
+}
+
+TEST_F(BoardImages, ThatCannotBeReadAreLeftOutAndKeepTheirRow) {
+  render_tilted(4);
+  folder_.write("broken.tif", std::string("II*\0", 4));
+  const std::string fates = path("fates.csv");
+  const Outcome run = pharos("calibrate camera " + path("broken.tif") + list("left", 4) + kBoard + " --output " +
+                             path("camera.toml") + " --images " + fates + " --overlay " + path("overlay"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("broken.tif: damaged TIFF"));
+  EXPECT_THAT(run.err, HasSubstr("5 images: 1 unreadable, 4 used"));
+  EXPECT_THAT(run.err, HasSubstr("1 of 5 images could not be used"));
+  ASSERT_EQ(rows_of(content_of(fates)).size(), 5U);
+  EXPECT_EQ(rows_of(content_of(fates))[0].at("status"), "unreadable");
+
+  const Outcome rig =
+      pharos("calibrate stereo --left" + list("left", 4) + " " + path("broken.tif") + " --right" + list("right", 4) +
+             " " + path("right0.png") + kBoard + " --output " + path("rig.toml") + " --images " + fates);
+  ASSERT_EQ(rig.exit_code, 0) << rig.err;
+  const std::vector<Row> rows = rows_of(content_of(fates));
+  ASSERT_EQ(rows.size(), 10U);
+  EXPECT_EQ(rows[4].at("status"), "unreadable");
+  EXPECT_EQ(rows[9].at("status"), "no_partner");
+
+  const Outcome none = pharos("calibrate camera " + path("broken.tif") + " " + path("gone.png") + kBoard +
+                              " --output " + path("none.toml"));
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("none.toml")));
 }
 
 TEST_F(BoardImages, GiveARigFile) {

@@ -73,10 +73,70 @@ TEST(CliEllipses, DrawsAPicture) {
   EXPECT_EQ(two.exit_code, 2);
   EXPECT_THAT(two.err, HasSubstr("one image"));
   EXPECT_EQ(pharos("ellipses " + ring.path + " --overlay /nowhere/x.png").exit_code, 2);
-  // The overlay is in colour: no input.
+  // The overlay is in colour: its luma shows the ring, and what was drawn over it.
   const Outcome colour = pharos("ellipses " + picture);
-  EXPECT_EQ(colour.exit_code, 2);
+  EXPECT_EQ(colour.exit_code, 0);
   EXPECT_THAT(colour.err, HasSubstr("in colour"));
+}
+
+// The ring's upper 8 bits as a BMP and a TIFF, grey, and as a PPM whose blue is darker.
+std::vector<std::string> other_formats(const Folder& folder, const std::string& pgm) {
+  const std::size_t pixels = std::size_t{320} * 240, head = pgm.size() - 2 * pixels;
+  std::string grey, ppm = "P6\n320 240\n255\n";
+  for (std::size_t k = 0; k < pixels; ++k) {
+    const char value = pgm[head + 2 * k];
+    grey.push_back(value);
+    ppm += {value, value, static_cast<char>(static_cast<unsigned char>(value) / 2)};
+  }
+  const auto number = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int k = 0; k < bytes; ++k) text.push_back(static_cast<char>(value >> (8 * k)));
+    return text;
+  };
+  std::string bmp = "BM" + number(0, 8) + number(14 + 40 + 1024, 4) + number(40, 4) + number(320, 4) +
+                    number(static_cast<std::uint32_t>(-240), 4) + number(1, 2) + number(8, 2) + number(0, 24);
+  for (std::uint32_t k = 0; k < 256; ++k) bmp += number(k * 0x010101U, 4);
+  std::string tiff = "II" + number(42, 2) + number(8, 4) + number(8, 2);
+  const std::uint32_t behind = 8 + 2 + 8 * 12 + 4;
+  for (const auto& [tag, value] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{
+           {256, 320}, {257, 240}, {258, 8}, {259, 1}, {262, 1}, {273, behind}, {278, 240}, {279, 320 * 240}}) {
+    tiff += number(tag, 2) + number(4, 2) + number(1, 4) + number(value, 4);
+  }
+  tiff += number(0, 4);
+  return {folder.write("ring.bmp", bmp + grey), folder.write("ring.tif", tiff + grey), folder.write("ring.ppm", ppm),
+          folder.write("again.ppm", ppm)};
+}
+
+TEST(CliEllipses, EveryFormatShowsTheRingAndColourIsSaidOnce) {
+  const Folder folder;
+  const RingFile ring(folder);
+  const std::vector<std::string> files = other_formats(folder, ring.bytes);
+  std::string images;
+  for (const std::string& file : files) images += " " + file;
+  const Outcome run = pharos("ellipses" + images);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(count_lines(run.err), 1U) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("ring.ppm: is in colour"), HasSubstr("luma")));
+  for (const std::string& file : files) {
+    double widest = 0.0;
+    for (const Row& row : rows_of(run.out)) {
+      if (row.at("image") == file) widest = std::max(widest, std::stod(row.at("a_px")));
+    }
+    EXPECT_NEAR(widest, ring.truth.a_px, 0.15) << file;
+  }
+}
+
+TEST(CliEllipses, OneUnreadableImageOfManyIsToldCountedAndLeftOut) {
+  const Folder folder;
+  const RingFile ring(folder);
+  const std::string bad = folder.write("bad.png", "no image");
+  const Outcome run = pharos("ellipses " + bad + " " + ring.path);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(rows_of(run.out).size(), 2U);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("bad.png: is no PNG"), HasSubstr("1 of 2 images could not be used")));
+  const Outcome none = pharos("ellipses " + bad + " " + bad);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(count_lines(none.out), 1U);  // the header
 }
 
 TEST(CliEllipses, AnImageWithoutAnyIsAnswerNone) {

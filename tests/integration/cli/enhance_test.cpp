@@ -109,6 +109,18 @@ TEST(CliEnhance, AFolderIsAVideo) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("out/0003.png")));
 }
 
+TEST(CliEnhance, AFolderOfNothingReadableIsWrongInput) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.path("in"));
+  folder.write("in/a.tif", std::string("II*\0", 4));
+  folder.write("in/b.bmp", "BM");
+  const Outcome run = pharos("enhance " + folder.path("in") + " " + folder.path("out") + " --report -");
+  EXPECT_EQ(run.exit_code, 2);
+  ASSERT_EQ(rows_of(run.out).size(), 2U);
+  EXPECT_EQ(rows_of(run.out)[0].at("status"), "refused_unreadable");
+  EXPECT_THAT(run.err, AllOf(HasSubstr("a.tif: damaged TIFF"), HasSubstr("2 of 2 images could not be used")));
+}
+
 TEST(CliEnhance, BadInputIsToldInOneLine) {
   const Folder folder;
   const std::string out = " " + folder.path("out.png");

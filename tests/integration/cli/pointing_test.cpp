@@ -121,6 +121,17 @@ TEST_F(CliPointing, AnImageThatIsMissingOrBrokenIsARowOfThePassWithItsReason) {
   EXPECT_EQ(rows[2].at("status"), "ok");
   EXPECT_EQ(rows[5].at("status"), "ok") << "three images are a pass";
   EXPECT_THAT(run.err, AllOf(HasSubstr("gone.png"), HasSubstr("broken.png")));
+  EXPECT_THAT(run.err, HasSubstr("2 of 5 images could not be used and were left out"));
+}
+
+TEST_F(CliPointing, APassOfNothingReadableIsWrongInputWithItsRows) {
+  std::string track = content_of(file("track.csv"));
+  for (std::size_t at = 0; (at = track.find(".png", at)) != std::string::npos;) track.replace(at, 4, ".tif");
+  const Outcome run =
+      pharos("line --track " + folder_->write("pass/gone.csv", track) + " --camera " + file("camera.toml"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(rows_of(run.out).at(0).at("status"), "refused_unreadable");
+  EXPECT_THAT(run.err, HasSubstr("5 of 5 images could not be used"));
 }
 
 TEST_F(CliPointing, OneImageNeedsItsDirectionInRange) {

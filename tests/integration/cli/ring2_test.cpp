@@ -105,6 +105,8 @@ TEST(CliRing2, WrongUsageIsSaidInOneLine) {
   EXPECT_THAT(message(pharos("circles --rig " + sweep.rig)), HasSubstr("two images"));
   EXPECT_THAT(message(pharos("circles one.png --rig " + sweep.rig)), HasSubstr("both images"));
   EXPECT_THAT(message(pharos("circles no.png none.png --rig " + sweep.rig)), HasSubstr("no.png"));
+  const std::string broken = folder.write("broken.bmp", "BM");
+  EXPECT_THAT(message(pharos("circles " + broken + " " + broken + " --rig " + sweep.rig)), HasSubstr("damaged BMP"));
   std::string rig = content_of(sweep.rig);
   const std::size_t place = rig.find("position_m = [0.9");
   ASSERT_NE(place, std::string::npos) << rig;

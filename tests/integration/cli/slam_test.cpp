@@ -87,11 +87,11 @@ TEST_F(CliSlam, AVocabularyCutShortIsNamed) {
 
 TEST_F(CliSlam, AnEmptyFolderIsNamed) {
   for (const char* name : {"0", "1", "2"}) std::filesystem::remove(folder_.path(std::string("left/") + name + ".pgm"));
-  expect_refused(slam(), "holds no .png or .pgm image");
+  expect_refused(slam(), "holds no .png, .tif, .pgm, .ppm, .jpg or .bmp image");
 }
 
-// What is wrong with a later pair costs that pair alone; what is wrong with the first one is wrong with all.
-TEST_F(CliSlam, LaterPairsThatAreNoneAreToldCountedAndLeftOut) {
+// What is wrong with a pair costs that pair alone.
+TEST_F(CliSlam, PairsThatAreNoneAreToldCountedAndLeftOut) {
   for (const char* side : {"left", "right"}) {
     for (const char* name : {"3", "4", "5"}) black(side + std::string("/") + name + ".pgm", 64, 48);
   }
@@ -101,11 +101,12 @@ TEST_F(CliSlam, LaterPairsThatAreNoneAreToldCountedAndLeftOut) {
   const std::string report = folder_.path("report.json");
   const Outcome run = slam(" --report " + report);
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_EQ(count_lines(run.err), 4U) << run.err;
+  EXPECT_EQ(count_lines(run.err), 5U) << run.err;
   EXPECT_THAT(run.err, HasSubstr("left/1.pgm: has no partner; left out"));
   EXPECT_THAT(run.err, HasSubstr("right/3.pgm"));
   EXPECT_THAT(run.err, HasSubstr("left/4.pgm: has 32 x 24 pixels; the rig's cameras have 64 x 48"));
   EXPECT_THAT(run.err, HasSubstr("no frame could be placed: 3 pairs"));
+  EXPECT_THAT(run.err, HasSubstr("2 of 5 pairs could not be used and were left out"));
   const std::string text = content_of(report);
   EXPECT_THAT(text, HasSubstr("\"frames\": 3"));
   EXPECT_THAT(text, HasSubstr("\"unreadable\": 2"));
@@ -117,9 +118,30 @@ TEST_F(CliSlam, NumbersMissingOnBothSidesAreTold) {
   EXPECT_THAT(slam().err, HasSubstr("left/4.pgm: numbers are missing before it"));
 }
 
-TEST_F(CliSlam, AFirstImageCutShortIsNamed) {
+TEST_F(CliSlam, AFirstImageCutShortIsLeftOutLikeAnyOther) {
   folder_.write("right/0.pgm", "P5\n64 48\n255\nabc");
-  expect_refused(slam(), "right/0.pgm");
+  const Outcome run = slam();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("right/0.pgm: damaged PGM"));
+  EXPECT_THAT(run.err, HasSubstr("1 of 3 pairs could not be used"));
+  EXPECT_THAT(run.err, HasSubstr("no frame could be placed: 2 pairs"));
+}
+
+TEST_F(CliSlam, WhereNothingCanBeReadTheInputIsWrong) {
+  for (const char* name : {"0", "1", "2"}) folder_.write(std::string("left/") + name + ".pgm", "P5");
+  const Outcome run = slam();
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("3 of 3 pairs could not be used"));
+}
+
+TEST_F(CliSlam, ColourIsSaidOnce) {
+  for (const char* name : {"0", "1", "2"}) {
+    std::filesystem::remove(folder_.path(std::string("left/") + name + ".pgm"));
+    folder_.write(std::string("left/") + name + ".ppm", "P6\n64 48\n255\n" + std::string(64 * 48 * 3 - 1, '\0') + "x");
+  }
+  const Outcome run = slam();
+  EXPECT_THAT(run.err, HasSubstr("left/0.ppm: is in colour; its luma"));
+  EXPECT_EQ(count_lines(run.err), 2U) << run.err;
 }
 
 TEST_F(CliSlam, ImagesWithoutPartnersOnBothSidesAreNoPairs) {

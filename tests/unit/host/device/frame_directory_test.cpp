@@ -68,7 +68,24 @@ TEST_F(FrameDirectoryTest, ReadsPairsOfImagesAndRefusesThoseOfAnotherSize) {
   frames.read(0, 2, 2, frame);
   EXPECT_EQ(frame.intensity, bright);
   EXPECT_EQ(frame.depth, far);
-  EXPECT_THAT(refusal([&] { frames.read(0, 4, 1, frame); }), HasSubstr("has 2 x 2 pixels of 16 bits, not 4 x 1 of 16"));
+  EXPECT_THAT(refusal([&] { frames.read(0, 4, 1, frame); }), HasSubstr("has 2 x 2 pixels, not 4 x 1"));
+}
+
+TEST_F(FrameDirectoryTest, TakesOtherFormatsButDepthsAreCounts) {
+  const auto write = [&](const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  };
+  write("0000_intensity.ppm", "P6\n1 1\n255\nABC");
+  write("0000_depth.pgm", std::string("P5\n1 1\n65535\n\x01\x02", 15));
+  const FrameDirectory frames(folder_.string());
+  DepthFrame frame;
+  EXPECT_EQ(frames.read(0, 1, 1, frame), (folder_ / "0000_intensity.ppm").string()) << "its luma was taken";
+  EXPECT_EQ(frame.intensity, (std::vector<std::uint16_t>{(299 * 'A' + 587 * 'B' + 114 * 'C') * 257 / 1000}));
+  EXPECT_EQ(frame.depth, (std::vector<std::uint16_t>{0x0102}));
+  write("0000_depth.pgm", "P5\n1 1\n255\nA");
+  EXPECT_THAT(refusal([&] { frames.read(0, 1, 1, frame); }), HasSubstr("of 8 bits; depths are grey values of 16"));
+  write("0000_depth.tif", std::string("II*\0", 4));
+  EXPECT_THAT(refusal([&] { FrameDirectory(folder_.string()); }), HasSubstr("are one frame's; remove one"));
 }
 
 TEST_F(FrameDirectoryTest, SaysWhatIsWrong) {

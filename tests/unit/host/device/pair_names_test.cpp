@@ -48,7 +48,7 @@ class PairNames : public ::testing::Test {
 };
 
 TEST_F(PairNames, GoInOrderOfNamesAndByTheRate) {
-  for (const char* name : {"b.png", "a.pgm", "c.png", "notes.txt"}) {
+  for (const char* name : {"b.TIFF", "a.jpg", "c.bmp", "notes.txt"}) {
     add("left", name);
     add("right", name);
   }

@@ -4,13 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "host/images/png_format.hpp"
-#include "host/support/input_error.hpp"
+#include "tests/unit/host/images/image_bytes.hpp"
 
 namespace pharos::host {
 namespace {
@@ -37,20 +33,6 @@ class GreyImageFile : public testing::Test {
 
   std::string path_;
 };
-
-std::string error_message_of(std::span<const std::uint8_t> bytes) {
-  try {
-    decode_grey_image(bytes, "some.png");
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("some.png: "));
-    return error.what();
-  }
-  return "none";
-}
-
-std::string error_message_of(const std::string& text) {
-  return error_message_of({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
 
 // CRC-32 of a chunk's type and data, so that a changed header is a lie and not a damaged file.
 void mend_header_crc(std::vector<std::uint8_t>& png) {
@@ -99,7 +81,8 @@ TEST_F(GreyImageFile, EveryTruncationIsRefused) {
   write_grey_png(path_, ramp(31, 17).view());
   const std::vector<std::uint8_t> whole = bytes();
   for (std::size_t size = 0; size < whole.size(); size += 3) {
-    EXPECT_NE(error_message_of(std::span<const std::uint8_t>(whole).first(size)), "none") << size;
+    EXPECT_NE(error_message_of(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), "none")
+        << size;
   }
 }
 
@@ -109,20 +92,12 @@ TEST_F(GreyImageFile, LiesAboutTheSizeAreTold) {
   std::vector<std::uint8_t> lie = whole;
   claim_size(lie, 31, 40);
   EXPECT_THAT(error_message_of(lie), HasSubstr("damaged"));
-  claim_size(lie, 31, 5);
-  EXPECT_THAT(error_message_of(lie), HasSubstr("more data"));
   claim_size(lie, 30000, 1000);
   EXPECT_THAT(error_message_of(lie), HasSubstr("less data"));
   claim_size(lie, 100000, 100000);
   EXPECT_THAT(error_message_of(lie), HasSubstr("claims 100000 x 100000"));
   claim_size(lie, 0, 17);
   EXPECT_NE(error_message_of(lie), "none");
-}
-
-TEST_F(GreyImageFile, ColourIsRefusedWithARemedy) {
-  const std::vector<std::uint8_t> rows(3 * 4 * 4, 100);
-  write_png(path_, 4, 4, PngPixels::kRgb8, rows);
-  EXPECT_THAT(error_message_of(bytes()), testing::AllOf(HasSubstr("in colour"), HasSubstr("Gray")));
 }
 
 TEST_F(GreyImageFile, APlaceThatCannotBeWrittenIsTold) {
@@ -143,14 +118,14 @@ TEST(Pgm, EightAndSixteenBits) {
 }
 
 TEST(Pgm, WhatIsNotWholeIsRefused) {
-  EXPECT_THAT(error_message_of(std::string("P5\n2 2\n255\nabc")), HasSubstr("less data"));
-  EXPECT_THAT(error_message_of(std::string("P5\n2 2\n255\nabcde")), HasSubstr("more data"));
-  EXPECT_THAT(error_message_of(std::string("P5\n40000 2\n255\nabcd")), HasSubstr("claims"));
-  EXPECT_THAT(error_message_of(std::string("P5\n99999999999999 2\n255\n")), HasSubstr("header"));
-  EXPECT_THAT(error_message_of(std::string("P5\n0 2\n255\n")), HasSubstr("header"));
-  EXPECT_THAT(error_message_of(std::string("P5\n2")), HasSubstr("header"));
-  EXPECT_THAT(error_message_of(std::string("P2\n2 2\n255\n1 2 3 4")), HasSubstr("no PNG"));
-  EXPECT_THAT(error_message_of(std::string()), HasSubstr("empty"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n2 2\n255\nabc")), HasSubstr("less data"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n2 2\n255\nabcde")), HasSubstr("more data"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n40000 2\n255\nabcd")), HasSubstr("claims"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n99999999999999 2\n255\n")), HasSubstr("header"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n0 2\n255\n")), HasSubstr("header"));
+  EXPECT_THAT(error_message_of(bytes_of("P5\n2")), HasSubstr("header"));
+  EXPECT_THAT(error_message_of(bytes_of("P2\n2 2\n255\n1 2 3 4")), HasSubstr("no PNG"));
+  EXPECT_THAT(error_message_of(bytes_of("")), HasSubstr("empty"));
 }
 
 }  // namespace

@@ -6,35 +6,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "host/images/grey_image.hpp"
-#include "host/support/input_error.hpp"
+#include "tests/unit/host/images/image_bytes.hpp"
 
 namespace pharos::host {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-using Bytes = std::vector<std::uint8_t>;
-
-// The decoders' corpus holds one small file of each kind.
-Bytes corpus(const std::string& name) {
-  std::ifstream in(std::filesystem::path(PHAROS_CORPUS) / name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string error_message_of(const Bytes& bytes) {
-  try {
-    decode_picture(bytes, "some image");
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("some image: "));
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(Picture, ColourComesBackAsItWas) {
   const std::string path = (std::filesystem::temp_directory_path() / "pharos_picture_test.png").string();
@@ -115,9 +95,22 @@ TEST(Jpeg, AClaimThatItsBytesCannotHoldIsRefused) {
   EXPECT_THAT(error_message_of(bytes), HasSubstr("less data"));
 }
 
-TEST(GreyImage, ReadsGreyJpegAndRefusesColour) {
-  EXPECT_EQ(decode_grey_image(corpus("grey.jpg"), "g").pixels.size(), 21U * 13U);
-  EXPECT_THROW(decode_grey_image(corpus("colour.jpg"), "c"), InputError);
+// BT.601 of the stored values, rounded; told only where a colour was lost.
+TEST(GreyImage, OfColourIsItsLuma) {
+  const Bytes colours = bytes_of(std::string("P6\n3 1\n65535\n\xFF\xFF\0\0\0\0\0\0\xFF\xFF\0\0\0\0\0\0\xFF\xFF", 31));
+  const GreyImage image = decode_grey_image(colours, "c");
+  EXPECT_TRUE(image.from_colour);
+  EXPECT_EQ(image.bits, 16);
+  EXPECT_THAT(image.pixels, testing::ElementsAre(19595, 38469, 7471));
+  EXPECT_TRUE(decode_grey_image(corpus("colour.jpg"), "c").from_colour);
+  const GreyImage grey = decode_grey_image(bytes_of("P6\n1 1\n255\nAAA"), "g");
+  EXPECT_FALSE(grey.from_colour) << "three equal values are grey";
+  EXPECT_THAT(grey.pixels, testing::ElementsAre('A' * 257));
+  EXPECT_FALSE(decode_grey_image(corpus("grey.jpg"), "g").from_colour);
+}
+
+TEST(Picture, WhatIsNoImageNamesTheFormatsThatAre) {
+  EXPECT_THAT(error_message_of(bytes_of("GIF89a")), AllOf(HasSubstr("no PNG, TIFF, JPEG, BMP"), HasSubstr("convert")));
 }
 
 }  // namespace
