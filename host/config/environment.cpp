@@ -53,20 +53,20 @@ void require_size(const std::string& file, const GreyImage& image, const Pinhole
 
 // Of the first pair that can be read: one that cannot costs that pair alone.
 void check_pairs(const fs::path& directory, const RigFile& rig) {
-  std::optional<InputError> first_trouble;
+  std::optional<InputError> first_error;
   for (const PairName& pair : pair_names_in(directory.string(), 1.0)) {
     std::array<GreyImage, 2> images;
     try {
       images = {read_grey_image(pair.left), read_grey_image(pair.right)};
     } catch (const InputError& error) {
-      if (!first_trouble) first_trouble = error;
+      if (!first_error) first_error = error;
       continue;
     }
     require_size(pair.left, images[0], rig.left.intrinsics);
     require_size(pair.right, images[1], rig.right.intrinsics);
     return;
   }
-  throw InputError(*first_trouble);
+  throw InputError(*first_error);
 }
 
 void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }

@@ -124,7 +124,7 @@ TEST_F(ProgramTest, SaysHelloFirstWithTheCauseOfItsStart) {
   EXPECT_EQ(board.all<wire::Hello>().size(), 1u);  // which is the one that was asked for, too
 }
 
-TEST_F(ProgramTest, TellsTimeTenTimesAndCountersOnceASecond) {
+TEST_F(ProgramTest, ReportsTimeTenTimesAndCountersOnceASecond) {
   run(5 * kTicksPerSecond);
   EXPECT_EQ(board.all<wire::Hello>().size(), 5u);
   EXPECT_EQ(board.all<report::DecoderReport>().size(), 5u);
@@ -134,7 +134,7 @@ TEST_F(ProgramTest, TellsTimeTenTimesAndCountersOnceASecond) {
   EXPECT_EQ(board.host.counters().frames_lost, 0u);
 }
 
-TEST_F(ProgramTest, TellsOfSweepsThatNoPoseWasMadeOf) {
+TEST_F(ProgramTest, ReportsSweepsThatNoPoseWasMadeOf) {
   run(2 * kTicksPerSecond);
   EXPECT_EQ(board.all<report::DeviceReport>().back().counters.poses_skipped, 0u);
   LateSolver solver;
@@ -194,7 +194,7 @@ TEST_F(ProgramTest, CountsWhatALineThatWasSilentDidNotCarry) {
   EXPECT_EQ(board.host.counters().frames_lost, 0u) << "no number was used up by a frame that was never made";
 }
 
-TEST_F(ProgramTest, TellsOverflowsAndRawEdgesThroughAGap) {
+TEST_F(ProgramTest, ReportsOverflowsAndRawEdgesThroughAGap) {
   board.command(wire::CommandCode::kSetModes, wire::kModeRawEdges);
   run(kTicksPerSecond / 10);
   const auto at = [&](int tick) { return static_cast<std::uint32_t>(board.now + tick); };

@@ -66,7 +66,7 @@ class PharosdPointing : public ::testing::Test {
   testing::PaintedPanel scene;
 };
 
-TEST_F(PharosdPointing, TellsTheAxisOfImagesThatArriveAndABrokenOneStopsNothing) {
+TEST_F(PharosdPointing, ReportsTheAxisOfImagesThatArriveAndABrokenOneStopsNothing) {
   scene.set_axis(0.5, 0.3);
   arrive("0001.png", kTime_s);
   ASSERT_TRUE(come(1)) << daemon.process().text();

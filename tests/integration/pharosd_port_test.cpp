@@ -67,7 +67,7 @@ TEST_F(PharosdPort, WhatIsNoTerminalIsSaidToBeNone) {
   EXPECT_EQ(daemon.source()->state, "error");
 }
 
-TEST_F(PharosdPort, AnotherProtocolVersionIsToldOnceAndInTheStatus) {
+TEST_F(PharosdPort, AnotherProtocolVersionIsReportedOnceAndInTheStatus) {
   start();
   ASSERT_TRUE(daemon.process().wait_for("is open"));
   for (std::uint16_t i = 0; i < 5; ++i) line.write(frame_of_unsupported_version(7, i));

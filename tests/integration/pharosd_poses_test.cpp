@@ -41,7 +41,7 @@ TEST_F(Pharosd, LightOnTheLineBecomesPosesOnLcm) {
   EXPECT_LT(std::abs(utc_now_ns() / 1000 - last_utime), 200'000) << "utime is UTC of this computer";
 }
 
-TEST_F(Pharosd, TwoTargetsAreToldApart) {
+TEST_F(Pharosd, TwoTargetsAreDistinguished) {
   PseudoTerminal second_line;
   daemon.plug_in(line);
   daemon.plug_in(second_line, "second");

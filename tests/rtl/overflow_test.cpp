@@ -85,7 +85,7 @@ TEST(Overflow, MarksTheRecordBehindTheGapAndItsLevelsAreTrue) {
   EXPECT_EQ(records[depth - 2].levels, levels_behind);
 }
 
-TEST(Overflow, IsToldUntilItIsClearedAndAgainWhenItComesAgain) {
+TEST(Overflow, IsReportedUntilItIsClearedAndAgainWhenItComesAgain) {
   CaptureRig rig;
   rig.enable();
   toggle(rig, rig.build().depth + 1);

@@ -66,7 +66,7 @@ class PharosdStereoTest : public ::testing::Test {
   std::vector<sim::RingAndNozzle> truths;
 };
 
-TEST_F(PharosdStereoTest, TellsTheRingsPoseOfRecordedPairs) {
+TEST_F(PharosdStereoTest, ReportsTheRingsPoseOfRecordedPairs) {
   write_pairs(3);
   ChildProcess& pharosd = start("systems = ['ring2']\nframes = 'pairs'\nframe_rate_hz = 0.5\n");
   ASSERT_TRUE(daemon.wait([&] { return daemon.valid_poses("client") >= 3; }, kStereoTimeout_s)) << pharosd.text();

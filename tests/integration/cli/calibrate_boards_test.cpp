@@ -50,7 +50,7 @@ class BoardImages : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(BoardImages, GiveACameraFileOverlaysAndTheFateOfEachImage) {
+TEST_F(BoardImages, GiveACameraFileOverlaysAndTheStatusOfEachImage) {
   render_tilted(4);
   const std::vector<std::uint16_t> dark(320 * 240);
   host::write_grey_png(path("dark.png"), {dark.data(), 320, 240});
@@ -125,7 +125,7 @@ TEST_F(BoardImages, OfOnePoseAreRefusedAndNoFileIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(path("camera.toml")));
 }
 
-TEST_F(BoardImages, WrongUsageIsToldInOneLine) {
+TEST_F(BoardImages, WrongUsageIsReportedInOneLine) {
   const std::string output = " --output " + path("camera.toml");
   const auto message = [&](const std::string& arguments) {
     const Outcome run = pharos("calibrate " + arguments);

@@ -121,7 +121,7 @@ TEST(CliEnhance, AFolderOfNothingReadableIsWrongInput) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("a.tif: damaged TIFF"), HasSubstr("2 of 2 images could not be used")));
 }
 
-TEST(CliEnhance, BadInputIsToldInOneLine) {
+TEST(CliEnhance, BadInputIsReportedInOneLine) {
   const Folder folder;
   const std::string out = " " + folder.path("out.png");
   const auto refused = [&](const std::string& arguments, int code, const std::string& why) {

@@ -82,7 +82,7 @@ TEST(CliEvaluate, FindsWhatMotionCaptureDoesNotShareAndThenTheSameErrors) {
   EXPECT_THAT(content_of(picture), StartsWith("<svg"));
 }
 
-TEST(CliEvaluate, GivesEveryRowOneFate) {
+TEST(CliEvaluate, CountsEveryRowOnce) {
   const Experiment& e = Experiment::get();
   const Row row = rows_of(pharos("evaluate " + e.poses + " " + e.truth).out).at(0);
   double sum = 0.0;

@@ -26,7 +26,7 @@ const Outcome& quick_run() {
   return run;
 }
 
-TEST(CliReproduce, PredictsTheSpreadOfStillSetsAsFigure5) {
+TEST(CliReproduce, PredictsTheSpreadOfStaticSetsAsFigure5) {
   const Outcome& run = quick_run();
   ASSERT_EQ(run.exit_code, 0);
   EXPECT_EQ(first_line(run.out), "item,what,unit,published,ours,ratio,remark,calibrated,motion,both");

@@ -113,7 +113,7 @@ TEST_F(CliSlam, PairsThatAreNoneAreToldCountedAndLeftOut) {
   EXPECT_THAT(text, HasSubstr("\"without_partner\": 1"));
 }
 
-TEST_F(CliSlam, NumbersMissingOnBothSidesAreTold) {
+TEST_F(CliSlam, NumbersMissingOnBothSidesAreReported) {
   for (const char* side : {"left", "right"}) black(side + std::string("/4.pgm"), 64, 48);
   EXPECT_THAT(slam().err, HasSubstr("left/4.pgm: numbers are missing before it"));
 }

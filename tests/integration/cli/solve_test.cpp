@@ -117,7 +117,7 @@ TEST(CliSolve, GathersRowsThatDoNotStandTogether) {
   EXPECT_EQ(mixed[0].at("observations"), "16");
 }
 
-TEST(CliSolve, TellsTheMedianTime) {
+TEST(CliSolve, ReportsTheMedianTime) {
   const Outcome run = solve(kHeader + problem_rows("1", 8), "--time 20");
   EXPECT_THAT(run.err, ::testing::ContainsRegex("median [0-9]+ ns per solve"));
   EXPECT_EQ(run.out, solve(kHeader + problem_rows("1", 8)).out);

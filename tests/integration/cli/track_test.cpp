@@ -50,7 +50,7 @@ TEST(CliTrack, FindsThePoseOfEveryCycleWithTheCalibrationThatTheStationSends) {
   EXPECT_GT(good, rows.size() - 5);
 }
 
-TEST(CliTrack, FindsThePoseOfEverySweepUnlessToldOtherwise) {
+TEST(CliTrack, FindsThePoseOfEverySweepUnlessConfiguredOtherwise) {
   const std::string out = track().out;
   EXPECT_EQ(track("--method motion").out, out);
   const auto rows = rows_of(out);
@@ -110,7 +110,7 @@ TEST(CliTrack, SaysFileLineAndKeyOfABadCalibration) {
   EXPECT_THAT(run.err, HasSubstr("fase_rad"));
 }
 
-TEST(CliTrack, ScalesItsSigmasWithTheNoiseItIsTold) {
+TEST(CliTrack, ScalesItsSigmasWithTheGivenNoise) {
   const Row at_8_8 = rows_of(track("--method epoch").out).back();
   const Row at_88 = rows_of(track("--method epoch --sigma-arcsec 88").out).back();
   EXPECT_NEAR(std::stod(at_88.at("sigma_rot_deg")) / std::stod(at_8_8.at("sigma_rot_deg")), 10.0, 1e-3);

@@ -20,7 +20,7 @@ TEST(CliUsage, EverySubcommandHasHelpWithAnExample) {
   }
 }
 
-TEST(CliUsage, TellsItsVersion) {
+TEST(CliUsage, ReportsItsVersion) {
   const Outcome run = pharos("--version");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));

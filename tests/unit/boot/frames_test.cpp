@@ -29,7 +29,7 @@ Bytes random_payload(std::mt19937& random, std::size_t size, bool zeros) {
   return payload;
 }
 
-TEST(FrameReceiver, TakesEveryFrameOfTheHouseUpToTheLongestRequest) {
+TEST(FrameReceiver, TakesEveryFrameOfTheProtocolUpToTheLongestRequest) {
   wire::FrameEncoder encoder;
   FrameReceiver receiver;
   std::mt19937 random(1);
@@ -78,7 +78,7 @@ TEST(FrameReceiver, TakesNoBrokenFrameAndEveryWholeOneAfterIt) {
   }
 }
 
-TEST(FrameSender, IsUnderstoodByTheHouse) {
+TEST(FrameSender, IsDecodedByTheProtocolsDecoder) {
   FrameSender sender;
   wire::FrameDecoder decoder;
   std::mt19937 random(3);

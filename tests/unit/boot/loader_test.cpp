@@ -54,7 +54,7 @@ TEST_F(Loader, WritesAnImageAndStartsItAtEveryReset) {
   EXPECT_TRUE(runs(target, old_image));
 }
 
-TEST_F(Loader, TellsTheSlotItWillWriteAndTheVersionItWouldStart) {
+TEST_F(Loader, ReportsTheSlotItWillWriteAndTheVersionItWouldStart) {
   start_with(target, host, old_image);
   ASSERT_TRUE(target.runs_application());
   ASSERT_TRUE(host.ask(wire::Command{wire::CommandCode::kEnterLoader, 0}).ack);
@@ -197,7 +197,7 @@ TEST_F(Loader, MarksNothingThatDoesNotVerify) {
   EXPECT_TRUE(runs(target, old_image));
 }
 
-TEST_F(Loader, TellsThatTheFlashFails) {
+TEST_F(Loader, ReportsThatTheFlashFails) {
   start_with(target, host, old_image);
   ASSERT_TRUE(host.enter());
   target.machine.flash.broken = true;

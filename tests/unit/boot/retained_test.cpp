@@ -9,7 +9,7 @@ namespace {
 /// What memory holds after power was away.
 Retained anything() { return {0x12345678, 0x9ABCDEF0, 1, 0xFFFFFFFF, 77, 1, 2, 3}; }
 
-TEST(Retained, TellsPowerOnFromAReset) {
+TEST(Retained, DistinguishesPowerOnFromAReset) {
   Retained retained = anything();
   EXPECT_EQ(last_reset(retained), wire::ResetCause::kUnknown);
   note_reset(retained);
@@ -46,7 +46,7 @@ TEST(Retained, KeepsWhatWasAnnouncedForOneReset) {
   EXPECT_EQ(last_reset(retained), wire::ResetCause::kWatchdog);
 }
 
-TEST(Retained, ThreeSilentStartsInARowAreTheTriesOfAnImage) {
+TEST(Retained, ThreeSilentStartsInARowExhaustTheBootAttempts) {
   Retained retained;
   note_reset(retained);  // power on
   for (int start = 0; start < Retained::kMaxBootAttempts; ++start) {

@@ -60,7 +60,7 @@ TEST(Image, WithBytesBehindItIsTooLong) {
   EXPECT_EQ(check_image(longer).error(), BootImageError::kTooLong);
 }
 
-TEST(Image, SomethingElseIsTold) {
+TEST(Image, SomethingElseIsReported) {
   EXPECT_EQ(check_image(Bytes(1000, 0x7F)).error(), BootImageError::kNoImage);
   EXPECT_EQ(check_image(changed(kGood, [](BootImageHeader& h) { h.format = 2; })).error(),
             BootImageError::kOtherFormat);

@@ -135,7 +135,7 @@ TEST_F(Flash, GivesUpOnASilentTargetAndSaysWhatToDo) {
   EXPECT_LT(line.now_ns() - start, 6 * kSecond);
 }
 
-TEST_F(Flash, TellsAWrongSpeed) {
+TEST_F(Flash, ReportsAWrongSpeed) {
   line.to_host = [](std::uint8_t byte) { return static_cast<std::uint8_t>(byte ^ 0x55); };
   EXPECT_THAT(error_of(new_image), HasSubstr("baud"));
 }
@@ -174,7 +174,7 @@ TEST_F(Flash, RefusesAnImageThatCannotRunThere) {
   expect_old_runs_after_power_cycle();
 }
 
-TEST_F(Flash, TellsThatTheFlashIsBroken) {
+TEST_F(Flash, ReportsThatTheFlashIsBroken) {
   line.meanwhile = [&] { target.machine.flash.broken = !target.runs_application() && !progress.empty(); };
   EXPECT_THAT(error_of(new_image), HasSubstr("flash cannot be written"));
   line.meanwhile = [] {};

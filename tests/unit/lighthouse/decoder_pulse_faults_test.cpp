@@ -30,7 +30,7 @@ TEST_F(DecoderFaults, OverlappingPulsesOfOneSensorCountOnce) {
   EXPECT_EQ(counters().pulses_doubled, 1U);
 }
 
-TEST_F(DecoderFaults, NonsensePulsesAreCountedByCause) {
+TEST_F(DecoderFaults, InvalidPulsesAreCountedByCause) {
   decoded_.push(light_.slots(0, 20));
   const std::int64_t now = light_.flash(0, 19).start_ticks;
   decoded_.push(Light{{now, now + 68'266, 1},  // saturated
@@ -188,7 +188,7 @@ TEST_F(DecoderFaults, GarbageThenCleanLightDecodesWithinTwelveFlashes) {
   }
 }
 
-TEST_F(DecoderFaults, LockQualityTellsOfGaps) {
+TEST_F(DecoderFaults, LockQualityShowsGaps) {
   decoded_.push(light_.slots(0, 60));
   EXPECT_TRUE(decoded_.decoder.lock().locked);
   EXPECT_GE(decoded_.decoder.lock().station[0].quality, 15);

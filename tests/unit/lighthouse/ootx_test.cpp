@@ -108,7 +108,7 @@ TEST_F(Frames, EverySingleWrongBitIsNoticed) {
   EXPECT_GT(counters_.ootx_bad_length, 5U);
 }
 
-TEST_F(Frames, AnAbsurdLengthIsRefusedAtOnce) {
+TEST_F(Frames, ALengthOutOfRangeIsRefusedAtOnce) {
   std::vector<bool> bits(17, false);
   bits.push_back(true);
   bits.insert(bits.end(), 16, true);

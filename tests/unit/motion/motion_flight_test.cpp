@@ -53,7 +53,7 @@ TEST(MotionFlight, AtRestItIsTwiceAsGoodAsOneCycleAfterAFifthOfASecond) {
   EXPECT_LT(std::sqrt(position / bound_position), 0.5);
 }
 
-TEST(MotionFlight, AtRestItNeitherDriftsNorGrowsTooSure) {
+TEST(MotionFlight, StationaryItNeitherDriftsNorBecomesOverconfident) {
   double late_square = 0.0, nees = 0.0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -182,7 +182,7 @@ TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
 }
 
 // Sensors and rotors off by the workshop's errors, and no calibration: what is known to be wrong is in the covariance.
-TEST(MotionFlight, CovarianceOwnsUpToSystematicErrorsItIsToldOf) {
+TEST(MotionFlight, CovarianceIncludesTheGivenSystematicErrors) {
   MotionOptions told = test::flight_options();
   told.systematic = kUncalibratedErrors;
   FlightScore silent, with_systematics;
@@ -251,7 +251,7 @@ TEST(MotionFlight, AShakenBodyIsKnownAsWellAsItSays) {
   EXPECT_LT(score.refused, score.answers / 100);
 }
 
-TEST(MotionFlight, PredictsAheadWithGrowingDoubtAndThenNotAtAll) {
+TEST(MotionFlight, PredictsAheadWithGrowingCovarianceAndThenNotAtAll) {
   const sim::LighthouseScenario scenario = test::manoeuvre(3.0, 0.5, 60.0, 3);
   sim::LighthouseSimulator simulator(scenario, 3);
   lighthouse::Decoder decoder;

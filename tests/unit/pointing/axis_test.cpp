@@ -77,7 +77,7 @@ TEST(EstimateAxis, JacobianIsThatOfCentralDifferences) {
   }
 }
 
-TEST(EstimateAxis, AtAHundredMetresOneImageTellsTheAxis) {
+TEST(EstimateAxis, AtAHundredMetresOneImageGivesTheAxis) {
   const Campaign near = run(100.0, 6000.0, 40 * kRadPerDeg, 300, 11);
   EXPECT_LT(near.median_deg, 0.15);
   EXPECT_LT(near.plane_median_deg, 0.02);
@@ -140,7 +140,7 @@ TEST(EstimateAxis, RefusesOnePlaneAndNumbersThatAreNone) {
   EXPECT_EQ(estimate_axis(planes).error(), AxisFailure::kNotFinite);
 }
 
-TEST(EstimateAxis, TheSamePlaneTwiceTellsNothingAlongIt) {
+TEST(EstimateAxis, TheSamePlaneTwiceGivesNothingAlongIt) {
   Matrix3 covariance = 1e-8 * Matrix3::Identity();
   covariance(0, 0) = 0.0;
   const std::array<AxisPlane, 2> planes{AxisPlane{Vector3::UnitX(), covariance},

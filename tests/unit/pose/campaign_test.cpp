@@ -74,7 +74,7 @@ TEST(Campaign, CovarianceIsConsistent) {
 }
 
 // Reported, not asserted: what the covariance is worth when the noise is not as assumed.
-TEST(Campaign, ReportsNeesUnderNoiseItWasNotTold) {
+TEST(Campaign, ReportsNeesUnderOtherNoiseThanAssumed) {
   const Target target = test::frustum_target();
   const test::PnpSet set = set_of(10.8 * kRadPerArcsec, 0.97);
   test::PnpGenerator generator(target, set, 5);
@@ -102,7 +102,7 @@ TEST(Campaign, ReportsNeesUnderNoiseItWasNotTold) {
 }
 
 // The paper's figure 5: still sets, predicted (24) against measured (23).
-TEST(Campaign, PredictedSigmaOfStillSetsIsTheMeasuredOne) {
+TEST(Campaign, PredictedSigmaOfStaticSetsIsTheMeasuredOne) {
   constexpr int kSets = 50, kFrames = 3600;
   const Target target = test::frustum_target();
   const test::PnpSet set = set_of(kPaperSigma_rad, kPaperRho);

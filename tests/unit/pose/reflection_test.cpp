@@ -79,7 +79,7 @@ Count campaign(Reflected kind, int min_sensors, int problems, std::uint64_t seed
   return count;
 }
 
-TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllTold) {
+TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllDetected) {
   // Set 24 holds a view of six sensors whose nine hits of twelve fit a wrong pose better than the true one.
   for (const std::uint64_t seed : {1U, 24U, 29U}) {
     const Count count = campaign(Reflected::kBesideTrueHit, 6, 300, seed);
@@ -124,7 +124,7 @@ int consistent_outliers(int sensors, int replaced, int problems, std::uint64_t s
   return lies;
 }
 
-TEST(Reflections, InsteadOfTrueHitsMakeNoBelievableLie) {
+TEST(Reflections, InsteadOfTrueHitsGiveNoConsistentWrongPose) {
   // Few sensors cannot tell a reflection from a hit; then the answer is a refusal or a residual that shows it.
   constexpr int kProblems = 300;
   for (int sensors = 4; sensors <= 8; ++sensors) {

@@ -81,7 +81,7 @@ TEST_F(Refusals, UnknownSensorsWhereTheKnownOnesAreTooFew) {
   EXPECT_EQ(solve(target_, strangers, {}).error(), Refusal::kUnknownSensors);
 }
 
-TEST_F(Refusals, StrangersAreLeftOutWhereTheKnownOnesDo) {
+TEST_F(Refusals, UnknownSensorsAreLeftOutWhereTheKnownOnesSuffice) {
   Observations observations = problem_.observations;
   observations.push_back({31, Axis::kX, 1.2});
   const auto solution = solve(target_, observations, {});

@@ -100,7 +100,7 @@ TEST(WarmSolve, AnswersAsSolveDoesUnderSevenTimesTheNoise) {
   EXPECT_GT(c.ambiguous, 10) << "the set is to hold rivals";
 }
 
-TEST(WarmSolve, TellsTheRivalsOfCoplanarSensors) {
+TEST(WarmSolve, ReportsBothSolutionsOfCoplanarSensors) {
   test::PnpSet set;
   set.sigma_rad = 30.0 * kRadPerArcsec;
   set.min_sensors = 4;

@@ -50,7 +50,7 @@ TEST(Ring2Partial, WithoutARingTheNozzleStillHasItsPlace) {
   EXPECT_LT((estimate->nozzle_centre_m - scene.target.nozzle().centre_m).norm(), 1e-6);
 }
 
-TEST(Ring2Partial, OneCameraTellsTheAttitudeButNoLength) {
+TEST(Ring2Partial, OneCameraGivesTheAttitudeButNoLength) {
   const Scene scene = scene_of(5.0 * kDeg, -8.0 * kDeg);
   for (std::size_t view : {kLeft, kRight}) {
     ContourSet contours = clean_contours(scene);

@@ -144,7 +144,7 @@ TEST(SimulatedTarget, RawEdgesAreEveryPulseTwiceInOrder) {
   EXPECT_EQ(edges, 2 * pulses.size());
 }
 
-TEST(SimulatedTarget, AnswersTheHost) {
+TEST(SimulatedTarget, RepliesToTheHost) {
   SimulatedTarget target({"", 0xFFFu, 7, wire::kModeSweeps});
   target.advance(1000);
   target.frames().clear();

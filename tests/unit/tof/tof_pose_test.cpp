@@ -134,7 +134,7 @@ TEST_F(TofPoseTest, TwoConnectorsAtOneDistanceAreAmbiguous) {
   EXPECT_NEAR(std::max(first, second), 90.0, 0.3);
 }
 
-TEST_F(TofPoseTest, TellsOfEachStageInTurn) {
+TEST_F(TofPoseTest, ReportsEachStageInTurn) {
   struct Listener final : TofStageListener {
     void ended(TofStage stage) override { stages.push_back(stage); }
     std::vector<TofStage> stages;

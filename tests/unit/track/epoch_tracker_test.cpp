@@ -235,20 +235,20 @@ class SearchLimit : public ::testing::Test {
   EpochTracker tracker_{target_, options()};
 };
 
-TEST_F(SearchLimit, EndsASearchAndRestsBehindIt) {
+TEST_F(SearchLimit, EndsASearchAndWaitsForTheCooldown) {
   EXPECT_EQ(refusal(0, true), pose::Refusal::kSearchLimit);
   EXPECT_EQ(refusal(1, false), pose::Refusal::kSearchLimit);  // it could be solved, but only by a search
   EXPECT_EQ(refusal(59, false), pose::Refusal::kSearchLimit);
   EXPECT_EQ(refusal(61, false), pose::Refusal::kNone);
 }
 
-TEST_F(SearchLimit, AnswersFromTheLastPoseWhileItRests) {
+TEST_F(SearchLimit, SolvesFromTheLastPoseDuringTheCooldown) {
   EXPECT_EQ(refusal(0, false), pose::Refusal::kNone);
   EXPECT_EQ(refusal(1, true), pose::Refusal::kSearchLimit);
   EXPECT_EQ(refusal(2, false), pose::Refusal::kNone);
 }
 
-TEST_F(SearchLimit, RefusesOneAxisAloneAndDoesNotRestForIt) {
+TEST_F(SearchLimit, RefusesOneAxisAloneWithoutACooldown) {
   EXPECT_EQ(refusal(0, false, false), pose::Refusal::kNone);  // not complete yet
   EXPECT_EQ(refusal(4, false, false), pose::Refusal::kDegenerate);
   EXPECT_EQ(refusal(8, false), pose::Refusal::kNone);

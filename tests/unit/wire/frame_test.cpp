@@ -98,7 +98,7 @@ TEST(FrameDecoder, FindsTheFirstFrameAfterAnyGarbage) {
   }
 }
 
-TEST(FrameDecoder, DropsTheRestOfAFrameThatBeganBeforeItListenedWithoutBlame) {
+TEST(FrameDecoder, DropsTheRestOfAFrameThatBeganBeforeItListenedUncounted) {
   FrameDecoder decoder;
   Bytes line = time_frame(0);
   line.erase(line.begin(), line.begin() + 5);
@@ -135,7 +135,7 @@ TEST(FrameDecoder, SkipsTypesOfTheFutureWithoutSeeingALoss) {
   EXPECT_EQ(decoder.counters().frames_lost, 0u);
 }
 
-TEST(FrameDecoder, TellsTooLongAndTooShortAndGoesOn) {
+TEST(FrameDecoder, ReportsTooLongAndTooShortAndGoesOn) {
   FrameDecoder decoder;
   feed(decoder, time_frame(0));
   feed(decoder, handmade(kProtocolVersion, 0x10, 1, Bytes(kMaxPayload + 50, 9)));
@@ -182,7 +182,7 @@ TEST(FrameDecoder, TakesARestartedSenderAtOnceAndCountsNoLoss) {
   }
 }
 
-TEST(FrameDecoder, TakesTheGreetingOfALoaderAndOfTheProgramRightAfterIt) {
+TEST(FrameDecoder, TakesTheHelloOfALoaderAndOfTheProgramRightAfterIt) {
   FrameDecoder decoder;
   const auto type = static_cast<std::uint8_t>(MessageType::kHello);
   EXPECT_EQ(feed(decoder, handmade(kProtocolVersion, type, 0, Bytes(76, 1))).size(), 1u);

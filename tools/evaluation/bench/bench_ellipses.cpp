@@ -21,7 +21,7 @@ using test::TrueEllipse;
 
 constexpr int kEllipseRepeats = 3;
 constexpr std::uint64_t kEllipseSeed = 1;
-constexpr double kEllipseMs = 1e3;
+constexpr double kEllipse_ms = 1e3;
 
 struct NamedSet {
   const char* name;
@@ -115,7 +115,7 @@ std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
     add("F", ours.score.f(), theirs.score.f(), "", false);
     add("median error of an axis", middle_of(ours.score.axis_errors_px), middle_of(theirs.score.axis_errors_px), "px",
         true);
-    add("time", kEllipseMs * middle_of(ours.seconds), kEllipseMs * middle_of(theirs.seconds), "ms", true);
+    add("time", kEllipse_ms * middle_of(ours.seconds), kEllipse_ms * middle_of(theirs.seconds), "ms", true);
   }
   return rows;
 }

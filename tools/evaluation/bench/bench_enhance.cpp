@@ -22,7 +22,7 @@ namespace {
 using enhance::FloatImage;
 
 constexpr std::int32_t kWidth = 640, kHeight = 480;
-constexpr double kEnhanceMs = 1e3;
+constexpr double kEnhance_ms = 1e3;
 constexpr double kSigma = 15.0;  // of 255
 constexpr int kEnhanceRepeats = 3;
 
@@ -80,17 +80,17 @@ void add_illumination(const std::string& name, const FloatImage& image, std::vec
   };
   FloatImage exact;
   const double exact_ms =
-      kEnhanceMs * processor_seconds_of([&] { exact = exact_illumination(of_illumination(dark), dark); });
+      kEnhance_ms * processor_seconds_of([&] { exact = exact_illumination(of_illumination(dark), dark); });
   double cold_ms = 1e9, warm_ms = 1e9, cold_off = 0.0, warm_off = 0.0;
   for (int k = 0; k < kEnhanceRepeats; ++k) {
     const enhance::Enhanced* steps = nullptr;
     const auto illuminate = [&] { steps = &enhancer.illuminate(dark); };
     enhancer.forget();
-    cold_ms = std::min(cold_ms, kEnhanceMs * processor_seconds_of(illuminate));
+    cold_ms = std::min(cold_ms, kEnhance_ms * processor_seconds_of(illuminate));
     cold_off = rms_of_range(steps->refined, exact);
     enhancer.forget();
     enhancer.illuminate(before);
-    warm_ms = std::min(warm_ms, kEnhanceMs * processor_seconds_of(illuminate));
+    warm_ms = std::min(warm_ms, kEnhance_ms * processor_seconds_of(illuminate));
     warm_off = rms_of_range(steps->refined, exact);
   }
   rows.push_back({"illumination of " + name + ", cold (peer: exact solve)", cold_ms, exact_ms, "ms"});
@@ -129,7 +129,7 @@ void add_denoising(const std::string& name, const FloatImage& image, std::vector
     rows.push_back({name + ", " + what + ": gain (peer: NLM at its best)", psnr_db(bytes_of(quiet), clean) - before,
                     nlm.psnr_db - before, "dB", false});
     rows.push_back(
-        {name + ", " + what + ": processor time (peer: NLM)", kEnhanceMs * seconds, kEnhanceMs * nlm.seconds, "ms"});
+        {name + ", " + what + ": processor time (peer: NLM)", kEnhance_ms * seconds, kEnhance_ms * nlm.seconds, "ms"});
   };
   enhance::BlockDenoiser blocks;
   constexpr double kFraction = kSigma / 255.0;

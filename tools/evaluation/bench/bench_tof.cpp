@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kTofRepeats = 5;
 constexpr std::uint64_t kTofSeed = 1;
-constexpr double kTofMs = 1e3;
+constexpr double kTof_ms = 1e3;
 
 using StageSeconds = std::array<double, tof::kTofStages>;
 
@@ -145,13 +145,13 @@ std::vector<BenchRow> bench_tof(int frames, EdgeDrawingFunction peer) {
   const Times& times = timer.times();
   std::vector<BenchRow> rows;
   const auto add = [&](const std::string& what, double ours, std::optional<double> theirs = std::nullopt) {
-    rows.push_back({"depth frame: " + what, kTofMs * ours, theirs, "ms", true});
+    rows.push_back({"depth frame: " + what, kTof_ms * ours, theirs, "ms", true});
   };
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
     if (!times.stages[k].empty()) add(tof::name_of(static_cast<tof::TofStage>(k)), middle_of(times.stages[k]));
   }
   add("edges and ellipses", middle_of(times.ellipses),
-      peer == nullptr ? std::nullopt : std::optional<double>(kTofMs * middle_of(times.peer)));
+      peer == nullptr ? std::nullopt : std::optional<double>(kTof_ms * middle_of(times.peer)));
   add("all stages, median", middle_of(times.all));
   add("all stages, 95 of 100 frames", largest_but_five_percent(times.all));
   return rows;

@@ -97,7 +97,7 @@ TEST(LighthouseCalibration, LearnsOneTargetFromStationsNeverSeenTogether) {
   for (std::size_t i = 0; i < 12; ++i) EXPECT_LT(bundle.parameters[i].sigma, 0.1e-3) << bundle.parameters[i].name;
 }
 
-TEST(LighthouseCalibration, KnowsThatAnglesAloneTellNoScale) {
+TEST(LighthouseCalibration, ReportsThatAnglesAloneDoNotGiveTheScale) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
   LighthouseCalibrationInput material = calibration_input(simulator, 1);
   const MeasuredLength length = material.lengths.front();

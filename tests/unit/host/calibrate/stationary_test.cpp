@@ -40,7 +40,7 @@ RecordingLog resting(double extra_rad) {
   return log;
 }
 
-TEST(StationaryIntervals, AreFoundWhereTheTargetRestsAndNowhereElse) {
+TEST(StationaryIntervals, AreFoundWhereTheTargetIsStationaryAndNowhereElse) {
   Session session;
   session.poses = 6;
   sim::LighthouseSimulator simulator(scenario_of(session), session.seed);
@@ -62,7 +62,7 @@ TEST(StationaryIntervals, AreNotFoundInFlightNorWhileCreeping) {
   }
 }
 
-TEST(StationaryIntervals, ReflectionsNeitherEndARestNorVanish) {
+TEST(StationaryIntervals, ReflectionsNeitherEndAnIntervalNorVanish) {
   for (const double extra_rad : {0.0, 0.005}) {
     const RecordingLog log = resting(extra_rad);
     const StationarySearch search = find_stationary_intervals(log.sweeps);
@@ -73,7 +73,7 @@ TEST(StationaryIntervals, ReflectionsNeitherEndARestNorVanish) {
   }
 }
 
-TEST(StationaryIntervals, AreWeighedByTheNoiseThatTheyShow) {
+TEST(StationaryIntervals, HaveSigmasFromTheirOwnScatter) {
   Session session;
   session.poses = 8;
   sim::LighthouseScenario scenario = scenario_of(session);

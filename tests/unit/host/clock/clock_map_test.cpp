@@ -220,7 +220,7 @@ TEST(ClockMap, FindsATargetThatRestartsSoonAfterItsStart) {
   EXPECT_LT(std::abs(map.map(later.ticks)->monotonic_ns - later.truth_ns), kMs);
 }
 
-TEST(ClockMap, ForgetsTheOldCounterWhenToldOfARestart) {
+TEST(ClockMap, DropsTheOldCounterAtARestart) {
   SimulatedLine line(7, -30.0, {100e3, 0, 0.0, 0});
   ClockMap map;
   const auto old = feed_seconds(map, line, 10);
@@ -234,7 +234,7 @@ TEST(ClockMap, ForgetsTheOldCounterWhenToldOfARestart) {
   EXPECT_EQ(map.counters().pairs_ignored, 0u);
 }
 
-TEST(ClockMap, IgnoresASingleWildTime) {
+TEST(ClockMap, IgnoresASingleOutlierTime) {
   SimulatedLine line(8, 0.0, {100e3, 0, 0.0, 0});
   ClockMap map;
   feed_seconds(map, line, 10);

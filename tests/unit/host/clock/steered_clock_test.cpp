@@ -41,7 +41,7 @@ TEST(SteeredClock, JumpsForwardsOnly) {
   EXPECT_LT(clock.remaining_ns(), -9'000 * kMillisecond_ns);
 }
 
-TEST(SteeredClock, BeginsAnewWhereverItIsTold) {
+TEST(SteeredClock, ResetsAtAnyTime) {
   SteeredClock clock;
   clock.steer(0, kUtc, 1.0);
   clock.read(0);

@@ -36,7 +36,7 @@ calibrate::CalibrationFile calibrated(const std::string& path) {
   return file;
 }
 
-TEST(DaemonConfig, TracksMotionUnlessToldToTakeEachCycleAlone) {
+TEST(DaemonConfig, TracksMotionUnlessConfiguredToTakeEachCycleAlone) {
   const auto method = [&](const std::string& more) {
     return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).method;
   };

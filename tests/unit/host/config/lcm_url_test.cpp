@@ -22,7 +22,7 @@ struct BadUrl {
   const char* words;
 };
 
-TEST(LcmUrl, RefusesNonsenseAndSaysWhat) {
+TEST(LcmUrl, RefusesInvalidValuesAndNamesThem) {
   for (const BadUrl& bad : {BadUrl{"udpm://239.255.76:7667", "no multicast address"},
                             BadUrl{"udpm://127.0.0.1:7667", "no multicast address"},
                             BadUrl{"udpm://240.0.0.1:7667", "no multicast address"},

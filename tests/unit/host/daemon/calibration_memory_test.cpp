@@ -47,7 +47,7 @@ TEST_F(CalibrationMemoryTest, ReadsBackExactlyWhatWasKept) {
   EXPECT_THAT(reread(), ElementsAre(station(0xBEC08E38), station(1, 0.5)));
 }
 
-TEST_F(CalibrationMemoryTest, AnglesOfNoStationAreDroppedAndSpoilNotTheOthers) {
+TEST_F(CalibrationMemoryTest, AnglesOfNoStationAreDroppedAndDoNotAffectTheOthers) {
   CalibrationMemory memory(folder_);
   memory.keep(station(0xBEC08E38));
   memory.keep(station(1, 30.0));
@@ -84,7 +84,7 @@ TEST_F(CalibrationMemoryTest, ANewCalibrationReplacesTheOldOneOfTheSameStationAn
   EXPECT_THAT(reread(), ElementsAre(station(8), station(7, 0.9)));
 }
 
-TEST_F(CalibrationMemoryTest, AnInventorOfStationsDropsTheOldestAndTakesNoMoreRoom) {
+TEST_F(CalibrationMemoryTest, ManyStationIdsEvictTheOldest) {
   CalibrationMemory memory(folder_);
   constexpr auto kMax = static_cast<std::uint32_t>(CalibrationMemory::kMaxStations);
   for (std::uint32_t id = 1; id <= kMax; ++id) memory.keep(station(id));

@@ -64,7 +64,7 @@ TEST(FrameClock, BeginsAnewWithEveryOpeningOfTheCamera) {
   EXPECT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns - kPeriod)), 5.0 * kMs, 1.0 * kMs);
 }
 
-TEST(FrameClock, BelievesPtpButForWholeSeconds) {
+TEST(FrameClock, AcceptsPtpButForWholeSeconds) {
   for (const std::int64_t ahead_s : {0, 37}) {  // UTC, TAI
     FakeCamera camera;
     camera.clock = CameraClock::kPtp;
@@ -82,7 +82,7 @@ TEST(FrameClock, BelievesPtpButForWholeSeconds) {
   }
 }
 
-TEST(FrameClock, DoubtsPtpThatDisagreesWithArrivals) {
+TEST(FrameClock, RejectsPtpThatDisagreesWithArrivals) {
   FakeCamera camera;
   camera.clock = CameraClock::kPtp;
   camera.camera_zero_ns = kUtcZero + 400 * kMs;

@@ -68,7 +68,7 @@ TEST_F(TargetPipelineFaults, OneFalseTimeCostsNeitherCalibrationNorTimes) {
   EXPECT_EQ(counter("clock.pairs_ignored"), 4);
 }
 
-TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePosesThatFollow) {
+TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsReportedOnceAndStandsInThePosesThatFollow) {
   push_cycles(120);
   const std::int64_t before_us = poses().back().utime;
   EXPECT_EQ(pipeline_.clock_notice(now_ns()), "");
@@ -100,7 +100,7 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsToldOnceAndStandsInThePos
   EXPECT_EQ(log_lines("clock was set").size(), 1u);
 }
 
-TEST_F(TargetPipelineFaults, TheComputersClockSetForwardIsToldToo) {
+TEST_F(TargetPipelineFaults, TheComputersClockSetForwardIsReportedToo) {
   push_cycles(120);
   utc_minus_monotonic_ns_ += 3600 * kSecond_ns;
   push_cycles(20);
@@ -139,13 +139,13 @@ TEST_F(TargetPipelineFaults, ATargetThatStartsAnewAllTheTimeDoesNotFillTheLog) {
   EXPECT_THAT(log_lines("started anew").back(), HasSubstr("295 more lines like this were held back"));
 }
 
-TEST_F(TargetPipelineFaults, TwoForeignVersionsInTurnDoNotFillTheLog) {
+TEST_F(TargetPipelineFaults, TwoUnsupportedVersionsInTurnDoNotFillTheLog) {
   for (std::uint16_t i = 0; i < 200; ++i) push(frame_of_unsupported_version(i % 2 == 0 ? 7 : 9, i), ticks_);
   EXPECT_LE(log_lines("of the serial protocol").size(), 4u);
   EXPECT_GT(counter("log_lines_held_back"), 190);
 }
 
-TEST_F(TargetPipelineFaults, AnInventorOfStationsFillsNeitherMemoryNorLog) {
+TEST_F(TargetPipelineFaults, ManyStationIdsFillNeitherMemoryNorLog) {
   for (std::uint32_t id = 1; id <= 500; ++id) {
     for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, id), ticks_);
   }

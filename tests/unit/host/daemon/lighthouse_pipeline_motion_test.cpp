@@ -29,7 +29,7 @@ class MotionPipelineTest : public TargetPipelineTest {
       config(TrackMethod::kMotion), PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0};
 };
 
-TEST(TargetConfigMethod, MotionUnlessToldOtherwise) { EXPECT_EQ(TargetConfig{}.method, TrackMethod::kMotion); }
+TEST(TargetConfigMethod, MotionUnlessConfiguredOtherwise) { EXPECT_EQ(TargetConfig{}.method, TrackMethod::kMotion); }
 
 TEST_F(MotionPipelineTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
   move_on(60);

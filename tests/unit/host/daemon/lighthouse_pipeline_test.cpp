@@ -227,7 +227,7 @@ TEST_F(TargetPipelineTest, HealthGoesFromSilenceToPoses) {
   EXPECT_THAT(later.message, HasSubstr("silent"));
 }
 
-TEST_F(TargetPipelineTest, TellsWhoSpeaksAndWhatTheBoardCounts) {
+TEST_F(TargetPipelineTest, ReportsTheSenderAndTheBoardsCounters) {
   push(target_.hello("test board"), ticks_);
   push(target_.counters(4711), ticks_);
   EXPECT_EQ(pipeline_.health("", SourceState::kOk, "", 0).identity, "test board 0.1.0 (simulated)");

@@ -160,7 +160,7 @@ TEST_F(CameraPairsTest, MakesPairsAndSendsTheBuffersRound) {
   EXPECT_EQ(hands[1]->returned, 1);
 }
 
-TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
+TEST_F(CameraPairsTest, TheWorseCameraIsTheOneReported) {
   EXPECT_EQ(pairs->status().state, CameraState::kOpen);
   EXPECT_EQ(pairs->status().identity, "left: L; right: R");
   hands[1]->about.state = CameraState::kGone;
@@ -174,7 +174,7 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneTold) {
   EXPECT_EQ(counter("left.frames_without_partner"), 16);
 }
 
-TEST_F(CameraPairsTest, ShuttersThatAreNotTogetherAreTold) {
+TEST_F(CameraPairsTest, ShuttersThatAreNotTogetherAreReported) {
   for (int k = 0; k < 12; ++k) {
     EXPECT_EQ(pairs->status().error.empty(), k < 9) << k;
     hands[0]->show((1'000'000 + 50 * k) * kMs);

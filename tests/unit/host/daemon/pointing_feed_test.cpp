@@ -58,7 +58,7 @@ class PointingFeedTest : public ::testing::Test {
   std::optional<PointingFeed> feed;
 };
 
-TEST_F(PointingFeedTest, TellsTheAxisOfAnImageThatArrives) {
+TEST_F(PointingFeedTest, ReportsTheAxisOfAnImageThatArrives) {
   start();
   add_row("a.png", 1.7e9);
   write_image("a.png");
@@ -124,7 +124,7 @@ TEST_F(PointingFeedTest, CountsAndNamesWhatIsNoImageOrHasNoAnswer) {
   EXPECT_NE(health().message, "");
 }
 
-TEST_F(PointingFeedTest, TellsAPassOnceWhenItIsOver) {
+TEST_F(PointingFeedTest, ReportsAPassOnceWhenItIsOver) {
   config.law = pointing::AttitudeLaw::kInertial;
   config.pass_gap_s = 30.0;
   start();

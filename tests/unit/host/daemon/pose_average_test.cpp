@@ -42,7 +42,7 @@ class Frames {
   std::int64_t time_ns_ = 0;
 };
 
-TEST(PoseAverage, TellsTheMeanAndItsCovarianceOnceTheWindowIsFull) {
+TEST(PoseAverage, ReportsTheMeanAndItsCovarianceOnceTheWindowIsFull) {
   Frames frames(1);
   PoseAverage average(100);
   for (int i = 0; i < 99; ++i) ASSERT_FALSE(average.push(frames.next()));

@@ -30,7 +30,7 @@ class Turning {
   std::mt19937_64 random_{1};
 };
 
-TEST(SpinWindow, TellsRateAndAxisOnceASecond) {
+TEST(SpinWindow, ReportsRateAndAxisOnceASecond) {
   const Vector3 rate(0.02, -0.16, 0.05);
   Turning target(rate);
   SpinWindow window;

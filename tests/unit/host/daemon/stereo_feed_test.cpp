@@ -68,7 +68,7 @@ class StereoFeedTest : public ::testing::Test {
   std::optional<StereoFeed> feed;
 };
 
-TEST_F(StereoFeedTest, TellsTheRingsPoseOfEveryPairInOrder) {
+TEST_F(StereoFeedTest, ReportsTheRingsPoseOfEveryPairInOrder) {
   const std::vector<sim::RingAndNozzle> truths{pharos::test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg),
                                                pharos::test::ring_at({-0.05, 0.04, 2.8}, -7.0 * kDeg, 14.0 * kDeg)};
   for (std::size_t k = 0; k < truths.size(); ++k) write("170000000" + std::to_string(k) + "000000000", truths[k]);
@@ -235,7 +235,7 @@ TEST_F(StereoFeedTest, AFaultOfSlamGoesOutOnSlamsChannel) {
   EXPECT_EQ(of_slam[0].parent_frame, "camera");
 }
 
-TEST(RingPose, TakesTiltCentreAndTheRivalIntoTheTargetsFrame) {
+TEST(RingPose, TakesTiltCentreAndTheSecondSolutionIntoTheTargetsFrame) {
   ring2::Ring2Estimate circles;
   circles.normal = Vector3(0.1, -0.2, -1.0).normalized();
   circles.ring_centre_m = Vector3(0.1, 0.2, 3.0);

@@ -95,7 +95,7 @@ TEST_F(TofPipelineTest, PublishesAPoseForAFrame) {
   EXPECT_EQ(pose.covariance[7], 1e-6);
 }
 
-TEST_F(TofPipelineTest, TellsRefusedFramesWithTheirReason) {
+TEST_F(TofPipelineTest, ReportsRefusedFramesWithTheirReason) {
   next_answer = {};
   next_answer.refusal = "no_ring_plane";
   next_answer.advice = "look at a ring";
@@ -111,7 +111,7 @@ TEST_F(TofPipelineTest, TellsRefusedFramesWithTheirReason) {
   EXPECT_EQ(health.message, "no pose: no_ring_plane: look at a ring");
 }
 
-TEST_F(TofPipelineTest, TellsTheTimeOfEachStageThatAFrameCameTo) {
+TEST_F(TofPipelineTest, ReportsTheTimeOfEachStageThatAFrameCameTo) {
   next_answer.stage_ns[static_cast<std::size_t>(tof::TofStage::kEdges)] = 2'000'000;
   for (int k = 0; k < 3; ++k) pipeline->take(frame_now());
   EXPECT_EQ(counter("estimator.edges_max_us"), 2000);
@@ -208,7 +208,7 @@ TEST_F(TofPipelineTest, SendsOneMeanForAWindowOfFrames) {
   EXPECT_EQ(counter("frames_ok"), 11);
 }
 
-TEST_F(TofPipelineTest, TellsTheCamerasTroubleBeforeItsOwn) {
+TEST_F(TofPipelineTest, ReportsTheCamerasErrorBeforeItsOwn) {
   FrameSourceStatus camera = open_camera();
   camera.state = CameraState::kTaken;
   camera.error = "another program controls it";

@@ -86,7 +86,7 @@ TEST_F(GreyImageFile, EveryTruncationIsRefused) {
   }
 }
 
-TEST_F(GreyImageFile, LiesAboutTheSizeAreTold) {
+TEST_F(GreyImageFile, WrongSizesAreReported) {
   write_grey_png(path_, ramp(31, 17).view());
   const std::vector<std::uint8_t> whole = bytes();
   std::vector<std::uint8_t> lie = whole;

@@ -80,7 +80,7 @@ TEST(Jpeg, EveryTruncationIsRefused) {
   }
 }
 
-TEST(Jpeg, WhatIsNotOursIsToldWithARemedy) {
+TEST(Jpeg, WhatIsNotOursIsReportedWithARemedy) {
   EXPECT_THAT(error_message_of(corpus("cmyk.jpg")), HasSubstr("4 colours"));
   EXPECT_THAT(error_message_of(corpus("cut.jpg")), AllOf(HasSubstr("damaged JPEG"), HasSubstr("again")));
 }

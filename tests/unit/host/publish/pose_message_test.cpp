@@ -36,7 +36,7 @@ CycleReport answered() {
   return report;
 }
 
-TEST(PoseMessage, SaysThePoseInTheFramesAndUnitsPromised) {
+TEST(PoseMessage, ReportsThePoseInTheDocumentedFramesAndUnits) {
   const CycleReport report = answered();
   const pose_t message = message_of(report);
   EXPECT_EQ(message.utime, 1'700'000'000'123'456);
@@ -64,7 +64,7 @@ TEST(PoseMessage, SaysThePoseInTheFramesAndUnitsPromised) {
   EXPECT_FALSE(message.has_second);
 }
 
-TEST(PoseMessage, AnAmbiguousPoseBringsItsRival) {
+TEST(PoseMessage, AnAmbiguousPoseHasItsSecondSolution) {
   CycleReport report = answered();
   report.ambiguous = true;
   report.pose.second = SecondSolution<frame::Lighthouse, frame::Body>{{Matrix3::Identity(), Vector3(1, 2, 3)}, 3.5};

@@ -29,7 +29,7 @@ TEST(StatusMessage, IsAnErrorWhenNoSourceCanDeliver) {
   EXPECT_EQ(status_message(health, 0).state, "error");
 }
 
-TEST(StatusMessage, TheDaemonsOwnTroubleComesFirst) {
+TEST(StatusMessage, TheDaemonsOwnErrorComesFirst) {
   DaemonHealth health;
   health.message = "recording stopped: disk full";
   health.sources = {source("a", SourceState::kOk)};

@@ -170,7 +170,7 @@ std::filesystem::path recording_at(const TemporaryFolder& folder, const std::vec
   return folder.path() / "hostile";
 }
 
-TEST(RecordingFaults, ImpossibleTimesAreDroppedAndCountedAndSpoilNoOther) {
+TEST(RecordingFaults, ImpossibleTimesAreDroppedAndCountedAndAffectNoOther) {
   constexpr std::int64_t kYear = 365 * 86'400 * kS;
   constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();

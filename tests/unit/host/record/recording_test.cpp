@@ -30,8 +30,8 @@ std::vector<Appended> append_random(StreamRecorder& recorder, std::size_t chunks
   std::mt19937_64 random(seed);
   std::vector<Appended> all;
   for (std::size_t i = 0; i < chunks; ++i) {
-    Appended one{kStartUtc_ns + static_cast<std::int64_t>(i) * 8 * kMs, 77 * kMs + static_cast<std::int64_t>(i) * 8 * kMs,
-                 Bytes(1 + random() % 300)};
+    Appended one{kStartUtc_ns + static_cast<std::int64_t>(i) * 8 * kMs,
+                 77 * kMs + static_cast<std::int64_t>(i) * 8 * kMs, Bytes(1 + random() % 300)};
     for (auto& byte : one.bytes) byte = static_cast<std::uint8_t>(random());
     recorder.append(one.bytes, one.utc_ns, one.monotonic_ns);
     all.push_back(std::move(one));
@@ -132,7 +132,7 @@ TEST(Recording, PlaysBackIntoTheLinkDecoder) {
   EXPECT_EQ(expected, 100);
 }
 
-TEST(Recording, TellsItsFilesFromOthers) {
+TEST(Recording, DistinguishesItsFilesFromOthers) {
   TemporaryFolder folder;
   StreamRecorder recorder({folder.path(), "chaser", 460'800});
   append_random(recorder, 1, 5);

@@ -66,7 +66,7 @@ TEST(EventLoop, AHandlerMayForgetItselfAndItsNeighbour) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(EventLoop, TellsOfAWriterThatWentAway) {
+TEST(EventLoop, ReportsAWriterThatDisconnected) {
   EventLoop loop;
   Pipe pipe;
   int calls = 0;

@@ -6,7 +6,7 @@
 namespace pharos::host {
 namespace {
 
-TEST(LogRateLimiter, PassesTheFirstAndTellsHowManyWereHeldBack) {
+TEST(LogRateLimiter, PassesTheFirstAndReportsHowManyWereSuppressed) {
   LogRateLimiter limit(1000);
   EXPECT_EQ(limit.pass("crc", 10), 0u);
   EXPECT_FALSE(limit.pass("crc", 11).has_value());

@@ -48,7 +48,7 @@ std::vector<report::LinkEvent> drain(ReopeningPort& port, report::LinkDecoder& l
   return events;
 }
 
-TEST(ReopeningPort, TriesTwiceASecondAndTellsAReasonOnce) {
+TEST(ReopeningPort, TriesTwiceASecondAndReportsAReasonOnce) {
   ReopeningPort port("/dev/no-such-port", 115'200);
   EXPECT_EQ(port.try_open(0), Attempt::kFailed);
   EXPECT_EQ(port.failure().error, OpenError::kMissing);
@@ -59,7 +59,7 @@ TEST(ReopeningPort, TriesTwiceASecondAndTellsAReasonOnce) {
   EXPECT_EQ(port.try_open(1000 * kMs), Attempt::kStillGone);
 }
 
-TEST(ReopeningPort, TellsANewReason) {
+TEST(ReopeningPort, ReportsANewReason) {
   DeviceName name;
   ReopeningPort port(name.path(), 115'200);
   EXPECT_EQ(port.try_open(0), Attempt::kFailed);

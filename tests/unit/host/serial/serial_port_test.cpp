@@ -126,7 +126,7 @@ TEST(SerialPort, NamesTheGroupWhenPermissionIsMissing) {
   EXPECT_NE(port.error().message.find("dialout"), std::string::npos);
 }
 
-TEST(SerialPort, TellsThatTheLineIsGone) {
+TEST(SerialPort, ReportsADisconnectedLine) {
   Pty pty;
   auto port = SerialPort::open(pty.path, 115'200);
   ASSERT_TRUE(port.ok());

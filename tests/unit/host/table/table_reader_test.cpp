@@ -50,7 +50,7 @@ TEST(TableReader, AcceptsWhatEditorsDo) {
   EXPECT_FALSE(table.ended_unfinished());
 }
 
-TEST(TableReader, TellsEmptyFieldsFromNumbers) {
+TEST(TableReader, DistinguishesEmptyFieldsFromNumbers) {
   const TemporaryFile file("a,b\n,1\n");
   TableReader table(ByteSource(file.path()), {"a", "b"});
   ASSERT_TRUE(table.next());

@@ -48,7 +48,7 @@ TEST(TofScenario, EveryMeasureGoesWithTheRing) {
   EXPECT_NEAR(scenario.satellite.connectors[0].distance_m, 0.36, 1e-12);
 }
 
-TEST(TofScenario, TellsFileLineAndKeyOfWhatItRefuses) {
+TEST(TofScenario, ReportsFileLineAndKeyOfWhatItRefuses) {
   EXPECT_THAT(message(std::string("blur = 1\n") + kStill), HasSubstr("tof_scenario_test.toml:1: blur"));
   EXPECT_THAT(message(std::string("[sensor]\nblur_px = -1\n") + kStill), HasSubstr(":2: sensor.blur_px"));
   EXPECT_THAT(message("[trajectory]\nkind = \"still\"\nposes = [[0, 0, -3, 0, 0, 0]]\n"), HasSubstr(":3: "));

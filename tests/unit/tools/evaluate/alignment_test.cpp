@@ -37,7 +37,7 @@ TEST(Align, FindsFramesBodiesAndClockOfACleanRecordingToItsResolution) {
   EXPECT_NEAR(c.figures.coverage, 1.0, 1e-6);
 }
 
-TEST(Align, IsNotBentByNoiseAndWildPosesAndCountsThem) {
+TEST(Align, IsRobustToNoiseAndOutlierPosesAndCountsThem) {
   const Alignment hidden = planted_alignment();
   const PlantedNoise noise{0.1 * kRadPerDeg, 0.001, 0.02, 1.0};
   const Planted planted = plant(*manoeuvre(kSeconds), kSeconds, hidden, noise);

@@ -68,7 +68,7 @@ TEST(ListenSummary, ErrorsComeAsRootMeanSquareAndMaximum) {
   EXPECT_THAT(summary_text(summary.sources()), HasSubstr("5.00 mm RMS, 7.00 mm largest"));
 }
 
-TEST(ListenSummary, UncalibratedPosesDoNotSpoilTheErrorsOfTheOthers) {
+TEST(ListenSummary, UncalibratedPosesDoNotAffectTheErrorsOfTheOthers) {
   ListenSummary summary;
   ReceivedPose uncalibrated = pose(0);
   uncalibrated.flags = "uncalibrated|outliers";

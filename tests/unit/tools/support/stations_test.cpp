@@ -36,7 +36,7 @@ TEST(Stations, KnowTheIdAtOnceAndTheCalibrationWhenItCameTwice) {
   EXPECT_TRUE(stations.complete());
 }
 
-TEST(Stations, DoNotBelieveWhatHasNoFields) {
+TEST(Stations, RejectWhatHasNoFields) {
   Stations stations;
   EXPECT_FALSE(stations.push(payload_of(0, "063d38")));
   EXPECT_EQ(stations.id(0), std::nullopt);

@@ -24,7 +24,7 @@ std::string text_of(const CampaignResult& result) {
 }
 
 // The share of answered frames is asked of all classes together, the rest of each.
-TEST(TofCampaign, FramesAreAnsweredAndNonePretends) {
+TEST(TofCampaign, FramesHavePosesAndNoneIsOverconfident) {
   int frames = 0;
   int good = 0;
   for (const Class& each : {Class{"large", large(false)}, Class{"large_hidden", large(true)},
@@ -42,7 +42,7 @@ TEST(TofCampaign, FramesAreAnsweredAndNonePretends) {
 
 // Two of 8,400 frames that pretended once: edges and depths that disagree (2.6 deg off at a stated 0.5), and a ring
 // half hidden (6 deg off, and a turn by something that was no connector).
-TEST(TofCampaign, FramesThatPretendedOnceDoNotAgain) {
+TEST(TofCampaign, FramesThatWereOverconfidentOnceAreNotAgain) {
   for (const CampaignOptions& options :
        {CampaignOptions{1.1, 2.5, 6.0, 711, 11, true, 710}, CampaignOptions{0.6, 1.5, 4.0, 1022, 11, true, 1021}}) {
     const CampaignResult result = run_campaign(options, [](const CampaignFrame&) {});

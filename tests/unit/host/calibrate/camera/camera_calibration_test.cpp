@@ -80,7 +80,7 @@ TEST(CameraCalibration, ErrorsFollowTheStatedCovariance) {
   EXPECT_NEAR(nees, 1.0, 3.0 * std::sqrt(2.0 / (9.0 * kSets)));  // 3 sigma of a mean of chi squares
 }
 
-TEST(CameraCalibration, HoldsK3AtNothingWhenToldAndSaysSo) {
+TEST(CameraCalibration, FixesK3AtZeroOnRequestAndReportsIt) {
   const CameraCalibration result = calibrated(sim::board_poses(sim::kPaperLens, {}, 6, 1), 0.01, 1);
   ASSERT_EQ(result.refusal, "");
   EXPECT_EQ(result.camera().distortion[4], 0.0);
@@ -139,7 +139,7 @@ TEST(CameraCalibration, NamesAnImageOfAnotherSizeAndUsesTheRest) {
   EXPECT_EQ(result.images[1].search.detail, "32 x 24 px, the first image has 64 x 48");
 }
 
-TEST(CameraCalibration, TellsThatDotsHaveAnotherRadiusThanTold) {
+TEST(CameraCalibration, ReportsThatDotsHaveAnotherRadiusThanGiven) {
   sim::BoardSheet sheet;
   sheet.radius_m = 0.006;
   const CameraCalibration result = calibrated_from_renders(sheet, {{}, true}, 4, {});

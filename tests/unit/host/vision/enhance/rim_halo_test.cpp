@@ -46,7 +46,7 @@ TEST(RimHalo, AnEnhancedTargetHasNoneAroundAndLittleInside) {
 }
 
 // The measure itself, on an even square: what is painted on is found.
-TEST(RimHalo, TellsAGlowAndAnEdging) {
+TEST(RimHalo, DetectsAGlowAndARim) {
   host::GreyImage even{kWidth, kHeight, 16, std::vector<std::uint16_t>(kWidth * kHeight, 0)};
   Bytes plain(even.pixels.size(), 4), glowing = plain, edged = plain;
   for (std::int32_t v = 0; v < kHeight; ++v) {

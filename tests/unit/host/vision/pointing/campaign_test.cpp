@@ -63,7 +63,7 @@ struct Figures {
 
 std::string scenario_file(const char* name) { return std::string(PHAROS_SCENARIOS) + "/" + name; }
 
-TEST(PointingCampaign, AtAHundredMetresSingleImagesTellTheAxis) {
+TEST(PointingCampaign, AtAHundredMetresSingleImagesGiveTheAxis) {
   Figures figures;
   for (const char* name : {"line_table1.toml", "line_attitudes.toml"}) {
     const sim::PointingScenario scenario = sim::read_pointing_scenario(scenario_file(name), kSeed);
@@ -113,7 +113,7 @@ pointing::PassSolution solve(const sim::PointingScenario& scenario, pointing::At
 
 class PointingCampaignPass : public ::testing::TestWithParam<pointing::AttitudeLaw> {};
 
-TEST_P(PointingCampaignPass, TellsTheAxisUnderItsLawAndRejectsAnother) {
+TEST_P(PointingCampaignPass, ReportsTheAxisUnderItsLawAndRejectsAnother) {
   using pointing::AttitudeLaw;
   const AttitudeLaw law = GetParam();
   const std::string name = std::string("line_pass_") + pointing::name_of(law) + ".toml";

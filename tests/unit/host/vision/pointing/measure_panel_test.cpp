@@ -43,7 +43,7 @@ TEST(MeasurePanel, FindsTheAxisOfAPaintedPanelAndItsErrorIsWhatIsStated) {
   EXPECT_NEAR(std::sqrt(normalised), 1.0, 0.4);
 }
 
-TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsTold) {
+TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsObservable) {
   PaintedPanel scene;
   scene.range_m = 500e3;
   scene.camera.fx_px = scene.camera.fy_px = 15e6;

@@ -47,7 +47,7 @@ TEST(KeyframeWorker, LeavesThoseThatWaitWhereItEnds) {
 }
 
 // Nobody who waits is left waiting, and it is told as often as it is asked.
-TEST(KeyframeWorker, TellsWhatItsWorkThrew) {
+TEST(KeyframeWorker, ReportsWhatItsWorkThrew) {
   KeyframeWorker worker("mapping", [](KeyframeId id) {
     if (id == 1) throw std::runtime_error("no memory");
   });
@@ -123,7 +123,7 @@ TEST_F(EngineWithAFault, HandsItToTheCaller) {
 }
 
 // No pair's fault: the daemon must not call it a bad pair.
-TEST_F(EngineWithAFault, IsNoInputErrorOfThePairThatTellsIt) {
+TEST_F(EngineWithAFault, IsNoInputErrorOfThePairThatReportsIt) {
   Engine engine = this->engine(true, [](KeyframeId) { throw host::InputError("a file that cannot be read"); });
   try {
     push_and_finish(engine);

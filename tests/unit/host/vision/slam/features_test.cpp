@@ -83,7 +83,7 @@ TEST_F(Turning, NoFeatureIsAStar) {
   }
 }
 
-TEST(StaticFeatureFilter, GoWhileTheBodyMovesAndStayWhenAllRests) {
+TEST(StaticFeatureFilter, AreRemovedWhileTheBodyMovesAndKeptWhenAllIsStatic) {
   std::mt19937_64 random(1);
   std::vector<Feature> still(20), moving(60);
   for (auto* group : {&still, &moving}) {

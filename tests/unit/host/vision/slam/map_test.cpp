@@ -97,7 +97,7 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
 }
 
 // What a run without end may not pile up.
-TEST_F(MapOfTurns, RemovedKeyframesThatNobodyIsToldFromAreForgotten) {
+TEST_F(MapOfTurns, RemovedKeyframesWithoutReferencesAreErased) {
   for (const KeyframeId id : {3, 4, 5}) map_.remove_keyframe(id);
   map_.points.at(ids_[0]).patch = Patch{};
   map_.points.at(ids_[0]).patch->keyframe = 5;

@@ -26,7 +26,7 @@ PairSkew after(int frames, double moved, double late, double bent = 0.0) {
   return skew;
 }
 
-TEST(PairSkew, TellsTheDelayInFrames) {
+TEST(PairSkew, ReportsTheDelayInFrames) {
   for (const double late : {-1.0, 0.0, 0.5, 1.0}) {
     const auto found = after(30, 0.5, late).frames_late();
     ASSERT_TRUE(found);
@@ -36,7 +36,7 @@ TEST(PairSkew, TellsTheDelayInFrames) {
 
 // Several frames apart only points match that moved little, and they scatter more: no tenth of a frame then, but no
 // doubt.
-TEST(PairSkew, TellsSeveralFramesToo) {
+TEST(PairSkew, ReportsSeveralFramesToo) {
   for (const double late : {-3.0, 3.0}) {
     const auto found = after(30, 0.2, late, 0.8).frames_late();
     ASSERT_TRUE(found);

@@ -47,7 +47,7 @@ Vector2 rectified_place(const RectifyMap& map, const StereoCamera& camera, const
   return Vector2(best_u, best_v) + 2.0 * slope.inverse() * rest;
 }
 
-TEST(Rectification, RowsAgreeAndDisparityTellsDepth) {
+TEST(Rectification, RowsAgreeAndDisparityGivesDepth) {
   const host::RigFile rig = raw_rig();
   const Rectification rectified = rectify(rig, "rig.toml");
   ASSERT_TRUE(rectified.needed());
