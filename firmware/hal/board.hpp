@@ -17,7 +17,7 @@ struct Board {
 /// Sets the hardware up; once, first thing in main. Each board defines it.
 Board start_board();
 /// Nothing to do at the moment: a board may sleep here until something could have come, a millisecond at most.
-void rest();
+void wait_for_event();
 /// Calls handler(context) once a millisecond from the timer's interrupt, from now on.
 void call_every_millisecond(void (*handler)(void* context), void* context);
 

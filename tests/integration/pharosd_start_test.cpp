@@ -69,7 +69,7 @@ TEST_F(PharosdStart, WhatIsNotUnderstoodAroundTheConfigurationIsExit2WithAndWith
   }
 }
 
-TEST_F(PharosdStart, ADirectoryThatCannotBeWrittenFailsTheCheckAndIsToldAtTheStart) {
+TEST_F(PharosdStart, ADirectoryThatCannotBeWrittenFailsTheCheckAndIsReportedAtTheStart) {
   const std::string config = daemon.write_config("[recording]\ndirectory = 'dock.csv'\n").string();
   daemon.plug_in(line);
   ChildProcess check({DaemonUnderTest::program(), "--check", config});

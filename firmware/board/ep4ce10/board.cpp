@@ -85,7 +85,7 @@ Board start_board() {
   return {capture, line, board::system};
 }
 
-void rest() {}
+void wait_for_event() {}
 
 void call_every_millisecond(void (*handler)(void*), void* context) {
   millisecond_context = context;

@@ -158,7 +158,7 @@ Board start_board() {
   return {tape, line, board::system};
 }
 
-void rest() {
+void wait_for_event() {
   if (tape.ended()) {
     quiet_rests = line.take_wrote() ? 0 : quiet_rests + 1;
     if (quiet_rests == kQuietRests) exit_emulator(0);

@@ -163,7 +163,7 @@ TEST(Recordings, FirstAngleComesWithin150Milliseconds) {
   }
 }
 
-TEST(Recordings, AStillSensorIsAsQuietAsPromised) {
+TEST(Recordings, AStationarySensorHasTheStatedNoise) {
   PHAROS_NEEDS_RECORDINGS();
   const std::map<std::string, double> limit_arcsec = {
       {"hmd_static", 9.2}, {"two_bodies_controller", 6.3}, {"two_bodies_hmd", 9.2}};

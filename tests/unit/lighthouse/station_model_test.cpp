@@ -113,7 +113,7 @@ TEST(StationModel, InverseUndoesForwardOverTheWholeField) {
   }
 }
 
-TEST(StationModel, ASingleAxisForgivesAPoorGuessOfTheOther) {
+TEST(StationModel, ASingleAxisIsInsensitiveToAPoorGuessOfTheOther) {
   std::mt19937 random(5);
   for (int i = 0; i < 500; ++i) {
     const StationCalibration station = random_station(random);

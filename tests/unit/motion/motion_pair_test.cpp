@@ -145,7 +145,7 @@ TEST(MotionPair, LearnsWhereTheSecondStationStands) {
 }
 
 // A relative pose that somebody mistyped, or a station that was knocked since the calibration.
-TEST(MotionPair, AWrongRelativePoseIsRefusedToldAndCostsNothing) {
+TEST(MotionPair, AWrongRelativePoseIsRejectedReportedAndCostsNothing) {
   PairScore score;
   for (const double wrong_m : {0.02, 0.3}) {
     const sim::LighthouseScenario scenario = before_two_stations(8.0, 3);

@@ -31,7 +31,7 @@ std::string refusal_of(const LighthouseCalibrationInput& material) {
 
 TEST(CalibrationRefusals, ATargetThatNeverMoved) { EXPECT_THAT(refusal_of(sound(1)), HasSubstr("never moved")); }
 
-TEST(CalibrationRefusals, ATargetThatNeverRested) {
+TEST(CalibrationRefusals, ATargetThatWasNeverStationary) {
   Session session;
   sim::LighthouseScenario scenario = scenario_of(session);
   scenario.duration_s = 5.0;

@@ -227,12 +227,12 @@ class TargetFileIn : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(TargetFileIn, ASensorTwiceIsToldWithBothFilesAndLines) {
+TEST_F(TargetFileIn, ASensorTwiceIsReportedWithBothFilesAndLines) {
   EXPECT_THAT(load_with("0,0,0,0\n1,0.1,0,0\n2,0,0.1,0\n1,0,0,0.1\n"),
               AllOf(HasSubstr("p.toml:4: target[0].target_file:"), HasSubstr("dock.csv: line 5")));
 }
 
-TEST_F(TargetFileIn, AMissingFileIsTold) {
+TEST_F(TargetFileIn, AMissingFileIsReported) {
   const std::string message = [&] {
     try {
       return describe(load_daemon_config(folder_ / "p.toml"));
@@ -251,7 +251,7 @@ TEST_F(TargetFileIn, TooFewSensorsAreRefused) {
   EXPECT_THAT(load_with("0,0,0,0\n1,0.1,0,0\n"), HasSubstr("target[0].target_file:"));
 }
 
-TEST(DaemonConfig, AMissingConfigurationIsTold) { EXPECT_THROW(load_daemon_config("/nowhere/p.toml"), InputError); }
+TEST(DaemonConfig, AMissingConfigurationIsReported) { EXPECT_THROW(load_daemon_config("/nowhere/p.toml"), InputError); }
 
 }  // namespace
 }  // namespace pharos::host

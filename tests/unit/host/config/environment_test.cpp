@@ -81,7 +81,7 @@ TEST_F(EnvironmentTest, EverySpellingOfAPortIsTheSame) {
   EXPECT_NE(real_.identity(path("other")), identity);
 }
 
-TEST_F(EnvironmentTest, ADeviceIsToldByItsNumber) {
+TEST_F(EnvironmentTest, ADeviceIsReportedByItsNumber) {
   fs::create_symlink("/dev/null", path("link"));
   EXPECT_EQ(real_.identity(path("link")), real_.identity("/dev/null"));
   EXPECT_NE(real_.identity("/dev/zero"), real_.identity("/dev/null"));
@@ -99,14 +99,14 @@ TEST_F(EnvironmentTest, WritableDirectoriesPassAndNothingIsMade) {
   EXPECT_EQ(everything(), before);
 }
 
-TEST_F(EnvironmentTest, AFileInADirectorysPlaceIsTold) {
+TEST_F(EnvironmentTest, AFileInADirectorysPlaceIsReported) {
   std::ofstream(path("file")) << "";
   EXPECT_THAT(errors(path("file"), path("file/below")),
               ElementsAre(AllOf(HasSubstr("state_directory: "), HasSubstr("cannot be written: Not a directory")),
                           AllOf(HasSubstr("recording.directory: "), HasSubstr("/file): Not a directory"))));
 }
 
-TEST_F(EnvironmentTest, ADirectoryWithoutPermissionIsTold) {
+TEST_F(EnvironmentTest, ADirectoryWithoutPermissionIsReported) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   fs::create_directory(path("closed"));
   fs::permissions(path("closed"), fs::perms::owner_read | fs::perms::owner_exec);

@@ -128,7 +128,7 @@ TEST_F(CalibrationMemoryTest, AnEmptyFileIsAnEmptyMemory) {
   EXPECT_TRUE(reread().empty());
 }
 
-TEST_F(CalibrationMemoryTest, ADamagedFileIsToldAndThenReplaced) {
+TEST_F(CalibrationMemoryTest, ADamagedFileIsReportedAndThenReplaced) {
   for (const std::string& damaged : {std::string("[[station]]\nid = \"XYZ\"\n"), std::string(300, '\0')}) {
     fs::create_directories(folder_);
     std::ofstream(folder_ / "stations.toml") << damaged;

@@ -56,7 +56,7 @@ TEST_F(TargetPipelineTest, ADroppedFrameDoesNotMoveUtc) {
   EXPECT_NEAR(static_cast<double>(push_into(600) - before_us), 0.0, 500.0);
 }
 
-TEST_F(TargetPipelineTest, AGreetingOfAnotherStartDropsWhatTheOldOneTold) {
+TEST_F(TargetPipelineTest, AHelloOfAnotherStartDropsTheStateOfTheOldOne) {
   push(target_.hello("bench", ticks_, 1), ticks_);
   push_cycles(20);
   for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
@@ -109,7 +109,7 @@ TEST_F(TargetPipelineTest, TheAgeCountsTheWorkOnACycle) {
   EXPECT_EQ(counter("cycles_stale"), 1);
 }
 
-TEST_F(TargetPipelineTest, ARefusedCycleIsToldWithoutAPose) {
+TEST_F(TargetPipelineTest, ARefusedCycleIsReportedWithoutAPose) {
   push_cycles(20);
   const std::int64_t flash = ticks_ += kCycle_ticks;
   push(target_.bytes_of(target_.sweep(Axis::kX, flash, 2)), flash + kCycle_ticks / 3);

@@ -164,7 +164,7 @@ TEST_F(PointingFeedTest, SilenceEndsAPass) {
   EXPECT_EQ(messages().back().images, 3);
 }
 
-TEST_F(PointingFeedTest, ADirectoryThatIsMissingIsToldAndTakenUpWhenItComes) {
+TEST_F(PointingFeedTest, ADirectoryThatIsMissingIsReportedAndTakenUpWhenItComes) {
   config.directory = folder / "later";
   config.track_file = folder / "track.csv";
   start();

@@ -45,7 +45,7 @@ class PortFeedTest : public ::testing::Test {
                  460'800, {[](std::span<const std::uint8_t>, const Arrival&) {}, [this] { ++lost_; }, [] {}}};
 };
 
-TEST_F(PortFeedTest, APlugPulledAndPutInAgainIsToldInFull) {
+TEST_F(PortFeedTest, AReconnectedPlugIsLoggedInFull) {
   flap();
   flap();
   EXPECT_EQ(log_.lines("is open").size(), 2u);

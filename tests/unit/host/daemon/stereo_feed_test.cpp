@@ -192,7 +192,7 @@ class FaultyEstimator : public PairEstimator {
   Ring2Pose type;
 };
 
-TEST_F(StereoFeedTest, AFaultOfOursIsThatPairsRefusalAndTheNextIsAnswered) {
+TEST_F(StereoFeedTest, AnInternalErrorRefusesThatPairAndTheNextHasAPose) {
   PairWorker worker = pair_worker(std::make_shared<FaultyEstimator>());
   StereoPipeline pipeline(config, PublishConfig{}, "ring2/bow", bench.publisher, bench.clock);
   for (std::int64_t k = 0; k < 3; ++k) {

@@ -100,7 +100,7 @@ TEST_F(GreyImageFile, WrongSizesAreReported) {
   EXPECT_NE(error_message_of(lie), "none");
 }
 
-TEST_F(GreyImageFile, APlaceThatCannotBeWrittenIsTold) {
+TEST_F(GreyImageFile, APlaceThatCannotBeWrittenIsReported) {
   EXPECT_THROW(write_grey_png("/nowhere/at/all.png", ramp(4, 4).view()), InputError);
   EXPECT_THROW(read_grey_image("/nowhere/at/all.png"), InputError);
   EXPECT_THROW(read_grey_image("/tmp"), InputError);

@@ -82,7 +82,7 @@ TEST(SerialPort, IsRawEightBitsNoParityOneStop) {
   EXPECT_EQ(line.c_lflag & (ICANON | ECHO | ISIG | IEXTEN), 0u);
 }
 
-TEST(SerialPort, ASecondOpenerIsToldThatItIsInUse) {
+TEST(SerialPort, ASecondOpenerLearnsThatItIsInUse) {
   Pty pty;
   auto first = SerialPort::open(pty.path, 115'200);
   ASSERT_TRUE(first.ok());

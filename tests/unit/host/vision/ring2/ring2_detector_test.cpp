@@ -128,7 +128,7 @@ TEST_F(Ring2DetectorTest, AnOuterEdgeThatIsNoCircleAboutTheCentreSaysSoInItsRadi
   EXPECT_LT(error_m, 2.0 * std::sqrt(circles.estimate->covariance(ring2::kRadius, ring2::kRadius)));
 }
 
-TEST_F(Ring2DetectorTest, ALoneInnerEdgeSaysHowLittleItTellsOfTheRadius) {
+TEST_F(Ring2DetectorTest, ALoneInnerEdgeStatesALargeRadiusUncertainty) {
   const Ring2Detection all = find(*images_);
   ASSERT_TRUE(all.estimate.has_value());
   const double truth_m = scenario_->target_at(0).ring_radius_m;

@@ -168,7 +168,7 @@ TEST_F(LoopOfATurn, NoLoopFollowsAnotherAtOnce) {
 }
 
 // Words of what was seen, in places that no rigid body has: likeness alone closes nothing.
-TEST_F(LoopOfATurn, ALikenessInTheWrongPlacesIsRefused) {
+TEST_F(LoopOfATurn, ASimilarFrameWithOtherGeometryIsRefused) {
   for (int k = 0; k < kAround; ++k) add_keyframe(k);
   std::vector<std::size_t> shown;
   Frame frame = view(0, shown);
