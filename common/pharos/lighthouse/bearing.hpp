@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bearings of a sweep: hits as angles, before the base-station model.
 #include <cstdint>
 
 #include "pharos/base/capacity.hpp"
@@ -11,7 +10,7 @@
 
 namespace pharos::lighthouse {
 
-/// One hit as an angle: raw theta = 2 pi (centre - flash) / revolution, before the base-station model.
+/// One hit as an angle: raw theta = 2 pi (centre - flash) / revolution (a quarter is pi/2), before the station model.
 struct Bearing {
   std::int64_t time_ticks = 0;  // centre of the hit, 20 ns ticks, unwrapped
   double theta_rad = 0.0;

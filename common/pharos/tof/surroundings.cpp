@@ -10,9 +10,9 @@
 namespace pharos::tof {
 namespace {
 
-// How many pixels are looked at, at most.
+// Maximum number of pixels sampled.
 constexpr std::size_t kMaxSamples = 512;
-// A face with specks grown on to it is at least a third of its region: this quantile lies on the face.
+// A face enlarged by noise is at least a third of its region: this quantile lies on the face.
 constexpr double kFaceQuantile = 0.85;
 
 // Counts of the height image.
