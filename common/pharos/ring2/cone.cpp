@@ -14,7 +14,7 @@ namespace {
 using ellipse::Matrix5;
 using ellipse::Vector5;
 
-// A conic has five parameters; more points than these only average what distortion leaves of the ellipse.
+// A conic has five parameters; more points than these only average out the effect of distortion on the ellipse.
 constexpr std::size_t kPoints = 16;
 using Rays = std::array<Vector2, kPoints>;
 

@@ -49,9 +49,8 @@ enum EpochFlag : std::uint8_t {
   kEpochOutliers = 8,       // hits were left out (reflections, or they fit no rigid body)
   kEpochPrior = 16,         // could only be solved with the last pose as prior
   kEpochLockPoor = 32,      // as in Sweep
-  kEpochResidualHigh =
-      64,             // the residual is beyond what the assumed noise explains: sigmas and ambiguity are too small
-  kEpochFused = 128,  // uses both stations' hits (motion)
+  kEpochResidualHigh = 64,  // the residual is beyond what the assumed noise explains: stated sigmas are too small
+  kEpochFused = 128,        // uses both stations' hits (motion)
 };
 inline constexpr std::array<FlagWord, 8> kEpochFlagWords{{
     {kEpochUncalibrated, "uncalibrated"},
