@@ -5,7 +5,7 @@
 
 namespace pharos {
 
-/// Which of a station's two sweeps: x (the horizontal sweep, axis bit 0 of the flash code) or y (vertical, bit 1).
+/// One of a station's two sweeps: x (the horizontal sweep, axis bit 0 of the flash code) or y (vertical, bit 1).
 enum class Axis : std::uint8_t { kX = 0, kY = 1 };
 
 inline constexpr int kAxes = 2;

@@ -8,8 +8,8 @@
 
 namespace pharos::fixed {
 
-// Arithmetic for cores without a floating-point unit: a number is an integer times a power of two that its name or
-// comment tells ("Q30": times 2^-30, range +-2). A 32 x 32 -> 64 bit product takes two instructions on RV32IM, a soft
+// Arithmetic for cores without a floating-point unit: a number is an integer times a power of two given by its name or
+// comment ("Q30": times 2^-30, range +-2). A 32 x 32 -> 64 bit product takes two instructions on RV32IM, a soft
 // double's some 130.
 
 /// A number in [-2, 2), unit 2^-30.
@@ -17,10 +17,10 @@ using Q30 = std::int32_t;
 
 inline constexpr Q30 kOne = 1 << 30;
 
-/// A whole product: no bit is lost.
+/// The full product: no bit is lost.
 constexpr std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
 
-/// The upper half of the product, rounded down: one instruction, where 30 bits do.
+/// The upper half of the product, rounded down: one instruction, where 30 bits suffice.
 constexpr std::int32_t high(std::int32_t a, std::int32_t b) { return static_cast<std::int32_t>(product(a, b) >> 32); }
 
 /// a times b in Q30, rounded; with b of any Q, in that Q.
@@ -35,18 +35,18 @@ constexpr std::int64_t times_wide(std::int64_t a, Q30 b) {
   return high * 4 + (low >> 30);
 }
 
-/// a times 2^places, rounded down; zero or minus one when nothing is left. The caller keeps it within 64 bits.
+/// a times 2^places, rounded down; zero or minus one when no bit is left. The caller keeps it within 64 bits.
 constexpr std::int64_t shifted(std::int64_t a, int places) {
   if (places >= 0) return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) << static_cast<unsigned>(places));
   return a >> std::min(-places, 63);
 }
 
-/// Binary places of |a|: 0 for 0, 1 for 1, 2 for 2 and 3, …
+/// Number of bits of |a|: 0 for 0, 1 for 1, 2 for 2 and 3, …
 constexpr int bits_of(std::int64_t a) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a < 0 ? -a : a)));
 }
 
-/// The most binary places of any of them.
+/// The maximum number of bits of any of them.
 template <class Range>
 constexpr int max_bits_of(const Range& range) {
   std::uint64_t all = 0;
@@ -54,15 +54,15 @@ constexpr int max_bits_of(const Range& range) {
   return static_cast<int>(std::bit_width(all));
 }
 
-/// Whether it is a number of 32 bits.
+/// Whether it fits 32 bits.
 constexpr bool is_narrow(std::int64_t a) { return a == static_cast<std::int32_t>(a); }
 
-/// a cut to [-limit, limit].
+/// a limited to [-limit, limit].
 constexpr std::int32_t clamped(std::int64_t a, std::int32_t limit) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(a, -limit, limit));
 }
 
-/// A finite double in units of 2^-fraction, to the nearest; cut to +-2^62.
+/// A finite double in units of 2^-fraction, to the nearest; limited to +-2^62.
 constexpr std::int64_t from_double(double value, int fraction) {
   constexpr std::int64_t kLargest = std::int64_t{1} << 62;
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -88,7 +88,7 @@ constexpr double to_double(std::int64_t value, int fraction) {
   return std::bit_cast<double>(bits - (static_cast<std::uint64_t>(static_cast<std::int64_t>(fraction)) << 52U));
 }
 
-/// 1 / a in units of 2^-27, to 2^-27, for a (Q30) from 1/8 to 2: half a division and two steps of Newton's.
+/// 1 / a in units of 2^-27, to 2^-27, for a (Q30) from 1/8 to 2: half a division and two steps of Newton's method.
 constexpr std::int32_t reciprocal(Q30 a) {
   auto x = static_cast<std::int32_t>(0xFFFFFFFFU / (static_cast<std::uint32_t>(a) >> 14U) << 11U);
   for (int step = 0; step < 2; ++step) {
@@ -133,7 +133,7 @@ constexpr SineCosine sine_cosine(Q30 angle) {
   const Q30 square = times(half, half);
   constexpr auto term = [](double value) { return static_cast<Q30>(value * kOne); };
   Q30 s = term(-1.0 / 39916800.0);
-  // What is lost of the last terms shrinks with those that follow.
+  // The error of the last terms shrinks with those that follow.
   for (const Q30 next : {term(1.0 / 362880.0), term(-1.0 / 5040.0)}) {
     s = next + 4 * high(s, square) + 2;
   }

@@ -5,7 +5,7 @@
 
 namespace pharos {
 
-/// A bit of a set of flags and the word that tables and messages have for it. Words are joined by `|`.
+/// A bit of a set of flags and its word in tables and messages. Words are joined by `|`.
 struct FlagWord {
   std::uint8_t bit = 0;
   const char* word = "";

@@ -7,11 +7,10 @@
 
 namespace pharos {
 
-/// A rectangle of pixels that somebody else owns: rows of `width_px` pixels, `stride_px` apart.
+/// A view of pixels owned by the caller: rows of `width_px` pixels, `stride_px` apart.
 ///
 /// Column u grows to the right, row v downwards; pixel (0, 0) is the first in memory and its CENTRE has the coordinates
-/// (0, 0). Copying a view copies no pixel. Nothing is checked in row() and at(): contains() is for what comes from
-/// outside.
+/// (0, 0). Copying a view copies no pixel. row() and at() do not check: use contains() for positions from outside.
 template <typename Pixel>
 struct ImageView {
   Pixel* data = nullptr;
@@ -20,13 +19,13 @@ struct ImageView {
   std::int32_t stride_px = 0;
 
   constexpr ImageView() = default;
-  /// Rows without a gap between them.
+  /// Rows without gaps.
   constexpr ImageView(Pixel* pixels, std::int32_t width, std::int32_t height)
       : ImageView(pixels, width, height, width) {}
   constexpr ImageView(Pixel* pixels, std::int32_t width, std::int32_t height, std::int32_t stride)
       : data(pixels), width_px(width), height_px(height), stride_px(stride) {}
 
-  /// What may be written may be read.
+  /// A writable view converts to a read-only one.
   constexpr operator ImageView<const Pixel>() const  // NOLINT(google-explicit-constructor)
       requires(!std::is_const_v<Pixel>) {
     return {data, width_px, height_px, stride_px};

@@ -9,7 +9,7 @@ namespace pharos {
 namespace detail {
 
 inline constexpr std::uint32_t kDeBruijn = 0x077CB531U;
-// Not within the function: there each call would make its own on the stack.
+// Not within the function: there each call would copy it to the stack.
 inline constexpr auto kPlaceOfDeBruijn = [] {
   std::array<std::uint8_t, 32> places{};
   for (std::uint8_t place = 0; place < 32; ++place) places[(kDeBruijn << place) >> 27U] = place;

@@ -7,9 +7,9 @@ namespace pharos {
 
 /// A value or the documented reason why there is none.
 ///
-/// Stands in for std::expected, which GCC 12's library has but clang 14 (clang-tidy, libFuzzer) does not accept. Both
+/// Replaces std::expected, which GCC 12's library has but clang 14 (clang-tidy, libFuzzer) does not accept. Both
 /// members are plain values: no heap, no exceptions, trivially copyable when T and E are. T must be default
-/// constructible. Reading value() of a failed result is a bug of ours; it returns the default T, never garbage.
+/// constructible. Reading value() of a failed result is a programming error; it returns the default T.
 template <class T, class E>
 class [[nodiscard]] Result {
  public:

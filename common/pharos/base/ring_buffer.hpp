@@ -26,7 +26,7 @@ class RingBuffer {
     drop();
     return item;
   }
-  /// The same without looking at it.
+  /// Removes the oldest element without returning it.
   constexpr void drop() {
     head_ = wrap(head_ + 1);
     --size_;

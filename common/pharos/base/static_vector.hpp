@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-/// Vector of at most N elements inside the object itself: what the portable core uses instead of the heap.
+/// Vector of at most N elements inside the object itself: the portable core uses no heap.
 ///
 /// Policy when full: push_back refuses and returns false; the caller counts what it lost.
 template <class T, std::size_t N>
@@ -22,9 +22,9 @@ class StaticVector {
   }
   constexpr void pop_back() { --size_; }
   constexpr void clear() { size_ = 0; }
-  /// Shrinks, or grows with elements that keep whatever value they last had; `size` is cut at the capacity.
+  /// Shrinks, or grows with elements that keep their last value; `size` is limited to the capacity.
   constexpr void resize(std::size_t size) { size_ = size < N ? size : N; }
-  /// Removes element `index` in constant time; the last element takes its place.
+  /// Removes element `index` in constant time; the last element moves to its index.
   constexpr void erase_unordered(std::size_t index) { items_[index] = items_[--size_]; }
 
   constexpr std::size_t size() const { return size_; }

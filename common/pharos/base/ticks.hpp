@@ -6,7 +6,7 @@
 namespace pharos {
 
 // Time on the target is counted by a 50 MHz counter: one tick is 20 ns. The hardware counter has 32 bits and wraps
-// every 85.9 s; everything behind the unwrapper uses 64 bits.
+// every 85.9 s; everything after the unwrapper uses 64 bits.
 inline constexpr std::int64_t kTicksPerSecond = 50'000'000;
 inline constexpr std::int64_t kNanosecondsPerTick = 20;
 inline constexpr double kSecondsPerTick = 1.0 / 50e6;
@@ -22,8 +22,8 @@ constexpr std::int64_t microseconds_to_ticks(std::int64_t microseconds) { return
 
 /// Extends readings of the 32-bit counter to 64 bits by the nearest step from the previous reading.
 ///
-/// A single absurd reading cannot poison it: the wrapped steps telescope, so a stale or future value is followed by the
-/// opposite step back, whatever the size of either.
+/// A single wrong reading does no lasting harm: the wrapped steps telescope, so a stale or future value is followed by
+/// the opposite step back, whatever the size of either.
 class TickUnwrapper {
  public:
   constexpr std::int64_t unwrap(std::uint32_t reading) {

@@ -3,7 +3,7 @@
 
 namespace pharos {
 
-// SI inside; degrees, arc seconds and millimetres only where a person reads.
+// SI inside; degrees, arc seconds and millimetres only in user interfaces.
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kTwoPi = 2.0 * kPi;
 inline constexpr double kRadPerDeg = kPi / 180.0;

@@ -10,7 +10,7 @@
 namespace pharos::boot_image {
 namespace {
 
-constexpr std::uint32_t kAlignment = 4;  // of an instruction, and of what a loader may copy at once
+constexpr std::uint32_t kAlignment = 4;  // of an instruction, and of the loader's copies
 
 std::uint32_t crc_of(const BootImageHeader& header) {
   return wire::crc32(bytes_of(header).first(offsetof(BootImageHeader, header_crc32)));

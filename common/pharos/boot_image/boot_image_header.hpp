@@ -13,12 +13,12 @@
 
 namespace pharos::boot_image {
 
-// An image file is one page with the header, then the body: the bytes that are copied to `load_address`. The page is
-// as long as what a NOR flash programs at once, so that the header can be written last.
+// An image file is one page with the header, then the body: the bytes that are copied to `load_address`. The page has
+// the size of one NOR flash programming operation, so that the header can be written last.
 
 /// Bytes before the body: the header, and FF to the end of the page.
 inline constexpr std::size_t kPageBytes = 256;
-/// Where images of this and other formats differ: at the header's `format`.
+/// Distinguishes images of this and other formats: the header's `format`.
 inline constexpr std::uint8_t kFormat = 1;
 inline constexpr std::uint32_t kMagic = 0x474D4950;  // "PIMG"
 
@@ -31,8 +31,8 @@ struct Version {
   auto operator<=>(const Version&) const = default;
 };
 
-/// What an image says of itself, laid out as in the file (README.md): little-endian, no padding. No initial values: the
-/// loader has no room for what it reads over.
+/// The header of an image, laid out as in the file (README.md): little-endian, no padding. No initial values: the
+/// loader has no memory to spare for them.
 struct BootImageHeader {
   std::uint32_t magic;
   std::uint32_t body_bytes;  // a multiple of 4, at least 4
@@ -41,39 +41,39 @@ struct BootImageHeader {
   std::uint32_t entry_address;  // first instruction, within the body, a multiple of 4
   std::uint8_t format;
   Version version;
-  std::array<char, 24> board;  // the one it is for, printable ASCII padded with zeros
-  std::array<char, 12> name;   // what it is: "decoder_pose"
+  std::array<char, 24> board;  // the target board, printable ASCII padded with zeros
+  std::array<char, 12> name;   // its program: "decoder_pose"
   std::uint32_t header_crc32;  // of all before it
 };
 static_assert(sizeof(BootImageHeader) == 64 && std::is_trivial_v<BootImageHeader>);
 static_assert(std::endian::native == std::endian::little, "images are read as they lie in memory");
 
-/// Why bytes are no image.
+/// Why bytes are not a valid image.
 enum class BootImageError : std::uint8_t {
   kNone,
-  kCutShort,     // fewer bytes than the header tells, or no whole header
+  kCutShort,     // fewer bytes than the header states, or no whole header
   kNoImage,      // something else: the magic number is not there
-  kOtherFormat,  // of another format than this program knows
-  kBadHeader,    // the header's CRC is wrong, or a field of it means nothing
-  kTooLong,      // bytes behind the body
+  kOtherFormat,  // another format than this program supports
+  kBadHeader,    // the header's CRC is wrong, or a field is invalid
+  kTooLong,      // bytes after the body
   kBadBody,      // the body's CRC is wrong
 };
 
-/// What is wrong with a header as it was read, its texts apart: kNoImage, kOtherFormat, kBadHeader or kNone. For who
-/// has no room for more.
+/// Checks a header as read, without its texts: kNoImage, kOtherFormat, kBadHeader or kNone. For callers with little
+/// memory.
 BootImageError fault_of(const BootImageHeader& header);
 
-/// The header at the front of `page` (at least its 64 bytes), when it is whole and every field means something. The
-/// body is not looked at.
+/// The header at the front of `page` (at least its 64 bytes), when it is whole and every field is valid. The body is
+/// not checked.
 Result<BootImageHeader, BootImageError> read_header(std::span<const std::uint8_t> page);
 
 /// The header that `body` needs: magic, format, length and both CRCs filled in.
 BootImageHeader sealed(BootImageHeader header, std::span<const std::uint8_t> body);
 
-/// A whole image file: header, page and body as they must be. Cost: one CRC over all of it.
+/// A whole image file: header, page and body in their form. Cost: one CRC over all of it.
 Result<BootImageHeader, BootImageError> check_image(std::span<const std::uint8_t> file);
 
-/// The header as its bytes; they hold as long as it.
+/// The header as its bytes; valid as long as it.
 inline std::span<const std::uint8_t, sizeof(BootImageHeader)> bytes_of(const BootImageHeader& header) {
   return std::span<const std::uint8_t, sizeof(BootImageHeader)>(reinterpret_cast<const std::uint8_t*>(&header),
                                                                 sizeof header);

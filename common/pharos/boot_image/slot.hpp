@@ -8,23 +8,23 @@
 
 namespace pharos::boot_image {
 
-// A slot is a part of NOR flash that holds one image as it lies in its file, and in its first page, behind the header,
-// the mark. Everything is written before the header and the header before the mark, so a mark stands only on a slot
-// whose every byte was verified. NOR flash only turns ones into zeros and power may go at any bit of it: that mark and
-// header belong together and are whole is told by CRCs, never by a single bit.
+// A slot is a part of NOR flash that holds one image as in its file, and in its first page, after the header, the mark.
+// Everything is written before the header and the header before the mark, so only a slot whose every byte was verified
+// has a mark. NOR flash only changes ones to zeros and power may fail at any bit of it: CRCs, never a single bit, show
+// that mark and header belong together and are whole.
 
-/// Two: one keeps what ran last while the other is written.
+/// Two: one keeps the last running image while the other is written.
 inline constexpr std::size_t kSlots = 2;
 
-/// Which of two whole images is the newer one.
+/// Determines the newer of two whole images.
 struct SlotMark {
-  std::uint32_t sequence;  // from 1 on, one more each time: no flash lives to see it wrap
-  std::uint32_t check;     // CRC-32 of `sequence`, going on from the header's
+  std::uint32_t sequence;  // from 1 on, one more each time: no flash lasts until it wraps
+  std::uint32_t check;     // CRC-32 of `sequence`, continued from the header's
 };
 
 SlotMark make_mark(const BootImageHeader& header, std::uint32_t sequence);
 
-/// What must be read of a slot to know what it says, as it lies there.
+/// The part of a slot that must be read to check it, as stored.
 struct SlotHead {
   BootImageHeader header;
   SlotMark mark;

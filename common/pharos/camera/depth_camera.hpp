@@ -13,14 +13,14 @@ struct DepthCamera {
   PinholeCamera intrinsics;
   /// Metres per count of depth; the Helios' own unit is 0.25 mm.
   double depth_scale_m = 0.00025;
-  /// Where depth counts from, on frame C's z axis: 0 is the optical centre, the Helios counts from its front.
+  /// Origin of depth on frame C's z axis: 0 is the optical centre, the Helios counts from its front.
   double depth_origin_z_m = 0.0;
   /// Coord3D_ABCY16: metres = count * scale + offset, for X, Y, Z.
   std::array<double, 3> scale_m{0.00025, 0.00025, 0.00025};
   std::array<double, 3> offset_m{};
 };
 
-/// Counts that say that a pixel has no depth.
+/// Counts of a pixel without depth.
 inline constexpr std::uint16_t kNoDepthLow = 0;
 inline constexpr std::uint16_t kNoDepthHigh = 65535;
 

@@ -6,7 +6,7 @@
 namespace pharos {
 namespace {
 
-// Newton's method doubles its digits: a lens that needs more steps has no such pixel.
+// Newton's method doubles its digits: where more steps are needed the lens has no such pixel.
 constexpr int kMaxSteps = 20;
 constexpr double kConverged = 1e-12;
 // Fraction of a lens without distortion below which the Jacobian's determinant counts as a fold.

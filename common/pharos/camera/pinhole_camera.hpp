@@ -32,13 +32,13 @@ bool is_usable(const PinholeCamera& camera);
 
 enum class CameraFailure : std::uint8_t {
   kBehindCamera,  // z <= 0
-  kOutsideModel,  // the distortion folds over there: two rays share a pixel, or no ray has it
+  kOutsideModel,  // the distortion folds there: two rays share a pixel, or no ray has it
   kNotConverged,  // undistortion
 };
 const char* name_of(CameraFailure failure);
 
-/// Pixel of an ideal ray: x' = x (1 + k1 r2 + k2 r4 + k3 r6) + 2 p1 x y + p2 (r2 + 2 x2),
-/// y' = y (...) + p1 (r2 + 2 y2) + 2 p2 x y; u = fx x' + cx, v = fy y' + cy. Says nothing of folds.
+/// Pixel of an ideal ray: x' = x (1 + k1 r2 + k2 r4 + k3 r6) + 2 p1 x y + p2 (r2 + 2 x2), y' = y (...) + p1 (r2 + 2 y2)
+/// + 2 p2 x y; u = fx x' + cx, v = fy y' + cy. Does not detect folds.
 Vector2 distort(const PinholeCamera& camera, const Vector2& ray);
 /// d pixel / d ray of distort.
 Matrix2 distort_jacobian(const PinholeCamera& camera, const Vector2& ray);
@@ -50,7 +50,7 @@ Result<Vector2, CameraFailure> undistort(const PinholeCamera& camera, const Vect
 
 /// Pixel of a point in frame C. It may lie outside the image.
 Result<Vector2, CameraFailure> project(const PinholeCamera& camera, const Vector3& point_camera_m);
-/// d pixel / d point of project, where that has an answer: px per m.
+/// d pixel / d point of project, where that has a result: px per m.
 Matrix23 project_jacobian(const PinholeCamera& camera, const Vector3& point_camera_m);
 
 }  // namespace pharos

@@ -11,13 +11,13 @@ struct PointF {
   float v = 0.0F;
 };
 
-/// Points of an arc, evenly spread, by which it is compared and fitted before all its points are looked at.
+/// Points of an arc, evenly spread, for comparison and fits before all its points are used.
 inline constexpr int kArcSamples = 16;
 
-/// A piece of contour that bends one way without a corner.
+/// A piece of contour of one sign of curvature, without a corner.
 ///
-/// Contours run with the brighter side on the right (gradient turned by +90 deg, from +u towards +v), so the sign of
-/// the bend tells which side is bright: turn_rad < 0 bends around brightness.
+/// Contours run with the brighter side on the right (gradient rotated by +90 deg, from +u towards +v), so the sign of
+/// the curvature shows which side is bright: turn_rad < 0 curves around brightness.
 struct Arc {
   std::uint32_t begin = 0;  ///< its points in the ordered list: [begin, end)
   std::uint32_t end = 0;
@@ -28,7 +28,7 @@ struct Arc {
   std::array<PointF, kArcSamples> normals{};  ///< unit gradients at the samples
   PointF about;                               ///< all its points lie within `radius_px` of here
   float radius_px = 0.0F;
-  bool seed = false;  ///< long and bent enough to propose an ellipse; others only support one
+  bool seed = false;  /// long and curved enough to propose an ellipse; others only support one
 
   std::uint32_t points() const { return end - begin; }
 };

@@ -7,10 +7,11 @@
 namespace pharos::ellipse {
 namespace {
 
-// How far a point may lie on the wrong side: edges are good to a fraction of this, tangents at ends to some degrees.
+// Maximum distance of a point on the wrong side: edges are accurate to a fraction of this, tangents at ends to some
+// degrees.
 constexpr float kSlack_px = 1.5F;
 constexpr float kSlackOfDistance = 0.10F;
-// The chord of an arc that nearly closes tells nothing.
+// The chord of an arc that nearly closes is undefined.
 constexpr float kMinChord_px = 3.0F;
 
 float cross(PointF a, PointF b) { return a.u * b.v - a.v * b.u; }
@@ -22,7 +23,7 @@ bool lies_in(const Arc& arc, const Arc& other) {
          in_search_region(arc, other.finish);
 }
 
-// Where the line from `p` along `d` crosses the arc's chord, as a multiple of d.
+// Intersection of the line from `p` along `d` with the arc's chord, as a multiple of d.
 std::optional<float> crossing(PointF p, PointF d, const Arc& arc) {
   const PointF chord = between(arc.start, arc.finish);
   const float slope = cross(d, chord);

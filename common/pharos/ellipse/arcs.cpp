@@ -12,16 +12,16 @@ namespace pharos::ellipse {
 namespace {
 
 constexpr float kPolygonTolerance_px = 0.7F;
-// T_theta. Sides of the polygon of a circle of radius r turn by sqrt(8 * 0.7 / r): 43 deg at 10 px.
+// T_theta. Sides of the polygon of a circle of radius r bend by sqrt(8 * 0.7 / r): 43 deg at 10 px.
 constexpr float kMaxBend_rad = 1.05F;
 // Nearer vertices may be one corner.
 constexpr float kRoundedCorner_px = 4.5F;
-// A bend the other way below this is a bump of the edge, no turn.
+// A bend of the opposite sign below this is noise of the edge.
 constexpr float kMinBend_rad = 0.06F;
-// Shorter arcs support nothing, straighter ones neither.
+// Shorter arcs support no ellipse, nor do straighter ones.
 constexpr std::uint32_t kMinPoints = 8;
 constexpr float kMinTurn_rad = 0.10F;
-// What may propose an ellipse.
+// Limits of an arc that may propose an ellipse.
 constexpr std::uint32_t kMinSeedPoints = 12;
 constexpr float kMinSeedTurn_rad = 0.35F;
 // Tangents at ends: mean of the gradients of so many points.
@@ -44,7 +44,7 @@ PointF side(std::span<const EdgePoint> points, std::uint16_t from, std::uint16_t
   return {points[to].u_px - points[from].u_px, points[to].v_px - points[from].v_px};
 }
 
-// Direction of the contour over some points: their mean gradient turned by +90 deg.
+// Direction of the contour over some points: their mean gradient rotated by +90 deg.
 PointF tangent_of(std::span<const EdgePoint> points) {
   PointF sum;
   for (const EdgePoint& p : points) {
@@ -84,7 +84,7 @@ Arc make_arc(std::span<const EdgePoint> points, std::uint32_t begin) {
     arc.normals[k] = normal_of(p);
   }
   bound(points, arc);
-  // Between samples no arc turns by half a turn: the sum unwinds whole turns.
+  // Between samples no arc turns by 180 deg: the sum unwraps whole turns.
   PointF direction = arc.start_tangent;
   for (std::size_t k = 0; k <= kArcSamples; ++k) {
     const PointF next = k < kArcSamples ? PointF{-arc.normals[k].v, arc.normals[k].u} : arc.finish_tangent;
@@ -115,7 +115,7 @@ class ArcCutter {
       }
       if (std::abs(bend) < kMinBend_rad) continue;
       if (bend_changes(before, bend)) {
-        // Somewhere on the side between the two vertices: both arcs keep their own bend.
+        // At a point of the side between the two vertices: both arcs keep their own bend.
         const auto turn = static_cast<std::uint16_t>((vertices_[k - 1] + here) / 2);
         keep(arc_begin, turn);
         arc_begin = turn;
@@ -129,7 +129,7 @@ class ArcCutter {
   float bend_at(std::size_t k) const {
     return angle_between(side(points_, vertices_[k - 1], vertices_[k]), side(points_, vertices_[k], vertices_[k + 1]));
   }
-  // Blur rounds corners: their bend is then that of two vertices close together.
+  // Blur rounds corners: their bend is then split over two vertices close together.
   bool is_corner(std::size_t k, float bend) const {
     if (std::abs(bend) > kMaxBend_rad) return true;
     const auto rounded = [&](std::size_t other) {

@@ -6,12 +6,12 @@
 
 namespace pharos::ellipse {
 
-/// Cuts contours into arcs at their turning points and keeps those that are long and bent enough.
+/// Cuts contours into arcs at their turning points and keeps those that are long and curved enough.
 ///
 /// The polygon A0 A1 ... of paper 000, 2.2.1 (1) is the contour's Douglas-Peucker approximation, whose sides grow with
-/// the radius: each vertex is a bend that the points' noise cannot make. A vertex is a turning point where the bend
-/// theta_i exceeds T_theta, or where the bend's sign changes: | |theta_i| - |theta_(i-1)| | < |theta_i - theta_(i-1)|.
-/// Fills workspace.arcs, the longest kMaxArcs of them when there are more.
+/// the radius: the bend at each vertex exceeds the points' noise. A vertex is a turning point where the bend theta_i
+/// exceeds T_theta, or where the bend's sign changes: | |theta_i| - |theta_(i-1)| | < |theta_i - theta_(i-1)|. Fills
+/// workspace.arcs, the longest kMaxArcs of them when there are more.
 void find_arcs(const Contours& contours, EllipseWorkspace& workspace);
 
 /// Whether the bend changes its sign between two vertices (the paper's inequality; false where either is 0).

@@ -18,38 +18,38 @@
 namespace pharos::ellipse {
 namespace {
 
-// An arc that turns by less is not fitted alone, nor a pair that does so together: the fit's freedom would be noise.
+// An arc that turns by less is not fitted alone, nor a pair that does so together: the fit would follow the noise.
 constexpr float kMinTurnAlone_rad = 1.75F;
 constexpr float kMinTurnOfPair_rad = 1.0F;
-// A first fit must pass this near to the samples it is made of.
+// Maximum distance of a first fit from its own samples.
 constexpr double kMaxFitRms_px = 1.0;
-// Samples left out at an arc's two ends, in this order, where all of it does not fit. The one-sided ones for arcs
-// alone: what hides a part of a circle makes the arc run on along its own edge at one end.
+// Samples left out at an arc's two ends, in this order, where the whole arc does not fit. The one-sided ones for single
+// arcs: an occluding edge continues the arc at one end.
 struct Trim {
   std::size_t start, finish;
 };
 constexpr std::array<Trim, 4> kTrims = {{{0, 0}, {3, 3}, {5, 0}, {0, 5}}};
 constexpr std::size_t kTrimsOfPairs = 2;
-// Arcs of one ellipse lie as near to their fit; of what lies less well the best part is taken.
+// Maximum distance of the arcs of one ellipse from their fit; of arcs with larger ones the best part is used.
 constexpr double kGoodFitRms_px = 0.25;
-// Edge points join a first fit from this far, a refined one from nearer.
+// Edge points join a first fit within this distance, a refined one within less.
 constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
 // Best fits with one arc that are completed.
 constexpr std::size_t kBestFits = 3;
-// Neighbouring edge points see the same pixels through the filter: with sigma = 1 px their noise is that of one
-// measurement in 3.5 px (the sum of exp(-d^2/4) over the distances d).
+// Neighbouring edge points share pixels through the filter: with sigma = 1 px their noise is that of one measurement in
+// 3.5 px (the sum of exp(-d^2/4) over the distances d).
 constexpr double kCorrelation_px = 3.5;
-// A first fit that scores less than this share of what is asked will not get there by refinement, nor a refined one by
-// another (285 that were answered: at least 0.836 and 0.844). Nine of ten that are completed come to nothing.
+// A first fit that scores less than this fraction of the threshold will not reach it by refinement, nor a refined one
+// by another (285 accepted: at least 0.836 and 0.844). Nine of ten that are completed are rejected.
 constexpr double kHope = 0.8;
 constexpr double kHopeOfRefined = 0.84;
-// An arc of which this share lies on an accepted ellipse proposes no other.
+// An arc of which this fraction lies on an accepted ellipse proposes no other.
 constexpr double kExplained = 0.5;
 
 struct Candidate {
   Ellipse ellipse;
-  double rank = 0.0;  // share of the contour that the arcs it was made of cover
+  double rank = 0.0;  // fraction of the contour covered by its arcs
 };
 
 bool plausible(const Ellipse& e, const EllipseSettings& settings) {
@@ -100,8 +100,8 @@ class Combiner {
     mark_explained(best);
   }
 
-  // The fit to one arc or two, kept among the best. An arc may run past its ellipse at its ends (a rounded corner):
-  // where all of it does not fit, its middle is tried.
+  // The fit to one arc or two, kept among the best. An arc may continue past its ellipse at its ends (a rounded
+  // corner): where the whole arc does not fit, its middle is tried.
   void consider(const Arc& one, const Arc* other) {
     ++workspace_.counters.candidates;
     const double length = one.points() + (other == nullptr ? 0U : other->points());
@@ -126,7 +126,7 @@ class Combiner {
     if (best) insert({*best, length / perimeter_px(*best)});
   }
 
-  // Or more than `most`, as soon as that is sure: most fits come to nothing.
+  // Or more than `most`, as soon as that is certain: most fits are rejected.
   static double mean_square_px2(const Ellipse& ellipse, std::span<const PointF> points, double maximum) {
     constexpr double kSure = 1.000001;  // beyond rounding
     const auto count = static_cast<double>(points.size());

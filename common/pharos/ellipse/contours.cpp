@@ -7,7 +7,7 @@
 namespace pharos::ellipse {
 namespace {
 
-// Shorter lines tell nothing about an ellipse.
+// Shorter lines contain no information about an ellipse.
 constexpr std::uint32_t kMinContourPoints = 5;
 // Next point: within 60 deg of the edge's direction, its gradient within 60 deg of this one's.
 constexpr float kMinAlignment = 0.5F;
@@ -20,7 +20,7 @@ float dot(Step a, Step b) { return a.u * b.u + a.v * b.v; }
 
 Step gradient_of(const EdgePoint& p) { return {static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)}; }
 
-// The place's number of the best neighbour `ahead` (+1) or behind (-1) along the edge; 0 where the line ends.
+// The plane's number of the best neighbour `ahead` (+1) or behind (-1) along the edge; 0 where the line ends.
 std::uint16_t neighbour(const EllipseWorkspace& workspace, ImageView<const std::uint16_t> places, const EdgePoint& p,
                         float ahead) {
   const Step gradient = gradient_of(p);
@@ -52,12 +52,12 @@ class Follower {
  public:
   Follower(ImageView<std::uint16_t> places, EllipseWorkspace& workspace) : places_(places), workspace_(workspace) {}
 
-  // The line through `seed` appended to the order; its points leave `places`.
+  // Appends the line through `seed` to the order; its points are removed from `places`.
   void follow(std::uint32_t seed) {
     const std::uint32_t begin = count_;
     walk(seed, -1.0F);
     std::reverse(workspace_.order.begin() + begin, workspace_.order.begin() + count_);
-    --count_;  // the seed comes again as the first of the other way
+    --count_;  // the seed is repeated as the first of the other direction
     walk(seed, 1.0F);
     if (count_ - begin < kMinContourPoints) count_ = begin;
   }
@@ -83,9 +83,9 @@ class Follower {
 // Joins: ends and starts at most this far apart; the line between them and both directions within 40 deg.
 constexpr float kMaxGap_px = 5.0F;
 constexpr float kMinJoinAlignment = 0.77F;
-// So near the direction of the gap is noise.
+// Nearer than this the direction of the gap is noise.
 constexpr float kTouching_px = 1.5F;
-// Directions at ends are taken over this many points: the last gradient is often bent by what ends the line.
+// Directions at ends are averaged over this many points: the last gradient is often disturbed by the end of the line.
 constexpr std::uint32_t kContourEndPoints = 6;
 constexpr std::uint16_t kNone = 0xFFFF;
 
@@ -178,7 +178,7 @@ void follow_contours(ImageView<const std::uint16_t> magnitude, std::uint16_t hig
     if (follower.count() == begin) continue;
     if (!lines.push_back({begin, follower.count()})) ++workspace.counters.contours_dropped;
   }
-  for (const EdgePoint& p : workspace.edges) places.at(p.column, p.row) = 0;  // what nobody followed
+  for (const EdgePoint& p : workspace.edges) places.at(p.column, p.row) = 0;  // points that were not followed
   Contours joined;
   Joiner joiner(workspace, lines);
   joiner.join(places);
@@ -187,7 +187,7 @@ void follow_contours(ImageView<const std::uint16_t> magnitude, std::uint16_t hig
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (joiner.previous(k) == kNone) copy_chain(lines, joiner, k, copied, workspace, joined);
   }
-  for (std::size_t k = 0; k < lines.size(); ++k) {  // rings of lines: any of them may come first
+  for (std::size_t k = 0; k < lines.size(); ++k) {  // rings of lines: any of them may be the first
     if (!copied[k]) copy_chain(lines, joiner, k, copied, workspace, joined);
   }
   contours = joined;

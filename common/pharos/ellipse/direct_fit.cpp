@@ -79,10 +79,10 @@ struct Scatter {
   }
 };
 
-// L L^T of a symmetric positive definite matrix, whose lower half is read. Eigen's own may take memory from the heap.
+// L L^T of a symmetric positive definite matrix, whose lower half is read. Eigen's own may use the heap.
 class Root {
  public:
-  // False where the matrix is none.
+  // False where the matrix is not positive definite.
   bool take(const Matrix3& m) {
     if (!(m(0, 0) > 0.0)) return false;
     l00_ = std::sqrt(m(0, 0));
@@ -112,7 +112,7 @@ class Root {
   double l00_ = 1.0, l10_ = 0.0, l11_ = 1.0, l20_ = 0.0, l21_ = 0.0, l22_ = 1.0;
 };
 
-// A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is none.
+// A x^2 + B x y + C y^2 + D x + E y + F = 0 as an ellipse; empty where it is not one.
 std::optional<Ellipse> ellipse_of(const Vector3& quadratic, const Vector3& linear) {
   const double a = quadratic[0], b = quadratic[1], c = quadratic[2], d = linear[0], e = linear[1], f = linear[2];
   const double discriminant = 4.0 * a * c - b * b;

@@ -5,13 +5,13 @@
 
 namespace pharos::ellipse {
 
-/// A place where the image changes most along its gradient, to a fraction of a pixel.
+/// A point where the image changes most along its gradient, to a fraction of a pixel.
 struct EdgePoint {
   float u_px = 0.0F;
   float v_px = 0.0F;
   std::int16_t gradient_u = 0;  ///< towards brighter; the unit is that of the smoothed image
   std::int16_t gradient_v = 0;
-  std::uint16_t column = 0;  ///< the pixel it was found at
+  std::uint16_t column = 0;  /// the pixel in which it was found
   std::uint16_t row = 0;
 };
 

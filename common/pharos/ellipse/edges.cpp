@@ -36,12 +36,12 @@ Profile profile_of(ImageView<const std::uint16_t> magnitude, std::int32_t u, std
   return profile;
 }
 
-// Most of an image is no edge: blocks of pixels below the threshold are passed over at once.
+// Most of an image has no edge: blocks of pixels below the threshold are skipped at once.
 constexpr std::int32_t kBlock_px = 16;
 using Block = std::array<std::uint16_t, static_cast<std::size_t>(kBlock_px)>;
 
-// Pixels of a block from (u, v) on that lie above the threshold and may be the greatest along their gradient: 1, else
-// 0. All at once, without a branch or a division: what lies between two values is no less than the smaller one.
+// 1 for pixels of a block from (u, v) on that lie above the threshold and may be the greatest along their gradient,
+// else 0. All at once, without a branch or a division: a value between two others is no less than the smaller one.
 Block may_be_ridges(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::int32_t u,
                     std::int32_t v, std::uint16_t low) {
   const std::uint16_t *grey = smoothed.row(v) + u, *grey_above = smoothed.row(v - 1) + u,

@@ -41,7 +41,7 @@ double EllipseDistance::px(PointPx point) const {
   const double x = (cos_ * u + sin_ * v) / a, y = (cos_ * v - sin_ * u) / b;
   const double f = x * x + y * y - 1.0;
   const double slope = 2.0 * std::hypot(x / a, y / b);
-  // At the centre nothing has a slope: the contour is b away.
+  // At the centre there is no slope: the contour is b away.
   return slope * b > 1e-9 ? std::max(f / slope, -b) : -b;
 }
 

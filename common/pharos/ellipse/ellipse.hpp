@@ -23,7 +23,7 @@ double perimeter_px(const Ellipse& ellipse);
 /// Point of the contour at eccentric anomaly `t_rad`: centre + R(theta) (a cos t, b sin t).
 PointPx point_at(const Ellipse& ellipse, double t_rad);
 
-/// Eccentric anomaly, in (-pi, pi], of the contour's point that `point` belongs to: the inverse of point_at.
+/// Eccentric anomaly, in (-pi, pi], of the contour's point nearest to `point`: the inverse of point_at.
 double anomaly_of(const Ellipse& ellipse, PointPx point);
 
 /// Signed distance to the contour, positive outside, to first order (Sampson): good where the point is much nearer to

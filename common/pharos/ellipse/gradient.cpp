@@ -9,11 +9,11 @@
 namespace pharos::ellipse {
 namespace {
 
-// Magnitudes are counted in classes of 1/8 octave; that is as finely as a threshold needs to be known.
+// Magnitudes are counted in classes of 1/8 octave, which is accurate enough for a threshold.
 constexpr unsigned kFraction = 3;
 constexpr std::size_t kClasses = (17U - kFraction) << kFraction;
 constexpr std::int32_t kRowStep = 4;
-// Counted side by side: neighbours are alike, and a count would wait for the one before it.
+// Counted in parallel: neighbours are similar, and a counter would wait for the one before it.
 constexpr std::int32_t kLanes = 4;
 
 // Rayleigh: the median length of a gradient of pure noise is 1.177 sigma.
@@ -21,7 +21,7 @@ constexpr float kSigmaOfMedian = 1.0F / 1.177F;
 // Noise alone passes the higher threshold at 3 pixels of 10^7 (exp(-5.5^2/2)).
 constexpr float kHighSigmas = 5.5F;
 constexpr float kLowSigmas = 2.75F;
-// Beside the strongest edges these are texture: shares of the magnitude that 2 of 1000 pixels exceed.
+// Weaker than the strongest edges by these fractions of the magnitude that 2 of 1000 pixels exceed: texture.
 constexpr float kHighFraction = 0.06F;
 constexpr float kLowFraction = 0.03F;
 constexpr std::uint32_t kStrongest = 500;
@@ -30,7 +30,7 @@ constexpr std::uint32_t kPixelsPerPoint = 2;
 
 using Histogram = std::array<std::uint32_t, kClasses>;
 
-// Below 16 each magnitude is a class; from there on its four highest bits tell, eight classes for each further bit.
+// Below 16 each magnitude is a class; from there on its four highest bits, eight classes for each further bit.
 std::size_t class_of(std::uint16_t magnitude) {
   const unsigned value = magnitude;
   const auto shift = static_cast<unsigned>(std::bit_width(value | 8U)) - 1U - kFraction;

@@ -7,7 +7,7 @@
 
 namespace pharos::ellipse {
 
-/// Half the central difference of the smoothed image: fits 16 bits whatever the image.
+/// Half the central difference of the smoothed image: fits 16 bits for any image.
 struct Gradient {
   std::int16_t u = 0;
   std::int16_t v = 0;
@@ -25,12 +25,12 @@ void gradient_magnitude(ImageView<const std::uint16_t> smoothed, ImageView<std::
 
 /// Canny's two thresholds on the magnitude.
 struct EdgeThresholds {
-  std::uint16_t low = 0;   ///< an edge goes on down to this
-  std::uint16_t high = 0;  ///< and must reach this somewhere
+  std::uint16_t low = 0;   /// an edge continues down to this
+  std::uint16_t high = 0;  /// and must reach this at some point
 };
 
-/// Thresholds for this image: above its noise, told by the median magnitude (most of an image is no edge), and above a
-/// share of its strongest edges. They rise until no more than `max_points` pixels can pass the lower one.
+/// Thresholds for this image: above its noise, estimated from the median magnitude (most of an image has no edge), and
+/// above a fraction of its strongest edges. They rise until no more than `max_points` pixels can pass the lower one.
 EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std::uint32_t max_points);
 
 }  // namespace pharos::ellipse

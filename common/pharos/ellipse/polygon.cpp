@@ -11,7 +11,7 @@ std::uint16_t farthest(std::span<const EdgePoint> points, std::uint16_t first, s
   const EdgePoint &a = points[first], &b = points[last];
   const float du = b.u_px - a.u_px, dv = b.v_px - a.v_px;
   const float chord = du * du + dv * dv;
-  // A contour that closes has no chord: distances from its start serve.
+  // A contour that closes has no chord: distances from its start are used.
   const bool closed = chord < 4.0F * tolerance * tolerance;
   float maximum = tolerance * tolerance * (closed ? 1.0F : chord);
   std::uint16_t place = 0;

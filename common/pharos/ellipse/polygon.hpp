@@ -9,7 +9,8 @@
 
 namespace pharos::ellipse {
 
-/// Most points of one contour that become one polygon: longer contours are cut. Bounds the time of the worst contour.
+/// Maximum points of one contour that become one polygon: longer contours are cut. Limits the time of the worst
+/// contour.
 inline constexpr std::uint32_t kMaxPolygonPoints = 4096;
 
 /// Indices of vertices, first and last point included.

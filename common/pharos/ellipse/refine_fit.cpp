@@ -14,7 +14,7 @@ constexpr int kIterations = 10;
 constexpr double kConverged_px = 1e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
 constexpr double kMedianToSigma = 1.4826;
-// No edge is known better than this, however few points agree by chance.
+// Lower limit of an edge's sigma, even if few points agree by chance.
 constexpr double kMinSigma_px = 0.02;
 // Blur moves the edge of a disc of radius r inwards by sigma^2 / 2r (the steepest place of a blurred disc: its profile
 // falls as r^-1/2 exp(-(r - R)^2 / 2 sigma^2)). The variances that edges are found through: the filter 1, the central
@@ -30,8 +30,8 @@ struct Turned {
   }
 };
 
-// Signed distances of points from where the contour's edge is seen, and what their derivatives are made of. Columns, so
-// that compilers take roots and divisions two at a time.
+// Signed distances of points from the blurred contour's edge, and the terms of their derivatives. Columns, so that
+// compilers take roots and divisions two at a time.
 using Column = std::array<double, kMaxFitPoints>;
 struct Distances {
   Column x, y;        // in the ellipse's axes
@@ -124,7 +124,7 @@ Normal normal_equations(const FittedContour& contour, std::span<const PointF> po
   return normal;
 }
 
-// From (cx, cy, m, e1, e2) to (cx, cy, a, b, theta); near the circle theta is given up.
+// From (cx, cy, m, e1, e2) to (cx, cy, a, b, theta); near the circle theta is undefined.
 Matrix5 in_axes(const Matrix5& covariance, const Ellipse& e, const Turned& turned) {
   const double half = std::max(0.5 * (e.a_px - e.b_px), 1e-6);
   Matrix5 change = Matrix5::Zero();

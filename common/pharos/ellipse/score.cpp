@@ -19,7 +19,7 @@ Score score_of(const Ellipse& ellipse, const Support& support, const EllipseSett
   const double n = support.count;
   score.shape = ellipse.a_px < settings.max_axis_ratio * ellipse.b_px ? 1.0 : 0.0;
   score.accuracy = std::max(0.0, 1.0 - kPerDistance * support.distance_sum_px / n);
-  // Where edges lie twice, N would make up for missing ones: no more counts than the sectors that have points.
+  // Where edges are double, N would compensate for missing ones: it is limited to the sectors that have points.
   const double length_fraction = std::min(n / perimeter_px(ellipse), support.length_fraction);
   score.fullness = 0.5 * length_fraction + 0.5 * support.turn_fraction;
   return score;

@@ -11,7 +11,7 @@ namespace pharos::ellipse {
 struct Score {
   double shape = 0.0;     ///< S1: 1 where a/b is below the threshold
   double accuracy = 0.0;  ///< S2: mean of 1 - 0.3 L_i
-  double fullness = 0.0;  ///< S3: half the share of the contour's length, half that of its turn
+  double fullness = 0.0;  /// S3: half the fraction of the contour's length, half that of its turn
   /// F_val = S1 sqrt(S2 S3)
   double value() const;
 };

@@ -10,15 +10,15 @@ namespace {
 
 using Value = std::uint16_t;
 
-// Half the sum, rounded up. Compilers find the vectors' instruction for it where a loop does nothing else.
+// Half the sum, rounded up. Compilers use the vector instruction for it where a loop does nothing else.
 inline Value mean(Value a, Value b) { return static_cast<Value>((a + b + 1) >> 1); }
 
 void take_means(const Value* a, const Value* b, std::int32_t count, Value* out) {
   for (std::int32_t k = 0; k < count; ++k) out[k] = mean(a[k], b[k]);
 }
 
-// (1 4 6 4 1)/16 is the mean of two neighbours taken four times over. So wide a strip at a time, what is between stays
-// in the nearest cache.
+// (1 4 6 4 1)/16 is the mean of two neighbours taken four times in succession. The strip is narrow enough for
+// intermediate results to stay in the nearest cache.
 constexpr std::int32_t kStrip_px = 256;
 constexpr std::int32_t kReach_px = 2;
 using Strip = std::array<Value, kStrip_px>;
@@ -65,7 +65,7 @@ void smooth_strip(ImageView<const Value> in, ImageView<Value> out, std::int32_t 
     take_means(read(v - 1), read(v), count, made[0].data());
     for (std::size_t k = 1; k < kMeans; ++k)
       take_means(before[k - 1].data(), made[k - 1].data(), count, made[k].data());
-    // What the first three rows make is not whole yet, and goes where the fourth one overwrites it.
+    // The results of the first three rows are incomplete, and are overwritten by the fourth.
     Value* result = out.row(std::max<std::int32_t>(0, v - kReach_px)) + begin;
     take_means(before[kMeans - 1].data(), made[kMeans - 1].data(), count, result);
   }

@@ -10,7 +10,7 @@ namespace pharos::ellipse {
 namespace {
 
 constexpr float kMinSupportAlignment = 0.906F;  // cos 25 deg
-// Beyond what rounding can do to a square.
+// Maximum rounding error of a square.
 constexpr float kNearly = 1.0001F;
 
 // The contour in single precision, ready for many points.
@@ -52,8 +52,8 @@ class Contact {
     const float f = q.u * q.u + q.v * q.v - 1.0F;
     return f * f <= kNearly * gate_ * gate_ * (4.0F * (x * x + y * y));
   }
-  // Of a point that may: its distance to first order; false off the gate or where the gradient points elsewhere than
-  // the normal.
+  // For a point that may: its distance to first order; false off the gate or where the gradient differs from the
+  // normal's direction.
   bool touches(PointF p, PointF gradient, float& distance) const {
     const PointF q = scaled(p);
     const float x = q.u * over_a_, y = q.v * over_b_;
@@ -72,7 +72,7 @@ class Contact {
   float min_size_, max_size_;  // of q where it touches
 };
 
-// Points looked at together, as many as an arc has samples.
+// Points processed together, as many as an arc has samples.
 using Together = std::array<std::uint32_t, kArcSamples>;
 
 bool may_touch(const Contact& contact, const Arc& arc) {
@@ -86,7 +86,7 @@ bool may_touch(const Contact& contact, const Arc& arc) {
   return false;
 }
 
-// Calls take(point, distance) for every point of the arc on the contour; answers how many there were.
+// Calls take(point, distance) for every point of the arc on the contour; returns how many there were.
 template <class Take>
 std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const EllipseWorkspace& workspace, Take&& take) {
   std::uint32_t count = 0;
@@ -114,7 +114,7 @@ std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const Ellips
   return count;
 }
 
-// The contour cut into sectors of equal steps around the diamond |x| + |y| = 1: no trigonometry, and so the same on
+// The contour cut into sectors of equal steps around the diamond |x| + |y| = 1: no trigonometry, and so identical on
 // every machine.
 class Sectors {
  public:

@@ -9,10 +9,10 @@
 
 namespace pharos::ellipse {
 
-/// Most sectors of the contour in which points are looked for; small ellipses have fewer, some 4 px long.
+/// Maximum sectors of the contour in which points are searched; small ellipses have fewer, some 4 px long.
 inline constexpr int kMaxSectors = 64;
 
-/// What of the image's arcs lies on one ellipse.
+/// The points of the image's arcs that lie on one ellipse.
 struct Support {
   StaticVector<PointF, kMaxFitPoints> points;  ///< evenly taken from all that lie on it
   std::uint32_t stride = 1;                    ///< one in so many was taken
@@ -32,7 +32,7 @@ struct Support {
   }
 };
 
-/// Points of all arcs within `gate_px` of the contour whose gradient is within 25 deg of its normal, on the side told
+/// Points of all arcs within `gate_px` of the contour whose gradient is within 25 deg of its normal, on the side given
 /// by `bright_inside`.
 void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
                      Support& support);

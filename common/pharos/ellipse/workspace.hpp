@@ -13,21 +13,21 @@
 
 namespace pharos::ellipse {
 
-/// Most edge points kept of one image: twice what the busiest of the rendered frames of 640x480 have. What finds no
-/// place is counted; the thresholds rise before that happens.
+/// Maximum edge points stored of one image: twice those of the busiest rendered frame of 640x480. More are counted; the
+/// thresholds rise before that happens.
 inline constexpr std::size_t kMaxEdgePoints = 40960;
-/// Most arcs kept of one image.
+/// Maximum arcs stored of one image.
 inline constexpr std::size_t kMaxArcs = 512;
-/// Most ellipses answered of one image, the best by score.
+/// Maximum ellipses returned of one image, the best by score.
 inline constexpr std::size_t kMaxEllipses = 64;
-/// Planes of 16 bits a pixel that the caller lends: the smoothed image, gradient magnitude, places of edge points.
+/// Planes of 16 bits a pixel lent by the caller: the smoothed image, gradient magnitude, indices of edge points.
 inline constexpr std::size_t kPlanes = 3;
-/// Narrower or lower images have no room for an edge with its surroundings.
+/// Narrower or lower images are too small for an edge with its surroundings.
 inline constexpr std::int32_t kMinSide_px = 8;
 /// Wider or higher images would not fit an edge point's column and row, nor the steps of its arithmetic.
 inline constexpr std::int32_t kMaxSide_px = 32767;
 
-/// What was met in the last image.
+/// Counters of the last image.
 struct EllipseCounters {
   std::uint32_t edge_points = 0;
   std::uint32_t edge_points_dropped = 0;
@@ -39,9 +39,9 @@ struct EllipseCounters {
   std::uint32_t ellipses_dropped = 0;
 };
 
-/// All memory that detection needs beside the stack; the caller owns both parts.
+/// All memory of the detection except the stack; the caller owns both parts.
 struct EllipseWorkspace {
-  /// `planes` holds kPlanes * width * height values of the largest image to come.
+  /// `planes` holds kPlanes * width * height values of the largest image expected.
   explicit EllipseWorkspace(std::span<std::uint16_t> planes_of_caller) : planes(planes_of_caller) {}
 
   std::span<std::uint16_t> planes;

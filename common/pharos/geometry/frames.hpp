@@ -4,9 +4,9 @@
 namespace pharos::frame {
 
 // Tags that name coordinate frames in types, so that a product of poses whose inner frames differ does not compile.
-// Each says its axes; every pose T_a_b takes coordinates in b to coordinates in a: p_a = R_a_b p_b + t_a_b.
+// Each states its axes; every pose T_a_b takes coordinates in b to coordinates in a: p_a = R_a_b p_b + t_a_b.
 
-/// L: lighthouse, x right, y down, z ahead of the station (the station's own maker's frame turned by pi about x).
+/// L: lighthouse, x right, y down, z ahead of the station (the maker's frame of the station rotated by pi about x).
 struct Lighthouse {};
 /// B: the cooperative target's body, in which its sensor positions are given.
 struct Body {};

@@ -9,22 +9,23 @@
 
 namespace pharos {
 
-/// Mean of independent poses of something at rest, and how far to believe it.
+/// Mean of independent poses of a stationary body, with its covariance.
 template <class Parent, class Child>
 struct MeanPose {
   Pose<Parent, Child> pose;
   /// sum(C_i) / N^2, widened by `reduced_chi2` where that is more than 1. Rotation (rad) before translation (m).
   Matrix6 covariance = Matrix6::Zero();
-  /// Of the poses about their mean under their own covariances; 1 for a single one. Far above 1: it did not rest.
+  /// Of the poses about their mean under their own covariances; 1 for a single one. Far above 1: the body was not
+  /// stationary.
   double reduced_chi2 = 1.0;
 };
 
 template <class Parent, class Child>
 MeanPose(const Pose<Parent, Child>&) -> MeanPose<Parent, Child>;
 
-/// The pose that makes the sum of squared differences least: the mean of positions, and of rotations as small rotations
+/// The pose that minimises the sum of squared differences: the mean of positions, and of rotations as small rotations
 /// about it. `estimates` is not empty; its items have a `pose` and a positive definite `covariance`. Three or four
-/// steps over all of them.
+/// iterations over all of them.
 template <class Estimates>
 auto mean_of_poses(const Estimates& estimates) {
   constexpr int kMaxSteps = 10;

@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-/// Symmetric N x N matrix, lower triangle by rows: what normal equations are summed in and solved from.
+/// Symmetric N x N matrix, lower triangle by rows: normal equations are summed and solved in it.
 template <std::size_t N, class Number = double>
 struct PackedSymmetric {
   std::array<Number, N*(N + 1) / 2> lower{};
@@ -43,8 +43,8 @@ class Factorisation {
     }
   }
 
-  /// Smallest pivot over its diagonal element, at most 1: the part of the least determined unknown that the ones before
-  /// it do not explain. Zero or less where the matrix is singular.
+  /// Smallest pivot over its diagonal element, at most 1: the part of the least determined unknown that is independent
+  /// of the ones before it. Zero or less where the matrix is singular.
   double smallest_ratio() const { return smallest_ratio_; }
 
   std::array<double, N> solve(const std::array<double, N>& right) const {

@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-/// T_parent_child: takes coordinates in Child to Parent, p_parent = R p_child + t. Metres.
+/// T_parent_child: maps coordinates in Child to Parent, p_parent = R p_child + t. Metres.
 ///
 /// The frames are types, so `T_a_b * T_c_d` compiles only when b is c.
 template <class Parent, class Child>
@@ -32,7 +32,7 @@ Pose<A, C> operator*(const Pose<A, B>& T_a_b, const Pose<B, C>& T_b_c) {
   return {T_a_b.R * T_b_c.R, T_a_b.R * T_b_c.t + T_a_b.t};
 }
 
-/// The delta of moved_by that takes `from` to `to`: R_to = exp([delta_rot]x) R_from, t_to = t_from + delta_trans.
+/// The delta of moved_by that maps `from` to `to`: R_to = exp([delta_rot]x) R_from, t_to = t_from + delta_trans.
 template <class Parent, class Child>
 Vector6 pose_difference(const Pose<Parent, Child>& to, const Pose<Parent, Child>& from) {
   Vector6 delta;

@@ -12,14 +12,14 @@ namespace pharos {
 /// Difference in chi-squared below which a second minimum makes a pose ambiguous: 99 % for two degrees of freedom.
 inline constexpr double kAmbiguousDeltaChi2 = 9.21;
 
-/// A second pose that fits nearly as well, and how much worse its chi-squared is.
+/// A second pose that fits nearly as well, and the difference in chi-squared.
 template <class Parent, class Child>
 struct SecondSolution {
   Pose<Parent, Child> pose;
   double delta_chi2 = 0.0;
 };
 
-/// What every measuring path of Pharos ends in: a pose with its time, its uncertainty and its rivals.
+/// The result of every measuring path of Pharos: a pose with its time, its uncertainty and its second solution.
 template <class Parent, class Child>
 struct PoseEstimate {
   /// Time of validity on the source's own clock, nanoseconds (for the lighthouse: unwrapped ticks x 20).

@@ -8,8 +8,8 @@
 
 namespace pharos {
 
-/// Inverse of a symmetric positive definite matrix, by its Cholesky factor; nothing where it is none. Plain loops:
-/// Eigen's own unrolls to seconds of compile time at these sizes.
+/// Inverse of a symmetric positive definite matrix, by its Cholesky factor; empty for others. Plain loops: Eigen's own
+/// unrolls to seconds of compile time at these sizes.
 template <int N>
 std::optional<Eigen::Matrix<double, N, N>> positive_inverse(const Eigen::Matrix<double, N, N>& matrix) {
   Eigen::Matrix<double, N, N> lower;  // L of L L^T, then its inverse
@@ -19,7 +19,7 @@ std::optional<Eigen::Matrix<double, N, N>> positive_inverse(const Eigen::Matrix<
       for (int k = 0; k < j; ++k) sum -= lower(i, k) * lower(j, k);
       if (i > j) {
         lower(i, j) = sum / lower(j, j);
-      } else if (sum > 1e-14 * matrix(j, j)) {  // what rounding leaves of a singular one
+      } else if (sum > 1e-14 * matrix(j, j)) {  // rounding error of a singular one
         lower(j, j) = std::sqrt(sum);
       } else {
         return std::nullopt;

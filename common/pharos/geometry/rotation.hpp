@@ -12,7 +12,7 @@ inline Matrix3 skew(const Vector3& a) {
   return m;
 }
 
-/// exp([phi]x), the active rotation by |phi| rad about phi. Right down to phi = 0.
+/// exp([phi]x), the active rotation by |phi| rad about phi. Accurate down to phi = 0.
 Matrix3 rotation_exp(const Vector3& phi_rad);
 
 /// Rotation vector of R, |phi| in [0, pi] rad; inverse of rotation_exp, accurate near 0 and near pi.
@@ -29,7 +29,7 @@ Quaternion canonical_quaternion(const Matrix3& R);
 /// The same rotation's representative with w >= 0, scaled to unit length.
 Quaternion canonical(const Quaternion& q);
 
-/// Angle in rad, [0, pi], of the rotation that takes b to a.
+/// Angle in rad, [0, pi], of the rotation from b to a.
 double rotation_angle_between(const Matrix3& a, const Matrix3& b);
 
 /// Nearest rotation to R in the Frobenius sense when R is already nearly one (two Newton steps of the polar

@@ -19,10 +19,10 @@ struct SensorPlacement {
   bool has_normal() const { return normal.squaredNorm() > 0.5; }
 };
 
-/// Where a target's photodiodes are: what the paper calls the a-priori installation coordinates.
+/// Positions of a target's photodiodes: the paper's a-priori installation coordinates.
 using Target = StaticVector<SensorPlacement, kMaxSensors>;
 
-/// The placement of sensor number `sensor`, or null where the target has none.
+/// The placement of sensor number `sensor`, or null where the target does not have it.
 const SensorPlacement* find_sensor(const Target& target, std::uint8_t sensor);
 
 /// Why a target cannot carry a pose.
@@ -33,10 +33,10 @@ enum class TargetError : std::uint8_t {
   kDuplicatePosition,  // two sensors closer than 0.1 mm: one of them is a mistake
   kSensorNumberTooLarge,
   kNotFinite,
-  kCollinear,  // all on one line: rotation about it cannot be seen
+  kCollinear,  // all on one line: rotation about it is unobservable
 };
 
-/// What a valid target's shape means for the pose.
+/// Properties of a valid target's shape that affect the pose.
 struct TargetShape {
   std::size_t sensors = 0;
   /// All within 0.5 mm of one plane: single cycles may fit two poses (reported as ambiguous).
@@ -48,7 +48,7 @@ struct TargetShape {
 /// Checks a target once, when it is loaded.
 Result<TargetShape, TargetError> check_target(const Target& target);
 
-/// One short lower-case phrase for people: "fewer than three sensors", …
+/// One short lower-case phrase for messages: "fewer than three sensors", …
 const char* describe(TargetError error);
 
 }  // namespace pharos

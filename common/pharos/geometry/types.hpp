@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-// Fixed-size Eigen types only: nothing here can reach the heap.
+// Fixed-size Eigen types only: none of them uses the heap.
 using Vector2 = Eigen::Matrix<double, 2, 1>;
 using Vector3 = Eigen::Matrix<double, 3, 1>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;

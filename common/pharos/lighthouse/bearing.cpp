@@ -30,7 +30,7 @@ SweepBearings bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
 }
 
 SweepBearings fixed_bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed) {
-  // Turns are to within 1 % of nominal, or else no integers' business; offsets are some hundred ticks.
+  // Periods are within 1 % of nominal, or the integers do not apply; offsets are some hundred ticks.
   constexpr double kSlack = 0.01 * kNominalPeriod_ticks, kLargestOffset = 1000.0;
   const double beyond = smoothed.period_ticks - kNominalPeriod_ticks;
   if (!(beyond > -kSlack && beyond < kSlack && smoothed.offset_ticks > -kLargestOffset &&
@@ -38,7 +38,7 @@ SweepBearings fixed_bearings_of(const Sweep& sweep, const SmoothedFlash& smoothe
     return bearings_of(sweep, smoothed);
   }
   constexpr int kAnglePlaces = 33, kTickPlaces = 16, kPeriodPlaces = 13;
-  // 2 pi rad / turn, so that ticks (2^-16) times it and 2^-30 are radians (2^-33).
+  // 2 pi rad / revolution, so that ticks (2^-16) times it and 2^-30 are radians (2^-33).
   constexpr auto kWholeTurn = static_cast<std::int64_t>(kTwoPi * static_cast<double>(std::int64_t{1} << 60));
   static_assert(kAnglePlaces + 30 - kTickPlaces + kPeriodPlaces == 60);
   const auto rate = static_cast<fixed::Q30>(kWholeTurn / fixed::from_double(smoothed.period_ticks, kPeriodPlaces));

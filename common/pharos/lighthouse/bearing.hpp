@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// INTERFACE AGREED (track uses these names), implementation follows in bearing.cpp: sweep -> raw bearings.
 #include <cstdint>
 
 #include "pharos/base/capacity.hpp"
@@ -11,7 +10,7 @@
 
 namespace pharos::lighthouse {
 
-/// One hit as an angle: raw theta = 2 pi (centre - flash) / turn, before the base-station model; pi/2 = a quarter turn.
+/// One hit as an angle: raw theta = 2 pi (centre - flash) / revolution (a quarter is pi/2), before the station model.
 struct Bearing {
   std::int64_t time_ticks = 0;  // centre of the hit, 20 ns ticks, unwrapped
   double theta_rad = 0.0;
@@ -27,7 +26,7 @@ SweepBearings bearings_of(const Sweep& sweep);
 /// Bearings from the smoothed time zero and period of the sweep's rotor.
 SweepBearings bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed);
 
-/// The same worked out in integers, to 2e-9 rad: for cores without a floating-point unit, where it takes a tenth.
+/// The same in integers, to 2e-9 rad: for cores without a floating-point unit, at a tenth of the cost.
 SweepBearings fixed_bearings_of(const Sweep& sweep, const SmoothedFlash& smoothed);
 
 }  // namespace pharos::lighthouse

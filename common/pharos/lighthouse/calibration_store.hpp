@@ -13,30 +13,30 @@
 
 namespace pharos::lighthouse {
 
-/// Which calibration each station uses, and every one that was ever accepted.
+/// The calibration that each station uses, and every one that was ever accepted.
 ///
-/// A CRC of 32 bits lets a false payload through now and then, and a changed calibration moves every pose: so one is
-/// taken for use only when its id and calibration fields came twice, one after the other (acceleration and counters may
-/// differ), or when it equals one accepted before (also in an earlier run: remember()). When the memory is full the one
-/// that was accepted longest ago and is not in use makes room.
+/// A 32-bit CRC passes a false payload now and then, and a changed calibration moves every pose: so a payload is used
+/// only when its id and calibration fields came twice in succession (acceleration and counters may differ), or when it
+/// equals one accepted before (also in an earlier run: remember()). When the memory is full, the oldest accepted one
+/// that is not in use is evicted.
 class CalibrationStore {
  public:
   static constexpr std::size_t kMemory = 8;
 
   enum class Verdict : std::uint8_t {
     kUnreadable,  // no fields (see OotxError): nothing changed
-    kFirstTime,   // waits for its confirmation
+    kFirstTime,   // waits for confirmation
     kUnchanged,   // the one in use
     kTakenIntoUse,
   };
 
   Verdict push(const OotxPayload& payload);
-  /// Preloads a calibration that was accepted before. It is used only once its station says the same.
+  /// Preloads a calibration that was accepted before. It is used only once its station sends the same.
   void remember(const StationCalibration& calibration);
-  /// Forgets which station is which (a new recording), not what was accepted.
+  /// Clears which station is which (a new recording), not what was accepted.
   void forget_stations();
 
-  /// Calibration in use for a station number; null until there is one.
+  /// Calibration in use for a station number; null before the first.
   const StationCalibration* in_use(std::uint8_t station) const;
   /// Who stands there: the id of the calibration in use, else of the newest payload that waits for its confirmation (a
   /// name that proves wrong is corrected by the next one); empty until there is one.

@@ -8,7 +8,7 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// A pulse that falls this long before the newest stamp has no elder still to come.
+/// After a pulse that falls this long before the newest stamp, no older one can follow.
 constexpr std::int64_t kHold_ticks = TimeBase::kMaxBehind_ticks;
 
 }  // namespace
@@ -41,7 +41,7 @@ void Decoder::push(const RawPulse& pulse) {
   }
 }
 
-// Nearly all events are on time and behind all that are held: those never leave the processor's registers.
+// Nearly all events are on time and newer than all that are held: those never leave the processor's registers.
 inline bool Decoder::accept_in_order(LightEvent event) {
   if (!time_base_.fits_at_once(event) || !order_.append(event)) return false;
   // One that is not the newest is not behind `quiet_until_ticks_`, for the newest was not.
@@ -49,7 +49,7 @@ inline bool Decoder::accept_in_order(LightEvent event) {
   return true;
 }
 
-// Called with what push() was called with: so it needs no stack before it.
+// Same arguments as push(): so it needs no stack before it.
 [[gnu::noinline]] void Decoder::admit_other(const Edge& edge) { admit(event_of(edge)); }
 
 void Decoder::admit(LightEvent event) {
@@ -82,7 +82,7 @@ void Decoder::time_moved(std::int64_t newest_before) {
   ++counters_.time_base_changes;
   const std::int64_t newest = time_base_.newest_ticks();
   if (newest < newest_before) {
-    // What the old base let in from the future is not of this time.
+    // What the old base admitted from the future is off the new one.
     LightEvent dropped;
     while (order_.drop_after(newest + TimeBase::kMaxAhead_ticks, dropped)) {
       ++(dropped.kind == LightEvent::Kind::kPulse ? counters_.pulses_off_time : counters_.edges_off_time);
@@ -92,7 +92,8 @@ void Decoder::time_moved(std::int64_t newest_before) {
   for (const LightEvent& event : time_base_.held()) oldest = std::min(oldest, event.stamp_ticks);
   if (newest >= newest_before) {
     release_until(newest_before);
-    // A step back may have left some ahead of its time. They go now: the order holds no two that are minutes apart.
+    // A step back may have left some events ahead of its time. They are released now: the buffer holds no two that are
+    // minutes apart.
     const std::int64_t left_behind = std::min(oldest, newest - kHold_ticks);
     release(static_cast<std::uint32_t>(std::min(left_behind, newest_before + TimeBase::kMaxAhead_ticks)), 0);
   }
@@ -130,7 +131,7 @@ void Decoder::refresh_quiet() {
   if (quiet_until_ticks_ <= INT64_MAX - kHold_ticks) quiet_until_ticks_ += kHold_ticks;
 }
 
-// All that is of `until_stamp` or before, but for the last `keep` of the order.
+// Releases all events of `until_stamp` or before, except the last `keep`.
 void Decoder::release(std::uint32_t until_stamp, std::size_t keep) {
   while (order_.size() > keep && order_.oldest_is_by(until_stamp)) {
     take(order_.pop());

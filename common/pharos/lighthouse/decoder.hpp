@@ -12,19 +12,19 @@ namespace pharos::lighthouse {
 /// Edges or pulses in, nearly in order; sweeps and OOTX payloads out (LightDecoder).
 ///
 /// Stamps are 64-bit ticks of 20 ns; a 32-bit counter is unwrapped by the caller (base/ticks.hpp). They may be out of
-/// order by 200 us, doubled, stale or future: what is dropped is counted by cause. Sweeps come with the caller's
-/// stamps; only where confirmed stamps run backwards behind what was decoded is time_offset_ticks() added from there
-/// on, a multiple of 2^32, so that time given out never runs backwards (see TimeBase).
+/// order by 200 us, doubled, stale or in the future: what is dropped is counted by cause. Sweeps have the caller's
+/// stamps; only where confirmed stamps step back before what was decoded, time_offset_ticks() is added from there on, a
+/// multiple of 2^32, so that output times never run backwards (see TimeBase).
 ///
 /// Cost: about 50 ns a pulse on a desktop core; state below 16 KiB.
 class Decoder : public LightDecoder {
  public:
   void push(const Edge& edge);
   void push(const RawPulse& pulse);
-  /// The caller's clock: everything that ended before `now_ticks` has been pushed. Optional; saves waiting for the next
-  /// light. Ignored when it is off the time base.
+  /// The caller's clock: everything that ended before `now_ticks` has been pushed. Optional; without it output waits
+  /// for the next pulse. Ignored when it is off the time base.
   void advance(std::int64_t now_ticks);
-  /// End of the input: gives out what is still held back, as far as the output queue holds it.
+  /// End of the input: outputs what is still held back, as far as the output queue holds it.
   void flush();
 
  private:
@@ -38,7 +38,7 @@ class Decoder : public LightDecoder {
   void release(std::uint32_t until_stamp, std::size_t keep);
   void refresh_quiet();
 
-  /// Nothing leaves the order and no deadline passes until the newest stamp lies behind this.
+  /// No event leaves the reorder buffer and no deadline passes until the newest stamp is after this.
   std::int64_t quiet_until_ticks_ = INT64_MIN;
   ReorderBuffer order_;
 };

@@ -8,7 +8,7 @@ namespace pharos::lighthouse {
 // Every counter of the decoder by name, once: the struct, `pharos decode --stats`, the counters on the serial line (in
 // this order: append only) and PHAROS_STATUS all come from this list. X(name, what it counts)
 //
-// They balance (pulses_accounted, edges_accounted): nothing that came in is lost without a name.
+// They balance (pulses_accounted, edges_accounted): every input is counted somewhere.
 #define PHAROS_DECODER_COUNTERS(X)                                                                       \
   X(edges_in, "edges received")                                                                          \
   X(edges_bad_sensor, "edges dropped: sensor number above 31")                                           \
@@ -52,14 +52,14 @@ struct DecoderCounters {
 #undef PHAROS_X
 };
 
-/// Where every pulse went: equals pulses_in once nothing is held back any more (after Decoder::flush()).
+/// All pulses by what became of them: equals pulses_in once nothing is held back any more (after Decoder::flush()).
 constexpr std::uint32_t pulses_accounted(const DecoderCounters& c) {
   return c.pulses_bad_sensor + c.pulses_too_long + c.pulses_glitch + c.pulses_late + c.pulses_off_time +
          c.pulses_doubled + c.pulses_in_flashes + c.pulses_flash_length + c.hits + c.hits_no_flash +
          c.hits_out_of_window + c.hits_overflow;
 }
 
-/// Where every edge went, when the input is edges only: equals edges_in after Decoder::flush().
+/// All edges by what became of them, when the input is edges only: equals edges_in after Decoder::flush().
 constexpr std::uint32_t edges_accounted(const DecoderCounters& c) {
   return c.edges_bad_sensor + c.edges_late + c.edges_off_time + c.edges_doubled + c.edges_never_ended + 2 * c.pulses_in;
 }

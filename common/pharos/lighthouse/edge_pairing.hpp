@@ -10,10 +10,10 @@
 
 namespace pharos::lighthouse {
 
-/// Pairs the edges of each sensor, which come in order of time, to pulses.
+/// Pairs the edges of each sensor, which arrive in order of time, to pulses.
 ///
 /// Two rises: the fall between them was lost, the newer one counts (one edge dropped). Two falls: the rise was lost,
-/// the second is dropped. A fall later than the longest credible pulse: both are dropped, the pulse never ended.
+/// the second is dropped. A fall later than the longest plausible pulse: both are dropped.
 class EdgePairing {
  public:
   void rise(std::uint8_t sensor, std::int64_t stamp_ticks, DecoderCounters& counters) {
@@ -38,7 +38,7 @@ class EdgePairing {
     ++counters.pulses_in;
     return static_cast<std::int32_t>(width);
   }
-  /// End of the input: edges that still wait for their partner never ended.
+  /// End of the input: edges without a partner are dropped.
   void end(DecoderCounters& counters);
 
  private:

@@ -14,7 +14,7 @@ using fixed::times;
 
 constexpr Q30 q30(double value) { return static_cast<Q30>(value * kOne); }
 
-// The series below leave out less than 1e-9 up to here; real stations stay within a quarter of it.
+// The error of the series below is less than 1e-9 up to here; real stations stay within a quarter of it.
 constexpr double kLargestPhase_rad = 0.125, kLargestTilt_rad = 0.03125, kLargestOther_rad = 0.03125;
 /// Where the cosine of a bearing from straight ahead falls below 1/8.
 constexpr Q30 kWidest = q30(1.44);
@@ -71,7 +71,7 @@ Q30 FixedStationModel::raw_of(const Rotor& rotor, const Angle& swept, const Angl
   const auto sine = static_cast<Q30>(fixed::product(o_over_r, rotor.tilt) >> 27);
   const Q30 tilt = sine + times(times(sine, sine), sine / 6);
   const Q30 off = -rotor.phase - tilt;
-  // The angle that the gibbous term goes by: form 1's has the other terms in it.
+  // The angle in the gibbous term: form 1's has the other terms in it.
   fixed::SineCosine g = swept.sc;
   if (form_ == ModelForm::kForm1) {
     const Q30 square = times(off, off);

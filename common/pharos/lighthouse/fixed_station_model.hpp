@@ -12,15 +12,15 @@ namespace pharos::lighthouse {
 /// The station's model, inverted in integers: for cores without a floating-point unit, where one inversion in double
 /// takes 200,000 instructions and here 4,000.
 ///
-/// Answers as ideal_from_raw does, to 1e-8 rad; what is beyond the integers' range (bearings more than 82 deg from
-/// straight ahead, corrections that no station has) is handed to it.
+/// Same result as ideal_from_raw, to 1e-8 rad; inputs beyond the integers' range (bearings more than 82 deg from
+/// straight ahead, corrections that no station has) are passed to it.
 class FixedStationModel {
  public:
   FixedStationModel(const StationCalibration& station, ModelForm form);
 
-  /// Starts from the last answer's correction: the next sensor's is nearly the same.
+  /// Starts from the last result's correction: the next sensor's is nearly the same.
   std::optional<ThetaPair> ideal_from_raw(const ThetaPair& raw);
-  /// One axis, where the ideal angle across is known.
+  /// One axis, where the ideal angle of the other axis is known.
   std::optional<double> ideal_from_raw(Axis axis, double raw_rad, double across_ideal_rad) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace pharos::lighthouse {
 
-/// Long pulses of several sensors that rise together: one flash, or something that looks like it.
+/// Long pulses of several sensors that rise together: a flash, or something similar.
 class FlashGroup {
  public:
   bool empty() const { return size_ == 0; }
@@ -42,13 +42,13 @@ class FlashGroup {
  private:
   std::int64_t first_rise_ticks_ = 0;
   std::size_t size_ = 0;
-  // Of each pulse; apart, for a whole one has five bytes.
+  // Of each pulse; two arrays, as a struct would take five bytes.
   std::array<std::int16_t, kMaxSensors> rise_after_first_{};  // within +-kFlashRiseSpread_ticks
   std::array<std::uint16_t, kMaxSensors> width_ticks_{};
   std::array<std::uint8_t, kMaxSensors> sensor_{};
 };
 
-/// What a group says as a whole.
+/// Summary of a group.
 struct FlashCandidate {
   std::int64_t start_ticks = 0;   // rise on the strongest sensor
   std::int32_t length_ticks = 0;  // longest pulse
@@ -57,13 +57,13 @@ struct FlashCandidate {
 
 FlashCandidate candidate_of(const FlashGroup& group);
 
-/// Collects long pulses, which come in the order of their falls, to groups. Two groups may be open at once, so that a
+/// Collects long pulses, which arrive in the order of their falls, to groups. Two groups may be open at once, so that a
 /// stray long pulse cannot split a flash in two.
 class FlashGrouping {
  public:
   static constexpr std::size_t kOpenGroups = 2;
 
-  /// True when `pulse` rises with a group that is open and has room.
+  /// True when `pulse` rises with a group that is open and not full.
   bool join(const Pulse& pulse) {
     for (FlashGroup& group : groups_) {
       if (!group.empty() && group.rises_with(pulse) && group.push(pulse)) return true;
@@ -71,7 +71,7 @@ class FlashGrouping {
     return false;
   }
   /// `pulse`, which joined none, opens a group; false when none is free: close the one that first_to_close() names, and
-  /// begin again.
+  /// call it again.
   bool open(const Pulse& pulse);
   FlashGroup& first_to_close();
   /// Earliest time at which a group is complete; INT64_MAX when none is open.

@@ -16,37 +16,37 @@ using fixed::times_wide;
 constexpr Q16 ticks(double value) { return static_cast<Q16>(value * 65536.0); }
 constexpr Q30 fraction(double value) { return static_cast<Q30>(value * kOne); }
 
-// Chosen on three recordings of still targets before two pairs of stations, with none kept aside as a check; all of
-// them are flat optima (half or twice the value costs 1-3 % of the noise).
+// Chosen on three recordings of stationary targets before two pairs of stations, with none kept as a check; all of them
+// are flat optima (half or twice the value costs 1-3 % of the noise).
 constexpr std::int32_t kMeanLengthFlashes = 48;     // over which a code's usual length is averaged
 constexpr Q16 kLargestStep = ticks(32);             // by which one flash may move it
 constexpr Q16 kLargestDeviation = ticks(100);       // beyond, the flash was weak, not late
 constexpr Q16 kShortBegin = ticks(12);              // deviations between here ...
 constexpr Q16 kShortFull = ticks(24);               // ... and here go from the common slope to that of short flashes
-constexpr Q30 kCommonWeight = fraction(1.0 / 128);  // of a flash in the slopes learnt
+constexpr Q30 kCommonWeight = fraction(1.0 / 128);  // of a flash in the estimated slopes
 constexpr Q30 kShortWeight = fraction(1.0 / 16);
 constexpr Q30 kLowestCommonSlope = fraction(0.1);
 constexpr Q30 kHighestSlope = fraction(0.75);
 
 constexpr Q30 kPeriodGainRatio = fraction(0.7);
-constexpr Q30 kPeriodMemory = fraction(0.85);  // of a turn's departure from the mean, per turn
+constexpr Q30 kPeriodMemory = fraction(0.85);  // of a period's departure from the mean, per revolution
 constexpr std::int32_t kMeanPeriodFlashes = 64;
 constexpr std::int32_t kVarianceFlashes = 64;
 constexpr Q30 kGainStep = fraction(0.01);
 constexpr Q30 kLowestGain = fraction(0.6);
 constexpr Q30 kHighestGain = kOne;
 constexpr Q30 kAsymmetry = fraction(0.2);     // of what exceeds one standard deviation
-constexpr Q16 kOutlier = ticks(150);          // an innovation beyond starts anew
+constexpr Q16 kOutlier = ticks(150);          // an innovation beyond it restarts the filter
 constexpr std::int32_t kLongestGapTurns = 8;  // after more the last flash predicts nothing useful
-constexpr int kWarmUp = 8;                    // flashes before anything is learnt
+constexpr int kWarmUp = 8;                    // flashes before anything is estimated
 constexpr int kSettled = 16;
 constexpr Q16 kPeriodSlack = ticks(0.001 * kNominalPeriod_ticks);  // rotors are held to 60 Hz
-constexpr Q16 kWidestPeriod = ticks(16'000);  // what a sweep may tell of its turn; far beyond all that is believed
+constexpr Q16 kWidestPeriod = ticks(16'000);  // limit of a sweep's measured period; far beyond every plausible one
 constexpr auto kNominalPeriod = static_cast<std::int64_t>(kNominalPeriod_ticks * 65536.0);
 
 std::size_t code_index(const Flash& flash) { return (flash.data ? 1U : 0U) + (flash.skip ? 2U : 0U); }
 
-// How far a deviation is on its way from the common slope to that of short flashes.
+// Interpolation weight of a deviation between the common slope and that of short flashes.
 Q30 shortness(Q16 deviation) {
   constexpr std::int64_t kPerTick = kOne / ((kShortFull - kShortBegin) >> 16);
   const std::int64_t way = std::int64_t{-deviation} - kShortBegin;
@@ -55,7 +55,7 @@ Q30 shortness(Q16 deviation) {
 
 Q16 square(Q16 a, Q16 b) { return static_cast<Q16>(fixed::product(a, b) >> 16); }
 
-// The root of a number of square ticks.
+// Square root in ticks.
 Q16 root(Q16 square_ticks) {
   const fixed::Root root = fixed::root_of(std::int64_t{square_ticks} << 28);
   return root.root >> (root.binary_exponent + 6);
@@ -69,7 +69,7 @@ Q16 FlashLateness::length_deviation(const Flash& flash) {
   MeanExcess& usual = mean_excess_[code_index(flash)];
   const std::int32_t excess_ticks =
       flash.length_ticks - kFlashLength_ticks[flash_code(flash.axis, flash.data, flash.skip)];
-  // A flash is no longer than some thousand ticks: what is not is none.
+  // A flash is no longer than some thousand ticks: anything else is rejected.
   const Q16 excess = std::clamp<std::int32_t>(excess_ticks, -10'000, 10'000) * 65536;
   if (usual.count == 0) {
     std::int64_t sum = 0;

@@ -5,7 +5,7 @@
 
 namespace pharos::lighthouse {
 
-// The pulse in registers: nearly all join a group and never come here.
+// The pulse in registers: nearly all join a group and return before this.
 void LightDecoder::handle_long(std::int64_t rise_ticks, std::int32_t width_ticks, std::uint8_t sensor) {
   const Pulse pulse{rise_ticks, width_ticks, sensor};
   while (!grouping_.open(pulse)) {

@@ -20,16 +20,15 @@
 
 namespace pharos::lighthouse {
 
-/// Light in the order of time -> sweeps and OOTX payloads: all of a decoder but its front door, which Decoder (input
-/// nearly in order) and SortedDecoder (in order) put before it. Integer arithmetic only.
+/// Events in order of time -> sweeps and OOTX payloads: the decoder without its input stage, which Decoder (input
+/// nearly in order) and SortedDecoder (in order) add. Integer arithmetic only.
 ///
-/// Take sweeps and payloads after every push; at most SweepCollector::kHeld sweeps and two payloads wait.
-/// A sweep comes out with the first pulse of its station's next flash, or as soon as the clock says that its window has
+/// Take sweeps and payloads after every push; at most SweepCollector::kHeld sweeps and two payloads are queued. A sweep
+/// is output with the first pulse of its station's next flash, or as soon as the clock shows that its window has
 /// passed. Lock needs 7 to 12 flashes.
 class LightDecoder {
  public:
-  /// The oldest sweep that waits, null when none does. It stands until drop_sweep(): half a kilobyte need not be
-  /// copied.
+  /// The oldest sweep in the queue, or null. Valid until drop_sweep(): half a kilobyte need not be copied.
   const Sweep* next_sweep() const { return collector_.has_finished() ? &collector_.finished() : nullptr; }
   void drop_sweep() { collector_.drop_finished(); }
   const OotxPayload* next_ootx() const { return payloads_.empty() ? nullptr : &payloads_.front(); }
@@ -45,7 +44,7 @@ class LightDecoder {
   LightDecoder() = default;
   ~LightDecoder() = default;
 
-  /// An edge or a pulse on the time base, none before it.
+  /// An edge or a pulse on the time base, in order of time.
   void take(const LightEvent& event) {
     if (event.kind == LightEvent::Kind::kRise) return rise(event.sensor, event.stamp_ticks);
     if (event.kind == LightEvent::Kind::kFall) return fall(event.sensor, event.stamp_ticks);
@@ -56,9 +55,9 @@ class LightDecoder {
     const std::int32_t width_ticks = pairing_.fall(sensor, stamp_ticks, counters_);
     if (width_ticks >= 0) handle(Pulse{stamp_ticks - width_ticks, width_ticks, sensor}, stamp_ticks);
   }
-  /// Nothing of `now_ticks` or before will come any more.
+  /// No event of `now_ticks` or earlier will follow.
   void pass_time(std::int64_t now_ticks);
-  /// The input is at its end: what waits for more is given out.
+  /// End of the input: outputs what is still held back.
   void finish();
   void count_discarded(const TimeBase::Discarded& discarded);
   std::int64_t decoded_ticks() const { return tracker_.last_flash_ticks(); }
@@ -67,9 +66,9 @@ class LightDecoder {
     return {edge.stamp_ticks, 0, edge.sensor, edge.rising ? LightEvent::Kind::kRise : LightEvent::Kind::kFall};
   }
 
-  // Small things that every edge touches first: a load reaches 2 KiB from the object's start.
+  // Small members that every edge uses come first: a load reaches 2 KiB from the object's start.
   DecoderCounters counters_;
-  /// When the next thing is to be done but for new light: the earliest deadline of grouping and collector.
+  /// Time of the next action without new events: the earliest deadline of grouping and collector.
   std::int64_t deadline_ticks_ = INT64_MAX;
   TimeBase time_base_;
 
@@ -89,7 +88,7 @@ class LightDecoder {
     }
     if (fall_ticks > deadline_ticks_) pass_time(fall_ticks);
     std::int64_t& last_fall = last_fall_ticks_[pulse.sensor];
-    // A sensor cannot see a second pulse before the first has ended; one far ahead is from a time base since left.
+    // A sensor cannot see a second pulse before the first has ended; a fall far ahead is from an earlier time base.
     const auto overlap = static_cast<std::uint64_t>(last_fall - pulse.rise_ticks);
     if (overlap - 1 < kLongestPulse_ticks) {
       ++counters_.pulses_doubled;

@@ -5,7 +5,7 @@
 
 namespace pharos::lighthouse {
 
-/// What the front door sorts and puts on the time base: a whole pulse (stamped at its fall) or one edge.
+/// What the input stage sorts and puts on the time base: a whole pulse (stamped at its fall) or one edge.
 struct LightEvent {
   enum class Kind : std::uint8_t { kPulse, kRise, kFall };
 

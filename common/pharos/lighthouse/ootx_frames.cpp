@@ -9,7 +9,7 @@ constexpr std::uint8_t kPreambleZeros = 17;
 }  // namespace
 
 std::uint32_t ootx_crc(const std::uint8_t* bytes, std::size_t size) {
-  // Bit by bit: a payload comes every three seconds, a table would cost a kilobyte.
+  // Bit by bit: there is one payload every three seconds, and a table would cost a kilobyte.
   std::uint32_t crc = 0xFFFFFFFFU;
   for (std::size_t i = 0; i < size; ++i) {
     crc ^= bytes[i];

@@ -15,12 +15,12 @@ namespace pharos::lighthouse {
 ///
 /// A frame: 17 zeros and a one; then 16-bit words, each followed by a one: length (little-endian), payload padded to a
 /// whole word, CRC-32 (zlib's, little-endian, over the payload without the pad). Bytes come most significant bit first.
-/// Inside a frame 17 zeros in a row cannot occur, so the preamble is looked for at every bit, wherever a frame stands.
+/// Inside a frame 17 zeros in a row cannot occur, so the preamble is searched at every bit, in any state.
 class OotxFrames {
  public:
   using Payload = StaticVector<std::uint8_t, kMaxOotxPayload>;
 
-  /// The next bit; `follows_last` false says that bits between were lost. Gives the payload when its CRC is good.
+  /// The next bit; `follows_last` false: bits between were lost. Returns the payload when its CRC is good.
   std::optional<Payload> push(bool bit, bool follows_last, DecoderCounters& counters);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace pharos::lighthouse {
 
-/// Longest OOTX payload taken: 33 bytes are known; the length field allows nonsense up to 65,535.
+/// Longest OOTX payload accepted: 33 bytes are known; the length field allows up to 65,535.
 inline constexpr std::size_t kMaxOotxPayload = 64;
 
 /// One OOTX frame whose CRC was good.

@@ -12,14 +12,14 @@ struct Edge {
   bool rising = false;
 };
 
-/// One light pulse on one photodiode, exactly as it came: nothing is promised of it (stale, doubled, absurd lengths).
+/// One light pulse on one photodiode, exactly as received: it may be stale, doubled or of implausible length.
 struct RawPulse {
   std::int64_t rise_ticks = 0;
   std::int64_t fall_ticks = 0;
   std::uint8_t sensor = 0;
 };
 
-/// One light pulse that passed the front door: in order, on the recording's time base, of a credible length.
+/// One light pulse that passed the input stage: in order, on the recording's time base, of a plausible length.
 struct Pulse {
   std::int64_t rise_ticks = 0;
   std::int32_t width_ticks = 0;

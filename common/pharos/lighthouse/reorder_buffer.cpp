@@ -22,7 +22,7 @@ ReorderBuffer::Verdict ReorderBuffer::insert(const LightEvent& event) {
 bool ReorderBuffer::drop_after(std::int64_t ticks, LightEvent& dropped) {
   if (size_ == 0 || unpacked_stamp(at(size_ - 1).stamp) <= ticks) return false;
   dropped = unpacked(at(--size_));
-  // Whatever shares the stamp of what is the newest now: none is further on than this.
+  // An upper bound of `what` for events with the newest stamp.
   if (size_ > 0) newest_ = {at(size_ - 1).stamp, UINT32_MAX};
   return true;
 }

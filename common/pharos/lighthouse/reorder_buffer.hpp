@@ -10,23 +10,23 @@
 
 namespace pharos::lighthouse {
 
-/// Puts events in the order of their stamps. Made for input that is nearly sorted: an event that comes in order costs
-/// one comparison, one that comes late is shifted past its elders.
+/// Puts events in the order of their stamps. Made for input that is nearly sorted: an event in order costs one
+/// comparison, a late event is inserted in order.
 ///
-/// Events held at one time lie within seconds of one another (the time base sees to that), so 32 bits of their stamps
-/// are kept and the rest is known from the newest one taken: 8 bytes an event, and short sums on a 32-bit core.
+/// Events held at one time lie within seconds of one another (the time base ensures it), so 32 bits of their stamps are
+/// kept and the rest follows from the newest one: 8 bytes an event, and short sums on a 32-bit core.
 ///
-/// Policy when full (which 350 us of light from 32 sensors do not do): the caller takes the oldest out before its time.
+/// When full (350 us of pulses from 32 sensors do not fill it) the caller takes the oldest out early.
 class ReorderBuffer {
  public:
   enum class Verdict : std::uint8_t { kTaken, kDoubled, kLate };
   static constexpr std::size_t kCapacity = 128;
 
-  /// Takes an event that comes behind all that are held, which most do; false, and nothing done, for any other.
+  /// Takes an event that is newer than all that are held, as most are; false, and nothing done, for any other.
   bool append(const LightEvent& event) {
     const Held held = packed(event);
     const std::int32_t after = ticks_difference(held.stamp, newest_.stamp);
-    // Edges of one tick mostly come by rising sensor: each further on than the last is none that came before.
+    // Edges of one tick mostly arrive by rising sensor: one of a higher sensor is not a duplicate.
     const bool further = after > 0 || (after == 0 && held.what > newest_.what && held.what >= kFirstEdge);
     if (!further || size_ - 1 >= kCapacity - 1) return false;  // none held, or full
     newest_.stamp = held.stamp;
@@ -57,11 +57,11 @@ class ReorderBuffer {
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == kCapacity; }
 
-  /// Time was found to be `ticks` (earlier or later than thought): events before it are welcome again.
+  /// The time base moved to `ticks` (earlier or later than before): events before it are accepted again.
   void restart_at(std::int64_t ticks) {
     if (ticks < released_ticks_) released_ticks_ = ticks;
   }
-  /// Removes the newest event if it lies behind `ticks`.
+  /// Removes the newest event if it is later than `ticks`.
   bool drop_after(std::int64_t ticks, LightEvent& dropped);
 
  private:

@@ -6,11 +6,11 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// Rotors are held to 60 Hz within this; a turn off by more is no turn (0.1 %). In 1/256 tick.
+/// Rotors are held to 60 Hz within this; a period off by more is rejected (0.1 %). In 1/256 tick.
 constexpr std::int32_t kPeriodSlackUnits = 833 * 256;
-/// Longest gap over which extrapolate() answers.
+/// Longest gap over which extrapolate() returns a result.
 constexpr std::int64_t kLongestExtrapolation_ticks = 300 * kTicksPerSecond;
-/// That many turns, and a power of two.
+/// This many revolutions, and a power of two.
 constexpr std::int32_t kLongestExtrapolationDigit = 1 << 14;
 static_assert(kLongestExtrapolation_ticks / kTurn_ticks < kLongestExtrapolationDigit * 2 - 40);
 
@@ -19,7 +19,7 @@ static_assert(kLongestExtrapolation_ticks / kTurn_ticks < kLongestExtrapolationD
 RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
   const std::int64_t elapsed = start_ticks - last_ticks_;
   if (!known() || elapsed < -kLongestExtrapolation_ticks || elapsed > kLongestExtrapolation_ticks) return {};
-  // Whole turns nearest to it. Digit by digit: a 64-bit division is a kilobyte of code on a 32-bit core.
+  // Whole revolutions nearest to it. Digit by digit: a 64-bit division is a kilobyte of code on a 32-bit core.
   const std::uint64_t period = period_;
   std::uint64_t rest = static_cast<std::uint64_t>(elapsed < 0 ? -elapsed : elapsed) * kUnits + period / 2;
   std::int32_t turns = 0;
@@ -36,7 +36,7 @@ RotorClock::Fit RotorClock::extrapolate(std::int64_t start_ticks) const {
 void RotorClock::update(std::int64_t start_ticks, std::uint32_t slot) {
   const Fit since = fit(start_ticks);
   if (since.turns > 0) {
-    // How far off nominal: of all turns, in 32 bits as in fit(); of one, rounded down.
+    // Deviation from nominal: of all revolutions, in 32 bits as in fit(); of one, rounded down.
     const auto ticks = static_cast<std::uint32_t>(start_ticks - last_ticks_);
     const auto off_nominal =
         static_cast<std::int32_t>(ticks * kUnits - static_cast<std::uint32_t>(since.turns) * kNominalPeriod);

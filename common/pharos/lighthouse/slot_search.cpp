@@ -6,14 +6,15 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// Flashes of one station's two rotors are within 470 ticks of half a turn apart (99 %), and drift on over a few turns.
+/// Flashes of one station's two rotors are within 470 ticks of half a revolution apart (99 %), and drift further over a
+/// few revolutions.
 constexpr std::int32_t kTrainTolerance_ticks = 1000;
-/// Extremes of the second station's lag are within 700 of the median; the rotors' own spread comes on top.
+/// Extremes of the second station's lag are within 700 of the median; the rotors' own spread is added.
 constexpr std::int32_t kCompanionTolerance_ticks = 1700;
 /// Real lengths are off nominal by -47..+78 on a strong sensor, less on a weak one; half a step of axis is 260.
 constexpr std::int32_t kLengthTolerance_ticks = 259;
 constexpr std::uint32_t kRecent = 12;
-/// Groups older than this say nothing: rotors drift out of the tolerances above.
+/// Older groups are useless: rotors drift out of the tolerances above.
 constexpr std::int32_t kOldestSlots = 24;
 
 bool length_fits(std::int32_t length, Axis axis, bool skip) {
@@ -48,7 +49,7 @@ std::uint32_t SlotSearch::rejected() const {
 }
 
 std::optional<SlotPlace> SlotSearch::place(std::size_t age, const SlotPattern& pattern) const {
-  // Time before the newest group, put to the first flash of the slot so that it only grows with the age.
+  // Time before the newest group, relative to the first flash of the slot so that it only grows with the age.
   const std::int64_t before = candidate(0).start_ticks - candidate(age).start_ticks;
   for (const std::uint8_t position : {std::uint8_t{0}, std::uint8_t{1}}) {
     const bool companion = position != pattern.newest.position;
@@ -94,11 +95,11 @@ std::optional<SlotPattern> SlotSearch::evaluate(const SlotPattern& hypothesis) c
       if (own < 3 || companion < 3 || own + companion < 7) return std::nullopt;
       break;
     case SlotPattern::Kind::kNeverSkips:
-      // All four slots of the cycle without a skip: a station of two shows one within three slots.
+      // All four slots of the cycle without a skip: one of two stations shows a skip within three slots.
       if (own < 5 || residues != 0xF) return std::nullopt;
       break;
     case SlotPattern::Kind::kOneOfTwo:
-      // The other is hidden or off: wait for it as long as the promise of 12 flashes allows.
+      // The other is hidden or off: wait for it as long as the guaranteed 12 flashes allow.
       if (own < 10 || residues != 0xF) return std::nullopt;
       break;
   }

@@ -7,13 +7,13 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// Once place and so axis and skip are known only the data bit is open. Lengths vary by 80 around a station's usual
-/// one; half of the data bit's step is 521, and at 521 lies the other axis: what is so far off belongs to another
-/// cycle.
+/// Once the position and so axis and skip are known only the data bit is unknown. Lengths vary by 80 around a station's
+/// usual one; half of the data bit's step is 521, and at 521 lies the other axis: a length that far off belongs to
+/// another cycle.
 constexpr std::int32_t kLengthMargin_ticks = 350;
 /// A station's usual length is off nominal by -47..+78 (measured).
 constexpr std::int32_t kLargestExcess_ticks = 150;
-/// Half a turn after the station's other rotor: 470 ticks cover 99 %; drift over some turns comes on top.
+/// Half a revolution after the station's other rotor: 470 ticks cover 99 %; drift over some revolutions is added.
 constexpr std::int32_t kOtherRotorTolerance_ticks = 1000;
 /// The other station's lag varies by 700 around its median.
 constexpr std::int32_t kOtherStationTolerance_ticks = 1700;
@@ -22,13 +22,13 @@ constexpr std::uint32_t kSupersedesBy = 3;
 constexpr std::uint32_t kSuspiciousRejections = 5;
 /// Two stations' flashes are 20,400 ticks apart: nearer than half of that is the same station.
 constexpr std::int32_t kSamePhase_ticks = kSecondFlash_ticks / 2 - 200;
-/// Slots of which at least 12 must have been seen for an untroubled lock.
+/// Slots of which at least 12 must have been seen for a good lock.
 constexpr std::uint32_t kQualitySlots = 16;
 constexpr int kGoodQuality = 12;
-/// Slot numbers start here so that looking back from the first lock does not pass zero; a multiple of the cycle.
+/// Slot numbers start here so that slots before the first lock stay positive; a multiple of the cycle.
 constexpr std::uint32_t kFirstSlot = 1024;
 
-/// A weak sensor sees a flash late by 0.55-0.95 of the length that it misses, up to 670 ticks (measured).
+/// A weak sensor sees a flash late by 0.55-0.95 of the length that it loses, up to 670 ticks (measured).
 constexpr std::int32_t kLatest_ticks = 750;
 constexpr std::int32_t kMinLatenessPercent = 55;
 constexpr std::int32_t kMaxLatenessPercent = 95;
@@ -97,7 +97,7 @@ SlotTracker::Place SlotTracker::place_by_sibling(std::int64_t start_ticks) const
 SlotTracker::Reading SlotTracker::read_length(std::int32_t length, const Place& place) const {
   const Station& station = station_[place.place.position];
   const std::int32_t excess = station.excess / kExcessUnits;
-  // What a flash so late has lost in length, by the middle of the measured range.
+  // The lost length of a flash so late, by the middle of the measured range.
   const std::int32_t expected_missing = place.predicted && place.late_ticks > 0 ? place.late_ticks * 4 / 3 : 0;
   Reading best;
   std::int32_t best_error = kLengthMargin_ticks;
@@ -153,7 +153,7 @@ TrackedFlash SlotTracker::accept(const FlashCandidate& candidate, const Place& w
 }
 
 void SlotTracker::assign_numbers(SlotPattern& pattern) {
-  // A station known from before the gap is the one whose rotor's phase continues.
+  // A station known from before the gap is the one whose rotor phase matches.
   std::array<int, kMaxStations> number{-1, -1};
   for (std::size_t age = 0; numbers_given_ && age < search_.size(); ++age) {
     const auto place = search_.place(age, pattern);
@@ -197,7 +197,7 @@ std::optional<TrackedFlash> SlotTracker::adopt(SlotPattern pattern, DecoderCount
   kind_ = pattern.kind;
   for (Station& station : station_) station = {};
   std::optional<TrackedFlash> newest;
-  const std::uint32_t missed = counters.flashes_missed;  // the groups of the search were counted when they came
+  const std::uint32_t missed = counters.flashes_missed;  // the groups of the search were counted on arrival
   for (std::size_t age = search_.size(); age-- > 0;) {
     const auto place = search_.place(age, pattern);
     if (!place) continue;
@@ -229,7 +229,7 @@ std::optional<TrackedFlash> SlotTracker::push(const FlashCandidate& candidate, D
   if (locked_ && candidate.start_ticks - last_flash_ticks_ > kLongestGap) {
     lose(counters);
   }
-  // Time of flashes never runs backwards, whatever the time base was led to believe for a moment.
+  // Times of flashes never run backwards, whatever the time base was for a moment.
   const bool in_order = candidate.start_ticks > last_flash_ticks_;
   Place expected;
   if (locked_ && in_order) expected = expected_place(candidate.start_ticks);

@@ -14,7 +14,7 @@
 
 namespace pharos::lighthouse {
 
-/// A flash-like group that was recognised as a station's flash.
+/// A group of pulses that was recognised as a station's flash.
 struct TrackedFlash {
   Flash flash;
   std::uint32_t period_sixteenth_ticks = 0;
@@ -22,7 +22,7 @@ struct TrackedFlash {
   bool follows_last = false;  // the same station's flash one slot earlier was seen too: no OOTX bit is missing between
 };
 
-/// How well the slot cycle is known.
+/// Quality of the lock on the slot cycle.
 struct LockState {
   bool locked = false;
   struct Station {
@@ -32,19 +32,19 @@ struct LockState {
   std::array<Station, kMaxStations> station;  // by station number
 };
 
-/// Finds the slot cycle of one or two stations and names every flash: station, axis, skip, data.
+/// Finds the slot cycle of one or two stations and identifies every flash: station, axis, skip, data.
 ///
-/// Locked, a flash is expected from the same rotor one turn (or some) earlier, and only its data bit is read from its
-/// length. A flash that only weak sensors saw is late and short by what it lost in strength; its start is put back by
-/// what length and prediction say together. Lock is lost when no flash fitted for half a second, or when the last
-/// groups show another cycle more clearly than the present one (a station restarted). A station that is seen again
-/// after the dark keeps its number when its rotors' phase says that it is the same one.
+/// When locked, a flash is expected one revolution (or some) after the rotor's last, and only its data bit is read from
+/// its length. A flash that only weak sensors saw is late, and short by what it lost in strength; its start is
+/// corrected from length and prediction. Lock is lost when no flash fitted for half a second, or when the last groups
+/// fit another cycle more clearly than the present one (a station restarted). A station that is seen again after a loss
+/// of signal keeps its number when the phase of its rotors matches.
 class SlotTracker {
  public:
   std::optional<TrackedFlash> push(const FlashCandidate& candidate, DecoderCounters& counters);
   bool locked() const { return locked_; }
   LockState lock(std::int64_t now_ticks) const;
-  /// Time of the last flash ever recognised, or INT64_MIN.
+  /// Time of the last recognised flash, or INT64_MIN.
   std::int64_t last_flash_ticks() const { return last_flash_ticks_; }
 
  private:
@@ -53,19 +53,19 @@ class SlotTracker {
     std::uint32_t last_slot = 0;
     std::uint32_t seen = 0;  // bit 0: slot last_slot, bit n: n slots earlier
     bool known = false;      // has flashed under the present lock
-    /// MeanExcess length of this station's flashes minus nominal, in 1/64 tick: it depends on distance and receiver.
+    /// Mean length of this station's flashes minus nominal, in 1/64 tick: it depends on distance and receiver.
     std::int32_t excess = 0;
     std::uint32_t excess_count = 0;
   };
 
-  /// Where a flash belongs by its time.
+  /// Position of a flash according to its time.
   struct Place {
     SlotPlace place;
     std::int32_t late_ticks = 0;  // after the rotor's prediction
     bool predicted = false;       // by its own rotor
     bool found = false;
   };
-  /// What its length says then.
+  /// Its code according to its length.
   struct Reading {
     bool plausible = false;
     bool data = false;

@@ -8,7 +8,7 @@
 
 namespace pharos::lighthouse {
 
-/// How one rotor's laser plane departs from the ideal one. What a station sends of itself over OOTX.
+/// Departure of one rotor's laser plane from the ideal one, as a station sends it over OOTX.
 struct RotorCalibration {
   double phase_rad = 0.0;
   double tilt_rad = 0.0;
@@ -19,8 +19,8 @@ struct RotorCalibration {
   bool operator==(const RotorCalibration&) const = default;
 };
 
-/// The two signs in which published models differ (of the curve term); form 1 leaves the smaller residual on 8 of 8
-/// real station and recording sets.
+/// The two signs of the curve term in published models; form 1 leaves the smaller residual on 8 of 8 real station and
+/// recording sets.
 enum class ModelForm : std::uint8_t { kForm1 = 1, kForm2 = 2 };
 
 /// A station's identity and calibration. Equal id and equal rotors mean the same calibration.

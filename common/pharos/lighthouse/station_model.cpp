@@ -9,11 +9,11 @@
 namespace pharos::lighthouse {
 namespace {
 
-// The correction shrinks an error by tilt and curve (below 0.1 for every credible station), so a dozen steps reach
+// The correction reduces an error by tilt and curve (below 0.1 for every plausible station), so a dozen steps reach
 // double precision; more mean that it does not converge.
 constexpr int kMaxSteps = 24;
 constexpr double kConverged_rad = 1e-11;
-// Nearer than this to the edge of the half space ahead, tan overflows any use.
+// Nearer than this to the edge of the half space ahead, tan is too large to use.
 constexpr double kEdge_rad = 1e-3;
 
 bool is_ahead(double theta_rad) { return theta_rad > kEdge_rad && theta_rad < kPi - kEdge_rad; }

@@ -13,7 +13,7 @@ namespace pharos::lighthouse {
 
 /// One sync flash of a station, recognised.
 struct Flash {
-  /// Time zero of the slot: rise on the strongest sensor, corrected for the lateness of a weak strongest sensor; 20 ns
+  /// Time zero of the slot: rise on the strongest sensor, corrected for lateness where that sensor is weak; 20 ns
   /// ticks, unwrapped, as received (not smoothed).
   std::int64_t start_ticks = 0;
   /// Longest pulse of the flash over all sensors.
@@ -25,10 +25,10 @@ struct Flash {
   std::uint8_t sensors = 0;  // how many sensors saw it
 };
 
-/// Words said about a sweep; a bit set.
+/// Flags of a sweep; one bit each.
 enum SweepFlag : std::uint8_t {
-  kSweepPeriodNominal = 1,  // no earlier flash of this rotor yet: the nominal turn stands for the measured one
-  kSweepFlashWeak = 2,      // only weak sensors saw the flash: its time zero was put back by an estimate
+  kSweepPeriodNominal = 1,  // no earlier flash of this rotor yet: the nominal period is used
+  kSweepFlashWeak = 2,      // only weak sensors saw the flash: its time zero was corrected by an estimate
   kSweepLockPoor = 4,       // the slot sequence has recent gaps
 };
 
@@ -47,17 +47,17 @@ struct Hit {
 };
 
 /// All hits of one rotor's laser in one slot, with the flash that they are measured from. Integers only: the same bits
-/// on the target, on the wire and on the host. A slot whose laser is dark (flash.skip) gives a sweep without hits: its
-/// flash is what FlashSmoother needs to see every turn.
+/// on the target, on the wire and on the host. A slot whose laser is dark (flash.skip) gives a sweep without hits:
+/// FlashSmoother needs the flash of every revolution.
 struct Sweep {
   Flash flash;
-  /// Measured turn of this rotor, 1/16 tick.
+  /// Measured period of this rotor, 1/16 tick.
   std::uint32_t period_sixteenth_ticks = 0;
   std::uint8_t flags = 0;  // of SweepFlag
   StaticVector<Hit, kMaxHitsPerSweep> hits;
 };
 
-/// Nominal turn of a Lighthouse 1.0 rotor (60 Hz), 20 ns ticks.
+/// Nominal period of a Lighthouse 1.0 rotor (60 Hz), 20 ns ticks.
 inline constexpr double kNominalPeriod_ticks = 50e6 / 60.0;
 
 }  // namespace pharos::lighthouse

@@ -8,7 +8,7 @@
 namespace pharos::lighthouse {
 namespace {
 
-/// Wide hits are held back with what may be a flash, at most this long.
+/// Wide hits that may be a flash are held back, at most this long.
 constexpr std::int64_t kSweepDone_ticks =
     std::int64_t{kSweepWindowEnd_ticks} + kFlashRiseSpread_ticks + 2 * kLongestPulse_ticks;
 
@@ -24,7 +24,7 @@ void SweepCollector::push(const TrackedFlash& flash, DecoderCounters& counters) 
   open.ever = true;
   free_ &= free_ - 1U;
   Sweep& sweep = places_[open.place];
-  // Field by field: 17 bytes as one are a call of memcpy on the soft core.
+  // Field by field: copying 17 bytes at once is a call of memcpy on the soft core.
   const Flash& f = flash.flash;
   sweep.flash.start_ticks = f.start_ticks;
   sweep.flash.length_ticks = f.length_ticks;

@@ -13,11 +13,11 @@
 
 namespace pharos::lighthouse {
 
-/// Gathers the hits behind each flash to a sweep, and holds finished sweeps until they are taken.
+/// Collects the hits behind each flash to a sweep, and holds finished sweeps until they are taken.
 ///
-/// A sweep is finished when time has passed its window or its station flashed again; sweeps come out in the order of
+/// A sweep is finished when time has passed its window or its station flashed again; sweeps are output in the order of
 /// their flashes. Every flash gives a sweep, also one without hits and that of a slot whose laser is dark (skip):
-/// whoever smooths flashes needs them all, without the dark ones the rotor is seen every other turn only.
+/// smoothing needs all of them, else it sees only every other revolution of the rotor.
 class SweepCollector {
  public:
   /// Finished sweeps held for a caller that takes them after each push; more are dropped and counted.
@@ -41,19 +41,19 @@ class SweepCollector {
     }
     ++(flash_seen ? counters.hits_out_of_window : counters.hits_no_flash);
   }
-  /// No pulse before `now_ticks` will come any more.
+  /// No pulse before `now_ticks` will follow.
   void pass_time(std::int64_t now_ticks, DecoderCounters& counters);
   void finish_all(DecoderCounters& counters);
 
   /// Earliest time at which pass_time() has something to do.
   std::int64_t deadline_ticks() const { return deadline_; }
   bool has_finished() const { return !finished_.empty(); }
-  /// The oldest finished sweep; there must be one. It stands until drop_finished().
+  /// The oldest finished sweep; there must be one. Valid until drop_finished().
   const Sweep& finished() const { return places_[finished_.front()]; }
   void drop_finished() { free_ |= 1U << finished_.pop(); }
 
  private:
-  /// Before the next slot's hits can begin, a stray pulse is not for want of a flash.
+  /// Before the next slot's hits can begin, a stray pulse is not counted as without flash.
   static constexpr std::uint64_t kNextWindow_ticks = kSlot_ticks + kSweepWindowBegin_ticks;
 
   /// A station's last sweep, open or not.
@@ -70,8 +70,8 @@ class SweepCollector {
 
   std::int64_t deadline_ = INT64_MAX;
   std::array<Open, kMaxStations> open_;  // by station number
-  // A sweep is half a kilobyte: it is filled where it stays until it is taken. There is a place for every one that
-  // waits or is open.
+  // A sweep is half a kilobyte: it is filled where it stays until it is taken. There is an element for every sweep that
+  // is queued or open.
   static constexpr std::size_t kPlaces = kHeld + kMaxStations;
   std::uint32_t free_ = (1U << kPlaces) - 1U;  // bit per place
   RingBuffer<std::uint8_t, kHeld> finished_;   // places, oldest sweep first

@@ -9,9 +9,9 @@ namespace {
 constexpr std::size_t kAgreeing = 4;
 constexpr std::int64_t kAgreeingSpan_ticks = 1'000'000;   // 20 ms
 constexpr std::int64_t kShortStepBack_ticks = 2'500'000;  // 50 ms
-/// Stamps beyond are no clock (91 years of ticks); sums of a few of them still fit 64 bits.
+/// Stamps beyond are invalid (91 years of ticks); sums of a few of them still fit 64 bits.
 constexpr std::int64_t kMaxStamp_ticks = std::int64_t{1} << 57;
-/// Only nonsense makes the offset grow so far; it stays there rather than overflow.
+/// Only invalid input makes the offset grow so far; it saturates here rather than overflow.
 constexpr std::uint32_t kLargestOffsetSpans = std::uint32_t{1} << 28U;
 
 }  // namespace

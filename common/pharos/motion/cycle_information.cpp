@@ -7,7 +7,7 @@
 namespace pharos::motion {
 namespace {
 
-// A station of two pauses for a turn between its cycles.
+// A station of two pauses for a rotor revolution between its cycles.
 constexpr std::int64_t kOldest_ticks = 3 * 833'333 / 2;
 
 PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {

@@ -9,12 +9,12 @@
 
 namespace pharos::motion {
 
-/// The last sweep of each rotor taken together, as if solved alone: precision factors (22), what no pose explains, and
-/// how errors that stay with the sensors reach the pose.
+/// The last sweep of each rotor taken together, as if solved alone: precision factors (22), the residual that no pose
+/// explains, and how systematic sensor errors propagate to the pose.
 class CycleInformation {
  public:
   /// Residual of both sweeps that no pose and no shift common to a sweep explains: chi-squared and its degrees of
-  /// freedom (0: not to be told).
+  /// freedom (0: unobservable).
   struct ResidualChi2 {
     double square = 0.0;
     double freedom = 0.0;
@@ -22,13 +22,13 @@ class CycleInformation {
 
   /// Takes a sweep's hits, their residuals against the prediction. `own_variance`: of a hit; noisier ones count less.
   ResidualChi2 set(Axis axis, const HitFits& hits, double own_variance, std::int64_t time_ticks);
-  /// The belief was moved by `shift` after that sweep: its residuals are now against the belief moved.
+  /// The state estimate was moved by `shift` after that sweep: its residuals are now relative to the moved estimate.
   void shifted(Axis axis, const Vector6& shift);
 
-  /// The two sweeps leave no direction open and are no older than a turn and a half.
+  /// The two sweeps constrain all six directions and are no older than one and a half rotor revolutions.
   bool known() const { return known_; }
-  /// Covariance of a pose solved from both sweeps by plain least squares, (17): for errors that each hit has of its own
-  /// with variance `own`, and one with variance `common` that all hits of a sweep share. The last one known, zero
+  /// Covariance of a pose solved from both sweeps by plain least squares, (17): for errors with variance `own`,
+  /// independent for each hit, and one with variance `common`, equal for all hits of a sweep. The last one known, zero
   /// before.
   Matrix6 covariance_of(double own, double common) const;
 

@@ -9,24 +9,24 @@
 namespace pharos::motion {
 namespace {
 
-// How far off a single-cycle solution may be when the body turns 1.5 deg and moves 16 mm within the cycle.
+// Error of a single-cycle solution when the body turns 1.5 deg and moves 16 mm within the cycle.
 constexpr double kStartRotation_rad = 0.06, kStartPosition_m = 0.1;
-// Longest single prediction: a body that turns at 10 rad/s stays within what one step is good for.
+// Longest single prediction: accurate enough for a body that turns at 10 rad/s.
 constexpr double kLongestStep_s = 0.01;
-// Range of the learnt own variance over the assumed one, and how many degrees of freedom it remembers.
+// Range of the estimated own variance over the assumed one, and the degrees of freedom that it averages over.
 constexpr double kMinLevel = 0.8, kMaxLevel = 1e4;
 constexpr double kLevelFreedom = 200.0, kLevelPrior = 2.0;
-// Up to here the learnt variance may be noise alone: narrow hits, a noisier rotor.
+// Up to here the estimated variance may be noise alone: narrow hits, a noisier rotor.
 constexpr double kWhiteLevel = 2.0;
 constexpr double kSurelyResting = 0.9;
-// Most that errors which stay may put on an answer.
+// Maximum that systematic errors may add to a result.
 constexpr double kCarriedRotation_rad = 0.2, kCarriedPosition_m = 0.2;
-// A second station's pose that was learnt is forgotten within this time, as far as the sensors' errors go: the body has
-// then gone on to where they show otherwise.
+// Time in which the systematic errors re-enter the covariance of an estimated second station's pose: the body has then
+// moved to where sensor errors act differently.
 constexpr double kLinkForgets_s = 1.0;
-// A station that saw the body this recently still speaks for it.
+// A station that saw the body this recently still counts.
 constexpr double kFresh_s = 0.1;
-// One sweep moves it by no more than this many times its expectation.
+// One sweep moves the noise level by no more than this many times its expectation.
 constexpr double kLargestRatio = 9.0;
 
 void predict(ImmFilter& filter, double dt_s) {
@@ -37,11 +37,12 @@ void predict(ImmFilter& filter, double dt_s) {
   if (dt_s > 0.0) filter.predict(dt_s);
 }
 
-// Sensors that must agree with one another before a sweep may overthrow every belief.
+// Sensors that must agree with one another before a sweep may reset the rates of the filter.
 constexpr int kMinSensorsForRateReset = 4;
-// Chi-squared of a sweep (five degrees of freedom) that not even the wildest motion gives: one in ten million.
+// Chi-squared of a sweep (five degrees of freedom) beyond every model's gate: one in ten million.
 constexpr double kRateResetChi2 = 40.0;
-// A sweep that turns the belief by less is linear enough; how often one that turns it further is linearised again.
+// A sweep that rotates the estimate by less is linear enough; how often one that rotates it further is linearised
+// again.
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
 
@@ -123,8 +124,8 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   return fit_;
 }
 
-// What a sweep says to the prediction. One that turns the belief far is linearised again where it leads (iterated
-// extended Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
+// Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended
+// Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.
 void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                         const StateEstimate& prediction, const SweepNoise& noise) {
   Vector6 offset = Vector6::Zero();  // the prediction's pose minus the one linearised at
@@ -146,12 +147,12 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
 }
 
 // A sweep of six hits and more shows their noise by itself. Five show it only together with the sweep before, and only
-// while the body rests: what a wrong rate does between two sweeps is not noise, and a filter that took it for noise
-// would grow deaf and its rates worse.
+// while the body is stationary: the effect of a wrong rate between two sweeps is not noise, and a filter that took it
+// for noise would weight its measurements too low and its rates would become worse.
 void Hypothesis::learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const {
   CycleInformation::ResidualChi2 seen = {fit_.information.residual_chi2,
                                          static_cast<double>(fit_.information.hits - fit_.information.rank)};
-  // Each sweep is looked at twice, with the one before and the one after.
+  // Each sweep is used twice, with the one before and the one after.
   if (!(seen.freedom > 0.0) && filter_.probability().front() > kSurelyResting)
     seen = {0.5 * cycle.square, 0.5 * cycle.freedom};
   if (!(seen.freedom > 0.0)) return;
@@ -166,19 +167,19 @@ Matrix6 Hypothesis::systematic_covariance(const StationState& station_state, dou
                                           const AssumedNoise& noise) const {
   const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
   const double sensor_rad = noise.systematic.sensor_position_m / range_m;
-  // What the residuals show of the sensors is not counted twice.
+  // Sensor errors that the residuals show are not counted twice.
   const double of_sensors = std::max((station_state.level - kWhiteLevel) * own_variance, sensor_rad * sensor_rad);
   const double of_rotors = noise.systematic.rotor_rad * noise.systematic.rotor_rad;
   Matrix6 carried = station_state.view.covariance_of(std::max(0.0, of_sensors), of_rotors);
-  // Two sweeps that hardly tell the pose hardly move the belief either.
+  // Two sweeps that hardly constrain the pose also hardly correct the estimate.
   const double rotation = carried.topLeftCorner<3, 3>().trace() / (kCarriedRotation_rad * kCarriedRotation_rad);
   const double position = carried.bottomRightCorner<3, 3>().trace() / (kCarriedPosition_m * kCarriedPosition_m);
   carried *= 1.0 / std::max({1.0, rotation, position});
   return carried;
 }
 
-// What two stations see wrong of a body differs with the body's place: where it was learnt from one another, the second
-// station's pose is no better than that, and grows as uncertain again while the body goes on.
+// Systematic errors of the two views depend on the body's position: a relative pose that was estimated from them is no
+// better than they are, and its covariance grows again while the body moves.
 void Hypothesis::inflate_relative_covariance(double dt_s) {
   const SecondStation& second = filter_.second();
   const SecondView view(filter_.state_estimate().pose, second.pose);
@@ -191,7 +192,7 @@ void Hypothesis::inflate_relative_covariance(double dt_s) {
                                       back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))));
 }
 
-// Where both stations see the body, the errors that stay are no larger than those before the better one alone.
+// Where both stations see the body, the systematic errors are no larger than those of the better station alone.
 Matrix6 Hypothesis::systematic_of(Observer observer) const {
   const Matrix6& own = station_state(observer).systematic;
   if (!filter_.linked()) return own;
@@ -208,8 +209,8 @@ Matrix6 Hypothesis::systematic_of(Observer observer) const {
   return own_known && own.trace() <= mapped.trace() ? own : mapped;
 }
 
-// What is beyond the assumed noise belongs to sensors and rotors that are not where they are believed to be. It is the
-// same in every sweep of a view, so no averaging removes it: it is added to what the sweeps say together.
+// What exceeds the assumed noise is attributed to wrong sensor positions and rotor parameters. It is the same in every
+// sweep of a view, so averaging does not remove it: it is added to the covariance from the sweeps.
 StateEstimate Hypothesis::with_systematics(const ImmFilter& filter, Observer observer) const {
   StateEstimate state_estimate = filter.state_estimate(observer);
   const Matrix6 systematic = systematic_of(observer);

@@ -12,7 +12,8 @@
 
 namespace pharos::motion {
 
-/// Errors that stay as they are from sweep to sweep, 1 sigma: no residual shows all of them and nothing averages them.
+/// Errors that are the same from sweep to sweep, 1 sigma: no residual shows all of them and averaging does not reduce
+/// them.
 struct SystematicErrors {
   double sensor_position_m = 0.0;  // of each sensor, per axis
   double rotor_rad = 0.0;          // of each rotor, the same for all its hits: phase above all
@@ -21,64 +22,64 @@ struct SystematicErrors {
 /// Of a target built from its drawing and a station known from its OOTX alone: 0.4 mm; phase 0.5 mrad, tilt and curve
 /// 0.3 mrad each.
 inline constexpr SystematicErrors kUncalibratedErrors{0.4e-3, 0.6e-3};
-/// What a calibration from thirty poses and one length leaves of them, where the calibration does not say itself.
+/// What a calibration from thirty poses and one length leaves of them, where the calibration does not state it itself.
 inline constexpr SystematicErrors kCalibratedErrors{0.002e-3, 0.07e-3};
 
 /// Noise of one bearing as assumed: its standard deviation (rad) and the correlation between sensors of one sweep; and
-/// what is no noise.
+/// the systematic errors.
 struct AssumedNoise {
   double sigma_rad = 0.0;
   double rho = 0.0;
   SystematicErrors systematic;
 };
 
-/// Own noise beyond this many times the assumed one is more than noise.
+/// Own noise beyond this many times the assumed one is not noise alone.
 inline constexpr double kNoisy = 3.0;
 
-/// One idea of where the body is: a bank of beliefs that takes sweep after sweep, how well it fared, and how large the
-/// hits' own noise turned out to be.
+/// One hypothesis of the body's motion: an IMM filter that takes sweep after sweep, its likelihood, and the estimated
+/// noise of single hits.
 class Hypothesis {
  public:
-  /// From a single-cycle solution and that cycle's sweeps. The solution serves as the place to linearise at: its hits
-  /// are taken anew, each at its own instant, twice. `noise_scale`: own noise over the assumed one, as a first guess;
-  /// what leaves the assumed noise no chance (a target or station that nobody calibrated) must be told here.
-  /// `rate`: where one is roughly known, else null.
+  /// From a single-cycle solution and that cycle's sweeps. The solution serves as the linearisation point only: its
+  /// hits are processed again, each at its own instant, twice. `noise_scale`: own noise over the assumed one, as a
+  /// first guess; must be given where the assumed noise is far too small (uncalibrated target or station). `rate`:
+  /// where one is roughly known, else null.
   Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose, const Vector6* rate, double noise_scale,
              const StationView& view, const AssumedNoise& noise);
 
-  /// Moves on to the sweep and adds it. A sweep none of whose hits fits changes nothing but the time. `observer`: whose
-  /// sweep; the second station's only once linked.
+  /// Predicts to the sweep's time and adds it. A sweep none of whose hits fits changes nothing but the time.
+  /// `observer`: whose sweep; the second station's only once linked.
   const SweepFit& push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                        const AssumedNoise& noise, Observer observer = Observer::kReference);
-  /// From here on sweeps of a second station count too (ImmFilter::link). `surveyed`: where it stands was measured,
-  /// and is no better or worse known as the body goes on.
+  /// From here on sweeps of a second station count too (ImmFilter::link). `surveyed`: its pose was measured, so its
+  /// covariance does not grow with time.
   void link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed);
 
   const ImmFilter& filter() const { return filter_; }
   /// Whose the last sweep was.
   Observer observer() const { return observer_; }
-  /// The belief after the last sweep, at time_ticks(), in the frame of that sweep's station; what stays wrong with the
-  /// sensors included.
+  /// The state estimate after the last sweep, at time_ticks(), in the frame of that sweep's station; systematic errors
+  /// included.
   const StateEstimate& state_estimate() const { return state_estimate_; }
   const CycleInformation& cycle_information(Observer observer = Observer::kReference) const {
     return station_state(observer).view;
   }
-  /// What is believed of any time, from what is known now; up to kLost_s ahead.
+  /// State estimate at any time, predicted from the present one; up to kLost_s ahead.
   StateEstimate predicted(std::int64_t time_ticks, Observer observer = Observer::kReference) const;
   std::int64_t time_ticks() const { return time_ticks_; }
   std::int64_t last_used_ticks() const { return last_used_ticks_; }
   const SweepFit& last_fit() const { return fit_; }
-  /// Chi-squared of what the last sweep said to the prediction; its degrees of freedom are the rank of last_fit().
+  /// NIS: chi-squared of the last sweep's innovation; its degrees of freedom are the rank of last_fit().
   double nis() const { return nis_; }
-  /// Not even the wildest motion explains the last sweep: what is believed after it is no answer.
+  /// The innovation exceeds the gate of every model: the filter has diverged and reports no pose.
   bool diverged() const { return diverged_; }
   /// -2 ln of the likelihood of all sweeps since reset_cost().
   double cost() const { return cost_; }
   void reset_cost() { cost_ = 0.0; }
   int sweeps() const { return sweeps_; }
-  /// Sweeps in a row that mostly contradicted it.
+  /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
-  /// Own noise over the assumed one, as learnt.
+  /// Own noise over the assumed one, as estimated.
   double noise_scale(Observer observer = Observer::kReference) const;
 
  private:
@@ -88,7 +89,7 @@ class Hypothesis {
     Matrix6 systematic = Matrix6::Zero();  // of the pose it sees, from errors that do not average out
     std::int64_t seen_ticks = INT64_MIN;
     double level = 1.0;                     // own variance over the assumed one
-    double noise_degrees_of_freedom = 0.0;  // degrees of freedom that it was learnt from
+    double noise_degrees_of_freedom = 0.0;  // that it was estimated from
   };
 
   Hypothesis() = default;

@@ -11,16 +11,16 @@ constexpr std::size_t kModels = ImmFilter::kModels;
 constexpr std::size_t kMoving = ImmFilter::kMoving;
 
 // White jerk that drives the moving models: spectral densities, (rad/s^3)^2 s and (m/s^3)^2 s. From a satellite's slow
-// drift over a manoeuvre at half a metre and 60 deg a second to a hand that shakes the target.
+// drift over a manoeuvre at 0.5 m/s and 60 deg/s to a target shaken by hand.
 struct Jerk {
   double rotation, translation;
 };
 constexpr std::array<Jerk, kMoving> kJerk{{{0.003, 0.0003}, {0.1, 0.03}, {10.0, 6.0}, {2e6, 2e4}}};
-// A body at rest creeps (a table that gives, warmth): a random walk of 0.1 mm and 0.006 deg in three hours keeps the
-// belief from growing deaf.
+// A stationary body drifts (a table that yields, temperature): a random walk of 0.1 mm and 0.006 deg in three hours
+// keeps the gain of the static model above zero.
 constexpr double kCreepRotation = 1e-12, kCreepTranslation = 1e-12;  // rad^2/s, m^2/s
 
-// Standard deviations of what begins to move: rate and acceleration, rotation and translation.
+// Standard deviations at the onset of motion: rate and acceleration, rotation and translation.
 struct Onset {
   double rotation_rate, velocity, rotation_acceleration, acceleration;
 };
@@ -31,21 +31,21 @@ constexpr std::array<Onset, kMoving> kRoughlyKnown{
 constexpr std::array<Onset, kMoving> kUnknown{
     {{2.0, 1.0, 0.3, 0.1}, {2.0, 1.0, 1.0, 0.5}, {5.0, 3.0, 10.0, 3.0}, {15.0, 5.0, 100.0, 50.0}}};
 
-// Changes per second, from row to column: rest, even, calm, brisk, wild.
+// Transition rates per second, from row to column: static, then moving by increasing process noise.
 constexpr double kChange[kModels][kModels] = {{0.0, 0.1, 0.1, 0.05, 0.01},
                                               {0.1, 0.0, 0.2, 0.05, 0.01},
                                               {0.1, 0.2, 0.0, 0.5, 0.02},
                                               {0.01, 0.02, 1.0, 0.0, 1.0},
                                               {0.01, 0.01, 0.02, 1.0, 0.0}};
-// Only what hardly moves comes to rest between two sweeps: rates, 1 sigma, that friction takes away at once.
+// Only a slow body becomes stationary between two sweeps: rates, 1 sigma, that friction stops at once.
 constexpr double kHaltingRate_rad_s = 0.1, kHaltingVelocity_m_s = 0.03;
-// A belief that knows less than this of the pose has lost the body: it begins anew from the calmer ones. So does one
-// that nobody believes and whose rates are these squared sigmas from the next calmer one's: rates of whole turns a
-// sweep show the same poses, and no sweep would ever contradict them.
+// A model with larger sigmas of the pose than these has lost the body: it restarts from the models of lower process
+// noise. So does one of negligible probability whose rates are these squared sigmas from those of the next lower one:
+// rates that differ by whole rotations a sweep give the same poses, and no sweep would ever contradict them.
 constexpr double kAstray = 100.0;
 constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
 constexpr double kLongestStep_s = 0.05;
-// Fractions below are not worth a blend; beliefs less probable are not corrected, but taken anew from the others.
+// Smaller fractions are not mixed; less probable models are not corrected, but restarted from the others.
 constexpr double kNegligible = 1e-3;
 
 template <class Parent, class Child>
@@ -86,7 +86,7 @@ Vector6 blend_station(SecondStation& into, const SecondStation& other, double we
   return s;
 }
 
-// Moments of two beliefs, the second with the share `weight`.
+// Moments of a mixture of two estimates, the second with the fraction `weight`.
 void blend(RestingState& into, const MovingState& other, double weight, bool linked) {
   const Vector6 p = small_difference(other.pose, into.pose);
   blend_block(into.covariance, other.pp, weight, p, p);
@@ -113,8 +113,7 @@ void blend(MovingState& into, const MovingState& other, double weight, bool link
   into.acceleration += weight * a;
 }
 
-// How probable it is that the rates believed in are small enough to end: the share of them, exp and volume of a
-// Gaussian.
+// Probability that the estimated rates are small enough to stop: the overlap of the two Gaussians, exp and volume.
 double may_halt(const MovingState& state) {
   double volume = 1.0, square = 0.0;
   for (int k = 0; k < 6; ++k) {
@@ -172,7 +171,7 @@ void ImmFilter::interact(double dt_s) {
       moving_[m] = moving_[m - 1];
     }
   }
-  // Calmer beliefs take over from brisker ones, in this order, which leaves every source as it was.
+  // Models take over from those of higher process noise, in this order, which leaves every source as it was.
   double sum = flow[0][0];
   for (std::size_t i = 1; i < kModels; ++i) {
     if (flow[i][0] <= kNegligible * next[0]) continue;
@@ -261,7 +260,7 @@ StateEstimate ImmFilter::state_estimate(Observer observer) const {
   std::array<Seen, kModels> of;
   Vector6 mean = Vector6::Zero();
   std::array<Vector6, kModels> away;
-  // The wildest one is looked at however improbable.
+  // The one of highest process noise is always included: gates need it.
   for (std::size_t i = 0; i < kModels; ++i) {
     if (probability_[i] >= 1e-9 || i == kMoving) of[i] = seen(i, observer);
   }

@@ -7,48 +7,48 @@
 
 namespace pharos::motion {
 
-/// Where the body is, as the whole bank sees it: moments of the mixture, in the frame of the station that looks.
+/// State estimate of the whole filter: moments of the mixture, in the frame of the observing station.
 struct StateEstimate {
   LighthouseFromBody pose;
-  Matrix6 covariance = Matrix6::Zero();       // of the pose error
-  Vector6 rate = Vector6::Zero();             // rad/s, m/s, lighthouse frame
-  double rotation_rate_variance = 0.0;        // of one component, (rad/s)^2
-  double velocity_variance = 0.0;             // of one component, (m/s)^2
-  Matrix6 gate_covariance = Matrix6::Zero();  // covariance if the wildest motion were certain: what gates must allow
+  Matrix6 covariance = Matrix6::Zero();  // of the pose error
+  Vector6 rate = Vector6::Zero();        // rad/s, m/s, lighthouse frame
+  double rotation_rate_variance = 0.0;   // of one component, (rad/s)^2
+  double velocity_variance = 0.0;        // of one component, (m/s)^2
+  Matrix6 gate_covariance =
+      Matrix6::Zero();  // covariance if the model of highest process noise were certain; for gates
 };
 
-/// Interacting multiple models (Blom and Bar-Shalom, "The interacting multiple model algorithm", 1988): one belief that
-/// the body rests and four that it moves, evenly, calmly, briskly, wildly, each with its probability. This is what
-/// adapts the process noise: at once, and without a detector.
+/// Interacting multiple models (Blom and Bar-Shalom, "The interacting multiple model algorithm", 1988): one static
+/// model and four constant-acceleration models of increasing process noise (white jerk), each with its probability.
+/// This adapts the process noise at once, and without a detector.
 ///
-/// Once linked, every belief also knows where a second station stands, and learns of it: that pose is part of the
-/// state.
+/// Once linked, the pose of a second station is part of every model's state and is estimated too.
 class ImmFilter {
  public:
   static constexpr std::size_t kMoving = 4;
-  static constexpr std::size_t kModels = 1 + kMoving;  // 0 rests
+  static constexpr std::size_t kModels = 1 + kMoving;  // 0 is the static model
 
-  /// Nothing is known but about where: sigmas of rotation (rad) and position (m); and perhaps a rough rate (rad/s,
-  /// m/s), from two poses a turn or two apart.
+  /// Only the pose is known: sigmas of rotation (rad) and position (m); optionally a rough rate (rad/s, m/s), from two
+  /// poses one or two rotor revolutions apart.
   void start(const LighthouseFromBody& pose, double sigma_rotation_rad, double sigma_position_m, const Vector6* rate);
-  /// Moves all beliefs on by dt_s, after each has taken over what the others know (interaction).
+  /// Mixes the models' estimates (interaction) and predicts each by dt_s.
   void predict(double dt_s);
-  /// Moves the means alone, also backwards.
+  /// Predicts the means alone, also backwards.
   void predict_mean(double dt_s);
-  /// The last dt_s brought what none of the beliefs allows for: a blow, a catch. The wildest one now holds it possible
-  /// that the rates are anything.
+  /// No model explains the last dt_s (impact, docking): resets the rate covariance of the model with the highest
+  /// process noise.
   void reset_rates(double dt_s);
-  /// From here on a second station takes part, which stands there as far as is known.
+  /// From here on a second station takes part, with this pose and covariance.
   void link(const StationFromStation& T_second_reference, const Matrix6& covariance);
-  /// The second station's pose is known less well by that much (covariance of its error).
+  /// Adds to the covariance of the second station's pose error.
   void inflate_relative_covariance(const Matrix6& covariance);
-  /// T_second_reference and its covariance, of the most probable belief; only when linked.
+  /// T_second_reference and its covariance, of the most probable model; only when linked.
   const SecondStation& second() const;
   bool linked() const { return linked_; }
 
   StateEstimate state_estimate(Observer observer = Observer::kReference) const;
-  /// Adds a sweep that was linearised at `pose`; -2 ln of its likelihood but for constants of the noise. Of the second
-  /// station only when linked; `pose` is then in that one's frame.
+  /// Adds a sweep that was linearised at `pose`; returns -2 ln of its likelihood but for constants of the noise. Of the
+  /// second station only when linked; `pose` is then in that one's frame.
   double correct(const SweepInformation& sweep, const LighthouseFromBody& pose,
                  Observer observer = Observer::kReference);
 

@@ -6,7 +6,7 @@
 namespace pharos::motion {
 namespace {
 
-// side C^-T for side = (covariance with the pose seen) L: what multiplies the whitened innovation.
+// side C^-T for side = (covariance with the observed pose) L: the factor of the whitened innovation.
 Matrix6 gain_side(const Matrix6& covariance_with_seen, const SweepInformation& sweep, const Innovation& innovation) {
   Matrix6 T = covariance_with_seen.lazyProduct(sweep.factor);
   for (int j = 0; j < 6; ++j) {
@@ -111,7 +111,7 @@ void MovingState::predict_mean(double dt_s) {
 
 void MovingState::predict(double dt_s, double jerk_rotation, double jerk_translation) {
   const double t = dt_s, h = 0.5 * t * t;
-  // An error of attitude turns with the body.
+  // An attitude error rotates with the body.
   const Vector3 turn = rate.head<3>() * t + acceleration.head<3>() * h;
   const Matrix3 E = rotation_exp(turn);
   pp.topRows<3>() = E.lazyProduct(pp.topRows<3>()).eval();

@@ -9,8 +9,7 @@
 
 namespace pharos::motion {
 
-/// What a sweep says to a belief, before the belief takes it: innovation and its covariance, in the sweep's own
-/// whitened coordinates.
+/// Innovation of a sweep and its covariance, before the correction, in the sweep's own whitened coordinates.
 struct Innovation {
   Matrix6 factor = Matrix6::Zero();  // C of I + L^T P L = C C^T, lower triangular
   Vector6 whitened = Vector6::Zero();
@@ -18,18 +17,18 @@ struct Innovation {
   double log_det = 0.0;  // of I + L^T P L
 };
 
-/// Innovation of a sweep for a belief whose pose error has this covariance; `offset`: the belief's pose minus the one
+/// Innovation of a sweep for a state whose pose error has this covariance; `offset`: the state's pose minus the one
 /// that the sweep was linearised at.
 Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_covariance, const Vector6& offset);
 
-/// What the innovation makes of a pose with this error covariance.
+/// Correction of a pose with this error covariance by the innovation.
 Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
 
 /// Whose sweep it is: that of the station in whose frame the belief is kept, or that of a second one.
 enum class Observer : std::uint8_t { kReference, kSecond };
 
-/// What a belief knows of a second station: T_second_reference, and the covariance of its error (s, Pose::moved_by)
-/// with itself and with the errors of pose, rate and acceleration; sp = E[s error x pose error^T].
+/// The part of the state that belongs to a second station: T_second_reference, and the covariance of its error (s,
+/// Pose::moved_by) with itself and with the errors of pose, rate and acceleration; sp = E[s error x pose error^T].
 struct SecondStation {
   StationFromStation pose;
   Matrix6 ss = Matrix6::Zero(), sp = Matrix6::Zero(), sr = Matrix6::Zero(), sa = Matrix6::Zero();
@@ -46,7 +45,7 @@ struct SecondView {
 /// Covariance of the pose seen from the second station.
 Matrix6 seen_covariance(const SecondView& view, const Matrix6& pp, const SecondStation& second);
 
-/// StateEstimate that the body rests: a pose and the covariance of its error (Pose::moved_by).
+/// State of the static model: a pose and the covariance of its error (Pose::moved_by).
 struct RestingState {
   LighthouseFromBody pose;
   Matrix6 covariance = Matrix6::Zero();
@@ -57,7 +56,7 @@ struct RestingState {
   void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
 };
 
-/// Gaussian belief about pose, rate and acceleration.
+/// Gaussian state of a moving model: pose, rate and acceleration.
 ///
 /// Mean: T_lighthouse_body; rate (angular velocity rad/s, then velocity of the body's origin m/s) and its derivative,
 /// in the lighthouse frame. Error: delta of Pose::moved_by, then differences of rate and acceleration. Covariance by
@@ -70,14 +69,13 @@ struct MovingState {
   Matrix6 ap = Matrix6::Zero(), ar = Matrix6::Zero(), aa = Matrix6::Zero();
   SecondStation second;
 
-  /// Moves the belief on by dt_s under white jerk of spectral density `jerk_rotation` (rad/s^3)^2 s and
-  /// `jerk_translation` (m/s^3)^2 s. Exact but for the coupling of rates across one step: keep |angular velocity| dt
-  /// below 0.1 rad.
+  /// Predicts by dt_s under white jerk of spectral density `jerk_rotation` (rad/s^3)^2 s and `jerk_translation`
+  /// (m/s^3)^2 s. Exact but for the coupling of rates across one step: keep |angular velocity| dt below 0.1 rad.
   void predict(double dt_s, double jerk_rotation, double jerk_translation);
   /// What predict() does to the covariance with a second station.
   void predict_second(double dt_s);
   void predict_mean(double dt_s);
-  /// A sweep of the reference station; `linked`: a second station is known, and learns from it too.
+  /// A sweep of the reference station; `linked`: a second station is part of the state and is corrected too.
   void correct(const SweepInformation& sweep, const Innovation& innovation, bool linked);
   void correct_second(const SweepInformation& sweep, const Innovation& innovation, const SecondView& view);
 

@@ -56,7 +56,7 @@ void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::Stat
   if (station >= kMaxStations) return;
   Station& s = stations_[station];
   if (s.calibration == calibration) return;
-  // Another calibration moves every angle: what was believed is another body's place.
+  // Another calibration changes every angle: the present state no longer holds.
   s.track.lose();
   pair_.forget_learnt();
   s.calibration = calibration;
@@ -105,11 +105,11 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   return answer(station, sweep, bearings);
 }
 
-// Of the station's own track and of what both stations say together that which took the sweep and knows more.
+// The hypothesis that took this sweep and has the smaller covariance: the station's own or the joint one.
 const Hypothesis* MotionTracker::better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const {
   const Hypothesis* own = station.track.best();
   const Hypothesis* joint = pair_.joint();
-  // A leader that has just begun from an older cycle has nothing to say of this sweep.
+  // A hypothesis that has just begun from an older cycle has not taken this sweep.
   if (own != nullptr && own->time_ticks() < time_ticks) own = nullptr;
   if (joint == nullptr || joint->time_ticks() < time_ticks || !answers(*joint) ||
       joint->observer() != observer_of(slot)) {

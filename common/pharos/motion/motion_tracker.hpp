@@ -11,8 +11,8 @@
 
 namespace pharos::motion {
 
-/// Stated sigmas (square roots of the traces) beyond which an answer is none (too_uncertain). As they stand: a body
-/// seen so badly is as good as lost. Who needs every valid pose to be good sets what good is.
+/// Stated sigmas (square roots of the traces) beyond which no pose is reported (too_uncertain). With the defaults the
+/// body is as good as lost; a caller that needs every valid pose to be accurate sets smaller ones.
 struct UncertaintyLimits {
   double rotation_rad = 20.0 * kRadPerDeg;
   double position_m = 0.3;
@@ -22,32 +22,33 @@ struct MotionOptions {
   pose::SolveOptions solve;  // of the cycles solved alone; its sigma is the noise of one bearing, its rho that of ADOP
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
   bool smooth_flashes = true;
-  /// Fraction of a bearing's variance that rotor and flash give to all sensors of one sweep alike: 0.87 in the paper,
+  /// Fraction of a bearing's variance that rotor and flash add to all sensors of one sweep equally: 0.87 in the paper,
   /// 0.96 to 0.99 in recordings.
   double rho = kPaperRho;
-  /// What is known to be wrong with target and stations, for every answer's covariance.
+  /// Known systematic errors of target and stations, for every result's covariance.
   SystematicErrors systematic;
   UncertaintyLimits limits;
 };
 
-/// The noise and station model of a tracker of single cycles; a rho of 0 there was not told, and is the paper's here.
+/// The noise and station model of a tracker of single cycles; a rho of 0 there means not given, and becomes the paper's
+/// here.
 MotionOptions motion_options(const track::TrackOptions& same, const SystematicErrors& systematic,
                              const UncertaintyLimits& limits = {});
 
-/// What the last sweep said of the tracker's own honesty.
+/// Consistency of the filter as the last sweep shows it.
 struct InnovationStatistics {
-  double nis = 0.0;  // chi-squared of what it said to the prediction
+  double nis = 0.0;  // chi-squared of its innovation
   int nis_degrees_of_freedom = 0;
-  double residual_chi2 = 0.0;  // chi-squared of what no pose explains
+  double residual_chi2 = 0.0;  // chi-squared of the residual that no pose explains
   int residual_degrees_of_freedom = 0;
 };
 
-/// Sweeps of one target in, a pose after every sweep out: motion-aware, each hit taken at its own instant. Up to two
-/// stations; where both see the body, one belief takes the hits of both (StationPair).
+/// Sweeps of one target in, a pose after every sweep out: motion-aware, each hit at its own instant. Up to two
+/// stations; where both see the body, one filter takes the hits of both (StationPair).
 ///
-/// One answer a sweep that hit the target, in the frame of that sweep's station; its time is that of the last hit used.
-/// Answers have the form of EpochTracker's; `prior` then means that this station saw the body too little of late to
-/// solve it alone, `fused` that the pose rests on both stations. State: some 100 KiB. Cost: README.
+/// One result a sweep that hit the target, in the frame of that sweep's station; its time is that of the last hit used.
+/// Results have the form of EpochTracker's; `prior` then means that this station's recent sweeps do not suffice to
+/// solve the pose alone, `fused` that the pose uses both stations. State: some 100 KiB. Cost: README.
 class MotionTracker {
  public:
   MotionTracker(const Target& target, const MotionOptions& options);
@@ -58,24 +59,24 @@ class MotionTracker {
   /// Where slot 1's station stands, as measured; empty: learnt from what both stations see. Holds until another one is
   /// set, or forget_stations(); the same again changes nothing.
   void set_relative(const std::optional<StationRelative>& relative);
-  /// What became of it, and what is known now.
+  /// The joint hypothesis and its present estimate of the relative pose.
   const StationPair& pair() const { return pair_; }
   /// As EpochTracker's.
   void forget_stations();
   std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep);
-  /// As EpochTracker's; nothing is ever held back.
+  /// As EpochTracker's; always empty.
   std::optional<track::EpochResult> flush() { return std::nullopt; }
 
-  /// Pose, rates and covariance at any time from what is known now: up to kLost_s ahead of the last hit (then empty, as
-  /// where nothing is tracked); backwards the mean is moved and the covariance stays that of now.
+  /// Pose, rates and covariance at any time from the present state: up to kLost_s ahead of the last hit (then empty, as
+  /// where nothing is tracked); backwards the mean is moved and the covariance stays as it is now.
   std::optional<StateEstimate> predicted(std::uint8_t station, std::int64_t time_ticks) const;
 
-  /// The bearings of the sweep last answered, hit by hit, those left out too.
+  /// The bearings of the sweep last processed, hit by hit, those left out too.
   std::size_t bearing_count() const { return bearings_.size(); }
   track::TrackedBearing bearing(std::size_t index) const { return bearings_[index]; }
   const InnovationStatistics& innovation() const { return innovation_; }
 
-  /// After this long without a hit that fits, the body is lost and looked for anew.
+  /// After this long without a hit that fits, the body is lost and the track starts again.
   static constexpr double kLost_s = 0.5;
 
  private:

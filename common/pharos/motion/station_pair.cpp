@@ -10,18 +10,19 @@
 namespace pharos::motion {
 namespace {
 
-// Half a second of sweeps and a pose this good before a track tells where the other station stands.
+// Half a second of sweeps and sigmas this small before a track determines the other station's pose.
 constexpr int kSettledSweeps = 60;
 constexpr double kSettledRotation_rad = 0.035, kSettledPosition_m = 0.03;
-// What the second station's sweeps may correct of a relative pose that two tracks told: as at a start from one cycle.
+// Initial sigmas of a relative pose determined by two tracks, for the second station's sweeps to correct: as at a start
+// from one cycle.
 constexpr double kLooseRotation_rad = 0.06, kLoosePosition_m = 0.1;
-// A track that saw the body this recently knows where it is.
+// A track that saw the body this recently is current.
 constexpr double kFresh_s = 0.03;
-// Squared distance (6 degrees of freedom) from which two poses contradict each other, and sweeps in a row that it
-// takes.
+// Squared distance (6 degrees of freedom) from which two poses contradict each other, and the number of consecutive
+// sweeps for a decision.
 constexpr double kContradiction = 40.0;
 constexpr int kContradictions = 30;
-// A joint hypothesis that knows less than this of the pose is none.
+// A joint hypothesis with larger sigmas than these is discarded.
 constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
 constexpr double kLost_s = 0.5;
 
@@ -102,7 +103,7 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
   watch(station, tracks);
 }
 
-// The relative pose against what both tracks say now.
+// Compares the relative pose with the present estimates of both tracks.
 bool StationPair::fits(const Known& known, const Tracks& tracks) const {
   const std::int64_t now = now_of(tracks);
   const StateEstimate first = tracks[0]->best()->predicted(now), second = tracks[1]->best()->predicted(now);
@@ -140,7 +141,7 @@ void StationPair::start_from_both(const Tracks& tracks) {
   const LighthouseFromBody first = tracks[0]->best()->predicted(now).pose;
   const LighthouseFromBody second = tracks[1]->best()->predicted(now).pose;
   const StationFromStation T_1_0 = second * first.inverse();
-  // As loose in what the second station sees of the body.
+  // The same sigmas for the pose as the second station sees it.
   Matrix6 seen = Matrix6::Zero();
   seen.diagonal().head<3>().setConstant(kLooseRotation_rad * kLooseRotation_rad);
   seen.diagonal().tail<3>().setConstant(kLoosePosition_m * kLoosePosition_m);
@@ -150,8 +151,8 @@ void StationPair::start_from_both(const Tracks& tracks) {
   joint_->link(T_1_0, back.lazyProduct(Matrix6(seen.lazyProduct(back.transpose()))), false);
 }
 
-// A station's own track against the joint hypothesis. Which of them is wrong, and whether the relative pose is, shows
-// when the next joint hypothesis is to begin.
+// Compares a station's own track with the joint hypothesis. Which of them is wrong, and whether the relative pose is,
+// is decided when the next joint hypothesis is to begin.
 void StationPair::watch(std::uint8_t station, const Tracks& tracks) {
   int& contradictions = contradictions_[station];
   bool apart = false;

@@ -15,9 +15,9 @@ namespace pharos::motion {
 /// state.
 ///
 /// It begins from slot 0's own track: at once where the stations' relative pose was measured, else when both tracks are
-/// settled and tell it. It lives on as long as either station sees the body. Each station's own track goes on beside
-/// it: where the two contradict each other for a quarter of a second it is given up, and with it the relative pose if
-/// that is what is wrong.
+/// settled and determine it. It lives as long as either station sees the body. Each station's own track continues in
+/// parallel: where the two contradict each other for a quarter of a second the joint hypothesis is discarded, and with
+/// it the relative pose if that is the cause.
 class StationPair {
  public:
   using Tracks = std::array<const StationTrack*, kMaxStations>;
@@ -29,16 +29,16 @@ class StationPair {
   void push(const lighthouse::SweepBearings& bearings, Axis axis, std::uint8_t station, const Tracks& tracks,
             const StationView& view, const AssumedNoise& noise);
   void lose();
-  /// Another calibration of a station: what was learnt of the relative pose rests on the one before.
+  /// The calibration of a station changed: the relative pose estimated with the previous one is dropped.
   void forget_learnt();
 
   /// Null while there is none.
   const Hypothesis* joint() const { return joint_ ? &*joint_ : nullptr; }
-  /// Best that is known of where slot 1's station stands; only while there is a joint hypothesis.
+  /// Best estimate of the pose of slot 1's station; only while there is a joint hypothesis.
   std::optional<StationRelative> relative() const;
   /// The relative pose that was measured contradicts what both stations see, and is not used.
   bool survey_refused() const { return survey_refused_; }
-  /// How often a relative pose, measured or learnt, was given up.
+  /// How often a relative pose, measured or estimated, was discarded.
   int refusals() const { return refusals_; }
 
  private:
@@ -65,7 +65,7 @@ class StationPair {
   std::array<int, kMaxStations> contradictions_{};
 };
 
-/// Slot 0's station keeps the body's frame, slot 1's is the second.
+/// The state is kept in the frame of slot 0's station; slot 1's is the second.
 constexpr Observer observer_of(std::uint8_t station) { return station == 0 ? Observer::kReference : Observer::kSecond; }
 
 }  // namespace pharos::motion

@@ -12,28 +12,29 @@
 namespace pharos::motion {
 namespace {
 
-constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a leader that does well
-// While a leader is young or its hits are noisier than assumed (kNoisy), it may have started from a false hit.
+constexpr int kCheckCycles = 16;  // about a quarter of a second between checks of a track without contradictions
+// While a track is young or its hits are noisier than assumed (kNoisy), it may have started from a false hit.
 constexpr int kCheckCyclesUnconfirmed = 2;
 constexpr int kMinConfirmedSweeps = 32;
-constexpr int kMaxConsecutiveRejections = 2;  // sweeps in a row that contradict a leader; one makes a check due at once
-// Chi-squared by which one of two must be better to be the only one: e^9 to one.
+constexpr int kMaxConsecutiveRejections =
+    2;  // consecutive sweeps that contradict a track; one makes a check due at once
+// Difference of chi-squared from which the worse of two hypotheses is dropped: e^9 to one.
 constexpr double kDecided = 18.0;
-// Sweeps that a rival from mid-flight needs to learn its rates before it is compared.
+// Sweeps that an alternative started in flight needs to estimate its rates before it is compared.
 constexpr int kSettleSweeps = 6;
-// Squared distance (6 degrees of freedom) from which a solved cycle contradicts the leader.
+// Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
-// A leader that knows less than this of the pose is none.
+// A track with larger sigmas than these is discarded.
 constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
-// Two solved cycles further apart than this tell no rate.
+// Two solved cycles further apart than this determine no rate.
 constexpr double kLongestBetween_s = 0.07;
-// Time over which a cycle's hits are spread, for what motion does to its solution.
+// Time over which a cycle's hits are spread, for the effect of motion on its solution.
 constexpr double kCycle_s = 0.01;
 
 // No sensor has this number.
 constexpr std::uint8_t kNoSensor = 255;
 
-// The cycle with the bearings that the solution left out given to nobody, in their places.
+// The cycle in which bearings that the solution left out are assigned to no sensor, their order kept.
 track::Cycle estimate_part(const track::Cycle& cycle, const track::IdealObservations& ideal,
                            const pose::Solution& solution) {
   track::Cycle part = cycle;
@@ -125,12 +126,13 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
   if (!solution) return;
   cycles_unchecked_ = 0;
   const LighthousePoseEstimate& e = solution->estimate;
-  // What the fit left, motion within the cycle included, over the noise assumed: the hits' own where that is too small.
+  // Residual of the fit, motion within the cycle included, over the noise assumed: the hits' own where that is too
+  // small.
   const int freedom = std::max(1, e.observations - 6);
   const double own_sigma = noise.sigma_rad * std::sqrt(1.0 - noise.rho);
   const double left = e.residual_rms * std::sqrt(static_cast<double>(e.observations) / freedom);
   const double noise_scale = std::max(1.0, left / own_sigma);
-  // Two solutions in a row, as long as a leader is in doubt, also tell how fast it goes.
+  // Two solutions in a row, as long as the track is contradicted, also give its rate.
   Vector6 between;
   const Vector6* rate = nullptr;
   const double since_s = ticks_to_seconds(cycle.last_flash_ticks - solved_flash_ticks_);
@@ -147,7 +149,7 @@ void StationTrack::check(const track::Cycle& cycle, const StationView& view, con
   const auto begin = [&](std::optional<Hypothesis>& hypothesis, const LighthouseFromBody& pose) {
     hypothesis.emplace(believed, pose, rate, noise_scale, view, noise);
   };
-  // Where sweep after sweep contradicts the leader while a whole cycle has an answer of its own, it is over.
+  // Where sweep after sweep contradicts the track while a whole cycle can be solved, the track is dropped.
   if (!best_ || best_->consecutive_rejections() >= kMaxConsecutiveRejections) {
     begin(best_, e.pose);
     alternative_.reset();

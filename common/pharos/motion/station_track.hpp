@@ -11,21 +11,21 @@
 
 namespace pharos::motion {
 
-/// What one station sees of the body: the hypothesis that leads, and at times a rival.
+/// Track of one station: the best hypothesis, and at times an alternative.
 ///
-/// A rival is the second minimum of the first solution, or what a cycle solved alone says where it contradicts the
-/// leader. Both take every sweep; the likelihood decides.
+/// An alternative is the second minimum of the first solution, or the solution of a cycle solved alone that contradicts
+/// the best one. Both take every sweep; the likelihood decides.
 class StationTrack {
  public:
   void push(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view, const AssumedNoise& noise);
-  /// A complete cycle whose sweeps were pushed: starts, or checks now and then, by solving it alone. `refusal` says why
-  /// it could not.
+  /// A complete cycle whose sweeps were pushed: starts the track, or checks it now and then, by solving the cycle
+  /// alone. last_refusal() is why that failed.
   void check(const track::Cycle& cycle, const StationView& view, const AssumedNoise& noise,
              const pose::SolveOptions& options);
   void lose();
 
   const Hypothesis* best() const { return best_ ? &*best_ : nullptr; }
-  /// The rival once it may be compared with the leader, else null; its chi-squared minus the leader's.
+  /// The alternative once it may be compared with the best, else null; its chi-squared minus the best one's.
   const Hypothesis* alternative() const { return alternative_ && alternative_settled_ ? &*alternative_ : nullptr; }
   bool has_alternative() const { return alternative_.has_value(); }
   double delta_chi2() const { return alternative_->cost() - best_->cost(); }
@@ -39,7 +39,7 @@ class StationTrack {
   std::optional<Hypothesis> best_, alternative_;
   bool alternative_settled_ = false;
   int cycles_unchecked_ = 0;
-  // The last cycle solved alone without a rival.
+  // The last cycle solved alone without an alternative.
   std::optional<LighthouseFromBody> solved_;
   std::int64_t solved_flash_ticks_ = 0;
   pose::Refusal refusal_ = pose::Refusal::kTooFewSensors;

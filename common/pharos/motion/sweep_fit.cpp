@@ -12,19 +12,19 @@
 namespace pharos::motion {
 namespace {
 
-// Nearer to the station than this nothing is lit.
+// Nearer to the station than this no sensor is lit.
 constexpr double kNearest_m = 1e-3;
 
-// A hit that is not this body's may lie anywhere within 20 mrad or so: 2 ln(0.02) - ln(2 pi).
+// An outlier may lie anywhere within 20 mrad or so: 2 ln(0.02) - ln(2 pi).
 constexpr double kStrayLogDensity = -9.7;
 
-// What a narrow pulse adds to a hit's own noise: 5 arcsec at 52 ticks, as one over the width's square, 25 arcsec at
-// most (still sensors in recordings: README). From 150 ticks on it is nothing.
+// Additional own noise of a narrow pulse: 5 arcsec at 52 ticks, as one over the width's square, maximum 25 arcsec
+// (stationary sensors in recordings: README). From 150 ticks on it is zero.
 constexpr double kNarrow_rad = 5.0 * kRadPerArcsec, kNarrow_ticks = 52.0, kMaxNarrow_rad = 25.0 * kRadPerArcsec;
 
 using Candidates = StaticVector<HitFit, kMaxHitsPerSweep>;
 
-// A width of zero was not told.
+// A width of zero means unknown.
 double narrow_variance(std::uint16_t width_ticks) {
   if (width_ticks == 0) return 0.0;
   const double narrowness = kNarrow_ticks / width_ticks;
@@ -34,7 +34,7 @@ double narrow_variance(std::uint16_t width_ticks) {
 
 double quadratic(const Vector6& h, const Matrix6& m) { return h.dot(m.lazyProduct(h)); }
 
-// What a belief says of points at instants near its own.
+// Prediction of points at instants near the estimate's own.
 class Linearisation {
  public:
   Linearisation(Axis axis, const StationView& view, const StateEstimate& state_estimate, std::int64_t time_ticks,
@@ -62,7 +62,7 @@ class Linearisation {
     const double raw = view_.calibration != nullptr ? raw_theta(*view_.calibration, view_.form, axis_, p) : ideal;
     fit.residual_rad = bearing.theta_rad - raw;
     fit.ideal_rad = ideal + fit.residual_rad;
-    // The unknown part of the rates moves the point between this hit and the belief's instant.
+    // The uncertainty of the rates moves the point between this hit and the estimate's instant.
     fit.variance = own_variance_ + narrow_variance(bearing.width_ticks) +
                    dt_s * dt_s *
                        (inverse_square * state_estimate_.velocity_variance +
@@ -105,7 +105,7 @@ HitFits nearest_to(double centre, const Candidates& candidates, const lighthouse
   return chosen;
 }
 
-// Leaves out what departs from the common shift; everything where the shift itself is beyond belief.
+// Leaves out what departs from the common shift; everything where the shift itself is implausible.
 void gate(HitFits& hits, double centre, const Matrix6& covariance, double common_variance) {
   Vector6 mean = Vector6::Zero();
   double own = 0.0;

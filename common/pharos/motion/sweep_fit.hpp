@@ -15,14 +15,14 @@ struct SweepNoise {
   double common_rad = 0.0;  // of rotor and flash: the same for all hits of one sweep
 };
 
-/// How one station's angles come about.
+/// Model of one station's angles.
 struct StationView {
   const Target* target = nullptr;
   const lighthouse::StationCalibration* calibration = nullptr;  // null: angles as the ideal station's
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
 };
 
-/// One hit against a belief.
+/// One hit relative to a state estimate.
 struct HitFit {
   Vector6 jacobian;           // of its bearing by the pose error
   double residual_rad = 0.0;  // measured - predicted
@@ -33,26 +33,26 @@ struct HitFit {
 
 using HitFits = StaticVector<HitFit, kMaxSensors>;
 
-/// A sweep's hits, linearised, at most one a sensor, and what they say together.
+/// A sweep's hits, linearised, at most one a sensor, and their joint information.
 struct SweepFit {
   SweepInformation information;
   LighthouseFromBody pose;  // that it was linearised at
   int candidates = 0;       // hits of the target's sensors
   int sensors = 0;          // sensors that were hit
-  /// -2 ln of the densities that go with the hits' own noise: of hits used, ln of their variance; of sensors left out,
-  /// that of light that may come from anywhere. What makes beliefs of different noise comparable.
+  /// -2 ln of the densities of the hits' own noise: of hits used, ln of their variance; of sensors left out, that of a
+  /// uniform outlier. Makes hypotheses of different noise comparable.
   double log_density = 0.0;
   HitFits used;
 };
 
-/// Standard deviations beyond which a hit is no hit of this body.
+/// Standard deviations beyond which a hit does not belong to this body.
 inline constexpr double kHitGate = 5.0;
 
-/// Linearises every hit at its own instant against a belief that holds at `time_ticks`, and chooses.
+/// Linearises every hit at its own instant against a state estimate that holds at `time_ticks`, and selects.
 ///
-/// Of a sensor's candidates that one is taken whose residual is nearest to the median residual of the sweep: what all
-/// share (an unforeseen shift, the flash's jitter) must not decide. Left out is what departs from that median by more
-/// than the belief and the noise allow, and then, one by one, what a common pose cannot explain.
+/// Of a sensor's candidates the one is taken whose residual is nearest to the median residual of the sweep: what all
+/// have in common (an unforeseen shift, the flash's jitter) must not decide. Left out is what departs from that median
+/// by more than the state's covariance and the noise allow, and then, one by one, what a common pose cannot explain.
 SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                    const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 

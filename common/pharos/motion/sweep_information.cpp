@@ -6,7 +6,7 @@
 namespace pharos::motion {
 namespace {
 
-// A pivot below this share of its diagonal is rounding, not information.
+// A pivot below this fraction of its diagonal is rounding, not information.
 constexpr double kNoPivot = 1e-9;
 
 }  // namespace

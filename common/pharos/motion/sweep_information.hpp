@@ -5,11 +5,11 @@
 
 namespace pharos::motion {
 
-/// All that a sweep's hits say of the pose, summed: what is left of H^T R^-1 H, H^T R^-1 r and r^T R^-1 r.
+/// The information of a sweep's hits about the pose, summed: H^T R^-1 H, H^T R^-1 r and r^T R^-1 r in compact form.
 ///
 /// H = L^T in the whitened sense: `factor` L is lower triangular with L L^T = H^T R^-1 H (6x6, rank at most five, as
-/// one rotor never sees all six directions; columns without rank are zero), `whitened` beta solves L beta = H^T R^-1 r,
-/// and `misfit` is the part of r^T R^-1 r that no pose explains: chi-squared of hits - rank.
+/// one rotor never observes all six directions; columns without rank are zero), `whitened` beta solves L beta = H^T
+/// R^-1 r, and `residual_chi2` is the part of r^T R^-1 r that no pose explains: chi-squared of hits - rank.
 struct SweepInformation {
   Matrix6 factor = Matrix6::Zero();
   Vector6 whitened = Vector6::Zero();
@@ -18,8 +18,8 @@ struct SweepInformation {
   int hits = 0;
 };
 
-/// Sums over hits with noise R = diag(own variance) + common variance x 1 1^T: what rotor and flash do to all hits of
-/// one sweep alike. By the Woodbury identity two extra sums carry the common part exactly.
+/// Sums over hits with noise R = diag(own variance) + common variance x 1 1^T: what rotor and flash add to all hits of
+/// one sweep equally. By the Woodbury identity two extra sums carry the common part exactly.
 class InformationSums {
  public:
   /// A hit: derivatives of its bearing by the pose error, innovation (rad), 1 / own variance.

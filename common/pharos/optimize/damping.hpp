@@ -5,13 +5,13 @@
 
 namespace pharos::optimize {
 
-/// Levenberg-Marquardt's damping by Nielsen's rule (IMM-REP-1999-05), relative to the diagonal of the normal matrix.
-/// Zero is Gauss and Newton's step; a damping that has become small enough to change nothing is zero.
+/// Levenberg-Marquardt damping by Nielsen's rule (IMM-REP-1999-05), relative to the diagonal of the normal matrix. Zero
+/// is the Gauss-Newton step; a damping too small to have an effect is set to zero.
 class Damping {
  public:
   static constexpr double kFirst = 1e-3;   // after an undamped step that failed
   static constexpr double kMin = 1e-5;     // below it: none
-  static constexpr double kMax = 1e8;      // from it on no step is tried
+  static constexpr double kMax = 1e8;      // from it on no further step is tried
   static constexpr double kMaxDrop = 3.0;  // by one step that succeeded
   static constexpr double kGrowth = 2.0;   // by the first step that failed, twice as much by each further one
 
@@ -29,7 +29,7 @@ class Damping {
     growth_ = kGrowth;
   }
 
-  /// After one that did not; false where there is no more damping to try.
+  /// After one that did not; false where the damping has reached its maximum.
   bool failed() {
     value_ = value_ > 0.0 ? value_ * growth_ : kFirst;
     growth_ *= kGrowth;

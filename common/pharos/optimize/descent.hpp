@@ -9,31 +9,31 @@
 
 namespace pharos::optimize {
 
-/// What a descent needs of a least-squares problem: where it stands (State), the sums of a linearisation there
-/// (Normal), and the step that solves them (Step). LeastSquares gives all but `linearise` and `moved`; the integers of
-/// the pose room bring their own.
+/// Interface of a least-squares problem: its State, the sums of a linearisation there (Normal), and the step that
+/// solves them (Step). LeastSquares provides all but `linearise` and `moved`; the integers of the pose room provide
+/// their own.
 template <class P>
 concept Problem = requires(const P& problem, const typename P::State& state, const typename P::Normal& normal,
                            const typename P::Step& step) {
-  /// Sums at a state. `cost` is not finite where the state cannot be what was measured.
+  /// Sums at a state. `cost` is not finite where the state is impossible.
   { problem.linearise(state) } -> std::same_as<typename P::Normal>;
   { normal.cost } -> std::convertible_to<double>;
-  /// The step by Levenberg and Marquardt, damped relative to the matrix' diagonal; 0: Gauss and Newton's.
+  /// The Levenberg-Marquardt step, damped relative to the matrix' diagonal; 0: Gauss-Newton.
   { problem.step(normal, 0.0) } -> std::same_as<typename P::Step>;
   /// False where the matrix is too near to singular.
   { step.solved } -> std::convertible_to<bool>;
-  /// Of the cost, that the linear model predicts of the step: -gradient . delta.
+  /// Decrease of the cost predicted by the linear model for the step: -gradient . delta.
   { step.decrease } -> std::convertible_to<double>;
   /// Smallest pivot of the matrix that was solved over its diagonal element, at most 1.
   { step.smallest_pivot_ratio } -> std::convertible_to<double>;
-  /// The retraction: the state that is a step away.
+  /// The retraction: the state moved by a step.
   { problem.moved(state, step.delta) } -> std::same_as<typename P::State>;
   /// Damping of the first step.
   { P::kFirstDamping } -> std::convertible_to<double>;
   /// Whether an undamped step that cannot be solved ends the descent (kSingular); else it is damped.
   { P::kEndsWhereSingular } -> std::convertible_to<bool>;
-  /// Whether the sums are taken once more where it ends; else they are those one step before, which is less than the
-  /// tolerance away, and the cost is what the linear model predicts.
+  /// Whether the sums are computed again at the end; else they are those one step before, which is less than the
+  /// tolerance away, and the cost is the linear model's prediction.
   { P::kSumsAtEnd } -> std::convertible_to<bool>;
 };
 
@@ -49,19 +49,19 @@ enum class Ending : std::uint8_t {
   kBadStart,       // the cost at the start is not finite
 };
 
-/// A cost from here on, or NaN, is none.
+/// A cost from here on, or NaN, is invalid.
 inline constexpr double kUnusableCost = 1e300;
 
 struct DescentSettings {
   int max_iterations = 50;
   /// Converged when an undamped step's predicted decrease is no more than this (in the cost's unit): with residuals in
-  /// standard deviations, the square of what is left to the minimum, in standard deviations.
+  /// standard deviations, the squared distance to the minimum, in standard deviations.
   double tolerance = 0.0;
-  /// Give up when a step shows that the cost will stay above this.
+  /// Stop when a step shows that the cost will stay above this.
   double hopeless_cost = 1e300;
 };
 
-/// Where a descent stands.
+/// State of a descent.
 template <class P>
 struct Descent {
   typename P::State state{};
@@ -71,7 +71,7 @@ struct Descent {
   Ending ending = Ending::kBadStart;
 
   bool converged() const { return ending == Ending::kConverged; }
-  /// Where it leads is known: to a minimum, or to nothing of interest.
+  /// The outcome is decided: a minimum, or a cost above the limit.
   bool decided() const { return ending <= Ending::kStopped; }
 };
 
@@ -96,13 +96,13 @@ void take_last(const P& problem, const typename P::Step& step, Descent<P>& d) {
 /// tolerance); what is not finite is never taken. With kFirstDamping = 0 damping enters only where a step fails, so
 /// that a good start costs about three linearisations.
 ///
-/// `stop(state, cost)`: asked after every step that lowered the cost; true ends the descent. `d`: where the descent is
-/// followed, whatever it holds. No heap; inlines into the caller.
+/// `stop(state, cost)`: called after every step that lowered the cost; true ends the descent. `d`: state of the
+/// descent, overwritten. No heap; inlines into the caller.
 template <Problem P, class Stop>
 void descend(const P& problem, const typename P::State& start, const DescentSettings& settings, Stop stop,
              Descent<P>& d) {
-  // Given up only when even thrice the decrease that the linear model predicts would leave the cost hopeless, and only
-  // after this many steps: far from a minimum the model's prediction is worth little.
+  // Stopped only when even thrice the decrease that the linear model predicts would leave the cost above the limit, and
+  // only after this many steps: far from a minimum the model's prediction is inaccurate.
   constexpr double kOptimism = 3.0;
   constexpr int kStepsBeforeGivingUp = 1;
   d.state = start;
@@ -128,7 +128,7 @@ void descend(const P& problem, const typename P::State& start, const DescentSett
           d.ending = Ending::kStalled;
           return;
         }
-        damping = {};  // whether this is the minimum, only an undamped step can tell
+        damping = {};  // only an undamped step shows whether this is the minimum
         continue;
       }
       if (d.iterations > kStepsBeforeGivingUp && d.normal.cost - kOptimism * step.decrease > settings.hopeless_cost) {

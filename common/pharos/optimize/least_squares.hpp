@@ -35,11 +35,11 @@ struct DampedStep {
   bool solved;
 };
 
-/// (matrix + damping diagonal) delta = -gradient. An unknown that nothing tells stays where it is while there is
-/// damping, and leaves the step unsolved while there is none.
+/// (matrix + damping diagonal) delta = -gradient. An unknown without information is not moved while there is damping,
+/// and makes the step unsolvable while there is none.
 template <int N>
 DampedStep<N> damped_step(const NormalEquations<N>& normal, double damping) {
-  constexpr double kSingular = 1e-14;     // what rounding leaves of a pivot that is none
+  constexpr double kSingular = 1e-14;     // rounding error of a zero pivot
   constexpr double kMinDiagonal = 1e-12;  // of the largest element, for the damping
   constexpr auto kSize = static_cast<std::size_t>(N);
   PackedSymmetric<kSize> matrix;
@@ -66,8 +66,8 @@ DampedStep<N> damped_step(const NormalEquations<N>& normal, double damping) {
   return step;
 }
 
-/// What a problem in double inherits; it adds `Normal linearise(const State&) const` and
-/// `State moved(const State&, const Delta&) const`, and hides the constants that it wants otherwise.
+/// Base of a problem in double; it adds `Normal linearise(const State&) const` and `State moved(const State&, const
+/// Delta&) const`, and hides the constants that it changes.
 template <int N, class StateType, class NormalType = NormalEquations<N>>
 struct LeastSquares {
   static constexpr int kUnknowns = N;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kRounds = 8;
 // Steps of the mean over the plane's directions: 0.09 deg, finer than any sigma it is used for.
 constexpr int kDirections = 2048;
-// The linear answer holds while its own curvature changes it by less than a tenth of itself.
+// The linear result holds while its own curvature changes it by less than a tenth of itself.
 constexpr double kLinearLimit = 0.1;
 constexpr double kMinVariance = 1e-30;
 constexpr double kUnitTolerance = 1e-6;
@@ -31,7 +31,7 @@ struct CommonPlane {
   Vector3 direction(double angle) const { return std::cos(angle) * first + std::sin(angle) * second; }
 };
 
-// A direction near `angle` of the common plane: how far it leaves the plane for the best fit, and what chi2 is there.
+// A direction near `angle` of the common plane: its deviation from the plane for the best fit, and its chi2.
 struct Candidate {
   double rise = 0.0;
   double rise_variance = 0.0;
@@ -51,7 +51,7 @@ Candidate candidate_at(std::span<const AxisPlane> planes, const CommonPlane& com
 }
 
 CommonPlane common_plane(std::span<const AxisPlane> planes) {
-  // Weights by the direction found so far; of the first round by the planes' worst.
+  // Weights by the direction found so far; in the first round by the planes' largest sigmas.
   Vector3 direction = Vector3::Zero();
   CommonPlane common;
   for (int round = 0; round < kRounds; ++round) {
@@ -68,7 +68,7 @@ CommonPlane common_plane(std::span<const AxisPlane> planes) {
   return common;
 }
 
-// One plane of all, by weights of their worst sigmas: n = sum w n / |sum w n|.
+// One plane from all, weighted by their largest sigmas: n = sum w n / |sum w n|.
 AxisPlane mean_plane(std::span<const AxisPlane> planes, const Vector3& up) {
   Vector3 normal = Vector3::Zero();
   Matrix3 covariance = Matrix3::Zero();
@@ -85,7 +85,7 @@ AxisPlane mean_plane(std::span<const AxisPlane> planes, const Vector3& up) {
   return {normal, across * covariance * across.transpose()};
 }
 
-// Angle along the common plane and its variance, in the neighbourhood of the least chi2.
+// Angle along the common plane and its variance, in the neighbourhood of the minimum chi2.
 struct Along {
   double angle = 0.0;
   double variance = 0.0;
@@ -104,7 +104,7 @@ Along linear_answer(std::span<const AxisPlane> planes, const CommonPlane& common
   }
   const double information = ff - fu * fu / uu;
   if (!(information > 0.0)) return {0.0, kPi * kPi, false};
-  // How fast a plane's own sigma and the information change with the angle decides whether a linear answer holds.
+  // Whether a linear result holds follows from the change of a plane's own sigma and of the information with the angle.
   const double sigma = std::sqrt(1.0 / information);
   double change = 1.0;
   for (const AxisPlane& plane : planes) {
@@ -121,7 +121,7 @@ Along mean_over_directions(std::span<const AxisPlane> planes, const CommonPlane&
     likelihood[static_cast<std::size_t>(k)] = candidate_at(planes, common, common.direction(angle_of(k))).chi2;
   }
   const double minimum = *std::min_element(likelihood.begin(), likelihood.end());
-  // Twice the angle turns once around where the axis' half circle closes.
+  // Twice the angle makes a full circle where the axis' half circle closes.
   double sum = 0.0, cosine = 0.0, sine = 0.0;
   for (int k = 0; k < kDirections; ++k) {
     double& weight = likelihood[static_cast<std::size_t>(k)];

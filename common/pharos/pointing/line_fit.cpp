@@ -51,7 +51,7 @@ Straight straight_through(std::span<const EdgePoint> points, Used used) {
 }
 
 // Integrated correlation of the residuals along the line, lags weighted down to the longest (Bartlett): negative ones
-// count too, for errors that swing to and fro along an edge average out.
+// count too, as errors that alternate along an edge average out.
 template <class Used>
 double variance_inflation(std::span<const EdgePoint> points, const Straight& straight, Used used) {
   const auto residual = [&](const EdgePoint& p) { return used(p) ? straight.offset(p.place_px) / p.sigma_px : 0.0; };
@@ -72,7 +72,7 @@ LineFit fit_of(const Straight& straight, double variance) {
   LineFit fit;
   const Vector2 across = straight.across();
   fit.line.coefficients << across, -across.dot(straight.centre);
-  // The line turns by d_theta about the centroid and shifts by d_offset, independently of each other.
+  // The line rotates by d_theta about the centroid and shifts by d_offset, independently of each other.
   Vector3 by_turn, by_shift;
   by_turn << -straight.along, straight.along.dot(straight.centre);
   by_shift << 0.0, 0.0, -1.0;

@@ -16,33 +16,33 @@ struct EdgePoint {
   double sigma_px = 1.0;  ///< across the edge; only relative to one another: the fit finds the scale
 };
 
-/// Undoes the lens: places of the image as it was taken become places of the ideal image (K times the ray). False where
-/// the lens model has no ray for one of them; the points are then of no use.
+/// Removes the lens' distortion: points of the image as taken become points of the ideal image (K times the ray). False
+/// where the lens model has no ray for one of them; the points are then invalid.
 bool undo_distortion(std::span<EdgePoint> points, const PinholeCamera& camera);
 
-/// Fewest points of a line: with fewer the scatter says nothing about itself.
+/// Minimum points of a line: with fewer the scatter cannot be estimated.
 inline constexpr std::size_t kMinEdgePoints = 8;
 /// Points farther than this from the line, in units of the points' own scatter, are left out.
 inline constexpr double kOutlierSigmas = 3.5;
-/// Largest share of points that may be left out.
+/// Maximum fraction of points that may be left out.
 inline constexpr double kMaxLeftOut = 0.25;
-/// What no edge point is better than: a floor for the scatter of noise-free input.
+/// Lower limit of a point's scatter, for noise-free input.
 inline constexpr double kMinSigma_px = 1e-4;
 
 enum class LineFailure : std::uint8_t {
   kTooFewPoints,
-  kNotALine,  // more than kMaxLeftOut of the points lie off, or all in one place
+  kNotALine,  // more than kMaxLeftOut of the points are off it, or all coincide
 };
 const char* name_of(LineFailure failure);
 
 struct LineFit {
   ImageLine line;
   double rms_px = 0.0;  ///< of the points used, across the line
-  /// How many neighbouring points err alike (1: independent): points a pixel apart share pixels, and a lens' or a
-  /// renderer's errors run along the edge. The covariance is larger by this.
+  /// Number of neighbouring points with the same error (1: independent): points a pixel apart share pixels, and a lens'
+  /// or a renderer's errors run along the edge. The covariance is larger by this.
   double variance_inflation = 1.0;
   std::size_t points = 0;              ///< used
-  Vector2 begin_px = Vector2::Zero();  ///< where the used points begin and end, on the line
+  Vector2 begin_px = Vector2::Zero();  /// first and last of the used points, on the line
   Vector2 end_px = Vector2::Zero();
 
   double offset_px(const Vector2& place_px) const {

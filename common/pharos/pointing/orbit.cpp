@@ -11,7 +11,7 @@ constexpr double kLowest_m = 120e3;
 constexpr double kHighest_m = 60'000e3;
 constexpr int kHalvings = 60;
 
-// Place in I; on the sphere of `radius_m` where the sighting's own range is not to be used.
+// Position in I; on the sphere of `radius_m` where the sighting's own range is not to be used.
 Vector3 place_inertial(const Observation& observation, const Geodetic& station, double epoch_s, double radius_m,
                        bool by_range) {
   const Vector3 base = station_place_earth_m(station);
@@ -75,7 +75,7 @@ Result<Orbit, OrbitFailure> find_orbit(std::span<const Observation> observations
       std::all_of(observations.begin(), observations.end(), [](const Observation& s) { return s.range_m > 0.0; });
   double low_m = station_place_earth_m(station).norm() + kLowest_m, high_m = kEarthRadius_m + kHighest_m;
   if (!by_range) {
-    // Higher up the same lines of sight mean a faster target, and an orbit a slower one: one crossing.
+    // At a greater height the same lines of sight mean a faster target, and the orbit a slower one: one intersection.
     const auto too_high = [&](double radius_m) {
       return motion_of(observations, station, epoch_s, radius_m, false).rate_rad_s > circular_rate_rad_s(radius_m);
     };
@@ -87,7 +87,7 @@ Result<Orbit, OrbitFailure> find_orbit(std::span<const Observation> observations
   }
   const Motion motion = motion_of(observations, station, epoch_s, low_m, by_range);
   if (!(motion.arc_rad > kMinArc_rad) || !motion.normal.allFinite()) return OrbitFailure::kTooShort;
-  // Ranges of something that stands on or hovers over the ground make no orbit.
+  // Ranges of an object that stands on or hovers over the ground give no orbit.
   if (by_range && motion.radius_m < low_m) return OrbitFailure::kNotAnOrbit;
   return Orbit{motion.normal, motion.radius_m, by_range};
 }

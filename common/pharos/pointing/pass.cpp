@@ -16,7 +16,7 @@ constexpr double kContradiction = 25.0;
 constexpr double kQuantile = 3.72;
 constexpr std::size_t kMinImages = 3;
 
-// The planes that the law's own fit looks at, and what it made of them.
+// The planes of the law's own fit, and its result.
 struct Fit {
   Vector3 axis = Vector3::UnitZ();  // in the law's frame, at the middle of the pass
   Matrix3 covariance = Matrix3::Zero();
@@ -53,7 +53,7 @@ double misfit(const AxisPlane& plane, const Vector3& direction) {
   return off * off / std::max(1e-30, direction.dot(plane.covariance * direction));
 }
 
-// Takes the images out that contradict the fit, the worst first, up to `most` of them; returns how many.
+// Removes the images that contradict the fit, the worst first, up to `most` of them; returns how many.
 int rejected(PassWorkspace& workspace, const Fit& fit, int maximum) {
   int taken = 0;
   while (taken < maximum) {
@@ -77,7 +77,7 @@ int rejected(PassWorkspace& workspace, const Fit& fit, int maximum) {
   return taken;
 }
 
-// A half turn between two images looks like none: the axis has no sign.
+// Half a rotation between two images is not observable: the axis has no sign.
 double tellable_spin(const PassWorkspace& workspace, double max_spin_rad_s) {
   double longest = 0.0;
   for (std::size_t i = 1; i < workspace.seconds.size(); ++i) {
@@ -140,7 +140,7 @@ Matrix3 law_to_station(const Gathered& gathered, const PassOptions& options, con
          inertial_to_orbital(*gathered.orbit, middle, options.station, gathered.epoch_s).transpose();
 }
 
-// Between the two sightings around the middle of the pass, as a line of sight goes in so short a time.
+// Between the two sightings around the middle of the pass, as a line of sight moves in so short a time.
 Observation middle_observation(const PassWorkspace& workspace, double epoch_s) {
   const auto& observations = workspace.observations;
   std::size_t after = 1;

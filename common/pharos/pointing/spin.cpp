@@ -19,16 +19,16 @@ namespace pharos::pointing {
 namespace {
 
 constexpr int kSpinDirections = 500;       // of half the sphere: some 6 deg apart
-constexpr std::size_t kSearchPlanes = 64;  // the search looks at so many planes, spread over the pass
+constexpr std::size_t kSearchPlanes = 64;  // the search uses so many planes, spread over the pass
 constexpr std::size_t kStarts = 24;        // best of the search, each refined
 constexpr int kMaxIterations = 40;
-// Of chi2, by which a last step may still lower it: a ten-thousandth of a standard deviation, squared.
+// Of chi2, by which a last step may still lower it: the square of a ten-thousandth of a standard deviation.
 constexpr double kConverged = 1e-8;
-// What is left of one parameter's information once all others are free too: below it nothing is known of it.
+// Remaining fraction of one parameter's information once all others are free too: below it the parameter is unknown.
 constexpr double kMinCondition = 1e-14;
 constexpr double kSameAxis = 5.0;  // sigmas
-// Spin axis and rate are three unknowns more than an axis that stands still has. What they must make better of chi2 to
-// be seen: its 99.99 % quantile for three.
+// Spin axis and rate are three unknowns more than a fixed axis has. Minimum decrease of chi2 for a spin to be accepted:
+// its 99.99 % quantile for three.
 constexpr double kSeenChi2 = 21.1;
 
 struct Start {
@@ -39,7 +39,7 @@ using Starts = StaticVector<Start, kStarts>;
 
 double axis_variance(const AxisPlane& plane, const Vector3& d) { return std::max(1e-30, d.dot(plane.covariance * d)); }
 
-// Keeps the best; starts come in order of directions, so one of each direction is enough.
+// Stores the best; starts are in order of directions, so one of each direction is enough.
 void keep(Starts& starts, const Start& start) {
   if (starts.push_back(start)) return;
   Start* worst =
@@ -52,7 +52,7 @@ struct SpinProblem {
   std::span<const double> seconds;
 };
 
-// For a given motion the axis is the direction that all planes, turned back, have in common.
+// For a given motion the axis is the direction that all planes, rotated back, have in common.
 Start best_axis(const SpinProblem& problem, const Vector3& spin, double rate) {
   const std::size_t count = problem.planes.size(), stride = (count + kSearchPlanes - 1) / kSearchPlanes;
   Matrix3 sum = Matrix3::Zero();
@@ -86,9 +86,10 @@ Starts search(const SpinProblem& problem, double max_rate) {
   return starts;
 }
 
-// Planes against an axis that turns; chi-squared over the five of Spin::moved_by.
+// Planes against a rotating axis; chi-squared over the five of Spin::moved_by.
 struct SpinDescent : optimize::LeastSquares<5, Spin> {
-  static constexpr double kFirstDamping = 1e-3;  // from a grid of 6 deg the undamped step may leave the valley
+  static constexpr double kFirstDamping =
+      1e-3;  // from a grid of 6 deg the undamped step may leave the basin of attraction
 
   explicit SpinDescent(const SpinProblem& m) : problem(m) {}
 
@@ -113,7 +114,7 @@ Start refined(const SpinProblem& problem, const Spin& spin) {
   return {d.state, d.normal.cost};
 }
 
-// Scaled to a diagonal of ones, so that what is known in rad and in rad/s counts alike.
+// Scaled to a diagonal of ones, so that parameters in rad and in rad/s count equally.
 bool is_inverse_sound(const Matrix5& information, Matrix5& covariance) {
   const Eigen::Matrix<double, 5, 1> scale = information.diagonal().cwiseMax(0.0).cwiseSqrt();
   if (!(scale.minCoeff() > 0.0)) return false;

@@ -13,7 +13,7 @@ namespace pharos::pointing {
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Row5 = Eigen::Matrix<double, 1, 5>;
 
-/// A panel axis that turns steadily about a fixed direction: d(t) = exp([spin]x rate t) axis. All in one inertial
+/// A panel axis that rotates steadily about a fixed direction: d(t) = exp([spin]x rate t) axis. All in one inertial
 /// frame.
 struct Spin {
   Vector3 axis = Vector3::UnitX();  ///< unit, of the panel, at t = 0; its sign is open
@@ -21,7 +21,7 @@ struct Spin {
   double rate_rad_s = 0.0;
 
   Vector3 at(double seconds) const;
-  /// Moved by (axis turned by its two tangent directions, spin by its two, rate): the parameters of every covariance
+  /// Moved by (axis along its two tangent directions, spin along its two, rate): the parameters of every covariance
   /// here; rad, rad, rad, rad, rad/s. Tangent directions are those of tangent_of.
   Spin moved_by(const Eigen::Matrix<double, 5, 1>& delta) const;
 };
@@ -41,8 +41,8 @@ struct SpinEstimate {
 };
 
 enum class SpinFailure : std::uint8_t {
-  kTooFewPlanes,  // five unknowns: fewer than eight planes test nothing
-  kNotSeen,       // an axis that stands still fits as well, or rate and spin axis cannot be told
+  kTooFewPlanes,  // five unknowns: fewer than eight planes allow no test
+  kNotSeen,       // a fixed axis fits as well, or rate and spin axis are not determined
 };
 
 inline constexpr std::size_t kMinSpinPlanes = 8;

@@ -8,7 +8,7 @@ namespace pharos::pointing {
 // Frames: S station (east, north, up at the station's geodetic vertical), E Earth-fixed (WGS-84: x to the Greenwich
 // meridian, z to the north pole), C camera (x right, y down, z along the optical axis).
 
-/// Where the station is, on the WGS-84 ellipsoid.
+/// Position of the station, on the WGS-84 ellipsoid.
 struct Geodetic {
   double latitude_rad = 0.0;   ///< north positive
   double longitude_rad = 0.0;  ///< east positive
@@ -17,10 +17,10 @@ struct Geodetic {
 
 /// R_E_S: columns east, north, up in E (paper 003, (3)-(4), as restored in the README).
 Matrix3 station_to_earth(const Geodetic& station);
-/// The station's place in E, m (paper 003, (2)).
+/// The station's position in E, m (paper 003, (2)).
 Vector3 station_place_earth_m(const Geodetic& station);
 
-/// Where the telescope points: azimuth clockwise from north, elevation above the horizon.
+/// Direction of the telescope: azimuth clockwise from north, elevation above the horizon.
 struct LineOfSight {
   double azimuth_rad = 0.0;
   double elevation_rad = 0.0;
@@ -28,8 +28,8 @@ struct LineOfSight {
 
 /// Unit vector of the optical axis in S: (cos E sin A, cos E cos A, sin E).
 Vector3 direction_station(const LineOfSight& sight);
-/// R_S_C: columns image right, image down, optical axis in S; the transpose of the paper's R (8). The image stands
-/// upright: the horizon is level in it.
+/// R_S_C: columns image right, image down, optical axis in S; the transpose of the paper's R (8). The image is upright:
+/// the horizon is level in it.
 Matrix3 camera_to_station(const LineOfSight& sight);
 
 /// An axis has no sign: the representative with z >= 0, if 0 with y >= 0, if 0 too with x >= 0.

@@ -20,7 +20,7 @@ bool attitude_of(int code, Quaternion& attitude) {
   return true;
 }
 
-// Translation that brings the turned sensors nearest to their planes.
+// Translation that brings the rotated sensors nearest to their planes.
 Vector3 translation_for(const ObservationTable& s, const Matrix3& R) {
   PackedSymmetric<3> normal;
   std::array<double, 3> right{};

@@ -21,7 +21,7 @@ Matrix6 inverse_of(const PackedSymmetric<6>& matrix) {
   return 0.5 * (inverse + inverse.transpose());
 }
 
-// How one bearing's noise comes out in its residual: D of the sandwich.
+// Effect of one bearing's noise on its residual: D of the sandwich.
 double noise_gain(const ObservationTable& table, int sensor, int axis, Residual residual) {
   if (residual == Residual::kAngle) return 1.0;
   const double sine = table.axis[static_cast<std::size_t>(axis)].sine[static_cast<std::size_t>(sensor)];

@@ -13,8 +13,8 @@ namespace pharos::pose {
 Matrix6 unit_covariance(const ObservationTable& table, const LighthouseFromBody& pose, Residual residual, double rho,
                         const NormalEquations& normal);
 
-/// A pivot of J^T J below this share of its diagonal means that the rows leave a direction open: rounding alone leaves
-/// 1e-16, the worst view of a sound target 1e-7.
+/// A pivot of J^T J below this fraction of its diagonal means that the rows leave a direction unconstrained: rounding
+/// alone leaves 1e-16, the worst view of a valid target 1e-7.
 inline constexpr double kDegeneratePivotRatio = 1e-11;
 
 /// (22): square root of the trace of the rotation block, degrees per rad of bearing noise. The left error's covariance

@@ -8,7 +8,7 @@
 namespace pharos::pose {
 namespace {
 
-// Centre and scale that bring the points to unit size: conditions the equations.
+// Centre and scale that normalise the points to unit size: conditions the equations.
 struct Frame {
   Vector3 centre = Vector3::Zero();
   double size_m = 0.0;

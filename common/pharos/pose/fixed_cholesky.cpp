@@ -6,7 +6,7 @@ namespace {
 
 constexpr int kMatrixPlaces = 50;
 constexpr std::int64_t kMinPivot = std::int64_t{1} << 40;  // Q60
-constexpr int kVectorPlaces = 36;  // of a right side's largest element: it may grow by 2^10 twice, and six times
+constexpr int kVectorPlaces = 36;  // bits of a right side's largest element: it may grow by 2^10 twice, and six times
 
 }  // namespace
 
@@ -64,7 +64,7 @@ FixedCholesky::Vector FixedCholesky::solved(const Vector& half) const {
 }
 
 bool FixedCholesky::inverse_columns(std::array<std::array<std::int32_t, 6>, 6>& columns) const {
-  constexpr int kSpare = 20;  // places that a sum has more than it needs
+  constexpr int kSpare = 20;  // bits of a sum beyond the required ones
   for (std::size_t j = 0; j < 6; ++j) {
     columns[j].fill(0);
     for (std::size_t i = j; i < 6; ++i) {

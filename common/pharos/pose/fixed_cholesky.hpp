@@ -15,7 +15,7 @@ using FixedMatrix = PackedSymmetric<6, std::int64_t>;
 class FixedCholesky {
  public:
   explicit FixedCholesky(const FixedMatrix& matrix);
-  /// False where a pivot is below 2^-20 of a diagonal: too near to singular to be solved in 30 bits.
+  /// False where a pivot is below 2^-20 of a diagonal: too near to singular for 30 bits.
   bool good() const { return good_; }
 
   /// A vector times 2^places.
@@ -23,9 +23,10 @@ class FixedCholesky {
     std::array<std::int64_t, 6> element{};
     int places = 0;
   };
-  /// L^-1 S right, below 2^50.
+  /// L^-1 times `right`, below 2^50.
   Vector half_solved(const std::array<std::int64_t, 6>& right) const;
-  /// The rest: S L^-T of it, by elements in their own units: element i times 2^(places + exponent_of_unknown(i)).
+  /// Back substitution: S L^-T of it, by elements in their own units: element i times 2^(places +
+  /// exponent_of_unknown(i)).
   Vector solved(const Vector& half) const;
   int exponent_of_unknown(std::size_t i) const { return -places_[i]; }
   /// Columns of L^-1 in units of 2^-kInverseExponent: column a times column b, scaled by S, is the inverse matrix' (a,

@@ -7,7 +7,7 @@ namespace {
 // Rows of S L^-T, one an unknown: the inverse matrix' (a, b) is row a times row b.
 using WideRow = std::array<std::int64_t, 6>;
 
-// The centroid's place in the body, turned into the lighthouse's axes, in units of the target's size, 2^-20.
+// The centroid in the body, rotated into the lighthouse frame, in units of the target's size, 2^-20.
 bool lever(const FixedObservationTable& s, const FixedPose& pose, FixedVector& v) {
   constexpr int kPlaces = 20;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -20,7 +20,7 @@ bool lever(const FixedObservationTable& s, const FixedPose& pose, FixedVector& v
   return true;
 }
 
-// The move of the body's origin is that of the centroid plus lever x turn.
+// The translation of the body's origin is that of the centroid plus lever x rotation.
 void to_origin(const FixedVector& v, std::array<WideRow, 6>& rows) {
   for (std::size_t m = 0; m < 6; ++m) {
     const std::array<std::int64_t, 3> turn{rows[0][m], rows[1][m], rows[2][m]};

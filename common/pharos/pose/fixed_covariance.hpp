@@ -7,7 +7,7 @@
 namespace pharos::pose {
 
 /// The pose's covariance for unit variance of one bearing, as unit_covariance with rho 0. False where the matrix is too
-/// near to singular, or the body's origin too far from the sensors, for these integers.
+/// near to singular, or the body's origin too far from the sensors, for this arithmetic.
 bool fixed_unit_covariance(const FixedObservationTable& table, const FixedPose& pose, const FixedNormal& normal,
                            Matrix6& covariance);
 

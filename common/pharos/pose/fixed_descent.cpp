@@ -101,7 +101,7 @@ FixedVector cross(const FixedVector& a, const FixedVector& b) {
   return {element(1, 2), element(2, 0), element(0, 1)};
 }
 
-// The damping that DoubleSystem applies; false where a sum does not fit.
+// The same damping as DoubleSystem; false where a sum does not fit.
 bool damp(FixedMatrix& matrix, double damping) {
   constexpr double kRoom = 1e18;
   const auto fraction = [&](std::int64_t diagonal) { return fixed::to_double(diagonal, 0) * damping; };
@@ -177,7 +177,7 @@ FixedPose FixedSystem::moved(const FixedPose& pose, const std::array<Q30, 6>& de
 }
 
 double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal, const FixedPose& b) const {
-  // Half the sum of the columns' cross products is the turn's axis times its sine.
+  // Half the sum of the columns' cross products is the rotation axis times the sine of its angle.
   std::array<std::int64_t, 6> d{};
   std::int64_t cosine = 0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -189,13 +189,13 @@ double FixedSystem::square_between(const FixedPose& a, const FixedNormal& normal
   }
   // 1 + 2 cos: beyond half a radian the two are never the same.
   if (cosine < q30(0.87) + std::int64_t{fixed::kOne} + q30(0.87)) return 1e300;
-  // All in units of 2^-31, the turn in those of the normal equations too.
+  // All in units of 2^-31, the rotation in those of the normal equations too.
   const int unit = table_.length_exponent - table_.body_exponent;
   for (std::size_t i = 0; i < 3; ++i) {
     d[i] = fixed::shifted(d[i], -std::min(unit, 30));
     d[i + 3] = (std::int64_t{b.centroid[i]} - a.centroid[i]) * 2;
   }
-  // Vector and matrix scaled to 30 places each; so the sum of 36 products of three stays within 64 bits.
+  // Vector and matrix scaled to 30 bits each; so the sum of 36 products of three stays within 64 bits.
   const int vector_cut = 30 - fixed::max_bits_of(d);
   const int matrix_cut = 30 - fixed::max_bits_of(normal.matrix.lower);
   std::array<std::int32_t, 6> v{};

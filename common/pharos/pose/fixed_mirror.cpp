@@ -11,7 +11,7 @@ using fixed::times;
 // Unique elements of a symmetric 3x3 matrix: xx yy zz xy xz yz.
 using Symmetric = std::array<std::int64_t, 6>;
 
-// Scaled by the power of two that makes the largest element fill 29 places.
+// Scaled by the power of two that makes the largest element fill 29 bits.
 std::array<std::int32_t, 6> normalised(const Symmetric& m) {
   const int largest = fixed::max_bits_of(m);
   std::array<std::int32_t, 6> out;
@@ -50,7 +50,7 @@ FixedVector unit(const FixedVector& v) {
   return out;
 }
 
-// The direction of least variance, as PlaneFit::normal.
+// The direction of minimum variance, as PlaneFit::normal.
 FixedVector plane_normal(const FixedObservationTable& s) {
   constexpr int kSquarings = 4;
   Symmetric scatter{};

@@ -11,9 +11,9 @@ namespace {
 using fixed::Q30;
 using WideVector = std::array<std::int64_t, 3>;
 
-constexpr int kMetrePlaces = 40;  // lengths on the way in: 2^-40 m
+constexpr int kMetrePlaces = 40;  // lengths of the input: 2^-40 m
 constexpr Q30 kQuarterTurn = static_cast<Q30>(kPi / 2 * fixed::kOne);
-// Farther than 2^18 m, nearer or smaller than 2^-10 m nothing is a target.
+// Farther than 2^18 m, nearer or smaller than 2^-10 m there is no valid target.
 constexpr int kFarthestPlaces = 18, kNearestPlaces = -10;
 
 WideVector wide(const Vector3& v) {
@@ -21,7 +21,7 @@ WideVector wide(const Vector3& v) {
           fixed::from_double(v[2], kMetrePlaces)};
 }
 
-// The least n for which the vector is shorter than 2^n m.
+// The smallest n for which the vector is shorter than 2^n m.
 int length_places_of(const WideVector& v) {
   const int largest = fixed::max_bits_of(v);
   std::int64_t square = 0;
@@ -125,10 +125,10 @@ FixedPose fixed_pose(const FixedObservationTable& table, const LighthouseFromBod
 }
 
 LighthouseFromBody double_pose(const FixedObservationTable& table, const FixedPose& pose) {
-  // One step of the polar decomposition's iteration, R (3 - R^T R) / 2, on a rotation that is one to 2^-28: what R^T R
-  // departs from the unit matrix by is exact in integers, and small.
+  // One step of the polar decomposition's iteration, R (3 - R^T R) / 2, on a matrix that is a rotation to 2^-28: the
+  // difference of R^T R from the unit matrix is exact in integers, and small.
   LighthouseFromBody out;
-  std::array<std::array<std::int32_t, 3>, 3> excess{};  // 2^-57, half of what is too much
+  std::array<std::array<std::int32_t, 3>, 3> excess{};  // 2^-57, half of the excess
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       std::int64_t sum = i == j ? -(std::int64_t{1} << 60) : 0;

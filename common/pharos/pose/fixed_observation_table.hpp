@@ -12,10 +12,10 @@ namespace pharos::pose {
 
 using FixedVector = std::array<std::int32_t, 3>;
 
-/// A pose in integers: where the sensors' centroid is, and how the body is turned about it.
+/// A pose in integers: position of the sensors' centroid, and rotation of the body about it.
 struct FixedPose {
   std::array<FixedVector, 3> column{};  // of R, Q30
-  FixedVector centroid{};               // in the sightings' unit of length, Q30
+  FixedVector centroid{};               // in the table's unit of length, Q30
 };
 
 /// One cycle's bearings in integers, one hit a sensor and axis: ObservationTable for cores without a floating-point
@@ -30,7 +30,7 @@ struct FixedObservationTable {
     std::array<bool, kAxes> seen;
   };
 
-  std::array<Sensor, kMaxSensors> sensor;  // `count` of them hold something
+  std::array<Sensor, kMaxSensors> sensor;  // the first `count` are used
   int count = 0;
   int rows = 0;
   std::array<std::int64_t, 3> centre{};  // the centroid in the body frame, 2^-40 m
@@ -40,8 +40,8 @@ struct FixedObservationTable {
   std::bitset<kMaxObservations> used;
 };
 
-/// Lays the observations out for a start from `prior`. False where they are not for this arithmetic (two hits of one
-/// sensor and axis, a bearing that is none, a target larger than its distance): pose::solve knows what to say then.
+/// Fills the table for a start from `prior`. False where the observations do not suit this arithmetic (two hits of one
+/// sensor and axis, an invalid bearing, a target larger than its distance): the caller falls back to pose::solve.
 bool collect_fixed(const Target& target, const Observations& observations, const LighthouseFromBody& prior,
                    FixedObservationTable& table);
 
@@ -49,7 +49,7 @@ FixedPose fixed_pose(const FixedObservationTable& table, const LighthouseFromBod
 /// Orthonormal to double precision.
 LighthouseFromBody double_pose(const FixedObservationTable& table, const FixedPose& pose);
 
-/// A body vector turned into the lighthouse's axes.
+/// A body vector rotated into the lighthouse frame.
 FixedVector turned(const FixedPose& pose, const FixedVector& body);
 
 }  // namespace pharos::pose

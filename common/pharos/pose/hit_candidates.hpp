@@ -10,12 +10,13 @@
 
 namespace pharos::pose {
 
-/// The observations of one cycle by sensor and axis: each place (sensor, axis) holds every hit that may be its own.
+/// The observations of one cycle by sensor and axis: each place (sensor, axis) holds every hit that may be its true
+/// one.
 struct HitCandidates {
   static constexpr std::int16_t kNone = -1;
   struct Place {
     std::int16_t first = kNone;   // observation, then along next[]
-    std::int16_t chosen = kNone;  // observation now in the sightings
+    std::int16_t chosen = kNone;  // observation now in the table
   };
 
   ObservationTable table;  // rows of the chosen observations
@@ -23,7 +24,7 @@ struct HitCandidates {
   std::array<std::int16_t, kMaxObservations> next;
   std::array<double, kMaxObservations> cosine, sine;  // of each observation
   bool has_multiple = false;                          // some place has more than one
-  bool unknown_sensors = false;                       // some observation named a sensor that the target has not
+  bool unknown_sensors = false;                       // some observation named a sensor that the target does not have
 
   Place& at(int sensor, Axis axis) {
     return place[static_cast<std::size_t>(index_of(axis))][static_cast<std::size_t>(sensor)];
@@ -31,7 +32,7 @@ struct HitCandidates {
   const Place& at(int sensor, Axis axis) const {
     return place[static_cast<std::size_t>(index_of(axis))][static_cast<std::size_t>(sensor)];
   }
-  /// Puts one hit of the place, or none, into the sightings.
+  /// Puts one hit of the place, or none, into the table.
   void choose(int sensor, Axis axis, std::int16_t observation);
   /// Places with at least one hit.
   int places() const;
@@ -39,7 +40,8 @@ struct HitCandidates {
   int sensors() const { return table.count; }
 };
 
-/// Sorts observations into places; the first hit of each is chosen. False where a bearing is not a number in (0, pi).
+/// Sorts observations into places; the first hit of each is chosen. False where a bearing is outside (0, pi) or not
+/// finite.
 bool collect_hit_candidates(const Target& target, const Observations& observations, HitCandidates& hits);
 
 }  // namespace pharos::pose

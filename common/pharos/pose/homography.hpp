@@ -5,7 +5,7 @@
 
 namespace pharos::pose {
 
-/// Sensors farther than this from one plane (rms, m) are not taken for coplanar: as the target's own check.
+/// Sensors farther than this from one plane (rms, m) do not count as coplanar: as the target's own check.
 inline constexpr double kCoplanarThickness_m = 0.5e-3;
 
 /// Pose of coplanar sensors from the homography between their plane and the rays (Zhang, "A Flexible New Technique for

@@ -8,8 +8,8 @@
 
 namespace pharos::pose {
 
-/// Eigenvector of the smallest eigenvalue of a positive semidefinite matrix, by inverse iteration from a start that no
-/// axis-aligned structure is orthogonal to.
+/// Eigenvector of the smallest eigenvalue of a positive semidefinite matrix, by inverse iteration from a start that is
+/// not orthogonal to any axis-aligned structure.
 template <std::size_t N>
 std::array<double, N> smallest_eigenvector(PackedSymmetric<N> matrix) {
   constexpr int kIterations = 12;

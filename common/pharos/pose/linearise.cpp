@@ -8,12 +8,12 @@ namespace {
 
 // Two sensors at a time: one SSE2 register; plain scalars where there is none.
 using Lane = Eigen::Array<double, 2, 1>;
-// ObservationTable' columns are 16-byte aligned and read from even places.
+// ObservationTable's columns are 16-byte aligned and read from even indices.
 Lane load(const ObservationTable::Column& column, int i) {
   return Eigen::Map<const Lane, Eigen::Aligned16>(column.data() + i);
 }
 
-// Up to this tangent the series below is exact to 1e-14 relative; beyond it the library's atan2 serves.
+// Up to this tangent the series below is exact to 1e-14 relative; beyond it the library's atan2 is used.
 constexpr double kSeriesLimit = 0.02;
 
 Lane arctangent(const Lane& opposite, const Lane& adjacent) {

@@ -21,7 +21,7 @@ struct Observation {
   double theta_rad = 0.0;
 };
 
-/// Most observations of one solve: both sweeps of one station, each with every hit a sweep can hold.
+/// Maximum observations of one solve: both sweeps of one station, each with every hit a sweep can hold.
 inline constexpr std::size_t kMaxObservations = kAxes * kMaxHitsPerSweep;
 using Observations = StaticVector<Observation, kMaxObservations>;
 

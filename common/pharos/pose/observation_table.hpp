@@ -12,10 +12,10 @@
 
 namespace pharos::pose {
 
-/// What one cycle says of the target, laid out for arithmetic: one entry a sensor, columns side by side.
+/// The bearings of one cycle, laid out for arithmetic: one entry a sensor, columns side by side.
 ///
-/// Row (sensor, axis) takes part in a fit with weight 1 or 0. Entries are filled up to an even count with copies of
-/// weight 0, so that two sensors are worked on at a time.
+/// Row (sensor, axis) takes part in a fit with weight 1 or 0. Entries are padded to an even count with copies of weight
+/// 0, so that two sensors are processed at a time.
 struct ObservationTable {
   using Column = std::array<double, kMaxSensors>;
   struct AxisColumns {
@@ -39,7 +39,7 @@ struct ObservationTable {
   }
   bool seen_by_both(int i) const { return seen(i, Axis::kX) && seen(i, Axis::kY); }
 
-  /// Adds a sensor that nothing has seen yet; its number in this structure. The caller keeps count < kMaxSensors.
+  /// Adds a sensor without bearings; returns its index in this structure. The caller keeps count < kMaxSensors.
   int add(const Vector3& position_m);
   void see(int i, Axis a, double cosine, double sine);
   void leave_out(int i, Axis a) {
@@ -55,7 +55,7 @@ struct ObservationTable {
   Vector3 body_centroid() const;
 };
 
-/// Sensors with both bearings, as points and unit rays: what start values are made from.
+/// Sensors with both bearings, as points and unit rays: input of the start methods.
 struct RaySet {
   int count = 0;
   std::array<Vector3, kMaxSensors> body;  // m, body frame

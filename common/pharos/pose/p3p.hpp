@@ -14,8 +14,8 @@ namespace pharos::pose {
 /// into two lines through those points (Ding et al., "Revisiting the P3P Problem", CVPR 2023), each of which meets D1
 /// in the roots of a quadratic.
 ///
-/// Near the fronto-parallel pose noise may leave no real root at all; the real parts are given then, because the two
-/// minima lie on either side of them: a start value must not be lost where the view is at its most ordinary.
+/// Near the fronto-parallel pose noise may leave no real root at all; the real parts are returned then, because the two
+/// minima lie on either side of them: the most ordinary view must not be left without a start value.
 StartPoses p3p(const RaySet& set, const Triplet& triplet);
 
 }  // namespace pharos::pose

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kCoreNumerator = 2, kCoreDenominator = 3;
 constexpr int kMinCore = kPoseUnknowns + 1;
-// Stands for the tangent of a residual beyond 90 deg.
+// Used for the tangent of a residual beyond 90 deg.
 constexpr double kOppositeSide = 1e6;
 
 PlaceResidual best_hit(const HitCandidates& hits, int sensor, Axis axis, double along, double ahead) {

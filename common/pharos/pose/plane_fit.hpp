@@ -12,7 +12,7 @@ class PlaneFit {
   void add(const Vector3& point);
 
   const Vector3& centroid() const { return centroid_; }
-  /// Unit normal: the direction of least variance. Any direction across the line where the points are collinear.
+  /// Unit normal: the direction of minimum variance. Any direction across the line where the points are collinear.
   Vector3 normal() const;
   /// Root mean square distance of the points from the plane through the centroid with this normal, m.
   double thickness_m(const Vector3& normal) const;

@@ -32,7 +32,7 @@ struct RealRoots {
   std::size_t count = 0;
 };
 
-/// Where the sign changes between low and high, by halving: exact to the last bits, and never astray.
+/// Root between low and high, where the sign changes, by bisection: exact to the last bits, and always converges.
 template <std::size_t Degree>
 double bisected(const Polynomial<Degree>& p, double low, double high) {
   constexpr int kHalvings = 60;

@@ -15,16 +15,16 @@ namespace pharos::pose {
 /// By sensor number.
 using SensorSet = std::bitset<kMaxSensors>;
 
-/// Incidence up to which a photodiode is taken to see the station, rad: what the target of the published figures was
-/// judged by. A sensor without a normal is always taken to see it.
+/// Incidence up to which a photodiode is assumed to see the station, rad: the value behind the published figures. A
+/// sensor without a normal is always assumed to see it.
 inline constexpr double kVisibleIncidence_rad = 60.0 * kRadPerDeg;
 
-/// Sensors of the target that face the station at this pose. Shadows of the body on itself are not modelled: a convex
-/// body has none within 60 deg.
+/// Sensors of the target that face the station at this pose. Self-occlusion of the body is not modelled: a convex body
+/// has none within 60 deg.
 SensorSet visible_sensors(const Target& target, const LighthouseFromBody& pose,
                           double incidence_limit_rad = kVisibleIncidence_rad);
 
-/// What a view is worth before anything is measured: (18) and (22).
+/// Precision of a view before anything is measured: (18) and (22).
 struct Precision {
   /// H of (18), for the error of Pose::moved_by: rad^2, m^2 per rad^2 of bearing variance.
   Matrix6 unit_covariance = Matrix6::Zero();

@@ -11,17 +11,17 @@ namespace {
 
 constexpr int kMaxRounds = 8;
 
-// A hit is let in below this many times the scale, by the degrees of freedom that the scale was estimated from: about
-// Student's quantile, the first ones cut to what a reflection (2.5 mrad at 8.8 arcsec) must stand out by, the last ones
+// A hit is admitted below this many times the scale, by the degrees of freedom that the scale was estimated from: about
+// Student's quantile, the first ones limited to what a reflection (2.5 mrad at 8.8 arcsec) must exceed, the last ones
 // raised so that one good hit in two million is lost.
 using Gates = std::array<double, 9>;
 // 99.98 %: for noise of unknown size.
 constexpr Gates kWideGates{60.0, 60.0, 45.0, 22.0, 12.9, 9.6, 8.0, 7.2, 6.6};
-// 99.9 %: where hits are reflections beyond doubt.
+// 99.9 %: where reflections are certain.
 constexpr Gates kNarrowGates{60.0, 60.0, 31.6, 12.9, 8.6, 6.9, 6.0, 5.4, 5.0};
 
 // Scale that systematic errors may give a fit (an uncalibrated station: 1 mrad). Above it there are reflections among
-// the hits let in, and the gate was too wide.
+// the admitted hits, and the gate was too wide.
 constexpr double kLargestSystematic_rad = 1.5e-3;
 
 double gate_for(const Gates& gates, int degrees_of_freedom) {
@@ -29,7 +29,7 @@ double gate_for(const Gates& gates, int degrees_of_freedom) {
   return gates[static_cast<std::size_t>(std::clamp(degrees_of_freedom, 0, last))];
 }
 
-// Residual of a place that is not in the fit over what the pose's own uncertainty adds to the hit's.
+// Residual of a place that is not in the fit over the hit's sigma and the pose's own uncertainty.
 double studentised(const HitCandidates& hits, const PlaceResidual& place, const LighthouseFromBody& pose,
                    const Factorisation<6>& factor) {
   const Vector6 j = jacobian_of(hits.table.body(place.sensor), place.axis, pose);
@@ -43,7 +43,7 @@ double scale_of(const Fit& fit, int freedom, double sigma_rad) {
   return freedom > 0 ? std::fmax(sigma_rad, std::sqrt(fit.normal.cost / freedom)) : sigma_rad;
 }
 
-// Puts in what passes the gate and takes out what does not; how many are in, or -1 where nothing changed.
+// Adds what passes the gate and removes what does not; returns how many are in, or -1 where nothing changed.
 int regate(HitCandidates& hits, const Fit& fit, double gate) {
   PlaceResiduals residuals;
   sort_places(hits, fit.state, residuals);
@@ -60,7 +60,7 @@ int regate(HitCandidates& hits, const Fit& fit, double gate) {
   return changed ? in : -1;
 }
 
-// From the core of a pose to the hits that pass the gates; the scale of the fit to them.
+// From the core of a pose to the hits that pass the gates; returns the scale of the fit to them.
 double readmit_by(const Gates& gates, HitCandidates& hits, const SolveOptions& options, LighthouseFromBody& pose) {
   PlaceResiduals residuals;
   sort_places(hits, pose, residuals);

@@ -6,7 +6,7 @@
 namespace pharos::pose {
 namespace {
 
-// Decrease of r^T r that the linear model predicts of an undamped step: -g . delta.
+// Decrease of r^T r predicted by the linear model for an undamped step: -g . delta.
 double predicted_decrease(const std::array<double, 6>& gradient, const std::array<double, 6>& delta) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 6; ++i) sum -= gradient[i] * delta[i];
@@ -16,7 +16,7 @@ double predicted_decrease(const std::array<double, 6>& gradient, const std::arra
 std::array<double, 6> negated(const std::array<double, 6>& v) { return {-v[0], -v[1], -v[2], -v[3], -v[4], -v[5]}; }
 
 // Damping of the rotation is the same about all axes, by the best determined one: straight on to a plane the cost is so
-// flat in tilt that tilt's own diagonal element would not hold a step back. Translation is damped by its own diagonal.
+// flat in tilt that tilt's own diagonal element would not limit a step. Translation is damped by its own diagonal.
 PackedSymmetric<6> damped(const PackedSymmetric<6>& matrix, double damping) {
   PackedSymmetric<6> sum = matrix;
   const double rotation = std::fmax(matrix(0, 0), std::fmax(matrix(1, 1), matrix(2, 2)));

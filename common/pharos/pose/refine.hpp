@@ -6,11 +6,11 @@
 
 namespace pharos::pose {
 
-/// Fraction of sigma^2 by which a last step may still lower r^T r: the pose then is within 0.01 sigma of the minimum.
+/// Fraction of sigma^2 by which a last step may still lower r^T r: the pose is then within 0.01 sigma of the minimum.
 inline constexpr double kConvergedFraction = 1e-4;
 
 /// The pose moved by delta: the retraction of both minima's descent. The rotation uses Cayley's map, which agrees with
-/// exp to the third order and needs neither sine nor cosine; only the size of a step depends on it, never the minimum.
+/// exp to the third order and needs neither sine nor cosine; it affects only the size of a step, never the minimum.
 LighthouseFromBody moved(const LighthouseFromBody& pose, const std::array<double, 6>& delta);
 
 /// One step of a descent.
@@ -18,7 +18,7 @@ struct DoubleStep {
   std::array<double, 6> delta;
   double decrease;  // of r^T r, that the linear model predicts of an undamped step
   double smallest_pivot_ratio;
-  bool solved = true;  // double always can; the integers may not
+  bool solved = true;  // always true in double; the integers may fail
 };
 
 /// The problem that `descend` and `both_minima` work on, in double.

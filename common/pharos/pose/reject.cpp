@@ -11,9 +11,9 @@ namespace {
 constexpr int kMaxTriplets = 30;
 constexpr int kMaxHitsPerTriplet = 8;
 constexpr int kConcentrationSteps = 2;
-// A start whose first core costs this many times the best one's final core is not worth its steps.
+// A start whose first core costs this many times the best one's final core is not refined.
 constexpr double kNotWorthSteps = 1e4;
-// A pose that puts all hits within this many times the credible sum of squares is worth a fit to all of them.
+// A pose whose sum of squares over all hits is within this many times the plausible one gets a fit to all of them.
 constexpr double kWorthAFit = 100.0;
 
 class TrimmedSearch {
@@ -27,9 +27,9 @@ class TrimmedSearch {
 
   const LighthouseFromBody& best() const { return best_; }
   bool found() const { return best_cost_ < 1e300; }
-  /// All places agree on the best pose: there is nothing to reject, and no reason to look further.
+  /// All places agree on the best pose: there is nothing to reject, and the search ends.
   bool complete() const { return complete_; }
-  /// No more starts may be followed.
+  /// The limit of starts is reached.
   bool cut_short() const { return starts_ >= options_.max_search_starts; }
 
  private:
@@ -75,8 +75,8 @@ void TrimmedSearch::consider(const LighthouseFromBody& start) {
     sort_places(hits_, pose, residuals);
     const int core = core_size(static_cast<int>(residuals.size()));
     const double cost = choose_first(hits_, residuals, core);
-    // A pose that all places agree on is the answer, also behind one whose core fits better: of few sensors eight
-    // places of twelve can fit a wrong pose as well as the true one.
+    // A pose that all places agree on is accepted, even if another one's core fits better: of few sensors eight places
+    // of twelve can fit a wrong pose as well as the true one.
     const bool best = cost < best_cost_;
     if (best) best_ = pose, best_cost_ = cost;
     if (step > 0 && (best || cost <= cost_threshold(core))) {

@@ -75,8 +75,8 @@ Matrix3 axes_along(const Vector3& direction) {
   return axes;
 }
 
-// Turn about the axis (cosine, sine) and translation, linear in all bearings: each ray gives two planes through the
-// station in which its sensor lies.
+// Rotation about the axis (cosine, sine) and translation, linear in all bearings: each ray gives two planes through the
+// station that contain its sensor.
 LighthouseFromBody completed(const RaySet& set, const Ends& ends, const Vector3& axis) {
   const Matrix3 to = axes_along(axis);
   const Matrix3 from = axes_along(set.body[ends.b] - set.body[ends.a]);

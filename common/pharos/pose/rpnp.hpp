@@ -9,9 +9,9 @@ namespace pharos::pose {
 /// the paper names beside DLT. Needs three rays.
 ///
 /// Two sensors far apart span an axis; with each other sensor they make a triplet whose P3P constraint is a polynomial
-/// of fourth degree in the one unknown that places the axis. The minima of the sum of their squares (roots of a
-/// polynomial of seventh degree) give up to four axes; the turn about the axis and the translation then follow linearly
-/// from all bearings.
+/// of fourth degree in the one unknown that positions the axis. The minima of the sum of their squares (roots of a
+/// polynomial of seventh degree) give up to four axes; the rotation about the axis and the translation then follow
+/// linearly from all bearings.
 StartPoses rpnp(const RaySet& set);
 
 }  // namespace pharos::pose

@@ -26,7 +26,7 @@ struct Problem {
   int iterations = 0;
 };
 
-// The start that fits best as it is.
+// The start that fits best without refinement.
 const LighthouseFromBody& nearest(const Problem& problem, const StartPoses& starts) {
   std::size_t best = 0;
   double best_cost = 1e300;
@@ -62,7 +62,7 @@ Refusal too_few(const Problem& problem, bool prior) {
   return problem.hits.unknown_sensors ? Refusal::kUnknownSensors : Refusal::kTooFewSensors;
 }
 
-// One rotor's angles leave a shift along its axis open, whatever the search would try.
+// One rotor's angles leave a shift along its axis unconstrained, whatever the search would try.
 bool one_axis(const ObservationTable& table) {
   bool x = false;
   bool y = false;
@@ -75,7 +75,7 @@ bool one_axis(const ObservationTable& table) {
 
 // Whether enough hits confirm a pose that contradicts some: with one or two hits more than unknowns, some wrong choice
 // of hits fits by chance (four sensors, one true hit replaced by a reflection: 1 in 6; six, four replaced: 1 in 25),
-// and each two hits more that are left out make as many more choices as one confirming hit rules out.
+// and each two more hits left out add as many choices as one confirming hit rules out.
 bool confirmed(const Problem& problem) {
   constexpr int kMinFreedom = 3;
   const int left_out = problem.hits.places() - problem.hits.table.rows();
@@ -103,7 +103,7 @@ void mark_used(const HitCandidates& hits, std::bitset<kMaxObservations>& used) {
   }
 }
 
-// Functions that are not to be inlined: their temporaries would lie on the stack below all that the others call.
+// Functions that must not be inlined: their temporaries would stay on the stack during all calls.
 [[gnu::noinline]] Solution solution_of(const Problem& problem, const Minima<DoubleSystem>& minima) {
   const SolveOptions& options = problem.options;
   const ObservationTable& table = problem.hits.table;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// INTERFACE AGREED, implementation follows: bearings of one cycle in, a pose with its uncertainty out.
+// Bearings of one cycle in, a pose with its uncertainty out.
 #include <bitset>
 #include <cstdint>
 
@@ -13,9 +13,9 @@
 
 namespace pharos::pose {
 
-/// Where the start value comes from.
+/// Source of the start value.
 enum class Start : std::uint8_t { kAuto, kP3p, kRpnp, kDlt, kHomography };
-/// What is minimised: the angles themselves (default), or the paper's tangent-plane residual (6) as printed.
+/// The minimised residual: the angles themselves (default), or the paper's tangent-plane residual (6) as printed.
 enum class Residual : std::uint8_t { kAngle, kTangent };
 
 struct SolveOptions {
@@ -28,29 +28,29 @@ struct SolveOptions {
   /// A fit whose chi-squared per degree of freedom (with sigma_rad) is above this is refused; outliers are dropped
   /// first.
   double max_reduced_chi2 = 1e4;
-  /// For slow cores: a fit to all hits whose chi-squared is this many times what is credible is an answer (which its
-  /// residual tells) and no reason to search among them.
+  /// For slow cores: a fit to all hits whose chi-squared is up to this many times the plausible one is accepted (its
+  /// residual shows it), without a search among them.
   double chi2_threshold_factor = 1.0;
-  /// Start poses that the search among hits may follow, where hits compete or contradict; none within it on which all
-  /// agree: kSearchLimit. A soft core spends some two million instructions on each.
+  /// Maximum start poses of the search among hits, where hits compete or contradict; if none of them fits all hits:
+  /// kSearchLimit. A soft core spends some two million instructions on each.
   int max_search_starts = 1'000'000;
 };
 
-/// Why no pose can be had.
+/// Why there is no pose.
 enum class Refusal : std::uint8_t {
   kNone,
   kTooFewSensors,   // fewer than four sensors with bearings (three with a prior), or fewer than six angles
-  kUnknownSensors,  // bearings of sensors that the target has not
-  kDegenerate,      // the sensors seen leave a degree of freedom open
+  kUnknownSensors,  // bearings of sensors that the target does not have
+  kDegenerate,      // the sensors seen leave a degree of freedom unconstrained
   kNotConverged,
-  kPoorFit,        // nothing rigid fits the bearings, or too few of them confirm what does
+  kPoorFit,        // no rigid body fits the bearings, or too few of them confirm the one that does
   kBehindStation,  // the only fit lies behind the station
   kBadInput,       // a bearing outside (0, pi) or not finite
-  kSearchLimit,    // hits compete or contradict, and what may be spent on the search found no pose that they agree on
-  kTooUncertain,   // the covariance is beyond what may be called an answer (motion::UncertaintyLimits)
+  kSearchLimit,    // hits compete or contradict, and the search limit was reached without a consistent pose
+  kTooUncertain,   // the covariance exceeds the limits (motion::UncertaintyLimits)
 };
 inline constexpr Refusal kLastRefusal = Refusal::kTooUncertain;
-/// Sensors that a pose takes without a prior.
+/// Sensors required for a pose without a prior.
 inline constexpr int kMinSensorsAlone = 4;
 
 /// A pose and which observations it used (index as given).
@@ -60,7 +60,7 @@ struct Solution {
 };
 
 /// Pose of a target from one cycle of ideal bearings of one station. See README of this room for the method.
-/// `prior`: a pose to start from (the last one); lets three sensors do. Never needed otherwise.
+/// `prior`: a pose to start from (the last one); with it three sensors suffice. Never needed otherwise.
 Result<Solution, Refusal> solve(const Target& target, const Observations& observations, const SolveOptions& options,
                                 const LighthouseFromBody* prior = nullptr);
 

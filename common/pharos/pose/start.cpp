@@ -11,8 +11,8 @@
 namespace pharos::pose {
 namespace {
 
-// A DLT pose must reproject within this share of the target's apparent size (rms against rms): a wrong one, and there
-// are many on small targets, misses by about the whole of it.
+// A DLT pose must reproject within this fraction of the target's apparent size (rms against rms): a wrong one, frequent
+// on small targets, misses by about the whole of it.
 constexpr double kDltGate = 0.1;
 
 double apparent_square(const RaySet& set) {

@@ -6,10 +6,11 @@
 
 namespace pharos::pose {
 
-/// Start values for a view by the method asked for; kAuto is P3P over one wide triplet.
+/// Start values for a view by the given method; kAuto is P3P over one wide triplet.
 ///
-/// A method that cannot serve the view (DLT: fewer than six sensors, or a reprojection that fails its gate; homography:
-/// not coplanar) gives way to kAuto. Where fewer than three sensors have both bearings all give way to attitude_grid.
+/// A method that does not suit the view (DLT: fewer than six sensors, or a reprojection that fails its gate;
+/// homography: not coplanar) is replaced by kAuto. Where fewer than three sensors have both bearings attitude_grid
+/// replaces all.
 StartPoses start_poses(const ObservationTable& table, Start method);
 
 }  // namespace pharos::pose

@@ -6,8 +6,8 @@
 
 namespace pharos::pose {
 
-/// What every start value method answers: poses worth refining, best first where it can tell; empty where it has none.
-/// Call shape of all of them: `StartPoses method(const RaySet&)`.
+/// Result of every start method: poses to refine, best first where the method ranks them; empty where it has none.
+/// Common signature: `StartPoses method(const RaySet&)`.
 using StartPoses = StaticVector<LighthouseFromBody, 8>;
 
 }  // namespace pharos::pose

@@ -14,7 +14,7 @@ using Triplet = std::array<int, 3>;
 /// triangle for compact targets. Needs three rays.
 Triplet wide_triplet(const RaySet& set);
 
-/// Squared double area of the triangle of three rays: zero where the sight line lies in the sensors' plane.
+/// Squared double area of the triangle of three rays: zero where the line of sight lies in the sensors' plane.
 double spread_of(const RaySet& set, const Triplet& triplet);
 
 }  // namespace pharos::pose

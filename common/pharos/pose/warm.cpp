@@ -16,7 +16,7 @@ bool credible(const FixedMinima& minima, int rows, double variance) {
   return minima.best.converged() && minima.best.normal.cost <= chi2_threshold(rows - kPoseUnknowns) * variance;
 }
 
-// The root of a positive number to 2^-30 of it: where a soft one takes 800 instructions.
+// Square root of a positive number to a relative 2^-30: the soft-float one takes 800 instructions.
 double root(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const int exponent = static_cast<int>(bits >> 52U) - 1022;
@@ -51,7 +51,7 @@ std::optional<Solution> solve_warm(const Target& target, const Observations& obs
   if (options.residual != Residual::kAngle || options.rho != 0.0) return std::nullopt;
   FixedObservationTable table;
   if (!collect_fixed(target, observations, prior, table)) return std::nullopt;
-  // With three sensors the prior decides between minima, and the words for what is missing are those of solve().
+  // With three sensors the prior decides between minima, and the refusals are those of solve().
   if (table.count < kMinSensorsAlone || table.rows < kPoseUnknowns) return std::nullopt;
   const double variance = options.sigma_rad * options.sigma_rad;
   const FixedSystem system(table);

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(wire::Ootx::kMaxData == lighthouse::kMaxOotxPayload);
 static_assert(kNanosecondsPerTick == 20);
-// Whatever the decoder gives out, the line takes.
+// Everything that the decoder outputs fits the line's ranges.
 static_assert(wire::kMinPulse_ticks <= lighthouse::kShortestPulse_ticks);
 static_assert(wire::kMaxPulse_ticks >= lighthouse::kLongestPulse_ticks);
 static_assert(wire::kMinFlash_ticks <= lighthouse::kShortestFlash_ticks);
@@ -24,10 +24,10 @@ static_assert(wire::kMaxCentre_half_ticks >= 2 * lighthouse::kSweepWindowEnd_tic
 static_assert(wire::kMinPeriod_sixteenth_ticks < 16 * lighthouse::kTurn_ticks);
 static_assert(wire::kMaxPeriod_sixteenth_ticks > 16 * lighthouse::kTurn_ticks);
 
-/// Unit length is lost by nothing but a broken sender: doubles keep it to 1e-15.
+/// Only a faulty sender breaks the unit length: doubles keep it to 1e-15.
 constexpr double kUnitTolerance = 1e-6;
 
-// Counters as the list of numbers that they are: a line of code each would be half a kilobyte of it on the target.
+// Counters as a list of numbers: a line of code for each would be half a kilobyte on the target.
 template <class Counters>
 using Values = std::array<std::uint32_t, sizeof(Counters) / sizeof(std::uint32_t)>;
 

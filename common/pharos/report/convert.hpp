@@ -18,7 +18,7 @@ namespace pharos::report {
 // covariance, residual and precision factors are rounded to float (1e-7), rotation to the double's quaternion (1e-16).
 
 wire::Sweep to_wire(const lighthouse::Sweep& sweep);
-/// The same message, written from where the sweep lies: on a small stack its copy is half a kilobyte.
+/// The same message, written directly from the sweep: on a small stack its copy is half a kilobyte.
 struct SweepInPlace {
   static constexpr wire::MessageType kType = wire::Sweep::kType;
   static constexpr std::size_t kMaxBytes = wire::Sweep::kMaxBytes;
@@ -32,7 +32,7 @@ lighthouse::OotxPayload from_wire(const wire::Ootx& message);
 
 wire::Counters to_wire(const DecoderReport& report);
 wire::Counters to_wire(const DeviceReport& report);
-/// Counters that the message does not have stay 0; those it has beyond our list are ignored. The group must fit.
+/// Counters that the message does not have stay 0; additional ones are ignored. The group must match.
 DecoderReport decoder_report(const wire::Counters& message);
 DeviceReport device_report(const wire::Counters& message);
 
@@ -40,8 +40,8 @@ wire::RawEdge to_wire(const lighthouse::Edge& edge);
 EdgesReport from_wire(const wire::RawEdges& message);
 
 wire::Pose to_wire(const PoseReport& report);
-/// Empty when the message holds no possible pose: a quaternion off unit length by more than 1e-6, or a refusal that is
-/// not in pose::Refusal.
+/// Empty when the message holds no valid pose: a quaternion off unit length by more than 1e-6, or a refusal that is not
+/// in pose::Refusal.
 std::optional<PoseReport> from_wire(const wire::Pose& message);
 
 }  // namespace pharos::report

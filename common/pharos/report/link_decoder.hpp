@@ -15,29 +15,27 @@
 
 namespace pharos::report {
 
-/// Everything that one good frame can say.
+/// Every possible content of one good frame.
 using LinkEvent =
     std::variant<lighthouse::Sweep, lighthouse::OotxPayload, PoseReport, DecoderReport, DeviceReport, EdgesReport,
                  wire::Time, wire::Hello, wire::Command, wire::Ack, wire::Nak, wire::LoaderQuery, wire::LoaderInfo,
                  wire::LoaderBegin, wire::LoaderData, wire::LoaderVerify, wire::LoaderStart>;
 
-/// What `event` says in values, for frames already found; empty for payloads that mean nothing and for counter groups
-/// of the future.
+/// The values of `event`, for frames already found; empty for invalid payloads and for unknown counter groups.
 std::optional<LinkEvent> decode_event(const wire::Frame& frame);
 
-/// Newest instant of the target's clock that the event speaks of, ticks; it was sent after that. Empty for events
-/// without a time.
+/// Newest instant of the target's clock in the event, ticks; it was sent after that. Empty for events without a time.
 std::optional<std::int64_t> newest_ticks(const LinkEvent& event);
 
-/// The host's side of the line: bytes in, events out. Whatever is dropped is counted by cause.
+/// The host's side of the line: bytes in, events out. All that is dropped is counted by cause.
 class LinkDecoder {
  public:
   std::optional<LinkEvent> push(std::uint8_t byte);
-  /// The line was unplugged: what is cut in the middle is dropped.
+  /// The line was unplugged: a partial frame is dropped.
   void restart() { frames_.restart(); }
 
   const wire::LinkCounters& counters() const { return frames_.counters(); }
-  /// Protocol version of the last frame in another version than ours, if any ever came.
+  /// Protocol version of the last frame of another version, if there was one.
   std::optional<std::uint8_t> unsupported_version() const { return frames_.unsupported_version(); }
 
  private:

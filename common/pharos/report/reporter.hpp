@@ -27,13 +27,14 @@ class Reporter {
   Bytes report(const PoseReport& pose);
   Bytes report(const DecoderReport& counters);
   Bytes report(const DeviceReport& counters);
-  /// The clock now; ten a second keep the host's clock mapping tight.
+  /// The current clock; ten a second keep the host's clock mapping accurate.
   Bytes report_time(std::int64_t now_ticks) { return send(wire::Time{now_ticks}); }
-  /// Diagnostic mode: takes the edge; gives a frame when one was full.
+  /// Diagnostic mode: takes the edge; returns a frame when one was full.
   Bytes report(const lighthouse::Edge& edge, std::uint32_t edges_lost);
-  /// The same for a caller whose line is busy: makes no frame. False when the edge found no room: flush_edges(), again.
+  /// The same for a caller whose line is busy: makes no frame. False when the edge did not fit: flush_edges(), then
+  /// again.
   bool hold(const lighthouse::Edge& edge, std::uint32_t edges_lost);
-  /// Diagnostic mode: what is held back of edges, for when they come slowly.
+  /// Diagnostic mode: the edges held back, for when they are rare.
   Bytes flush_edges();
 
   /// Any message of wire/: Hello, Ack, Nak, LoaderInfo, …
@@ -44,7 +45,7 @@ class Reporter {
     if (payload == 0 && M::kMaxBytes > 0) return refuse();
     return frame(M::kType, place.first(payload));
   }
-  // A frame that the line has no room for is simply not sent: its number is used up, and the host counts the gap.
+  // A frame that does not fit on the line is not sent: its number is used up, and the host counts the gap.
 
   /// Values that cannot be sent (a field out of its range).
   std::uint32_t refused() const { return refused_; }
@@ -57,8 +58,8 @@ class Reporter {
   wire::FrameEncoder encoder_;
   wire::RawEdgesPacker edges_;
   std::uint32_t edges_lost_ = 0;
-  // A payload is written where its frame will stand, at the end: the frame is made from the front, and with border,
-  // header and stuffing it never reaches what it has still to read.
+  // A payload is written to the end of its frame's memory: the frame is made from the front, and with border, header
+  // and stuffing it never overwrites payload that is still to be read.
   static constexpr std::size_t kPayloadAt = wire::kMaxLineFrame - wire::kMaxPayload;
   static_assert(kPayloadAt >= 1 + wire::kHeaderBytes + wire::stuffed_size(wire::kMaxPayload) - wire::kMaxPayload);
   std::array<std::uint8_t, wire::kMaxLineFrame> line_{};

@@ -14,7 +14,7 @@
 
 namespace pharos::report {
 
-// What travels besides sweeps and OOTX payloads, in the core's own types.
+// Values sent besides sweeps and OOTX payloads, in the core's own types.
 
 /// One cycle of one station solved on board; fields as in track::EpochResult.
 struct PoseReport {

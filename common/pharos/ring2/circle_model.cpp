@@ -9,10 +9,10 @@
 namespace pharos::ring2 {
 namespace {
 
-// Points of a circle that are projected. A contour's offsets have few harmonics: 12 points give them all without
+// Points of a circle that are projected. A contour's offsets have few harmonics: 12 points determine them without
 // distortion, 16 with that of a wide lens.
 constexpr int kPoints = 16;
-// cos and sin of k / 16 turns; nothing is computed at run time.
+// cos and sin of k / 16 of a full circle; nothing is computed at run time.
 constexpr double kHalf = 0.70710678118654752440;
 constexpr double kCos1 = 0.92387953251128675613;
 constexpr double kSin1 = 0.38268343236508977173;
@@ -27,7 +27,7 @@ struct Means {
   double length = 0.0;
 };
 
-// One point, with what its offset owes to the unknowns.
+// One point, with the derivatives of its offset by the unknowns.
 void add_point(const Contour::Offset& offset, const Vector8& by_unknowns, double weight, Means& means) {
   for (int i = 0; i < 5; ++i) {
     const double scaled = weight * offset.slope[i];

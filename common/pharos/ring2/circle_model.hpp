@@ -12,7 +12,7 @@
 
 namespace pharos::ring2 {
 
-/// The two parallel circles with one axis that are looked for, in the rig's frame.
+/// The model: two parallel circles with one axis, in the rig's frame.
 struct CircleModel {
   Vector3 normal = -Vector3::UnitZ();  ///< unit, from the ring towards the cameras
   Vector3 centre_m = Vector3::Zero();  ///< of the first circle
@@ -21,7 +21,7 @@ struct CircleModel {
   double second_radius_m = 0.0;  ///< of the second circle
 };
 
-/// Two unit vectors across the normal, in which its tilt is counted.
+/// Two unit vectors across the normal, the axes of its tilt.
 std::array<Vector3, 2> tilt_axes(const Vector3& normal);
 
 /// The unknowns, in this order: tilt about the two axes (rad), centre (m), radius, distance, second radius (m).
@@ -35,20 +35,20 @@ CircleModel moved(const CircleModel& model, const Vector8& step);
 
 /// Sums of the least squares over the ellipses; the cost is chi-squared.
 struct NormalEquations : optimize::NormalEquations<kUnknowns> {
-  double largest_rms_px = 0.0;  ///< of the four contours' disagreements, the worst
+  double largest_rms_px = 0.0;  /// of the four contours' residuals, the largest
 };
 
 /// Which circle of the model a contour belongs to.
 enum class Circle : std::uint8_t { kFirst, kSecond };
 
 /// Adds one ellipse. The circle's points are projected through the whole camera and their offsets from the measured
-/// ellipse are put into its five parameters by least squares along the contour, so that what distortion makes of a
-/// circle is compared with what a least-distance ellipse makes of that. False where the circle cannot be seen.
+/// ellipse are mapped to its five parameters by least squares along the contour, so that the distorted image of a
+/// circle is compared with a least-distance ellipse of the same. False where the circle cannot be seen.
 bool add_ellipse(const CircleModel& model, Circle circle, const RigView& view, const Contour& contour,
                  NormalEquations& sums);
 
-/// The disagreement of one ellipse: what would have to be added to the measured parameters, and its derivative by the
-/// unknowns. For tests of the derivative.
+/// The residual of one ellipse: the difference of the measured parameters, and its derivative by the unknowns. For
+/// tests of the derivative.
 struct ShapeResidual {
   Vector5 value = Vector5::Zero();
   Eigen::Matrix<double, 5, 8> slope = Eigen::Matrix<double, 5, 8>::Zero();

@@ -16,7 +16,7 @@ struct CirclePose {
   Vector3 centre_per_radius = Vector3::Zero();
 };
 
-/// Where a circle's centre is seen, and how large: radius = radius_per_range * range along the unit direction.
+/// Direction and size of a circle's image: radius = radius_per_range * range along the unit direction.
 struct ApparentCircle {
   Vector3 direction = Vector3::UnitZ();
   double radius_per_range = 0.0;
@@ -25,11 +25,11 @@ struct ApparentCircle {
 /// The cone over an ellipse: X^T Q X = 0 of rays X from the camera in the rig's axes, negative inside.
 struct Cone {
   Matrix3 Q = Matrix3::Identity();
-  Vector3 forward = Vector3::UnitZ();  ///< the camera's own axis: which half of the cone light comes through
+  Vector3 forward = Vector3::UnitZ();  /// the camera's own axis: selects the half of the cone before it
 };
 
-/// The contour's points are undistorted one by one and a conic is put through the rays; without distortion it is exact.
-/// Empty where the lens has no such pixels or the curve is no ellipse among the rays.
+/// The contour's points are undistorted one by one and a conic is fitted to the rays; without distortion it is exact.
+/// Empty where the lens has no such pixels or the curve is not an ellipse among the rays.
 std::optional<Cone> cone_of(const ellipse::Ellipse& ellipse, const RigView& view);
 
 /// The two circles of one cone (Chen and Huang 1999, reference 12 of paper 001; here by the cone's principal axes).
@@ -37,8 +37,8 @@ std::optional<Cone> cone_of(const ellipse::Ellipse& ellipse, const RigView& view
 std::optional<std::array<CirclePose, 2>> circle_poses(const Cone& cone);
 
 /// Direction and relative size of the circle that the cone would have in a plane of that normal. Exact for the normals
-/// of circle_poses, smooth around them. Empty for planes that the cone does not meet in such a circle, or whose back is
-/// seen.
+/// of circle_poses, smooth around them. Empty for planes that the cone does not intersect in such a circle, or whose
+/// back is seen.
 std::optional<ApparentCircle> apparent_circle(const Cone& cone, const Vector3& normal);
 
 }  // namespace pharos::ring2

@@ -10,9 +10,9 @@
 namespace pharos::ring2 {
 namespace {
 
-// Places along the contour for the mean over it: smooth and periodic, so few give all digits.
+// Points along the contour for the mean over it: smooth and periodic, so few are exact.
 constexpr int kPlaces = 32;
-// The variance of a direction about which nothing is known: the detector gives it to circles.
+// The variance of an unknown direction: the detector assigns it to circles.
 constexpr double kAnyDirection_rad2 = std::numbers::pi * std::numbers::pi / 12.0;
 
 Contour bare(const ellipse::Ellipse& e) {
@@ -59,7 +59,7 @@ Matrix5 shape_covariance(const ellipse::DetectedEllipse& detected) {
   change.col(4) = turned * turn;
   Matrix5 out = (change * detected.covariance).eval() * change.transpose();
   if (detected.covariance(4, 4) < 0.99 * kAnyDirection_rad2) return out;
-  // A circle: across its accidental long axis its shape is known as well as along it.
+  // A circle: across its arbitrary long axis its shape is known as well as along it.
   const double half = 0.25 * (detected.covariance(2, 2) + detected.covariance(3, 3) - 2.0 * detected.covariance(2, 3));
   const double mean = e.a_px + e.b_px;
   add_outer<5>(out, turn, std::max(0.0, mean * mean * half - turned * turned * kAnyDirection_rad2));

@@ -8,14 +8,14 @@
 namespace pharos::ring2 {
 namespace {
 
-// In deviations of the tilt: within so many of the line of sight, both its sides are looked at.
+// In deviations of the tilt: within so many of the line of sight, both its sides are tried.
 constexpr double kNear = 6.0;
 // Tilts on either side of the line of sight, in each of two directions.
 constexpr int kSteps = 6;
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-// Least chi2 with the normal held.
+// Minimum chi2 with the normal held.
 std::optional<double> chi2_at(const CircleProblem& held, const ConeSet& cones, const Vector3& normal) {
   const std::optional<CircleModel> model = model_along(held, cones, normal);
   if (!model) return std::nullopt;

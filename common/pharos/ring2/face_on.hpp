@@ -11,12 +11,12 @@ namespace pharos::ring2 {
 /// Direction from the first circle's centre to the cameras that saw anything, on average.
 Vector3 line_of_sight(const CircleProblem& problem, const CircleModel& model);
 
-/// Whether the circles face the cameras so nearly that the tilt's noise (`sigma_rad`) decides about its direction: an
-/// ellipse changes with the square of the tilt there, and what is linear about the minimum is not the truth.
+/// Whether the circles face the cameras so nearly that the tilt's noise (`sigma_rad`) determines its direction: an
+/// ellipse changes with the square of the tilt there, and a linearisation about the minimum is wrong.
 bool is_face_on(const CircleProblem& problem, const CircleModel& model, double sigma_rad);
 
-/// Mean squared tilt from the model (about tilt_axes, rad^2) over all tilts about the line of sight, each weighed by
-/// how well the ellipses can be explained with it: what is known when the cost is no parabola. Cost: 1.5 ms.
+/// Mean squared tilt from the model (about tilt_axes, rad^2) over all tilts about the line of sight, each weighted by
+/// how well it explains the ellipses: the covariance where the cost is no parabola. Cost: 1.5 ms.
 std::optional<Matrix2> tilt_spread(const CircleProblem& problem, const ConeSet& cones, const CircleModel& model,
                                    double chi2, double sigma_rad);
 

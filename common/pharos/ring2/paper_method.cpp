@@ -9,7 +9,7 @@
 namespace pharos::ring2 {
 namespace {
 
-// A circle as one camera has it: 2.2.1 gives its centre for each unit of radius.
+// A circle as one camera measures it: 2.2.1 gives its centre for each unit of radius.
 struct SeenCircle {
   std::array<CirclePose, 2> poses;
   double size_px = 0.0;  // R1 or r1 of (4), (5): the semi-major axis
@@ -75,7 +75,7 @@ std::array<PlaneTriangle, 2> apparent_circles(const RigView& view, const CentreI
           PlaneTriangle{std::atan(ring.y), std::atan(nozzle.y), CD_m, CE_m}};
 }
 
-// Angles of the camera's own axis in the rig's planes XZ and YZ: the toe-in that (19) takes to be equal on both sides.
+// Angles of the camera's own axis in the rig's planes XZ and YZ: the toe-in that (19) assumes equal on both sides.
 std::array<double, 2> mounting_of(const RigView& view) {
   const Vector3 forward = view.T_rig_camera.R.col(2);
   return {std::atan2(forward.x(), forward.z()), std::atan2(forward.y(), forward.z())};
@@ -103,7 +103,7 @@ double axis_angle_by_paper(const PlaneTriangle& s, double distance_m) {
 }
 
 Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours) {
-  // What both methods refuse is refused in the same words.
+  // Both methods use the same refusals.
   const Result<Ring2Estimate, Ring2Failure> exact = solve_ring2(rig, contours);
   if (!exact) return exact.error();
   if (exact->ellipses != static_cast<int>(kViews * kFeatures)) return Ring2Failure::kTooFewEllipses;

@@ -9,7 +9,7 @@ namespace pharos::ring2 {
 /// covariance (zero) and has the model's own error. Needs all four ellipses.
 Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours);
 
-/// What the monocular variant must know beforehand.
+/// Prior knowledge of the monocular variant.
 struct KnownSizes {
   double ring_radius_m = 0.0;
   double nozzle_radius_m = 0.0;

@@ -20,7 +20,7 @@ bool is_sound(const CircleModel& model) {
 }
 
 struct CircleDescent : optimize::LeastSquares<kUnknowns, CircleModel, NormalEquations> {
-  static constexpr bool kEndsWhereSingular = true;  // the unknowns are not told
+  static constexpr bool kEndsWhereSingular = true;  // the unknowns are not determined
   static constexpr bool kSumsAtEnd = true;
 
   explicit CircleDescent(const CircleProblem& p) : problem(p) {}
@@ -77,7 +77,7 @@ std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleM
     case optimize::Ending::kSingular:
     case optimize::Ending::kHopeless:
       return std::nullopt;
-    default:  // the best that was found: flat minima of circles that face the cameras end without converging
+    default:  // the best found: flat minima of circles that face the cameras end without converging
       return RefinedCircles{d.state, d.normal, d.iterations};
   }
 }

@@ -8,7 +8,7 @@
 
 namespace pharos::ring2 {
 
-/// What is to be fitted: the rig, up to four contours by [view][circle], and which unknowns they can tell.
+/// The fit's input: the rig, up to four contours by [view][circle], and which unknowns they determine.
 struct CircleProblem {
   Rig rig;
   std::array<std::array<std::optional<Contour>, 2>, kViews> contours;
@@ -28,8 +28,8 @@ struct RefinedCircles {
   int iterations = 0;
 };
 
-/// The descent to the nearest minimum, to a thousandth of a standard deviation and one step beyond. Empty where the
-/// unknowns are not told, or where a step shows that chi2 will stay above `abandon_chi2`.
+/// Descent to the nearest minimum, to a thousandth of a standard deviation and one step beyond. Empty where the
+/// unknowns are not determined, or where a step shows that chi2 will stay above `abandon_chi2`.
 std::optional<RefinedCircles> refine(const CircleProblem& problem, const CircleModel& start, double abandon_chi2);
 
 }  // namespace pharos::ring2

@@ -4,9 +4,9 @@
 namespace pharos::ring2 {
 namespace {
 
-// Nothing that measures metres is built closer, and a millimetre of baseline gives a depth of 3 m to half its size.
+// No rig for metres is built closer, and a millimetre of baseline gives a depth of 3 m to half its size.
 constexpr double kMinBaseline_m = 1e-3;
-// What rounding leaves of a rotation that was read from text.
+// Rounding error of a rotation that was read from text.
 constexpr double kOrthonormal = 1e-6;
 
 bool is_rotation(const Matrix3& R) {

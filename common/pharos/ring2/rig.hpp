@@ -26,7 +26,7 @@ struct Rig {
 
 enum class RigFault : std::uint8_t {
   kNone,
-  kIntrinsics,       // a focal length or size that is none, or a value that is not finite
+  kIntrinsics,       // an invalid focal length or size, or a value that is not finite
   kRotation,         // R^T R is not the unit matrix, or R mirrors
   kCamerasCoincide,  // their centres are less than a millimetre apart
 };

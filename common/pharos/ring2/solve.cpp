@@ -12,19 +12,20 @@
 namespace pharos::ring2 {
 namespace {
 
-// Beyond this much more than the best, two steps from its own start, no rival comes within kAmbiguousDeltaChi2.
+// Beyond this much more than the best, two steps from its own start, no second solution comes within
+// kAmbiguousDeltaChi2.
 constexpr double kAbandonExcessChi2 = 1000.0;
-// Two answers nearer than this are one, converged from two sides: a ten-thousandth of a degree.
+// Two solutions nearer than this are the same, converged from two sides: a ten-thousandth of a degree.
 constexpr double kSameNormal_rad = 2e-6;
-// As a share of the tilt's deviation: nearer minima are one.
+// As a fraction of the tilt's deviation: nearer minima are the same.
 constexpr double kSameMinimum = 0.1;
-// Ellipses of one rig disagree by noise and by what the calibration leaves; half a pixel and five sigma are neither.
+// Ellipses of one rig disagree by noise and by calibration errors; half a pixel and five sigma are neither.
 constexpr double kMaxRms_px = 0.5;
 constexpr double kMaxChi2PerFreedom = 25.0;
-// From here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve): stated sigmas grow with it.
+// From here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve): stated sigmas are scaled.
 constexpr double kChancePerFreedom = 3.5;
 
-// Which circle the problem's first and second are.
+// The problem's first and second circle.
 struct Roles {
   Feature first = Feature::kRing;
   std::uint8_t unobservable = 0;
@@ -94,7 +95,7 @@ struct Minima {
 
 double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-// Keeps the best of what was found, and another minimum beside it.
+// Stores the best solution found, and one other minimum.
 void take(const RefinedCircles& found, Minima& minima) {
   if (angle_of(found.model.normal, minima.best.model.normal) < kSameNormal_rad) return;
   const bool better = found.sums.cost < minima.best.sums.cost;
@@ -125,7 +126,7 @@ bool disagrees(const NormalEquations& sums, int freedom) {
   return sums.largest_rms_px > kMaxRms_px && sums.cost > kMaxChi2PerFreedom * std::max(1, freedom);
 }
 
-// Whether the ellipses of the left view belong to the right and the other way round.
+// Whether the ellipses of the left view belong to the right and vice versa.
 bool fits_exchanged(const Rig& rig, const ContourSet& contours, const Roles& roles) {
   const CircleProblem problem = problem_of(rig, {contours[1], contours[0]}, roles);
   const std::optional<ConeSet> cones = cones_of(problem);
@@ -184,7 +185,7 @@ void look_at_mirror(const CircleProblem& problem, const ConeSet& cones, Minima& 
   if (found) take(*found, minima);
 }
 
-// Where the cost is no parabola, what all tilts together say; never less than what the parabola does.
+// Where the cost is no parabola, the spread of all tilts; never less than the parabola's.
 void widen(const CircleProblem& problem, const ConeSet& cones, Ring2Estimate& estimate, const CircleModel& model) {
   const double sigma_rad = estimate.sigma_normal_rad();
   const std::optional<Matrix2> spread = tilt_spread(problem, cones, model, estimate.chi2, sigma_rad);

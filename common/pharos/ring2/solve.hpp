@@ -21,14 +21,14 @@ enum class Ring2Failure : std::uint8_t {
   kRigRotation,      //
   kCamerasCoincide,  //
   kTooFewEllipses,   // fewer than two
-  kBadEllipse,       // axes that are none, or pixels that the lens does not have
+  kBadEllipse,       // invalid axes, or pixels that the lens does not have
   kInconsistent,     // no two parallel circles before this rig give these ellipses
   kExchanged,        // they would fit if left and right were exchanged
-  kUndetermined,     // the unknowns cannot be told from them
+  kUndetermined,     // the ellipses do not determine the unknowns
 };
 const char* name_of(Ring2Failure failure);
 
-/// What the ellipses at hand cannot tell; the estimate's values of it mean nothing.
+/// Quantities not observable from the given ellipses; the estimate's values of them are meaningless.
 enum Unobservable : std::uint8_t {
   kUnobservableScale = 1,   ///< seen by one camera: neither lengths nor position
   kUnobservableRing = 2,    ///< no ring: neither its centre and radius nor the distance
@@ -53,14 +53,14 @@ struct Ring2Estimate {
   double distance_m = 0.0;
   std::uint8_t unobservable = 0;  ///< Unobservable bits
 
-  /// Unit vectors across the normal in which its tilt is counted: n_true = n + tilt x n.
+  /// Unit vectors across the normal, the axes of its tilt: n_true = n + tilt x n.
   std::array<Vector3, 2> tilt_axes{};
-  /// Of (tilt about both axes, rad; centre, ring radius, distance, nozzle radius, m); zero for what is not told. With
-  /// kUnobservableRing centre and radius are the nozzle's.
+  /// Of (tilt about both axes, rad; centre, ring radius, distance, nozzle radius, m); zero for what is not observable.
+  /// With kUnobservableRing centre and radius are the nozzle's.
   Matrix8 covariance = Matrix8::Zero();
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
-  double rms_px = 0.0;  ///< of the worst contour: how far the circles' images lie off it
+  double rms_px = 0.0;  /// of the worst contour: distance of the circles' images from it
   int ellipses = 0;
   int iterations = 0;
 
@@ -77,12 +77,12 @@ struct Ring2Estimate {
   double sigma_normal_rad() const;
 };
 
-/// Poses of ring and nozzle from one to four ellipses: each cone's two circles, two views that choose, then least
+/// Poses of ring and nozzle from one to four ellipses: each cone's two circles, selected by two views, then least
 /// squares over all ellipses with their own covariances.
 ///
 /// Neither radii nor distance are known beforehand. The covariance is widened where the ellipses disagree by more than
-/// their noise; where two mirrored tilts cannot be told apart (a circle seen face on) it spans both. Cost: 50 us with
-/// four ellipses.
+/// their noise; where two mirrored tilts cannot be distinguished (a circle seen face on) it spans both. Cost: 50 us
+/// with four ellipses.
 Result<Ring2Estimate, Ring2Failure> solve_ring2(const Rig& rig, const ContourSet& contours);
 
 }  // namespace pharos::ring2

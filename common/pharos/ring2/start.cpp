@@ -12,7 +12,7 @@ namespace {
 // Up to eight: two of each ellipse.
 struct Candidate {
   std::array<Vector3, 2> normals;
-  double weight;  // large ellipses tell more
+  double weight;  // large ellipses determine more
 };
 using Candidates = StaticVector<Candidate, 4>;
 

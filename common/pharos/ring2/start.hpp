@@ -16,13 +16,13 @@ using ConeSet = std::array<std::array<std::optional<Cone>, 2>, kViews>;
 /// Empty where an ellipse has no cone.
 std::optional<ConeSet> cones_of(const CircleProblem& problem);
 
-/// The two directions that the circles' common axis may have: the one in which the ellipses agree best (each has two,
-/// and in parallel circles seen twice only the true one is common to all), then its best rival among the others.
+/// The two candidates for the circles' common axis: the one in which the ellipses agree best (each has two, and in
+/// parallel circles seen twice only the true one is common to all), then the best alternative among the others.
 StaticVector<Vector3, 2> candidate_normals(const CircleProblem& problem, const ConeSet& cones);
 
-/// Centre, radii and distance for a given axis: each cone then says in what direction its centre lies and how large its
-/// circle is for its range; linear least squares over the views. Empty where these do not come together before the
-/// cameras with positive radii.
+/// Centre, radii and distance for a given axis: each cone then gives the direction of its centre and the size of its
+/// circle per range; linear least squares over the views. Empty where these do not intersect before the cameras with
+/// positive radii.
 std::optional<CircleModel> model_along(const CircleProblem& problem, const ConeSet& cones, const Vector3& normal);
 
 }  // namespace pharos::ring2

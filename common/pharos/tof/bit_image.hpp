@@ -11,7 +11,7 @@ namespace pharos::tof {
 /// A mask of one bit a pixel, 64 pixels a word: morphology costs a few instructions a word.
 class BitImage {
  public:
-  /// All clear; the size is cut at kMaxWidth_px x kMaxHeight_px.
+  /// All clear; the size is limited to kMaxWidth_px x kMaxHeight_px.
   void reset(std::int32_t width_px, std::int32_t height_px);
 
   std::int32_t width_px() const { return width_; }
@@ -49,8 +49,8 @@ class BitImage {
   std::array<std::uint64_t, static_cast<std::size_t>(kWords* kMaxHeight_px)> words_{};
 };
 
-/// Opens, so that burrs and isolated points narrower than three pixels go (paper 000, 2.2.2), then closes holes and
-/// gaps of up to two pixels. In place. The other way round speckle would grow together before it could go.
+/// Opens, which removes protrusions and isolated points narrower than three pixels (paper 000, 2.2.2), then closes
+/// holes and gaps of up to two pixels. In place. In the other order noise pixels would merge before they are removed.
 void open_and_close(BitImage& mask, BitImage& scratch);
 
 }  // namespace pharos::tof

@@ -11,11 +11,11 @@
 namespace pharos::tof {
 namespace {
 
-// Pixels beyond a region's outline that are looked at for the step down: past the lens' blur and the mask's own error.
+// Pixels beyond a region's outline that are checked for the step down: past the lens' blur and the mask's own error.
 constexpr std::int32_t kBeyond_px = 3;
-// Fraction of the outline along which the step must be seen; corners and a neighbour's shadow take the rest.
+// Fraction of the outline along which the step must be seen; corners and occlusion by a neighbour take the rest.
 constexpr double kMinRaised = 0.6;
-// The step over its deviation; a patch that noise alone lifted out of the foil reaches 3.
+// The step over its deviation; a patch of noise on the foil reaches 3.
 constexpr double kMinSignificance = 6.0;
 // Pixels that share one value of noise: it is correlated over some 1.5 px.
 constexpr double kCommonPixels = 7.0;
@@ -23,11 +23,11 @@ constexpr double kCommonPixels = 7.0;
 constexpr double kMedianNoise = 1.25;
 // Faces of one kind differ in area by a third; patches beside the nozzle reach a third of a face.
 constexpr double kAlikeArea = 2.0;
-// The least rectangle is looked for by turning in these steps.
+// The smallest rectangle is searched by rotation in these steps.
 constexpr int kTurns = 45;
-// A region's centre lies this share of its side clear of the ring.
+// Minimum clearance of a region's centre from the ring, as a fraction of its side.
 constexpr double kClearOfRing = 0.4;
-// Nearer to the ring's centre than this share of its outer radius no direction is worth the name, and the nozzle is
+// Nearer to the ring's centre than this fraction of its outer radius the direction is too inaccurate, and the nozzle is
 // there.
 constexpr double kMinDistance = 0.4;
 
@@ -63,7 +63,7 @@ PixelRect search_rect(const DepthCamera& camera, const RingModel& ring, double r
   return rect;
 }
 
-// What the filters ask of one region.
+// Limits of the filters for one region.
 class RegionClassifier {
  public:
   RegionClassifier(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,
@@ -136,7 +136,7 @@ class RegionClassifier {
   // Whether the face stands over the median of a frame around it, as wide as itself, by more than noise.
   bool stands_out(const Region& region, RegionReport& report) const {
     const Surroundings around = surroundings_of(heights_, region);
-    if (around.samples < kMinSurroundings) return true;  // alone before space
+    if (around.samples < kMinSurroundings) return true;  // nothing around it but space
     report.step_m = report.height_m - around.base_m;
     const double face_sigma = pixel_sigma_m(region);
     const double base_sigma = kMedianNoise * around.sigma_m;
@@ -148,7 +148,7 @@ class RegionClassifier {
            report.step_m * report.step_m >= kMinSignificance * kMinSignificance * squares;
   }
 
-  // Of the region's inside: its rim is mixed with what lies below.
+  // From the region's interior: its rim is mixed with the level below.
   double mean_height(const Region& region) const {
     std::int64_t sum = 0;
     std::int32_t count = 0;
@@ -172,7 +172,7 @@ class RegionClassifier {
     return 0.0;
   }
 
-  // Fraction of the outline's places with depth where the surroundings lie lower.
+  // Fraction of the outline's points with depth where the surroundings lie lower.
   double raised_fraction(const Region& region, double height_m) const {
     const double below_m = height_m - settings_.min_height_m;
     int places = 0;
@@ -203,7 +203,8 @@ class RegionClassifier {
     return {axes_.first.dot(arm), axes_.second.dot(arm)};
   }
 
-  // Least rectangle around the region's outline, in the plane of its face; the map from pixels is linear over its size.
+  // Smallest rectangle around the region's outline, in the plane of its face; the map from pixels is linear over its
+  // size.
   void measure_shape(const Region& region, RegionReport& report) const {
     const Vector2 middle = planar(region.u_px, region.v_px, report.height_m);
     Matrix2 map;
@@ -261,7 +262,7 @@ class RegionClassifier {
   double max_area_px_;
 };
 
-// Depth noise goes with the inverse of amplitude: what is dark beside the ring has no part in a connector.
+// Depth noise goes with the inverse of amplitude: dark pixels beside the ring are not part of a connector.
 void drop_dark_pixels(const TofFrame& frame, const PixelRect& rect, double min_amplitude, BitImage& mask) {
   for (std::int32_t v = 0; v < rect.height_px; ++v) {
     const std::uint16_t* row = frame.intensity.row(rect.v + v) + rect.u;
@@ -282,7 +283,7 @@ void keep_nearest_first(StaticVector<RegionReport, kMaxConnectors>& list, const 
   }
 }
 
-// A satellite's connectors are of one kind: what is much smaller or lower than the most prominent is none of them.
+// A satellite's connectors are of one kind: regions much smaller or lower than the most prominent are dropped.
 void keep_alike(StaticVector<RegionReport, kMaxConnectors>& list) {
   const auto prominence = [](const RegionReport& report) { return report.step_m * report.area_m2; };
   const RegionReport* first = nullptr;
@@ -301,7 +302,7 @@ void keep_alike(StaticVector<RegionReport, kMaxConnectors>& list) {
 template <class Visit>
 void for_each_region(ConnectorWorkspace& workspace, BitImage& mask, Visit visit) {
   for (std::int32_t v = 0; v < mask.height_px(); ++v) {
-    // Growing takes the region out of the mask.
+    // Region growing removes the region from the mask.
     for (std::int32_t u = mask.next_set(0, v); u < mask.width_px(); u = mask.next_set(u + 1, v)) {
       if (grow_region(mask, u, v, workspace.growing, workspace.region)) visit(workspace.region);
     }
@@ -331,7 +332,7 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
   local_threshold(heights, half_window, settings.form, workspace.threshold, workspace.mask);
   drop_dark_pixels(frame, rect, settings.min_amplitude * fit.amplitude, workspace.mask);
   open_and_close(workspace.mask, workspace.scratch);
-  // The regions' own faces, halfway up their steps; growing takes regions out of the mask.
+  // The regions' own faces, at half their steps; region growing removes regions from the mask.
   workspace.faces.reset(rect.width_px, rect.height_px);
   for_each_region(workspace, workspace.mask, [&](const Region& region) {
     if (region.area_px >= settings.min_area_px) {

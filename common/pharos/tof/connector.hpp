@@ -12,7 +12,7 @@
 
 namespace pharos::tof {
 
-/// Why a region of the depth image is no connector; in the order in which they are asked.
+/// Why a region of the depth image is not a connector; in the order of the checks.
 enum class RegionVerdict : std::uint8_t { kConnector, kArea, kPlace, kAspect, kFill, kNotRaised };
 
 /// A rectangle in a plane parallel to the ring's, in the axes of axes_of(normal) about the ring's centre.
@@ -22,7 +22,7 @@ struct PlanarRectangle {
   Vector2 half_sides_m = Vector2::Zero();
 };
 
-/// A region that the local threshold found and what the filters said.
+/// A region found by the local threshold, and the results of the filters.
 struct RegionReport {
   RegionVerdict verdict = RegionVerdict::kArea;
   bool doubtful = false;  ///< stands out like a connector, but has another shape
@@ -33,12 +33,12 @@ struct RegionReport {
   double height_m = 0.0;                 ///< of its face over the ring's plane
   double step_m = 0.0;                   ///< of its face over the median of its surroundings
   double distance_m = 0.0;               ///< of its centre from the ring's
-  PlanarRectangle rectangle;             ///< least rectangle around it
+  PlanarRectangle rectangle;             /// smallest rectangle around it
   Vector2 centroid_m = Vector2::Zero();  ///< in the rectangle's axes
   double area_m2 = 0.0;
 };
 
-/// Regions reported of one frame, the first met; beyond that only connectors are kept.
+/// Maximum number of regions reported of one frame, the first found; beyond that only connectors are kept.
 inline constexpr std::size_t kMaxRegions = 48;
 /// Connectors compared of one frame; satellites have two to four.
 inline constexpr std::size_t kMaxConnectors = 8;
@@ -46,26 +46,26 @@ inline constexpr std::size_t kMaxConnectors = 8;
 struct ConnectorWorkspace {
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxPixels)> heights;
   ThresholdWorkspace threshold;
-  BitImage mask;   ///< of `rect`: what grows by (5)
-  BitImage faces;  ///< what stands halfway up the steps of its regions
+  BitImage mask;   /// of `rect`: pixels above the threshold (5)
+  BitImage faces;  /// pixels above half the step of their region
   BitImage scratch;
   RegionWorkspace growing;
   Region region;
   PixelRect rect;  ///< of the frame that was searched
   StaticVector<RegionReport, kMaxRegions> regions;
   StaticVector<RegionReport, kMaxConnectors> connectors;
-  /// Regions that stand out like a connector, but whose shape is not one's: burrs may have grown on to it.
+  /// Regions with the step of a connector but another shape: noise may have enlarged the region.
   StaticVector<RegionReport, kMaxConnectors> doubtful;
 };
 
-/// Like in height, and in area by this factor: they may be two connectors of one satellite.
+/// Equal in height, and in area within this factor: they may be two connectors of one satellite.
 bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor);
 
 /// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,
-/// local threshold (5), morphology, region growing, each region's mask set anew halfway up its step, filters by area,
-/// aspect ratio and fill in the ring's plane (so that tilt does not change them). Patches of noise pass all these: what
-/// is left must also stand over the median of its surroundings by more than noise can explain, and its outline be a
-/// step down. Results in the workspace, connectors nearest first, all alike.
+/// local threshold (5), morphology, region growing, each region's mask recomputed at half its step, filters by area,
+/// aspect ratio and fill in the ring's plane (so that tilt does not change them). Patches of noise pass all these: a
+/// connector must also stand over the median of its surroundings by more than noise can explain, and its outline must
+/// be a step down. Results in the workspace, connectors nearest first, all of one kind.
 void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                      const ConnectorSettings& settings, ConnectorWorkspace& workspace);
 

@@ -17,23 +17,23 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kSides = 4;
 constexpr int kPointsPerSide = 24;
-// Corners are round in the image: the part of a side between them.
+// Corners are rounded in the image: the part of a side between them.
 constexpr double kUsedFraction = 0.75;
 constexpr int kSideSearch_px = 4;
 constexpr int kSideRounds = 3;
 constexpr double kSideGate = 3.0;
 constexpr double kMinSideStrength = 0.3;
-// A pixel darker than this share of the ring and without depth is dark background.
+// A pixel darker than this fraction of the ring and without depth is dark background.
 constexpr double kDarkSideFraction = 0.3;
 constexpr int kMinPerSide = 4;
-// A box' face is square to within this; what is not is no rectangle that was found.
+// Maximum ratio of a face's sides; anything longer is not a connector.
 constexpr double kMaxSlender = 1.6;
 // Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
 constexpr double kCorrelation = 2.0;
-// Walls that are not as dark as the cosine says, foil of uneven height and rounded corners move the rectangle as a
-// whole: no number of points averages that away. Root mean square over the simulated classes.
+// Walls brighter than the cosine law, foil of uneven height and rounded corners shift the rectangle as a whole:
+// averaging does not reduce that. Root mean square over the simulated classes.
 constexpr double kSilhouetteSigma_px = 0.1;
-// What a region's centroid is good for, px: used where its edges are not seen.
+// Deviation of a region's centroid, px: used where its edges are not seen.
 constexpr double kCentroidSigma_px = 0.8;
 
 struct SidePoint {
@@ -62,7 +62,7 @@ class FaceFitter {
 
   ConnectorFace fit(const RegionReport& region) {
     ConnectorFace face;
-    // A square of the region's area about its centroid: burrs move the least rectangle more than these.
+    // A square of the region's area about its centroid: protrusions affect the smallest rectangle more than these.
     const double half = 0.5 * std::sqrt(region.area_m2);
     face.rectangle = {region.centroid_m, region.rectangle.angle_rad, Vector2(half, half)};
     measure_heights(region, face);
@@ -74,7 +74,7 @@ class FaceFitter {
       find_points(refined);
       if (!improve(refined)) return face;
     }
-    // A rectangle that ran away from its region followed something else's edges.
+    // A rectangle that diverged from its region followed other edges.
     const Vector2 moved = refined.rectangle.centre_m - face.rectangle.centre_m;
     if (moved.norm() > 2.0 * metres_per_px_ + 0.25 * face.rectangle.half_sides_m.maxCoeff()) return face;
     const Vector2& sides = refined.rectangle.half_sides_m;
@@ -82,7 +82,7 @@ class FaceFitter {
     return refined;
   }
 
-  // Where the square of half side `half`, its sides along the axes, stands highest on average.
+  // Position at which the square of half side `half`, its sides along the axes, has the greatest mean height.
   Vector2 highest_place(const RegionReport& region, double half) const {
     constexpr int kSteps = 8;  // to either side
     constexpr int kGrid = 5;
@@ -128,7 +128,7 @@ class FaceFitter {
     return true;
   }
 
-  // The face's height from its inside, the foot's from a frame around it (median: a neighbour may stand there).
+  // The face's height from its interior, the base's from a frame around it (median: a neighbour may stand there).
   void measure_heights(const RegionReport& region, ConnectorFace& face) {
     face.height_m = region.height_m;
     constexpr int kGrid = 9;
@@ -150,7 +150,7 @@ class FaceFitter {
       double spread = 0.0;
       for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - face.height_m);
       spread = kMedianToSigma * median(heights.data(), count);
-      // Samples are as near as noise is correlated: a seventh of them count.
+      // Noise is correlated between samples: a seventh of them count.
       face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
     } else {
       face.sigma_height_m = 0.25 * kMaxHeight_m;

@@ -8,7 +8,7 @@
 
 namespace pharos::tof {
 
-/// The connector's face: where its middle lies.
+/// Position of the connector's face.
 struct ConnectorFace {
   PlanarRectangle rectangle;
   double height_m = 0.0;  ///< over the ring's plane
@@ -18,16 +18,17 @@ struct ConnectorFace {
   std::int32_t edge_points = 0;
 };
 
-/// Fits a rectangle to where the face's own light ends (layer_intensity.hpp) around a region: a region's centroid is
-/// only good to a tenth of a pixel, as its rim is cut by noise. Light of the surroundings, which may be the brighter
-/// side, has no part; upright walls in sight below a side are counted.
+/// Fits a rectangle to the edges of the face's layer intensity (layer_intensity.hpp) around a region: a region's
+/// centroid is only accurate to a tenth of a pixel, as its rim is affected by noise. Light of the surroundings, which
+/// may be the brighter side, has no influence; upright walls in sight below a side are modelled.
 ///
-/// `edge_points` is 0 where a side has no edge: the region's own centre then serves, with the deviation that it has.
+/// `edge_points` is 0 where a side has no edge: the region's own centre is then used, with its own deviation.
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
                        const RegionReport& region);
 
-/// The same for a region whose outline is not a connector's, because noise or foil has grown on to it: the square of
-/// `like`'s size that stands highest within the region is fitted instead, turned by steps until its edges are found.
+/// The same for a region whose outline is not a connector's, because noise or foil has enlarged it: the square of the
+/// size of `like` with the greatest mean height within the region is fitted instead, rotated in steps until its edges
+/// are found.
 ConnectorFace fit_face_within(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                               const RingFit& ring, const RegionReport& region, const ConnectorFace& like);
 

@@ -9,12 +9,12 @@
 namespace pharos::tof {
 namespace {
 
-// The ring's image and its blur: how far beyond its circles pixels are still taken for its own.
+// The ring's image and its blur: distance beyond its circles within which pixels are assigned to the ring.
 constexpr double kRingMargin_px = 1.5;
-// What lies deeper than this many times the face around the ring is not that face.
+// Pixels deeper than this many times the face around the ring are not of that face.
 constexpr double kLowest = 1.5;
 
-// How deep the face that carries the ring lies below the ring's plane: the median around the ring; negative.
+// Depth of the face that carries the ring below the ring's plane: the median around the ring; negative.
 double typical_base(const DepthCamera& camera, const RingModel& ring, const PixelRect& rect,
                     ImageView<const std::uint16_t> heights) {
   constexpr int kDirections = 72;

@@ -6,9 +6,9 @@
 
 namespace pharos::tof {
 
-/// Heights over the ring's plane that connectors are looked for in. The ring stands higher than what surrounds it and
-/// would lift the local mean beside a connector; the body's sides, deeper than the face that carries the ring, would
-/// lower it beside the face's rim. Neither has a height.
+/// Heights over the ring's plane in which connectors are searched. The ring stands higher than its surroundings and
+/// would raise the local mean beside a connector; the body's sides, deeper than the face that carries the ring, would
+/// lower it beside the face's rim. Both are left out.
 void make_connector_heights(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                             const RingModel& ring, const PixelRect& rect, ImageView<std::uint16_t> heights);
 

@@ -12,13 +12,13 @@
 namespace pharos::tof {
 namespace {
 
-// Pixels that the start is chosen among, and triples tried: with 55 % good pixels all triples are bad once in 50,000.
+// Pixels from which the start is chosen, and triples tried: with 55 % good pixels all triples are bad once in 50,000.
 constexpr std::int32_t kStartPixels = 300;
 constexpr int kPlaneTriples = 64;
 // Deviations within which a pixel belongs to the plane.
 constexpr double kPlaneGate = 3.0;
 constexpr int kPasses = 3;
-// Amplitude's weight stays within this factor of the median's, so that a glint does not decide.
+// Amplitude's weight stays within this factor of the median's, so that a glint does not dominate.
 constexpr double kMaxWeight = 4.0;
 
 // In columns, as compilers take two at a time.
@@ -28,7 +28,7 @@ struct PlaneSamples {
   std::size_t count = 0;
 };
 
-// What a pass sums: normal equations of 1/z = q . (x, y, 1), and the residuals about the q that came in.
+// Sums of a pass: normal equations of 1/z = q . (x, y, 1), and the residuals about the previous q.
 struct Sums {
   double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, x = 0.0, y = 0.0, weights = 0.0;
   double right_x = 0.0, right_y = 0.0, right = 0.0;
@@ -54,14 +54,14 @@ struct Sums {
   }
 };
 
-// Some neighbouring pixels of a row, looked at together: what compilers take two at a time.
+// Some neighbouring pixels of a row, processed together: what compilers take two at a time.
 constexpr std::int32_t kPiece_px = 64;
 using Column = std::array<double, static_cast<std::size_t>(kPiece_px)>;
 struct Piece {
   Column inverse_z, residual, weight, weighted_square;
 };
 
-enum class Pass { kFit, kLast };  // sectors are asked of the last one only
+enum class Pass { kFit, kLast };  // sectors are needed of the last one only
 
 class Fitter {
  public:
@@ -89,7 +89,7 @@ class Fitter {
   }
 
  private:
-  // A normal distribution cut at kPlaneGate has this much less deviation than the whole.
+  // A normal distribution cut at kPlaneGate has a deviation smaller than the whole by this factor.
   static constexpr double kGateLoss = 1.0 / 0.98657;
 
   template <class Visit>
@@ -105,7 +105,7 @@ class Fitter {
     });
   }
 
-  // Evenly over the region; their median amplitude is what weights are relative to.
+  // Evenly over the region; weights are relative to their median amplitude.
   void take_start_pixels() {
     std::int32_t due = 0;  // one is taken whenever this reaches the number of pixels
     std::array<std::uint16_t, kStartPixels> amplitudes{};
@@ -155,7 +155,7 @@ class Fitter {
       }
       std::size_t nearer = 0;
       for (std::size_t i = 0; i < count; ++i) nearer += distance[i] < best_median ? 1U : 0U;
-      if (best_median >= 0.0 && nearer <= count / 2) continue;  // the median is no less
+      if (best_median >= 0.0 && nearer <= count / 2) continue;  // the median is not smaller
       const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(count / 2);
       std::nth_element(distance.begin(), middle, distance.begin() + static_cast<std::ptrdiff_t>(count));
       best_median = *middle;
@@ -240,7 +240,7 @@ class Fitter {
   double floor_ = 0.0;  // of the deviation, 1/m
 };
 
-// Pixels that the lens' blur mixes with what lies beyond an edge, and the part of a narrow ring that must remain.
+// Pixels that the lens' blur mixes with the region beyond an edge, and the part of a narrow ring that must remain.
 constexpr double kMixed_px = 2.2;
 constexpr double kMaxMargin = 0.3;
 

@@ -19,7 +19,7 @@ struct DepthPlane {
   Vector3 q = Vector3::UnitZ();
 
   double z_m(const Vector2& ray) const { return 1.0 / (q.x() * ray.x() + q.y() * ray.y() + q.z()); }
-  /// How far a point at depth z along the ray stands over the plane, towards the camera, m.
+  /// Height of a point at depth z along the ray over the plane, towards the camera, m.
   double height_m(const Vector2& ray, double z) const {
     return (1.0 - z * (q.x() * ray.x() + q.y() * ray.y() + q.z())) / q.norm();
   }
@@ -27,16 +27,17 @@ struct DepthPlane {
   Vector3 normal() const { return -q.normalized(); }
 };
 
-/// A plane through depth pixels and how well they lie on it.
+/// A plane through depth pixels and the quality of the fit.
 struct PlaneFit {
   DepthPlane plane;
-  /// Inverse covariance of q, m^2, from the scatter on the frame itself; neighbouring pixels' common noise is counted.
+  /// Inverse covariance of q, m^2, from the scatter on the frame itself; correlated noise of neighbouring pixels
+  /// included.
   Matrix3 information = Matrix3::Zero();
   double rms_m = 0.0;               ///< of depths along z
   double inlier_fraction = 0.0;     ///< of the pixels between the ellipses that should have lain on it
   double amplitude = 0.0;           ///< median of its pixels', counts
-  double variance_inflation = 1.0;  ///< by what factor neighbours' common noise widens the covariance
-  std::int32_t pixels = 0;          ///< that the plane rests on
+  double variance_inflation = 1.0;  /// factor by which correlated noise of neighbours widens the covariance
+  std::int32_t pixels = 0;          /// used for the plane
 };
 
 /// The region between two ellipses, shrunk by the margin that mixed (flying) pixels need.
@@ -46,13 +47,13 @@ struct RingRegion {
 };
 RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& outer);
 
-/// Plane through the region's depths: least median of squares over triples, then least squares over what lies within
+/// Plane through the region's depths: least median of squares over triples, then least squares over the pixels within
 /// three deviations, weighted by squared amplitude (sigma_z goes with 1 / amplitude). Nothing where fewer than
-/// kMinPlanePixels have depth or they leave the plane open. Cost: some 0.3 ms for 4000 pixels.
+/// kMinPlanePixels have depth or they do not determine the plane. Cost: some 0.3 ms for 4000 pixels.
 std::optional<PlaneFit> fit_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                   const RingRegion& region);
 
-/// Three unknowns; with fewer pixels than this the scatter itself is not known to a fifth.
+/// Three unknowns; with fewer pixels than this the scatter itself is uncertain by more than a fifth.
 inline constexpr std::int32_t kMinPlanePixels = 60;
 
 }  // namespace pharos::tof

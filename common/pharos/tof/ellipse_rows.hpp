@@ -44,7 +44,7 @@ class EllipseRows {
     return {static_cast<std::int32_t>(std::max(0.0, std::ceil(middle - half))),
             static_cast<std::int32_t>(std::min(width_px - 1.0, std::floor(middle + half)))};
   }
-  /// Rows that it reaches.
+  /// Rows that it covers.
   PixelSpan rows(std::int32_t height_px) const {
     return {static_cast<std::int32_t>(std::max(0.0, std::ceil(cy_ - half_height_))),
             static_cast<std::int32_t>(std::min(height_px - 1.0, std::floor(cy_ + half_height_)))};

@@ -9,9 +9,9 @@
 namespace pharos::tof {
 namespace {
 
-// A ring of a few thousand pixels is all that is needed, but so few in a whole frame are noise.
+// A ring needs only a few thousand pixels with depth, but so few in a whole frame are noise.
 constexpr std::int32_t kMinDepthFraction = 200;  // one pixel in this many
-// Rows without anything in them, or rows that agree by chance, are fewer.
+// Empty rows, or rows that are equal by chance, are fewer.
 constexpr std::int32_t kMinStaleRows = 8;
 
 struct RowContent {
@@ -101,7 +101,7 @@ std::optional<TofFailure> FrameCheck::check(const TofFrame& frame, const DepthCa
   const auto pixels = static_cast<std::int32_t>(frame.depth.pixels());
   if (2 * saturated > pixels) return TofFailure::kSaturated;
   if (with_depth < pixels / kMinDepthFraction) return TofFailure::kNoDepth;
-  // A frame that repeats as a whole is old, but true.
+  // A frame that repeats as a whole is old, but valid.
   if (comparable && repeated >= kMinStaleRows && repeated < rows) return TofFailure::kStaleRows;
   return std::nullopt;
 }

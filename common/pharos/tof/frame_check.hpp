@@ -10,11 +10,11 @@
 
 namespace pharos::tof {
 
-/// Tells frames that cannot be worked with before any work is done. It remembers the last frame's rows: a buffer of
-/// which only a part was written shows rows that are equal to the last bit, which noise never gives.
+/// Rejects unusable frames before any processing. It stores the last frame's rows: a buffer that was only partly
+/// written has rows that are equal to the last bit, which noise never produces.
 class FrameCheck {
  public:
-  /// The first thing that is wrong, if any.
+  /// The first defect, if any.
   std::optional<TofFailure> check(const TofFrame& frame, const DepthCamera& camera);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace pharos::tof {
 
-/// A rectangle of pixels of the frame: what the connector is looked for in.
+/// A rectangle of pixels of the frame: where the connector is searched.
 struct PixelRect {
   std::int32_t u = 0;
   std::int32_t v = 0;
@@ -13,12 +13,12 @@ struct PixelRect {
   std::int32_t height_px = 0;
 };
 
-/// G of (5): heights over the ring's plane, which grow towards the camera as (5) wants, whatever the ring's tilt.
+/// G of (5): heights over the ring's plane, which grow towards the camera as (5) requires, whatever the ring's tilt.
 inline constexpr double kHeightUnit_m = 0.00025;
 /// Count of a point on the plane.
 inline constexpr std::int32_t kHeightZero = 32768;
-/// What stands farther from the plane (the boom before the ring, space behind it) has no part in a connector, and no
-/// height: it would move the local mean.
+/// Pixels farther from the plane (a boom before the ring, space behind it) are not part of a connector and get no
+/// height: they would shift the local mean.
 inline constexpr double kMaxHeight_m = 0.25;
 /// Count of a pixel without depth, or too far from the plane.
 inline constexpr std::uint16_t kNoHeight = 0;

@@ -9,16 +9,16 @@
 
 namespace pharos::tof {
 
-/// The steepest place of a profile.
+/// The steepest point of a profile.
 struct ProfileEdge {
   double offset_px = 0.0;  ///< from the profile's middle, along its direction
   double strength = 0.0;   ///< grey values per px; 0: none
 };
 
-/// Farthest that a profile is searched to either side.
+/// Maximum search distance of a profile to either side.
 inline constexpr int kMaxSearch_px = 6;
 
-/// Samples that a search of kMaxSearch_px needs.
+/// Samples for a search of kMaxSearch_px.
 inline constexpr int kProfileReach_px = 3;
 inline constexpr std::size_t kMaxSamples = 2 * (kMaxSearch_px + kProfileReach_px) + 1;
 

@@ -33,10 +33,10 @@ struct InverseDepth {
 
 // Of each sample, so that compilers take two at a time.
 using PerSample = std::array<double, kMaxSamples>;
-// The four pixels around a place: left and right of the upper row, then of the lower one.
+// The four pixels around a point: left and right of the upper row, then of the lower one.
 constexpr std::size_t kCorners = 4;
 
-// Where the samples lie, and what their corners hold.
+// Positions of the samples, and the values of their corners.
 struct Places {
   std::array<std::int32_t, kMaxSamples> left, top;
   PerSample s, t;       // of the way to the right, and down
@@ -60,7 +60,7 @@ void take_places(const InverseDepth& inverse, const Vector2& middle, const Vecto
   }
 }
 
-// False where a pixel has light but no depth; what is dark has no light then.
+// False where a pixel has light but no depth; a dark one then counts as no light.
 bool take_corners(const TofFrame& frame, double dark_counts, std::size_t count, Places& places) {
   const auto dark = static_cast<std::int32_t>(std::clamp(std::floor(dark_counts), -1.0, double{kFullScale}));
   bool usable = true;

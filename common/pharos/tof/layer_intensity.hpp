@@ -7,8 +7,8 @@
 
 namespace pharos::tof {
 
-/// What pixels along a profile show: how much light, and from how high over a plane. Both are linear in the light that
-/// a pixel collects (depths mix weighted by amplitude), so that they may be interpolated and blurred.
+/// Amplitude and height over a plane along a profile. Both are linear in the light that a pixel collects (depths mix
+/// weighted by amplitude), so that they may be interpolated and blurred.
 struct LightProfile {
   std::array<double, kMaxSamples> amplitude{};
   std::array<double, kMaxSamples> moment{};  ///< amplitude x height, counts m
@@ -21,18 +21,19 @@ bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGri
                   const Vector2& middle, const Vector2& direction, int search_px, double dark_counts,
                   LightProfile& profile);
 
-/// The part of the light that comes from a layer at `face_m`, where the rest comes from `base_m`: amplitude
-/// (h - foot) / (face - foot). What the foot reflects, foil that glints say, has no part in it: an edge of this light
-/// is the layer's own, whichever side is brighter.
+/// The amplitude that comes from a layer at `face_m`, where the rest comes from `base_m`: amplitude (h - base) / (face
+/// - base). What the base reflects, glinting foil for example, has no influence: an edge of this intensity is the
+/// layer's own, whichever side is brighter.
 std::array<double, kMaxSamples> light_of_layer(const LightProfile& profile, int search_px, double face_m,
                                                double base_m);
 
-/// A wall as bright as this share of the layer leaves no edge worth the name.
+/// A wall as bright as this fraction of the layer leaves no usable edge.
 inline constexpr double kBrightWall = 0.5;
 
-/// How far an upright wall in sight beyond the layer's edge draws the steepest place of the layer's light outwards, px.
-/// `share`: its light over the layer's, up to kBrightWall; its part in the layer's light fades to nothing at its foot,
-/// `width_px` away. There (1 - share) of the edge's bell falls as fast as share / width of the ramp's step grows.
+/// Shift of the steepest point of the layer's intensity outwards, px, by an upright wall in sight beyond the layer's
+/// edge. `fraction`: the wall's amplitude over the layer's, up to kBrightWall; its part in the layer's intensity falls
+/// to zero at its base, `width_px` away. There (1 - fraction) of the edge's bell falls as fast as fraction / width of
+/// the ramp's step grows.
 double wall_shift_px(double fraction, double width_px);
 
 }  // namespace pharos::tof

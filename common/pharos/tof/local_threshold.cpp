@@ -6,13 +6,13 @@
 namespace pharos::tof {
 namespace {
 
-// (5): T = m - 0.2 s. Squared and turned round, so that whole numbers suffice: 1 / 0.2^2.
+// (5): T = m - 0.2 s. Squared and rearranged, so that integers suffice: 1 / 0.2^2.
 constexpr std::int64_t kInverseSquaredFactor = 25;
 
 constexpr std::array<std::uint16_t, static_cast<std::size_t>(kMaxWidth_px)> kNothing{};  // a row without pixels
 
-// Index of a mirrored border: the first pixel beyond is the second one inside. Images narrower than the window bounce
-// more than once.
+// Index of a mirrored border: the first pixel beyond is the second one inside. In images narrower than the window it is
+// mirrored more than once.
 std::int32_t mirrored(std::int32_t index, std::int32_t size) {
   if (size == 1) return 0;
   const std::int32_t period = 2 * (size - 1);
@@ -66,7 +66,7 @@ bool grows(std::uint16_t grey, const Window& window, ThresholdForm form) {
                     static_cast<double>(over_mean) * static_cast<double>(window.sum) <
                 n * n * static_cast<double>(spread);
   }
-  // Without a branch: which it is follows no pattern.
+  // Without a branch: the result follows no pattern.
   return (static_cast<unsigned>(grey != 0) &
           (static_cast<unsigned>(over_mean > 0) | static_cast<unsigned>(near_mean))) != 0;
 }

@@ -26,12 +26,12 @@ struct ThresholdWorkspace {
 /// Largest half window: its sums stay within 32 bits, those of squares within 64, and no connector is larger.
 inline constexpr std::int32_t kMaxHalfWindow_px = 24;
 
-/// Marks pixels that grow (paper 000, (5) and step 3): G > T, T = m - 0.2 s, over windows of
-/// (2 w + 1)^2 pixels with mirrored borders.
+/// Marks pixels for region growing (paper 000, (5) and step 3): G > T, T = m - 0.2 s, over windows of (2 w + 1)^2
+/// pixels with mirrored borders.
 ///
 /// kPixelCount: s^2 is the mean squared deviation. kAsPrinted: s^2 is the sum of squared deviations over m. Pixels of
-/// value 0 (no depth) have no part in any window and never grow. Running sums: the cost does not depend on w, some 10
-/// ns a pixel; exact in integers.
+/// value 0 (no depth) are in no window and are never marked. Running sums: the cost does not depend on w, some 10 ns a
+/// pixel; exact in integers.
 void local_threshold(ImageView<const std::uint16_t> grey, std::int32_t half_window_px, ThresholdForm form,
                      ThresholdWorkspace& workspace, BitImage& above);
 

@@ -6,7 +6,7 @@
 
 namespace pharos::tof {
 
-/// The repeatable choice of triples: a plain linear congruence is random enough to pick pixels with.
+/// The repeatable choice of triples: a linear congruential generator suffices to pick pixels.
 class RansacSampler {
  public:
   std::size_t below(std::size_t count) {

@@ -9,12 +9,12 @@
 
 namespace pharos::tof {
 
-/// Where pixels look, with the lens' distortion undone: exact at every fourth pixel, bilinear between. The greatest
-/// error of a wide lens (|k1| 0.2 at 40 deg off axis) is 0.003 px. Made once a camera: some 4 ms.
+/// Rays of pixels, with the lens' distortion undone: exact at every fourth pixel, bilinear between. The maximum error
+/// of a wide lens (|k1| 0.2 at 40 deg off axis) is 0.003 px. Made once a camera: some 4 ms.
 class RayGrid {
  public:
-  /// Refuses cameras that are unusable, larger than the workspace, or whose lens folds inside the image. Cheap where
-  /// `camera` is the one that it already stands for.
+  /// Refuses cameras that are unusable, larger than the workspace, or whose lens model folds inside the image. Cheap
+  /// where `camera` is unchanged.
   bool prepare(const PinholeCamera& camera);
 
   /// Ray (x/z, y/z) of a pixel position in the image.
@@ -34,7 +34,7 @@ class RayGrid {
   };
   /// `count` pixels from (u, v) on, in single precision.
   void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<float>& row) const;
-  /// The same as at() has them, bit by bit.
+  /// Bit by bit the same as at().
   void row_at(std::int32_t u, std::int32_t v, std::int32_t count, Row<double>& row) const;
 
   const PinholeCamera& camera() const { return camera_; }

@@ -25,7 +25,7 @@ bool grow_region(BitImage& mask, std::int32_t seed_u, std::int32_t seed_v, Regio
   region.left = region.right = seed_u;
   region.top = region.bottom = seed_v;
   take(seed_u, seed_v);
-  // A queue: what was taken stays in it, so that the outline can be made from it.
+  // A queue: removed entries stay in it, so that the outline can be made from it.
   for (std::size_t next = 0; next < count; ++next) {
     const auto u = static_cast<std::int32_t>(workspace.front[next] % kMaxWidth_px);
     const auto v = static_cast<std::int32_t>(workspace.front[next] / kMaxWidth_px);

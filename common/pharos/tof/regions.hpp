@@ -10,7 +10,7 @@
 
 namespace pharos::tof {
 
-/// Most rows or columns that a region's outline is kept of; a region that spans more is larger than any connector.
+/// Maximum rows or columns of a stored outline; a region that spans more is larger than any connector.
 inline constexpr std::int32_t kMaxRegionSide_px = 160;
 
 /// A connected region of a mask, its outline by rows and by columns.
@@ -33,12 +33,12 @@ struct Region {
 };
 
 struct RegionWorkspace {
-  /// Pixels on the region's front; every pixel enters once.
+  /// Pixels on the region's front; every pixel is added once.
   std::array<std::uint32_t, static_cast<std::size_t>(kMaxPixels)> front;
 };
 
-/// Grows one region from a seed over the mask's 4-neighbours (paper 000, steps 2 and 3) and takes it out of the mask.
-/// False where it spans more than kMaxRegionSide_px either way: taken out all the same, outline not filled in.
+/// Grows one region from a seed over the mask's 4-neighbours (paper 000, steps 2 and 3) and removes it from the mask.
+/// False where it spans more than kMaxRegionSide_px either way: removed all the same, outline not filled in.
 bool grow_region(BitImage& mask, std::int32_t seed_u, std::int32_t seed_v, RegionWorkspace& workspace, Region& region);
 
 }  // namespace pharos::tof

@@ -19,10 +19,10 @@ constexpr int kTriples = 300;
 constexpr double kNear = 0.25;  // in ray coordinates
 constexpr int kTries = 6;       // to find a near one
 constexpr std::size_t kMinOnFace = 20;
-// What lies behind a plane speaks against it more than what lies on it speaks for it.
+// A sample behind a plane counts against it more than one on it counts for it.
 constexpr int kBehind = 4;
 constexpr int kRefinements = 2;
-// Foil's wrinkles (4 mm) and its own noise: it is a third as bright as what DepthNoise holds for.
+// Foil's wrinkles (4 mm) and its own noise: it is a third as bright as DepthNoise assumes.
 constexpr double kWrinkles_m = 0.008;
 constexpr double kFoilNoise = 3.0;
 
@@ -30,7 +30,7 @@ constexpr double kFoilNoise = 3.0;
 struct ReliefSamples {
   using Column = std::array<double, static_cast<std::size_t>(kColumns* kRows)>;
   Column ray_x, ray_y, z_m;
-  Column gate_m;  // how far from a plane a sample of foil still belongs to it
+  Column gate_m;  // distance from a plane within which a sample of foil belongs to it
   std::size_t count = 0;
 
   void add(const Vector2& ray, double z, double gate) {
@@ -102,7 +102,7 @@ class FaceFinder {
     return plane;
   }
 
-  // On the plane, less those behind it; 0 where too few are on it. Given up where it can no longer exceed `most`.
+  // On the plane, less those behind it; 0 where too few are on it. Stops where it can no longer exceed `most`.
   int score_of(const DepthPlane& plane, int maximum) const {
     constexpr std::size_t kTogether = 128;
     const double size = plane.q.norm(), qx = plane.q.x(), qy = plane.q.y(), qz = plane.q.z();
@@ -123,7 +123,7 @@ class FaceFinder {
     return on_plane < static_cast<int>(kMinOnFace) ? 0 : on_plane - kBehind * behind;
   }
 
-  // Least squares of what lies on it.
+  // Least squares of the samples on it.
   std::optional<DepthPlane> refined(const DepthPlane& plane) const {
     Matrix3 normal = Matrix3::Zero();
     Vector3 right = Vector3::Zero();

@@ -17,22 +17,22 @@ using ellipse::Ellipse;
 constexpr double kMinWidth_px = 2.5;
 // Two circles of one plane have images of one shape but for perspective, a few per cent at these distances.
 constexpr double kMaxShapeDifference = 0.12;
-// Pairs looked at and pairs measured: nested ellipses are few, and the right pair has the most pixels.
+// Pairs checked and pairs measured: nested ellipses are few, and the right pair has the most pixels.
 constexpr std::size_t kMaxPairs = 24;
 constexpr std::size_t kMaxMeasured = 3;
-// Ellipses whose partner is looked for by depth where no pair was the ring.
+// Ellipses whose partner is searched by depth where no pair was the ring.
 constexpr std::size_t kMaxSingles = 12;
-// Fraction of the pixels between the ellipses that must lie on the plane: less than what is seen of the ring, as a boom
-// hides pixels of both.
+// Fraction of the pixels between the ellipses that must lie on the plane: less than the visible fraction of the ring,
+// as a boom hides pixels of both.
 constexpr double kMinInliers = 0.35;
-// Scatter about the plane over what the camera's noise would give at that range: beyond it is no plane.
+// Scatter about the plane over that of the camera's noise at that range: beyond it there is no plane.
 constexpr double kMaxScatter = 3.0;
 // The same of the ring's face alone, without walls and mixed pixels; tilt darkens it by a third.
 constexpr double kMaxFaceScatter = 1.8;
 constexpr double kMinStepFraction = 0.6;
 // Multipath in the ring and its walls' roundness, beyond noise.
 constexpr double kPlaneMargin_m = 0.004;
-// A ring's edges leave 0.05 to 0.35 px; where the foot of the inner wall is taken for the inner edge, 0.8 and more.
+// A ring's edges leave 0.05 to 0.35 px; where the base of the inner wall is taken for the inner edge, 0.8 and more.
 constexpr double kMaxEdgeRms_px = 0.6;
 // Chi-squared of three degrees of freedom that chance exceeds once in a million.
 constexpr double kMaxDisagreement = 31.0;
@@ -63,7 +63,7 @@ double expected_sigma_m(const DepthNoise& noise, double z) {
   return noise.sigma_m * ratio * ratio;
 }
 
-// How many places beside the ring lie behind its plane, of those that tell.
+// Fraction of the points beside the ring that lie behind its plane, of those with a result.
 double step_fraction(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
                      double radius_m, double min_step_m) {
   constexpr int kPlaces = 72;
@@ -81,12 +81,12 @@ double step_fraction(const TofFrame& frame, const DepthCamera& camera, const Ray
     if (!frame.depth.contains(u, v)) continue;
     const std::uint16_t counts = frame.depth.at(u, v);
     if (!has_depth(counts)) {
-      ++behind;  // nothing there
+      ++behind;  // empty space
       continue;
     }
     const double height = plane.height_m(rays.at(u, v), depth_z_m(camera, counts));
     if (height < -min_step_m) ++behind;
-    if (std::fabs(height) <= min_step_m) ++level;  // what stands before the ring tells nothing
+    if (std::fabs(height) <= min_step_m) ++level;  // occlusions before the ring do not count
   }
   return behind + level > 0 ? static_cast<double>(behind) / (behind + level) : 0.0;
 }
@@ -135,7 +135,7 @@ class RingSelector {
   }
 
  private:
-  // Larger ones first, as far as there is room: the ring is the largest of what is round on a satellite's face.
+  // Larger ones first, up to the limit: the ring is the largest circle on a satellite's face.
   void find_pairs(std::span<const DetectedEllipse> ellipses) {
     for (const DetectedEllipse& outer : ellipses) {
       for (const DetectedEllipse& inner : ellipses) {
@@ -254,7 +254,7 @@ class RingSelector {
     return true;
   }
 
-  // The ellipses may be those of a wall's foot or of foil beside the ring: depths tell where its face ends, and the
+  // The ellipses may be those of a wall's base or of foil beside the ring: depths show where its face ends, and the
   // plane is that of the face alone.
   std::optional<RingFit> fit_from(const Candidate& candidate) {
     const auto model =

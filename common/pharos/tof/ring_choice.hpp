@@ -20,12 +20,12 @@ struct RingChoice {
 
 /// Chooses the ring's two ellipses and measures it (paper 000, 2.2.1 and 2.3).
 ///
-/// Of every two nested ellipses of one shape: a plane must run through the depths between them; on it they must be
-/// concentric circles of a docking ring's size; inside and outside the surroundings must lie behind it. A nozzle's rim
-/// has no plane between its ellipses, circles painted on a surface have no step. The pair with the most pixels on its
-/// plane is measured. Where no pair is the ring, single ellipses are tried with the other edge found in the depths
-/// (ring_extent.hpp). The error is that of the candidate which came farthest. `listener`, if any, is told of kPlane and
-/// kRing.
+/// Of every two nested ellipses of one shape: a plane must fit the depths between them; on it they must be concentric
+/// circles of a docking ring's size; inside and outside the surroundings must lie behind it. A nozzle's rim has no
+/// plane between its ellipses, circles painted on a surface have no step. The pair with the most pixels on its plane is
+/// measured. Where no pair is the ring, single ellipses are tried with the other edge found in the depths
+/// (ring_extent.hpp). The error is that of the candidate that passed the most checks. `listener`, if any, is notified
+/// of kPlane and kRing.
 Result<RingChoice, TofFailure> choose_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                            std::span<const ellipse::DetectedEllipse> ellipses,
                                            const RingSettings& settings, const DepthNoise& noise,

@@ -11,12 +11,12 @@
 namespace pharos::tof {
 namespace {
 
-// A change weaker than this share of the median is noise, or the rim of something else.
+// A change weaker than this fraction of the median is noise, or another object's rim.
 constexpr double kMinStrength = 0.3;
-// A pixel darker than this share of the ring and without depth is dark background; a brighter one lost its depth.
+// A pixel darker than this fraction of the ring and without depth is dark background; a brighter one lost its depth.
 constexpr double kDarkFraction = 0.3;
-// Directions looked at for the depth of the surroundings, and which quantile of their depths is taken: walls and
-// connectors are nearer, little is farther.
+// Directions checked for the depth of the surroundings, and the quantile of their depths: walls and connectors are
+// nearer, little is farther.
 constexpr int kBaseDirections = 64;
 constexpr double kBaseQuantile = 0.7;
 
@@ -72,7 +72,7 @@ class EdgeFinder {
     if (!(circumference_px > 8.0)) return 0.0;
     const int count = std::min(static_cast<int>(kMaxEdgePoints), static_cast<int>(circumference_px));
     base_m_ = typical_base();
-    // The direction turns by the same angle each time: no sine or cosine in the loop.
+    // The direction rotates by the same angle each time: no sine or cosine in the loop.
     const double cosine_step = std::cos(kTwoPi / count);
     const double sine_step = std::sin(kTwoPi / count);
     Vector2 direction(1.0, 0.0);
@@ -92,7 +92,7 @@ class EdgeFinder {
  private:
   Vector3 radial(const Vector2& direction) const { return direction.x() * axes_.first + direction.y() * axes_.second; }
 
-  // How deep the surroundings lie beyond this edge where its wall does not cover them; negative, 0 where not seen.
+  // Depth of the surroundings beyond this edge where its wall does not cover them; negative, 0 where not seen.
   double typical_base() const {
     std::array<double, kBaseDirections> depths{};
     std::size_t count = 0;
@@ -132,7 +132,7 @@ class EdgeFinder {
     return across;
   }
 
-  // Height of what is seen farthest beyond the edge; 0 where that is dark.
+  // Height of the farthest pixel beyond the edge; 0 where that is dark.
   double base_of(const LightProfile& light) const {
     const std::size_t last = 2U * static_cast<std::size_t>(search_ + kProfileReach_px);
     double amplitude = 0.0;
@@ -150,12 +150,12 @@ class EdgeFinder {
     if (!across) return std::nullopt;
     const Vector3& point = across->point_m;
     const Vector3 outwards = radial(direction);
-    // The outer wall looks away from the axis, the inner one towards it; the eye is at the origin.
+    // The outer wall faces away from the axis, the inner one towards it; the camera is at the origin.
     const double wall_cosine = -away_ * point.dot(outwards) / point.norm();
     const double wall_fraction = wall_cosine / (-point.dot(model_.normal) / point.norm());
     if (wall_fraction > kBrightWall) return std::nullopt;
     double base = base_of(across->light);
-    // Where the wall covers the profile's end, the ring's depth is that seen elsewhere.
+    // Where the wall covers the profile's end, the depth from the other directions.
     if (wall_fraction > 0.0 || base == 0.0) base = std::min(base, base_m_);
     if (!(base < -prior_.min_step_m)) return std::nullopt;
     const ProfileEdge found = steepest_of_samples(light_of_layer(across->light, search_, 0.0, base), search_, -away_);

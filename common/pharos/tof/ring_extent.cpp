@@ -18,7 +18,7 @@ constexpr double kBandNear_px = 1.25;
 constexpr double kBandFar_px = 4.5;
 constexpr double kMinExtentInliers = 0.35;
 constexpr double kScanStep_px = 0.5;
-// Nothing narrower is a ring.
+// Anything narrower is not a ring.
 constexpr double kMinExtent_px = 2.5;
 constexpr int kDirections = 72;
 
@@ -27,7 +27,7 @@ RingRegion band_beside(const ellipse::Ellipse& shape, RingEdge known) {
   return {EllipseRows(shape, -kBandFar_px), EllipseRows(shape, -kBandNear_px)};
 }
 
-// Directions in which the plane is met at a radius.
+// Directions in which depths lie on the plane at a radius.
 class PlaneScan {
  public:
   PlaneScan(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,

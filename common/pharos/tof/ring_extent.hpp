@@ -7,17 +7,18 @@
 
 namespace pharos::tof {
 
-/// A ring that only one of whose edges is among the image's ellipses: the plane of the depths beside it is followed to
-/// where it ends, and that is the other edge.
+/// For a ring with only one of its edges among the image's ellipses: the plane of the depths beside it is followed to
+/// its end, which is the other edge.
 ///
-/// `known` says which edge the ellipse is taken for. Nothing where the depths beside it are no plane, where the plane
-/// goes on beyond `min_ratio` of inner over outer radius (a wall), or ends at once (no ring). The other radius is
-/// good to a pixel: fit_ring does the rest.
+/// `known`: the edge that the ellipse is assumed to be. Nothing where the depths beside it are no plane, where the
+/// plane continues beyond `min_ratio` of inner over outer radius (a wall), or ends at once (no ring). The other radius
+/// is accurate to a pixel: fit_ring refines it.
 std::optional<RingModel> ring_from_one_edge(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                             const ellipse::Ellipse& shape, RingEdge known, double min_ratio);
 
-/// Both radii anew, from where the depths leave the plane in most directions, going out and in from the middle of the
-/// ring: whatever edges it came from. Good to a pixel. Nothing where the plane does not begin or does not end.
+/// Both radii again, from where the depths leave the plane in most directions, outwards and inwards from the middle of
+/// the ring, whatever the source of its edges. Accurate to a pixel. Nothing where the plane does not begin or does not
+/// end.
 std::optional<RingModel> ring_from_plane_extent(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                                 const RingModel& model, double gate_m);
 

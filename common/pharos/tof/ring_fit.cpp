@@ -16,18 +16,19 @@ namespace {
 using Matrix37 = Eigen::Matrix<double, 3, 7>;
 
 constexpr int kRounds = 3;
-// The ellipses' own edges are a pixel off at worst; after the first round half of that is left.
+// The ellipses' own edges are at most a pixel off; after the first round half of that is left.
 constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
 constexpr int kSteps = 3;  // of reweighting in each round
 constexpr double kGate = 3.0;
 constexpr double kMinEdgeSigma_px = 0.02;
 constexpr std::size_t kMinEdgePoints = 24;
-// How well the wall's share in an edge is known, of itself: its light need not go with the cosine.
+// Relative uncertainty of the wall's effect on an edge: its light need not go with the cosine.
 constexpr double kWallSigma = 0.3;
-// Chi-squared of three degrees of freedom that chance exceeds once in twenty. Where edges and depths tell planes
-// further apart than that, one of them errs beyond its noise: the fit is as uncertain as they disagree (Birge's ratio).
+// Chi-squared of three degrees of freedom that chance exceeds once in twenty. Where edges and depths give planes
+// further apart than that, one of them errs beyond its noise: the covariance is scaled by the disagreement (Birge's
+// ratio).
 constexpr double kDoubtful = 7.8;
-// Of the common place of all edges; what the simulated classes show beyond the residuals' share.
+// Deviation common to all edges; what the simulated classes show beyond the residuals.
 constexpr double kCommonEdge_px = 0.012;
 
 // d q / d unknowns of the plane that a model lies in: q = n / (n . c).
@@ -43,7 +44,7 @@ Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
   return jacobian;
 }
 
-// How an edge's place along its normal moves with the unknowns, px.
+// Derivatives of an edge's position along its normal by the unknowns, px.
 Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const RingEdgePoint& point,
                  RingEdge edge) {
   const Vector3 by_point = project_jacobian(camera.intrinsics, point.point_m).transpose() * point.normal_px;
@@ -65,7 +66,7 @@ RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by
   return result;
 }
 
-// Robust deviation of what the model leaves.
+// Robust deviation of the residuals.
 double deviation(const RingEdgePoints& points, const std::array<double, kMaxEdgePoints>& residuals) {
   std::array<double, kMaxEdgePoints> sizes;
   for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = std::fabs(residuals[i]);
@@ -74,12 +75,12 @@ double deviation(const RingEdgePoints& points, const std::array<double, kMaxEdge
   return std::max(kMinEdgeSigma_px, kMedianToSigma * *middle);
 }
 
-// One circle's share of the normal equations, linear in the unknowns about the model.
+// One circle's part of the normal equations, linear in the unknowns about the model.
 struct EdgeSums {
   Matrix7 normal = Matrix7::Zero();
   Vector7 right = Vector7::Zero();
   SectorSums residuals;
-  // The error of the walls' share, common to all points.
+  // The error of the walls' effect, common to all points.
   Vector7 with_wall = Vector7::Zero();
   double wall = 0.0;
   double wall_right = 0.0;
@@ -126,7 +127,7 @@ struct Solved {
   double plane_chi2 = 0.0;
 };
 
-// Both circles' edges and the depths' plane, reweighted from what they leave.
+// Both circles' edges and the depths' plane, reweighted by their residuals.
 std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& model, const PlaneFit& plane,
                                   RingFitWorkspace& workspace) {
   const PlaneAxes axes = axes_of(model.normal);
@@ -151,7 +152,7 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
       solved.edge_points += sums.residuals.count();
     }
     if (solved.edge_points < static_cast<std::int32_t>(kMinEdgePoints)) return std::nullopt;
-    // The walls' error is one more unknown, known to be near zero; eliminated.
+    // The walls' error is one more unknown, with a prior near zero; eliminated.
     const double wall = both.wall + 1.0 / (kWallSigma * kWallSigma);
     add_outer<7>(normal, both.with_wall, -1.0 / wall);
     right -= (both.wall_right / wall) * both.with_wall;
@@ -167,7 +168,7 @@ std::optional<Solved> solve_round(const DepthCamera& camera, const RingModel& mo
   return solved;
 }
 
-// What a common error of all depths does: the plane moves along z, the centre and the radii along their rays.
+// Effect of a common error of all depths: the plane moves along z, the centre and the radii along their rays.
 Matrix7 common_noise(const RingModel& model, double sigma_m) {
   Vector7 moves = Vector7::Zero();
   moves.segment<3>(2) = model.centre_m / model.centre_m.z();
@@ -176,7 +177,8 @@ Matrix7 common_noise(const RingModel& model, double sigma_m) {
   return sigma_m * sigma_m * moves * moves.transpose();
 }
 
-// Foil of uneven depth beside an edge and walls move it along whole sides of the ring: the circles' common place.
+// Foil of uneven depth beside an edge and walls shift it along whole sides of the ring: an error common to both
+// circles.
 Matrix7 common_place(const DepthCamera& camera, const RingModel& model) {
   const double sigma_m = kCommonEdge_px * model.centre_m.z() / camera.intrinsics.fx_px;
   Matrix7 covariance = Matrix7::Zero();
@@ -241,7 +243,7 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
                                 const DepthNoise& noise, RingFitWorkspace& workspace) {
   RingFit fit;
   fit.model = start;
-  // A plane that is smoother than the camera's noise still has pixels that are mixed with its surroundings.
+  // A plane with less scatter than the camera's noise still has pixels that are mixed with its surroundings.
   const double ratio = start.centre_m.z() / noise.range_m;
   const RingPrior prior{4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio), plane.amplitude, min_step_m};
   for (const double search_px : kSearch_px) {

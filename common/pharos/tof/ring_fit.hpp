@@ -21,12 +21,12 @@ struct RingFit {
   double amplitude = 0.0;  ///< median of the ring's pixels, counts
   std::int32_t edge_points = 0;
   std::int32_t plane_pixels = 0;
-  double seen = 0.0;  ///< share of the circumference with depth on the plane
-  /// How badly edges and depth disagree about the plane: chi-squared of three degrees of freedom.
+  double seen = 0.0;  /// fraction of the circumference with depth on the plane
+  /// Disagreement of edges and depths about the plane: chi-squared of three degrees of freedom.
   double plane_chi2 = 0.0;
 };
 
-/// How the places of a circle's edge points move with the fit's unknowns, px.
+/// Derivatives of the positions of a circle's edge points by the fit's unknowns, px.
 using RingEdgeRows = std::array<Vector7, kMaxEdgePoints>;
 
 /// Where the edges of a ring are found, between rounds of the fit, and their rows.
@@ -35,18 +35,18 @@ struct RingFitWorkspace {
   std::array<RingEdgeRows, 2> rows;
 };
 
-/// Two concentric circles in the plane of the depths: all that the frame says about the ring, in one least-squares fit.
+/// Two concentric circles in the plane of the depths: all measurements of the ring in one least-squares fit.
 ///
 /// Unknowns: two rotations of the plane, its centre, two radii. Observations: the plane of the depths (with its
 /// information) and the offsets of the image's edges from the circles' exact images, lens distortion included, so that
-/// a circle's centre is never taken for its image's centre. Three rounds, in each of which edges are looked for again
-/// beside the circles' new images. Nothing where edges are too few or the fit does not settle.
+/// a circle's centre is never taken for its image's centre. Three rounds, in each of which edges are searched again
+/// near the circles' new images. Nothing where edges are too few or the fit does not converge.
 std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                 const PlaneFit& plane, const RingModel& start, double min_step_m,
                                 const DepthNoise& noise, RingFitWorkspace& workspace);
 
-/// Concentric circles in `plane` through the images of two ellipses: what fit_ring starts from. Nothing where the
-/// plane does not meet their rays.
+/// Concentric circles in `plane` through the images of two ellipses: the start of fit_ring. Nothing where the plane
+/// does not meet their rays.
 std::optional<RingModel> ring_on_plane(const DepthPlane& plane, const RayGrid& rays, const ellipse::Ellipse& outer,
                                        const ellipse::Ellipse& inner);
 

@@ -8,11 +8,11 @@
 
 namespace pharos::tof {
 
-/// By how much neighbours' common noise widens what is averaged around a ring.
+/// Factor by which correlated noise of neighbours widens the variance of averages around a ring.
 ///
 /// Residuals are summed by sector, longer than noise is correlated; the variance of these sums, each with its
-/// neighbours' share, is compared with what independent residuals would give (the sandwich estimate of a clustered
-/// sample, one number for all unknowns). Sixty-four sectors tell it to some 20 %, and need no model of the correlation.
+/// neighbours' part, is compared with that of independent residuals (the sandwich estimate of a clustered sample, one
+/// number for all unknowns). Sixty-four sectors determine it to some 20 %, without a model of the correlation.
 class SectorSums {
  public:
   /// A weighted residual in the direction (du, dv) from the ring's middle.
@@ -21,17 +21,16 @@ class SectorSums {
     sum_[k] += weight * residual;
     add(weight, residual);
   }
-  /// Where count() and variance() alone are asked.
+  /// Where only count() and variance() are needed.
   void add(double weight, double residual) {
     weights_ += weight;
     squares_ += weight * residual * residual;
     ++count_;
   }
   int count() const { return count_; }
-  /// Variance of a residual of unit weight, its neighbours disregarded.
+  /// Variance of a residual of unit weight, without its neighbours.
   double variance() const { return count_ > 0 ? squares_ / count_ : 0.0; }
-  /// At least 1: what the variance of an average is, over what it would be of independent residuals. `unknowns` were
-  /// fitted.
+  /// At least 1: variance of an average over that of independent residuals. `unknowns` were fitted.
   double variance_inflation(int unknowns) const {
     double own = 0.0;
     double across = 0.0;
@@ -50,10 +49,10 @@ class SectorSums {
 
  private:
   static constexpr std::size_t kSectors = 64;
-  // So few sums tell the variance to a third, and what is divided by an uncertain variance has longer tails: the mean
+  // So few sums determine the variance to a third, and a quotient by an uncertain variance has longer tails: the mean
   // of its inverse, to second order in the six-over-n variance of own squares and neighbours' products.
   static constexpr double kUncertain = 8.0;
-  // Where hardly a sector is seen, all residuals may be one.
+  // Where hardly a sector is seen, all residuals may be fully correlated.
   static constexpr int kMinUsed = 8;
 
   // Grows with the angle of (du, dv); a diamond's perimeter stands for the circle's.

@@ -30,7 +30,7 @@ Matrix3 about_z(double angle) {
   return m;
 }
 
-// Z' along the normal, X' as near to `towards` as can be.
+// Z' along the normal, X' as near to `towards` as possible.
 Matrix3 frame_of(const Vector3& normal, const Vector3& towards) {
   Matrix3 R;
   R.col(2) = normal;
@@ -39,7 +39,7 @@ Matrix3 frame_of(const Vector3& normal, const Vector3& towards) {
   return R;
 }
 
-// Where the connector's face is met along its ray, in the plane `height` over the ring's.
+// Intersection of the ray of the connector's face with the plane `height` over the ring's.
 Vector3 face_point(const Vector3& normal, const Vector3& centre, const Vector2& ray, double height) {
   const Vector3 direction(ray.x(), ray.y(), 1.0);
   return ((normal.dot(centre) + height) / normal.dot(direction)) * direction;
@@ -89,7 +89,7 @@ TargetPose target_pose(const RingFit& ring, const ConnectorFace& face) {
     jacobian.col(k).head<3>() = rotation_log(turned) / (2.0 * kStep);
     if (k >= 2 && k < 5) jacobian(k + 1, k) = 1.0;
   }
-  // The face's place was measured in the ring's plane; as a ray it does not move with the ring.
+  // The face's position was measured in the ring's plane; as a ray it does not move with the ring.
   Eigen::Matrix<double, 2, 2> ray_by_plan;
   const std::array<Vector3, 2> directions = {axes.first, axes.second};
   for (int k = 0; k < 2; ++k) {

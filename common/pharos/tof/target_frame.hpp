@@ -30,11 +30,11 @@ struct TargetPose {
   Matrix6 covariance = Matrix6::Zero();
 };
 
-/// With a connector: six degrees of freedom. Its place's uncertainty and the ring's go into the turn about Z'.
+/// With a connector: six degrees of freedom. The uncertainty of its position and the ring's enter the turn about Z'.
 TargetPose target_pose(const RingFit& ring, const ConnectorFace& face);
 
-/// Without one: five. X' is as near to the camera's x axis as can be, and the covariance about Z' is that of any turn,
-/// pi^2 / 3.
+/// Without one: five. X' is as near to the camera's x axis as possible, and the variance about Z' is that of a uniform
+/// angle, pi^2 / 3.
 TargetPose target_pose_without_turn(const RingFit& ring);
 
 }  // namespace pharos::tof

@@ -24,14 +24,14 @@ enum class TofFailure : std::uint8_t {
   kRingHidden,       // too little of it is seen
   kRingNotCircles,   // its edges are not where circles in its plane would be
   kRingLeavesImage,  // a part of it is outside
-  kRingInconsistent  // edges and depths tell different planes
+  kRingInconsistent  // edges and depths give different planes
 };
 
-/// Which stage of the path gave up: "frame", "ellipses", "ring".
+/// The stage that failed: "frame", "ellipses", "ring".
 const char* stage_of(TofFailure failure);
 /// One word for tables: "no_ring_plane".
 const char* name_of(TofFailure failure);
-/// One line for people: what, and what to do.
+/// One line for the operator: the problem and its remedy.
 const char* describe(TofFailure failure);
 
 }  // namespace pharos::tof

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPartlyHidden = 0.9;
 // A boom that fills most of the frame, and the face behind it.
 constexpr int kFacePlanes = 2;
-// Burrs and missing corners included.
+// Protrusions and missing corners included.
 constexpr double kDoubtfulArea = 3.0;
 
 void tell(TofStageListener* listener, TofStage ended) {
@@ -25,7 +25,7 @@ bool is_good(const TargetPose& target) {
   return (target.covariance.diagonal().array() > 0.0).all();
 }
 
-// A face and where it came from.
+// A face and its source.
 struct Choice {
   ConnectorFace face;
   bool sure = false;  // its edges were found
@@ -49,8 +49,8 @@ class ConnectorChoice {
   ConnectorChoice(const TofFrame& frame, const DepthCamera& camera, const TofWorkspace& workspace, const RingFit& ring)
       : frame_(frame), camera_(camera), workspace_(workspace), ring_(ring) {}
 
-  // Nearest first. False where a region that may be a nearer connector could not be told: then none may be chosen.
-  // Doubtful regions are only asked where connectors are missing.
+  // Nearest first. False where it is undecided whether a region is a nearer connector: then none may be chosen.
+  // Doubtful regions are only used where connectors are missing.
   bool choose(std::int32_t expected, double min_difference_m) {
     const auto& found = workspace_.connector.connectors;
     for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
@@ -66,7 +66,7 @@ class ConnectorChoice {
 
  private:
   // By the edges around the region; else by those of a square like the nearest connector's, which may show another
-  // connector but never a nearer one: burrs shift it.
+  // connector but never a nearer one: protrusions shift it.
   bool add_doubtful(const RegionReport& doubt, double min_difference_m) {
     const Choice own = choice_of(doubt);
     if (own.sure && is_another(own)) {
@@ -88,7 +88,7 @@ class ConnectorChoice {
     const ConnectorFace face = fit_face_within(frame_, camera_, workspace_.rays, ring_, region, choices_[0].face);
     return {face, face.edge_points > 0};
   }
-  // Of the same kind, and not one of those that are known.
+  // Of the same kind, and not one of those already known.
   bool is_another(const Choice& choice) const {
     const double side = 2.0 * choice.face.rectangle.half_sides_m.minCoeff();
     for (const Choice& known : choices_) {
@@ -145,7 +145,7 @@ std::span<const ellipse::DetectedEllipse> ellipses_in(ImageView<const std::uint1
   return ellipses;
 }
 
-// By the intensity image; where that does not show the ring (foil as bright beside it), by what stands over the face.
+// By the intensity image; where that does not show the ring (foil as bright beside it), by the relief over the face.
 // The failure is the first one's.
 Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
                                          TofWorkspace& workspace, TofStageListener* listener) {
@@ -156,7 +156,7 @@ Result<RingChoice, TofFailure> find_ring(const TofFrame& frame, const DepthCamer
   };
   const auto ring = ring_in(frame.intensity);
   if (ring) return ring;
-  // Connectors are looked for later: their heights' memory is free.
+  // Connectors are searched later: the memory of their heights is free.
   const ImageView<std::uint16_t> relief(workspace.connector.heights.data(), frame.depth.width_px,
                                         frame.depth.height_px);
   auto face = face_plane(frame, camera, workspace.rays, settings.noise);

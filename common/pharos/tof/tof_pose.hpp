@@ -15,17 +15,17 @@
 
 namespace pharos::tof {
 
-/// What a pose's reader should know beside its covariance.
+/// Flags of a pose in addition to its covariance.
 enum TofFlag : std::uint8_t {
-  /// No connector that can be relied on: the turn about Z' is unknown. Five degrees of freedom; the covariance about Z'
-  /// is that of any turn.
+  /// No reliable connector: the turn about Z' is unknown. Five degrees of freedom; the variance about Z' is that of a
+  /// uniform angle.
   kFlagNoConnector = 1U << 0U,
   /// A tenth of the ring or more is hidden or has no depth.
   kFlagRingPartlyHidden = 1U << 1U,
   /// Fewer connectors than the target carries (ConnectorSettings::expected): the nearest may be missing. With
   /// kFlagNoConnector.
   kFlagFewConnectors = 1U << 2U,
-  /// The connector's edges were not found: its place is that of its region.
+  /// The connector's edges were not found: its position is that of its region.
   kFlagCoarseConnector = 1U << 3U,
 };
 inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},
@@ -33,7 +33,7 @@ inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "n
                                                            {kFlagFewConnectors, "few_connectors"},
                                                            {kFlagCoarseConnector, "coarse_connector"}}};
 
-/// The measured pose of one frame, T_camera_target, with everything that it rests on.
+/// The measured pose of one frame, T_camera_target, and the measurements behind it.
 struct TofPose {
   TargetPose target;
   /// Where two connectors are equally near: the pose by the other one.
@@ -46,9 +46,9 @@ struct TofPose {
   bool has_turn() const { return (flags & kFlagNoConnector) == 0; }
 };
 
-/// All memory of the path beside the stack, which needs some 80 KiB. Holds the last frame's rows and the lens' rays, so
-/// one workspace belongs to one camera. After measure_tof_pose it holds what was seen, for pictures: ellipse.found,
-/// ellipse.arcs, connector.regions, edges.
+/// All memory of the path except the stack, which needs some 80 KiB. Holds the last frame's rows and the lens' rays, so
+/// one workspace belongs to one camera. After measure_tof_pose it holds intermediate results, for pictures:
+/// ellipse.found, ellipse.arcs, connector.regions, edges.
 struct TofWorkspace {
   TofWorkspace() : ellipse(planes) {}
   TofWorkspace(const TofWorkspace&) = delete;
@@ -65,8 +65,8 @@ static_assert(sizeof(TofWorkspace) <= 8U * 1024U * 1024U, "fits the board's exte
 
 /// The whole path (paper 000): ellipses in the intensity image, the docking ring by depth, connectors, target frame.
 ///
-/// The error names what was missing; stage_of tells the stage. Every pose that comes back is finite, with a positive
-/// definite covariance. Costs are in the README; `listener`, if any, is told of each stage's end.
+/// The error names what was missing; stage_of gives its stage. Every returned pose is finite, with a positive definite
+/// covariance. Costs are in the README; `listener`, if any, is notified of each stage's end.
 Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthCamera& camera,
                                              const TofSettings& settings, TofWorkspace& workspace,
                                              TofStageListener* listener = nullptr);

@@ -7,7 +7,7 @@
 
 namespace pharos::tof {
 
-/// What is known of the docking ring beforehand. Limits, not values: the ring is measured, not assumed.
+/// Prior knowledge of the docking ring. Limits, not values: the ring is measured, not assumed.
 struct RingSettings {
   /// Rings between 0.6 and 1.2 m across are in use; a nozzle's rim is smaller. Metres.
   double min_outer_radius_m = 0.25;
@@ -18,17 +18,17 @@ struct RingSettings {
   /// Fraction of the ring's circumference that must be seen with depth on its plane. A third may be hidden (0.65 is
   /// left); of 8,400 such frames one had 0.54, its plane 6 deg off where 0.6 deg were stated.
   double min_seen = 0.6;
-  /// How far the surroundings must lie behind the ring's plane, inside and outside: a painted circle has no step.
+  /// Minimum depth of the surroundings behind the ring's plane, inside and outside: a painted circle has no step.
   /// Metres.
   double min_step_m = 0.015;
 };
 
-/// Noise of the depth camera, only for gates: what is reported is measured on the frame itself.
+/// Noise of the depth camera, only for gates: the reported covariance is measured on the frame itself.
 struct DepthNoise {
   /// Standard deviation of one pixel at `range_m`; grows with the range's square.
   double sigma_m = 0.004;
   double range_m = 3.16;
-  /// Common to all pixels of a frame: no number of pixels averages it away, so it is added to the covariance.
+  /// Common to all pixels of a frame: averaging does not reduce it, so it is added to the covariance.
   double common_sigma_m = 0.0003;
 };
 
@@ -38,25 +38,25 @@ enum class ThresholdForm : std::uint8_t { kPixelCount, kAsPrinted };
 /// Limits of paper 000, section 2.2.2.
 struct ConnectorSettings {
   ThresholdForm form = ThresholdForm::kPixelCount;
-  /// Half the window's width, w of (5), is the larger of the paper's 4 and this share of the outer ellipse's semi-axis:
-  /// where the window does not reach beyond the connector, half of its flat face lies below its own mean.
+  /// Half the window's width, w of (5), is the larger of the paper's 4 and this fraction of the outer ellipse's
+  /// semi-axis: where the window does not reach beyond the connector, half of its flat face lies below its own mean.
   std::int32_t min_half_window_px = 4;
   double window_fraction = 0.2;
-  /// Only pixels grow that are as bright as this share of the ring: dark foil's depths are noise.
+  /// Only pixels as bright as this fraction of the ring are marked: dark foil's depths are noise.
   double min_amplitude = 0.4;
   double min_area_px = 20.0;
-  /// Least and largest area over that of the outer ellipse: patches of noise reach a third of the least.
+  /// Minimum and maximum area over that of the outer ellipse: patches of noise reach a third of the minimum.
   double min_area_fraction = 0.005;
   double max_area_fraction = 0.1;
   double min_aspect = 0.7;
   double max_aspect = 1.5;
   double min_fill = 0.7;
-  /// How far from the ring's centre connectors are looked for, in outer radii.
+  /// Search radius for connectors from the ring's centre, in outer radii.
   double reach = 1.7;
-  /// How far its face must stand over its surroundings, m.
+  /// Minimum height of its face over its surroundings, m.
   double min_height_m = 0.015;
-  /// How many the target is known to carry; the paper's has two. Where fewer are seen the nearest may be the one that
-  /// is missing, and the turn about Z' is not given.
+  /// Number of connectors that the target carries; the paper's has two. Where fewer are seen the nearest may be the
+  /// missing one, and the turn about Z' is not reported.
   std::int32_t expected = 2;
   /// Two whose distances differ by less are equally near: neither may be chosen. Metres.
   double min_difference_m = 0.008;

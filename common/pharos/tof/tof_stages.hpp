@@ -12,8 +12,8 @@ enum class TofStage : std::uint8_t {
   kEdges,      ///< filter, thresholds, edge points along contours
   kEllipses,   ///< arcs, pairs, fits
   kPlane,      ///< planes and steps in the depths of nested ellipses
-  kRing,       ///< where its face ends, its edges, the fit of everything
-  kFace,       ///< what stands over the satellite's face: only where the intensity image shows no ring
+  kRing,       /// ends of its face, its edges, the joint fit
+  kFace,       /// relief over the satellite's face: only where the intensity image shows no ring
   kConnector,  ///< heights, local threshold, regions, filters
   kPose        ///< the connectors' edges, target frame, covariance
 };
@@ -21,7 +21,7 @@ inline constexpr std::size_t kTofStages = 8;
 /// One word: "edges".
 const char* name_of(TofStage stage);
 
-/// Told whenever a stage has ended; a frame may come back to a stage. The core has no clock: whoever listens has one.
+/// Notified whenever a stage has ended; a frame may repeat a stage. The core has no clock: the listener has one.
 class TofStageListener {
  public:
   virtual void ended(TofStage stage) = 0;

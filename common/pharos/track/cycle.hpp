@@ -9,8 +9,8 @@
 
 namespace pharos::track {
 
-/// One cycle of one station: the bearings of its x sweep and of the y sweep that follows, as the rotors showed them.
-/// Either may be missing (no flash seen, no lock); then it has no bearings.
+/// One cycle of one station: the raw bearings of its x sweep and of the y sweep that follows. Either may be missing (no
+/// flash seen, no lock); then it has no bearings.
 struct Cycle {
   std::uint8_t station = 0;
   std::uint8_t sweep_flags = 0;       // of lighthouse::SweepFlag, of either sweep
@@ -24,20 +24,20 @@ struct Cycle {
 };
 
 /// Joins the sweeps of one station to cycles. X opens a cycle and Y closes it; a sweep that does not fit closes what
-/// was open, so that nothing waits longer than one turn and nothing is lost.
+/// was open, so that nothing is delayed by more than one rotor revolution and nothing is lost.
 class CycleAssembler {
  public:
-  /// Most time between the two flashes of a cycle: they are half a turn apart, in every mode.
-  static constexpr std::int64_t kMaxGap_ticks = 600'000;  // 0.72 turns
+  /// Maximum time between the two flashes of a cycle: they are half a revolution apart, in every mode.
+  static constexpr std::int64_t kMaxGap_ticks = 600'000;  // 0.72 revolutions
 
-  /// The cycle that this sweep closed, if any.
+  /// The cycle that this sweep completed, if any.
   std::optional<Cycle> push(std::uint8_t station, Axis axis, std::int64_t flash_ticks, std::uint8_t sweep_flags,
                             const lighthouse::SweepBearings& bearings);
-  /// The same in two steps and without a copy, for who has no memory for one: first what such a sweep would push out,
-  /// which is closed then, else null ...
+  /// The same in two steps and without a copy, for callers without memory for one: first the cycle that such a sweep
+  /// would close, else null ...
   const Cycle* close_before(Axis axis, std::int64_t flash_ticks);
-  /// ... then the sweep itself: the cycle that it completed, which holds until the next sweep, else null.
-  /// `may_complete`: false when close_before() gave one. So the sweep waits for its own partner or for the next one.
+  /// ... then the sweep itself: the cycle that it completed, valid until the next sweep, else null. `may_complete`:
+  /// false when close_before() returned one. The sweep then waits for its own partner or for the next one.
   const Cycle* add(std::uint8_t station, Axis axis, std::int64_t flash_ticks, std::uint8_t sweep_flags,
                    const lighthouse::SweepBearings& bearings, bool may_complete);
   /// What is still open, if anything.

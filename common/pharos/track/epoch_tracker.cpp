@@ -31,10 +31,10 @@ std::int64_t mean_ticks(const IdealObservations& ideal, std::int64_t fallback_ti
   return count == 0 ? fallback_ticks : fallback_ticks + sum / count;
 }
 
-// In sigmas: a bearing that was corrected by less would move the pose by a third of it at the most.
+// In sigmas: a bearing that was corrected by less would move the pose by at most a third of it.
 constexpr double kSameBearing = 0.2;
 
-// Refusals that are not seen at once.
+// Refusals that need a search.
 bool took_search(pose::Refusal refusal) {
   return refusal == pose::Refusal::kNotConverged || refusal == pose::Refusal::kPoorFit ||
          refusal == pose::Refusal::kBehindStation || refusal == pose::Refusal::kSearchLimit;
@@ -83,7 +83,7 @@ std::optional<EpochResult> EpochTracker::push(const lighthouse::Sweep& sweep) {
 
 std::optional<EpochResult> EpochTracker::complete(Station& station, const lighthouse::Sweep& sweep,
                                                   const lighthouse::SmoothedFlash& smoothed) {
-  // What lies between here and the solver stays off the stack as far as it can: a soft core has little of it.
+  // Values between here and the solver stay off the stack as far as possible: a soft core has little of it.
   const Cycle* pushed_out = station.assembler.close_before(sweep.flash.axis, sweep.flash.start_ticks);
   const Cycle* due = pushed_out != nullptr ? pushed_out : take(station, sweep, smoothed, true);
   std::optional<EpochResult> result;
@@ -155,7 +155,7 @@ void EpochTracker::solve(Station& station, const Cycle& cycle, EpochResult& resu
     if (answer) result.flags |= kEpochPrior;
   }
   if (!answer || !ideal_.guessed) return;
-  // The first pose tells the angle across, which single hits were corrected without, or by an older one.
+  // The first pose gives the angle across, which single hits were corrected without, or by an older one.
   const LighthouseFromBody first = answer->estimate.pose;
   if (options_.warm_start) {
     const double change_rad = correct_guessed(cycle, target_, *station.calibration, options_.form, first, ideal_);
@@ -185,7 +185,7 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
   if (!residual_plausible(solution.estimate, options_.solve.sigma_rad)) result.flags |= kEpochResidualHigh;
   result.observations = solution.estimate.observations;
   result.time_ticks = mean_ticks(ideal_, cycle.last_flash_ticks, [this](std::size_t i) { return used_[i]; });
-  // An answer that leant on the pose before it, or has a rival, is nothing for the next one to lean on.
+  // A result that needed the previous pose, or has a second solution, must not be the prior of the next one.
   if ((result.flags & kEpochPrior) == 0 && !solution.estimate.ambiguous()) {
     station.last_pose = solution.estimate.pose;
     station.last_pose_ticks = result.time_ticks;
@@ -203,11 +203,11 @@ TrackedBearing EpochTracker::bearing(std::size_t index) const {
 void EpochTracker::answer(Station& station, const Cycle& cycle, EpochResult& result) {
   result.station = cycle.station;
   result.flags = flags_of(cycle, station.calibration.has_value());
-  // Of one axis alone nothing comes, and on a slow core the corrections without a partner cost more than a pose.
+  // One axis alone gives no pose, and on a slow core the corrections without a partner cost more than a pose.
   const bool abandoned = options_.warm_start && (cycle[Axis::kX].empty() || cycle[Axis::kY].empty());
   SolveResult solution = abandoned ? pose::Refusal::kDegenerate : pose::Refusal::kNotConverged;
   if (abandoned) {
-    ideal_observations(cycle, target_, nullptr, options_.form, nullptr, true, ideal_);  // what was offered
+    ideal_observations(cycle, target_, nullptr, options_.form, nullptr, true, ideal_);  // input of the solver
   } else {
     solve(station, cycle, result, solution);
   }

@@ -24,27 +24,28 @@ struct TrackOptions {
   /// With three sensors only, the last pose of the same station serves as prior when it is younger than this: at 2 m/s
   /// and 180 deg/s a target moves 0.2 m and 18 deg in it. 0 = never.
   double prior_max_age_s = 0.1;
-  /// For cores without a floating-point unit: start every cycle from the last pose, and work in integers wherever they
-  /// tell the same (pose::solve_warm).
+  /// For cores without a floating-point unit: start every cycle from the last pose, and compute in integers where the
+  /// result is the same (pose::solve_warm).
   bool warm_start = false;
-  /// A last pose that serves as such a start: where it is too far, the integers say so. Two stations' first poses from
-  /// nothing take a soft core of 50 MHz 0.4 s.
+  /// Maximum age of such a start pose: where it is too far off, the integer solver fails. Solving two stations' first
+  /// poses from nothing takes a soft core of 50 MHz 0.4 s.
   double warm_max_age_s = 1.0;
-  /// What the integers refuse goes through the search in double (solve.max_search_starts). After one that found nothing
-  /// the station's next ones are refused for this long (kSearchLimit), or a bad view would take all of a slow core.
+  /// Cycles that the integer solver refuses go through the search in double (solve.max_search_starts). After one
+  /// without result the station's next ones are refused for this long (kSearchLimit), or a bad view would take all of a
+  /// slow core's time.
   std::int64_t search_cooldown_ticks = 0;
 };
 
 /// Words said about one cycle's answer; a bit set.
 enum EpochFlag : std::uint8_t {
-  kEpochUncalibrated = 1,   // no calibration of this station was known: angles as the ideal station's
+  kEpochUncalibrated = 1,   // no calibration of this station was known: angles of an ideal station
   kEpochFlashWeak = 2,      // as in Sweep
   kEpochPeriodNominal = 4,  // as in Sweep
   kEpochOutliers = 8,       // hits were left out (reflections, or they fit no rigid body)
   kEpochPrior = 16,         // could only be solved with the last pose as prior
   kEpochLockPoor = 32,      // as in Sweep
-  kEpochResidualHigh = 64,  // the residual is beyond what the assumed noise explains: sigmas and ambiguity are too kind
-  kEpochFused = 128,        // rests on both stations' hits (motion)
+  kEpochResidualHigh = 64,  // the residual is beyond what the assumed noise explains: stated sigmas are too small
+  kEpochFused = 128,        // uses both stations' hits (motion)
 };
 inline constexpr std::array<FlagWord, 8> kEpochFlagWords{{
     {kEpochUncalibrated, "uncalibrated"},
@@ -57,7 +58,7 @@ inline constexpr std::array<FlagWord, 8> kEpochFlagWords{{
     {kEpochFused, "fused"},
 }};
 
-/// One cycle of one station (its x and its y sweep): a pose, or why there is none.
+/// Result of one cycle of one station (its x and its y sweep): a pose, or why there is none.
 struct EpochResult {
   std::uint8_t station = 0;
   std::uint8_t flags = 0;       // of EpochFlag
@@ -66,19 +67,19 @@ struct EpochResult {
   Result<LighthousePoseEstimate, pose::Refusal> pose = pose::Refusal::kTooFewSensors;
 };
 
-/// One bearing of the cycle last answered, and what the solver made of it.
+/// One bearing of the cycle last solved, with its residual.
 struct TrackedBearing {
-  lighthouse::Bearing raw;  // as the rotor showed it
+  lighthouse::Bearing raw;  // from the rotor, uncorrected
   Axis axis = Axis::kX;
-  double ideal_theta_rad = 0.0;  // with the station's errors taken out
+  double ideal_theta_rad = 0.0;  // with the station's errors removed
   bool used = false;
   double residual_rad = 0.0;  // ideal minus predicted; 0 where there is no pose or the target has no such sensor
 };
 
-/// Sweeps of one target in, one answer a station and cycle out: each cycle is solved alone, as in paper 002
-/// (section 2.3), as if all its hits had happened at once. Up to two stations side by side, each in its own frame.
+/// Sweeps of one target in, one result a station and cycle out: each cycle is solved alone, as in paper 002 (section
+/// 2.3), as if all its hits were simultaneous. Up to two stations in parallel, each in its own frame.
 ///
-/// Holds about 14 KiB. One push costs one solve at the most (two where a sensor was hit on one axis only or twice).
+/// Holds about 14 KiB. One push costs at most one solve (two where a sensor was hit on one axis only or twice).
 class EpochTracker {
  public:
   EpochTracker(const Target& target, const TrackOptions& options);
@@ -89,12 +90,12 @@ class EpochTracker {
   void clear_calibration(std::uint8_t station);
   /// Everything known of the stations: calibrations, flashes, last poses, cycles not complete.
   void forget_stations();
-  /// The answer of the cycle that this sweep completed, if any: the y sweep completes its cycle at once; a cycle whose
-  /// y sweep did not come is answered when the station's next sweep does. A skipped sweep only feeds the smoother.
+  /// The result of the cycle that this sweep completed, if any: the y sweep completes its cycle at once; a cycle
+  /// without y sweep is solved with the station's next sweep. A skipped sweep only updates the smoother.
   std::optional<EpochResult> push(const lighthouse::Sweep& sweep);
-  /// End of the input: the cycle still held back, if any (call until empty).
+  /// End of the input: the result of the cycle still held back, if any (call until empty).
   std::optional<EpochResult> flush();
-  /// The bearings of the cycle last answered, hit by hit, refused ones too.
+  /// The bearings of the cycle last solved, hit by hit, refused ones too.
   std::size_t bearing_count() const { return ideal_.observations.size(); }
   TrackedBearing bearing(std::size_t index) const;
 
@@ -110,10 +111,10 @@ class EpochTracker {
 
   using SolveResult = Result<pose::Solution, pose::Refusal>;
 
-  /// Takes the sweep into its cycle; the cycle if that completed it.
+  /// Adds the sweep to its cycle; returns the cycle if that completed it.
   const Cycle* take(Station& station, const lighthouse::Sweep& sweep, const lighthouse::SmoothedFlash& smoothed,
                     bool may_complete);
-  /// The answer of the cycle that this sweep completes or pushes out.
+  /// The result of the cycle that this sweep completes or closes.
   std::optional<EpochResult> complete(Station& station, const lighthouse::Sweep& sweep,
                                       const lighthouse::SmoothedFlash& smoothed);
   void answer(Station& station, const Cycle& cycle, EpochResult& result);

@@ -22,7 +22,7 @@ double middle_theta(const lighthouse::SweepBearings& bearings) {
   return sum / static_cast<double>(bearings.size());
 }
 
-// Corrects one cycle's bearings; knows what may stand for the angle across.
+// Corrects one cycle's bearings; selects the source of the angle across.
 class Corrector {
  public:
   Corrector(const Cycle& cycle, const Target& target, const lighthouse::StationCalibration& calibration,
@@ -78,14 +78,14 @@ class Corrector {
     return fixed_ ? fixed_->ideal_from_raw(raw) : lighthouse::ideal_from_raw(calibration_, form_, raw);
   }
 
-  // Of a sensor with both bearings, kept for the other one.
+  // Of a sensor with both bearings, stored for the other one.
   std::optional<ThetaPair> ideal_pair(Axis axis, const Bearing& bearing, const Bearing& partner) {
     std::optional<ThetaPair>& known = known_[bearing.sensor];
     if (!known) known = ideal_pair(ordered(axis, bearing.theta_rad, partner.theta_rad));
     return known;
   }
 
-  // How far the first sensor with both bearings is from where the pose puts it.
+  // Offset of the first sensor with both bearings from its prediction by the pose.
   const ThetaPair& moved() {
     if (moved_) return *moved_;
     moved_ = ThetaPair{};

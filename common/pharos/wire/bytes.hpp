@@ -80,8 +80,8 @@ class ByteWriter {
 
 /// Reads little-endian fields one after the other; the counterpart of ByteWriter.
 ///
-/// Nothing is ever read past the end: from the first field that is not there on, every field reads as 0 and
-/// ran_short() says so. refuse() is for fields that are there and mean nothing.
+/// Nothing is ever read past the end: from the first missing field on, every field reads as 0 and ran_short() is true.
+/// refuse() is for fields with an invalid value.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> in) : in_(in) {}
@@ -137,7 +137,7 @@ class ByteReader {
     refuse();
     return 0;
   }
-  /// A field was read whose value means nothing.
+  /// A field had an invalid value.
   void refuse() { refused_ = true; }
   void refuse_if(bool bad) { refused_ = refused_ || bad; }
 
@@ -146,7 +146,7 @@ class ByteReader {
   std::size_t remaining() const { return in_.size() - at_; }
 
  private:
-  // So many bytes, four at most, that are there.
+  // `bytes` bytes, at most four, that are present.
   std::uint32_t get_bits(std::size_t bytes) {
     std::uint32_t bits = 0;
     for (std::size_t i = bytes; i > 0; --i) bits = bits << 8 | in_[at_ + i - 1];

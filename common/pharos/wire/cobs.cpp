@@ -12,7 +12,7 @@ constexpr std::uint8_t kFullBlock = 0xFF;  // 254 plain bytes and no zero after 
 
 CobsWriter::CobsWriter(std::span<std::uint8_t> out) : out_(out), size_(1), overflow_(out.empty()) {}
 
-// Every byte of a line comes by here: what changes with it stays in registers.
+// Every byte of a line passes here: state that changes with it stays in registers.
 void CobsWriter::put(std::span<const std::uint8_t> bytes) {
   if (overflow_) return;
   std::uint8_t* const out = out_.data();

@@ -9,18 +9,18 @@
 
 namespace pharos::wire {
 
-/// Byte stuffing without zeros: Cheshire and Baker, "Consistent Overhead Byte Stuffing" (SIGCOMM 1997).
+/// Zero-free byte stuffing: Cheshire and Baker, "Consistent Overhead Byte Stuffing" (SIGCOMM 1997).
 ///
-/// Writes stuffed bytes into `out` as they come; never past its end.
+/// Writes stuffed bytes into `out` as they arrive; never past its end.
 class CobsWriter {
  public:
   explicit CobsWriter(std::span<std::uint8_t> out);
   void put(std::span<const std::uint8_t> bytes);
-  /// Closes the last block. Stuffed bytes written, or 0 when they did not fit.
+  /// Closes the last block. Returns the stuffed bytes written, or 0 when they did not fit.
   std::size_t finish();
 
  private:
-  /// Where a block that begins there is full, or the room is at its end.
+  /// Index at which a block that begins there is full, or the memory ends.
   std::size_t end_of_block(std::size_t block) const { return std::min(block + 255, out_.size()); }
 
   std::span<std::uint8_t> out_;

@@ -12,17 +12,17 @@ namespace pharos::wire {
 
 // Every message is a plain struct M with `M::kType` (MessageType) and `M::kMaxBytes` (its longest payload), and two
 // free functions in its header: `write(const M&, ByteWriter&)` and `read(ByteReader&, M&)`. Equal structs are equal
-// bytes and the other way round: decoders take nothing that an encoder would not have written.
+// bytes and vice versa: decoders accept only what an encoder would have written.
 
-/// Why a payload is no message.
+/// Why a payload is not a valid message.
 enum class DecodeError : std::uint8_t {
   kNone,
   kTooShort,       // it ends within a field
   kTrailingBytes,  // bytes are left over
-  kBadValue,       // a field that means nothing (a number out of range, a reserved bit set, NaN)
+  kBadValue,       // a field with an invalid value (a number out of range, a reserved bit set, NaN)
 };
 
-/// Bytes of the payload written; 0 when it does not fit or a field is out of its range.
+/// Returns the bytes of the payload written; 0 when it does not fit or a field is out of its range.
 template <class M>
 std::size_t encode_payload(const M& message, std::span<std::uint8_t> out) {
   ByteWriter writer(out);

@@ -9,40 +9,40 @@
 
 namespace pharos::wire {
 
-/// What the host asks of the running target. Answered by Ack (value as named) or Nak.
+/// Request of the host to the running target. Reply: Ack (value as named) or Nak.
 enum class CommandCode : std::uint8_t {
   kIdentify = 1,     // send a Hello; ack value 0
   kSetModes = 2,     // value: HelloMode bits wanted; ack value: those now in force
-  kReset = 3,        // start anew; the ack comes before
-  kEnterLoader = 4,  // start the loader and stay in it for a minute of silence at most; the ack comes before
+  kReset = 3,        // restart; the ack comes before
+  kEnterLoader = 4,  // start the loader, which leaves after a minute of silence; the ack comes before
 };
 
 struct Command {
   static constexpr MessageType kType = MessageType::kCommand;
   static constexpr std::size_t kMaxBytes = 5;
 
-  CommandCode code = CommandCode::kIdentify;  // codes of the future pass: the target answers Nak kUnsupported
+  CommandCode code = CommandCode::kIdentify;  // unknown codes pass: the target replies Nak kUnsupported
   std::uint32_t value = 0;
 };
 
-/// Done: `value` as the frame answered defines.
+/// Done: `value` as defined for the request.
 struct Ack {
   static constexpr MessageType kType = MessageType::kAck;
   static constexpr std::size_t kMaxBytes = 7;
 
-  std::uint8_t for_type = 0;  // type number of the frame answered
+  std::uint8_t for_type = 0;  // type number of the request
   std::uint16_t for_sequence = 0;
   std::uint32_t value = 0;
 };
 
 enum class NakReason : std::uint8_t {
   kUnsupported = 1,  // unknown command or type
-  kBadPayload = 2,   // the payload means nothing, or the image cannot run here
+  kBadPayload = 2,   // the payload is invalid, or the image cannot run here
   kOutOfOrder = 3,   // an offset that is not the next; value: the offset expected, or kNothingBegun
-  kTooLarge = 4,     // does not fit; value: bytes there are
+  kTooLarge = 4,     // does not fit; value: bytes available
   kWrongBoard = 5,   // an image for another board
   kBadCrc = 6,       // the image does not verify; value: the CRC found
-  kWriteFailed = 7,  // the memory did not take it; value: the offset
+  kWriteFailed = 7,  // writing the memory failed; value: the offset
   kNotVerified = 8,  // start before a good verify
 };
 

@@ -10,14 +10,14 @@
 
 namespace pharos::wire {
 
-/// Which list a counters message follows. Lists only ever grow at their end: a receiver that knows fewer names ignores
-/// the rest, one that knows more takes the missing ones as not reported.
+/// The list that a counters message follows. Lists only ever grow at their end: a receiver with a shorter list ignores
+/// the rest, one with a longer list takes the missing ones as not reported.
 enum class CounterGroup : std::uint8_t {
   kDecoder = 0,  // PHAROS_DECODER_COUNTERS of pharos/lighthouse/decoder_counters.hpp
   kDevice = 1,   // PHAROS_DEVICE_COUNTERS below
 };
 
-// What the target's own program counts, in wire order (append only). X(name, what it counts)
+// Counters of the target's own program, in wire order (append only). X(name, what it counts)
 #define PHAROS_DEVICE_COUNTERS(X)                                                       \
   X(capture_overflows, "times the capture block had to drop edges")                     \
   X(edges_lost, "edges that the capture block dropped")                                 \
@@ -51,7 +51,7 @@ struct Counters {
   static constexpr std::size_t kMaxBytes = 10 + 4 * kMaxValues;
 
   std::int64_t time_ticks = 0;
-  CounterGroup group = CounterGroup::kDecoder;  // groups of the future pass: their values are skipped
+  CounterGroup group = CounterGroup::kDecoder;  // unknown groups pass: their values are skipped
   StaticVector<std::uint32_t, kMaxValues> values;
 };
 

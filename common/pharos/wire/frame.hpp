@@ -11,7 +11,7 @@ namespace pharos::wire {
 
 // A frame on the line:  00 | byte-stuffed (version, type, sequence, payload, CRC-32) | 00.  See proto/README.md.
 
-/// Stands before and behind every frame and nowhere inside.
+/// Delimiter before and after every frame; it never occurs inside.
 inline constexpr std::uint8_t kFrameDelimiter = 0;
 
 /// Longest payload: a sweep with every hit it can hold has 468 bytes.
@@ -21,13 +21,13 @@ inline constexpr std::size_t kHeaderBytes = 4;
 inline constexpr std::size_t kCrcBytes = 4;
 inline constexpr std::size_t kMaxFrame = kHeaderBytes + kMaxPayload + kCrcBytes;
 
-/// Bytes that `bytes` take after stuffing: one more for every 254 begun.
+/// Bytes after stuffing `bytes` bytes: one more for every 254 begun.
 constexpr std::size_t stuffed_size(std::size_t bytes) { return bytes + bytes / 254 + 1; }
-/// Bytes on the line of a frame with this payload, at most, both delimiters included.
+/// Maximum bytes on the line of a frame with this payload, both delimiters included.
 constexpr std::size_t line_size(std::size_t payload) { return 2 + stuffed_size(kHeaderBytes + payload + kCrcBytes); }
 inline constexpr std::size_t kMaxLineFrame = line_size(kMaxPayload);
 
-/// One good frame. `payload` belongs to whoever gave it out and holds until that is used again.
+/// One good frame. `payload` belongs to the object that returned it and is valid until its next use.
 struct Frame {
   MessageType type{};
   std::uint16_t sequence = 0;

@@ -12,7 +12,7 @@ namespace {
 
 /// A larger jump is a sender that restarted, not a loss: at 250 frames/s this many are 16 s of silence.
 constexpr std::uint16_t kLargestCredibleGap = 4096;
-/// A number this little behind the last one is a frame that came twice or too late, not a restart.
+/// A number this little behind the last one is a frame that arrived twice or too late, not a restart.
 constexpr std::uint16_t kReplayWindow = 64;
 
 }  // namespace
@@ -34,7 +34,7 @@ void FrameDecoder::restart() {
 
 void FrameDecoder::drop(std::uint64_t& cause, std::size_t bytes_on_line) {
   counters_.garbage_bytes += bytes_on_line;
-  // What stands before the first border is no failed frame but the end of one that began before we listened.
+  // Bytes before the first border are not a failed frame but the end of one that began before reception.
   if (!mid_frame_) ++cause;
 }
 
@@ -93,7 +93,7 @@ bool FrameDecoder::check_sequence(const Frame& frame, std::uint32_t crc) {
   const auto behind = static_cast<std::uint16_t>(last_sequence_ - frame.sequence);
   const bool same_again = frame.sequence == last_sequence_ && crc == last_crc_;
   const bool hello = frame.type == MessageType::kHello && frame.sequence == 0 && !same_again;
-  // Behind a gap in the line stands another start as likely as a frame come twice.
+  // After a gap in the line a restart is as likely as a repeated frame.
   if (!first && !hello && !reopened_ && behind < kReplayWindow) {
     ++counters_.repeated;
     return false;

@@ -11,19 +11,19 @@
 
 namespace pharos::wire {
 
-/// Finds frames in a stream of bytes, whatever comes in between, and counts all that it drops by cause.
+/// Finds frames in a stream of bytes with any content in between, and counts all that it drops by cause.
 ///
-/// Every zero byte is a frame border, so garbage of any kind costs the frames it hits and no other. A frame is given
-/// out only when its stuffing, length, CRC-32 and version are right. Frames of other protocol versions are told by
+/// Every zero byte is a frame border, so errors of any kind cost the frames they hit and no other. A frame is returned
+/// only when its stuffing, length, CRC-32 and version are right. Frames of other protocol versions are reported by
 /// unsupported_version(); unknown types are skipped. State: about 650 bytes. Cost: one buffer store a byte, and the
 /// CRC.
 class FrameDecoder {
  public:
-  /// The frame that `byte` completed, if any. Its payload points into this object and holds until the next push.
+  /// The frame that `byte` completed, if any. Its payload points into this object and is valid until the next push.
   std::optional<Frame> push(std::uint8_t byte);
-  /// Begins anew at the next byte (the line was unplugged): a frame cut in the middle is dropped. Counters stay.
+  /// Restarts at the next byte (the line was unplugged): a partial frame is dropped. Counters stay.
   void restart();
-  /// A good frame turned out to carry a payload that means nothing; for whoever decodes payloads.
+  /// A good frame had an invalid payload; called by the decoder of payloads.
   void count_bad_payload() { ++counters_.bad_payload; }
 
   const LinkCounters& counters() const { return counters_; }

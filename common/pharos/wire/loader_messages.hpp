@@ -11,16 +11,16 @@
 
 namespace pharos::wire {
 
-// How an image (common/pharos/boot_image) gets into the target: query -> hello and info, begin, data…, verify, start.
-// Every request but the query is answered by Ack or Nak before the next is sent, but for data, of which kLoaderWindow
-// may be on their way. Repeating a request is harmless.
+// Transfer of an image (common/pharos/boot_image) into the target: query -> hello and info, begin, data…, verify,
+// start. Every request but the query is answered by Ack or Nak before the next is sent, except data, of which
+// kLoaderWindow blocks may be unacknowledged. Repeating a request is harmless.
 
 /// Blocks of data that may be sent before the first of them is answered. Three keep a line of 460,800 baud busy over an
-/// adapter that hands on what came every 16 ms, and while a page of flash is written.
+/// adapter that delivers every 16 ms, and while a page of flash is written.
 inline constexpr std::size_t kLoaderWindow = 3;
 
-/// Host to loader: who is there? Answered by Hello, with the version of the image that the loader would start (0.0.0:
-/// none), and LoaderInfo.
+/// Host to loader: request for identity. Answered by Hello, with the version of the image that the loader would start
+/// (0.0.0: none), and LoaderInfo.
 struct LoaderQuery {
   static constexpr MessageType kType = MessageType::kLoaderQuery;
   static constexpr std::size_t kMaxBytes = 0;
@@ -33,13 +33,13 @@ struct LoaderInfo {
 
   std::uint16_t loader_version = 0;
   std::uint16_t block_bytes = 0;     // data of each LoaderData but the last
-  std::uint32_t slot_offset = 0;     // where in the flash the image will lie
+  std::uint32_t slot_offset = 0;     // position of the image in the flash
   std::uint32_t capacity_bytes = 0;  // longest image
   Text<24> board;
 };
 
 /// Host to loader: an image follows. The slot is erased before the Ack, which takes seconds. Ack value: the offset
-/// expected first; not 0 when the loader has the beginning of this very image already.
+/// expected first; not 0 when the loader already has the beginning of the same image.
 struct LoaderBegin {
   static constexpr MessageType kType = MessageType::kLoaderBegin;
   static constexpr std::size_t kMaxBytes = 32;
@@ -50,7 +50,7 @@ struct LoaderBegin {
 };
 
 /// Host to loader: bytes of the image at `offset`. Ack value: the offset expected next. A block that was already taken
-/// (the ack got lost) is acknowledged again; one too early gets Nak kOutOfOrder with the offset expected.
+/// (lost ack) is acknowledged again; one too early gets Nak kOutOfOrder with the offset expected.
 struct LoaderData {
   static constexpr MessageType kType = MessageType::kLoaderData;
   static constexpr std::size_t kMaxData = 256;
@@ -60,14 +60,14 @@ struct LoaderData {
   StaticVector<std::uint8_t, kMaxData> data;
 };
 
-/// Host to loader: compare the CRC-32 of what was written with the one announced and, when all is well, mark the slot
-/// as the newest. Ack value: the CRC found.
+/// Host to loader: compare the CRC-32 of the written bytes with the announced one and, when they are equal, mark the
+/// slot as the newest. Ack value: the CRC found.
 struct LoaderVerify {
   static constexpr MessageType kType = MessageType::kLoaderVerify;
   static constexpr std::size_t kMaxBytes = 0;
 };
 
-/// Host to loader: start anew, with the newest good image. The Ack (value: 0) comes before.
+/// Host to loader: restart, with the newest good image. The Ack (value: 0) comes before.
 struct LoaderStart {
   static constexpr MessageType kType = MessageType::kLoaderStart;
   static constexpr std::size_t kMaxBytes = 0;

@@ -5,13 +5,13 @@
 
 namespace pharos::wire {
 
-/// Version of the protocol spoken here: the meaning of types and payloads. What stands around the payload (delimiters,
-/// byte stuffing, version byte first, CRC-32 last) is the same in every version, so that a receiver of one version
-/// recognises a sender of another and can say so.
+/// Version of the protocol implemented here: the meaning of types and payloads. The bytes around the payload
+/// (delimiters, byte stuffing, version byte first, CRC-32 last) are the same in every version, so that a receiver of
+/// one version recognises a sender of another and can report it.
 inline constexpr std::uint8_t kProtocolVersion = 1;
 
-// Every message type, once. A published payload never changes: what is new gets a new type, and receivers skip (and
-// count) types that they do not know. X(Name, number)
+// Every message type, once. A published payload never changes: anything new gets a new type, and receivers skip (and
+// count) unknown types. X(Name, number)
 #define PHAROS_MESSAGE_TYPES(X) \
   X(Hello, 0x01)                \
   X(Counters, 0x02)             \
@@ -30,7 +30,7 @@ inline constexpr std::uint8_t kProtocolVersion = 1;
   X(Ack, 0x46)                  \
   X(Nak, 0x47)
 
-/// What a frame carries.
+/// Content of a frame.
 enum class MessageType : std::uint8_t {
 #define PHAROS_X(name, number) k##name = number,
   PHAROS_MESSAGE_TYPES(PHAROS_X)
@@ -47,7 +47,7 @@ constexpr bool is_known(MessageType type) {
   return false;
 }
 
-/// "Sweep", …; "unknown" for types of the future.
+/// "Sweep", …; "unknown" for other types.
 constexpr const char* name_of(MessageType type) {
   switch (type) {
 #define PHAROS_X(name, number) \

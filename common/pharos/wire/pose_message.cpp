@@ -6,7 +6,7 @@
 namespace pharos::wire {
 namespace {
 
-// What follows the head.
+// The fields after the head.
 constexpr std::uint8_t kHasResult = 1;
 constexpr std::uint8_t kHasSecond = 2;
 

@@ -18,14 +18,14 @@ struct PoseFields {
   bool operator==(const PoseFields&) const = default;
 };
 
-/// A second pose that fits nearly as well, and how much worse its chi-squared is.
+/// A second pose that fits nearly as well, and the difference in chi-squared.
 struct SecondPose {
   PoseFields pose;
   float delta_chi2 = 0.0F;
   bool operator==(const SecondPose&) const = default;
 };
 
-/// The answer of one cycle's solve on board.
+/// The result of one cycle's solve on board.
 struct PoseResult {
   PoseFields pose;
   /// Upper triangle, row by row, of the 6x6 covariance of delta (rotation rad before translation m).
@@ -46,7 +46,7 @@ struct Pose {
   std::int64_t time_ticks = 0;
   std::uint8_t station = 0;
   std::uint8_t flags = 0;    // of track::EpochFlag
-  std::uint8_t refusal = 0;  // pose::Refusal; 0 exactly when there is an answer
+  std::uint8_t refusal = 0;  // pose::Refusal; 0 exactly when there is a result
   std::uint16_t observations = 0;
   std::optional<PoseResult> answer;
 };

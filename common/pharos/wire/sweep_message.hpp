@@ -12,18 +12,18 @@
 
 namespace pharos::wire {
 
-// What light can give: wider than what the decoder gives out (`report` holds them against
-// lighthouse/optical_timing.hpp), and narrow enough that no angle and no time made of them is absurd.
+// Ranges of real pulses: wider than the decoder's output (`report` compares them with lighthouse/optical_timing.hpp),
+// and narrow enough that every angle and time computed from them is plausible.
 
-/// Pulses: shorter ones are glitches, longer ones no station sends; of a flash the longest pulse is at least 2600.
+/// Pulses: shorter ones are glitches, longer ones no station sends; the longest pulse of a flash is at least 2600.
 inline constexpr std::int32_t kMinPulse_ticks = 16;
 inline constexpr std::int32_t kMaxPulse_ticks = 7500;
 inline constexpr std::int32_t kMinFlash_ticks = 2600;
-/// Rotors are held to 60 Hz, 833,333 ticks a turn; the decoder believes no turn that is off by 0.1 %, the line none by
-/// 1 %.
+/// Rotors are held to 60 Hz, 833,333 ticks a revolution; the decoder rejects a period that is off by 0.1 %, the line
+/// one off by 1 %.
 inline constexpr std::uint32_t kMinPeriod_sixteenth_ticks = 13'200'000;
 inline constexpr std::uint32_t kMaxPeriod_sixteenth_ticks = 13'466'666;
-/// A laser is behind its flash and within the slot, half a turn; 3.14 rad.
+/// A laser hit is after its flash and within the slot, half a revolution; 3.14 rad.
 inline constexpr std::int32_t kMaxCentre_half_ticks = 2 * 416'667;
 
 /// One laser hit; fields as in lighthouse::Hit. 7 bytes.
@@ -34,7 +34,7 @@ struct SweepHit {
   bool operator==(const SweepHit&) const = default;
 };
 
-/// All of a sweep but its hits.
+/// All fields of a sweep except its hits.
 struct SweepHead {
   std::int64_t flash_start_ticks = 0;        // 64 bits unwrapped
   std::int32_t flash_length_ticks = 0;       // kMinFlash_ticks..kMaxPulse_ticks
@@ -47,7 +47,7 @@ struct SweepHead {
   bool skip = false;
 };
 
-/// One rotor's sweep with its flash and every candidate hit; all that lighthouse::Sweep says, bit by bit.
+/// One rotor's sweep with its flash and every candidate hit; all of lighthouse::Sweep, bit by bit.
 ///
 /// 20 bytes and 7 a hit: 12 sensors hit once at 120 sweeps/s are 13.8 kB/s on the line, 30 % of 460,800 baud.
 struct Sweep : SweepHead {
@@ -60,7 +60,7 @@ struct Sweep : SweepHead {
 };
 
 void write(const Sweep& message, ByteWriter& out);
-/// The same in pieces, for who has the hits elsewhere: the head, then each hit.
+/// The same in pieces, for callers that have the hits elsewhere: the head, then each hit.
 void write(const SweepHead& head, std::size_t hits, ByteWriter& out);
 void write(const SweepHit& hit, ByteWriter& out);
 void read(ByteReader& in, Sweep& message);

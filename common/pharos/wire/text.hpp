@@ -16,7 +16,7 @@ struct Text {
   std::array<char, N> characters{};
 
   Text() = default;
-  /// Cut at N characters; anything that is not printable ASCII becomes '?'.
+  /// Truncated at N characters; anything that is not printable ASCII becomes '?'.
   explicit Text(std::string_view text) {
     for (std::size_t i = 0; i < N && i < text.size(); ++i) characters[i] = is_printable(text[i]) ? text[i] : '?';
   }
