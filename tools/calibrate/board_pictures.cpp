@@ -50,9 +50,9 @@ BoardPictures::BoardPictures(const std::vector<std::string>& paths, ImageInput& 
     std::string error;
     try {
       images_[i] = input.read(paths[i]);
-    } catch (const host::InputError& error) {
-      input.leave_out(error);
-      error = error.what();
+    } catch (const host::InputError& unreadable) {
+      input.leave_out(unreadable);
+      error = unreadable.what();
     }
     pictures_.push_back({paths[i], std::as_const(images_[i]).view(), error});
   }
