@@ -33,15 +33,6 @@ bool has_distortion(const Lens& lens) {
   return std::any_of(lens.distortion.begin(), lens.distortion.end(), [](double term) { return term != 0.0; });
 }
 
-Vector2 distorted(const Lens& lens, const Vector2& ray) {
-  const auto& [k1, k2, p1, p2, k3] = lens.distortion;
-  const double x = ray.x(), y = ray.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
-}
-
 std::optional<Vector2> undistorted(const Lens& lens, const Vector2& seen, const Vector2& start) {
   if (!has_distortion(lens)) return seen;
   Vector2 ray = start;
@@ -53,15 +44,6 @@ std::optional<Vector2> undistorted(const Lens& lens, const Vector2& seen, const 
     if (miss.norm() < kConverged) return ray;
   }
   return std::nullopt;
-}
-
-Vector2 pixel_of(const Lens& lens, const Vector2& ray) {
-  const Vector2 seen = distorted(lens, ray);
-  return {lens.fx_px * seen.x() + lens.cx_px, lens.fy_px * seen.y() + lens.cy_px};
-}
-
-Vector2 pixel_of(const Lens& lens, const Vector3& point_camera_m) {
-  return pixel_of(lens, Vector2(point_camera_m.head<2>() / point_camera_m.z()));
 }
 
 }  // namespace pharos::sim

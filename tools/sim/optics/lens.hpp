@@ -32,15 +32,28 @@ bool has_distortion(const Lens& lens);
 
 /// Where a ray arrives, in focal lengths from the principal point:
 /// x' = x (1 + k1 r2 + k2 r4 + k3 r6) + 2 p1 x y + p2 (r2 + 2 x2), y' = y (...) + p1 (r2 + 2 y2) + 2 p2 x y.
-Vector2 distorted(const Lens& lens, const Vector2& ray);
+/// Inline, as pixel_of is: called for every point of a contour.
+inline Vector2 distorted(const Lens& lens, const Vector2& ray) {
+  const auto& [k1, k2, p1, p2, k3] = lens.distortion;
+  const double x = ray.x(), y = ray.y();
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+}
 
 /// The ray that arrives at `seen`: Newton's method on distorted() from `start`, to rounding. Nothing where no light
 /// arrives: beyond the radius at which the distortion folds the picture over.
 std::optional<Vector2> undistorted(const Lens& lens, const Vector2& seen, const Vector2& start);
 
 /// Pixel of a ray, and of a point in the camera's frame (z > 0); it may lie outside the image.
-Vector2 pixel_of(const Lens& lens, const Vector2& ray);
-Vector2 pixel_of(const Lens& lens, const Vector3& point_camera_m);
+inline Vector2 pixel_of(const Lens& lens, const Vector2& ray) {
+  const Vector2 seen = distorted(lens, ray);
+  return {lens.fx_px * seen.x() + lens.cx_px, lens.fy_px * seen.y() + lens.cy_px};
+}
+inline Vector2 pixel_of(const Lens& lens, const Vector3& point_camera_m) {
+  return pixel_of(lens, Vector2(point_camera_m.head<2>() / point_camera_m.z()));
+}
 
 /// The same numbers as another type of camera has them (`Optics`: width, height, fx, fy, cx, cy, distortion in this
 /// order), for the files that the host writes.
