@@ -29,10 +29,20 @@ if(PHAROS_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# A compiler cache is used where it is installed, told what it must know of precompiled headers; nothing needs it.
+option(PHAROS_CCACHE "Use ccache where it is installed" ON)
+find_program(PHAROS_CCACHE_PROGRAM ccache)
+set(PHAROS_GIVEN_LAUNCHER "${CMAKE_CXX_COMPILER_LAUNCHER}")
+if(PHAROS_CCACHE AND PHAROS_CCACHE_PROGRAM AND NOT PHAROS_GIVEN_LAUNCHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"
+    AND NOT CMAKE_CXX_COMPILER MATCHES "ccache")
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PHAROS_CCACHE_PROGRAM})
+  add_compile_options(-fpch-preprocess)
+endif()
+
 # Reading Eigen or GoogleTest is two thirds of what compiling a small file costs: read once for all that have the same
-# flags. Not where a compiler cache or clang-tidy look at the command line: neither makes sense of it, and so they see, as
-# the soft core's build does, what a file forgot to include.
-if(CMAKE_CXX_COMPILER_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+# flags. Not where a launcher of the user's own or clang-tidy look at the command line: neither makes sense of it, and so
+# they see, as the soft core's build does, what a file forgot to include.
+if(PHAROS_GIVEN_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
   set(PHAROS_PRECOMPILE OFF)
 else()
   set(PHAROS_PRECOMPILE ON)

@@ -51,7 +51,7 @@ function(pharos_firmware_tree)
     SOURCE_DIR ${PROJECT_SOURCE_DIR}
     BINARY_DIR ${CMAKE_BINARY_DIR}/firmware
     CONFIGURE_COMMAND ${CMAKE_COMMAND} -S <SOURCE_DIR> -B <BINARY_DIR> --preset rv32im
-      -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+      -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
     BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target firmware_images
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
@@ -59,7 +59,7 @@ function(pharos_firmware_tree)
   # The decoder for the emulator alone, without the test programs: what tools/demo needs.
   add_custom_target(firmware_decoder
     COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
-      -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+      -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
     COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/firmware --target decoder.qemu_virt
     USES_TERMINAL VERBATIM)
 endfunction()
