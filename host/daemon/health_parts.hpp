@@ -22,7 +22,7 @@ SourceState state_of(CameraState camera);
 /// STAGE_p50_us, STAGE_p99_us and STAGE_max_us.
 void add_times(NamedCounts& counts, const std::string& stage, const LatencyHistogram& times);
 
-/// clock.<counter>.
+/// clock.COUNTER.
 void add_clock(NamedCounts& counts, const ClockCounters& clock);
 
 }  // namespace pharos::host

@@ -24,7 +24,7 @@ struct PointingCounters {
   std::int64_t files_arrived = 0;
   std::int64_t files_no_image = 0;  ///< of another kind, or hidden
   std::int64_t images_ok = 0;
-  std::int64_t images_refused = 0;        ///< refused.<reason> says why
+  std::int64_t images_refused = 0;        ///< refused.REASON says why
   std::int64_t images_without_track = 0;  ///< given up: no row came
   std::int64_t images_dropped = 0;        ///< more came than can be measured
   std::int64_t passes_ok = 0;
