@@ -23,8 +23,8 @@ inline std::vector<Fit> exhaustive_minima(const Target& target, const test::PnpP
     const Fit fit = refine(hits.table, start, Residual::kAngle, {200, 1e-10 * variance, 1e300});
     if (!fit.converged() || !fit.state.is_finite() || (fit.state * centroid_body).z() < 0.0) return;
     for (const Fit& known : minima) {
-      const bool same = rotation_angle_between(known.pose.R, fit.state.R) < 2e-3 &&
-                        (known.pose.t - fit.state.t).norm() < 3e-3 * fit.state.t.norm();
+      const bool same = rotation_angle_between(known.state.R, fit.state.R) < 2e-3 &&
+                        (known.state.t - fit.state.t).norm() < 3e-3 * fit.state.t.norm();
       if (same) return;
     }
     minima.push_back(fit);

@@ -15,7 +15,7 @@
 namespace pharos::tof {
 namespace {
 
-constexpr Vector2 kMiddle_px(160.0, 120.0);
+const Vector2 kMiddle_px(160.0, 120.0);
 
 // A tilted plane with a square plate of `side_px` that stands `height_m` over it.
 class HeightsTest : public testing::Test {
