@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace pharos::cli_test {
 
@@ -19,20 +20,7 @@ struct Outcome {
 /// Runs `pharos ARGUMENTS` (as a shell would split them) with `input` on standard input.
 Outcome pharos(const std::string& arguments, std::string_view input = "");
 
-/// A folder of its own, gone with the object.
-class Folder {
- public:
-  Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder();
-  /// Writes a file in it; its path.
-  std::string write(const std::string& name, std::string_view content) const;
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  std::filesystem::path folder_;
-};
+using Folder = pharos::test::TemporaryFolder;
 
 std::string content_of(const std::string& path);
 

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 #include "unit/boot/images.hpp"
 
 namespace pharos::tools {
@@ -28,12 +29,7 @@ class BootImageFileTest : public ::testing::Test {
     return error();
   }
   std::string error() const {
-    try {
-      read_image(path_);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return {};
+    return pharos::test::error_of([&] { read_image(path_); });
   }
 
   const std::string path_ = ::testing::TempDir() + "image_file_test." + std::to_string(::getpid());

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 #include "unit/boot/host.hpp"
 #include "unit/flash/virtual_flash_line.hpp"
 
@@ -39,12 +40,7 @@ class Flash : public ::testing::Test {
   }
   /// What the error says; empty where there is none.
   std::string error_of(const BootImageFile& image) {
-    try {
-      flash(image);
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return {};
+    return pharos::test::error_of([&] { flash(image); });
   }
   bool runs(const BootImageFile& image) const {
     const Bytes body = boot::test::body_of(image.bytes);

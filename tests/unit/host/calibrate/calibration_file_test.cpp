@@ -4,11 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 #include "unit/host/calibrate/simulated_session.hpp"
 
 namespace pharos::calibrate::test {
@@ -32,31 +31,18 @@ class CalibrationFileTest : public ::testing::Test {
     delete calibration_;
   }
   CalibrationFile read(const std::string& text) const {
-    std::ofstream(path_) << text;
-    return read_calibration_file(path_);
+    file_.write(text);
+    return read_calibration_file(file_.path());
   }
   std::string error_of(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { read(text); });
   }
   std::string refusal_of(const Target& target) const {
-    try {
-      calibrated_target(read(calibration_text(*calibration_, *nominal_)), target);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { calibrated_target(read(calibration_text(*calibration_, *nominal_)), target); });
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-
   static Target* nominal_;
   static LighthouseCalibration* calibration_;
-  std::string path_ = ::testing::TempDir() + "pharos_calibration_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+  pharos::test::TemporaryFile file_;
 };
 Target* CalibrationFileTest::nominal_ = nullptr;
 LighthouseCalibration* CalibrationFileTest::calibration_ = nullptr;

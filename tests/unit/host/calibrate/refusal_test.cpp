@@ -4,6 +4,7 @@
 
 #include "host/calibrate/lighthouse_calibration.hpp"
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 #include "unit/host/calibrate/simulated_session.hpp"
 
 namespace pharos::calibrate::test {
@@ -21,12 +22,7 @@ LighthouseCalibrationInput sound(int poses = 8) {
 }
 
 std::string refusal_of(const LighthouseCalibrationInput& material) {
-  try {
-    calibrate_lighthouse(material);
-  } catch (const host::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pharos::test::error_of([&] { calibrate_lighthouse(material); });
 }
 
 TEST(CalibrationRefusals, ATargetThatNeverMoved) { EXPECT_THAT(refusal_of(sound(1)), HasSubstr("never moved")); }

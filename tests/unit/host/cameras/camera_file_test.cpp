@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 namespace {
@@ -13,12 +14,7 @@ const std::string kPlain =
     "distortion = [-0.1991, 0.0809, 0.0021, -0.0002, 0]\n";
 
 std::string message(const std::string& text) {
-  try {
-    (void)parse_camera(text, "camera.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pharos::test::error_of([&] { (void)parse_camera(text, "camera.toml"); });
 }
 
 std::string with(const std::string& from, const std::string& to) {

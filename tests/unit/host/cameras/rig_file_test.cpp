@@ -5,6 +5,7 @@
 
 #include "host/support/input_error.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 namespace {
@@ -24,12 +25,7 @@ RigFile some_rig() {
 }
 
 std::string message(const RigFile& rig) {
-  try {
-    (void)parse_rig(rig_text(rig), "rig.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pharos::test::error_of([&] { (void)parse_rig(rig_text(rig), "rig.toml"); });
 }
 
 TEST(RigFile, ReadsBackExactlyWhatItWrites) {

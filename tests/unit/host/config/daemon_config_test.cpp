@@ -8,6 +8,7 @@
 #include <string>
 
 #include "pharos/base/units.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/unit/host/config/made_up.hpp"
 
 namespace pharos::host {
@@ -78,12 +79,7 @@ TEST(DaemonConfig, TakesSensorsAndStationsFromACalibration) {
   EXPECT_EQ(target.calibrated_stations[0].calibration.rotor[0].phase_rad, 0.01);
   EXPECT_EQ(target.scale_sigma, 0.002);
   const auto refusal = [&](const std::string& text) -> std::string {
-    try {
-      parsed(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return pharos::test::error_of([&] { parsed(text); });
   };
   EXPECT_THAT(refusal(with_file), AllOf(StartsWith("p.toml:5: "), HasSubstr("sign form 2")));
   sensor = 4;

@@ -10,7 +10,8 @@
 
 #include "host/record/stream_format.hpp"
 #include "host/support/input_error.hpp"
-#include "unit/host/record/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 namespace {
@@ -25,12 +26,7 @@ class EnvironmentTest : public ::testing::Test {
  protected:
   std::string path(const char* name) const { return (folder_.path() / name).string(); }
   std::string error_of_recording(const char* name) const {
-    try {
-      real_.check_recording(path(name));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { real_.check_recording(path(name)); });
   }
   std::vector<std::string> errors(const fs::path& state, const fs::path& recording) const {
     DaemonConfig config;
@@ -44,21 +40,21 @@ class EnvironmentTest : public ::testing::Test {
     return all;
   }
 
-  test::TemporaryFolder folder_;
+  pharos::test::TemporaryFolder folder_;
   Environment real_ = host_environment();
 };
 
 TEST_F(EnvironmentTest, ARecordingIsOpenedAndItsHeadRead) {
-  test::write_file(path("good"), stream_format::encode_head({"dock", 460'800, 1, 1}));
+  pharos::test::write_file(path("good"), stream_format::encode_head({"dock", 460'800, 1, 1}));
   EXPECT_EQ(error_of_recording("good"), "");
   EXPECT_THAT(error_of_recording("missing"), HasSubstr("missing"));
-  test::write_file(path("table"), {'s', 'e', 'n', 's', 'o', 'r'});
+  pharos::test::write_file(path("table"), {'s', 'e', 'n', 's', 'o', 'r'});
   EXPECT_THAT(error_of_recording("table"), HasSubstr("is not a recorded serial stream"));
-  test::write_file(path("empty"), {});
+  pharos::test::write_file(path("empty"), {});
   EXPECT_THAT(error_of_recording("empty"), HasSubstr("is not a recorded serial stream"));
-  test::Bytes damaged = stream_format::encode_head({"dock", 460'800, 1, 1});
+  pharos::test::Bytes damaged = stream_format::encode_head({"dock", 460'800, 1, 1});
   damaged.back() ^= 1;
-  test::write_file(path("damaged"), damaged);
+  pharos::test::write_file(path("damaged"), damaged);
   EXPECT_THAT(error_of_recording("damaged"), HasSubstr("head of this recording is damaged"));
 }
 

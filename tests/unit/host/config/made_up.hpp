@@ -6,6 +6,7 @@
 
 #include "host/config/load_config.hpp"
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 
@@ -57,12 +58,7 @@ inline DaemonConfig parse(const std::string& text) {
 }
 
 inline std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return pharos::test::error_of([&] { parse(text); });
 }
 
 }  // namespace pharos::host

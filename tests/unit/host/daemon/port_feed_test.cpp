@@ -5,9 +5,9 @@
 
 #include <memory>
 
+#include "support/temporary_folder.hpp"
 #include "unit/host/daemon/captured_log.hpp"
 #include "unit/host/daemon/manual_clock.hpp"
-#include "unit/host/record/temporary_folder.hpp"
 #include "unit/host/serial/pty.hpp"
 
 namespace pharos::host {
@@ -35,7 +35,7 @@ class PortFeedTest : public ::testing::Test {
   }
 
   test::CapturedLog log_;
-  test::TemporaryFolder folder_;
+  pharos::test::TemporaryFolder folder_;
   fs::path name_ = folder_.path() / "port";
   EventLoop loop_;
   int lost_ = 0;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "host/support/input_error.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/host/daemon/manual_clock.hpp"
-#include "unit/host/record/temporary_folder.hpp"
 
 namespace pharos::host {
 namespace {
@@ -17,10 +17,10 @@ class ReplayFeedTest : public ::testing::Test {
  protected:
   // One byte at each of these monotonic times.
   std::string recording(const std::vector<std::int64_t>& times_ns) const {
-    test::Bytes bytes = stream_format::encode_head({"dock", 460'800, kUtc, 0});
+    pharos::test::Bytes bytes = stream_format::encode_head({"dock", 460'800, kUtc, 0});
     const std::uint8_t byte = 0;
     for (const std::int64_t time_ns : times_ns) stream_format::append_chunk({kUtc, time_ns, 0, {&byte, 1}}, bytes);
-    test::write_file(folder_.path() / "r.phraw", bytes);
+    pharos::test::write_file(folder_.path() / "r.phraw", bytes);
     return (folder_.path() / "r.phraw").string();
   }
   ByteFeedEvents events() {
@@ -35,7 +35,7 @@ class ReplayFeedTest : public ::testing::Test {
     return -1;
   }
 
-  test::TemporaryFolder folder_;
+  pharos::test::TemporaryFolder folder_;
   EventLoop loop_;
   test::ManualClock clock_;
   std::vector<std::int64_t> arrivals_;

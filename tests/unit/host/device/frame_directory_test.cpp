@@ -11,6 +11,7 @@
 #include "host/device/recorded_source.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 namespace {
@@ -33,12 +34,7 @@ class FrameDirectoryTest : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << std::string(size, value);
   }
   std::string refusal(const std::function<void()>& call) const {
-    try {
-      call();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return pharos::test::error_of([&] { call(); });
   }
 
   fs::path folder_;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::host {
 namespace {
@@ -26,12 +27,7 @@ class PairNames : public ::testing::Test {
     return pair_names((root_ / "left").string(), (root_ / "right").string(), 20.0);
   }
   std::string refusal_in() const {
-    try {
-      pair_names_in(root_.string(), 20.0);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return pharos::test::error_of([&] { pair_names_in(root_.string(), 20.0); });
   }
   std::vector<PairName> pairs_without(std::vector<std::string>& alone) const {
     return pair_names((root_ / "left").string(), (root_ / "right").string(), 20.0, &alone);

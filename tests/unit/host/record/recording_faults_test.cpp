@@ -9,13 +9,13 @@
 #include "host/record/stream_reader.hpp"
 #include "host/record/stream_recorder.hpp"
 #include "host/support/input_error.hpp"
-#include "unit/host/record/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pharos::host {
 namespace {
 
-using test::Bytes;
-using test::TemporaryFolder;
+using pharos::test::Bytes;
+using pharos::test::TemporaryFolder;
 
 constexpr std::int64_t kUtc = 1'763'721'000'000'000'000;
 constexpr std::int64_t kS = 1'000'000'000;
@@ -66,11 +66,11 @@ TEST(RecordingFaults, AFileCutAnywhereGivesAllWholeChunksBefore) {
     recorder.append(Bytes(5, i), kUtc, i);
     ends.push_back(std::filesystem::file_size(recorder.file()));
   }
-  const Bytes whole = test::content(recorder.file());
+  const Bytes whole = pharos::test::content(recorder.file());
   const std::size_t head = ends[0] - (ends[1] - ends[0]);
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     const auto cut = folder.path() / "cut";
-    test::write_file(cut, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    pharos::test::write_file(cut, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
     if (size < head) {
       EXPECT_THROW(read_all(cut), InputError) << size;
       continue;
@@ -92,12 +92,12 @@ TEST(RecordingFaults, DamageCostsTheChunkItHitsAndNoOther) {
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xC5 : random());
     recorder.append(bytes, kUtc, i);
   }
-  const Bytes whole = test::content(recorder.file());
+  const Bytes whole = pharos::test::content(recorder.file());
   const std::size_t head = 30 + 6 + 4;
   for (std::size_t at = head; at < whole.size(); at += 7) {
     Bytes damaged = whole;
     damaged[at] ^= 0x40;
-    test::write_file(folder.path() / "damaged", damaged);
+    pharos::test::write_file(folder.path() / "damaged", damaged);
     const Read read = read_all(folder.path() / "damaged");
     EXPECT_EQ(read.chunks, 49u) << "byte " << at;
     EXPECT_GT(read.dropped, 0u);
@@ -166,7 +166,7 @@ std::filesystem::path recording_at(const TemporaryFolder& folder, const std::vec
   for (std::uint8_t i = 0; i < times.size(); ++i) {
     stream_format::append_chunk({times[i].utc_ns, times[i].monotonic_ns, 0, {&i, 1}}, bytes);
   }
-  test::write_file(folder.path() / "hostile", bytes);
+  pharos::test::write_file(folder.path() / "hostile", bytes);
   return folder.path() / "hostile";
 }
 
@@ -205,7 +205,7 @@ TEST(RecordingFaults, AHeadOfImpossibleTimesIsRefused) {
   TemporaryFolder folder;
   for (const std::int64_t bad :
        {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()}) {
-    test::write_file(folder.path() / "bad", stream_format::encode_head({"chaser", 460'800, kUtc, bad}));
+    pharos::test::write_file(folder.path() / "bad", stream_format::encode_head({"chaser", 460'800, kUtc, bad}));
     EXPECT_THROW(read_all(folder.path() / "bad"), InputError) << bad;
   }
 }
@@ -227,7 +227,7 @@ TEST(RecordingFaults, AChunkThatFitsOnlyHalfIsCutBack) {
 TEST(RecordingFaults, AFolderThatCannotBeMadeIsReportedAndTriedAgain) {
   TemporaryFolder folder;
   const auto blocked = folder.path() / "recordings";
-  test::write_file(blocked, {'x'});  // a file where the folder should be
+  pharos::test::write_file(blocked, {'x'});  // a file where the folder should be
   StreamRecorder recorder({blocked, "chaser", 460'800});
   recorder.append(Bytes(10, 1), kUtc, 0);
   EXPECT_NE(recorder.error().find(blocked.string()), std::string::npos) << recorder.error();

@@ -9,13 +9,13 @@
 #include "host/support/input_error.hpp"
 #include "pharos/report/link_decoder.hpp"
 #include "pharos/report/reporter.hpp"
-#include "unit/host/record/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pharos::host {
 namespace {
 
-using test::Bytes;
-using test::TemporaryFolder;
+using pharos::test::Bytes;
+using pharos::test::TemporaryFolder;
 
 constexpr std::int64_t kStartUtc_ns = 1'763'721'000'000'000'000;  // 2025-11-21T10:30:00Z
 constexpr std::int64_t kMs = 1'000'000;
@@ -104,7 +104,7 @@ TEST(Recording, ReadsAGzippedRecording) {
   TemporaryFolder folder;
   StreamRecorder recorder({folder.path(), "chaser", 460'800});
   const auto sent = append_random(recorder, 200, 4);
-  const Bytes plain = test::content(recorder.file());
+  const Bytes plain = pharos::test::content(recorder.file());
   const std::string packed = (folder.path() / "packed.phraw.gz").string();
   gzFile file = gzopen(packed.c_str(), "wb");
   ASSERT_EQ(gzwrite(file, plain.data(), static_cast<unsigned>(plain.size())), static_cast<int>(plain.size()));
@@ -139,7 +139,7 @@ TEST(Recording, DistinguishesItsFilesFromOthers) {
   EXPECT_TRUE(StreamReader::looks_like(ByteSource(recorder.file()).peek(StreamReader::kHeaderBytes)));
   EXPECT_FALSE(StreamReader::looks_like("sensor,rise_ticks,fall_ticks"));
   EXPECT_FALSE(StreamReader::looks_like(""));
-  test::write_file(folder.path() / "table.csv", {'s', 'e', 'n', 's', 'o', 'r', '\n'});
+  pharos::test::write_file(folder.path() / "table.csv", {'s', 'e', 'n', 's', 'o', 'r', '\n'});
   EXPECT_THROW(StreamReader{ByteSource(folder.path() / "table.csv")}, InputError);
 }
 
@@ -147,9 +147,9 @@ TEST(Recording, SaysWhichVersionANewerRecordingHas) {
   TemporaryFolder folder;
   StreamRecorder recorder({folder.path(), "chaser", 460'800});
   append_random(recorder, 1, 6);
-  Bytes bytes = test::content(recorder.file());
+  Bytes bytes = pharos::test::content(recorder.file());
   bytes[8] = 2;
-  test::write_file(folder.path() / "newer", bytes);
+  pharos::test::write_file(folder.path() / "newer", bytes);
   try {
     StreamReader reader{ByteSource(folder.path() / "newer")};
     FAIL();

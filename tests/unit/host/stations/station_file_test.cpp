@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
@@ -17,21 +16,13 @@ using ::testing::HasSubstr;
 class StationFileTest : public ::testing::Test {
  protected:
   std::vector<StationEntry> read(const std::string& text) const {
-    std::ofstream(path_) << text;
-    return read_station_file(path_);
+    file_.write(text);
+    return read_station_file(file_.path());
   }
   std::string error_of(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { read(text); });
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-
-  std::string path_ = ::testing::TempDir() + "pharos_stations_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+  pharos::test::TemporaryFile file_;
 };
 
 TEST_F(StationFileTest, ReadsBackExactlyWhatItWrites) {

@@ -10,14 +10,16 @@
 #include <array>
 #include <cstdio>
 
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/gzipped.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
-using testing::gzipped;
-using testing::message_of;
-using testing::TemporaryFile;
+using pharos::test::error_of;
+using pharos::test::gzipped;
+using pharos::test::TemporaryFile;
 
 std::string all_of(ByteSource& source) {
   std::string text;
@@ -88,7 +90,7 @@ TEST(ByteSource, RefusesBrokenGzipData) {
   for (std::size_t i = broken.size() / 2; i < broken.size() / 2 + 64; ++i) broken[i] = '\x55';
   const TemporaryFile file(broken);
   ByteSource source(file.path());
-  EXPECT_THAT(message_of([&] { all_of(source); }), ::testing::HasSubstr("broken gzip data"));
+  EXPECT_THAT(error_of([&] { all_of(source); }), ::testing::HasSubstr("broken gzip data"));
 }
 
 TEST(ByteSource, PeeksWithoutConsuming) {
@@ -100,13 +102,13 @@ TEST(ByteSource, PeeksWithoutConsuming) {
 }
 
 TEST(ByteSource, SaysWhichFileCannotBeOpened) {
-  const std::string message = message_of([] { ByteSource source("/nowhere/at/all.csv"); });
+  const std::string message = error_of([] { ByteSource source("/nowhere/at/all.csv"); });
   EXPECT_THAT(message, ::testing::HasSubstr("/nowhere/at/all.csv"));
   EXPECT_THAT(message, ::testing::HasSubstr("No such file"));
 }
 
 TEST(ByteSource, RefusesADirectory) {
-  EXPECT_THAT(message_of([] { ByteSource source("/"); }), ::testing::HasSubstr("directory"));
+  EXPECT_THAT(error_of([] { ByteSource source("/"); }), ::testing::HasSubstr("directory"));
 }
 
 }  // namespace

@@ -4,16 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
+using pharos::test::error_of;
+using pharos::test::TemporaryFile;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::TemporaryFile;
 
 struct Reading {
   std::vector<std::int64_t> rises;
@@ -36,7 +37,7 @@ Reading read_edges(std::string_view content) {
 }
 
 std::string edges_error(std::string_view content) {
-  return message_of([&] { read_edges(content); });
+  return error_of([&] { read_edges(content); });
 }
 
 TEST(EdgesReader, ReadsPulses) {

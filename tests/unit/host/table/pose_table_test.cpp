@@ -4,14 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
+using pharos::test::error_of;
+using pharos::test::TemporaryFile;
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::TemporaryFile;
 
 TEST(ReadPoses, ReadsRotationsAndRefusedRows) {
   const TemporaryFile file(
@@ -27,12 +28,12 @@ TEST(ReadPoses, ReadsRotationsAndRefusedRows) {
 
 TEST(ReadPoses, RefusesWhatIsNoRotation) {
   const TemporaryFile file("time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m\n0.5,1,1,0,0,1,2,3\n");
-  EXPECT_THAT(message_of([&] { read_poses(file.path(), "time_s"); }), HasSubstr("length 1.41"));
+  EXPECT_THAT(error_of([&] { read_poses(file.path(), "time_s"); }), HasSubstr("length 1.41"));
 }
 
 TEST(ReadPoses, RefusesHalfAPose) {
   const TemporaryFile file("pose,qw,qx,qy,qz,tx_m,ty_m,tz_m\n1,1,0,0,0,1,,3\n");
-  EXPECT_THAT(message_of([&] { read_poses(file.path(), "pose"); }), HasSubstr("'ty_m'"));
+  EXPECT_THAT(error_of([&] { read_poses(file.path(), "pose"); }), HasSubstr("'ty_m'"));
 }
 
 }  // namespace

@@ -13,12 +13,12 @@
 
 #include "host/support/input_error.hpp"
 #include "host/table/table_reader.hpp"
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
-using testing::TemporaryFile;
+using pharos::test::TemporaryFile;
 
 template <class Fill>
 std::string written(RowFormat format, std::vector<std::string> columns, Fill&& fill) {

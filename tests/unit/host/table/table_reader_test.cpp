@@ -4,20 +4,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
+using pharos::test::error_of;
+using pharos::test::TemporaryFile;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::TemporaryFile;
 
 // Reads all numbers of columns b and a (in this order) and gives what the error says, if any.
 std::string table_error(std::string_view content) {
   const TemporaryFile file(content);
-  return message_of([&] {
+  return error_of([&] {
     TableReader table(ByteSource(file.path()), {"b", "a"});
     while (table.next()) {
       table.number(0);

@@ -4,21 +4,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::host {
 namespace {
 
+using pharos::test::error_of;
+using pharos::test::TemporaryFile;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::TemporaryFile;
 
 constexpr const char* kSolid = "sensor,x_m,y_m,z_m\n0,0,0,0\n7,0.1,0,0\n3,0,0.1,0\n4,0,0,0.1\n";
 
 TargetFile read_content(const std::string& content) { return read_target(TemporaryFile(content).path()); }
 std::string target_error(const std::string& content) {
-  return message_of([&] { read_content(content); });
+  return error_of([&] { read_content(content); });
 }
 
 TEST(ReadTarget, TakesSensorsInAnyOrderWithGaps) {

@@ -6,6 +6,8 @@
 
 #include <functional>
 
+#include "tests/support/error_of.hpp"
+
 namespace pharos::host {
 namespace {
 
@@ -13,14 +15,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string message_of(const std::string& text, const std::function<void(const TomlTable&)>& read) {
-  try {
+  return pharos::test::error_of([&] {
     const TomlTable root = TomlTable::parse_text(text, "file.toml");
     read(root);
     root.reject_unknown();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  });
 }
 
 TEST(StrictToml, ReadsEveryKindOfValue) {

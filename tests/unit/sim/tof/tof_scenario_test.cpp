@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -25,12 +26,7 @@ TofScenario read(const std::string& text) {
 }
 
 std::string message(const std::string& text) {
-  try {
-    read(text);
-  } catch (const host::InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return pharos::test::error_of([&] { read(text); });
 }
 
 TEST(TofScenario, WhatTheFileLeavesOutIsTheDefault) {

@@ -3,13 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::evaluate {
 namespace {
@@ -19,14 +16,7 @@ using ::testing::ThrowsMessage;
 using File = TrajectoryFile<EstimatePose>;
 
 File read(const std::string& text, const TrajectoryChoice& choice = {}) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("trajectory_" + std::to_string(::getpid()) + ".txt");
-  std::ofstream(path) << text;
-  const struct Remove {
-    std::filesystem::path path;
-    ~Remove() { std::filesystem::remove(path); }
-  } remove{path};
-  return read_trajectory<EstimatePose>(path.string(), choice);
+  return read_trajectory<EstimatePose>(pharos::test::TemporaryFile(text).path(), choice);
 }
 
 void expect_refused(const std::string& text, const std::string& why) {

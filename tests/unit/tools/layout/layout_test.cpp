@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "host/support/input_error.hpp"
 #include "host/table/pose_table.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/pose/precision.hpp"
+#include "tests/support/temporary_file.hpp"
 #include "tools/layout/layout_search.hpp"
 
 namespace pharos::layout {
@@ -21,16 +18,7 @@ using ::testing::ThrowsMessage;
 const std::string kScenarios = PHAROS_SOURCE_DIR "/tools/sim/scenarios/";
 constexpr Sight kSight{pose::kVisibleIncidence_rad, 0.0};
 
-ConvexBody read(const std::string& text) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("body_" + std::to_string(::getpid()) + ".off");
-  std::ofstream(path) << text;
-  const struct Remove {
-    std::filesystem::path path;
-    ~Remove() { std::filesystem::remove(path); }
-  } remove{path};
-  return read_body(path.string());
-}
+ConvexBody read(const std::string& text) { return read_body(pharos::test::TemporaryFile(text).path()); }
 
 const std::string kCubeVertices = "0 0 0\n0.1 0 0\n0.1 0.1 0\n0 0.1 0\n0 0 0.1\n0.1 0 0.1\n0.1 0.1 0.1\n0 0.1 0.1\n";
 const std::string kCubeFaces = "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";

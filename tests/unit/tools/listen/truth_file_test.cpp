@@ -7,6 +7,7 @@
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -21,12 +22,7 @@ class TruthFileTest : public ::testing::Test {
   }
   std::string error_of(const std::string& text) {
     write(text);
-    try {
-      TruthFile(path_).at(0, 0);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return pharos::test::error_of([&] { TruthFile(path_).at(0, 0); });
   }
   std::string path_ = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
   std::ofstream out_{path_};

@@ -10,6 +10,8 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/sim/ring2/ring2_writer.hpp"
 
 namespace pharos::tools {
@@ -19,35 +21,13 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "circles-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name)) << content;
-    return path(name);
-  }
-
- private:
-  fs::path path_;
-};
+using Folder = pharos::test::TemporaryFolder;
 
 constexpr const char* kHeader = "view,feature,cx_px,cy_px,a_px,b_px,theta_rad,sigma_px,points\n";
 
 std::string error_message_of(const std::string& rows) {
   const Folder folder;
-  try {
-    read_ellipse_table(host::ByteSource(folder.write("e.csv", kHeader + rows)));
-  } catch (const host::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pharos::test::error_of([&] { read_ellipse_table(host::ByteSource(folder.write("e.csv", kHeader + rows))); });
 }
 
 TEST(EllipseTable, ReadsProblemsInTheOrderOfTheirFirstRows) {
@@ -98,12 +78,7 @@ TEST(EllipseTable, WhatIsSimulatedIsReadAndAnsweredWithTheTruth) {
 
 TEST(Ring2Scenario, IsReadStrictly) {
   const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      sim::parse_ring2_scenario(text, "s.toml", 1);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { sim::parse_ring2_scenario(text, "s.toml", 1); });
   };
   EXPECT_THAT(complaint(""), HasSubstr("poses"));
   EXPECT_THAT(complaint("poses = [[0, 0, 3, 0, 0]]\nblurr_px = 1"), HasSubstr("blurr_px"));

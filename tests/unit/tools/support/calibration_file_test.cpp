@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-
 #include "host/support/input_error.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -17,21 +16,13 @@ using ::testing::HasSubstr;
 class CalibrationFileTest : public ::testing::Test {
  protected:
   CalibrationFile read(const std::string& text) const {
-    std::ofstream(path_) << text;
-    return CalibrationFile(path_);
+    file_.write(text);
+    return CalibrationFile(file_.path());
   }
   std::string error_of(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const host::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return pharos::test::error_of([&] { read(text); });
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-
-  std::string path_ = ::testing::TempDir() + "pharos_calibration_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+  pharos::test::TemporaryFile file_;
 };
 
 TEST_F(CalibrationFileTest, FindsStationsByIdAndBySlot) {

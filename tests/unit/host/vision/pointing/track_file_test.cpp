@@ -6,7 +6,8 @@
 
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
-#include "tests/unit/host/table/temporary_file.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace pharos::pointing {
 namespace {
@@ -14,17 +15,12 @@ namespace {
 using ::testing::HasSubstr;
 
 TrackFile read(const std::string& text, host::LastLine last_line = host::LastLine::kAccept) {
-  const host::testing::TemporaryFile file(text);
+  const pharos::test::TemporaryFile file(text);
   return read_track(host::ByteSource(file.path()), last_line);
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    read(text);
-  } catch (const host::InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return pharos::test::error_of([&] { read(text); });
 }
 
 TEST(TrackFile, ReadsTheContractsColumnsAndTheFurtherOnes) {

@@ -11,13 +11,14 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace pharos::host::test {
+namespace pharos::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A folder that is gone after the test.
+/// A folder of its own, gone with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(::testing::TempDir() + "pharos_XXXXXX") {
@@ -32,6 +33,12 @@ class TemporaryFolder {
     std::filesystem::remove_all(path_, ignored);
   }
   const std::filesystem::path& path() const { return path_; }
+  std::string path(const std::string& name) const { return (path_ / name).string(); }
+  /// Writes a file in it; its path.
+  std::string write(const std::string& name, std::string_view content) const {
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path(name);
+  }
 
   /// By name, which is by time of beginning.
   std::vector<std::filesystem::path> files() const {
@@ -56,4 +63,4 @@ inline void write_file(const std::filesystem::path& path, const Bytes& bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-}  // namespace pharos::host::test
+}  // namespace pharos::test
