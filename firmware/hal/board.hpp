@@ -7,7 +7,7 @@
 
 namespace pharos::hal {
 
-/// Everything that the program needs of the hardware it runs on.
+/// The hardware that the program runs on.
 struct Board {
   EdgeCapture& capture;
   SerialLine& line;
@@ -16,12 +16,12 @@ struct Board {
 
 /// Sets the hardware up; once, first thing in main. Each board defines it.
 Board start_board();
-/// Nothing to do at the moment: a board may sleep here until something could have come, a millisecond at most.
+/// Called when there is nothing to do: a board may sleep here until the next possible input, a millisecond at most.
 void rest();
 /// Calls handler(context) once a millisecond from the timer's interrupt, from now on.
 void call_every_millisecond(void (*handler)(void* context), void* context);
 
-/// While one stands, call_every_millisecond's handler does not run.
+/// While such an object exists, call_every_millisecond's handler does not run.
 class NoInterrupts {
  public:
   NoInterrupts();
