@@ -16,7 +16,7 @@ struct Board {
 
 /// Sets the hardware up; once, first thing in main. Each board defines it.
 Board start_board();
-/// Called when there is nothing to do: a board may sleep here until the next possible input, a millisecond at most.
+/// Nothing to do at the moment: a board may sleep here until something could have come, a millisecond at most.
 void rest();
 /// Calls handler(context) once a millisecond from the timer's interrupt, from now on.
 void call_every_millisecond(void (*handler)(void* context), void* context);
