@@ -44,7 +44,7 @@ class PoseTask final : public PoseSolver {
   hal::System& system_;
   track::EpochTracker tracker_;
   lighthouse::CalibrationStore calibrations_;
-  /// Sweeps, dark ones included, that arrive while a cycle is solved: four in two slots, and one.
+  /// Sweeps, dark ones among them, that come while a cycle is solved: four in two slots, and one.
   static constexpr std::size_t kWaiting = 5;
 
   RingBuffer<lighthouse::Sweep, kWaiting> sweeps_;
