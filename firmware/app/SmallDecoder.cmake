@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The build `decoder` for on-chip memory: the core's sources and not its libraries, made as one program for size
-# (link-time optimisation, shared function prologues), since code, data, stack and loader have 36 KiB; where every edge
-# comes by, for speed. pharos_small_decoder: for 12 inputs; pharos_small_decoder_32: for the most there are.
+# The build `decoder` for on-chip memory: the core's sources and not its libraries, compiled as one program for size
+# (link-time optimisation, shared function prologues), since code, data, stack and loader have 36 KiB; the files that
+# process every edge, for speed. pharos_small_decoder: for 12 inputs; pharos_small_decoder_32: for the maximum.
 set(core ${PROJECT_SOURCE_DIR}/common/pharos)
 set(sources commands.cpp program.cpp main_decoder.cpp)
 list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

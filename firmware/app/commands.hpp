@@ -10,7 +10,7 @@
 
 namespace pharos::app {
 
-/// What to answer one frame of the host with.
+/// Reply to one frame of the host.
 struct Reply {
   std::uint8_t for_type = 0;
   std::uint16_t for_sequence = 0;
@@ -18,19 +18,19 @@ struct Reply {
   std::uint32_t value = 0;
 };
 
-/// Bytes of the host -> what it wants, and the answers that wait for the line.
+/// Bytes of the host -> requests, and the replies that wait for the line.
 class Commands {
  public:
-  /// `can`: HelloMode bits that this build can serve. `modes`: those in force from the start.
+  /// `can`: HelloMode bits that this build supports. `modes`: those in force from the start.
   Commands(std::uint8_t can, std::uint8_t modes) : can_(can), modes_(modes) {}
 
   void push(std::uint8_t byte);
 
   std::uint8_t modes() const { return modes_; }
-  /// A Hello was asked for; told once.
+  /// A Hello was requested; reported once.
   bool take_identify();
   enum class Restart : std::uint8_t { kNone, kProgram, kLoader };
-  /// Once its Ack has gone out.
+  /// True once its Ack was sent.
   Restart restart() const { return answers_.empty() ? restart_ : Restart::kNone; }
 
   bool has_answer() const { return !answers_.empty(); }

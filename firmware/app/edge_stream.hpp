@@ -12,11 +12,12 @@ namespace pharos::app {
 
 /// Records of the capture block -> edges with 64-bit stamps.
 ///
-/// Behind a gap it is not known since when an input is lit: the fall of each input that was lit before the record is
+/// After a gap it is not known since when an input is lit: the fall of each input that was lit before the record is
 /// left out (and counted), so that the decoder never pairs it with a rise from before the gap.
 class EdgeStream {
  public:
-  /// The counter stands here. Call it at the start and at least every 40 s, so that the wrap is never ambiguous.
+  /// Sets the present time of the counter. Call it at the start and at least every 40 s, so that the wrap is never
+  /// ambiguous.
   void note_time(std::int64_t now_ticks) { last_ticks_ = now_ticks; }
 
   /// Calls give(edge) for every edge of the record, lowest input first.

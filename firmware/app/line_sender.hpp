@@ -8,18 +8,18 @@
 
 namespace pharos::app {
 
-/// The frame on its way out, and nothing else: what waits behind it waits where it was made (the decoder holds four
-/// sweeps), so that no byte is copied into a queue and what cannot be sent is counted where it is known by name.
+/// The frame being sent, and nothing else: further output waits at its source (the decoder holds four sweeps), so that
+/// no byte is copied into a queue and what cannot be sent is counted at its source by name.
 class LineSender {
  public:
   explicit LineSender(hal::SerialLine& line) : line_(line) {}
 
-  /// Hands over to the UART what it has room for. True when the frame is out and the next one may come.
+  /// Passes to the UART as many bytes as fit. True when the frame is sent and the next one may follow.
   bool free() {
     if (!rest_.empty()) rest_ = rest_.subspan(line_.write(rest_));
     return rest_.empty();
   }
-  /// Only when free(). The bytes must stay where they are until free() again; empty: nothing to send.
+  /// Only when free(). The bytes must stay valid until free() again; empty: nothing to send.
   void send(std::span<const std::uint8_t> frame) {
     rest_ = frame;
     if (!frame.empty()) ++frames_;

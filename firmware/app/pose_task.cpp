@@ -11,8 +11,8 @@ namespace {
 
 /// Three times the noise's chi-squared has one cycle in some hundred, for the flash's jitter is common to all sensors.
 constexpr double kChi2ThresholdFactor = 4.0;
-/// A search in double takes this core a tenth of a second for each start that it follows. In a second of rest behind
-/// one that found nothing the other station's cycles are answered.
+/// A search in double takes this core a tenth of a second for each start. In a pause of a second after one without
+/// result the other station's cycles are solved.
 constexpr int kSearchStarts = 4;
 constexpr std::int64_t kSearchCooldown_ticks = kTicksPerSecond;
 
@@ -47,7 +47,7 @@ PoseTask::PoseTask(hal::System& system, const Target& target)
 
 void PoseTask::take(const lighthouse::Sweep& sweep) {
   if (sweeps_.full()) {
-    // All of them: one at a time would leave halves of cycles, that nothing can be made of.
+    // All of them: dropping one at a time would leave incomplete cycles, which give no pose.
     missed_ += static_cast<std::uint32_t>(sweeps_.size());
     sweeps_.clear();
   }
@@ -55,7 +55,7 @@ void PoseTask::take(const lighthouse::Sweep& sweep) {
 }
 
 void PoseTask::take(const lighthouse::OotxPayload& payload) {
-  payloads_.push(payload);  // the station says the same again in three seconds
+  payloads_.push(payload);  // the station sends the same again in three seconds
 }
 
 report::Reporter::Bytes PoseTask::next_frame(report::Reporter& reporter) {
@@ -99,7 +99,7 @@ void PoseTask::begin_solve() {
   solving_ = true;
 }
 
-// A solve may reach over several reports: each has its part.
+// A solve may last over several reports: each gets its part.
 void PoseTask::count_until_now() {
   const std::uint32_t now = system_.cycles();
   busy_cycles_ += now - counted_until_cycles_;

@@ -14,12 +14,12 @@ namespace pharos::app {
 /// Solves cycles on board, each warm-started from the last pose, while the program decodes from the timer's interrupt:
 /// one solve from nothing takes longer than the capture block's FIFO lasts.
 ///
-/// A station's cycles are solved once its calibration is known: without it every angle is 1 mrad off, and to search
-/// such a cycle for reflections takes this core seconds. Where the solver is behind, the oldest sweeps give way. Both
-/// are counted.
+/// A station's cycles are solved once its calibration is known: without it every angle is 1 mrad off, and a search of
+/// such a cycle for reflections takes this core seconds. Where the solver is behind, the oldest sweeps are dropped.
+/// Both are counted.
 ///
-/// take() and next_frame() run in the interrupt, solve() in the main loop; what passes between them is copied with
-/// interrupts off.
+/// take() and next_frame() run in the interrupt, solve() in the main loop; data between them is copied with interrupts
+/// off.
 class PoseTask final : public PoseSolver {
  public:
   PoseTask(hal::System& system, const Target& target);
@@ -32,7 +32,7 @@ class PoseTask final : public PoseSolver {
   bool solving() override { return solving_; }
   bool take_alive() override;
 
-  /// Main loop: takes one sweep or payload further. False when none waits.
+  /// Main loop: processes one sweep or payload. False when none is queued.
   bool solve();
 
  private:
@@ -51,7 +51,7 @@ class PoseTask final : public PoseSolver {
   RingBuffer<report::PoseReport, 1> answers_;
   std::uint32_t missed_ = 0;
   std::uint32_t busy_cycles_ = 0;
-  std::uint32_t counted_until_cycles_ = 0;  // of the solve under way
+  std::uint32_t counted_until_cycles_ = 0;  // of the present solve
   volatile bool alive_ = false;
   volatile bool solving_ = false;
 };

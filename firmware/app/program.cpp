@@ -9,19 +9,19 @@ namespace {
 
 /// Records of one pass: some 0.5 ms of a 50 MHz core, so that the line is served in between.
 constexpr int kRecordsAPass = 32;
-/// Light that comes record by record does not have the line looked at for each: a millisecond of it fills a third of
-/// the UART's FIFOs.
+/// Where records arrive one by one the line is not polled for each: a millisecond of it fills a third of the UART's
+/// FIFOs.
 constexpr std::int64_t kServe_ticks = kTicksPerSecond / 2000;
-/// How often the decoder is told the time when no light tells it.
+/// Interval at which the decoder gets the time when no record provides it.
 constexpr std::int64_t kAdvance_ticks = kTicksPerSecond / 1000;
-/// Raw edges wait no longer than this for a frame to fill.
+/// Maximum delay of raw edges while a frame fills.
 constexpr std::int64_t kRawEdges_ticks = kTicksPerSecond / 20;
-/// A line that takes nothing for so long is broken, and with it the program: the longest frame takes 12 ms.
+/// A line that accepts nothing for so long is broken, and with it the program: the longest frame takes 12 ms.
 constexpr std::int64_t kLineStuck_ticks = kTicksPerSecond;
-/// The solver must have come by within so long.
+/// The solver must have been called within this time.
 constexpr std::int64_t kSolverStuck_ticks = 2 * kTicksPerSecond;
 
-/// Hello, counters and the time for a second: whoever has come so far is no silent image.
+/// Hello, counters and the time for a second: an image that sends these works.
 constexpr std::uint32_t kConfirmed_frames = 12;
 
 constexpr std::uint8_t modes_of(const PoseSolver* solver) {
@@ -89,7 +89,7 @@ void Program::take(const lighthouse::Edge& edge) {
 
 [[gnu::noinline]] void Program::report_raw(lighthouse::Edge edge) {
   if (hold(edge)) return;
-  // The frame is full. It goes as soon as the line is free; until then edges find no room.
+  // The frame is full. It is sent as soon as the line is free; until then edges do not fit.
   if (line_.free()) {
     flushed_ticks_ = now_ticks_;
     line_.send(reporter_.flush_edges());
@@ -118,7 +118,7 @@ bool Program::send() {
 report::Reporter::Bytes Program::next_frame() {
   if (commands_.take_identify()) schedule_.want_hello();
   if (commands_.has_answer() && line_.frames() != 0) return answer();  // Hello is the first frame of all
-  // In turns, so that a Hello and two sets of counters in a row never hold up the few sweeps that can wait.
+  // Alternately, so that a Hello and two sets of counters in a row never delay the few sweeps that can be queued.
   if (reported_) {
     reported_ = false;
     if (const auto frame = next_result(); !frame.empty()) return frame;
@@ -129,7 +129,8 @@ report::Reporter::Bytes Program::next_frame() {
 }
 
 report::Reporter::Bytes Program::next_result() {
-  // What the host does not want is taken all the same: the decoder holds only four sweeps, and the solver wants them.
+  // Sweeps that the host did not request are taken all the same: the decoder holds only four, and the solver needs
+  // them.
   while (const lighthouse::Sweep* sweep = decoder_.next_sweep()) {
     const report::Reporter::Bytes frame = reported(*sweep);
     decoder_.drop_sweep();

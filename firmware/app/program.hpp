@@ -14,14 +14,13 @@
 
 namespace pharos::app {
 
-/// The target's program but for poses: capture -> decoder -> frames, commands -> answers, and what is said by the
-/// clock.
+/// The target's program except poses: capture -> decoder -> frames, commands -> replies, and periodic messages.
 ///
-/// poll() does what there is to do and never waits. Called in a loop, or from an interrupt a thousand times a second;
-/// the FIFO of the capture block bridges tens of milliseconds (firmware/rtl/README.md), so there is no ring behind it.
+/// poll() does all pending work and never blocks. Called in a loop, or from an interrupt a thousand times a second; the
+/// FIFO of the capture block bridges tens of milliseconds (firmware/rtl/README.md), so there is no ring after it.
 class Program {
  public:
-  /// `desk`: where sweeps go and poses come from, where the build solves them; else null.
+  /// `desk`: takes sweeps and provides poses, where the build solves them; else null.
   Program(const hal::Board& board, PoseSolver* solver);
 
   /// True when there was anything to do.
@@ -54,14 +53,14 @@ class Program {
   LineSender line_;
   Schedule schedule_;
   std::int64_t now_ticks_ = 0;
-  std::int64_t served_ticks_ = 0;     // when line and watchdog were last looked at
+  std::int64_t served_ticks_ = 0;     // when line and watchdog were last served
   std::int64_t advanced_ticks_ = 0;   // of the last advance()
   std::int64_t flushed_ticks_ = 0;    // of the last frame of raw edges
   std::int64_t line_free_ticks_ = 0;  // when the line last took a whole frame
   std::int64_t solver_seen_ticks_ = 0;
-  bool reported_ = false;  // the last frame was said by the clock
+  bool reported_ = false;  // the last frame was a periodic message
   std::uint32_t overflows_ = 0;
-  std::uint32_t raw_edges_lost_ = 0;  // for want of line speed
+  std::uint32_t raw_edges_lost_ = 0;  // because the line was too slow
   std::uint32_t busy_cycles_ = 0;     // since the last report
   std::int64_t busy_since_ticks_ = 0;
 };

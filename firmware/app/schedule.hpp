@@ -7,17 +7,17 @@
 
 namespace pharos::app {
 
-/// What is said by the clock: one thing at a time, so that none of them holds up sweeps for long.
+/// Periodic messages: one at a time, so that none of them delays sweeps for long.
 enum class Due : std::uint8_t { kNothing, kHello, kDecoderCounters, kDeviceCounters, kTime };
 
-/// When Hello and counters (once a second) and the time (ten times a second) are to be said. Hello comes first of all.
+/// Determines when Hello and counters (once a second) and the time (ten times a second) are due. Hello is first.
 class Schedule {
  public:
   void start(std::int64_t now_ticks) { next_second_ticks_ = next_time_ticks_ = now_ticks; }
-  /// A Hello is wanted as soon as may be.
+  /// A Hello is requested as soon as possible.
   void want_hello() { hello_ = true; }
 
-  /// What is to be said now; the caller says it at once.
+  /// The message due now; the caller sends it at once.
   Due next(std::int64_t now_ticks) {
     if (now_ticks >= next_second_ticks_) {
       skipped_ += (hello_ ? 1U : 0U) + (decoder_ ? 1U : 0U) + (device_ ? 1U : 0U) +
@@ -34,7 +34,7 @@ class Schedule {
     return Due::kNothing;
   }
 
-  /// What was due and not said in its time, because the line was busy.
+  /// Messages that were due and not sent in time, because the line was busy.
   std::uint32_t skipped() const { return skipped_; }
 
  private:
@@ -42,11 +42,11 @@ class Schedule {
     wanted = false;
     return what;
   }
-  // Moves `next` behind now; how many turns were missed altogether.
+  // Moves `next` past now; counts the missed periods.
   static std::uint32_t keep_up(std::int64_t& next, std::int64_t now, std::int64_t period) {
     std::uint32_t missed = 0;
     next += period;
-    if (now - next >= kLongestCatchUp) next = now + period;  // the clock jumped: nothing was promised in between
+    if (now - next >= kLongestCatchUp) next = now + period;  // the clock jumped: nothing was due in between
     for (; next <= now; next += period) ++missed;
     return missed;
   }

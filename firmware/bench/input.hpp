@@ -6,7 +6,7 @@
 
 namespace pharos::bench {
 
-// What the measuring programs read, as it lies in memory (little-endian, and doubles on 8 bytes, on both sides): QEMU's
+// Input of the measuring programs, as it lies in memory (little-endian, and doubles on 8 bytes, on both sides): QEMU's
 // generic loader puts the file there before they start.
 inline constexpr std::uintptr_t kInputAddress = 0x82000000;
 inline constexpr std::uint32_t kMagic = 0x50484231;  // "1BHP"
@@ -38,7 +38,7 @@ struct LightHeader {
   std::uint32_t sensors = 0;
   std::uint32_t stations = 0;
   std::uint32_t edges = 0;
-  double sigma_rad = 0.0;  // noise of an angle that the solver is told
+  double sigma_rad = 0.0;  // noise of an angle as given to the solver
 };
 
 struct ObservationRow {
@@ -56,14 +56,14 @@ struct PoseHeader {
   std::uint32_t magic = kMagic;
   std::uint32_t sensors = 0;
   std::uint32_t problems = 0;
-  std::uint32_t from_nothing = 0;  // so many of them are solved without the prior too
+  std::uint32_t from_nothing = 0;  // the first so many are solved without the prior too
   double sigma_rad = 0.0;
 };
 
 struct ProblemHeader {
   std::uint64_t observations = 0;
   PoseRow prior;
-  PoseRow host;                               // the host's answer
+  PoseRow host;                               // the host's result
   std::array<double, 36> host_information{};  // inverse covariance
   std::uint64_t host_ambiguous = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace pharos::bench {
 
-/// The target that stands behind a LightHeader.
+/// The target described by a LightHeader.
 inline Target target_of(Input& input, const LightHeader& header) {
   Target target;
   for (std::uint32_t k = 0; k < header.sensors; ++k) {

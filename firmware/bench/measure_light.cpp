@@ -48,7 +48,7 @@ int main() {
     if (k == 0) first_ticks = edge.stamp_ticks;
     last_ticks = edge.stamp_ticks;
     std::uint32_t count = bench::instructions_of([&] { measured.decoder.push(edge); });
-    // As the program takes them (app/program.cpp): where they lie.
+    // As in the program (app/program.cpp): processed in place.
     for (bool more = true; more;) {
       const bench::Count looking;
       const lighthouse::Sweep* sweep = measured.decoder.next_sweep();

@@ -13,7 +13,7 @@ constexpr std::uint32_t kSweeps = 240;
 
 struct Measured {
   lighthouse::Decoder decoder;
-  bench::Counts alone, fused;  // instructions a sweep that had an answer
+  bench::Counts alone, fused;  // instructions a sweep that gave a result
   std::uint32_t sweeps = 0, hits_alone = 0, hits_fused = 0;
 };
 Measured measured;

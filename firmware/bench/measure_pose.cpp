@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instructions a pose, from the last one and from nothing, and how far the answer is from the host's.
+// Instructions a pose, from the last one and from nothing, and the difference of the result from the host's.
 #include <cmath>
 
 #include "firmware/bench/report.hpp"

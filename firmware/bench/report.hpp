@@ -13,7 +13,7 @@
 
 namespace pharos::bench {
 
-/// One line of what a program found: `name value`.
+/// One line of a program's results: `name value`.
 inline void say(std::string_view name, std::int64_t value) {
   board::console_write(name);
   board::console_write(" ");
@@ -46,7 +46,7 @@ class Input {
 };
 
 /// Counts instructions from its construction on, without those of counting: it must not be a call, which would count
-/// its own way in and out.
+/// its own overhead.
 class Count {
  public:
   [[gnu::always_inline]] Count() : begin_(board::instructions_retired_low()) {}
@@ -78,7 +78,7 @@ class Counts {
   std::uint32_t number() const { return number_; }
   std::int64_t sum() const { return static_cast<std::int64_t>(sum_); }
   std::uint32_t worst() const { return worst_; }
-  /// The count that this share of all does not exceed.
+  /// The count that this fraction of all does not exceed.
   std::uint32_t quantile(std::uint32_t permille) const {
     const std::uint64_t wanted = std::uint64_t{number_} * permille / 1000;
     std::uint64_t sum = 0;

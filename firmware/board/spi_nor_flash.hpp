@@ -16,8 +16,8 @@ concept SpiBus = requires(std::uint8_t byte) {
   { B::exchange(byte) } -> std::same_as<std::uint8_t>;
 };
 
-/// Serial NOR flash with the commands that all of them share, 3-byte addresses, pages of 256 bytes and sectors of 64
-/// KiB: Intel's EPCS16 and EPCS64, M25P16, W25Q16 and their like.
+/// Serial NOR flash with the commands common to all of them, 3-byte addresses, pages of 256 bytes and sectors of 64
+/// KiB: Intel's EPCS16 and EPCS64, M25P16, W25Q16 and similar.
 template <SpiBus Bus>
 class SpiNorFlash {
  public:
@@ -55,7 +55,7 @@ class SpiNorFlash {
   static constexpr std::uint8_t kEraseSector = 0xD8;
   static constexpr std::uint8_t kBusy = 0x01;
   static constexpr std::uint8_t kWritable = 0x02;
-  /// Looks at the status before a chip is given up. The slowest sector takes 3 s; a look takes at least a microsecond.
+  /// Status reads until the chip times out. The slowest sector takes 3 s; a read takes at least a microsecond.
   static constexpr std::uint32_t kMaxPolls = 16'000'000;
 
   static void begin(std::uint8_t command, std::uint32_t offset) {
@@ -70,7 +70,7 @@ class SpiNorFlash {
     Bus::deselect();
     return status;
   }
-  /// False where no chip answers: an open line reads all ones or all zeros.
+  /// False where no chip responds: an open line reads all ones or all zeros.
   static bool enable_writing() {
     Bus::select();
     Bus::exchange(kWriteEnable);

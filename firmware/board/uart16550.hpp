@@ -11,7 +11,7 @@
 namespace pharos::board {
 
 /// A 16550-compatible UART with FIFOs, 8N1: QEMU's (a byte a register) and Intel's "Altera 16550 Compatible UART" (a
-/// word a register; Embedded Peripherals IP User Guide). The baud rate is set by whoever starts first.
+/// word a register; Embedded Peripherals IP User Guide). The baud rate is set by the program that starts first.
 class Uart16550 {
  public:
   constexpr Uart16550(std::uintptr_t base, std::uintptr_t register_bytes, std::size_t transmit_fifo)
@@ -28,7 +28,7 @@ class Uart16550 {
     put(kInterruptEnable, 0);
     put(kFifoControl, kFifoEnable);
   }
-  /// Fills the FIFO once it is empty; else takes nothing.
+  /// Fills the FIFO once it is empty; else accepts nothing.
   std::size_t write(std::span<const std::uint8_t> bytes) {
     if ((line_status() & kTransmitEmpty) == 0) return 0;
     const std::size_t count = bytes.size() < fifo_ ? bytes.size() : fifo_;
@@ -41,7 +41,7 @@ class Uart16550 {
     if ((line_status() & kDataReady) == 0) return std::nullopt;
     return mmio8(at(kData));
   }
-  /// Times that bytes were overrun or came without their stop bit.
+  /// Number of overruns and missing stop bits.
   std::uint32_t receive_errors() const { return errors_; }
 
  private:

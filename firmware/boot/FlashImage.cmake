@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# pharos_flash_image(PROGRAM BOARD board NAME name [VERSION x.y.z]): bin/PROGRAM.image, what `pharos flash` takes.
+# pharos_flash_image(PROGRAM BOARD board NAME name [VERSION x.y.z]): bin/PROGRAM.image, the input of `pharos flash`.
 function(pharos_flash_image program)
   cmake_parse_arguments(ARG "" "BOARD;NAME;VERSION" "" ${ARGN})
   if(NOT ARG_VERSION)

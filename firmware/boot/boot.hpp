@@ -6,7 +6,7 @@
 
 namespace pharos::boot {
 
-/// All that happens after a reset, with a loader as it was made.
+/// Everything after a reset, with a loader as constructed.
 template <BootBoard Board>
 [[noreturn]] void boot(Loader<Board>& loader) {
   Board::prepare();

@@ -16,7 +16,7 @@ namespace pharos::boot {
 /// Ticks of the board's counter, and of every time below.
 inline constexpr std::uint32_t kTicksPerSecond = 50'000'000;
 
-/// What the loader needs of a board: there is only one, so a type does. Nothing here waits but the flash; start() and
+/// The loader's interface to a board: there is only one, so a type suffices. Only the flash blocks; start() and
 /// restart() do not return.
 template <class B>
 concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint32_t bytes) {
@@ -25,16 +25,16 @@ concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint
   B::prepare();
   requires hal::Flash<typename B::Flash>;
   B::flash();
-  /// Where in the flash a slot begins (a multiple of its sector), and how long each is.
+  /// Offset of a slot in the flash (a multiple of its sector), and the length of each.
   { B::slot_offset(std::size_t{}) } -> std::same_as<std::uint32_t>;
   { B::kSlotBytes } -> std::convertible_to<std::uint32_t>;
   requires B::kSlotBytes % B::Flash::kSectorBytes == 0;
   /// The next byte of the serial line; negative when there is none.
   { B::receive() } -> std::same_as<int>;
-  /// Takes a byte for the serial line; false when it has no room now.
+  /// Passes a byte to the serial line; false when it does not fit now.
   { B::transmit(byte) } -> std::same_as<bool>;
   { B::ticks() } -> std::same_as<std::uint32_t>;
-  /// Memory that an image may be copied to; null where any of it may not be.
+  /// Memory that an image may be copied to; null where any of it is reserved.
   { B::memory(address, bytes) } -> std::same_as<std::uint8_t*>;
   { B::retained() } -> std::same_as<volatile Retained&>;
   B::start(address);

@@ -10,12 +10,12 @@
 
 namespace pharos::boot {
 
-/// Finds frames in a stream of bytes: wire::FrameDecoder for 4 KiB. It takes off stuffing and sums up the CRC byte by
-/// byte, so that no byte takes much longer than another; it counts nothing, and takes any sequence number: each request
-/// to the loader may come twice.
+/// Finds frames in a stream of bytes: wire::FrameDecoder for 4 KiB. It removes stuffing and computes the CRC byte by
+/// byte, so that no byte takes much longer than another; it counts nothing, and accepts any sequence number: each
+/// request to the loader may be repeated.
 class FrameReceiver {
  public:
-  /// Whether `byte` completed a good frame of this protocol version; below is what it holds until the next push.
+  /// Whether `byte` completed a good frame of this protocol version; its content, below, is valid until the next push.
   bool push(std::uint8_t byte);
   wire::MessageType type() const { return static_cast<wire::MessageType>(plain_[1]); }
   const std::uint8_t* sequence() const { return plain_.data() + 2; }  // as it lies in the frame
@@ -33,7 +33,7 @@ class FrameReceiver {
   std::size_t size_ = 0;    // more than the capacity: too long
   std::uint32_t crc_ = 0;   // of all stored
   std::uint8_t left_ = 0;   // of the block of stuffing begun
-  bool zero_next_ = false;  // what follows the block stands behind a zero
+  bool zero_next_ = false;  // the byte after the block follows a zero
   bool begun_ = false;      // since the last border
 };
 

@@ -15,7 +15,7 @@ std::span<const std::uint8_t> FrameSender::encode(wire::MessageType type, std::s
   std::memcpy(line_.rest.data(), payload.data(), payload.size());
   const std::uint32_t crc = wire::crc32({&line_.version, wire::kHeaderBytes + payload.size()});
   std::memcpy(line_.rest.data() + payload.size(), &crc, sizeof crc);
-  // Stuffing in place (wire/cobs.hpp): each zero becomes the way to the next one.
+  // Stuffing in place (wire/cobs.hpp): each zero becomes the distance to the next one.
   const std::size_t end = offsetof(Line, rest) + payload.size() + sizeof crc;
   bytes[end] = wire::kFrameDelimiter;
   std::size_t code_at = offsetof(Line, code);

@@ -17,8 +17,8 @@ class FrameSender {
  public:
   static constexpr std::size_t kMaxPayload = wire::Hello::kMaxBytes;
 
-  /// A whole frame with its borders; it holds until the next call. `payload`: 1 to kMaxPayload bytes (the
-  /// loader says nothing empty).
+  /// A whole frame with its borders; valid until the next call. `payload`: 1 to kMaxPayload bytes (the loader sends no
+  /// empty one).
   std::span<const std::uint8_t> encode(wire::MessageType type, std::span<const std::uint8_t> payload);
 
  private:

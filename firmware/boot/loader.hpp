@@ -17,31 +17,32 @@
 namespace pharos::boot {
 
 inline constexpr std::uint16_t kLoaderVersion = 1;
-/// How long after every reset the line is listened to for a LoaderQuery: what gets a host in where the image itself no
-/// longer listens.
+/// Time after every reset in which the loader accepts a LoaderQuery: lets a host in where the image itself does not
+/// respond.
 inline constexpr std::uint32_t kWindow_ticks = kTicksPerSecond / 5;
-/// Silence after which the loader starts the image that it has: a host that went away leaves no target behind that
-/// waits for ever. Less than the 85.9 s of the tick counter.
+/// Silence after which the loader starts its image: a host that disconnects must not leave the target waiting for ever.
+/// Less than the 85.9 s of the tick counter.
 inline constexpr std::uint32_t kTimeout_ticks = 60 * kTicksPerSecond;
 
-/// What the loader wants after a turn.
+/// Next action of the loader after one pass.
 enum class Turn : std::uint8_t { kAgain, kStart, kRestart };
 
 /// The loader's side of proto/README.md, "Loader": takes an image into the slot that does not hold the good one.
 ///
-/// Order of writes: erase, body, header with mark. The good slot is never written, so power may go at any moment.
+/// Order of writes: erase, body, header with mark. The good slot is never written, so power may fail at any moment.
 template <BootBoard Board>
 class Loader {
  public:
-  /// Finds the image to be started and copies it to its place; once, before all else. `stay`: the loader was asked for.
+  /// Finds the image to be started and copies it to its load address; once, before all else. `stay`: the loader was
+  /// requested.
   void prepare(bool stay);
   /// The image that was found; null when there is none.
   const boot_image::BootImageHeader* loaded() const { return slots_.loaded(); }
-  /// Does what there is to do at the moment. kStart: run loaded(). kRestart: begin anew with a reset.
+  /// Does all pending work. kStart: run loaded(). kRestart: restart by a reset.
   Turn turn();
 
  private:
-  /// What the answer says: reason 0 is Ack.
+  /// Content of the reply: reason 0 is Ack.
   struct Reply {
     std::uint32_t reason;
     std::uint32_t value;
@@ -50,7 +51,7 @@ class Loader {
   static Reply refused(wire::NakReason reason, std::uint32_t value = 0) {
     return {static_cast<std::uint32_t>(reason), value};
   }
-  /// The image as it was sent does not go into this slot: the next begin starts anew.
+  /// The image as sent does not fit this slot: the next begin starts from the beginning.
   Reply give_up(wire::NakReason reason, std::uint32_t value = 0) {
     image_bytes_ = 0;
     return refused(reason, value);
@@ -58,7 +59,7 @@ class Loader {
 
   Turn listen();
   Turn serve();
-  /// Does what the line's frame asks and answers it. True: it asks for a start.
+  /// Executes and answers the line's request. True: it requests a start.
   bool answer();
   Reply answer_to(const FrameReceiver& request);
   Reply begin(const BeginPayload& request);
@@ -69,7 +70,7 @@ class Loader {
   void send_info();
 
   bool is_receiving() const { return image_bytes_ != 0; }
-  /// What the flash calls while it works.
+  /// Called by the flash while it works.
   auto taking_bytes() {
     return [this] { line_.take_bytes(); };
   }
@@ -80,12 +81,12 @@ class Loader {
   LoaderLine<Board> line_;
   std::uint32_t last_frame_ = 0;  // ticks; before the first frame, of the start
   std::uint32_t last_hello_ = 0;
-  bool serving_ = false;           // not listening any more
+  bool serving_ = false;           // no longer waiting for a query
   std::uint32_t image_bytes_ = 0;  // 0: nothing begun
   std::uint32_t image_crc32_ = 0;
   std::uint32_t expected_ = 0;  // offset
   bool verified_ = false;
-  /// The image's first page, written last, with the mark in its place.
+  /// The image's first page, written last, with the mark in it.
   union {
     std::array<std::uint8_t, boot_image::kPageBytes> page_{};
     boot_image::SlotHead head_;
@@ -238,7 +239,7 @@ auto Loader<Board>::verify() -> Reply {
   if (!is_receiving()) return refused(wire::NakReason::kOutOfOrder, wire::kNothingBegun);
   if (expected_ != image_bytes_) return refused(wire::NakReason::kOutOfOrder, expected_);
   if (verified_) return done(image_crc32_);
-  // As at every start: what counts is what comes back from the flash.
+  // As at every start: the data read back from the flash is checked.
   const boot_image::BootImageHeader& header = head_.header;
   const bool good_body = slots_.load(slots_.spare(), header);
   const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);

@@ -15,10 +15,10 @@
 
 namespace pharos::boot {
 
-/// The serial line as the loader uses it: frames in and out, without interrupts.
+/// The loader's serial line: frames in and out, without interrupts.
 ///
-/// take_bytes() fetches what has come and is called wherever something takes time, so that a UART with room for one
-/// byte does for receiving while flash is written and while frames are sent.
+/// take_bytes() fetches received bytes and is called wherever work takes time, so that a UART with room for one byte
+/// suffices for reception while flash is written and while frames are sent.
 template <BootBoard Board>
 class LoaderLine {
  public:
@@ -26,11 +26,11 @@ class LoaderLine {
     for (;;) {
       const int byte = Board::receive();
       if (byte < 0) return;
-      (void)waiting_.push(static_cast<std::uint8_t>(byte));  // full: the frame's CRC tells
+      (void)waiting_.push(static_cast<std::uint8_t>(byte));  // full: detected by the frame's CRC
     }
   }
 
-  /// Whether there is a good frame among the bytes that have come; request() holds it until the next call.
+  /// Whether there is a good frame among the received bytes; request() holds it until the next call.
   bool next_frame() {
     for (take_bytes(); !waiting_.empty(); take_bytes()) {
       if (receiver_.push(waiting_.pop())) return true;
@@ -39,7 +39,7 @@ class LoaderLine {
   }
   const FrameReceiver& request() const { return receiver_; }
 
-  /// Returns when the last byte was given to the UART.
+  /// Returns when the last byte was passed to the UART.
   void send(wire::MessageType type, std::span<const std::uint8_t> payload) {
     for (const std::uint8_t byte : sender_.encode(type, payload)) {
       do {
@@ -49,7 +49,7 @@ class LoaderLine {
   }
 
  private:
-  /// All that a host may send before it hears of the first of them.
+  /// Everything that a host may send before the first reply.
   static constexpr std::size_t kWaitingBytes = 1024;
   static_assert(wire::kLoaderWindow * wire::line_size(wire::LoaderData::kMaxBytes) <= kWaitingBytes);
 

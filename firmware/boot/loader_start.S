@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# First instructions after reset. Anything that goes wrong in the loader begins here again.
+# First instructions after reset. Any fault in the loader restarts here.
   .option arch, +zicsr
   .section .text.start, "ax"
   .globl _start

@@ -13,7 +13,7 @@
 namespace pharos::boot {
 
 // The payloads that the loader reads and writes, as they lie in a frame (proto/README.md). wire's codec would take half
-// of the loader's 4 KiB; boot_payloads_test holds each of these to what that codec makes.
+// of the loader's 4 KiB; boot_payloads_test compares each of these with that codec.
 
 struct [[gnu::packed, gnu::aligned(4)]] HelloPayload {
   wire::Role role;
@@ -62,7 +62,7 @@ struct [[gnu::packed]] NakPayload {
 };
 static_assert(sizeof(NakPayload) == wire::Nak::kMaxBytes);
 
-/// A payload as its bytes; they hold as long as it.
+/// A payload as its bytes; valid as long as it.
 template <class Payload>
 std::span<const std::uint8_t> bytes_of(const Payload& payload) {
   return {reinterpret_cast<const std::uint8_t*>(&payload), sizeof payload};

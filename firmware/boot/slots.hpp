@@ -14,11 +14,11 @@
 
 namespace pharos::boot {
 
-/// What the slots of a board hold: known after find().
+/// Content of a board's slots: known after find().
 template <BootBoard Board>
 class Slots {
  public:
-  /// Reads what the slots say, and copies the newest whole image to its place; `older`: the other one, if it is whole.
+  /// Reads the slots, and copies the newest whole image to its load address; `older`: the other one, if it is whole.
   void find(bool older) {
     for (std::size_t slot = 0; slot < boot_image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
     const std::size_t newest = heads_[1].mark.sequence > heads_[0].mark.sequence ? 1 : 0;
@@ -27,7 +27,7 @@ class Slots {
     if (!take(first)) (void)take(1 - first);
   }
 
-  /// The image that was copied to its place; null when no slot holds a whole one.
+  /// The image that was copied to its load address; null when no slot holds a whole one.
   const boot_image::BootImageHeader* loaded() const { return loaded_; }
   /// The slot that does not hold it.
   std::size_t spare() const { return spare_; }
@@ -38,18 +38,18 @@ class Slots {
   static bool is_name(const std::array<char, 24>& board) {
     return std::memcmp(board.data(), Board::kName.data(), board.size()) == 0;
   }
-  /// Whether this board can hold and run what the header tells of.
+  /// Whether this board can hold and run the image of the header.
   static bool fits(const boot_image::BootImageHeader& header) {
     return is_name(header.board) && header.body_bytes <= Board::kSlotBytes - boot_image::kPageBytes &&
            Board::memory(header.load_address, header.body_bytes) != nullptr;
   }
-  /// What a slot says: its sequence number, 0 when it holds nothing that can run here.
+  /// A slot's sequence number, 0 when it holds nothing that can run here.
   static std::uint32_t read(std::size_t slot, boot_image::SlotHead& head) {
     Board::flash().read(Board::slot_offset(slot), {reinterpret_cast<std::uint8_t*>(&head), sizeof head});
     return fits(head.header) ? boot_image::sequence_of(head) : 0;
   }
-  /// Copies the body to its place and sums it up there: what was checked is what runs, even where the flash gives other
-  /// bytes when read again.
+  /// Copies the body to its load address and computes its CRC there: the checked copy is the one that runs, even where
+  /// the flash returns other bytes when read again.
   static bool load(std::size_t slot, const boot_image::BootImageHeader& header) {
     const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
     Board::flash().read(Board::slot_offset(slot) + boot_image::kPageBytes, body);
@@ -65,7 +65,7 @@ class Slots {
     return true;
   }
 
-  std::array<boot_image::SlotHead, boot_image::kSlots> heads_{};  // sequence 0: nothing there that can run
+  std::array<boot_image::SlotHead, boot_image::kSlots> heads_{};  // sequence 0: nothing that can run
   const boot_image::BootImageHeader* loaded_ = nullptr;
   std::size_t spare_ = 0;
   std::uint32_t next_sequence_ = 0;

@@ -7,7 +7,7 @@
 
 namespace pharos::hal {
 
-/// Everything that the program needs of the hardware it runs on.
+/// The hardware that the program runs on.
 struct Board {
   EdgeCapture& capture;
   SerialLine& line;
@@ -21,7 +21,7 @@ void wait_for_event();
 /// Calls handler(context) once a millisecond from the timer's interrupt, from now on.
 void call_every_millisecond(void (*handler)(void* context), void* context);
 
-/// While one stands, call_every_millisecond's handler does not run.
+/// While such an object exists, call_every_millisecond's handler does not run.
 class NoInterrupts {
  public:
   NoInterrupts();

@@ -5,7 +5,7 @@
 
 namespace pharos::hal {
 
-/// One tick in which inputs changed, as the capture block's FIFO gives it (firmware/rtl/README.md).
+/// One tick in which inputs changed, as read from the capture block's FIFO (firmware/rtl/README.md).
 struct CaptureRecord {
   std::uint32_t time_ticks = 0;  // low word of the counter
   std::uint32_t changed = 0;     // bit per input; never 0
@@ -16,14 +16,14 @@ struct CaptureRecord {
 /// The capture block: edges of the photodiodes stamped by a free-running counter, and that counter.
 class EdgeCapture {
  public:
-  /// The oldest record that waits, taken out of the FIFO; false when none does.
+  /// The oldest record in the FIFO, removed from it; false when it is empty.
   virtual bool read(CaptureRecord& record) = 0;
   /// The counter that stamps the records, 64 bits. Records stamped kSettle_ticks before it or earlier can be read.
   virtual std::int64_t now_ticks() = 0;
-  static constexpr std::int64_t kSettle_ticks = 8;  // what the block needs, two, and a bus read or two
+  static constexpr std::int64_t kSettle_ticks = 8;  // the block's two, and a bus read or two
   /// Edges that the block dropped since it started.
   virtual std::uint32_t edges_lost() = 0;
-  /// Whether it dropped any since last asked.
+  /// Whether it dropped any since the last call.
   virtual bool take_overflow() = 0;
   /// Bit per input that exists.
   virtual std::uint32_t inputs() = 0;

@@ -8,15 +8,15 @@
 
 namespace pharos::hal {
 
-/// What is programmed at once, at most, and never across a multiple of it: the page of every serial NOR flash.
+/// Maximum bytes programmed at once, and never across a multiple of it: the page of every serial NOR flash.
 inline constexpr std::size_t kFlashPageBytes = 256;
 
-/// NOR flash: erasing turns a whole sector into ones, programming turns ones into zeros. Offsets count from its start;
-/// offset and length are multiples of 4 wherever something is programmed.
+/// NOR flash: erasing sets a whole sector to ones, programming changes ones to zeros. Offsets count from its start;
+/// offset and length of every programming are multiples of 4.
 ///
 /// Every call returns when the memory is done. Writing may take seconds, and bytes of the serial line would be lost
-/// meanwhile: `idle` is called again and again while the memory works, at least once a byte's time on the line.
-/// false: the memory says that it failed, or does not answer. What was written is not read back here.
+/// meanwhile: `idle` is called repeatedly while the memory works, at least once a byte's time on the line. false: the
+/// memory reports a failure, or does not respond. Written data is not read back here.
 template <class F>
 concept Flash = requires(F& flash, std::uint32_t offset, std::span<std::uint8_t> out, std::span<const std::uint8_t> in,
                          void (&idle)()) {

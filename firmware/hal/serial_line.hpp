@@ -8,16 +8,16 @@
 
 namespace pharos::hal {
 
-/// A UART. Nothing here waits.
+/// A UART. No call blocks.
 class SerialLine {
  public:
-  /// How many of these bytes it took, from the first on; 0 while its buffer is full.
+  /// Number of these bytes accepted, from the first on; 0 while its buffer is full.
   virtual std::size_t write(std::span<const std::uint8_t> bytes) = 0;
   /// Everything written has left the pin.
   virtual bool idle() = 0;
-  /// The oldest byte that came in.
+  /// The oldest received byte.
   virtual std::optional<std::uint8_t> read() = 0;
-  /// Bytes lost or broken on their way in, since start.
+  /// Bytes lost or corrupted on reception, since start.
   virtual std::uint32_t receive_errors() = 0;
 
  protected:

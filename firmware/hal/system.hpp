@@ -8,21 +8,21 @@
 
 namespace pharos::hal {
 
-/// The processor and what is around it.
+/// The processor and its surroundings.
 class System {
  public:
-  /// Processor clocks, 50 MHz, 32 bits that wrap: what work costs. Where they cannot be counted, an honest estimate.
+  /// Processor clocks, 50 MHz, 32 bits that wrap: the cost of work. Where they cannot be counted, an estimate.
   virtual std::uint32_t cycles() = 0;
   /// Restarts the program unless called again within the watchdog's time (about a second).
   virtual void feed_watchdog() = 0;
-  /// The program does its work: the loader need not fall back on the image before it.
+  /// The program works: the loader need not fall back on the previous image.
   virtual void confirm_start() = 0;
-  /// Starts anew, at the loader; `stay_in_loader`: and stops there for a new image.
+  /// Restarts, at the loader; `stay_in_loader`: the loader waits for a new image.
   [[noreturn]] virtual void restart(bool stay_in_loader) = 0;
 
   virtual wire::ResetCause reset_cause() = 0;
   virtual std::uint16_t start_count() = 0;
-  /// Bytes of the stack that nothing has touched since start.
+  /// Bytes of the stack that were never written since start.
   virtual std::uint32_t stack_never_used_bytes() = 0;
   virtual std::string_view board_name() = 0;
   /// 0 where the board has none.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// FIFO in block RAM whose oldest word stands at `head` without being asked for. DEPTH is a power of two.
+// FIFO in block RAM whose oldest word is always present at `head`. DEPTH is a power of two.
 //
 // `count` leaves out a word written in the last tick: block RAM needs that tick before it can be read, so the head is
-// right whenever count is not 0, and what the RAM answers while it is written at the same address does not matter.
+// right whenever count is not 0, and the RAM's output while it is written at the same address does not matter.
 `default_nettype none
 
 module capture_fifo #(
@@ -23,7 +23,7 @@ module capture_fifo #(
 
   (* ramstyle = "M9K, no_rw_check" *)
   reg [WIDTH-1:0] memory[0:DEPTH-1];
-  // One bit more than an address: tells full from empty.
+  // One bit more than an address: distinguishes full from empty.
   reg [ADDRESS_WIDTH:0] write_index;
   reg [ADDRESS_WIDTH:0] readable_index;
   reg [ADDRESS_WIDTH:0] read_index;

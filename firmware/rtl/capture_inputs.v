@@ -2,8 +2,8 @@
 // Asynchronous pins to levels of this clock, the edges between them, and the filter against short glitches.
 //
 // A pin that is sampled at tick c has its edge in `changed` during tick c + 3 + filter_length, with `levels` after it.
-// A new level is taken when it was sampled filter_length + 1 times in a row; what went away sooner is a glitch.
-// A new filter_length holds for edges that begin later. An edge counts when its input is watched as it is taken.
+// A new level is taken when it was sampled filter_length + 1 times in a row; a shorter one is a glitch.
+// A new filter_length holds for edges that begin later. An edge counts when its input is enabled in that tick.
 `default_nettype none
 
 module capture_inputs #(

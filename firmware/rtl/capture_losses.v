@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps account of edges that found no room: how many, that it happened, and where in the stream of records.
+// Counts edges that were lost because the FIFO was full, and marks where in the stream of records they are missing.
 `default_nettype none
 
 module capture_losses #(
@@ -9,7 +9,7 @@ module capture_losses #(
     input  wire                  clock,
     input  wire                  reset,
     input  wire [    INPUTS-1:0] changed,         // edges of this tick
-    input  wire                  full,            // there is no room for them
+    input  wire                  full,            // they do not fit
     input  wire                  interrupted,     // for another reason records do not continue those before
     input  wire                  clear_overflow,
     output reg                   overflow,

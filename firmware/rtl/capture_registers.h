@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Register map of the capture block (pharos_capture.v): byte offsets from its base, 32-bit words, read and written
-// whole. The one place that both board code and tests take it from; tests/rtl/register_map.py holds Verilog and README
-// to it.
+// whole. The only definition for both board code and tests; tests/rtl/register_map.py checks Verilog and README against
+// it.
 #ifndef PHAROS_FIRMWARE_RTL_CAPTURE_REGISTERS_H
 #define PHAROS_FIRMWARE_RTL_CAPTURE_REGISTERS_H
 

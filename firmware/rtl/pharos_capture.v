@@ -73,7 +73,7 @@ module pharos_capture #(
       if (bus_write && bus_address == ADDRESS_FILTER) filter_length <= bus_writedata[FILTER_WIDTH-1:0];
     end
 
-  // Ticks since reset; records carry the low half. Simulation may set it, to meet a wrap in time.
+  // Ticks since reset; records carry the low half. Simulation may set it, to reach a wrap soon.
   reg [63:0] ticks  /* verilator public_flat_rw */;
   reg [31:0] ticks_high_latched;
   always @(posedge clock)
@@ -147,7 +147,7 @@ module pharos_capture #(
     if (reset) bus_irq <= 1'b0;
     else bus_irq <= threshold != 0 && count >= threshold;
 
-  // What the bus reads.
+  // Read data of the bus.
   wire some = count != 0;
   wire [31:0] head_time = head[2*INPUTS+:32];
   wire [INPUTS-1:0] head_changed = head[INPUTS+:INPUTS];

@@ -10,12 +10,11 @@ namespace pharos::motion {
 /// State estimate of the whole filter: moments of the mixture, in the frame of the observing station.
 struct StateEstimate {
   LighthouseFromBody pose;
-  Matrix6 covariance = Matrix6::Zero();  // of the pose error
-  Vector6 rate = Vector6::Zero();        // rad/s, m/s, lighthouse frame
-  double rotation_rate_variance = 0.0;   // of one component, (rad/s)^2
-  double velocity_variance = 0.0;        // of one component, (m/s)^2
-  Matrix6 gate_covariance =
-      Matrix6::Zero();  // covariance if the model of highest process noise were certain; for gates
+  Matrix6 covariance = Matrix6::Zero();       // of the pose error
+  Vector6 rate = Vector6::Zero();             // rad/s, m/s, lighthouse frame
+  double rotation_rate_variance = 0.0;        // of one component, (rad/s)^2
+  double velocity_variance = 0.0;             // of one component, (m/s)^2
+  Matrix6 gate_covariance = Matrix6::Zero();  // if the model of highest process noise were certain; for gates
 };
 
 /// Interacting multiple models (Blom and Bar-Shalom, "The interacting multiple model algorithm", 1988): one static

@@ -16,8 +16,7 @@ constexpr int kCheckCycles = 16;  // about a quarter of a second between checks 
 // While a track is young or its hits are noisier than assumed (kNoisy), it may have started from a false hit.
 constexpr int kCheckCyclesUnconfirmed = 2;
 constexpr int kMinConfirmedSweeps = 32;
-constexpr int kMaxConsecutiveRejections =
-    2;  // consecutive sweeps that contradict a track; one makes a check due at once
+constexpr int kMaxConsecutiveRejections = 2;  // sweeps that contradict a track; one makes a check due at once
 // Difference of chi-squared from which the worse of two hypotheses is dropped: e^9 to one.
 constexpr double kDecided = 18.0;
 // Sweeps that an alternative started in flight needs to estimate its rates before it is compared.

@@ -88,8 +88,7 @@ Starts search(const SpinProblem& problem, double max_rate) {
 
 // Planes against a rotating axis; chi-squared over the five of Spin::moved_by.
 struct SpinDescent : optimize::LeastSquares<5, Spin> {
-  static constexpr double kFirstDamping =
-      1e-3;  // from a grid of 6 deg the undamped step may leave the basin of attraction
+  static constexpr double kFirstDamping = 1e-3;  // from a grid of 6 deg the undamped step may go to another minimum
 
   explicit SpinDescent(const SpinProblem& m) : problem(m) {}
 

@@ -5,7 +5,7 @@
 
 namespace pharos::board {
 
-// Where the devices of the EP4CE10 system lie: to be given to the bus fabric (Platform Designer) as they stand here.
+// Addresses of the devices of the EP4CE10 system: to be set in the bus fabric (Platform Designer) as given here.
 // Memory: memory_*.ld.
 
 inline constexpr std::uintptr_t kUart = 0x10000000;  // Intel 16550-compatible UART, FIFOs of 128 bytes

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kUartFifo = 128;
 constexpr std::uint32_t kMillisecond = 50'000;  // of the machine timer, which counts the core's 50 MHz
-// Intel's Interval Timer core set up as a watchdog of one second (Embedded Peripherals IP User Guide): it stands still
-// until started, and writing a period register winds it up again.
+// Intel's Interval Timer core as a watchdog of one second (Embedded Peripherals IP User Guide): it is stopped until
+// started, and writing a period register restarts its time.
 constexpr std::uintptr_t kWatchdogControl = kWatchdog + 4;
 constexpr std::uintptr_t kWatchdogPeriod = kWatchdog + 8;
 constexpr std::uint32_t kWatchdogStart = 4;
@@ -59,7 +59,7 @@ void set_timer_in(std::uint32_t ticks) {
 
 }  // namespace
 
-/// No device can pull the reset line on demand, so the watchdog does: it is no longer fed.
+/// No device can pull the reset line on demand, so the watchdog does: it is no longer triggered.
 void reset_machine() {
   disable_interrupts();
   mmio32(kWatchdogControl) = kWatchdogStart;
@@ -80,7 +80,7 @@ using namespace board;
 Board start_board() {
   line.start();
   mmio32(kWatchdogControl) = kWatchdogStart;
-  // Another block than this image was built for: no edge would mean anything.
+  // Another block than this image was built for: its edges would be meaningless.
   if (!capture.start()) on_fault({.cause = 0, .address = kCapture, .value = mmio32(kCapture)});
   return {capture, line, board::system};
 }

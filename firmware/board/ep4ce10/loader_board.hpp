@@ -39,7 +39,7 @@ class AvalonSpi {
   static constexpr std::uint32_t kForceSelect = 0x400;
 };
 
-/// What the loader needs of the EP4CE10 board (boot/boot_board.hpp). The slots lie behind the FPGA's configuration
+/// The EP4CE10 board's interface for the loader (boot/boot_board.hpp). The slots lie after the FPGA's configuration
 /// (368,011 bytes) in its EPCS16. Links; has not run on a board.
 class LoaderBoard : public LoaderMemory {
  public:
@@ -64,8 +64,8 @@ class LoaderBoard : public LoaderMemory {
     return true;
   }
   static std::uint32_t ticks() { return mmio32(kCapture + PHAROS_CAPTURE_TIME_LOW_OFFSET); }
-  /// The loader's memory is a ROM, so its first instruction is as good as a reset.
-  /// With the watchdog wound up: an image that hangs before it could do so itself is reset too.
+  /// The loader's memory is a ROM, so a jump to its first instruction is equivalent to a reset. With the watchdog
+  /// running: an image that hangs before it could start it is reset too.
   [[noreturn]] static void start(std::uint32_t entry) {
     mmio32(kWatchdog + 4) = 4;
     LoaderMemory::start(entry);

@@ -17,23 +17,23 @@ namespace {
 
 constexpr std::uintptr_t kUart = 0x10000000;
 constexpr std::size_t kUartFifo = 16;
-/// QEMU's UART takes bytes at any speed. This is what a line of 460,800 baud takes, in the tape's time; like the
+/// QEMU's UART accepts bytes at any speed. This is the rate of a line of 460,800 baud, in the tape's time; like the
 /// board's UART it holds 128 bytes.
 constexpr std::int64_t kByte_ticks = 10 * kTicksPerSecond / 460'800;
 constexpr std::int64_t kLineHolds = 128;
 constexpr std::int64_t kMillisecond = kTicksPerSecond / 1000;
-/// The watchdog, which the machine has not: so many looks of the timer's interrupt without food between them. Longer
+/// The watchdog, which the machine does not have: this many timer interrupts without a trigger between them. Longer
 /// than the board's, because a busy computer may stop the emulator for a second.
 constexpr std::int64_t kWatchdogPoll_ticks = kTicksPerSecond / 10;
 constexpr int kWatchdogPolls = 100;
 /// Of the machine's time, where the emulator counts instructions (-icount shift=0).
 constexpr std::int64_t kInstruction_ns = 1;
-/// What an instruction costs on a soft core of this class, for `cycles`.
+/// Cost of an instruction on a soft core of this class, for `cycles`.
 constexpr std::uint32_t kCyclesPerInstruction = 3;
 
 CaptureReplay tape;
 
-// Instructions but for those that a board does not spend.
+// Instructions except those that a board does not execute.
 std::uint32_t core_instructions() { return instructions_retired_low() - tape.instructions(); }
 
 class Line final : public hal::SerialLine {
@@ -53,7 +53,7 @@ class Line final : public hal::SerialLine {
     return taken;
   }
   bool idle() override { return uart_.idle(); }
-  // Looks once a millisecond of the tape: a look costs the emulator more than a record does.
+  // Once a millisecond of the tape: a poll costs the emulator more than a record does.
   std::optional<std::uint8_t> read() override {
     if (!more_ && tape.now_ticks() - looked_ticks_ < kMillisecond && !tape.waiting()) return std::nullopt;
     looked_ticks_ = tape.now_ticks();
@@ -62,7 +62,7 @@ class Line final : public hal::SerialLine {
     return byte;
   }
   std::uint32_t receive_errors() override { return uart_.receive_errors(); }
-  /// Whether anything was written since last asked.
+  /// Whether anything was written since the last call.
   bool take_wrote() {
     const bool wrote = wrote_;
     wrote_ = false;
@@ -110,11 +110,11 @@ class System final : public CommonSystem {
 };
 System system;
 
-/// Behind the tape's end, in a row: the interrupt that writes may not have come between two of them.
+/// After the tape's end, in a row: the interrupt that writes may not have occurred between two of them.
 constexpr int kQuietRests = 4;
 int quiet_rests = 0;
 
-/// The loader notes why the machine was reset; where an image is started without one, nobody has.
+/// The loader stores why the machine was reset; an image started without one has no cause.
 void note_reset_without_loader() {
   volatile boot::Retained& kept = retained();
   if (kept.mark != boot::Retained::kMark || kept.announced != 0) boot::note_reset(kept);
@@ -135,7 +135,7 @@ void on_timer_interrupt() {
   if (tape.instructions_a_millisecond() == 0) {
     set_timer(now + kMillisecond);
   } else {
-    // A core of the tape's speed is called as often by its own time, in which reading the tape takes none.
+    // A core of the tape's speed is called by its own time, in which reading the tape takes none.
     const std::int64_t left = std::int64_t{tape.instructions_a_millisecond()} - (core_instructions() - begin);
     set_timer(machine_ticks() + std::max<std::int64_t>(left, 1) * kInstruction_ns / kNanosecondsPerTick);
   }
@@ -163,10 +163,10 @@ void wait_for_event() {
     quiet_rests = line.take_wrote() ? 0 : quiet_rests + 1;
     if (quiet_rests == kQuietRests) exit_emulator(0);
   } else if (tape.instructions_a_millisecond() != 0) {
-    return;  // the core's time does not move in its sleep
+    return;  // the core's time does not advance while it sleeps
   }
   const bool interrupt_reads = millisecond_handler != nullptr;
-  // A look at the clock is no record, but more may follow at once.
+  // A read of the clock is no record, but more may follow at once.
   if (!interrupt_reads && (tape.ended() || !tape.waiting())) return;
   if (!interrupt_reads) set_timer(machine_ticks() + kMillisecond);
   wait_for_interrupt();

@@ -27,7 +27,7 @@ void CaptureReplay::start() {
   }
 }
 
-// Has the next words, if they have come whole. True when it does.
+// Fetches the next words, if they arrived whole. True when it did.
 bool CaptureReplay::fetch() {
   const auto bytes = std::as_writable_bytes(std::span(words_));
   while (count_ < bytes.size()) {
@@ -52,7 +52,7 @@ bool CaptureReplay::fetch() {
   return true;
 }
 
-// Uses the words.
+// Consumes the words.
 void CaptureReplay::use() {
   count_ = 0;
   now_ticks_ = due_ticks_;
@@ -74,14 +74,14 @@ bool CaptureReplay::take_words(std::uint32_t instructions) {
   const bool come = fetch();
   if (come && speed_ != 0 && !first && due_ticks_ > core_ticks(instructions)) return false;
   if (come) use();
-  if (first || !come) {  // where nothing has come, it is not the core that is late
+  if (first || !come) {  // where nothing arrived, the core is not late
     core_ticks_ = now_ticks_;
     core_begin_ = instructions;
   }
   return come;
 }
 
-// The core's own time: it moves with the instructions.
+// The core's own time: it advances with the instructions.
 std::int64_t CaptureReplay::core_ticks(std::uint32_t instructions) {
   const std::uint64_t moved = std::uint64_t{instructions - core_begin_} * speed_ + core_fraction_;
   core_begin_ = instructions;
@@ -91,7 +91,7 @@ std::int64_t CaptureReplay::core_ticks(std::uint32_t instructions) {
 }
 
 std::int64_t CaptureReplay::now_ticks() {
-  // Never beyond what is known to come: until then nothing else does.
+  // Never beyond the next known record: until then nothing changes.
   if (speed_ != 0 && !held_ && count_ == sizeof(words_)) {
     const PausedClock aside(*this);
     now_ticks_ = std::max(now_ticks_, std::min(core_ticks(aside.begin() - instructions_), due_ticks_));
@@ -99,7 +99,7 @@ std::int64_t CaptureReplay::now_ticks() {
   return now_ticks_;
 }
 
-// But for what is aside, what it costs a board: a status, and three registers where there is a record.
+// Cost on a board, uncounted instructions excluded: a status, and three registers where there is a record.
 bool CaptureReplay::read(hal::CaptureRecord& record) {
   if (!held_ && !ended_) {
     const PausedClock aside(*this);

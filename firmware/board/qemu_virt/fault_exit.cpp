@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For test programs: main's value is the emulator's exit code, and a fault says what it is and ends it with 70.
+// For test programs: main's value is the emulator's exit code, and a fault is printed and ends it with 70.
 #include "firmware/board/qemu_virt/machine.hpp"
 #include "firmware/board/rv32/trap.hpp"
 

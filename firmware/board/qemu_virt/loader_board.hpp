@@ -12,7 +12,7 @@
 
 namespace pharos::board {
 
-/// What the loader needs of `qemu-system-riscv32 -M virt` (boot/boot_board.hpp). All is here and inline: 4 KiB.
+/// The interface of `qemu-system-riscv32 -M virt` for the loader (boot/boot_board.hpp). All is here and inline: 4 KiB.
 class LoaderBoard : public LoaderMemory {
  public:
   using Flash = CfiFlash;
@@ -21,7 +21,7 @@ class LoaderBoard : public LoaderMemory {
 
   static void prepare() {
     mmio8(kUart + 2) = 1;                           // receive up to 16 bytes ahead
-    (void)static_cast<std::uint8_t>(mmio8(kUart));  // QEMU drops what came before, and takes no more until it was asked
+    (void)static_cast<std::uint8_t>(mmio8(kUart));  // QEMU drops earlier bytes, and receives none until read once
   }
 
   static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? 0 : kSlotBytes; }

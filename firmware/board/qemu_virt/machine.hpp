@@ -10,16 +10,16 @@ namespace pharos::board {
 
 /// Ends the emulator with this exit code (sifive_test device); 0 is success.
 [[noreturn]] void exit_emulator(int code);
-/// Resets the machine: memory keeps what it holds outside the loaded image.
+/// Resets the machine: memory outside the loaded image is kept.
 [[noreturn]] void reset_machine();
 
 /// Time since start of the machine in ticks of 20 ns, from the 10 MHz CLINT: steps of 5. Under `-icount shift=0` an
 /// instruction takes 1 ns.
 std::int64_t machine_ticks();
-/// The next machine timer interrupt comes at this time.
+/// Sets the time of the next machine timer interrupt.
 void set_timer(std::int64_t machine_ticks);
 
-/// One byte to the first UART (16550), waiting until it is taken.
+/// One byte to the first UART (16550), blocking until it is accepted.
 void console_put(char byte);
 /// Text for test programs; a newline is sent as it is.
 void console_write(std::string_view text);

@@ -12,11 +12,10 @@ namespace pharos::board {
 /// `-device virtio-serial-device -device virtconsole,chardev=…`; Virtual I/O Device specification 1.1, 4.2.4 and 5.3.
 class VirtioConsole {
  public:
-  /// Buffers and ring lie in device memory (.device), which stands for the capture block's FIFO and not for the
-  /// program's memory.
+  /// Buffers and ring lie in device memory (.device), which represents the capture block's FIFO and not the program's
+  /// memory.
   bool start();
-  /// Bytes that have come: as many as lie together, at most `most`; empty when there are none. They hold until the next
-  /// call.
+  /// Received bytes: as many as are contiguous, at most `most`; empty when there are none. Valid until the next call.
   std::span<const volatile std::uint8_t> read(std::size_t maximum);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace pharos::board {
 
-/// What every board answers alike, from what the loader retained and from the stack's mark.
+/// Functions that are the same on every board, from the loader's retained data and from the stack's mark.
 class CommonSystem : public hal::System {
  public:
   void confirm_start() override { boot::confirm_start(retained()); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For images: a fault is kept over the reset and told in the next Hello.
+// For images: a fault is kept over the reset and reported in the next Hello.
 #include "firmware/board/rv32/restart.hpp"
 #include "firmware/board/rv32/trap.hpp"
 

@@ -17,10 +17,10 @@ extern volatile pharos::boot::Retained __retained;
 
 namespace pharos::board {
 
-/// The memory of a board as its loader sees it.
+/// The memory of a board for its loader.
 class LoaderMemory {
  public:
-  /// On-chip memory but for what the loader itself uses, or external memory.
+  /// On-chip memory except the loader's own, or external memory.
   static std::uint8_t* memory(std::uint32_t address, std::uint32_t bytes) {
     return is_within(address, bytes, __chip_start, __loader_start) ||
                    is_within(address, bytes, __external_start, __external_end)
@@ -29,7 +29,7 @@ class LoaderMemory {
   }
   static volatile boot::Retained& retained() { return __retained; }
   [[noreturn]] static void start(std::uint32_t entry) {
-    // What was just written is what is executed.
+    // The data just written is executed next.
     asm volatile(".option push\n.option arch, +zifencei\nfence.i\n.option pop" ::: "memory");
     reinterpret_cast<void (*)()>(entry)();
     __builtin_unreachable();

@@ -5,8 +5,8 @@
 
 namespace pharos::board {
 
-// What RV32IM with Zicsr offers beyond C++. The compiler's -march is plain rv32im (the C library has no variant with
-// zicsr in its name), so each instruction asks for it.
+// Features of RV32IM with Zicsr beyond C++. The compiler's -march is plain rv32im (the C library has no variant with
+// zicsr in its name), so each instruction enables it.
 #define PHAROS_CSR(instruction) ".option push\n.option arch, +zicsr\n" instruction "\n.option pop"
 
 /// Instructions executed since start, this call's own among them. Under `qemu-system-riscv32 -icount shift=0` the same
@@ -23,7 +23,7 @@ inline std::uint64_t instructions_retired() {
   return (std::uint64_t{high} << 32) | low;
 }
 
-/// The lower half of it, in one instruction: for stretches of less than 2^32.
+/// The lower half of it, in one instruction: for intervals of less than 2^32.
 [[gnu::always_inline]] inline std::uint32_t instructions_retired_low() {
   std::uint32_t low = 0;
   asm volatile(PHAROS_CSR("rdinstret %0") : "=r"(low)::"memory");

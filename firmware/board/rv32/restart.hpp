@@ -9,7 +9,7 @@ namespace pharos::board {
 
 inline volatile boot::Retained& retained() { return __retained; }
 
-/// Resets processor and devices; memory keeps what it holds. Each board defines it.
+/// Resets processor and devices; memory is kept. Each board defines it.
 [[noreturn]] void reset_machine();
 
 }  // namespace pharos::board

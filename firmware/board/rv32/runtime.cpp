@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few names that compiler and C library expect of a platform. What the core must not use stays undefined.
+// The few functions that compiler and C library require of a platform. What the core must not use stays undefined.
 #include "firmware/board/rv32/trap.hpp"
 
 extern "C" {

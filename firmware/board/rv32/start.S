@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # First instructions after reset or after the loader's jump: stack, trap handler, initial data, constructors, main.
-# What main returns goes to pharos_exit (the board's).
+# The value of main is passed to pharos_exit (the board's).
   .option arch, +zicsr
 
   .section .text.start, "ax"

@@ -10,7 +10,7 @@ constexpr std::uint32_t kMachineTimer = 0x80000007;  // mcause
 
 }  // namespace
 
-/// Where start.S points mtvec: the compiler saves what the handler touches.
+/// Target of mtvec (start.S): the compiler saves the registers that the handler uses.
 extern "C" [[gnu::interrupt("machine"), gnu::aligned(4)]] void pharos_trap() {
   Fault fault;
   asm volatile(PHAROS_CSR("csrr %0, mcause") : "=r"(fault.cause));

@@ -44,6 +44,28 @@ class EnvironmentTest : public ::testing::Test {
   Environment real_ = host_environment();
 };
 
+TEST_F(EnvironmentTest, PairsAreHeldToTheRigByTheFirstThatCanBeRead) {
+  const auto write = [&](const char* name, const std::string& content) {
+    test::write_file(path(name), {content.begin(), content.end()});
+  };
+  RigFile rig;
+  rig.left.intrinsics.width_px = rig.right.intrinsics.width_px = 2;
+  rig.left.intrinsics.height_px = rig.right.intrinsics.height_px = 1;
+  for (const char* name : {"0_left.pgm", "0_right.pgm", "1_left.pgm"}) write(name, "P5\n2 1\n255\nAB");
+  write("1_right.pgm", "P5\n1 1\n255\nA");
+  write("0_right.pgm", "no image");
+  EXPECT_THROW(real_.check_pairs(folder_.path(), rig), InputError) << "the second right image is of another size";
+  write("1_right.pgm", "P5\n2 1\n255\nAB");
+  EXPECT_NO_THROW(real_.check_pairs(folder_.path(), rig));
+  write("1_left.pgm", "");
+  try {
+    real_.check_pairs(folder_.path(), rig);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("0_right.pgm: is no PNG"));
+  }
+}
+
 TEST_F(EnvironmentTest, ARecordingIsOpenedAndItsHeadRead) {
   pharos::test::write_file(path("good"), stream_format::encode_head({"dock", 460'800, 1, 1}));
   EXPECT_EQ(error_of_recording("good"), "");

@@ -183,6 +183,7 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   calibrated.calibration_file = "calibrated.toml";
   calibrated.scale_sigma = 0.005;
   calibrated.calibrated_stations.resize(1);
+  calibrated.calibrated_stations[0].id = 0xBEC08E38;
   calibrated.calibrated_stations[0].calibration.id = 0xBEC08E38;
   calibrated.calibrated_stations[0].calibration.rotor[0].phase_rad = kPhase_rad;
   LighthousePipeline pipeline(calibrated, PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);

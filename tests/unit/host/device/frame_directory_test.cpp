@@ -95,6 +95,17 @@ TEST_F(FrameDirectoryTest, SaysWhatIsWrong) {
   EXPECT_THAT(refusal([&] { FrameDirectory(folder_.string()); }), HasSubstr("0007_intensity.png: is missing"));
 }
 
+TEST_F(FrameDirectoryTest, AsASourceRemarksOnColour) {
+  std::ofstream(folder_ / "1_intensity.ppm", std::ios::binary) << "P6\n1 1\n255\nABC";
+  std::ofstream(folder_ / "1_depth.pgm", std::ios::binary) << "P5\n1 1\n65535\nAB";
+  RecordedSource source(folder_.string(), 1, 1, 0.0);
+  EXPECT_EQ(source.status().remark, "");
+  pollfd waiting{source.fd(), POLLIN, 0};
+  ASSERT_EQ(::poll(&waiting, 1, 10'000), 1);
+  ASSERT_TRUE(source.take());
+  EXPECT_THAT(source.status().remark, HasSubstr("1_intensity.ppm: is in colour; its luma"));
+}
+
 TEST_F(FrameDirectoryTest, IsASourceThatEndsAndCountsWhatCannotBeRead) {
   write_raw("0001_abcy16.raw", 1);
   write_raw("0002_abcy16.raw", 1, 3);
