@@ -147,22 +147,6 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   EXPECT_LT(all.nees_per_freedom(), 1.2);
 }
 
-// Beyond four minutes of darkness another station may stand in the slot: what was known of it no longer holds.
-TEST(MotionFlight, ALongDarkForgetsTheCalibration) {
-  sim::LighthouseScenario scenario = test::still(246.0, 2.0, 7);
-  scenario.faults.blackouts = {{1.0, 244.0}};
-  int before = 0, after = 0;
-  test::fly(scenario, 7, [&](const FlightSample& answer) {
-    const bool uncalibrated = (answer.result->flags & track::kEpochUncalibrated) != 0;
-    if (!answer.result->pose) return;
-    EXPECT_EQ(uncalibrated, answer.time_s > 200.0);
-    EXPECT_LT(answer.position_mm(), 50.0);
-    ++(uncalibrated ? after : before);
-  });
-  EXPECT_GT(before, 50);
-  EXPECT_GT(after, 50);
-}
-
 // Stations are told apart by their slot: one identity twice costs neither its pose.
 TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
   sim::LighthouseScenario scenario = test::still(4.0, 2.0, 11, 8);

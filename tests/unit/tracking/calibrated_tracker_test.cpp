@@ -245,7 +245,7 @@ TEST_F(StationKnowledge, AStationKnownByItsSlotHoldsAtOnceAndThroughARestart) {
   EXPECT_EQ(id_at(tracker, 1), 7u);
 }
 
-TEST_F(StationKnowledge, NobodyIsBelievedWhereNothingIsToBe) {
+TEST_F(StationKnowledge, NoneHoldsWhereThePolicyAsksForNone) {
   CalibrationPolicy policy;
   policy.use_sent = false;
   Tested tracker(policy);
