@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kBytesAbcy16 = 8;
 constexpr std::size_t kBytes16 = 2;
 constexpr std::size_t kZ = 2;  // of X, Y, Z, intensity
-constexpr std::size_t kIntensity = 3;
+constexpr std::size_t kIntensityPlace = 3;
 
 std::uint16_t little_endian(const std::uint8_t* bytes) {
   if constexpr (std::endian::native == std::endian::little) {
@@ -29,7 +29,7 @@ bool unpack_abcy16(std::span<const std::uint8_t> bytes, std::span<std::uint16_t>
   const std::uint8_t* pixel = bytes.data();
   for (std::size_t i = 0; i < depth.size(); ++i, pixel += kBytesAbcy16) {
     depth[i] = little_endian(pixel + kBytes16 * kZ);
-    intensity[i] = little_endian(pixel + kBytes16 * kIntensity);
+    intensity[i] = little_endian(pixel + kBytes16 * kIntensityPlace);
   }
   return true;
 }

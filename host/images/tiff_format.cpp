@@ -102,7 +102,7 @@ Number field(const Tiff& tiff, std::uint32_t tag, Number otherwise) {
   return TIFFGetFieldDefaulted(tiff.get(), tag, &value) == 1 ? value : otherwise;
 }
 
-struct Layout {
+struct TiffLayout {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, photometric = 0, compression = 0;
   bool apart = false;  // the colours of a pixel: each in a plane of its own
@@ -116,8 +116,8 @@ struct Layout {
   throw InputError(name + ": is a TIFF " + what + "; " + remedy);
 }
 
-Layout layout_of(const Tiff& tiff, const std::string& name) {
-  Layout layout;
+TiffLayout layout_of(const Tiff& tiff, const std::string& name) {
+  TiffLayout layout;
   layout.width = field<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
   layout.height = field<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);
   require_readable_size(layout.width, layout.height, name);
@@ -130,7 +130,7 @@ Layout layout_of(const Tiff& tiff, const std::string& name) {
   return layout;
 }
 
-void check_kind(const Tiff& tiff, Layout& layout, const std::string& name) {
+void check_kind(const Tiff& tiff, TiffLayout& layout, const std::string& name) {
   constexpr std::array kCompressions = {COMPRESSION_NONE,    COMPRESSION_PACKBITS,      COMPRESSION_LZW,
                                         COMPRESSION_DEFLATE, COMPRESSION_ADOBE_DEFLATE, COMPRESSION_JPEG};
   if (std::find(kCompressions.begin(), kCompressions.end(), layout.compression) == kCompressions.end()) {
@@ -168,7 +168,7 @@ struct Pieces {
   bool tiles = false;
 };
 
-Pieces pieces_of(const Tiff& tiff, const Layout& layout, const std::string& name) {
+Pieces pieces_of(const Tiff& tiff, const TiffLayout& layout, const std::string& name) {
   Pieces pieces;
   pieces.tiles = TIFFIsTiled(tiff.get()) != 0;
   const auto up = [](std::uint32_t all, std::uint32_t part) { return (all - 1) / part + 1; };
@@ -198,7 +198,7 @@ Pieces pieces_of(const Tiff& tiff, const Layout& layout, const std::string& name
 
 class TiffPixels {
  public:
-  TiffPixels(const Tiff& tiff, const Source& source, const Layout& layout, const std::string& name)
+  TiffPixels(const Tiff& tiff, const Source& source, const TiffLayout& layout, const std::string& name)
       : tiff_(tiff), source_(source), layout_(layout), pieces_(pieces_of(tiff, layout, name)), name_(name) {
     const std::size_t packing = layout.compression == COMPRESSION_NONE ? 1 : kMaxPacking;
     if (layout.values() * layout.value_bytes() > packing * source.bytes.size()) {
@@ -249,7 +249,7 @@ class TiffPixels {
 
   const Tiff& tiff_;
   const Source& source_;
-  const Layout& layout_;
+  const TiffLayout& layout_;
   Pieces pieces_;
   const std::string& name_;
   std::vector<std::uint16_t> values_;
@@ -294,7 +294,7 @@ Picture decode_tiff(Bytes bytes, const std::string& name) {
   Source source{bytes, 0, {}};
   const Tiff tiff = opened(source);
   if (!tiff) refuse_damaged(name, "TIFF", source.error.empty() ? "no image in it" : source.error);
-  Layout layout = layout_of(tiff, name);
+  TiffLayout layout = layout_of(tiff, name);
   check_kind(tiff, layout, name);
   source.error.clear();  // of tags that are not looked at
   Picture picture{static_cast<std::int32_t>(layout.width), static_cast<std::int32_t>(layout.height),

@@ -16,7 +16,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kCameraExample =
     "Example:\n"
     "  pharos calibrate camera board*.png --board dots --columns 12 --rows 8 --pitch-mm 20 --radius-mm 5 --output "
     "camera.toml\n"
@@ -27,13 +27,13 @@ constexpr const char* kExample =
     "image, near and far, tilted by 20 to 40 degrees each way. On standard output: parameter,value,sigma. Exit code 1\n"
     "where the images cannot tell a camera; standard error says what became of each and what is missing.";
 
-struct Options {
+struct CameraOptions {
   BoardOptions board;
   std::vector<std::string> images;
 };
 
-void write_outputs(const Options& options, const calibrate::CalibrationChoices& choices, const BoardPictures& pictures,
-                   const calibrate::CameraCalibration& result) {
+void write_outputs(const CameraOptions& options, const calibrate::CalibrationChoices& choices,
+                   const BoardPictures& pictures, const calibrate::CameraCalibration& result) {
   if (!options.board.images.empty()) write_image_statuses(result.images, {options.board.json, options.board.images});
   if (options.board.overlay.empty()) return;
   const PinholeCamera* camera = result.outcome ? &result.camera() : nullptr;
@@ -42,7 +42,7 @@ void write_outputs(const Options& options, const calibrate::CalibrationChoices& 
                        result.outcome ? result.outcome->state.T_camera_board : none);
 }
 
-int run(const Options& options) {
+int run_camera(const CameraOptions& options) {
   const calibrate::CalibrationChoices choices = choices_of(options.board);
   if (options.board.output != "-") require_writable(options.board.output);
   ImageInput input;
@@ -78,11 +78,11 @@ int run(const Options& options) {
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code) {
   CLI::App* command =
       calibrate.add_subcommand("camera", "A camera's intrinsics and distortion from images of a calibration board");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CameraOptions>();
   command->add_option("IMAGE", options->images, "Images of the board")->required();
   add_board_options(*command, options->board);
-  command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->footer(kCameraExample);
+  command->callback([options, &exit_code] { exit_code = run_camera(*options); });
 }
 
 }  // namespace pharos::tools

@@ -18,7 +18,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kStereoExample =
     "Example:\n"
     "  pharos calibrate stereo --left left*.png --right right*.png --board chessboard --columns 9 --rows 6 --pitch-mm "
     "25 "
@@ -28,7 +28,7 @@ constexpr const char* kExample =
     "standard output: parameter,value,sigma; the right camera's rotation vector and position are in the left camera's\n"
     "frame. Images as for `pharos calibrate camera`.";
 
-struct Options {
+struct StereoOptions {
   BoardOptions board;
   std::vector<std::string> left;
   std::vector<std::string> right;
@@ -52,7 +52,7 @@ host::RigFile file_of(const calibrate::RigCalibration& result, const calibrate::
 }
 
 // Left images only with the left camera's own poses; the right camera's follow from the rig.
-void write_overlays(const Options& options, const calibrate::Board& board,
+void write_overlays(const StereoOptions& options, const calibrate::Board& board,
                     const std::array<const BoardPictures*, 2>& pictures, const calibrate::RigCalibration& result) {
   for (std::size_t side = 0; side < 2; ++side) {
     write_board_overlays(options.board.overlay, side == 0 ? "left_" : "right_", *pictures[side], result.images[side],
@@ -60,7 +60,7 @@ void write_overlays(const Options& options, const calibrate::Board& board,
   }
 }
 
-int run(const Options& options) {
+int run_stereo(const StereoOptions& options) {
   if (options.left.size() != options.right.size()) {
     throw host::InputError(std::to_string(options.left.size()) + " left and " + std::to_string(options.right.size()) +
                            " right images are no pairs; give as many, in one order");
@@ -101,12 +101,12 @@ int run(const Options& options) {
 void add_calibrate_stereo(CLI::App& calibrate, int& exit_code) {
   CLI::App* command =
       calibrate.add_subcommand("stereo", "Two cameras and the pose between them from pairs of images of a board");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StereoOptions>();
   command->add_option("--left", options->left, "Images of the left camera")->required();
   command->add_option("--right", options->right, "Images of the right camera, in the same order")->required();
   add_board_options(*command, options->board);
-  command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->footer(kStereoExample);
+  command->callback([options, &exit_code] { exit_code = run_stereo(*options); });
 }
 
 }  // namespace pharos::tools

@@ -17,14 +17,14 @@
 namespace pharos::tools {
 namespace {
 
-struct Options {
+struct VocabularyOptions {
   std::vector<std::string> images;
   std::string output;
   int branches = 8, depth = 4, features = 1000;
   std::uint64_t seed = 1;
 };
 
-int run(const Options& options) {
+int run_vocabulary(const VocabularyOptions& options) {
   require_writable(options.output);
   std::vector<std::vector<slam::Descriptor>> described;
   ImageInput input;
@@ -52,7 +52,7 @@ int run(const Options& options) {
 
 void add_vocabulary(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("vocabulary", "Train the visual words that `pharos slam` knows places by");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VocabularyOptions>();
   command->add_option("IMAGE", options->images, "Images, far apart from each other in what they show")->required();
   command->add_option("--output", options->output, "Vocabulary file to write")->required();
   command->add_option("--branches", options->branches, "Children of a node (default 8)")
@@ -61,7 +61,7 @@ void add_vocabulary(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, slam::Vocabulary::kMaxDepth));
   command->add_option("--seed", options->seed, "Of the start values");
   command->footer("Example: pharos vocabulary frames/left/*0.png --output orb.words");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_vocabulary(*options); });
 }
 
 }  // namespace pharos::tools

@@ -44,7 +44,7 @@ constexpr double kHaltingRate_rad_s = 0.1, kHaltingVelocity_m_s = 0.03;
 // rates that differ by whole rotations a sweep give the same poses, and no sweep would ever contradict them.
 constexpr double kAstray = 100.0;
 constexpr double kLostRotation_rad = 0.5, kLostPosition_m = 0.5;
-constexpr double kLongestStep_s = 0.05;
+constexpr double kMaxFilterStep_s = 0.05;
 // Smaller fractions are not mixed; less probable models are not corrected, but restarted from the others.
 constexpr double kNegligible = 1e-3;
 
@@ -150,7 +150,7 @@ bool ImmFilter::lost(std::size_t m) const {
 }
 
 void ImmFilter::interact(double dt_s) {
-  const double dt = std::min(dt_s, kLongestStep_s);
+  const double dt = std::min(dt_s, kMaxFilterStep_s);
   Flow flow;  // probability of having gone from i to j
   std::array<double, kModels> next{};
   for (std::size_t i = 0; i < kModels; ++i) {

@@ -17,13 +17,13 @@ constexpr double kSettledRotation_rad = 0.035, kSettledPosition_m = 0.03;
 // from one cycle.
 constexpr double kLooseRotation_rad = 0.06, kLoosePosition_m = 0.1;
 // A track that saw the body this recently is current.
-constexpr double kFresh_s = 0.03;
+constexpr double kFreshPair_s = 0.03;
 // Squared distance (6 degrees of freedom) from which two poses contradict each other, and the number of consecutive
 // sweeps for a decision.
-constexpr double kContradiction = 40.0;
+constexpr double kPairContradiction = 40.0;
 constexpr int kContradictions = 30;
 // A joint hypothesis with larger sigmas than these is discarded.
-constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
+constexpr double kLostPairRotation_rad = 0.7, kLostPairPosition_m = 1.0;
 constexpr double kLost_s = 0.5;
 
 double rotation_variance(const Matrix6& covariance) { return covariance.topLeftCorner<3, 3>().trace(); }
@@ -42,7 +42,7 @@ bool settled(const StationTrack& track) {
 bool settled_together(const StationPair::Tracks& tracks) {
   if (!settled(*tracks[0]) || !settled(*tracks[1])) return false;
   const std::int64_t apart = tracks[0]->best()->last_used_ticks() - tracks[1]->best()->last_used_ticks();
-  return std::abs(ticks_to_seconds(apart)) < kFresh_s;
+  return std::abs(ticks_to_seconds(apart)) < kFreshPair_s;
 }
 
 std::int64_t now_of(const StationPair::Tracks& tracks) {
@@ -94,8 +94,8 @@ void StationPair::push(const lighthouse::SweepBearings& bearings, Axis axis, std
   }
   joint_->push(bearings, axis, view, noise, observer_of(station));
   const Matrix6& covariance = joint_->state_estimate().covariance;
-  if (!(rotation_variance(covariance) < kLostRotation_rad * kLostRotation_rad) ||
-      !(position_variance(covariance) < kLostPosition_m * kLostPosition_m)) {
+  if (!(rotation_variance(covariance) < kLostPairRotation_rad * kLostPairRotation_rad) ||
+      !(position_variance(covariance) < kLostPairPosition_m * kLostPairPosition_m)) {
     remember();
     lose();
     return;
@@ -109,7 +109,7 @@ bool StationPair::fits(const Known& known, const Tracks& tracks) const {
   const StateEstimate first = tracks[0]->best()->predicted(now), second = tracks[1]->best()->predicted(now);
   const SecondView view(first.pose, known.T_1_0);
   const Matrix6 allowed = seen_covariance(view, first.covariance, {known.T_1_0, known.covariance}) + second.covariance;
-  return mahalanobis_squared(second.pose, view.pose, allowed) < kContradiction;
+  return mahalanobis_squared(second.pose, view.pose, allowed) < kPairContradiction;
 }
 
 const StationPair::Known* StationPair::known() const {
@@ -159,8 +159,8 @@ void StationPair::watch(std::uint8_t station, const Tracks& tracks) {
   if (settled(*tracks[station])) {
     const StateEstimate own = tracks[station]->best()->predicted(joint_->time_ticks());
     const StateEstimate& state_estimate = joint_->state_estimate();
-    apart =
-        mahalanobis_squared(own.pose, state_estimate.pose, state_estimate.covariance + own.covariance) > kContradiction;
+    apart = mahalanobis_squared(own.pose, state_estimate.pose, state_estimate.covariance + own.covariance) >
+            kPairContradiction;
   }
   contradictions = apart ? contradictions + 1 : 0;
   if (contradictions < kContradictions) return;

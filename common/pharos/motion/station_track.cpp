@@ -24,7 +24,7 @@ constexpr int kSettleSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
 // A track with larger sigmas than these is discarded.
-constexpr double kLostRotation_rad = 0.7, kLostPosition_m = 1.0;
+constexpr double kLostTrackRotation_rad = 0.7, kLostTrackPosition_m = 1.0;
 // Two solved cycles further apart than this determine no rate.
 constexpr double kLongestBetween_s = 0.07;
 // Time over which a cycle's hits are spread, for the effect of motion on its solution.
@@ -67,8 +67,8 @@ void StationTrack::push(const lighthouse::SweepBearings& bearings, Axis axis, co
   if (!best_) return;
   best_->push(bearings, axis, view, noise);
   const Matrix6& covariance = best_->state_estimate().covariance;
-  if (!(covariance.topLeftCorner<3, 3>().trace() < kLostRotation_rad * kLostRotation_rad) ||
-      !(covariance.bottomRightCorner<3, 3>().trace() < kLostPosition_m * kLostPosition_m)) {
+  if (!(covariance.topLeftCorner<3, 3>().trace() < kLostTrackRotation_rad * kLostTrackRotation_rad) ||
+      !(covariance.bottomRightCorner<3, 3>().trace() < kLostTrackPosition_m * kLostTrackPosition_m)) {
     lose();
     return;
   }

@@ -13,19 +13,19 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kWindow = 5 * kMs;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kWindow = 5 * kMillisecond_ns;
 
 class PairMatcherTest : public ::testing::Test {
  protected:
   /// Left and right time of the pair that this frame completes, ms.
   std::optional<std::pair<std::int64_t, std::int64_t>> push(std::size_t side, std::int64_t ms) {
-    return push_ns(side, ms * kMs);
+    return push_ns(side, ms * kMillisecond_ns);
   }
   std::optional<std::pair<std::int64_t, std::int64_t>> push_ns(std::size_t side, std::int64_t ns) {
     auto pair = matcher.push(side, {std::make_unique<DepthFrame>(), MappedTime{ns, ns, 0}});
     if (!pair) return std::nullopt;
-    return std::pair((*pair)[0].time.utc_ns / kMs, (*pair)[1].time.utc_ns / kMs);
+    return std::pair((*pair)[0].time.utc_ns / kMillisecond_ns, (*pair)[1].time.utc_ns / kMillisecond_ns);
   }
 
   std::array<int, 2> discarded{};
@@ -85,7 +85,7 @@ TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
     const auto pair = push_ns(side, now[side]);
     if (!pair) continue;
     paired += 2;
-    EXPECT_LE(std::abs(pair->first - pair->second), kWindow / kMs + 1);
+    EXPECT_LE(std::abs(pair->first - pair->second), kWindow / kMillisecond_ns + 1);
     EXPECT_GE(pair->first, last) << "pairs go forwards";
     last = pair->first;
   }
@@ -146,13 +146,13 @@ class CameraPairsTest : public ::testing::Test {
 };
 
 TEST_F(CameraPairsTest, MakesPairsAndSendsTheBuffersRound) {
-  const std::int64_t t = 1'000'000 * kMs;
+  const std::int64_t t = 1'000'000 * kMillisecond_ns;
   hands[0]->show(t);
-  hands[1]->show(t + 2 * kMs);
+  hands[1]->show(t + 2 * kMillisecond_ns);
   StereoPairPtr pair = pairs->take();
   ASSERT_TRUE(pair);
-  EXPECT_EQ(pair->time.utc_ns, t + kMs);
-  EXPECT_EQ(pair->offset_ns, 2 * kMs);
+  EXPECT_EQ(pair->time.utc_ns, t + kMillisecond_ns);
+  EXPECT_EQ(pair->offset_ns, 2 * kMillisecond_ns);
   EXPECT_EQ(counter("device.pairs"), 1);
   EXPECT_GE(counter("pair_offset_max_us"), 1999);
   pairs->recycle(std::move(pair));
@@ -168,7 +168,7 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneReported) {
   EXPECT_EQ(pairs->status().state, CameraState::kGone);
   EXPECT_EQ(pairs->status().error, "right: no camera answers");
   for (int k = 0; k < 20; ++k) {
-    hands[0]->show((1'000'000 + 50 * k) * kMs);
+    hands[0]->show((1'000'000 + 50 * k) * kMillisecond_ns);
     EXPECT_FALSE(pairs->take());
   }
   EXPECT_EQ(counter("left.frames_without_partner"), 16);
@@ -177,23 +177,23 @@ TEST_F(CameraPairsTest, TheWorseCameraIsTheOneReported) {
 TEST_F(CameraPairsTest, ShuttersThatAreNotTogetherAreReported) {
   for (int k = 0; k < 12; ++k) {
     EXPECT_EQ(pairs->status().error.empty(), k < 9) << k;
-    hands[0]->show((1'000'000 + 50 * k) * kMs);
-    hands[1]->show((1'000'020 + 50 * k) * kMs);
+    hands[0]->show((1'000'000 + 50 * k) * kMillisecond_ns);
+    hands[1]->show((1'000'020 + 50 * k) * kMillisecond_ns);
     EXPECT_FALSE(pairs->take());
   }
   EXPECT_NE(pairs->status().error.find("pairing_window_ms"), std::string::npos);
-  hands[0]->show(2'000'000 * kMs);
-  hands[1]->show(2'000'000 * kMs);
+  hands[0]->show(2'000'000 * kMillisecond_ns);
+  hands[1]->show(2'000'000 * kMillisecond_ns);
   EXPECT_TRUE(pairs->take());
   EXPECT_EQ(pairs->status().error, "") << "over";
 }
 
 TEST_F(CameraPairsTest, PairsNeverGoBack) {
-  const std::int64_t t = 1'000'000 * kMs;
-  for (const std::int64_t at : {t, t - 20 * kMs, t + 20 * kMs}) {
+  const std::int64_t t = 1'000'000 * kMillisecond_ns;
+  for (const std::int64_t at : {t, t - 20 * kMillisecond_ns, t + 20 * kMillisecond_ns}) {
     hands[0]->show(at);
     hands[1]->show(at);
-    EXPECT_EQ(pairs->take() != nullptr, at != t - 20 * kMs);
+    EXPECT_EQ(pairs->take() != nullptr, at != t - 20 * kMillisecond_ns);
   }
   EXPECT_EQ(counter("device.pairs_time_back"), 1);
 }
