@@ -50,8 +50,8 @@ double KeyframeDatabase::score(const WordVector& a, const WordVector& b) {
   return 0.5 * sum;
 }
 
-std::vector<KeyframeDatabase::KeyframeScore> KeyframeDatabase::detect_candidates(const WordVector& words, const Map& map,
-                                                                    const std::set<KeyframeId>& but) const {
+std::vector<KeyframeDatabase::KeyframeScore> KeyframeDatabase::detect_candidates(
+    const WordVector& words, const Map& map, const std::set<KeyframeId>& but) const {
   std::map<KeyframeId, int> common;
   for (const auto& [word, weight] : words) {
     const auto at = seen_in_.find(word);

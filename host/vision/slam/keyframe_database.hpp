@@ -25,7 +25,8 @@ class KeyframeDatabase {
   };
   /// Keyframes not in `but`, that share at least 0.8 of the most words any shares; each with what its covisible
   /// neighbours score added, the best of such a group named; at least 0.75 of the best, best first.
-  std::vector<KeyframeScore> detect_candidates(const WordVector& words, const Map& map, const std::set<KeyframeId>& but) const;
+  std::vector<KeyframeScore> detect_candidates(const WordVector& words, const Map& map,
+                                               const std::set<KeyframeId>& but) const;
 
   /// 1 - half the sum of |a - b|: 1 for equal vectors, 0 for vectors without a common word.
   static double score(const WordVector& a, const WordVector& b);

@@ -11,7 +11,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-
 void expect_refusal(const Outcome& run, const std::string& words) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.out, "");

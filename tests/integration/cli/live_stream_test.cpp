@@ -18,7 +18,6 @@ namespace {
 
 using ::testing::StartsWith;
 
-
 // `pharos ARGUMENTS` with its standard input and output in the test's hands.
 class LiveRun {
  public:

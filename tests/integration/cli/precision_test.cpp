@@ -46,7 +46,8 @@ TEST(CliPrecision, PredictsWhatTrackReportsOfTheSameView) {
 }
 
 TEST(CliPrecision, KeepsPosesThatNobodyCouldMeasure) {
-  const Outcome run = precision(std::string(kPosesHeader) + "away,1,0,0,0,0,0,2\nnone,,,,,,,\nfacing,0,1,0,0,0.2,0,2\n");
+  const Outcome run =
+      precision(std::string(kPosesHeader) + "away,1,0,0,0,0,0,2\nnone,,,,,,,\nfacing,0,1,0,0,0.2,0,2\n");
   EXPECT_EQ(run.exit_code, 0);
   const auto rows = rows_of(run.out);
   ASSERT_EQ(rows.size(), 3u);

@@ -30,7 +30,7 @@ struct CameraPlay {
   double fine_scale_m = 0.0001;
   double scale_m = 0.00025;
 
-  double loss = 0.0;              // share of packets
+  double loss = 0.0;            // share of packets
   std::vector<Outage> stalls;   // no packet goes out; the camera still answers
   std::vector<Outage> deaths;   // no camera is there
   std::vector<Outage> freezes;  // the same picture and the same time again and again

@@ -81,7 +81,9 @@ TEST(SmoothnessWeightsTest, WindowIsThatOfThePaper) {
   SmoothnessWeights().weigh(start, WeightStrategy::kWindow, kAlpha, kWindowSigma_px, system);
   const int radius = static_cast<int>(std::ceil(3.0 * kWindowSigma_px));
   double whole = 0.0;
-  const auto gauss = [&](int x, int y) { return std::exp(-(x * x + y * y) / (2.0 * kWindowSigma_px * kWindowSigma_px)); };
+  const auto gauss = [&](int x, int y) {
+    return std::exp(-(x * x + y * y) / (2.0 * kWindowSigma_px * kWindowSigma_px));
+  };
   for (int y = -radius; y <= radius; ++y) {
     for (int x = -radius; x <= radius; ++x) whole += gauss(x, y);
   }
