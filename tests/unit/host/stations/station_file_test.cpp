@@ -52,7 +52,7 @@ TEST_F(StationFileTest, TakesASlotForAnIdAndAbsentListsForZero) {
 
 TEST_F(StationFileTest, NamesLineAndKeyOfWhatItCannotUse) {
   EXPECT_THAT(error_of("[[station]]\nphase_rad = [0.01, 0.02]\n"), HasSubstr("id"));
-  EXPECT_THAT(error_of("[[station]]\nid = \"HELLO\"\n"), HasSubstr(".toml:2: station[0].id: must be up to eight hex"));
+  EXPECT_THAT(error_of("[[station]]\nid = \"HELLO\"\n"), HasSubstr(":2: station[0].id: must be up to eight hex"));
   EXPECT_THAT(error_of("[[station]]\nid = \"1\"\nphase_rad = [0.01]\n"), HasSubstr("phase_rad"));
   EXPECT_THAT(error_of("[[station]]\nid = \"1\"\nphase_rad = [1.7, 0.0]\n"), HasSubstr("phase_rad"));
   EXPECT_THAT(error_of("[[station]]\nid = \"1\"\ntlit_rad = [0.1, 0.0]\n"), HasSubstr("tlit_rad"));
