@@ -199,7 +199,8 @@ Matrix6 Hypothesis::systematic_of(Observer observer) const {
   const StationState& other =
       station_state(observer == Observer::kReference ? Observer::kSecond : Observer::kReference);
   if (other.seen_ticks == INT64_MIN || ticks_to_seconds(time_ticks_ - other.seen_ticks) > kFresh_s) return own;
-  const bool own_fresh = ticks_to_seconds(time_ticks_ - station_state(observer).seen_ticks) <= kFresh_s;
+  const std::int64_t own_ticks = station_state(observer).seen_ticks;
+  const bool own_fresh = own_ticks != INT64_MIN && ticks_to_seconds(time_ticks_ - own_ticks) <= kFresh_s;
   const Matrix3 turn = filter_.second().pose.R;
   Matrix6 by = Matrix6::Zero();
   by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() =
