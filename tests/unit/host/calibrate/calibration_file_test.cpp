@@ -124,7 +124,7 @@ TEST_F(CalibrationFileTest, OfStationsOnlyLeavesTheTargetAlone) {
 }
 
 TEST_F(CalibrationFileTest, NamesLineAndKeyOfWhatItCannotUse) {
-  EXPECT_THAT(error_of("[calibration]\nscale = \"guessed\"\n"), HasSubstr(".toml:2: calibration.scale"));
+  EXPECT_THAT(error_of("[calibration]\nscale = \"guessed\"\n"), HasSubstr(":2: calibration.scale"));
   EXPECT_THAT(error_of("[calibration]\nparameters = [\"a\"]\ncovariance = [[1.0, 2.0]]\n"), HasSubstr("covariance"));
   EXPECT_THAT(error_of("[calibration]\nparameters = [\"a\"]\ncovariance = []\n"), HasSubstr("covariance"));
   EXPECT_THAT(error_of("[[sensor]]\nsensor = 1\nposition_m = [0.0, 0.0, 0.0]\n"), HasSubstr("nominal_m"));
