@@ -42,7 +42,8 @@ struct Stretch {
 };
 
 cv::Scalar scalar(Colour colour) { return {1.0 * colour.red, 1.0 * colour.green, 1.0 * colour.blue}; }
-int thickness(double width) { return std::max(1, static_cast<int>(std::lround(width))); }
+// Smoothing adds about a pixel.
+int thickness(double width) { return std::max(1, static_cast<int>(width)); }
 
 }  // namespace
 
