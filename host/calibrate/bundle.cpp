@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that knows Ceres' solver; its headers take long to compile.
+// The only file of the Lighthouse calibration that includes Ceres' solver, whose headers take long to compile.
 #include "host/calibrate/bundle.hpp"
 
 #include <ceres/loss_function.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr double kHuber = 3.0;
 constexpr int kMaxSteps = 60;
 
-// One adjustment: the rows, and which of them are what.
+// One adjustment: its rows, and what each of them stands for.
 class Adjustment {
  public:
   explicit Adjustment(const BundleProblem& problem) : problem_(problem), blocks_(problem) {
@@ -36,7 +36,7 @@ class Adjustment {
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
     options.logging_type = ceres::SILENT;
-    options.num_threads = 1;  // the same bits every time
+    options.num_threads = 1;  // identical results in every run
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
     return summary.termination_type == ceres::CONVERGENCE;
@@ -139,7 +139,7 @@ class Adjustment {
     add_row(bearing_cost(row), &loss_, parameters);
   }
 
-  // Calibration first, so that its covariance is one corner.
+  // Calibration parameters first, so that their covariance is the upper left block.
   std::vector<double*> parameter_order() {
     std::vector<double*> order;
     for (auto& sensor : blocks_.sensor) order.push_back(sensor.data());
@@ -170,8 +170,8 @@ class Adjustment {
     return out;
   }
 
-  // With r = (fit - length) / sigma and leverage h: all the rest alone is r / (1 - h) sigmas away from the length, with
-  // a variance of sigma^2 h / (1 - h).
+  // With r = (fit - length) / sigma and leverage h: without this length the fit differs from it by r / (1 - h) sigmas,
+  // and that difference has the variance sigma^2 h / (1 - h).
   static LengthCheck check(const MeasuredLength& length, double r, double leverage) {
     const double free = std::max(1.0 - leverage, 1e-12);
     return {length.length_m + r * length.sigma_m / free, length.sigma_m * std::sqrt(leverage / free),

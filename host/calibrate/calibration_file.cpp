@@ -39,7 +39,7 @@ void read_sensor(const TomlTable& table, CalibrationFile& file) {
   table.vector_or<3>("sigma_m", {}, host::kNotNegative);
 }
 
-// For people and for whoever wants to know how sure the calibration is; tracking itself uses the scale.
+// For readers of the file and for estimates of the calibration's accuracy; tracking itself uses only the scale.
 void read_summary(const TomlTable& table, CalibrationFile& file) {
   table.choice_or("scale", "prior", {"prior", "measured"});
   file.scale_sigma = table.number_or("scale_sigma", 0.0, {0.0, 1.0});
@@ -58,7 +58,7 @@ void read_summary(const TomlTable& table, CalibrationFile& file) {
   }
 }
 
-// The six rows and columns of the covariance that are the pair's own.
+// The six rows and columns of the covariance that belong to the pair.
 Matrix6 pair_covariance(const TomlTable& table, const CalibrationFile& file) {
   const std::string first = "station " + id_text(file.pair->station) + " turn_x_rad";
   const auto found = std::find(file.parameters.begin(), file.parameters.end(), first);
@@ -140,7 +140,7 @@ Target calibrated_target(const CalibrationFile& file, const Target& nominal) {
 }
 
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma) {
-  // A target that is larger by s stands farther away by s.
+  // If the target is larger by the factor 1 + s, its range is larger by the same factor.
   const Vector3 shift_m = scale_sigma * estimate.pose.t;
   estimate.covariance.bottomRightCorner<3, 3>() += shift_m * shift_m.transpose();
 }

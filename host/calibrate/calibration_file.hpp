@@ -14,12 +14,12 @@
 
 namespace pharos::calibrate {
 
-/// What a file of calibrations says: stations alone (host/stations), or with the target that was calibrated with them.
+/// Contents of a calibration file: stations alone (host/stations), or with the target that was calibrated with them.
 struct CalibrationFile {
   std::string name;  // for messages
   std::vector<host::StationEntry> stations;
   Target sensors;                  // as calibrated; empty: of stations only
-  std::vector<Vector3> nominal_m;  // of each of them, as the target's table gave it
+  std::vector<Vector3> nominal_m;  // of each of them, from the target's table
   double scale_sigma = 0.0;        // relative, of the target's size and so of every range
   int model_form = 0;              // 0: the file does not say
   std::optional<tracking::CalibratedPair> pair;
@@ -40,15 +40,16 @@ CalibrationFile parse_calibration(std::string_view text, const std::string& name
 /// mm).
 Target calibrated_target(const CalibrationFile& file, const Target& nominal);
 
-/// What a file leaves wrong with sensors and rotors, from its own covariance: root mean squares over the sensors' axes
-/// (their common size, which widen_by_scale() counts, taken out) and over all rotors in directions to 30 deg off axis.
-/// Where it holds no covariance, what calibrations usually leave; of stations only, what nobody calibrated.
+/// Remaining systematic errors of sensors and rotors, from the file's own covariance: root mean squares over the
+/// sensors' axes (without their common scale, which widen_by_scale() counts) and over all rotors in directions to 30
+/// deg off axis. Where the file holds no covariance, typical values of a calibration; where it holds stations only,
+/// those of an uncalibrated target.
 motion::SystematicErrors systematic_errors(const CalibrationFile& file);
 
-/// A pose's covariance with what the target's uncertain size puts on its range.
+/// A pose's covariance, increased by the effect of the target's uncertain size on its range.
 void widen_by_scale(LighthousePoseEstimate& estimate, double scale_sigma);
 
-/// The file of a calibration, which read_calibration_file reads back exactly. README.md says what it holds.
+/// Text of a calibration's file; read_calibration_file reads the same values from it. README.md describes the format.
 std::string calibration_text(const LighthouseCalibration& calibration, const Target& nominal);
 
 }  // namespace pharos::calibrate

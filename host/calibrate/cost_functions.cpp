@@ -13,11 +13,12 @@ using RowMajor = Eigen::Matrix<double, Rows, Columns, (Columns == 1 ? Eigen::Col
 using ConstVector3 = Eigen::Map<const Vector3>;
 using ConstVector6 = Eigen::Map<const Vector6>;
 
-// Below this the sensor is beside or behind the station, where no angle is.
+// Below this the sensor is beside or behind the station, where the angle is undefined.
 constexpr double kNearest_m = 0.05;
-// Central differences of the station model: far above rounding, and its third derivative times step^2 is nothing.
+// Step of the central differences of the station model: far above rounding, and its third derivative times step^2 is
+// negligible.
 constexpr double kStep_rad = 1e-5;
-// The frame's rows bind a thousand times harder than any bearing (some micrometres).
+// Sigma of the rows that fix the frame: a thousandth of what any bearing gives (some micrometres).
 constexpr double kFrame_m = 1e-8;
 
 // J of exp([phi + d]x) = exp([J d]x) exp([phi]x).

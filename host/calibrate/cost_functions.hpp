@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What the bundle adjustment minimises, row by row, as Ceres takes it. Rows are whitened: unit variance. A row of a
-// bearing has the part common to its rotor and still as an unknown of its own with its own sigma: that is the same as
-// whitening the rotor's bearings with their full correlation, and lets the robust loss judge every sensor alone.
+// Cost functions of the bundle adjustment for Ceres. Rows are whitened: unit variance. In a bearing's row the part
+// common to its rotor and stationary interval is a separate unknown with its own sigma: that is equivalent to whitening
+// the rotor's bearings with their full correlation, and lets the robust loss treat every sensor separately.
 #include <ceres/cost_function.h>
 
 #include <vector>
@@ -13,14 +13,14 @@
 
 namespace pharos::calibrate {
 
-/// What does not change of a bearing during one adjustment.
+/// The constants of a bearing in one adjustment.
 struct BearingRow {
   Axis axis = Axis::kX;
   lighthouse::ModelForm form = lighthouse::ModelForm::kForm1;
   double raw_rad = 0.0;
   double sigma_rad = 1.0;
-  LighthouseFromBody T_home_body;                           // the pose block's delta is about this one
-  std::optional<ReferenceFromStation> T_reference_station;  // present: the station is not the still's home
+  LighthouseFromBody T_home_body;                           // the pose block's delta is relative to this one
+  std::optional<ReferenceFromStation> T_reference_station;  // present: the station is not the interval's home station
 };
 
 /// (raw - common - model) / sigma. Blocks: rotor (5), pose delta (6), sensor (3), common (1)[, station delta (6)].
@@ -32,8 +32,8 @@ ceres::CostFunction* prior_cost(const std::vector<double>& mean, const std::vect
 /// (|a - b| - length) / sigma. Blocks: sensor a (3), sensor b (3).
 ceres::CostFunction* length_cost(const MeasuredLength& length);
 
-/// Six rows that keep the body frame: the mean displacement of the sensors from `nominal_m` is zero and so is their
-/// mean turn about the middle, as least squares would place them. Blocks: sensors (3 each) in the same order.
+/// Six rows that fix the body frame: mean displacement of the sensors from `nominal_m` and mean rotation about their
+/// centroid are zero in the least-squares sense. Blocks: sensors (3 each) in the same order.
 ceres::CostFunction* frame_cost(const std::vector<Vector3>& nominal_m);
 
 }  // namespace pharos::calibrate

@@ -17,7 +17,7 @@ std::string names_of(const std::vector<RecordingLog>& recordings) {
   return names;
 }
 
-// Index of every slot's station. A slot that nobody uses gets none.
+// Index of every slot's station. An unused slot has none.
 std::vector<std::size_t> stations_of(const RecordingLog& recording,
                                      std::vector<lighthouse::StationCalibration>& stations) {
   std::vector<std::size_t> index(kMaxStations, 0);
@@ -52,7 +52,7 @@ std::vector<std::size_t> stations_of(const RecordingLog& recording,
   return index;
 }
 
-// Sensors of somebody else's body go.
+// Sensors that the target does not have are removed.
 void remove_unknown_sensors(const Target& target, std::vector<StationaryAverage>& intervals,
                             std::size_t& unknown_sensors) {
   std::bitset<kMaxSensors> strange;

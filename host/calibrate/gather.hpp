@@ -7,14 +7,14 @@
 
 namespace pharos::calibrate {
 
-/// The stills of all recordings, and the stations that they show.
+/// The stationary intervals of all recordings, and the stations seen in them.
 struct Gathered {
   std::vector<StationaryAverage> intervals;
-  std::vector<lighthouse::StationCalibration> stations;  // the first is seen in most stills
-  std::size_t unknown_sensors = 0;                       // sensors hit that the target has not
+  std::vector<lighthouse::StationCalibration> stations;  // the first is seen in most intervals
+  std::size_t unknown_sensors = 0;                       // sensors hit that are not in the target's table
 };
 
-/// Finds, averages and weighs the stills. Throws host::InputError as calibrate_lighthouse.
+/// Finds, averages and weighs the stationary intervals. Throws host::InputError as calibrate_lighthouse.
 Gathered gather(const LighthouseCalibrationInput& input);
 
 }  // namespace pharos::calibrate

@@ -19,11 +19,11 @@ namespace {
 
 using host::InputError;
 
-// Nominal positions and stations put about 0.4 mm at 2 m on an angle, which a single pose cannot explain.
+// Errors of nominal positions and stations: about 0.4 mm at 2 m in an angle, which a single pose does not explain.
 constexpr double kNominalSigma_rad = 60.0 * kRadPerArcsec;
 // After a first adjustment.
 constexpr double kCalibratedSigma_rad = 10.0 * kRadPerArcsec;
-// A pose elsewhere, for counting: what a hand moves on purpose.
+// Difference from which on two poses count as distinct: that of a deliberate motion by hand.
 constexpr double kElsewhere_m = 0.02;
 constexpr double kElsewhere_rad = 5.0 * kRadPerDeg;
 constexpr std::size_t kFewestPoses = 6;
@@ -49,7 +49,7 @@ class Calibration {
     fits_.add_before(problem(), alone_);
     const BundleResult first = adjust(problem());
     refuse_contradiction(first);
-    // Whoever stood in its mirror image, or was ambiguous, comes right with what was learnt.
+    // Intervals solved as the mirror image, or ambiguous, are solved again with the calibrated parameters.
     intervals_ = all_intervals_;
     start(first.unknowns.target, first.unknowns.station, std::hypot(kCalibratedSigma_rad, unmodelled_of(first)));
     result_.bundle = settle();
@@ -73,7 +73,7 @@ class Calibration {
     }
   }
 
-  // A pose for every still and station that see each other; keeps the stills that have one.
+  // A pose for every stationary interval and each station that sees it; keeps the intervals that have one.
   void start(const Target& target, const std::vector<lighthouse::StationCalibration>& stations, double sigma_rad) {
     if (all_intervals_.empty()) all_intervals_ = intervals_;
     std::vector<StationaryAverage> kept;
@@ -102,7 +102,7 @@ class Calibration {
     alone_ = std::move(poses);
   }
 
-  // Where the second station stands: of what each still that both see says, the one nearest to all others.
+  // The second station's pose: of the estimates of all intervals that both see, the one nearest to all others.
   void tie_stations(const std::vector<StationPoses>& poses) {
     nominal_.T_reference_station.assign(nominal_.station.size(), std::nullopt);
     nominal_.T_reference_station[0] = ReferenceFromStation{};
@@ -191,12 +191,12 @@ class Calibration {
     return problem;
   }
 
-  // Adjusts, strikes what fits no rigid body and sets the level of what the model does not explain, until both stay.
+  // Adjusts, rejects bearings that fit no rigid body and estimates the unmodelled error, until neither changes.
   BundleResult settle() {
     constexpr int kMaxRounds = 6;
     for (int round = 0;; ++round) {
       BundleResult last = adjust(problem());
-      if (round == kMaxRounds) return last;  // without what was struck before
+      if (round == kMaxRounds) return last;  // without the bearings rejected before
       const std::size_t rejected = reject_outliers(last.residuals, intervals_);
       const double level = unmodelled_level(last.residuals, unmodelled_rad_);
       const bool settled = rejected == 0 && std::abs(level - unmodelled_rad_) < 0.02 * level + 0.02 * kRadPerArcsec;

@@ -9,14 +9,14 @@
 namespace pharos::calibrate {
 namespace {
 
-constexpr double kNoiseHuber = 3.0;  // residuals beyond it count as it: they are outliers, not the level
+constexpr double kNoiseHuber = 3.0;  // larger residuals count as this: they are outliers and must not raise the level
 constexpr double kOutlier = 6.0;
 constexpr double kMedianToSigma = 1.4826;
 constexpr double kMax_rad = 600.0 * kRadPerArcsec;
 
 double free_fraction(const BearingResidual& r) { return std::max(1.0 - r.leverage, 0.02); }
 
-// Residual in sigmas of its own, with what its leverage took away put back.
+// Residual in its own sigmas, corrected for its leverage.
 double normalised(const BearingResidual& r) { return r.residual_rad / (r.sigma_rad * std::sqrt(free_fraction(r))); }
 
 double usual(const std::vector<BearingResidual>& residuals) {
@@ -57,7 +57,7 @@ double unmodelled_level(const std::vector<BearingResidual>& residuals, double pr
 std::size_t reject_outliers(const std::vector<BearingResidual>& residuals, std::vector<StationaryAverage>& intervals) {
   const double limit = kOutlier * usual(residuals);
   std::size_t rejected = 0;
-  // From the back, so that indices in front keep their meaning.
+  // From the end, so that the remaining indices stay valid.
   for (auto r = residuals.rbegin(); r != residuals.rend(); ++r) {
     if (std::abs(normalised(*r)) < limit) continue;
     auto& bearings = intervals[r->interval].rotors[r->view].bearings;

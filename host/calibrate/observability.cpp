@@ -9,7 +9,7 @@
 namespace pharos::calibrate {
 namespace {
 
-// Of the sensors that keep the body frame.
+// Of the sensors that fix the body frame.
 Vector3 middle_of_hit(const BundleProblem& problem, const ParameterBlocks& blocks) {
   Vector3 sum = Vector3::Zero();
   double count = 0.0;
@@ -21,8 +21,8 @@ Vector3 middle_of_hit(const BundleProblem& problem, const ParameterBlocks& block
   return sum / std::max(count, 1.0);
 }
 
-// What the sensors' prior says once the body frame is kept: an isotropic prior without the six rigid motions of the
-// sensors that keep the frame.
+// The sensors' prior with the body frame fixed: an isotropic prior without the six rigid motions of the sensors that
+// fix the frame.
 Eigen::MatrixXd framed_prior(const BundleProblem& problem, const ParameterBlocks& blocks) {
   const auto n = static_cast<Eigen::Index>(blocks.sensor.size());
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * n, 6);

@@ -10,13 +10,13 @@ namespace pharos::calibrate {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// What an adjustment knows of its parameters, from its whitened Jacobian.
+/// Covariance and leverage of an adjustment, from its whitened Jacobian.
 class Information {
  public:
   /// `jacobian`: rows in any order, columns in the order of ParameterBlocks: calibration, poses, common parts.
   Information(const SparseRows& jacobian, const BundleProblem& problem, const ParameterBlocks& blocks);
 
-  /// Fraction of one row that the unknowns take up.
+  /// Leverage of one row.
   double leverage(std::size_t row) const;
   /// Sigmas before and after of every parameter and of the scale, and the calibration's covariance.
   void fill(BundleResult& result) const;

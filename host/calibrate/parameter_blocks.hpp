@@ -8,19 +8,19 @@
 
 namespace pharos::calibrate {
 
-/// The unknowns as blocks of plain numbers, the way Ceres moves them. ParameterBlocks stay where they are in memory.
+/// The unknowns as Ceres parameter blocks. Ceres keeps their addresses: a ParameterBlocks must not be moved.
 struct ParameterBlocks {
   explicit ParameterBlocks(const BundleProblem& problem);
-  /// The unknowns that the blocks stand for.
+  /// The unknowns with the blocks' values.
   Unknowns unknowns(const BundleProblem& problem) const;
 
   std::vector<std::array<double, 3>> sensor;              // m
   std::vector<std::array<RotorParameters, kAxes>> rotor;  // by station
-  std::array<double, 6> station_delta{};                  // of the second station about its starting pose
-  std::vector<std::array<double, 6>> pose_delta;          // by still, about its starting pose
-  std::vector<std::vector<double>> common;                // by still and view, rad
+  std::array<double, 6> station_delta{};                  // of the second station, relative to its starting pose
+  std::vector<std::array<double, 6>> pose_delta;          // by interval, relative to its starting pose
+  std::vector<std::vector<double>> common;                // by interval and view, rad
   bool pair = false;                                      // the second station's pose is an unknown
-  std::vector<bool> hit;                                  // by sensor: some bearing is of it
+  std::vector<bool> hit;                                  // by sensor: it has at least one bearing
 };
 
 /// Index of a sensor number in the target; its size where there is none.

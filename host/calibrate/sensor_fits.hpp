@@ -9,20 +9,20 @@
 
 namespace pharos::calibrate {
 
-/// How one sensor fitted one rotor, rms over the stills.
+/// Residuals of one sensor on one rotor, rms over the stationary intervals.
 struct SensorFit {
   std::size_t station = 0;
   Axis axis = Axis::kX;
   std::uint8_t sensor = 0;
   int intervals = 0;
-  double before_rad = 0.0;  // nominal parameters, each still's pose solved alone
+  double before_rad = 0.0;  // nominal parameters, each interval's pose solved alone
   double after_rad = 0.0;
 };
 
 /// Gathers residuals by sensor and rotor.
 class SensorFits {
  public:
-  /// Residuals of the nominal parameters at each still's and station's own pose (`poses`, by still).
+  /// Residuals of the nominal parameters at the pose solved for each interval and station (`poses`, by interval).
   void add_before(const BundleProblem& problem, const std::vector<StationPoses>& poses);
   void add_after(const std::vector<StationaryAverage>& intervals, const std::vector<BearingResidual>& residuals);
   /// In the order of station, rotor, sensor.

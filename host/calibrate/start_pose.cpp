@@ -11,7 +11,7 @@
 namespace pharos::calibrate {
 namespace {
 
-// The still as one cycle of the tracker's. Where a bearing stands in the still goes along as its time.
+// The interval in the form of one cycle of the tracker. A bearing's index in the interval is stored as its time.
 struct StationaryCycle {
   track::Cycle cycle;
   std::vector<MeanBearing*> place;

@@ -11,15 +11,15 @@
 
 namespace pharos::calibrate {
 
-/// A still's pose before one station, alone.
+/// Pose of one stationary interval from one station alone.
 struct StartPose {
   LighthouseFromBody pose;  // T_station_body
   bool ambiguous = false;   // another pose fits nearly as well
 };
 
-/// Solves one still before one station, and strikes the candidates that the rigid body refuses (reflections) from
-/// `still`; `sigma_rad` is what the body's and the station's errors put on an angle. Empty, with the still unchanged,
-/// where no pose can be had (fewer than four sensors, …).
+/// Solves one interval from one station, and removes the candidates that do not fit the rigid body (reflections) from
+/// `still`; `sigma_rad` is the angle error from errors of body and station. Empty, with `still` unchanged, where there
+/// is no pose (fewer than four sensors, …).
 std::optional<StartPose> start_pose(StationaryAverage& interval, std::size_t station, const Target& target,
                                     const lighthouse::StationCalibration& calibration, lighthouse::ModelForm form,
                                     double sigma_rad);

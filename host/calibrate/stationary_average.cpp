@@ -14,7 +14,7 @@ namespace {
 constexpr double kApart_rad = 150.0 * kRadPerArcsec;
 constexpr double kShareOfSweeps = 0.3;
 constexpr int kFewestSweeps = 5;
-// Of the rotor's mean variance when a sensor's own is estimated.
+// Weight of the rotor's mean variance in the estimate of a sensor's own.
 constexpr double kPriorSweeps = 20.0;
 // Stamps are whole ticks of 1.6 arcsec: no mean of any number of them is better than this.
 constexpr double kMinOwn_rad = 0.1 * kRadPerArcsec;
@@ -61,7 +61,7 @@ std::vector<Candidate> candidates_of(std::span<const LoggedSweep* const> sweeps)
   return candidates;
 }
 
-// Splits every sample's departure from its mean into what the sweep's sensors share and what is its own.
+// Splits every sample's deviation from its mean into a part common to the sweep's sensors and its own part.
 RotorView view_of(const std::vector<Candidate>& candidates, std::size_t sweeps) {
   std::vector<double> shared(sweeps, 0.0);
   std::vector<int> sensors(sweeps, 0);
@@ -82,7 +82,7 @@ RotorView view_of(const std::vector<Candidate>& candidates, std::size_t sweeps) 
     for (const Sample& sample : candidate.samples) {
       const double own = sample.raw_rad - candidate.mean_rad - shared[sample.sweep];
       const int n = sensors[sample.sweep];
-      // The mean over n sensors takes 1/n of a sensor's own part with it.
+      // The mean over n sensors contains 1/n of a sensor's own part.
       if (n > 1) mean.own_square_sum += own * own * n / (n - 1.0);
     }
     view.bearings.push_back(mean);
@@ -98,7 +98,7 @@ struct RotorNoise {
   double sensors = 0.0;  // per sweep, summed over common_count
 
   double own_variance() const { return own_count > 0.0 ? own_square_sum / own_count : 0.0; }
-  // The shared mean still holds 1/n of the own variance.
+  // The common mean contains 1/n of the own variance.
   double common_variance() const {
     if (common_count <= 0.0) return 0.0;
     const double both = common_square_sum / common_count;

@@ -11,43 +11,44 @@
 
 namespace pharos::calibrate {
 
-/// One sensor's raw angle on one rotor, averaged over a still. A sensor with reflections has several: candidates.
+/// One sensor's raw angle on one rotor, averaged over a stationary interval. A sensor with reflections has several:
+/// candidates.
 struct MeanBearing {
   std::uint8_t sensor = 0;
   double raw_rad = 0.0;
   int sweeps = 0;               // averaged
-  double own_square_sum = 0.0;  // of what the sweep's other sensors do not share, rad^2
+  double own_square_sum = 0.0;  // of the part not common to the sweep's sensors, rad^2
   double own_sigma_rad = 0.0;   // of raw_rad, without the part common to the rotor; from weigh()
 };
 
-/// What one rotor showed during one still.
+/// Bearings of one rotor during one stationary interval.
 struct RotorView {
   std::size_t station = 0;  // index among the calibration's stations
   Axis axis = Axis::kX;
   int sweeps = 0;
-  double common_square_sum = 0.0;  // of what all sensors of a sweep share, rad^2
-  double common_sigma_rad = 0.0;   // of the mean of what they share; from weigh()
+  double common_square_sum = 0.0;  // of the part common to all sensors of a sweep, rad^2
+  double common_sigma_rad = 0.0;   // of the mean of that part; from weigh()
   std::vector<MeanBearing> bearings;
 };
 
-/// One rest of the target.
+/// Averages of one stationary interval.
 struct StationaryAverage {
   std::size_t recording = 0;
-  double from_s = 0.0;  // on the recording's own counter
+  double from_s = 0.0;  // by the recording's own counter
   double to_s = 0.0;
   std::vector<RotorView> rotors;
 };
 
-/// Averages one rest. Angles of one sensor that lie apart (150 arcsec and more between neighbours) are candidates of
-/// their own when at least three tenths of the sweeps show them. `station_of_slot`: index by slot.
+/// Averages one stationary interval. Angles of one sensor that differ by 150 arcsec and more between neighbours are
+/// separate candidates when at least three tenths of the sweeps show them. `station_of_slot`: index by slot.
 StationaryAverage average_interval(const RecordingLog& recording, std::size_t recording_index,
                                    const StationaryInterval& interval, std::span<const std::size_t> station_of_slot);
 
-/// Gives every mean its sigma from the scatter that the recordings themselves show.
+/// Sets the sigma of every mean from the scatter of the recordings themselves.
 ///
 /// An angle's noise is a part common to all sensors of the sweep (flash and rotor: correlation 0.87 to 0.99) and one of
-/// its own. The common part's variance is that of its rotor over all stills; the own one's is the sensor's in this
-/// still, drawn to its rotor's mean where there are few sweeps (a weight of twenty sweeps).
+/// its own. The common part's variance is that of its rotor over all intervals; the own part's is that of the sensor in
+/// this interval, regularised towards its rotor's mean where there are few sweeps (a weight of twenty sweeps).
 void assign_sigmas(std::vector<StationaryAverage>& intervals);
 
 }  // namespace pharos::calibrate

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kBlock_ticks = kTicksPerSecond / 10;
 constexpr std::size_t kTrimmedBlocks = 1;  // at each end
-constexpr std::size_t kFewestBlocks = 5;   // what is left must last half a second
+constexpr std::size_t kFewestBlocks = 5;   // the remaining blocks must last half a second
 constexpr double kNoisiestSweep_rad = 11.0 * kRadPerArcsec;
 constexpr double kGate = 5.0;
 constexpr int kFewestChannels = 6;
@@ -30,7 +30,7 @@ std::size_t channel_of(const LoggedSweep& sweep, std::uint8_t sensor) {
          sensor;
 }
 
-// Only sensors hit once in the sweep: of several hits nobody knows yet which one is direct.
+// Only sensors hit once in the sweep: of several hits it is not yet known which one is direct.
 void add(const LoggedSweep& sweep, Channels& channels) {
   std::bitset<kMaxSensors> seen;
   std::bitset<kMaxSensors> twice;
@@ -93,7 +93,7 @@ class Search {
   }
 
  private:
-  // The newest block is complete: it goes on with the rest, or ends it and begins another.
+  // The newest block is complete: it continues the interval, or ends it and begins another.
   void take_last_block() {
     if (blocks_.empty()) return;
     if (blocks_.size() == 1 || agree(blocks_.back().channels, rest_)) {
@@ -135,7 +135,7 @@ class Search {
     return channels;
   }
 
-  std::vector<Block> blocks_;  // of the present rest; the last one is still filling
+  std::vector<Block> blocks_;  // of the present interval; the last one is incomplete
   Channels rest_{};
   StationarySearch found_;
 };

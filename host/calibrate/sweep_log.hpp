@@ -20,7 +20,7 @@ struct LoggedHit {
   double raw_rad = 0.0;
 };
 
-/// One lit sweep, as long as a recording is held in memory.
+/// One lit sweep, as held in memory for a whole recording.
 struct LoggedSweep {
   std::int64_t flash_ticks = 0;
   std::uint8_t slot = 0;  // which flash of the cycle, as Flash::station
@@ -32,11 +32,11 @@ struct LoggedSweep {
 struct RecordingLog {
   std::string name;                 // for messages
   std::vector<LoggedSweep> sweeps;  // in order of time
-  /// What each slot's station says of itself (or a file says of it); empty where nobody knows it.
+  /// Calibration of each slot's station, from OOTX or from a file; empty where unknown.
   std::array<std::optional<lighthouse::StationCalibration>, kMaxStations> station;
 
-  /// Takes a decoded sweep in. Sweeps of dark slots and of doubtful time zero (a weak flash, a nominal period) are
-  /// left out. Angles are from the flash as measured: smoothing would tie the noise of neighbouring turns together.
+  /// Adds a decoded sweep. Sweeps of dark slots and of uncertain time zero (a weak flash, a nominal period) are
+  /// left out. Angles are from the flash as measured: smoothing would correlate the noise of neighbouring rotor turns.
   void push(const lighthouse::Sweep& sweep);
 };
 

@@ -11,7 +11,7 @@ namespace pharos::calibrate {
 namespace {
 
 constexpr double kStep_rad = 1e-6;
-// Directions in which a rotor's error is looked at: tangents from straight ahead, either way.
+// Directions in which a rotor's error is evaluated: tangents of the angle from straight ahead, to either side.
 constexpr std::array<double, 5> kTangents = {-0.6, -0.3, 0.0, 0.3, 0.6};
 
 double sensor_sigma(const CalibrationFile& file) {
@@ -27,13 +27,14 @@ double sensor_sigma(const CalibrationFile& file) {
   return std::sqrt(std::max(square, 0.0) / (3.0 * count));
 }
 
-// In the order of kRotorParameterNames. (parameters_of() belongs to the adjustment, which readers of a file do
-// without.)
+// In the order of kRotorParameterNames. (parameters_of() belongs to the adjustment, which readers of a file do not
+// link.)
 using Rotor = lighthouse::RotorCalibration;
 constexpr std::array<double Rotor::*, kRotorParameters> kParameters = {
     &Rotor::phase_rad, &Rotor::tilt_rad, &Rotor::curve_rad, &Rotor::gibbous_phase_rad, &Rotor::gibbous_magnitude_rad};
 
-// Derivative of a rotor's raw angle by its five parameters. Form 2 differs in a sign, which a variance does not see.
+// Derivative of a rotor's raw angle by its five parameters. Form 2 differs in a sign, which does not change the
+// variance.
 RotorParameters by_parameters(const lighthouse::StationCalibration& station, Axis axis, const Vector3& direction) {
   const auto rotor = static_cast<std::size_t>(index_of(axis));
   RotorParameters derivative{};

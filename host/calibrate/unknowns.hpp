@@ -25,15 +25,15 @@ using RotorParameters = std::array<double, kRotorParameters>;
 RotorParameters parameters_of(const lighthouse::RotorCalibration& rotor);
 lighthouse::RotorCalibration rotor_of(const RotorParameters& parameters);
 
-/// How far the nominal values may be off, 1 sigma, before the recordings are heard: the *workshop* errors.
+/// Prior 1 sigma errors of the nominal values: the *workshop* errors.
 struct PriorSigmas {
   double sensor_position_m = 0.4e-3;  // per axis
-  /// In the order of kRotorParameterNames: what is left of phase, tilt, curve and gibbous magnitude after OOTX. The
-  /// gibbous phase: 0.3 mrad across a magnitude of 6 mrad, the typical one.
+  /// In the order of kRotorParameterNames: errors of phase, tilt, curve and gibbous magnitude after OOTX. Gibbous
+  /// phase: 0.3 mrad across a magnitude of 6 mrad, the typical one.
   RotorParameters rotor = {0.5e-3, 0.3e-3, 0.3e-3, 0.05, 0.3e-3};
 };
 
-/// A distance between two sensors that somebody measured.
+/// A measured distance between two sensors.
 struct MeasuredLength {
   std::uint8_t a = 0;
   std::uint8_t b = 0;
@@ -41,18 +41,20 @@ struct MeasuredLength {
   double sigma_m = 0.0;
 };
 
-/// Everything that a calibration solves for.
+/// The unknowns of a calibration.
 struct Unknowns {
-  Target target;                                                         // sensor positions; numbers and normals stay
-  std::vector<lighthouse::StationCalibration> station;                   // by index; the first is the reference
-  std::vector<std::optional<ReferenceFromStation>> T_reference_station;  // empty: never seen with the reference
-  std::vector<LighthouseFromBody> T_home_body;  // of each still, in the frame of its home station
+  Target target;                                        // sensor positions; numbers and normals do not change
+  std::vector<lighthouse::StationCalibration> station;  // by index; the first is the reference
+  std::vector<std::optional<ReferenceFromStation>>
+      T_reference_station;                      // empty: never seen together with the reference
+  std::vector<LighthouseFromBody> T_home_body;  // of each interval, in the frame of its home station
 };
 
-/// Poses of one still before each station, solved alone; empty where that gave none.
+/// Poses of one interval from each station, solved alone; empty where that gave none.
 using StationPoses = std::array<std::optional<LighthouseFromBody>, kMaxStations>;
 
-/// The station in whose frame a still's pose is kept: the reference where that sees it or is tied to one that does.
+/// The station in whose frame an interval's pose is expressed: the reference where it sees the target or its relative
+/// pose to a station that does is known.
 using Homes = std::vector<std::size_t>;
 
 }  // namespace pharos::calibrate

@@ -7,9 +7,9 @@
 namespace pharos::host {
 namespace {
 
-// A nanometre to a metre a count.
+// Range of the depth scale: a nanometre to a metre a count.
 constexpr Range kScale_m{1e-9, 1.0};
-// The depth's own zero lies in the camera; raw coordinates may count from far beside it.
+// The zero of depth is within the camera; the origin of raw coordinates may be far from it.
 constexpr Range kOrigin_m{-10.0, 10.0};
 constexpr Range kOffset_m{-1e4, 1e4};
 
@@ -26,7 +26,7 @@ CameraFile read(const TomlTable& root) {
   return file;
 }
 
-// Only what differs from the defaults: a camera that measures no depth has no depth keys.
+// Only keys that differ from the defaults: a camera that measures no depth has no depth keys.
 std::string depth_text(const DepthCamera& camera) {
   const DepthCamera plain;
   std::string out;

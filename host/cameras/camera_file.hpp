@@ -12,9 +12,9 @@
 
 namespace pharos::host {
 
-/// What a camera file says (README.md shows one).
+/// Contents of a camera file (README.md shows one).
 struct CameraFile {
-  DepthCamera camera;  // depth keys that the file leaves out have their defaults
+  DepthCamera camera;  // depth keys absent from the file have their defaults
   std::optional<CalibrationRecord> calibration;
 };
 
@@ -24,7 +24,7 @@ CameraFile read_camera_file(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
 CameraFile parse_camera(std::string_view text, const std::string& name);
 
-/// The file's text, which parse_camera reads back exactly.
+/// The file's text; parse_camera reads the same values from it.
 std::string camera_text(const CameraFile& file);
 
 }  // namespace pharos::host

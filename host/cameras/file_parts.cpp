@@ -12,12 +12,12 @@ namespace pharos::host {
 namespace {
 
 constexpr std::int64_t kLargestSide_px = 32768;
-// A telescope of 30 m focal length on pixels of 3 um has 1e7; an image cut out of a larger one has its principal point
-// outside; narrow fields of view bring large coefficients.
+// A telescope of 30 m focal length on pixels of 3 um has 1e7; the principal point of a cropped image may be outside of
+// it; narrow fields of view have large coefficients.
 constexpr Range kFocalLength_px{1.0, 1e9};
 constexpr Range kPrincipalPoint_px{-1e6, 1e6};
 constexpr Range kDistortion{-1e12, 1e12};
-// Two cameras with nine values each and the pose between them.
+// Two cameras with nine values each, and their relative pose.
 constexpr std::size_t kMaxParameters = 24;
 constexpr std::int64_t kMaxCounted = 1'000'000'000;
 

@@ -8,7 +8,7 @@
 #include "host/toml/strict_toml.hpp"
 #include "pharos/camera/pinhole_camera.hpp"
 
-// What camera files and rig files have in common.
+// Reading and writing of the parts that camera files and rig files have in common.
 namespace pharos::host {
 
 PinholeCamera read_intrinsics(const TomlTable& table);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr Range kPosition_m{-1e4, 1e4};
 constexpr Range kQuaternion{-1.001, 1.001};
-// Four digits after the point, as people write a quaternion, make its length wrong by 1e-4.
+// A quaternion written with four decimals has a length that is wrong by 1e-4.
 constexpr double kLengthTolerance = 1e-3;
-// Nearer than any two lenses: nothing could be told from such a pair.
+// Smallest distance of two cameras: less than that of any two lenses, and such a pair measures no range.
 constexpr double kMinBaseline_m = 1e-6;
 
 double length_of(const std::array<double, 4>& q) {

@@ -12,13 +12,13 @@
 
 namespace pharos::host {
 
-/// One camera of a rig: its optics and its pose in the rig's frame, as they stand in the file.
+/// One camera of a rig: its optics and its pose in the rig's frame, as written in the file.
 struct RigCamera {
   PinholeCamera intrinsics;
   std::array<double, 4> rotation_wxyz{1.0, 0.0, 0.0, 0.0};  // length 1 within 1e-3
   std::array<double, 3> position_m{};
 
-  /// T_rig_camera, its rotation exactly one.
+  /// T_rig_camera, with an exactly orthonormal rotation.
   Pose<frame::Rig, frame::Camera> pose() const;
 };
 
@@ -29,14 +29,14 @@ struct RigFile {
   std::optional<CalibrationRecord> calibration;
 };
 
-/// Reads a rig file (`-`: standard input). Throws InputError naming file, line and key; also for a rotation that is
-/// none and for cameras that stand in one place.
+/// Reads a rig file (`-`: standard input). Throws InputError naming file, line and key; also for an invalid rotation
+/// and for two cameras at the same position.
 RigFile read_rig_file(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
 RigFile parse_rig(std::string_view text, const std::string& name);
 
-/// The file's text, which parse_rig reads back exactly.
+/// The file's text; parse_rig reads the same values from it.
 std::string rig_text(const RigFile& file);
 
 }  // namespace pharos::host

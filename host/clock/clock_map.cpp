@@ -10,28 +10,29 @@
 namespace pharos::host {
 namespace {
 
-/// Bytes that waited in the kernel before the port was opened all arrive at once: no mapping before that is over.
+/// Bytes that were buffered in the kernel before the port was opened all arrive at once: no mapping until pairs span
+/// this time.
 constexpr std::int64_t kMinArrivalSpan_ns = 200'000'000;
-/// A pair this far under the line is no better latency but another mapping...
+/// A pair this far under the line does not have a smaller latency but belongs to another mapping...
 constexpr double kLargestDrop_ns = 50e6;
-/// ...unless the mapping is younger than this and may have been late as a whole, and two pairs in a row say so.
+/// ...unless the mapping is younger than this, so that all its pairs may have been late, and two pairs in a row agree.
 constexpr double kYoung_s = 2.0;
-/// Frames come in the order of sending, and speak of instants of the last few slots; older ones are another counter's.
+/// Frames arrive in the order of sending, with times of the last few slots; older times are from another counter.
 constexpr std::int64_t kLargestDisorder_ticks = kTicksPerSecond / 4;
 /// The host may stall; longer than this, the line's buffers would have overflown.
 constexpr double kLargestStall_ns = 5e9;
-/// A rival mapping wins with this many pairs over this time, that agree to this.
+/// A candidate mapping replaces the present one with this many pairs over this time that agree to this.
 constexpr int kCandidatePairs = 3;
 constexpr std::int64_t kCandidateSpan_ns = 300'000'000;
 constexpr double kCandidateAgreement_ns = 0.5e9;
-/// A change of UTC against the monotonic clock above this is a step, once three pairs in a row say so.
+/// A change of UTC against the monotonic clock above this is a step, once three pairs in a row show it.
 constexpr std::int64_t kStep_ns = 1'000'000;
 constexpr int kStepPairs = 3;
-/// Latency to be expected of what is not known yet: half of the 10 ms that serial adapters hold bytes back.
+/// Latency assumed while it is not known: half of the 10 ms for which serial adapters buffer bytes.
 constexpr double kExpectedExcess_ns = 5e6;
-/// How many pairs the average latency remembers.
+/// Time constant of the average latency, in pairs.
 constexpr double kExcessMemory = 1000.0;
-/// Reading two clocks and being woken up.
+/// Time for reading two clocks and for waking the process.
 constexpr double kFloor_ns = 2e3;
 constexpr double kUnknownDrift = 100e-6;
 
@@ -145,7 +146,7 @@ std::int64_t ClockMap::monotonic_of(std::int64_t ticks) const {
 
 std::int64_t ClockMap::sigma_ns() const {
   if (!synchronised_) return -1;
-  // The line touches its lowest points: what the floor lies above the truth goes down with the number of pairs.
+  // The line touches its lowest points: the error of the floor decreases with the number of pairs.
   const double excess_ns = (excess_sum_ns_ + kExpectedExcess_ns) / (excess_count_ * excess_count_);
   const double drift_ns = line_.drift_ns_per_s == 0.0 ? kUnknownDrift * line_.span_s * 1e9 : 0.0;
   const double steering_ns = std::abs(static_cast<double>(utc_.remaining_ns()));

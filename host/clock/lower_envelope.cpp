@@ -10,20 +10,21 @@ namespace pharos::host {
 namespace {
 
 constexpr double kBin_s = 0.5;
-/// Long enough for 0.1 ms of jitter to become 2 ppm of drift, short enough to follow a crystal that warms up.
+/// Long enough for 0.1 ms of jitter to become 2 ppm of drift, short enough to follow a crystal whose temperature
+/// changes.
 constexpr std::int64_t kWindowBins = 120;
-/// Below this span the drift is not measured but taken as zero: two bins make any slope.
+/// Below this span the drift is not estimated but zero: the slope of two bins is arbitrary.
 constexpr double kMinSpan_s = 2.0;
-/// Two crystals of 100 ppm each.
+/// Relative drift of two crystals of 100 ppm each.
 constexpr double kLargestDrift_ns_per_s = 200e3;
 
-/// A least delay further under the second least of its bin than so many times what is usual stands alone: exponential
-/// gaps reach that in 1 of 250 bins, where using the second costs next to nothing.
+/// A smallest delay is an outlier if its distance to the second smallest of its bin is more than so many times the
+/// typical one: exponential gaps reach that in 1 of 250 bins, where using the second costs almost nothing.
 constexpr double kCredibleGaps = 8.0;
-/// Fewer bins do not tell what is usual: there every least delay stands alone.
+/// Fewer bins do not give a typical distance: there every smallest delay counts as an outlier.
 constexpr std::size_t kBinsForGap = 3;
 
-/// Of at least one value; reorders them.
+/// Median of at least one value; reorders them.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -13,10 +13,10 @@ namespace pharos::host {
 ///
 /// Of all lines below every point, the one with the least sum of distances: the edge of the lower convex hull that
 /// spans the mean time. Moon, Skelly, Towsley, "Estimation and removal of clock skew from network delay measurements",
-/// IEEE INFOCOM 1999. The points are the least delays of half-second bins over the last minute, so that a fit costs at
-/// most 120 points, and bursts and stalls, which only ever add latency, leave no trace. A least delay that stands alone
-/// (far below the second least of its bin, by the measure of the other bins) is a false time: the second serves
-/// instead. A bin of one point counts only while no bin has two.
+/// IEEE INFOCOM 1999. The points are the smallest delays of half-second bins over the last minute, so that a fit has at
+/// most 120 points, and bursts and stalls, which only add latency, have no effect. A smallest delay far below the
+/// second smallest of its bin, compared with the other bins, is a false time: the second is used instead. A bin of one
+/// point counts only while no bin has two.
 class LowerEnvelope {
  public:
   struct Line {

@@ -8,10 +8,10 @@
 namespace pharos::host {
 namespace {
 
-/// An error is worked off with this time constant: within seconds, yet slowly enough to smooth the estimate.
+/// Time constant with which an error is slewed to zero: within seconds, yet slowly enough to smooth the estimate.
 constexpr double kSteering_ns = 0.5e9;
 constexpr double kLargestRateChange = 0.5;
-/// More than this is not worked off but made good at once (of itself only forwards).
+/// A larger error is not slewed but corrected at once (without a reset only forwards).
 constexpr std::int64_t kJump_ns = 1'000'000'000;
 constexpr std::int64_t kMinKnotDistance_ns = 20'000'000;
 
@@ -19,7 +19,7 @@ constexpr std::int64_t kMinKnotDistance_ns = 20'000'000;
 
 std::int64_t SteeredClock::Knot::at(std::int64_t when_ns) const {
   const std::int64_t elapsed_ns = when_ns - time_ns;
-  // The small part alone goes through floating point: UTC in ns has more digits than a double.
+  // Only the small difference is computed in floating point: UTC in ns has more digits than a double.
   return shown_ns + elapsed_ns + std::llround((rate - 1.0) * static_cast<double>(elapsed_ns));
 }
 

@@ -9,21 +9,21 @@
 
 namespace pharos::host {
 
-/// A clock that is led towards better knowledge without running backwards: piecewise linear in the target's time,
-/// continuous, at half speed at the slowest. Only forwards does it jump of itself, by more than a second at a time.
+/// A clock that is slewed towards its reference without running backwards: piecewise linear in the target's time,
+/// continuous, at half speed at the slowest. Where it is more than a second behind, it jumps forwards.
 class SteeredClock {
  public:
-  /// What the clock should show at `time_ns` of the target, and the rate (1 + drift) that is known for it.
+  /// The reference reading at `time_ns` of the target, and its rate (1 + drift).
   void steer(std::int64_t time_ns, std::int64_t wanted_ns, double rate);
-  /// What it shows; empty for times more than kMemory_ns before the newest steering, or after it.
+  /// The clock's reading; empty for times more than kMemory_ns before the newest steering, or after it.
   std::optional<std::int64_t> read(std::int64_t time_ns);
-  /// How far it is from what it should show, ns (positive: behind), at the last steering.
+  /// Reference minus reading, ns (positive: the clock is behind), at the last steering.
   std::int64_t remaining_ns() const { return remaining_ns_; }
-  /// Whether what it should show, changed by `change_ns`, is more than a second away: too far to be worked off.
+  /// Whether the reference, changed by `change_ns`, is more than a second away: too far to be slewed.
   bool would_jump(std::int64_t change_ns) const;
-  /// Forgets all that was shown: the next steering sets it, backwards too.
+  /// Forgets all readings: the next steering sets the clock, backwards too.
   void reset();
-  /// The target's time began anew. What was shown is not taken back: the clock goes on from there at the least.
+  /// The target's counter restarted. The clock continues from its last reading or later.
   void restart();
 
   static constexpr std::int64_t kMemory_ns = 5'000'000'000;
@@ -40,7 +40,7 @@ class SteeredClock {
 
   std::deque<Knot> knots_;  // by time
   std::int64_t remaining_ns_ = 0;
-  // The latest reading given out, which no later time may undercut.
+  // The latest reading returned: no later time may have a smaller one.
   std::int64_t latest_read_time_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t latest_shown_ns_ = std::numeric_limits<std::int64_t>::min();
 };

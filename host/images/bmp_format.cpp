@@ -18,7 +18,7 @@ constexpr std::size_t kFileHeader = 14, kCoreHeader = 12, kInfoHeader = 40, kMas
 constexpr std::uint32_t kPlain = 0, kBitfields = 3, kBitfieldsWithOpacity = 6;
 constexpr std::array<std::uint32_t, 3> kPlainMasks = {0xFF0000, 0xFF00, 0xFF};  // red, green, blue
 
-// Little-endian numbers at places that may lie beyond the end.
+// Little-endian numbers at offsets that may be beyond the end.
 class Numbers {
  public:
   Numbers(Bytes bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -47,7 +47,7 @@ struct Header {
   std::size_t data = 0;  // where the rows begin
 
   bool core() const { return size == kCoreHeader; }
-  std::size_t masks_behind() const {  // of a header that has none within it
+  std::size_t masks_behind() const {  // of a header that contains none itself
     if (size != kInfoHeader) return 0;
     return compression == kBitfields ? 12 : compression == kBitfieldsWithOpacity ? 16 : 0;
   }
@@ -84,7 +84,7 @@ Header read_header(Bytes bytes, const std::string& name) {
   header.bits = numbers.u16(28);
   header.compression = numbers.u32(30);
   header.colours_used = numbers.u32(46);
-  if (header.size != 64) read_masks(numbers, header);  // 64: OS/2 2.x, whose compressions are others
+  if (header.size != 64) read_masks(numbers, header);  // 64: OS/2 2.x, whose compression codes differ
   return header;
 }
 
@@ -101,7 +101,7 @@ void check(const Header& header, const std::string& name) {
   }
 }
 
-// Where in a pixel's four bytes a colour lies.
+// Position of a colour within a pixel's four bytes.
 std::size_t byte_of(std::uint32_t mask, const std::string& name) {
   for (std::size_t k = 0; k < 4; ++k) {
     if (mask == std::uint32_t{0xFF} << (8 * k)) return k;
@@ -123,7 +123,7 @@ std::vector<PaletteEntry> palette_of(Bytes bytes, const Header& header) {
   return palette;
 }
 
-// The values of each pixel in the file's bytes `places`, rows downwards.
+// The values of each pixel from the file's bytes at the offsets `places`, rows downwards.
 std::vector<std::uint8_t> values_of(Bytes bytes, const Header& header, std::span<const std::size_t> places) {
   std::vector<std::uint8_t> values;
   values.reserve(static_cast<std::size_t>(header.width * header.height) * places.size());
@@ -159,7 +159,7 @@ Picture decode_bmp(Bytes bytes, const std::string& name) {
   if (header.opacity_mask != 0) places.push_back(byte_of(header.opacity_mask, name));
   picture.values = widened(values_of(bytes, header, places));
   if (header.opacity_mask == 0) return picture;
-  // Many programs name the opacity's place and leave it 0 everywhere: unused.
+  // Many programs declare an opacity field and leave it 0 everywhere: unused.
   bool unused = true;
   for (std::size_t k = 3; k < picture.values.size(); k += 4) unused = unused && picture.values[k] == 0;
   for (std::size_t k = 3; unused && k < picture.values.size(); k += 4) picture.values[k] = 65535;

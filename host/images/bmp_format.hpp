@@ -9,7 +9,7 @@
 
 namespace pharos::host {
 
-/// Whether the bytes begin as a BMP does.
+/// Whether the bytes begin with the signature of a BMP.
 bool is_bmp(std::span<const std::uint8_t> bytes);
 
 /// See decode_picture. Uncompressed, of 8 bits (palette), 24 or 32, rows upwards or downwards; headers of OS/2 1.x and

@@ -12,11 +12,11 @@
 namespace pharos::host {
 namespace {
 
-constexpr double kBrightest = 200.0;  // of the grey ground
-constexpr double kAway = 30000.0;     // nothing is drawn from or to farther places
+constexpr double kBrightest = 200.0;  // of the grey background
+constexpr double kAway = 30000.0;     // points farther away than this are not drawn
 constexpr int kFractionBits = 8;      // of OpenCV's coordinates: 1/256 px
 
-// The value that `fraction` of the pixels stay below.
+// The value below which `fraction` of the pixels are.
 std::uint16_t percentile(const std::vector<std::uint16_t>& sorted, double fraction) {
   return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
 }
@@ -68,14 +68,14 @@ Colour Canvas::pixel(std::int32_t x, std::int32_t y) const {
   return {rgb_[at], rgb_[at + 1], rgb_[at + 2]};
 }
 
-// Runs `draw` with the pixels as OpenCV sees them.
+// Runs `draw` with a cv::Mat over the pixels.
 template <class Draw>
 void Canvas::paint(Draw&& draw) {
   cv::Mat pixels(height_, width_, CV_8UC3, rgb_.data());
   draw(pixels);
 }
 
-// The colour over what is there, `fraction` of it (1 covers), where the rectangle lies within the picture.
+// Blends the colour over the picture with weight `fraction` (1 covers), for the part of the rectangle within it.
 void Canvas::cover(std::int32_t left, std::int32_t top, std::int32_t width, std::int32_t height, Colour colour,
                    double fraction) {
   const cv::Rect within = cv::Rect(left, top, width, height) & cv::Rect(0, 0, width_, height_);

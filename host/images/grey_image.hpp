@@ -12,8 +12,8 @@
 
 namespace pharos::host {
 
-/// A grey image in memory, row by row without gaps. Files of 8 bits come as 16 (value * 257: white is 65535 either
-/// way).
+/// A grey image in memory, row by row without gaps. Values of 8-bit files are converted to 16 bits (value * 257: white
+/// is 65535 in both cases).
 struct GreyImage {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -32,7 +32,7 @@ GreyImage read_grey_image(const std::string& path);
 /// The same from a file's bytes; `name` is for messages.
 GreyImage decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name);
 
-/// What a program says once about the first image whose colours became luma.
+/// The message that a program prints once, for the first colour image converted to luma.
 std::string colour_remark(const std::string& file);
 
 /// Writes a PNG of `bits` (8 or 16) a value, `-` being standard output; of 8 the upper half of each value is kept.

@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// A progressive file of a few bytes a scan would keep the decoder busy for minutes; cameras make ten scans. The
+// Decoding a progressive file with many scans of a few bytes takes minutes; cameras write ten scans. The
 // library's own limit (TJFLAG_LIMITSCANS) is 500.
 constexpr int kMaxScans = 100;
 // A block of 8 x 8 takes one bit at least.
@@ -61,7 +61,7 @@ Picture decode_jpeg(Bytes bytes, const std::string& name) {
   }
   std::vector<std::uint8_t> rows(picture.pixels() * static_cast<std::size_t>(picture.channels));
   const int format = picture.channels == 1 ? TJPF_GRAY : TJPF_RGB;
-  // The library makes up what is missing and warns; here that is a damaged file.
+  // The library fills in missing data and warns; here such a file is damaged.
   if (tjDecompress2(decoder.get(), bytes.data(), size, rows.data(), width, 0, height, format, TJFLAG_STOPONWARNING) !=
       0) {
     refuse_damaged(name, "JPEG", tjGetErrorStr2(decoder.get()));

@@ -9,10 +9,10 @@
 
 namespace pharos::host {
 
-/// Whether the bytes begin as a JPEG does.
+/// Whether the bytes begin with the signature of a JPEG.
 bool is_jpeg(std::span<const std::uint8_t> bytes);
 
-/// See decode_picture. Grey or colour of 8 bits; what was made for print (CMYK) is refused.
+/// See decode_picture. Grey or colour of 8 bits; files for print (CMYK) are refused.
 Picture decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace pharos::host

@@ -12,7 +12,7 @@
 namespace pharos::host {
 
 /// A grey or colour image in memory, row by row without gaps, pixel by pixel one value or three (red, green, blue).
-/// Files of 8 bits come as 16 (value * 257: white is 65535 either way).
+/// Values of 8-bit files are converted to 16 bits (value * 257: white is 65535 in both cases).
 struct Picture {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -23,11 +23,11 @@ struct Picture {
   std::size_t pixels() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px); }
 };
 
-/// Reads an image, told by its content and not by its name; `-` is standard input: PNG, TIFF and binary PGM and PPM of
-/// 8 or 16 bits, JPEG and BMP of 8. Rows stand as the file stores them: a note about how to turn them (EXIF) is not
-/// followed, because a camera file is of the sensor's rows. Opacity is dropped where all pixels are opaque. Throws
-/// InputError for what is missing, no such image, transparent, larger than the limits, damaged, or has less data than
-/// its header says.
+/// Reads an image; the content determines the format, not the name; `-` is standard input: PNG, TIFF and binary PGM and
+/// PPM of 8 or 16 bits, JPEG and BMP of 8. Rows are in the order of the file: an orientation tag (EXIF) is ignored,
+/// because a camera file describes the sensor's rows. Opacity is dropped where all pixels are opaque. Throws InputError
+/// for an image that is missing, of another format, transparent, larger than the limits, damaged, or has less data than
+/// its header declares.
 Picture read_picture(const std::string& path);
 
 /// The same from a file's bytes; `name` is for messages.

@@ -21,9 +21,9 @@ namespace pharos::host {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-// No row of deflated data shrinks to less than a thousandth: a claim beyond is told before memory is taken.
+// Deflate compresses to no less than a thousandth: a larger declared size is refused before memory is allocated.
 constexpr std::size_t kMaxDeflation = 1100;
-// Colour profiles and comments, which are not looked at: enough for any profile, too little for a deflate bomb.
+// Colour profiles and comments, which are ignored: enough for any profile, too little for a decompression bomb.
 constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 24;
 
 struct Free {
@@ -31,7 +31,7 @@ struct Free {
 };
 using Context = std::unique_ptr<spng_ctx, Free>;
 
-// How a picture's pixels leave libspng.
+// The format of the decoded pixels from libspng.
 struct Layout {
   int format = SPNG_FMT_PNG;
   int channels = 1;  // of colour: 1 or 3
@@ -48,7 +48,7 @@ Layout layout_of(const spng_ihdr& header) {
   return layout;
 }
 
-// Whether the chunks (length, type, data, check) run on to the last one: libspng does without it.
+// Whether the chunks (length, type, data, check) are complete to the last one: libspng does not require it.
 bool has_its_end(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kAround = 12;
   std::size_t at = kSignature.size();
@@ -67,11 +67,12 @@ bool has_its_end(std::span<const std::uint8_t> bytes) {
 class PngReader {
  public:
   PngReader(std::span<const std::uint8_t> bytes, const std::string& name)
-      // Each chunk's CRC guards the bytes that the stream's own checksum would guard again.
+      // Each chunk's CRC already covers the bytes of the stream's own checksum.
       : context_(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)), bytes_(bytes), name_(name) {
     if (!context_) throw InputError(name + ": no memory to read it");
     constexpr std::uint32_t kAny = std::numeric_limits<std::int32_t>::max();
-    spng_set_image_limits(context_.get(), kAny, kAny);  // ours are checked after, and named in the message
+    spng_set_image_limits(context_.get(), kAny,
+                          kAny);  // our limits are checked afterwards, with a message that names them
     spng_set_chunk_limits(context_.get(), kMaxChunkBytes, kMaxChunkBytes);
     require(spng_set_png_buffer(context_.get(), bytes.data(), bytes.size()));
     require(spng_get_ihdr(context_.get(), &header_));
@@ -175,7 +176,7 @@ class PngReader {
     throw InputError(name_ + ": has transparency; an image without is needed (convert IN -alpha off OUT)");
   }
 
-  // One grey value or colour stands for transparency: harmless where no pixel has it.
+  // One grey value or colour marks transparency: accepted where no pixel has it.
   void refuse_colour_key(const Picture& picture, const spng_trns& key) const {
     const int maximum = (1 << header_.bit_depth) - 1;
     const auto scaled = [&](std::uint16_t value) { return static_cast<std::uint16_t>(value * 65535LL / maximum); };
@@ -197,7 +198,7 @@ class PngReader {
 int encode(std::FILE* file, const spng_ihdr& header, std::span<const std::uint8_t> rows) {
   const Context context(spng_ctx_new(SPNG_CTX_ENCODER));
   if (!context) return SPNG_EMEM;
-  // Overlays and frames are looked at, not archived: quick, and one filter instead of the best of five a row, which
+  // Fast settings, because overlays and frames are viewed, not archived: one filter instead of the best of five a row
   // takes half the time for files of the same size.
   constexpr int kQuick = 1;
   spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, kQuick);

@@ -27,7 +27,7 @@ class PnmHeader {
     if (at_ == begin) return std::nullopt;
     return value;
   }
-  // What follows the one white space after the header.
+  // The data after the single white space that ends the header.
   Bytes rest() const { return at_ < bytes_.size() ? bytes_.subspan(at_ + 1) : Bytes(); }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace pharos::host {
 
-/// Whether the bytes begin as a binary PGM or PPM does.
+/// Whether the bytes begin with the signature of a binary PGM or PPM.
 bool is_pnm(std::span<const std::uint8_t> bytes);
 
 /// See decode_picture.

@@ -14,7 +14,7 @@ namespace pharos::host {
 std::vector<std::uint16_t> widened(std::span<const std::uint8_t> bytes);
 
 /// Drops the last of the `channels` + 1 values a pixel, its opacity. Throws InputError where a pixel is not opaque
-/// (65535): nobody can tell what lies behind it.
+/// (65535): the background is unknown.
 void drop_opacity(Picture& picture, const std::string& name);
 
 /// A colour table's entry, 8 bits a colour.
@@ -22,8 +22,8 @@ struct PaletteEntry {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
 
-/// A picture of 8 bits whose only channel names entries of `palette`. It becomes grey where every entry is grey, else
-/// colour. Throws InputError for an index without an entry; `kind` as in refuse_damaged.
+/// Converts a picture of 8 bits whose only channel holds indices into `palette`. It becomes grey where every entry is
+/// grey, else colour. Throws InputError for an index without an entry; `kind` as in refuse_damaged.
 void apply_palette(Picture& picture, std::span<const std::uint8_t> indices, std::span<const PaletteEntry> palette,
                    const std::string& name, const char* kind);
 

@@ -21,10 +21,11 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// LZW packs most tightly: a code of 12 bits for at most 4094 bytes. A claim beyond is told before memory is taken.
+// LZW has the highest compression: a code of 12 bits for at most 4094 bytes. A larger declared size is refused before
+// memory is allocated.
 constexpr std::size_t kMaxPacking = 4096;
 
-// A file in memory, and the first thing that libtiff said about it. libtiff writes nothing to standard error.
+// A file in memory, and libtiff's first message about it. libtiff writes nothing to standard error.
 struct Source {
   Bytes bytes;
   std::size_t at = 0;
@@ -55,7 +56,7 @@ int keep_open(thandle_t) { return 0; }
 toff_t size_of(thandle_t handle) { return source_of(handle).bytes.size(); }
 
 int map(thandle_t handle, void** base, toff_t* size) {
-  // libtiff does not write to what it maps: it copies where it must turn bits.
+  // libtiff does not write to mapped memory: it copies where it must reverse bits.
   *base = const_cast<std::uint8_t*>(source_of(handle).bytes.data());
   *size = source_of(handle).bytes.size();
   return 1;
@@ -68,12 +69,12 @@ int on_error(TIFF*, void* user, const char*, const char* format, va_list argumen
   std::array<char, 160> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);
   source.error = text.data();
-  // One line, whatever bytes of the file it quotes.
+  // Makes one line of the message, whatever bytes of the file it quotes.
   for (char& letter : source.error) letter = letter >= ' ' && letter <= '~' ? letter : '?';
   return 1;
 }
 
-// Most warnings are about unknown tags and do no harm. The JPEG decoder makes up what is missing and warns.
+// Most warnings are about unknown tags and harmless. The JPEG decoder fills in missing data and warns.
 int on_warning(TIFF* tiff, void* user, const char* module, const char* format, va_list arguments) {
   return module != nullptr && std::string_view(module) == "JPEGLib" ? on_error(tiff, user, module, format, arguments)
                                                                     : 1;
@@ -105,7 +106,7 @@ Number field(const Tiff& tiff, std::uint32_t tag, Number otherwise) {
 struct TiffLayout {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, photometric = 0, compression = 0;
-  bool apart = false;  // the colours of a pixel: each in a plane of its own
+  bool apart = false;  // planar configuration: each colour in a plane of its own
 
   std::size_t colours() const { return photometric == PHOTOMETRIC_RGB ? 3 : 1; }
   std::size_t value_bytes() const { return bits / 8; }
@@ -161,7 +162,7 @@ void check_kind(const Tiff& tiff, TiffLayout& layout, const std::string& name) {
   }
 }
 
-// The image in the pieces that the file stores: strips over its full width, or tiles.
+// The image in the units of the file: strips over its full width, or tiles.
 struct Pieces {
   std::uint32_t width = 0, height = 0, across = 0, down = 0;
   std::size_t bytes = 0;  // of one, decoded
@@ -185,7 +186,7 @@ Pieces pieces_of(const Tiff& tiff, const TiffLayout& layout, const std::string& 
   pieces.down = up(layout.height, pieces.height);
   const tmsize_t size = pieces.tiles ? TIFFTileSize(tiff.get()) : TIFFStripSize(tiff.get());
   pieces.bytes = static_cast<std::size_t>(std::max<tmsize_t>(size, 0));
-  // Tiles overhang the image: not by more than it is large, or little data would mean much work.
+  // Tiles may extend beyond the image, but not by more than its size: else small files would cost much time.
   const std::size_t count = std::size_t{pieces.across} * pieces.down * (layout.apart ? layout.samples : 1);
   const std::size_t wanted = std::size_t{pieces.width} * pieces.height * samples * layout.value_bytes();
   if (pieces.bytes != wanted || pieces.bytes > kMaxDecodedBytes || count > 2 * kMaxDecodedBytes / pieces.bytes) {
@@ -256,7 +257,7 @@ class TiffPixels {
   std::vector<std::uint8_t> piece_;
 };
 
-// 256 colours of 16 bits; programs that write values of 8 bits into them are known for it.
+// 256 colours of 16 bits; some programs write values of 8 bits into them.
 std::vector<PaletteEntry> palette_of(const Tiff& tiff, const std::string& name) {
   constexpr std::size_t kEntries = 256;
   std::array<std::uint16_t*, 3> colours{};
@@ -296,7 +297,7 @@ Picture decode_tiff(Bytes bytes, const std::string& name) {
   if (!tiff) refuse_damaged(name, "TIFF", source.error.empty() ? "no image in it" : source.error);
   TiffLayout layout = layout_of(tiff, name);
   check_kind(tiff, layout, name);
-  source.error.clear();  // of tags that are not looked at
+  source.error.clear();  // about tags that are not used
   Picture picture{static_cast<std::int32_t>(layout.width), static_cast<std::int32_t>(layout.height),
                   static_cast<int>(layout.colours()), layout.bits, TiffPixels(tiff, source, layout, name).read()};
   if (layout.samples > layout.colours()) drop_opacity(picture, name);

@@ -11,8 +11,8 @@
 
 namespace pharos::host {
 
-/// One cycle of one station on one target: what pose_t is made of. The sensor is the station, eight hex digits, empty
-/// while unknown.
+/// One cycle of one station on one target: content of a pose_t. The header's sensor is the station, eight hex digits,
+/// empty while unknown.
 struct CycleReport : MeasurementHeader {
   CycleReport() { frames = frames_of(pose); }
 
@@ -20,10 +20,10 @@ struct CycleReport : MeasurementHeader {
   LighthousePoseEstimate pose;
 };
 
-/// The same of a pose that the capture board solved itself.
+/// The same for a board pose.
 struct BoardPoseReport : CycleReport {};
 
-/// One bearing of a cycle, with what the solver made of it.
+/// One bearing of a cycle, with its residual from the solver.
 struct ReportedBearing {
   std::uint8_t sensor = 0;
   Axis axis = Axis::kX;
@@ -35,7 +35,7 @@ struct ReportedBearing {
   double residual_rad = 0.0;
 };
 
-/// The bearings of a cycle: what bearings_t is made of. Header and station are those of the cycle.
+/// The bearings of a cycle: content of a bearings_t. Header and station are those of the cycle.
 struct BearingsReport : MeasurementHeader {
   std::uint8_t station = 0;
   bool calibrated = false;  // ideal_theta_rad is corrected by the station's calibration

@@ -7,7 +7,7 @@
 
 namespace pharos::host {
 
-/// Whether every number of a pose that a message carries is finite.
+/// Whether every number of a pose that is part of a message is finite.
 template <class Parent, class Child>
 bool is_finite(const PoseEstimate<Parent, Child>& estimate) {
   const bool second_is_finite =

@@ -14,22 +14,22 @@ struct NamedCount {
 };
 using NamedCounts = std::vector<NamedCount>;
 
-/// How a source of data fares.
+/// State of a source of data.
 enum class SourceState : std::uint8_t {
   kOk,
   kWaiting,  // no data yet
   kStale,    // data stopped
   kGone,     // device unplugged or not there
-  kError,    // something that does not mend itself
+  kError,    // an error that needs the user
 };
 const char* name_of(SourceState state);
 
-/// Health of one target's line, as in source_status_t.
+/// Health of one source, as in source_status_t.
 struct SourceHealth {
   std::string source;
   std::string target;
   SourceState state = SourceState::kWaiting;
-  std::string message;  // what is wrong and what to do; empty when ok
+  std::string message;  // the error and what to do; empty when ok
   std::string device;
   std::string identity;
   std::int64_t data_age_ns = -1;  // -1: never
@@ -47,7 +47,7 @@ struct DaemonHealth {
   std::int64_t uptime_ns = 0;
   std::string host;
   std::string version;
-  std::string message;  // of the daemon itself (recording stopped, …); empty when nothing is wrong
+  std::string message;  // error of the daemon itself (recording stopped, …); empty when there is none
   NamedCounts counters;
   std::vector<SourceHealth> sources;
 };

@@ -13,10 +13,10 @@ class LCM;
 
 namespace pharos::host {
 
-/// Longest channel name that LCM carries.
+/// Longest channel name of LCM.
 inline constexpr std::size_t kMaxChannelLength = 63;
 
-/// LCM cannot be set up here and now; the message says what to do.
+/// LCM cannot be set up; the message says what to do.
 class LcmError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

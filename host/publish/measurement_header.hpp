@@ -6,14 +6,14 @@
 
 namespace pharos::host {
 
-/// How a measurement went, as an estimator tells it beside its numbers.
+/// Outcome of a measurement, as an estimator reports it beside its numbers.
 struct MeasurementOutcome {
-  /// Where there is no answer: why, as the `<reason>` of refused_<reason>; empty where there is one.
+  /// Reason of a refusal, the `<reason>` of refused_<reason>; empty where there is a result.
   std::string refusal;
-  /// The refusal for people, with what to do. Of log and status; no message carries it.
+  /// The refusal as text for the user, with what to do. For log and status; not part of any message.
   std::string advice;
   std::string flags;     // words joined by '|'
-  int observations = 0;  // that the answer rests on
+  int observations = 0;  // used for the result
 
   bool answered() const { return refusal.empty(); }
 };
@@ -28,13 +28,13 @@ struct FramePair {
 struct MeasurementHeader : MeasurementOutcome {
   std::int64_t utc_ns = 0;        // time of validity: when the light was measured
   std::int64_t utc_sigma_ns = 0;  // stated uncertainty of utc_ns against this computer's UTC
-  std::int64_t age_ns = 0;        // from the measurement to when this report was made; 0 where no age is told
-  std::int64_t sequence = 0;      // given by PublishGate to what it lets out
-  std::string source;             // who tells it, as "tof/NAME"
+  std::int64_t age_ns = 0;        // from the measurement to when this report was made; 0 where no age is reported
+  std::int64_t sequence = 0;      // set by PublishGate when it sends
+  std::string source;             // the reporting source, as "tof/NAME"
   std::string sensor;             // station id or name of the camera
   std::string target;
   FramePair frames;
-  bool ambiguous = false;  // a second answer fits nearly as well
+  bool ambiguous = false;  // a second solution fits nearly as well
 };
 
 /// "ok", "ambiguous" or "refused_<reason>": the `status` of messages.

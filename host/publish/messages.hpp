@@ -15,7 +15,8 @@
 
 namespace pharos::host {
 
-// The daemon's values as LCM types: SI, times in microseconds, what does not apply is 0. Refusals hold no numbers.
+// The daemon's values as LCM types: SI, times in microseconds, fields that do not apply are 0. Refusals contain no
+// numbers.
 
 pose_t message_of(const CycleReport& report);
 pose_t message_of(const TofReport& report);
@@ -25,7 +26,7 @@ spin_t message_of(const SpinReport& report);
 bearings_t message_of(const BearingsReport& report);
 status_t status_message(const DaemonHealth& health, std::int64_t sequence);
 
-/// All of a pose's message but the pose itself: what its header tells.
+/// All fields of a pose's message but the pose itself, from its header.
 pose_t pose_message_of(const MeasurementHeader& header);
 
 }  // namespace pharos::host

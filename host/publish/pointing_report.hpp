@@ -6,8 +6,8 @@
 
 namespace pharos::host {
 
-/// One telescope image's axis, or that of a pass: what pointing_t is made of. Its time is that of the image as its
-/// track tells it, of a pass its middle; no age is told.
+/// One telescope image's axis, or that of a pass: content of a pointing_t. Its time is that of the image in its track
+/// file, for a pass the middle; no age is reported.
 struct PointingReport : MeasurementHeader {
   PointingReport() { frames = {"station", "target"}; }
 

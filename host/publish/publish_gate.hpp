@@ -9,12 +9,13 @@
 
 namespace pharos::host {
 
-/// The last stage of every pipeline, and the only way of a measurement to LCM: what leaves is finite and fresh, has the
-/// next number of its series, and what does not leave is counted. Refusals leave as answers do; they hold no numbers.
+/// The last stage of every pipeline, and the only path of a measurement to LCM: sends reports that are finite and
+/// fresh, with the next number of their series, and counts those that are not sent. Refusals are sent in the same way;
+/// they contain no numbers.
 ///
 /// A report is a MeasurementHeader with three functions that are found by its type: `channel_of(report)`, the channel
-/// behind the prefix; `message_of(report)`, its LCM message; `is_finite(report)`, whether all of that message's numbers
-/// are. A report of a new kind needs no change in this room (see host/daemon/README.md, "How to add a source").
+/// behind the prefix; `message_of(report)`, its LCM message; `is_finite(report)`, whether all numbers of that message
+/// are finite. A new kind of report needs no change in this room (see host/daemon/README.md, "How to add a source").
 class PublishGate {
  public:
   /// Reports older than `max_age_ns`, or as far in the future, are not sent; `stale` counts them.
@@ -23,20 +24,20 @@ class PublishGate {
     std::int64_t& stale;
   };
 
-  /// `publisher` and the counters must outlive this. No `limit`: nothing is too old to be told (files).
+  /// `publisher` and the counters must outlive this. Without `limit` no report is too old (files).
   explicit PublishGate(Publisher& publisher, std::int64_t& not_finite, std::optional<AgeLimit> limit = std::nullopt)
       : publisher_(publisher), not_finite_(not_finite), limit_(limit) {}
-  PublishGate(const PublishGate&) = delete;  // counters stand beside it
+  PublishGate(const PublishGate&) = delete;  // holds references to counters
   PublishGate& operator=(const PublishGate&) = delete;
 
-  /// May this report leave as far as its numbers go? Counts it where not.
+  /// Whether all numbers of the report are finite; counts it where not.
   template <class Report>
   bool finite(const Report& report) {
     if (!report.answered() || is_finite(report)) return true;
     ++not_finite_;
     return false;
   }
-  /// May a measurement of this age leave? Counts it where not.
+  /// Whether a measurement of this age may be sent; counts it where not.
   bool fresh(std::int64_t age_ns);
   /// Both. A report that passes is sent by publish() unless it was changed in between.
   template <class Report>

@@ -18,7 +18,7 @@ class status_t;
 
 namespace pharos::host {
 
-/// What went out, by kind of message.
+/// Messages sent, by kind.
 struct PublishCounters {
   std::int64_t poses = 0;
   std::int64_t bearings = 0;
@@ -26,7 +26,7 @@ struct PublishCounters {
   std::int64_t spins = 0;
   std::int64_t status = 0;
   std::int64_t bytes = 0;
-  std::int64_t failed = 0;  // messages that the sink did not take
+  std::int64_t failed = 0;  // messages that the sink could not send
 
   std::int64_t& of(const pose_t&) { return poses; }
   std::int64_t& of(const bearings_t&) { return bearings; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What PublishGate asks of every report: its channel, and whether its numbers are finite.
+// The functions that PublishGate needs of every report: its channel, and whether its numbers are finite.
 #include <algorithm>
 #include <cmath>
 

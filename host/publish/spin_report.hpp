@@ -6,11 +6,11 @@
 
 namespace pharos::host {
 
-/// A constant turning, in the left camera's frame.
+/// A constant angular velocity, in the left camera's frame.
 struct SpinEstimate {
   Vector3 rate_rad_s = Vector3::Zero();
   Matrix3 covariance = Matrix3::Zero();  // (rad/s)^2
-  Vector3 axis = Vector3::Zero();        // unit; zero where the rate is not to be told from rest
+  Vector3 axis = Vector3::Zero();        // unit; zero where the rate does not differ significantly from zero
   double sigma_rate_rad_s = 0.0;
   double sigma_axis_rad = 0.0;
   double residual_rms_rad = 0.0;
@@ -18,7 +18,7 @@ struct SpinEstimate {
   double span_s = 0.0;
 };
 
-/// How the target before a stereo rig turns: what spin_t is made of.
+/// Rotation of the target of a stereo rig: content of a spin_t.
 struct SpinReport : MeasurementHeader {
   SpinEstimate spin;
 };

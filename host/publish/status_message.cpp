@@ -40,7 +40,7 @@ bool bad(const SourceHealth& source) {
   return source.state == SourceState::kError || source.state == SourceState::kGone;
 }
 
-// What the sources say together, and the first complaint.
+// The common state of all sources, and the first error message.
 void fill_state(const DaemonHealth& health, status_t& message) {
   const auto& sources = health.sources;
   const auto worst = std::find_if(sources.begin(), sources.end(),

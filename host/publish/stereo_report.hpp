@@ -9,14 +9,14 @@
 
 namespace pharos::host {
 
-/// Of the docking ring, before the rig (system ring2). residual_rms is an angle: pixels over the focal length.
+/// Pose of the docking ring in the rig's frame (system ring2). residual_rms is an angle: pixels over the focal length.
 using Ring2PoseEstimate = PoseEstimate<frame::Rig, frame::Target>;
-/// Of a target without a model, before the left camera (system slam): where it is relative to the first pair of the
-/// map, T_C_T with T equal to C then. residual_rms as above.
+/// Pose of a target without a model in the left camera's frame (system slam): T_C_T, where T equals C at the first pair
+/// of the map. residual_rms as above.
 using SlamPoseEstimate = PoseEstimate<frame::Camera, frame::Target>;
 using Ring2Pose = std::variant<Ring2PoseEstimate, SlamPoseEstimate>;
 
-/// A pair of images of a rig: what pose_t is made of. Which system it is of, its pose's frames tell.
+/// A pair of images of a rig: content of a pose_t. The frames of its pose identify the system.
 struct StereoReport : MeasurementHeader {
   explicit StereoReport(const Ring2Pose& measured = {}) : pose(measured) {
     frames = frames_of(pose);

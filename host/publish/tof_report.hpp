@@ -9,7 +9,7 @@ namespace pharos::host {
 
 using TofPoseEstimate = PoseEstimate<frame::Camera, frame::Target>;
 
-/// One frame of a depth camera, or the mean of many: what pose_t is made of.
+/// One frame of a depth camera, or the mean of many: content of a pose_t.
 struct TofReport : MeasurementHeader {
   TofReport() { frames = frames_of(pose); }
 

@@ -10,10 +10,11 @@ namespace pharos::host {
 std::string flag_words(std::uint8_t epoch_flags);
 /// Appends a word to such flags.
 void add_flag_word(std::string& flags, const char* word);
-/// The word of a measurement whose time may have gone backwards, because this computer's clock was set a moment ago.
+/// The flag of a measurement whose time may have gone backwards, because this computer's clock was set within the last
+/// minute.
 inline constexpr const char* kClockSetWord = "clock_set";
 
-/// A station's OOTX id as eight hex digits in capitals, as it stands on its label.
+/// A station's OOTX id as eight hex digits in capitals, as on its label.
 std::string station_id_text(std::uint32_t id);
 
 }  // namespace pharos::host

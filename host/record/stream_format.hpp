@@ -10,7 +10,7 @@
 
 namespace pharos::host {
 
-/// What the head of a recorded serial stream says: a recording needs nothing else to be read.
+/// Head of a recorded serial stream: everything that is needed to read the recording.
 struct StreamHeader {
   std::string target;  // name in the configuration, at most 255 bytes
   std::uint32_t baud = 0;
@@ -18,7 +18,7 @@ struct StreamHeader {
   std::int64_t monotonic_ns = 0;  // the same instant on the recording host's monotonic clock
 };
 
-/// Bytes as they arrived.
+/// Bytes as received.
 struct StreamChunk {
   std::int64_t utc_ns = 0;  // of reading them
   std::int64_t monotonic_ns = 0;
@@ -32,20 +32,20 @@ struct StreamChunk {
 // The CRC is over all bytes of the head or chunk before it.
 namespace stream_format {
 
-/// As PNG's: a byte above 127 and a line end tell a file that was mangled as text.
+/// As PNG's: a byte above 127 and a line end reveal a file that was converted as text.
 inline constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'P', 'H', 'R', 'A', 'W', '\r', '\n'};
 inline constexpr std::uint8_t kVersion = 1;
 inline constexpr std::size_t kHeadBytes = 30;  // without name and CRC
 inline constexpr std::size_t kCrcBytes = 4;
 inline constexpr std::uint8_t kDataMark = 0xC5;
-/// A chunk of 8 bytes that say how many were lost before it.
+/// A chunk of 8 bytes: the number of bytes lost before it.
 inline constexpr std::uint8_t kLossMark = 0xC6;
 inline constexpr std::size_t kChunkHeadBytes = 19;
-/// More than one read of a serial port ever gives; small, so that a search after damage is quick.
+/// More than one read of a serial port returns; small, so that a search after damage is quick.
 inline constexpr std::size_t kMaxChunkBytes = 16384;
 
 std::vector<std::uint8_t> encode_head(const StreamHeader& header);
-/// Appends the chunk to `out`, behind a loss chunk where bytes were lost. At most kMaxChunkBytes.
+/// Appends the chunk to `out`, after a loss chunk where bytes were lost. At most kMaxChunkBytes.
 void append_chunk(const StreamChunk& chunk, std::vector<std::uint8_t>& out);
 
 }  // namespace stream_format

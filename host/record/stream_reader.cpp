@@ -81,7 +81,7 @@ void StreamReader::read_header() {
   at_ += whole;
 }
 
-/// Size of the whole, good chunk that begins here; 0 when none does.
+/// Size of the complete, valid chunk that begins here; 0 when there is none.
 std::size_t StreamReader::whole_chunk_size() {
   if (!fill(kChunkHeadBytes)) return 0;
   wire::ByteReader reader(ahead(kChunkHeadBytes));

@@ -69,7 +69,7 @@ bool StreamRecorder::ready(std::int64_t utc_ns, std::int64_t monotonic_ns) {
 }
 
 bool StreamRecorder::open_file(std::int64_t utc_ns, std::int64_t monotonic_ns) {
-  std::error_code ignored;  // if the folder cannot be made, opening says why
+  std::error_code ignored;  // if the folder cannot be created, opening the file fails and reports why
   std::filesystem::create_directories(options_.directory, ignored);
   const std::string stem = options_.target + "_" + utc_word(utc_ns);
   for (int namesake = 0; namesake < kMaxNamesakes && !fd_.valid(); ++namesake) {
@@ -108,8 +108,8 @@ void StreamRecorder::fail(const std::string& doing, int error, std::int64_t mono
   ++counters_.failures;
   error_ = doing + ": " + std::strerror(error) + "; the stream is not being recorded";
   retry_at_ns_ = monotonic_ns + kRetry_ns;
-  // What was written of the broken chunk goes, and with it a file that would hold nothing but its head: on a full disk
-  // every attempt would leave another one.
+  // The incomplete chunk is removed, and with it a file without any chunk: on a full disk every attempt would leave
+  // another one.
   if (fd_.valid()) {
     const bool cleaned =
         holds_chunks_ ? ::ftruncate(fd_.get(), static_cast<off_t>(file_bytes_)) == 0 : ::unlink(file_.c_str()) == 0;

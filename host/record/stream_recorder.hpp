@@ -13,7 +13,7 @@
 namespace pharos::host {
 
 struct RecorderOptions {
-  std::filesystem::path directory;  // made where it does not exist
+  std::filesystem::path directory;  // created where it does not exist
   std::string target;
   int baud = 0;
   // A new file begins at whichever comes first.
@@ -29,11 +29,10 @@ struct RecorderCounters {
 };
 
 /// Records a raw serial stream into a series of files `TARGET_YYYYMMDDTHHMMSSZ[_N].phraw`.
-///
-/// Never throws and never stands in the way of the poses: what cannot be written (disk full, folder gone) is counted,
-/// told by trouble(), tried again once a second, and marked in the recording when that goes on. Files end with a whole
-/// chunk, whatever happened, and none holds nothing but its head. One write() a chunk, no buffer: what was appended
-/// survives the program's death. The program must ignore SIGXFSZ, or a limit on file sizes kills it.
+/// Never throws and never delays the poses: bytes that cannot be written (disk full, folder gone) are counted, reported
+/// by error(), and marked in the recording when it continues; writing is tried again once a second. Files always end
+/// with a complete chunk, and no file has only a head. One write() a chunk, no buffer: appended bytes survive a crash
+/// of the program. The program must ignore SIGXFSZ, or a limit on file sizes ends it.
 class StreamRecorder {
  public:
   explicit StreamRecorder(RecorderOptions options) : options_(std::move(options)) {}
@@ -42,7 +41,7 @@ class StreamRecorder {
   void append(std::span<const std::uint8_t> bytes, std::int64_t utc_ns, std::int64_t monotonic_ns);
 
   const RecorderCounters& counters() const { return counters_; }
-  /// Why nothing is recorded at the moment, one line for a person; empty when all is well.
+  /// Why nothing is recorded at the moment, one line for the user; empty when there is no error.
   const std::string& error() const { return error_; }
   /// The file that is being written; empty when none is.
   const std::filesystem::path& file() const { return file_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file that includes the kernel's own header: it defines termios2 and collides with <termios.h>.
+// The only file that includes the kernel's header, which defines termios2 and conflicts with <termios.h>.
 #include "host/serial/line_settings.hpp"
 
 #include <asm/termbits.h>
@@ -26,7 +26,7 @@ int set_raw_line(int fd, int baud) {
   line.c_cflag = CS8 | CREAD | CLOCAL | BOTHER;
   line.c_ispeed = static_cast<speed_t>(baud);
   line.c_ospeed = static_cast<speed_t>(baud);
-  // With O_NONBLOCK: nothing there is EAGAIN, so that a read of 0 bytes always means that the line is gone.
+  // With O_NONBLOCK, no data is EAGAIN, so that a read of 0 bytes always means that the device is gone.
   line.c_cc[VMIN] = 1;
   line.c_cc[VTIME] = 0;
   if (::ioctl(fd, TCSETS2, &line) != 0) return errno;

@@ -9,24 +9,25 @@
 
 namespace pharos::host {
 
-/// Time between two attempts to open a port that is gone: short for a person who replugs, nothing for the processor.
+/// Time between two attempts to open a port that is gone: short for the user, and negligible for the processor.
 inline constexpr std::int64_t kReopenPeriod_ns = 500'000'000;
 
-/// A port that comes back after it was unplugged. No thread and no timer of its own: the poll loop's timer calls
-/// try_open() at least twice a second; time is what the caller says (monotonic ns).
+/// A port that is opened again after it was unplugged. No thread and no timer of its own: the poll loop's timer calls
+/// try_open() at least twice a second; the caller passes the time (monotonic ns).
 class ReopeningPort {
  public:
   enum class Attempt : std::uint8_t {
     kNone,       // open already, or too early for the next attempt
     kOpened,     // now open: watch fd()
-    kFailed,     // not opened, for a reason not told before: tell it once
+    kFailed,     // not opened, for a new reason: report it once
     kStillGone,  // not opened, for the same reason as last time
   };
 
   ReopeningPort(std::string path, int baud) : path_(std::move(path)), baud_(baud) {}
 
   Attempt try_open(std::int64_t now_ns);
-  /// Reads what is there. `gone`: the port was just lost and is closed (forget its fd *before* you call this again).
+  /// Reads the available bytes. `gone`: the port was just lost and is closed (remove its fd from the poll loop *before*
+  /// the next call).
   Transfer read(std::span<std::uint8_t> out, std::int64_t now_ns);
   Transfer write(std::span<const std::uint8_t> bytes, std::int64_t now_ns);
 

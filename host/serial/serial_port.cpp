@@ -79,7 +79,7 @@ SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
 }
 
 void SerialPort::close() {
-  // A pseudo-terminal outlives its last user and would stay exclusive for ever.
+  // A pseudo-terminal exists longer than its last user and would stay exclusive for ever.
   if (fd_.valid()) (void)::ioctl(fd_.get(), TIOCNXCL);
   fd_.reset();
 }

@@ -16,25 +16,25 @@ enum class OpenError : std::uint8_t {
   kNone,
   kMissing,       // no such device, or it was unplugged
   kNoPermission,  // the user is not in the port's group
-  kBusy,          // another program has it
+  kBusy,          // another program uses it
   kNotATerminal,  // a file, folder or device of another kind
-  kBadSpeed,      // the adapter does not do this speed
+  kBadSpeed,      // the adapter does not support this speed
   kOther,
 };
 
-/// The same with a line for a person: what, where, what to do.
+/// The same with one line for the user: what, where, what to do.
 struct OpenFailure {
   OpenError error = OpenError::kNone;
   std::string message;
 };
 
-/// What a read or write came to.
+/// Result of a read or write.
 struct Transfer {
   std::size_t bytes = 0;
   bool gone = false;  // unplugged or hung up: close the port
 };
 
-/// A serial line of our own: raw 8N1, non-blocking, exclusive (a second program that opens it gets an error).
+/// A serial port: raw 8N1, non-blocking, exclusive (a second program that opens it gets an error).
 class SerialPort {
  public:
   static Result<SerialPort, OpenFailure> open(const std::string& path, int baud);
@@ -44,11 +44,11 @@ class SerialPort {
   SerialPort& operator=(SerialPort&& other) noexcept;
   ~SerialPort() { close(); }
   bool is_open() const { return fd_.valid(); }
-  /// For the poll loop: readable when bytes are there and when the line is gone.
+  /// For the poll loop: readable when bytes are available and when the device is gone.
   int fd() const { return fd_.get(); }
-  /// What is there now; 0 bytes and not gone when nothing is.
+  /// The available bytes; 0 bytes and not gone when there are none.
   Transfer read(std::span<std::uint8_t> out);
-  /// As much as the line takes now.
+  /// Writes as many bytes as the port accepts now.
   Transfer write(std::span<const std::uint8_t> bytes);
 
  private:

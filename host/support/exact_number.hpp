@@ -7,7 +7,7 @@
 
 namespace pharos::host {
 
-/// The shortest text that reads back exactly, and as a number with a fraction: TOML tells integers from them.
+/// The shortest text that reads back exactly, and with a fraction, because TOML distinguishes integers from floats.
 inline std::string exact_number(double value) {
   std::array<char, 32> text{};
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value);

@@ -6,7 +6,7 @@
 
 namespace pharos::host {
 
-/// Input or usage that cannot be worked with. The message is one line for a person: what, where (file, line, key), what
+/// Invalid input or usage. The message is one line for the user: what, where (file, line, key), what
 /// to do. Programs print it on standard error and exit with 2.
 class InputError : public std::runtime_error {
  public:

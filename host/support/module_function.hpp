@@ -31,7 +31,7 @@ inline ModuleFunction find_module_function(const std::string& library, const cha
   return result;
 }
 
-/// The same where the command cannot do without. Throws InputError saying what is missing.
+/// The same for a function that the command requires. Throws InputError saying what is missing.
 inline void* module_function(const std::string& library, const char* function) {
   const ModuleFunction found = find_module_function(library, function);
   if (found.function != nullptr) return found.function;

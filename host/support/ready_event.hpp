@@ -12,7 +12,7 @@
 
 namespace pharos::host {
 
-/// Tells a poll loop that another thread has something for it: a descriptor that is readable from set() to clear().
+/// Notifies a poll loop from another thread: a descriptor that is readable from set() to clear().
 class ReadyEvent {
  public:
   /// Throws std::system_error where the kernel gives no descriptor.
@@ -21,7 +21,7 @@ class ReadyEvent {
   }
 
   int fd() const { return fd_.get(); }
-  /// Any number of times: it fails only while it is readable as it is.
+  /// May be called any number of times: it fails only while the descriptor is readable anyway.
   void set() {
     const std::uint64_t one = 1;
     static_cast<void>(::write(fd_.get(), &one, sizeof one) == sizeof one);

@@ -23,12 +23,12 @@ class UniqueFd {
 
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
-  /// Closes what is held and takes `fd` instead.
+  /// Closes the present descriptor and owns `fd` instead.
   void reset(int fd = -1) {
     if (fd_ >= 0) ::close(fd_);
     fd_ = fd;
   }
-  /// Gives the descriptor away: the caller closes it.
+  /// Releases ownership: the caller closes the descriptor.
   int release() { return std::exchange(fd_, -1); }
 
  private:

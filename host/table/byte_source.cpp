@@ -86,7 +86,7 @@ class ByteSource::Impl {
     }
   }
 
-  // Two bytes tell gzip; a pipe may deliver them one by one.
+  // Two bytes identify gzip; a pipe may deliver them one by one.
   void load_first_bytes() {
     std::size_t have = 0;
     while (have < 2) {
@@ -145,7 +145,7 @@ class ByteSource::Impl {
   int fd_ = -1;
   std::function<void()> before_waiting_;
   std::vector<char> chunk_;
-  std::string_view raw_;  // into chunk_: read from the file, not yet given out or inflated
+  std::string_view raw_;  // into chunk_: read from the file, not yet returned or inflated
   std::string pending_;   // peeked
   z_stream stream_{};
   bool gzip_ = false;

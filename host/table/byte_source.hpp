@@ -10,9 +10,8 @@
 
 namespace pharos::host {
 
-/// Bytes of a file, of a gzip file (told by content, not by name) or, for the path `-`, of standard input.
-///
-/// Gives out what is there without waiting for a full buffer, so that a live pipe is followed as it comes.
+/// Bytes of a file, of a gzip file (recognised by content, not by name) or, for the path `-`, of standard input.
+/// Returns the available bytes without waiting for a full buffer, so that a live pipe is processed without delay.
 class ByteSource {
  public:
   /// Throws InputError when the file cannot be opened.
@@ -25,10 +24,10 @@ class ByteSource {
   std::size_t read(std::span<char> out);
   /// The first bytes still to be read, at least `count` of them unless the input ends before. Not consumed.
   std::string_view peek(std::size_t count);
-  /// `before_waiting` is called whenever nothing is there to be read yet, before read() waits for it: the moment to
-  /// show what came of the bytes so far.
+  /// `before_waiting` is called whenever no bytes are available, before read() waits for them: the time to flush the
+  /// results so far.
   void on_pause(std::function<void()> before_waiting);
-  /// The gzip data ended before its end mark: what came before was given out (a recording cut off while writing).
+  /// The gzip data ended before its end mark: the bytes before were returned (a recording cut off while writing).
   bool cut_off() const;
   /// For messages: the path, or "standard input".
   const std::string& name() const;

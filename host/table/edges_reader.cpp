@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kNames = {"sensor", "rise_ticks", "fall_ticks"};
 constexpr std::string_view kEdgesByteOrderMark = "\xEF\xBB\xBF";
-// Readings stay so far inside 64 bits that no sum of a few can overflow; 2^60 ticks are 731 years.
+// Limit of readings, so far below 64 bits that no sum of a few can overflow; 2^60 ticks are 731 years.
 constexpr std::int64_t kLargestReading = std::int64_t{1} << 60;
 
 std::size_t column_named(std::string_view name) {
@@ -84,7 +84,7 @@ std::optional<lighthouse::RawPulse> EdgesReader::next() {
   return pulse;
 }
 
-// The slow way again, only to say which field is at fault.
+// Parses the row again, slowly, to find the invalid field.
 void EdgesReader::fail(std::string_view line) const {
   const std::string place = name() + ": line " + std::to_string(line_number()) + ": ";
   const auto fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;

@@ -12,8 +12,8 @@ namespace pharos::host {
 
 /// What to do with a last line that has no line end.
 enum class LastLine {
-  kAccept,          // tables written by people: editors forget it
-  kDropUnfinished,  // recordings: the line was cut off while being written, its last number may be a stump
+  kAccept,          // tables written by hand: some editors omit it
+  kDropUnfinished,  // recordings: the line was cut off while being written, its last number may be incomplete
 };
 
 /// Lines of a ByteSource without their ends (LF or CRLF); blank lines are skipped and counted. About 1 GB/s.
@@ -24,7 +24,7 @@ class LineReader {
   /// The next line, valid until the next call; empty at the end. Throws InputError on a line longer than 64 KiB (not a
   /// table) or one with a zero byte (binary data).
   std::optional<std::string_view> next();
-  /// Number of the line last given out, counted from 1.
+  /// Number of the line last returned, counted from 1.
   std::size_t line_number() const { return line_number_; }
   /// An unfinished last line was dropped, or the gzip data was cut off.
   bool ended_unfinished() const { return ended_unfinished_ || source_.cut_off(); }

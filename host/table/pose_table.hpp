@@ -15,7 +15,7 @@ struct PoseRow {
   std::optional<LighthouseFromBody> T_lighthouse_body;
 };
 
-/// Reads `KEY,qw,qx,qy,qz,tx_m,ty_m,tz_m` (other columns are passed over), KEY being `pose`, `time_s` or `problem`.
+/// Reads `KEY,qw,qx,qy,qz,tx_m,ty_m,tz_m` (other columns are ignored), KEY being `pose`, `time_s` or `problem`.
 /// Quaternions must have length 1 within 1 % and are normalised. Throws InputError naming file, line and column.
 std::vector<PoseRow> read_poses(const std::string& path, const std::string& key_column);
 

@@ -44,7 +44,7 @@ void append_json_text(std::string& out, std::string_view text) {
   out += '"';
 }
 
-// CSV of Pharos has no quoting: what would break a row is replaced.
+// CSV of Pharos has no quoting: characters that would break a row are replaced.
 void append_csv_text(std::string& out, std::string_view text) {
   for (const char c : text) out += c == ',' || c == '\n' || c == '\r' ? ' ' : c;
 }
@@ -59,7 +59,7 @@ RowWriter::RowWriter(std::FILE* stream, RowFormat format, std::vector<std::strin
 }
 
 RowWriter::~RowWriter() {
-  // A last resort for early ways out; those who care for a full disk call flush() themselves.
+  // For early returns only; callers that must detect a full disk call flush() themselves.
   std::fwrite(buffer_.data(), 1, buffer_.size(), stream_);
   std::fflush(stream_);
 }

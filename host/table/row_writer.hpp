@@ -15,12 +15,12 @@ enum class RowFormat { kCsv, kJson };
 /// Writes rows of named fields: CSV with a header row, or one JSON object a line with the same names.
 ///
 /// Numbers are the shortest text that reads back exactly. A field without a value is empty in CSV and null in JSON; so
-/// are an empty text and a number that is not finite: what is empty in one form is null in the other, nan never leaves.
-/// Fields are given in the order of the columns, each row ended with end_row(); giving another number of fields is a
-/// bug of the caller's (asserted).
+/// are an empty text and a number that is not finite: empty in one form is null in the other, and nan is never written.
+/// Fields are written in the order of the columns, each row ended with end_row(); another number of fields is a bug of
+/// the caller (asserted).
 class RowWriter {
  public:
-  /// `stream` stays the caller's. The CSV header is written at once.
+  /// Does not own `stream`. The CSV header is written at once.
   RowWriter(std::FILE* stream, RowFormat format, std::vector<std::string> columns);
   RowWriter(const RowWriter&) = delete;
   RowWriter& operator=(const RowWriter&) = delete;
@@ -35,8 +35,7 @@ class RowWriter {
   RowWriter& none(std::size_t count);
   void end_row();
 
-  /// Gives everything to the stream now (a live reader waits for it). Throws InputError when the stream takes no more
-  /// (disk full).
+  /// Flushes the stream (for a live reader). Throws InputError when the stream cannot be written (disk full).
   void flush();
   std::size_t rows() const { return rows_; }
 

@@ -12,16 +12,16 @@
 
 namespace pharos::host {
 
-/// A CSV table with a header row; columns are found by name and may stand in any order among others.
+/// A CSV table with a header row; columns are found by name, in any order and among others.
 ///
 /// Every error is an InputError that names file, line and column. Numbers are strict: nothing may follow them, nan and
 /// infinity are refused. No quoting: no table of Pharos needs it.
 class TableReader {
  public:
-  /// Reads the header. Throws InputError when the table is empty, or a column of `columns` is missing or there twice.
+  /// Reads the header. Throws InputError when the table is empty, or a column of `columns` is missing or duplicate.
   TableReader(ByteSource source, std::vector<std::string> columns, LastLine last_line = LastLine::kAccept);
 
-  /// The header has `column` (one that was not demanded), which then counts as the next column index of the reader.
+  /// Whether the header has `column` (an optional one), which then has the next column index of the reader.
   std::optional<std::size_t> find_optional(const std::string& column);
 
   /// Goes to the next row; false at the end. Throws when the row has another number of fields than the header.

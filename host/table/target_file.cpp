@@ -13,8 +13,8 @@ namespace pharos::host {
 namespace {
 
 constexpr double kNormalTolerance = 0.05;
-// No base station is seen from farther than some 6 m, so no sensor of one target stands farther from another; twice
-// that leaves room for a body's origin elsewhere. A target of 12 mm already exceeds it when given in millimetres.
+// No base station is seen from farther than some 6 m, so no sensor of one target is farther from another; twice that
+// allows for a body's origin elsewhere. A target of 12 mm already exceeds it when given in millimetres.
 constexpr double kFarthest_m = 12.0;
 
 struct NormalColumns {
@@ -57,7 +57,7 @@ Vector3 read_normal(const TableReader& table, const NormalColumns& columns) {
   return normal / length;
 }
 
-// Says which two lines clash; check_target knows only that they do.
+// Finds the two lines in conflict; check_target reports only that there are two.
 void check_against_earlier(const TableReader& table, const std::map<int, std::size_t>& line_of_sensor, int sensor) {
   const auto earlier = line_of_sensor.find(sensor);
   if (earlier == line_of_sensor.end()) return;

@@ -7,11 +7,11 @@
 
 namespace pharos::host {
 
-/// Takes the tick columns of a recording to 64-bit time, whether the recorder wrote 32-bit readings or unwrapped ones.
+/// Converts the tick columns of a recording to 64-bit time, for 32-bit readings and for unwrapped ones.
 ///
-/// A step between two readings that both fit 32 bits is taken as the nearest one modulo 2^32 (a wrap looks like that;
-/// in an unwrapped file the result is the same unless the light was away for more than 42.9 s). As soon as a reading
-/// does not fit 32 bits the file is known to be unwrapped and steps count as written.
+/// A step between two readings that both fit 32 bits is taken as the nearest one modulo 2^32 (a wrap; in an unwrapped
+/// file the result is the same unless there was no light for more than 42.9 s). As soon as a reading does not fit 32
+/// bits the file is known to be unwrapped and steps count as written.
 class TickColumn {
  public:
   /// Time of a row's rise.

@@ -10,7 +10,7 @@
 namespace pharos::calibrate {
 namespace {
 
-// Between the level of a board's sheet and its dots, whether they take a twentieth or a half of it.
+// A threshold between the levels of sheet and dots, whether the dots cover a twentieth or a half of the sheet.
 constexpr double kThresholdDeviations = 0.75;
 // A window that holds part of a board deviates by far more than noise.
 constexpr double kMinContrast = 4.0;
@@ -32,10 +32,10 @@ double noise_of(GreyView image) {
   if (differences.empty()) return 0.0;
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
-  return std::max(*middle / (0.6745 * std::sqrt(6.0)), 0.5);  // a count is never known better than by half
+  return std::max(*middle / (0.6745 * std::sqrt(6.0)), 0.5);  // half a count: quantisation
 }
 
-// 1 where a pixel is beyond the mean of its window.
+// 1 where a pixel is beyond the threshold of its window.
 cv::Mat mask_of(GreyView image, int window_px, bool bright) {
   const cv::Mat grey(image.height_px, image.width_px, CV_16U, const_cast<std::uint16_t*>(image.data),
                      sizeof(std::uint16_t) * static_cast<std::size_t>(image.stride_px));
@@ -67,7 +67,7 @@ struct Moments {
   bool cut = false;
 };
 
-// Of the mask's connected pixels (four neighbours); the first are those of the rest.
+// Connected components of the mask (four neighbours); the first is the background.
 std::vector<Moments> regions_of(const cv::Mat& mask) {
   cv::Mat labels;
   std::vector<Moments> regions(static_cast<std::size_t>(cv::connectedComponents(mask, labels, 4, CV_32S)));

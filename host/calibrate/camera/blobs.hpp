@@ -17,7 +17,7 @@ struct Blob {
 };
 
 /// Spots brighter (or darker) than their surroundings within `window_px`: pixels beyond the window's mean by more than
-/// 3/4 of its standard deviation, where that stands out of the noise; connected pixels whose outline is an ellipse's.
+/// 3/4 of its standard deviation, where that exceeds the noise; connected pixels whose outline is an ellipse.
 std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright);
 
 }  // namespace pharos::calibrate

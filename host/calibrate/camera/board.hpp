@@ -10,8 +10,8 @@ namespace pharos::calibrate {
 
 enum class BoardKind : std::uint8_t { kDots, kChessboard };
 
-/// A flat calibration board. Frame Board: x along the columns, y along the rows, z away from who looks at it; the
-/// origin is the first dot or the first inner corner.
+/// A flat calibration board. Frame Board: x along the columns, y along the rows, z away from the viewer; the origin is
+/// the first dot or the first inner corner.
 struct Board {
   BoardKind kind = BoardKind::kDots;
   int columns = 12;  // of dots, or of inner corners
@@ -25,7 +25,7 @@ struct Board {
   }
   int column_of(std::size_t index) const { return static_cast<int>(index) % columns; }
   int row_of(std::size_t index) const { return static_cast<int>(index) / columns; }
-  /// Where a dot's centre or a corner is.
+  /// Position of a dot's centre or of a corner, m.
   Vector3 point_m(std::size_t index) const { return {column_of(index) * pitch_m, row_of(index) * pitch_m, 0.0}; }
 };
 

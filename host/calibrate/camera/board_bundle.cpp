@@ -48,8 +48,9 @@ CameraFromBoard pose_in(const BundleState& state, std::size_t camera, std::size_
   return camera == 0 ? T : state.T_left_right.inverse() * T;
 }
 
-// A point of a view: found less predicted, over its sigma. Poses are told by steps (Pose::moved_by) from those of a
-// state. Derivatives are numeric: those of a dot's centroid are long to write down and take no time beside its search.
+// A point of a view: found minus predicted, over its sigma. Poses are parametrised as steps (Pose::moved_by) from those
+// of a state. Derivatives are numeric: those of a dot's centroid are long expressions, and their time is negligible
+// beside the search for dots.
 struct PointCost {
   const BundleState& state;
   const BundleData& data;
@@ -74,7 +75,7 @@ struct PointCost {
   }
 };
 
-// The unknowns as Ceres holds them, and the problem over them; what all views share comes first.
+// The unknowns as Ceres parameter blocks, and the problem over them; parameters shared by all views come first.
 class Adjustment {
  public:
   Adjustment(BundleState state, const BundleData& data)
@@ -98,20 +99,21 @@ class Adjustment {
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (double* block : blocks()) options.linear_solver_ordering->AddElementToGroup(block, 1);
-    for (Vector6& board : boards_) options.linear_solver_ordering->AddElementToGroup(board.data(), 0);  // moves it
+    for (Vector6& board : boards_)
+      options.linear_solver_ordering->AddElementToGroup(board.data(), 0);  // eliminated first
     options.max_num_iterations = kMaxBundleSteps;
     options.function_tolerance = kConverged;
     options.gradient_tolerance = 0.0;
     options.parameter_tolerance = 0.0;
     options.logging_type = ceres::SILENT;
-    options.num_threads = 1;  // the same bits every time
+    options.num_threads = 1;  // identical results in every run
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
     if (summary.IsSolutionUsable()) take_steps();
     return summary.IsSolutionUsable();
   }
 
-  // Covariance and noise of the state as it is now.
+  // Covariance and noise of the present state.
   std::optional<BundleOutcome> outcome() {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = blocks();
@@ -163,7 +165,7 @@ class Adjustment {
     return blocks;
   }
 
-  // The state moves and the steps become nothing, where their derivatives are those of moved_by.
+  // Applies the steps to the state and sets them to zero, where their derivatives are those of moved_by.
   void take_steps() {
     for (std::size_t camera = 0; camera < optics_.size(); ++camera) {
       state_.cameras[camera] = camera_of(state_.cameras[camera], optics_[camera].data());

@@ -9,9 +9,9 @@ namespace pharos::calibrate {
 
 using CameraFromBoard = Pose<frame::Camera, frame::Board>;
 
-/// Where a board's point is seen: a corner at its own image; a dot at the centroid of its disk's image, because neither
-/// perspective nor lens take the centre of the disk there. Sums sixteen points of the disk, each with the area that it
-/// takes in the image (exact for terms of the third degree across the dot).
+/// Image of a board's point: a corner's own image; for a dot the centroid of its disk's image, because under
+/// perspective and distortion that is not the image of the disk's centre. Sums sixteen points of the disk, each
+/// weighted with its area in the image (exact for terms of the third degree across the dot).
 struct ProjectedPoint {
   Vector2 pixel = Vector2::Zero();
   double area_px2 = 0.0;  // of a dot

@@ -9,7 +9,7 @@
 namespace pharos::calibrate {
 namespace {
 
-// Which of the board's points stands where `index` would, were the board turned once: half round, or a quarter.
+// The board's point at the place of `index` after one turn: by half, or by a quarter.
 std::size_t partner(const Board& board, std::size_t index) {
   const int column = board.column_of(index), row = board.row_of(index);
   if (turns_of(board) == 2) return board.index(board.columns - 1 - column, board.rows - 1 - row);
@@ -27,7 +27,7 @@ Pose<frame::Board, frame::Board> turn_of(const Board& board) {
   return turn;
 }
 
-// How far two rigs are apart: an angle, and a shift by the boards' distance.
+// Difference of two rigs: an angle, and a shift over the boards' distance.
 double difference(const LeftFromRight& a, const LeftFromRight& b, double distance_m) {
   return rotation_angle_between(a.R, b.R) + (a.t - b.t).norm() / distance_m;
 }

@@ -12,22 +12,22 @@
 
 namespace pharos::calibrate {
 
-/// What became of one image: none is dropped without a word.
+/// Outcome of one image; every image has one.
 struct ImageOutcome {
   std::string name;
   BoardSearch search;
   double rms_px = 0.0;   // when used
-  std::size_t view = 0;  // when used: its place among the views
+  std::size_t view = 0;  // when used: its index among the views
 };
 
 /// A camera from images of a board, or why there is none.
 struct CameraCalibration {
   std::vector<ImageOutcome> images;
-  std::string refusal;  // empty: there is an answer
+  std::string refusal;  // empty: there is a result
   std::optional<BundleOutcome> outcome;
   Coverage coverage;
   std::vector<std::string> unobservable;
-  double opencv_rms_px = 0.0;  // what cv::calibrateCamera reports for the same points, dots' centres taken as seen
+  double opencv_rms_px = 0.0;  // as cv::calibrateCamera reports for the same points, without the dots' centroid model
   const PinholeCamera& camera() const { return outcome->state.cameras.front(); }
 };
 
@@ -39,12 +39,12 @@ struct CalibrationChoices {
 /// Called after each image that was searched.
 using StepDone = std::function<void()>;
 
-/// Finds the board in each image, starts from OpenCV's adjustment, adjusts with the dots' true images and refuses sets
-/// that cannot tell a camera. Throws host::InputError where OpenCV's module is not there.
+/// Finds the board in each image, starts from OpenCV's adjustment, adjusts with the dots' centroid model and refuses
+/// sets that do not determine a camera. Throws host::InputError where OpenCV's module is not there.
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, const CalibrationChoices& choices,
                                    const StepDone& step_done = {});
 
-/// The same from boards that were found.
+/// The same from boards already found.
 CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_px, int height_px,
                                    const CalibrationChoices& choices);
 

@@ -49,14 +49,14 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Blob>& blo
   return neighbours;
 }
 
-// One dot that has its cell, and the steps along columns and rows as seen there.
+// One dot with its cell, and the local steps along columns and rows.
 struct Placed {
   std::size_t blob = 0;
   Cell cell;
   Matrix2 steps;  // columns: to the next column, to the next row
 };
 
-// A pair of neighbours at about a right angle (in the dot's own metric) spans the grid.
+// A pair of neighbours at about a right angle (in the metric of the dot's ellipse) spans the grid.
 std::optional<Matrix2> steps_at(const std::vector<Blob>& blobs, const std::vector<std::size_t>& neighbours,
                                 std::size_t blob) {
   const Matrix2 metric = blobs[blob].covariance_px2.inverse();
@@ -98,7 +98,7 @@ Grid grow(const std::vector<Blob>& blobs, const std::vector<std::vector<std::siz
   return grid;
 }
 
-// Every dot is in one grid at most, so the first of each finds all of it.
+// Every dot belongs to one grid at most, so the search from any dot of a grid finds all of it.
 Grid largest_grid(const std::vector<Blob>& blobs) {
   const auto neighbours = neighbours_of(blobs);
   Grid best;

@@ -12,7 +12,7 @@ namespace {
 
 // Fraction of the pixels that the stretch may clip at either end.
 constexpr double kClipped = 0.001;
-// Grey values that take more than this part of a square's side to rise leave no corner.
+// An edge wider than this fraction of a square's side gives no corner.
 constexpr double kMaxEdge = 0.4;
 
 std::vector<std::uint8_t> stretched(GreyView image) {

@@ -9,7 +9,7 @@
 
 namespace pharos::calibrate {
 
-/// An image and what to call it. The pixels are somebody else's; there are none where it could not be read.
+/// An image and its name. Does not own the pixels; there are none where the image could not be read.
 struct BoardPicture {
   std::string name;
   GreyView image;
@@ -19,9 +19,9 @@ struct BoardPicture {
 /// The first image that could be read: the others must have its size. Empty where none could.
 GreyView first_readable(const std::vector<BoardPicture>& pictures);
 
-/// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's own symmetry
-/// lets anybody tell: a board of dots, and a chessboard of even squares, look the same after half a turn.
-/// Chessboards: OpenCV's corners on the grey values stretched to 8 bit.
+/// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's symmetry
+/// permits: a board of dots, and a chessboard of even squares, look the same after half a turn. Chessboards: OpenCV's
+/// corners on the grey values stretched to 8 bit.
 BoardSearch find_board(GreyView image, const Board& board);
 
 }  // namespace pharos::calibrate

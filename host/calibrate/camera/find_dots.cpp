@@ -14,12 +14,12 @@ namespace {
 // Of the image's shorter side: a window must hold a dot with its surround, and should hold little beyond the board.
 constexpr std::array<int, 3> kWindows{6, 12, 24};
 constexpr int kMinWindow_px = 9;
-// An edge this wide, in minor semi-axes, leaves no plateau to know the dot's brightness from.
+// An edge this wide, in minor semi-axes, leaves no plateau that shows the dot's brightness.
 constexpr double kMaxBlur = 0.6;
 constexpr double kMinAxis_px = 1.8;
-// Grey values that scatter so far around the fit, of the contrast, are not those of a dot.
+// Largest scatter of grey values around a dot's fit, as a fraction of the contrast.
 constexpr double kMaxMisfit = 0.15;
-// The fit looks this far towards the next dot, whose own edge starts at 1.
+// The fit uses pixels up to this fraction of the gap to the next dot, whose own edge is at 1.
 constexpr double kReachOfGap = 0.5;
 constexpr double kMaxReach = 2.2;
 

@@ -20,13 +20,13 @@ struct FoundPoint {
   double area_px2 = 0.0;  // of a dot
 };
 
-/// All of a board's points, in the board's order (row by row). A board that looks the same after half a turn (or a
-/// quarter, if it is square) may be turned.
+/// All of a board's points, in the board's order (row by row). Where a board looks the same after half a turn (a
+/// quarter, if it is square), the labels may be turned by that.
 struct FoundBoard {
   std::vector<FoundPoint> points;
 };
 
-/// What became of an image.
+/// Outcome of an image.
 enum class ImageStatus : std::uint8_t {
   kUsed,
   kNoBoard,
@@ -42,10 +42,10 @@ enum class ImageStatus : std::uint8_t {
 /// used, no_board, partly_outside, …
 const char* name_of(ImageStatus status);
 
-/// A board, or why none.
+/// A board, or why there is none.
 struct BoardSearch {
   ImageStatus status = ImageStatus::kNoBoard;
-  std::string detail;  // for people: "dot in column 3, row 5 is missing"; empty when used
+  std::string detail;  // message for the user: "dot in column 3, row 5 is missing"; empty when used
   FoundBoard board;    // when used
 };
 

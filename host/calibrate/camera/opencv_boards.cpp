@@ -14,8 +14,8 @@ namespace {
 using Pixels = std::vector<cv::Point2f>;
 using Points = std::vector<cv::Point3f>;
 
-// Half of the window that a corner is told from, of the shortest side: along the diagonal too its neighbours stay
-// outside.
+// Half of the window around a corner, as a fraction of the shortest side: its neighbours are outside, along the
+// diagonal too.
 constexpr double kWindow = 0.35;
 constexpr int kMaxOpenCvSteps = 100;
 constexpr double kSmallestStep = 1e-12;
@@ -66,7 +66,7 @@ PoseType pose_of(const cv::Matx33d& R, const cv::Vec3d& t) {
   return pose;
 }
 
-// A window that reaches a neighbour's edges would be pulled by them.
+// Edges of a neighbour within the window would bias the corner.
 double shortest_side(const Pixels& corners, int columns) {
   double shortest = std::numeric_limits<double>::infinity();
   const auto across = static_cast<std::size_t>(columns);

@@ -8,8 +8,8 @@
 
 namespace pharos::calibrate {
 
-/// What OpenCV does here: corners of chessboards, and adjustments of its own that ours start from and stand beside.
-/// Nothing where OpenCV has no answer.
+/// Parts done by OpenCV: corners of chessboards, and its own adjustments, from which ours start and with which they are
+/// compared. Empty where OpenCV gives no result.
 
 /// Inner corners in the board's order. The edge is how many pixels grey values take to rise across a square's side,
 /// mean (cv::estimateChessboardSharpness).

@@ -16,7 +16,7 @@ constexpr std::array<const char*, 2> kSides{"left", "right"};
 
 using Images = std::vector<ImageOutcome>;
 
-// A pair is whole or unused: an image whose partner shows no board says so.
+// A pair is used as a whole or not at all: where one image shows no board, the other one gets the status kNoPartner.
 void pair_up(std::array<Images, 2>& images) {
   for (std::size_t i = 0; i < images[0].size(); ++i) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -35,7 +35,8 @@ std::size_t used(const Images& images) {
   }));
 }
 
-// A pixel as a camera without distortion would have it, moved from where a dot's image is to where its centre would be.
+// A pixel of the equivalent camera without distortion, corrected from the centroid of a dot's image to the image of its
+// centre.
 std::optional<Vector2> ideal_pixel(const BundleState& state, const BundleData& data, std::size_t camera,
                                    const CameraFromBoard& T, std::size_t view, std::size_t point) {
   const PinholeCamera& lens = state.cameras[camera];
@@ -52,7 +53,7 @@ Matrix3 inverse_matrix_of(const PinholeCamera& lens) {
   return K.inverse();
 }
 
-// Dots' offsets need board poses: those of `poses` serve, they move by far less than a dot.
+// The dots' offsets depend on board poses: those of `poses` suffice, they change by far less than a dot.
 double epipolar_rms(const BundleState& rig, const std::vector<CameraFromBoard>& poses, const BundleData& data) {
   // x_left^T F x_right = 0.
   const Matrix3 F = inverse_matrix_of(rig.cameras[0]).transpose() * skew(rig.T_left_right.t) * rig.T_left_right.R *

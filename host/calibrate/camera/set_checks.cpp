@@ -13,10 +13,10 @@
 namespace pharos::calibrate {
 namespace {
 
-// Poses nearer to each other than both are one: they see the lens alike.
+// Poses nearer to each other than both thresholds count as one: they constrain the lens in the same way.
 constexpr double kSameAngle_rad = 0.02;
 constexpr double kSameShift = 0.02;  // of the distance
-// Boards that are parallel within this leave focal length and distance apart only by their noise.
+// With boards parallel within this, only noise separates focal length from distance.
 constexpr double kMinSpread_rad = 8.0 * kRadPerDeg;
 constexpr double kMaxSigma = 0.01;  // of the focal length, or of the image's width
 constexpr double kMaxCornerSigma_px = 0.5;
@@ -50,7 +50,7 @@ double spread_of_normals(const std::vector<CameraFromBoard>& poses) {
   return spread;
 }
 
-// 1 sigma of where the distortion terms put the corner farthest from the principal point, px.
+// 1 sigma, from the distortion terms, of the image of the corner farthest from the principal point, px.
 double corner_sigma(const BundleOutcome& outcome, std::size_t camera) {
   const PinholeCamera& lens = outcome.state.cameras[camera];
   const bool with_k3 = std::any_of(outcome.parameters.begin(), outcome.parameters.end(),

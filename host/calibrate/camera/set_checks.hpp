@@ -9,15 +9,15 @@
 
 namespace pharos::calibrate {
 
-/// Fewer images cannot tell a camera with any certainty.
+/// Fewer images do not determine a camera reliably.
 inline constexpr int kMinViews = 3;
 
-/// Why an adjusted set of views says too little about a camera, in words with what to do; empty where it says enough:
-/// poses that differ, normals that differ, focal lengths and principal point known to 1 %.
+/// Why an adjusted set of views does not determine a camera, and what to do, as text; empty where it does: poses
+/// differ, normals differ, focal lengths and principal point are known to 1 %.
 std::string what_is_degenerate(const BundleOutcome& outcome);
 
-/// What the views could not tell about camera number `camera`, though they tell enough: parts of the image without
-/// points, distortion known badly in the corners, k3 where it was held.
+/// What an otherwise sufficient set of views leaves uncertain about camera number `camera`: parts of the image without
+/// points, large uncertainty of distortion in the corners, k3 where it was held fixed.
 std::vector<std::string> what_is_unobservable(const BundleOutcome& outcome, std::size_t camera,
                                               const Coverage& coverage, bool fixed_k3);
 
