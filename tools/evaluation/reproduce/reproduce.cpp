@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tools/evaluation/reproduce/integrity/add_reproduce_integrity.hpp"
 #include "tools/evaluation/reproduce/lighthouse/dynamic_runs.hpp"
 #include "tools/evaluation/reproduce/lighthouse/recordings.hpp"
 #include "tools/evaluation/reproduce/lighthouse/static_sets.hpp"
@@ -99,6 +100,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   add_reproduce_tof(*reproduce, exit_code);
   add_reproduce_pointing(*reproduce, exit_code);
   add_reproduce_ring2(*reproduce, exit_code);
+  add_reproduce_integrity(*reproduce, exit_code);
 }
 
 }  // namespace pharos::tools

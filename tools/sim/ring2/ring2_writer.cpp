@@ -57,23 +57,19 @@ void write_ellipses(const std::string& number, const Ring2Scenario& scenario, co
   }
 }
 
-void write_images(const fs::path& directory, const std::string& number, const Ring2Scenario& scenario, std::size_t pair,
-                  std::uint64_t seed) {
-  for (std::size_t v = 0; v < 2; ++v) {
-    const StereoCamera& camera = scenario.rig[v];
-    const LinearImage light = render_scene(ring2_scene_text(scenario, pair, v), {.width_px = camera.width_px,
-                                                                                 .height_px = camera.height_px,
-                                                                                 .rays_per_side = 4,
-                                                                                 .antialias_threshold = kAntialias});
-    RandomStream random(seed, std::string(kViews[v]) + " pixels " + number);
-    ImageSensor sensor;
-    sensor.bits = scenario.bits;
-    const host::GreyImage image = expose(blurred(light, scenario.blur_px), sensor, random);
-    host::write_grey_png((directory / (number + "_" + kViews[v] + ".png")).string(), image.view(), scenario.bits);
-  }
-}
-
 }  // namespace
+
+host::GreyImage ring2_image(const Ring2Scenario& scenario, std::size_t pair, std::size_t view, std::uint64_t seed) {
+  const StereoCamera& camera = scenario.rig[view];
+  const LinearImage light = render_scene(ring2_scene_text(scenario, pair, view), {.width_px = camera.width_px,
+                                                                                  .height_px = camera.height_px,
+                                                                                  .rays_per_side = 4,
+                                                                                  .antialias_threshold = kAntialias});
+  RandomStream random(seed, std::string(kViews[view]) + " pixels " + file_number(pair, scenario.poses.size()));
+  ImageSensor sensor;
+  sensor.bits = scenario.bits;
+  return expose(blurred(light, scenario.blur_px), sensor, random);
+}
 
 void write_ring2_pairs(const Ring2Scenario& scenario, std::uint64_t seed, const std::string& directory,
                        const std::function<void()>& after_each) {
@@ -90,7 +86,10 @@ void write_ring2_pairs(const Ring2Scenario& scenario, std::uint64_t seed, const 
     RandomStream random(seed, "edges " + number);
     write_truth(number, scenario.poses[pair], target, truth.rows());
     write_ellipses(number, scenario, target, random, ellipses.rows());
-    if (scenario.render) write_images(folder, number, scenario, pair, seed);
+    for (std::size_t v = 0; scenario.render && v < 2; ++v) {
+      host::write_grey_png((folder / (number + "_" + kViews[v] + ".png")).string(),
+                           ring2_image(scenario, pair, v, seed).view(), scenario.bits);
+    }
     truth.rows().flush();
     ellipses.rows().flush();
     after_each();
