@@ -14,8 +14,8 @@
 namespace pharos::slam {
 namespace {
 
-// Ceres orders what it eliminates by address: blocks stand in one array in the order of their numbers, or the same
-// problem would be solved in another order each time.
+// Ceres orders eliminated blocks by address: they are in one array in the order of their numbers, else the same problem
+// would be solved in a different order each time.
 struct Blocks {
   explicit Blocks(const BundleProblem& problem) : numbers(7 * problem.poses.size() + 3 * problem.points.size()) {
     double* at = numbers.data();
@@ -130,7 +130,7 @@ BundleProblem global_problem(const Map& map) {
 
 std::vector<std::size_t> adjust_bundle(BundleProblem& problem, const StereoCamera& camera, int iterations) {
   Blocks blocks(problem);
-  // A single point that starts behind a camera would end the adjustment before its first step.
+  // A single point that starts behind a camera would make the adjustment fail at its first step.
   std::vector<bool> use;
   for (const BundleObservation& observation : problem.observations) use.push_back(in_front(observation, blocks));
   std::vector<std::size_t> rejected;

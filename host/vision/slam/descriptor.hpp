@@ -13,11 +13,11 @@ struct Descriptor {
   friend bool operator==(const Descriptor&, const Descriptor&) = default;
 };
 
-/// Hamming distance, 0 to 256. Counted side by side in bytes: where the processor's own count may not be taken for
-/// granted, std::popcount is a function's call for each word.
+/// Hamming distance, 0 to 256. Bits are counted in parallel in the bytes of a word: without a guaranteed processor
+/// instruction, std::popcount is a function call for each word.
 inline int distance(const Descriptor& a, const Descriptor& b) {
   constexpr std::uint64_t kOdd = 0x5555555555555555U, kPairs = 0x3333333333333333U, kHalves = 0x0F0F0F0F0F0F0F0FU;
-  std::uint64_t bytes = 0;  // none beyond 32
+  std::uint64_t bytes = 0;  // each at most 32
   for (std::size_t k = 0; k < a.bits.size(); ++k) {
     std::uint64_t x = a.bits[k] ^ b.bits[k];
     x -= (x >> 1U) & kOdd;

@@ -13,13 +13,13 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kMinStart = 60;       // stereo features of a first map
-constexpr double kOutOfStep = 0.6;  // frames between left and right: exposures at one time stay far below
+constexpr double kOutOfStep = 0.6;  // delay of right images, frames: simultaneous exposures are far below
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
-constexpr std::size_t kChainedKeyframes = 40;  // about a new one, from which its covariance may be told
+constexpr std::size_t kChainedKeyframes = 40;  // near a new one, from which its covariance is computed
 constexpr std::int64_t kMappingFrames = 4;
 constexpr std::size_t kMaxWaiting = 3;  // keyframes, as in ORB-SLAM2
-constexpr int kGlobalSteps = 12;        // while tracking goes on
+constexpr int kGlobalSteps = 12;        // while tracking continues
 constexpr int kFinalSteps = 40;
 
 }  // namespace
@@ -72,7 +72,7 @@ std::vector<TrackedFrame> Engine::optimised_trajectory() const {
   return log_.frames(adjusted(map_), frontend_.R_left_rectified());
 }
 
-// Rows that the points of a frame moved since the one before, beside rows between left and right.
+// Motion in rows of a frame's points since the frame before, and row difference of left and right.
 void Engine::note_skew(const Frame& frame) {
   const auto step = tracker_.step();
   if (!step) return;
@@ -121,7 +121,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
       out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
     }
   } else {
-    // Without threads mapping takes no time; it counts as busy for as many frames as it would take.
+    // Without threads mapping takes no time; it counts as busy for the number of frames it would take.
     const bool idle = mapping_ ? mapping_->idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
     const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
     out.inliers = tracked.inliers;
@@ -132,7 +132,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
       own = tracked.covariance;
       note_skew(frame);
     }
-    // Mapping that is this far behind would fall behind ever more.
+    // With this many waiting keyframes, mapping would be delayed more and more.
     const bool behind = mapping_ && mapping_->waiting() >= kMaxWaiting;
     if (tracked.wants_keyframe && !behind) {
       made = make_keyframe(frame);
@@ -206,7 +206,7 @@ void Engine::map_keyframe(KeyframeId id) {
   const std::vector<std::size_t> rejected = adjust_bundle(problem, frontend_.camera(), kLocalSteps);
   const auto about = keyframe_covariances(problem, rejected, frontend_.camera(), id, kChainedKeyframes);
   const std::lock_guard lock(mutex_);
-  // A loop that was closed meanwhile moved what this solution knows.
+  // A loop closed meanwhile moved the poses that this solution started from.
   if (corrections == corrections_) apply(problem, rejected, map_);
   if (map_.keyframes.contains(id)) {
     chain_covariance(map_, id, about);

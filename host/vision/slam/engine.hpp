@@ -15,12 +15,12 @@
 
 namespace pharos::slam {
 
-/// SlamSystem itself: tracking in the caller's thread, mapping and loop closing after it or in theirs.
-///
-/// One mutex guards map, tracker and recognition; adjustments work on copies outside it.
+/// Implementation of SlamSystem: tracking in the caller's thread, mapping and loop closing after it or in their own
+/// threads.
+/// One mutex protects map, tracker and recognition; adjustments work on copies without holding it.
 class Engine final : public SlamSystem {
  public:
-  /// Called with each keyframe when its mapping begins, in the thread that maps.
+  /// Called with each keyframe when its mapping begins, in the mapping thread.
   using KeyframeCallback = std::function<void(KeyframeId)>;
 
   Engine(Rectification rectification, Vocabulary vocabulary, const SlamSettings& settings,
@@ -65,7 +65,8 @@ class Engine final : public SlamSystem {
   RunFigures figures_;
 
   KeyframeCallback on_keyframe_;
-  // Last, for they use all the others; mapping ends first, for it feeds closing. Empty without threads.
+  // Last members, because they use all the others; mapping ends first, because it passes keyframes to loop closing.
+  // Empty without threads.
   std::optional<KeyframeWorker> closing_, mapping_;
 };
 

@@ -7,8 +7,8 @@
 namespace pharos::slam {
 namespace {
 
-constexpr double kEqualWithin = 0.08;  // frames of equal cameras that were enhanced differ by 0.05
-// Two views of one thing differ in contrast by so much without any difference in exposure.
+constexpr double kEqualWithin = 0.08;  // enhanced frames of equal cameras differ by 0.05
+// Two views of one object differ in contrast by up to this factor without any difference in exposure.
 constexpr double kOfViews = 0.25;
 constexpr double kMax = 4.0;
 constexpr std::size_t kMinSquares = 40;
@@ -28,7 +28,7 @@ double contrast(ImageView<const std::uint8_t> image, int step) {
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) : 0.0;
 }
 
-// Of the square about a place of the whole image, on its level; empty at the rim.
+// Standard deviation of the square around a position of the whole image, on its level; empty at the border.
 std::optional<double> contrast_at(const Vector2& pixel, const PyramidLevel& level, const PyramidLevel& whole) {
   const double scale = static_cast<double>(level.image.width_px) / whole.image.width_px;
   const auto u = static_cast<std::int32_t>(std::lround((pixel.x() + 0.5) * scale - 0.5)) - kReach_px;

@@ -8,15 +8,15 @@
 
 namespace pharos::slam {
 
-/// How much brighter the left camera tells what both see: cameras that choose their exposures by themselves differ.
-///
-/// Squares of the right image are compared with the left one's, corners are found by differences of light: the right
-/// image must be brought to the left one's light first. Cameras that agree to 8 % are left alone.
+/// Ratio of left to right brightness of the same surface: cameras with automatic exposure differ.
+/// Patches of the right image are compared with the left one's, and corner detection depends on contrast: the right
+/// image must be scaled to the left one's brightness first. Ratios within 8 % of 1 are not corrected.
 class ExposureRatio {
  public:
-  /// Factor for the right image of this pair, from the pair before; of a first pair from the contrast of the images.
+  /// Factor for the right image of this pair, from the pair before; for the first pair from the contrast of the images.
   double of(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) const;
-  /// `applied`: what of() gave; features with their places in both images, whose pyramids are given.
+  /// Estimates the ratio for the next pair. `applied`: the factor from of(); features with their positions in both
+  /// images, whose pyramids are given.
   void learn(double applied, const std::vector<Feature>& features, const std::vector<PyramidLevel>& left,
              const std::vector<PyramidLevel>& right);
 

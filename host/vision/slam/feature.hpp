@@ -11,11 +11,11 @@
 
 namespace pharos::slam {
 
-/// T_camera_target: the target's coordinates to the (rectified) left camera's. With `--scene static` the target is the
-/// scene itself.
+/// T_camera_target, from the target's coordinates to those of the (rectified) left camera. With `--scene static` the
+/// target is the scene itself.
 using CameraFromTarget = Pose<frame::Camera, frame::Target>;
 
-/// A rectified stereo pair as equation (9) wants it: rows agree, the right camera stands `baseline_m` along +x.
+/// A rectified stereo pair for equation (9): rows agree, the right camera is at `baseline_m` along +x.
 struct StereoCamera {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -37,17 +37,18 @@ struct StereoCamera {
   }
 };
 
-/// A corner is found again to half a pixel of its level.
+/// Repeatability of a corner: half a pixel of its level.
 inline constexpr double kCornerSigma_px = 0.5;
 
-/// One ORB feature of the left image, and where the right one has it.
+/// One ORB feature of the left image, with its position in the right one.
 struct Feature {
   Vector2 pixel = Vector2::Zero();            ///< of the rectified left image
   double right_u_px = -1.0;                   ///< its column in the right image; below 0: a mono feature
   double depth_m = -1.0;                      ///< (9), of a stereo feature
-  double off_row_px = 0.0;                    ///< of a stereo feature: how many rows lower the right image has it
+  double off_row_px = 0.0;                    ///< of a stereo feature: row in the right image minus row in the left one
   Vector2 disparity_slope = Vector2::Zero();  ///< of a stereo feature: px of disparity a px to the right and downwards
-  /// Of a coordinate, on its level: a corner's, or better where it was aligned with the patch of its point (patch.hpp).
+  /// 1 sigma of a coordinate, px of its level: that of a corner, or smaller where it was aligned with the patch of its
+  /// point (patch.hpp).
   double sigma_px = kCornerSigma_px;
   int level = 0;           ///< of the pyramid
   double angle_rad = 0.0;  ///< of the patch, from +u towards +v
@@ -56,19 +57,19 @@ struct Feature {
   bool stereo() const { return depth_m > 0.0; }
   /// Expected variance of a coordinate, px^2.
   double variance_px2() const { return square(sigma_px * scale_of(level)); }
-  /// The same of a corner, whatever it was aligned with.
+  /// The same as for a corner, without regard to any alignment.
   double corner_variance_px2() const { return square(kCornerSigma_px * scale_of(level)); }
 
  private:
   static double square(double x) { return x * x; }
 };
 
-/// Expected error of a disparity, in errors of a coordinate: squares of pixels are compared to some 0.03 px of their
-/// level, while a corner is not the same thing from every side.
+/// Expected error of a disparity over that of a coordinate: patches are matched to some 0.03 px of their level, while a
+/// corner's position depends on the viewing direction.
 inline constexpr double kDisparityFraction = 0.3;
 
-/// A stereo feature nearer than this many baselines has a depth worth a point at once; a farther one tells rotation
-/// only (Mur-Artal 2017).
+/// A stereo feature nearer than this many baselines becomes a point at once; a farther one constrains rotation only
+/// (Mur-Artal 2017).
 inline constexpr double kNearBaselines = 40.0;
 
 }  // namespace pharos::slam

@@ -8,18 +8,18 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kMean_px = 5;
-constexpr double kMinStep = 2.0;     // grey values above the dark
-constexpr double kNoiseTimes = 8.0;  // of the dark's own scatter
-constexpr int kMinArea_px = 200;     // a star in the mean of 5x5 is 25
+constexpr double kMinStep = 2.0;     // grey values above the background
+constexpr double kNoiseTimes = 8.0;  // of the background's noise
+constexpr int kMinArea_px = 200;     // a star smoothed by 5x5 has 25
 constexpr double kShareOfLargest = 0.02;
-constexpr int kGap_px = 15;  // between lit parts of a body
+constexpr int kGap_px = 15;  // largest gap between lit parts of a body
 constexpr int kMargin_px = 2;
 
 constexpr int kMinStaticFrames = 10;  // frames
 constexpr double kStatic_px = 0.7;
 constexpr int kAlike = 40;
 
-// Level above which a pixel of the mean image is no longer dark.
+// Level above which a pixel of the smoothed image belongs to the body.
 double dark_limit(const cv::Mat& mean) {
   std::array<int, 256> histogram{};
   for (int v = 0; v < mean.rows; ++v) {
@@ -78,7 +78,7 @@ void StaticFeatureFilter::remove_static(std::vector<Feature>& features) {
   std::vector<Seen> now;
   std::vector<bool> still(features.size(), false);
   std::size_t count = 0;
-  // Rows sorted by where their patience began make the search for neighbours short.
+  // Sorted by the row of the first position, so that the search for neighbours is short.
   std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) { return a.first.y() < b.first.y(); });
   for (std::size_t k = 0; k < features.size(); ++k) {
     const Feature& feature = features[k];
@@ -97,7 +97,7 @@ void StaticFeatureFilter::remove_static(std::vector<Feature>& features) {
   }
   seen_ = std::move(now);
   removed_ = 0;
-  if (2 * count >= features.size()) return;  // what stands still is the body itself
+  if (2 * count >= features.size()) return;  // the static features are those of the body itself
   std::vector<Feature> kept;
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (!still[k]) kept.push_back(features[k]);

@@ -9,14 +9,14 @@
 
 namespace pharos::slam {
 
-/// Tells a body from the dark around it: pixels brighter (in the mean of 5x5) than the darkest tenth by far more than
-/// its noise, in patches larger than any star, with the gaps between them.
+/// Separates a lit body from a dark background: pixels brighter (smoothed by 5x5) than the darkest tenth by far more
+/// than its noise, in regions larger than any star, including the gaps between them.
 class Foreground {
  public:
   Foreground();
   Foreground(Foreground&&) noexcept;
   ~Foreground();
-  /// 255 where the body is, 0 elsewhere; holds until the next call.
+  /// 255 where the body is, 0 elsewhere; valid until the next call.
   ImageView<const std::uint8_t> of(ImageView<const std::uint8_t> image);
 
  private:
@@ -24,17 +24,17 @@ class Foreground {
   std::unique_ptr<Work> work_;
 };
 
-/// Tells what stands still while the body moves: stars that are as large as patches, struts and housings of one's own
-/// craft.
+/// Removes features that are static while the body moves: large stars, struts and housings of the camera's own
+/// spacecraft.
 class StaticFeatureFilter {
  public:
-  /// Removes features that have stood within 0.7 px for kMinStaticFrames frames, as long as they are the fewer.
+  /// Removes features that stayed within 0.7 px for kMinStaticFrames frames, as long as they are less than half of all.
   void remove_static(std::vector<Feature>& features);
   int removed() const { return removed_; }
 
  private:
   struct Seen {
-    Vector2 first;  // where its patience began
+    Vector2 first;  // position when it was first seen
     Descriptor descriptor;
     int frames;
   };

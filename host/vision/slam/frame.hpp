@@ -12,7 +12,7 @@ using KeyframeId = std::int64_t;
 using PointId = std::int64_t;
 inline constexpr std::int64_t kNone = -1;
 
-/// Features by where they lie, for questions about a neighbourhood.
+/// Grid of features by position, for neighbourhood queries.
 class FeatureGrid {
  public:
   FeatureGrid() = default;
@@ -27,7 +27,7 @@ class FeatureGrid {
   std::vector<std::vector<int>> cells_;
 };
 
-/// A stereo pair as features, and what of the map it shows.
+/// A stereo pair as features, and the map points that they match.
 struct Frame {
   std::int64_t number = 0;  ///< of the pair, from 0
   double time_s = 0.0;

@@ -10,13 +10,13 @@
 namespace pharos::slam {
 namespace {
 
-// Nothing stands worse than this, so that the normal equations can always be solved.
+// Weak prior, so that the normal equations can always be solved.
 constexpr double kMaxTurn_rad = 1.0, kMaxMove_m = 100.0;
-constexpr double kMinInformation_m2 = 1e-6;  // of a point along a ray that no stereo depth ends: a kilometre
+constexpr double kMinInformation_m2 = 1e-6;  // of a point along a ray without stereo depth: a kilometre
 
 using Arm = Eigen::Matrix<double, 3, 6>;
 
-// One keyframe's view of a point: what it knows of its place, about the target's axes.
+// One keyframe's observation of a point: its information about the position, along the target's axes.
 struct PoseInformation {
   int keyframe;
   Matrix3 information;
@@ -29,7 +29,7 @@ class ReducedEquations {
 
   explicit ReducedEquations(int keyframes) : keyframes_(keyframes) {}
 
-  // All that is known of one point.
+  // All observations of one point.
   void add(const Vector3& point_m, const std::vector<PoseInformation>& pose_terms) {
     Matrix3 sum = kMinInformation_m2 * Matrix3::Identity();
     for (const PoseInformation& term : pose_terms) sum += term.information;
@@ -47,7 +47,7 @@ class ReducedEquations {
     }
   }
 
-  // The inverse's blocks on the diagonal; nothing where the equations are no good (NaN).
+  // The diagonal blocks of the inverse; empty where the equations are invalid (NaN).
   std::vector<Matrix6> covariances() {
     Eigen::SparseMatrix<double> H(6 * keyframes_, 6 * keyframes_);
     fill(H);
@@ -92,7 +92,7 @@ class ReducedEquations {
   std::unordered_map<std::int64_t, Matrix6> blocks_;
 };
 
-// The root and those that see most of the points.
+// The root and the keyframes that observe most of the points.
 std::set<KeyframeId> best_seeing(const BundleProblem& problem, KeyframeId root, std::size_t maximum) {
   std::map<KeyframeId, int> seen;
   for (const auto& [id, pose] : problem.poses) seen[id] = 0;

@@ -10,7 +10,7 @@
 
 namespace pharos::slam {
 
-/// Which keyframes look like a frame: an inverted index from words to keyframes (Galvez-Lopez and Tardos 2012).
+/// Place recognition: an inverted index from visual words to keyframes (Galvez-Lopez and Tardos 2012).
 class KeyframeDatabase {
  public:
   explicit KeyframeDatabase(Vocabulary vocabulary) : vocabulary_(std::move(vocabulary)) {}
@@ -23,8 +23,8 @@ class KeyframeDatabase {
     KeyframeId keyframe = kNone;
     double score = 0.0;  ///< of it and its covisible keyframes together
   };
-  /// Keyframes not in `but`, that share at least 0.8 of the most words any shares; each with what its covisible
-  /// neighbours score added, the best of such a group named; at least 0.75 of the best, best first.
+  /// Keyframes not in `but` that share at least 0.8 of the largest number of words that any shares; scores are summed
+  /// over covisible neighbours, and the best of such a group is returned; at least 0.75 of the best score, best first.
   std::vector<KeyframeScore> detect_candidates(const WordVector& words, const Map& map,
                                                const std::set<KeyframeId>& but) const;
 

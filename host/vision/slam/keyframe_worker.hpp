@@ -14,23 +14,24 @@
 
 namespace pharos::slam {
 
-/// A thread that works on keyframes, one at a time and in the order in which they came.
+/// A thread that processes keyframes, one at a time, first in, first out.
 class KeyframeWorker {
  public:
-  /// `work` is called in the thread. What it throws ends the thread, and check() hands it on; `name` says whose it is.
+  /// `work` is called in the thread. An exception from it ends the thread, and check() throws it; `name` is for its
+  /// message.
   KeyframeWorker(std::string name, std::function<void(KeyframeId)> work);
-  /// Waits for the keyframe in work; those that wait are left.
+  /// Waits for the keyframe being processed; drops the waiting ones.
   ~KeyframeWorker();
   KeyframeWorker(const KeyframeWorker&) = delete;
   KeyframeWorker& operator=(const KeyframeWorker&) = delete;
 
-  /// Of a thread that has failed nothing comes any more.
+  /// A thread that has failed processes nothing any more.
   void push(KeyframeId id);
-  /// None waits and none is in work.
+  /// No keyframe is waiting or being processed.
   bool idle() const;
   std::size_t waiting() const;
   void wait_until_idle() const;
-  /// Throws std::runtime_error where `work` has thrown, each time it is asked.
+  /// Throws std::runtime_error at each call once `work` has thrown.
   void check() const;
 
  private:
@@ -46,7 +47,7 @@ class KeyframeWorker {
   std::deque<KeyframeId> ids_;
   bool busy_ = false, closed_ = false;
   std::exception_ptr fault_;
-  std::thread thread_;  // the last: it uses all the others
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace pharos::slam

@@ -8,7 +8,7 @@
 
 namespace pharos::slam {
 
-/// Where a level of an image may have features: what the image's mask shows (0: none); without a mask everywhere.
+/// Where a level of an image may have features: from the image's mask (0: none); without a mask everywhere.
 class LevelMask {
  public:
   LevelMask(ImageView<const std::uint8_t> mask, const cv::Mat& image, const cv::Mat& level)
@@ -20,7 +20,7 @@ class LevelMask {
     const auto mu = static_cast<std::int32_t>(u * scale_u_), mv = static_cast<std::int32_t>(v * scale_v_);
     return mask_.contains(mu, mv) && mask_.at(mu, mv) != 0;
   }
-  // What is masked has no parts that slip between every fourth pixel.
+  // Sampling every fourth pixel suffices: masked regions have no smaller parts.
   bool any(const cv::Rect& cell) const {
     for (int v = cell.y; v < cell.y + cell.height; v += 4) {
       for (int u = cell.x; u < cell.x + cell.width; u += 4) {

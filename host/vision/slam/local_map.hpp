@@ -8,16 +8,16 @@
 
 namespace pharos::slam {
 
-/// What of the map is about a frame: points of the keyframes that share points with it, and of those near to these.
+/// The part of the map around a frame: points of the keyframes that share points with it, and of their neighbours.
 struct LocalMap {
-  KeyframeId nearest = kNone;   ///< that shares most; kNone where the frame shows no point
+  KeyframeId nearest = kNone;   ///< that shares most points; kNone where the frame has no map point
   std::vector<PointId> points;  ///< in order
 };
 
 LocalMap local_map(const Map& map, const Frame& frame);
 
-/// Points of the local map that a frame at `pose` should see and does not show yet, with where to look; `widening` of
-/// the radius. All that it should see are counted as visible.
+/// Points of the local map that should be visible in a frame at `pose` and are not matched yet, with search positions;
+/// `widening` multiplies the search radius. All points that should be visible are counted as such.
 std::vector<Candidate> local_candidates(Map& map, const LocalMap& local, const Frame& frame, const StereoCamera& camera,
                                         const CameraFromTarget& pose, double widening);
 

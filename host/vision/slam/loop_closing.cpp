@@ -17,7 +17,7 @@ constexpr std::size_t kSurroundings = 10;
 constexpr double kLoopRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
 
-// Whatever the feature was aligned with, it was not this point's patch.
+// The feature counts as a corner: it was not aligned with this point's patch.
 Observation corner_of(const Feature& feature, const Vector3& point_m) {
   Observation at = observation_of(feature, point_m);
   at.variance_px2 = feature.corner_variance_px2();
@@ -142,7 +142,7 @@ std::vector<PoseEdge> LoopCloser::essential_edges(const std::map<KeyframeId, Cam
 void LoopCloser::correct(const Loop& loop) {
   std::map<KeyframeId, CameraFromTarget> before;
   for (const auto& [id, keyframe] : map_.keyframes) before[id] = keyframe.pose;
-  // Edges of what was known before double points join the two sides.
+  // Edges of the state before duplicate points are fused between the two sides.
   std::vector<PoseEdge> edges = essential_edges(before);
   std::vector<KeyframeId> side = map_.best_neighbours(loop.here, map_.keyframes.size());
   side.push_back(loop.here);
@@ -168,7 +168,7 @@ void LoopCloser::correct(const Loop& loop) {
     map_.update_neighbours(id);
     moved[id] = map_.keyframes.at(id).pose;
   }
-  // Edges that the loop made: what of one side sees of the other, as both stand now.
+  // Edges created by the loop: between covisible keyframes of the two sides, at their present poses.
   const std::set<KeyframeId> here_side(side.begin(), side.end());
   for (const KeyframeId id : side) {
     for (const auto& [other, shared] : map_.keyframes.at(id).neighbours) {

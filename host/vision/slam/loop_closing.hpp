@@ -11,27 +11,27 @@
 
 namespace pharos::slam {
 
-/// A keyframe that shows what the map has elsewhere.
+/// A keyframe that shows another part of the map: a loop.
 struct Loop {
   KeyframeId here = kNone;
   KeyframeId there = kNone;
-  CameraFromTarget corrected;  ///< where `here` stands if `there` is right
-  /// Features of `here` and the points of `there`'s side that they show.
+  CameraFromTarget corrected;  ///< pose of `here` if that of `there` is right
+  /// Features of `here` and the matching points of `there`'s side.
   std::vector<std::pair<int, PointId>> seen;
 };
 
-/// Section 2.4: finds a keyframe again and makes the map agree with it (Mur-Artal 2017: with a stereo camera the error
-/// is one of six degrees of freedom).
+/// Section 2.4: detects a loop and corrects the map by it (Mur-Artal 2017: with a stereo camera the error has six
+/// degrees of freedom).
 class LoopCloser {
  public:
   LoopCloser(const StereoCamera& camera, Map& map, const KeyframeDatabase& keyframe_database)
       : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
-  /// Candidates by words that neither share points with the keyframe nor with its neighbours, three at most; each by
-  /// robust_pose, then by all points of its surroundings: 40 inliers close a loop.
+  /// Candidates by visual words that share points neither with the keyframe nor with its neighbours, three at most;
+  /// each is checked by robust_pose, then with all points of its neighbourhood: 40 inliers close a loop.
   std::optional<Loop> find(KeyframeId keyframe);
-  /// Keyframe and neighbours move to where the loop says, double points become one, and the essential graph (spanning
-  /// tree, strong covisibility, loops) spreads the rest over all others.
+  /// Moves the keyframe and its neighbours to the corrected poses, fuses duplicate points, and distributes the
+  /// remaining error over all others by the essential graph (spanning tree, strong covisibility, loops).
   void correct(const Loop& loop);
   int refused() const { return refused_; }
 
@@ -47,8 +47,8 @@ class LoopCloser {
   int refused_ = 0;
 };
 
-/// Puts the solution of a global problem into a map that grew meanwhile: later keyframes move with their parents, later
-/// points with their viewers.
+/// Writes the solution of a global problem into a map that grew meanwhile: later keyframes move with their parents,
+/// later points with the keyframes that observe them.
 void apply_global(const BundleProblem& solved, const std::vector<std::size_t>& rejected, Map& map);
 
 }  // namespace pharos::slam

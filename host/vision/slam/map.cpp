@@ -72,7 +72,7 @@ void Map::fuse(PointId from, PointId into) {
 }
 
 void Map::reparent(Keyframe& orphan, KeyframeId removed, KeyframeId grandparent) {
-  // The covisible keyframe that shares most, was there before (so no circle closes); else the grandparent.
+  // The covisible keyframe that shares most points and is older (so that there is no cycle); else the grandparent.
   KeyframeId best = grandparent;
   int maximum = 0;
   for (const auto& [id, shared] : orphan.neighbours) {
@@ -141,7 +141,7 @@ void Map::refresh(PointId id) {
     sum += (point.position_m - eye).normalized();
   }
   if (seen.empty()) return;
-  // Least median distance to the others.
+  // Smallest median distance to the others.
   int minimum = std::numeric_limits<int>::max();
   std::vector<int> distances(seen.size());
   for (const Descriptor* candidate : seen) {

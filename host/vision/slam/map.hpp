@@ -10,16 +10,16 @@
 
 namespace pharos::slam {
 
-/// Weights of visual words, by word; length 1 in the sum of magnitudes.
+/// Weights of visual words, by word; L1 norm 1.
 using WordVector = std::map<int, double>;
 
-/// A frame that the map remembers.
+/// A frame that is part of the map.
 struct Keyframe : Frame {
   KeyframeId id = kNone;
-  /// Of where it stands from the first one, as keyframe_covariances tells it.
+  /// Covariance relative to the first keyframe, as of keyframe_covariances.
   Matrix6 covariance = Matrix6::Zero();
   WordVector words;
-  /// The covisibility graph: how many points it shares with whom; at least kCovisible.
+  /// The covisibility graph: number of points shared with each keyframe; at least kCovisible.
   std::map<KeyframeId, int> neighbours;
   /// The spanning tree; the first one has no parent.
   KeyframeId parent = kNone;
@@ -28,7 +28,7 @@ struct Keyframe : Frame {
   std::map<KeyframeId, Pose<frame::Camera, frame::Camera>> loops;
 };
 
-/// Keyframes are covisible that share so many points.
+/// Keyframes are covisible if they share this many points.
 inline constexpr int kCovisible = 15;
 
 /// A landmark on the target.
@@ -36,50 +36,51 @@ struct MapPoint {
   PointId id = kNone;
   Vector3 position_m = Vector3::Zero();  ///< in the target's frame
   std::map<KeyframeId, int> seen_by;     ///< feature number by keyframe
-  Descriptor descriptor;                 ///< the most typical of those that saw it
-  Vector3 normal = Vector3::Zero();      ///< mean direction from its viewers to it, unit
-  double min_distance_m = 0.0;           ///< range of distances at which ORB's levels can find it
+  Descriptor descriptor;                 ///< that of its observations with the smallest median distance to the others
+  Vector3 normal = Vector3::Zero();      ///< mean viewing direction from the keyframes that observe it, unit
+  double min_distance_m = 0.0;           ///< range of distances at which ORB's levels can detect it
   double max_distance_m = 0.0;
   int level = 0;                  ///< at which it was seen last
-  std::int64_t visible = 1;       ///< frames that should have seen it
-  std::int64_t found = 1;         ///< frames that did
-  KeyframeId created_at = kNone;  ///< newest keyframe then
-  std::optional<Patch> patch;     ///< with which later frames find it again
+  std::int64_t visible = 1;       ///< frames in which it should be visible
+  std::int64_t found = 1;         ///< frames in which it was found
+  KeyframeId created_at = kNone;  ///< newest keyframe at its creation
+  std::optional<Patch> patch;     ///< for alignment in later frames
 };
 
-/// Keyframes and points, each holding the other's number. Plain data under one owner: who shares it locks it.
+/// Keyframes and points, each with the other's number. Not thread-safe: a caller that shares it must lock it.
 class Map {
  public:
   std::map<KeyframeId, Keyframe> keyframes;
   std::map<PointId, MapPoint> points;
 
-  /// The frame becomes a keyframe seen from its points; `words` may be empty.
+  /// Makes the frame a keyframe that observes its points; `words` may be empty.
   Keyframe& add_keyframe(const Frame& frame, WordVector words);
   MapPoint& add_point(const Vector3& position_m, KeyframeId keyframe, int feature);
-  /// Nothing happens where the keyframe sees the point already or its feature has one. The feature counts as a corner:
-  /// nobody aligned it with this point's patch.
+  /// Adds an observation. Nothing happens where the keyframe already observes the point or its feature has one. The
+  /// feature counts as a corner: it was not aligned with this point's patch.
   void observe(PointId point, KeyframeId keyframe, int feature);
   void forget_observation(PointId point, KeyframeId keyframe);
   void remove_point(PointId point);
   /// `into` takes over what `from` was seen by.
   void fuse(PointId from, PointId into);
-  /// Its children get new parents; where it stood is remembered relative to its parent, for trajectories.
+  /// Removes a keyframe. Its children get new parents; its pose relative to its parent is kept, for trajectories.
   void remove_keyframe(KeyframeId keyframe);
 
-  /// Counts shared points anew and hangs a keyframe without a parent under the one that shares most.
+  /// Recomputes the covisibility of a keyframe; one without a parent becomes a child of the one that shares most
+  /// points.
   void update_neighbours(KeyframeId keyframe);
-  /// Descriptor, normal and distances of a point from those that see it.
+  /// Recomputes descriptor, normal and distances of a point from its observations.
   void refresh(PointId point);
   /// Up to `count` covisible keyframes, most points first.
   std::vector<KeyframeId> best_neighbours(KeyframeId keyframe, std::size_t count) const;
   /// The pose of a keyframe, also of a removed one.
   CameraFromTarget pose_of(KeyframeId keyframe) const;
-  /// Its covariance; of a removed one, that of the keyframe it is told from.
+  /// Its covariance; for a removed one, that of the keyframe to which its pose is relative.
   const Matrix6& covariance_of(KeyframeId keyframe) const;
-  /// Removed keyframes that neither a patch is of nor `kept` is, are no longer known.
+  /// Forgets removed keyframes, except those that own a patch and those in `kept`.
   void forget_removed(KeyframeId kept);
   std::size_t removed() const { return removed_.size(); }
-  /// Points of the keyframe that at least `observers` keyframes see.
+  /// Number of the keyframe's points that at least `observers` keyframes observe.
   int tracked_points(const Keyframe& keyframe, std::size_t observers) const;
   const MapPoint* find_point(PointId point) const;
   KeyframeId newest() const { return next_keyframe_ - 1; }

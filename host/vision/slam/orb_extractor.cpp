@@ -14,7 +14,7 @@
 namespace pharos::slam {
 namespace {
 
-// A feature's patch, 31 px, turned by any angle, must lie inside; OpenCV's descriptor asks for the same.
+// A feature's patch, 31 px, rotated by any angle, must be inside; OpenCV's descriptor has the same requirement.
 constexpr int kBorder_px = 20;
 constexpr int kCell_px = 32;  // of FAST
 constexpr int kPatchRadius_px = 15;
@@ -38,7 +38,7 @@ const std::array<int, kPatchRadius_px + 1>& disc_rows() {
   return rows;
 }
 
-// Direction from the corner to the patch's centroid of light (Rosin 1999).
+// Direction from the corner to the patch's intensity centroid (Rosin 1999).
 double direction_of(const cv::Mat& image, int u, int v) {
   double m10 = 0.0, m01 = 0.0;
   for (int dv = -kPatchRadius_px; dv <= kPatchRadius_px; ++dv) {
@@ -90,7 +90,7 @@ struct OrbExtractor::Work {
     }
   }
 
-  // FAST over the whole level; cells that have no corner are asked once more for faint ones.
+  // FAST over the whole level; cells without a corner are searched again with the lower threshold.
   std::vector<Corner> corners_of(int level, ImageView<const std::uint8_t> mask) {
     const cv::Mat& image = levels[static_cast<std::size_t>(level)];
     const LevelMask allowed(mask, levels[0], image);
@@ -139,8 +139,8 @@ struct OrbExtractor::Work {
     features.push_back(feature);
   }
 
-  // Descriptors of the level's features, of which those too near to its border go. ORB is given the level as an image
-  // of its own: it need not make its pyramid anew.
+  // Descriptors of the level's features; those too near to its border are removed. ORB gets the level as a separate
+  // image, so that it need not compute the pyramid again.
   void describe(int level, std::size_t first) {
     orb->compute(levels[static_cast<std::size_t>(level)], keypoints, descriptors);
     std::size_t kept = first;

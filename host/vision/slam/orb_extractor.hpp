@@ -11,27 +11,26 @@ namespace pharos::slam {
 
 struct OrbSettings {
   int features = 1000;
-  /// Least difference of light of FAST's circle, grey values of 255: first, and in cells that have none.
+  /// FAST thresholds, grey values of 255: the first one, and that for cells without corners.
   int threshold = 20;
   int min_threshold = 7;
 };
 
 /// ORB features of one image: FAST over each pyramid level and once more, for faint corners, in cells that have none;
-/// spread by a quadtree; orientation and descriptor as Rublee 2011 (OpenCV's). Their places are whole pixels of their
-/// levels.
-///
-/// Keeps its memory; one a camera, not for two threads at once.
+/// distributed by a quadtree; orientation and descriptor as Rublee 2011 (OpenCV's). Their positions are whole pixels of
+/// their levels.
+/// Reuses its buffers; one instance a camera, not thread-safe.
 class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbSettings& settings);
   OrbExtractor(OrbExtractor&&) noexcept;
   ~OrbExtractor();
 
-  /// `mask`: 0 where no feature may be; empty for everywhere. Stereo fields are left empty.
+  /// `mask`: 0 where no feature may be; empty: no mask. Stereo fields are left empty.
   const std::vector<Feature>& extract(ImageView<const std::uint8_t> image, ImageView<const std::uint8_t> mask);
-  /// What extract() returned last.
+  /// The last result of extract().
   const std::vector<Feature>& features() const;
-  /// Of the image extracted last.
+  /// Pyramid of the last image.
   const std::vector<PyramidLevel>& pyramid() const;
 
  private:

@@ -7,12 +7,12 @@
 
 namespace pharos::slam {
 
-/// Whether left images are left ones, and of one moment and these cameras: told by the first pairs that show enough.
+/// Checks on the first pairs with enough features that left and right are not exchanged and that they belong together.
 class PairOrder {
  public:
-  /// Throws InputError where the pairs so far tell that they are exchanged or do not belong together.
+  /// Throws InputError where the pairs so far are exchanged or do not belong together.
   void add(std::size_t features, const StereoMatchStats& stats);
-  /// Enough pairs have been seen, and all is well.
+  /// Enough pairs were checked, without error.
   bool known() const;
 
  private:

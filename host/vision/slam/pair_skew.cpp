@@ -6,17 +6,17 @@
 namespace pharos::slam {
 namespace {
 
-constexpr double kFade = 0.97;       // a frame: some 30 frames count
-constexpr double kMinFrames = 12.0;  // faded ones
+constexpr double kFade = 0.97;       // weight factor a frame: a memory of some 30 frames
+constexpr double kMinFrames = 12.0;  // sum of weights
 constexpr double kMinSkewPoints = 1000.0;
-constexpr double kMinMoved_px = 0.25;  // scatter (1 sigma) of rows moved
+constexpr double kMinMoved_px = 0.25;  // scatter (1 sigma) of the motion in rows
 constexpr double kSigma = 0.1;         // of the slope, in frames
-// Images several frames apart match only where little moved, and that too seldom for such a sigma; but the slope is far
-// from 0, and rows off follow it by more than a bent rectification puts them.
+// Images several frames apart match only where little moved, too seldom for such a sigma; but then the slope is far
+// from 0, and the row differences it explains exceed those of a wrong rectification.
 constexpr double kCertain = 10.0;  // sigmas
 constexpr double kMinMovedThen_px = 0.15;
 constexpr double kMinOff_px = 0.3;
-// Neighbouring points' rows err alike (rectification, texture): the sigma counts every third point.
+// Row errors of neighbouring points are correlated (rectification, texture): the sigma counts every third point.
 constexpr double kPointsAlike = 3.0;
 
 }  // namespace

@@ -5,20 +5,20 @@
 
 namespace pharos::slam {
 
-/// Tells whether the right image of a pair was taken when the left one was.
-///
-/// Where the target moves up or down in the image, a right image that is late by a share of a frame shows it that share
-/// of the step farther on, in another row. The slope of rows off over rows moved, over many points and some seconds of
-/// frames, is the delay in frames. A wrong rectification puts rows off too, but not in proportion to what moves.
+/// Estimates the delay between the right and the left image of a pair.
+/// Where the target moves up or down in the image, a right image that is late by a fraction of a frame shows it
+/// displaced by that fraction of the step. The slope of the row difference over the motion in rows, over many points
+/// and some seconds of frames, is the delay in frames. A wrong rectification causes row differences too, but not in
+/// proportion to the motion.
 class PairSkew {
  public:
-  /// One point: how many rows it moved since the frame before, and how many rows below the left one the right image
-  /// has it, px.
+  /// Adds one point: its motion in rows since the frame before, and its row in the right image minus that in the left
+  /// one, px.
   void add(double moved_px, double off_px);
-  /// All points of a frame are in; what is old fades.
+  /// Ends a frame: reduces the weight of older ones.
   void end_frame();
-  /// Frames by which the right images are late (early: below 0), where enough moved to tell it to a tenth of a frame,
-  /// or where it is many sigmas from 0.
+  /// Delay of the right images in frames (early: below 0), where the motion determines it to a tenth of a frame, or
+  /// where it is many sigmas from 0.
   std::optional<double> frames_late() const;
 
  private:

@@ -12,15 +12,16 @@ constexpr int kHalf_px = 4;  // of the square compared: 9x9
 constexpr int kSide_px = 2 * kHalf_px + 1;
 constexpr int kSteps = 8;
 constexpr float kEnough_px = 0.01F;
-constexpr float kMaxMove_px = 1.5F;        // farther off it is another corner
-constexpr float kMinSlopes = 81.0F;        // squared grey values a pixel, over the square: less tells no place
+constexpr float kMaxMove_px = 1.5F;  // a larger one means another corner
+constexpr float kMinSlopes =
+    81.0F;  // squared grey values a pixel, over the square: with less the position is undetermined
 constexpr float kMaxDissimilarity = 0.2F;  // of the square's own variance
 constexpr float kMinContrast = 0.4F, kMaxContrast = 2.5F;
-constexpr double kMinArea = 0.4, kMaxArea = 2.5;  // of a pixel, here over there
+constexpr double kMinArea = 0.4, kMaxArea = 2.5;  // ratio of a pixel's areas in the two images
 
 using Matrix2d = Eigen::Matrix2d;
 
-// How a step in the keyframe's image becomes one in the frame's, px.
+// Jacobian from a step in the keyframe's image to one in the frame's, px.
 std::optional<Matrix2d> step_of(const Patch& patch, const Pose<frame::Camera, frame::Camera>& T_frame_keyframe,
                                 const StereoCamera& camera) {
   const double step_px = kHalf_px * patch.scale_px;
@@ -38,7 +39,7 @@ std::optional<Matrix2d> step_of(const Patch& patch, const Pose<frame::Camera, fr
   return step;
 }
 
-// The patch as the frame should show it: grey values less their mean, and how they rise along u and v.
+// The patch as predicted in the frame: grey values minus their mean, and their gradient along u and v.
 struct Template {
   std::array<float, kSide_px * kSide_px> value, along_u, along_v;
   float variance = 0.0F;
@@ -178,7 +179,8 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
     return std::nullopt;
   }
   const auto spare = static_cast<float>(seen.value.size() - 4);
-  const double variance = static_cast<double>(residual_variance / spare / slopes);  // along the lesser slope
+  const double variance =
+      static_cast<double>(residual_variance / spare / slopes);  // along the direction of the smaller gradient
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),
                     std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + variance))};
 }

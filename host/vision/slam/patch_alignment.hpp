@@ -7,8 +7,8 @@
 
 namespace pharos::slam {
 
-/// Features that show points of the map go to where `pyramid`, of the frame's left image, shows the points' patches
-/// from about `pose`; with them their right columns and depths. An empty pyramid moves none.
+/// Moves features with map points to the aligned positions of the points' patches in `pyramid`, of the frame's left
+/// image, for a camera near `pose`; adapts their right columns and depths. With an empty pyramid nothing changes.
 void align_with_patches(Frame& frame, const Map& map, const StereoCamera& camera, const CameraFromTarget& pose,
                         const std::vector<PyramidLevel>& pyramid);
 

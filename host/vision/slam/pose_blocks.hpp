@@ -9,7 +9,7 @@
 
 namespace pharos::slam {
 
-/// A pose as Ceres moves it: quaternion x, y, z, w, then translation.
+/// A pose as a Ceres parameter block: quaternion x, y, z, w, then translation.
 using PoseBlock = std::array<double, 7>;
 
 inline PoseBlock block_of(const CameraFromTarget& pose) {
@@ -23,7 +23,7 @@ inline CameraFromTarget pose_of(const double* block) {
 }
 
 /// Steps are Pose::moved_by's delta. Cost functions give their derivatives by delta in the first six columns of seven,
-/// which is why the derivative of a step is a unit matrix here.
+/// so that the derivative of a step is a unit matrix here.
 class PoseManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }

@@ -61,7 +61,7 @@ Vector6 edge_residual(const PoseEdge& edge, const CameraFromTarget& from, const 
 
 void adjust_pose_graph(std::map<KeyframeId, CameraFromTarget>& poses, const std::vector<PoseEdge>& edges,
                        const std::vector<KeyframeId>& fixed) {
-  // In one array: Ceres may order by address.
+  // In one array, because Ceres may order by address.
   std::vector<PoseBlock> numbers;
   numbers.reserve(poses.size());
   std::map<KeyframeId, double*> blocks;

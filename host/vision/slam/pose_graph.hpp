@@ -15,10 +15,11 @@ struct PoseEdge {
   Pose<frame::Camera, frame::Camera> T_from_to;
 };
 
-/// What an edge leaves open: rotation log(R_i R_j^T R_ij^T) rad, then translation t_i - R_i R_j^T t_j - t_ij, m.
+/// Residual of an edge: rotation log(R_i R_j^T R_ij^T) rad, then translation t_i - R_i R_j^T t_j - t_ij, m.
 Vector6 edge_residual(const PoseEdge& edge, const CameraFromTarget& from, const CameraFromTarget& to);
 
-/// Least squares of all edges over all poses but those of `fixed` (Ceres); in place. Poses without an edge stay.
+/// Least squares of all edges over all poses but those of `fixed` (Ceres); in place. Poses without an edge do not
+/// change.
 void adjust_pose_graph(std::map<KeyframeId, CameraFromTarget>& poses, const std::vector<PoseEdge>& edges,
                        const std::vector<KeyframeId>& fixed);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRounds = 4;
 constexpr int kMaxIterations = 9;
-// Of chi-squared, by which a last step may still lower it: a thousandth of a standard deviation, squared.
+// Convergence: decrease of chi-squared in the last step, a thousandth of a standard deviation, squared.
 constexpr double kConverged = 1e-6;
 constexpr int kMinPosePoints = 3;
 

@@ -7,7 +7,7 @@
 
 namespace pharos::slam {
 
-/// A point of the map and where a frame shows it.
+/// A map point and its position in a frame.
 struct Observation {
   Vector3 point_m = Vector3::Zero();  ///< in the target's frame
   Vector2 pixel = Vector2::Zero();
@@ -17,20 +17,20 @@ struct Observation {
   bool stereo() const { return right_u_px >= 0.0; }
 };
 
-/// Where a frame's feature shows the point, with the feature's own variance.
+/// Observation of the point by a frame's feature, with the feature's own variance.
 Observation observation_of(const Feature& feature, const Vector3& point_m);
 
-/// Nearer to the camera, or behind it, a point is not where it was seen.
+/// A point nearer to the camera, or behind it, cannot have been observed.
 inline constexpr double kMinDepth_m = 1e-3;
 
 /// 95 % of chi-squared with two and three degrees of freedom: beyond it an observation is an outlier.
 inline constexpr double kMonoChi2 = 5.991;
 inline constexpr double kStereoChi2 = 7.815;
-/// Where Huber's cost leaves the square: two sigma. What is wrong by less than the limits above is still not Gaussian.
+/// Threshold of Huber's cost: two sigma, because errors below the limits above are not Gaussian either.
 inline constexpr double kHuberChi2 = 4.0;
 
-/// x - pi(R X + t) of (10), px. The third row is not the right column's, which errs as the left one does, but the
-/// disparity's, over kDisparityFraction so that all rows have one variance; 0 for a mono feature.
+/// x - pi(R X + t) of (10), px. The third row is not that of the right column, whose error is correlated with the left
+/// one's, but that of the disparity, over kDisparityFraction so that all rows have one variance; 0 for a mono feature.
 Vector3 residual_of(const Observation& observation, const StereoCamera& camera, const CameraFromTarget& pose);
 /// d residual / d delta of Pose::moved_by: rotation before translation.
 Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, const StereoCamera& camera,
@@ -38,14 +38,14 @@ Eigen::Matrix<double, 3, 6> residual_jacobian(const Observation& observation, co
 
 struct PoseOnly {
   CameraFromTarget pose;
-  Matrix6 covariance = Matrix6::Zero();  ///< of delta, from the inliers; zero where the answer is not certain at all
+  Matrix6 covariance = Matrix6::Zero();  ///< of delta, from the inliers; zero where the pose is not determined
   std::vector<bool> inlier;
   int inliers = 0;
   double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each
 };
 
-/// (10): least squares of the reprojections over the pose alone, Huber's cost; outliers are sorted out and
-/// let in again four times. Some 0.3 ms for 300 points.
+/// (10): least squares of the reprojections over the pose alone, Huber's cost; outliers are determined anew four times.
+/// Some 0.3 ms for 300 points.
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
                      const CameraFromTarget& start);
 

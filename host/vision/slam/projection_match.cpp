@@ -33,7 +33,7 @@ struct Best {
   }
 };
 
-// One candidate a feature: the likest stays.
+// One candidate a feature: the best match is kept.
 void one_each(std::vector<ProjectionMatch>& matches, std::size_t features) {
   std::vector<int> best(features, -1);
   for (std::size_t k = 0; k < matches.size(); ++k) {

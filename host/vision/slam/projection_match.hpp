@@ -7,14 +7,14 @@
 
 namespace pharos::slam {
 
-/// A point that a frame may show.
+/// A point that may be visible in a frame.
 struct Candidate {
   PointId point = kNone;
   Vector3 position_m = Vector3::Zero();
   Descriptor descriptor;
-  int level = 0;           ///< at which it should show
+  int level = 0;           ///< at which it is expected
   double radius_px = 7.0;  ///< of the search, on that level
-  double angle_rad = 0.0;  ///< of its patch; used where matches must turn alike
+  double angle_rad = 0.0;  ///< of its patch; used where orientations are checked
 };
 
 struct ProjectionMatch {
@@ -26,11 +26,11 @@ struct ProjectionMatch {
 struct ProjectionRules {
   int max_distance = kHighDistanceThreshold;
   double ratio = 0.9;              ///< best distance over the second best of the same level
-  bool check_orientation = false;  ///< drop matches whose patch turned otherwise than most
+  bool check_orientation = false;  ///< drop matches whose rotation of the patch differs from that of most
 };
 
-/// Projects candidates by `pose` and matches each with the likest feature nearby, and each feature with the likest of
-/// its candidates. Only features whose `free` is set (empty: all).
+/// Projects candidates by `pose` and matches each with the nearby feature of the smallest descriptor distance, and each
+/// feature with the best of its candidates. Only features whose `free` is set (empty: all).
 std::vector<ProjectionMatch> match_by_projection(const std::vector<Candidate>& candidates, const Frame& frame,
                                                  const std::vector<bool>& free, const StereoCamera& camera,
                                                  const CameraFromTarget& pose, const ProjectionRules& rules);
@@ -40,7 +40,7 @@ std::vector<ProjectionMatch> match_by_descriptor(const std::vector<Feature>& fro
                                                  const std::vector<Feature>& to, const std::vector<bool>& use_to,
                                                  double ratio);
 
-/// Drops matches whose difference of angles is not among the three commonest twelfths of a turn.
+/// Drops matches whose difference of angles is not among the three most frequent twelfths of a turn.
 void filter_by_orientation(std::vector<ProjectionMatch>& matches, const std::vector<double>& angle_differences_rad);
 
 }  // namespace pharos::slam

@@ -23,13 +23,13 @@ inline constexpr std::array<double, kLevels> kScales = [] {
 }();
 inline double scale_of(int level) { return kScales[static_cast<std::size_t>(level)]; }
 
-/// A level of an image's pyramid; level 0 is the image itself. Pixel centres: x of a level covers the place
-/// (x + 0.5) s - 0.5 of the image, where s is the ratio of their widths (heights).
+/// A level of an image's pyramid; level 0 is the image itself. Pixel centres: x of a level corresponds to (x + 0.5) s -
+/// 0.5 of the image, where s is the ratio of their widths (heights).
 struct PyramidLevel {
   ImageView<const std::uint8_t> image;
 };
 
-/// Places of the image on one of its levels, and back.
+/// Conversion of image positions to those on a level, and back.
 class LevelPlaces {
  public:
   LevelPlaces(const std::vector<PyramidLevel>& pyramid, int level) {

@@ -11,8 +11,8 @@ namespace {
 
 struct Part {
   float left, top, right, bottom;
-  std::size_t first, count;  // its corners stand together
-  std::size_t number;        // of creation: makes the order of equals certain
+  std::size_t first, count;  // its corners are contiguous
+  std::size_t number;        // of creation: makes the order deterministic
 
   float area() const { return (right - left) * (bottom - top); }
 };
@@ -24,7 +24,7 @@ struct Later {
   }
 };
 
-// A part this small holds corners that no spreading can separate.
+// Smallest part that is divided: closer corners are not separated.
 constexpr float kSmallest_px = 2.0F;
 
 }  // namespace
@@ -44,7 +44,7 @@ std::vector<Corner> spread(std::vector<Corner> corners, float width_px, float he
       parts.push(part);
     }
   };
-  // Upright or wide images start as parts that are nearly square.
+  // Images that are not square start as several parts that are nearly so.
   const auto columns = static_cast<std::size_t>(std::max(1.0F, std::round(width_px / height_px)));
   std::size_t first = 0;
   for (std::size_t c = 0; c < columns; ++c) {

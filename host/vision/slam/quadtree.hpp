@@ -12,8 +12,8 @@ struct Corner {
   float response = 0.0F;
 };
 
-/// About `wanted` of the corners, spread over the image: the area is split in four again and again, the largest
-/// part first and of equal ones the most crowded, until there are as many parts as wanted; each gives its strongest
+/// About `wanted` of the corners, distributed over the image: the area is split in four repeatedly, the largest part
+/// first and of equal ones the one with most corners, until there are as many parts as wanted; each gives its strongest
 /// corner (Mur-Artal 2015, section V.A). Order of the result depends on the input alone.
 std::vector<Corner> spread(std::vector<Corner> corners, float width_px, float height_px, std::size_t wanted);
 

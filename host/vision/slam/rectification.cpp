@@ -10,12 +10,12 @@
 namespace pharos::slam {
 namespace {
 
-// Below it no camera pair measures depth at all; also what a file without extrinsics has.
+// With a smaller baseline a camera pair measures no depth; a file without extrinsics has zero.
 constexpr double kMinBaseline_m = 1e-4;
-// Turns and offsets that move no pixel by a hundredth.
+// Rotations and offsets that move no pixel by more than a hundredth.
 constexpr double kStraight_rad = 1e-5;
 constexpr double kSame_px = 0.01;
-// Beyond it the rectified images would share little.
+// Beyond it the rectified images would have little overlap.
 constexpr double kMaxToeIn_rad = 60.0 * std::numbers::pi / 180.0;
 
 using RigFromCamera = Pose<frame::Rig, frame::Camera>;
@@ -38,7 +38,7 @@ bool rectified_already(const PinholeCamera& left, const PinholeCamera& right, co
          std::abs(left.cy_px - right.cy_px) < kSame_px;
 }
 
-// The principal point that centres what both cameras see; f as it is.
+// The principal point that centres the common field of view; f unchanged.
 void centre_views(StereoCamera& camera, const std::array<const PinholeCamera*, 2>& intrinsics,
                   const std::array<Matrix3, 2>& R_camera_rectified) {
   Vector2 sum = Vector2::Zero();
@@ -58,7 +58,7 @@ RectifyMap map_of(const PinholeCamera& intrinsics, const StereoCamera& rectified
   for (std::int32_t v = 0; v < rectified.height_px; ++v) {
     for (std::int32_t u = 0; u < rectified.width_px; ++u) {
       const Vector3 p = R_camera_rectified * rectified.back_project(Vector2(u, v), 1.0);
-      // Outside the image where the lens has no such ray: remap fills it with black.
+      // A position outside the image where the lens has no such ray: remap fills it with black.
       const auto pixel = project(intrinsics, p);
       map.u.push_back(pixel ? static_cast<float>(pixel->x()) : -1e4F);
       map.v.push_back(pixel ? static_cast<float>(pixel->y()) : -1e4F);

@@ -9,24 +9,24 @@
 
 namespace pharos::slam {
 
-/// Where the rectified pixel (u, v) lies in a raw image: maps of one camera, row by row, px.
+/// Position of the rectified pixel (u, v) in a raw image: maps of one camera, row by row, px.
 struct RectifyMap {
   std::vector<float> u, v;
 };
 
-/// What makes of any two cameras the rectified pair of (9).
+/// Transforms two cameras into the rectified pair of (9).
 struct Rectification {
   StereoCamera camera;
-  /// p_left = R p_rectified: the left camera's own frame from that of the rectified one; they share their centre.
+  /// p_left = R p_rectified: from the rectified left camera's frame to the raw one's; both have the same centre.
   Matrix3 R_left_rectified = Matrix3::Identity();
-  /// Left and right; empty where the images are rectified as they come.
+  /// Left and right; empty where the images are already rectified.
   std::array<RectifyMap, 2> maps;
   bool needed() const { return !maps[0].u.empty(); }
 };
 
-/// Both cameras turned to a common frame whose x runs along the baseline and whose z is the mean of theirs (Fusiello,
-/// Trucco and Verri 2000). Throws InputError for a rig without a baseline worth measuring with, with images of two
-/// sizes, with the right camera on the left, or with cameras that hardly look the same way.
+/// Rotates both cameras to a common frame whose x is along the baseline and whose z is the mean of theirs (Fusiello,
+/// Trucco and Verri 2000). Throws InputError for a rig with too small a baseline, with images of two sizes, with the
+/// right camera on the left, or with very different viewing directions.
 Rectification rectify(const host::RigFile& rig, const std::string& name);
 
 }  // namespace pharos::slam

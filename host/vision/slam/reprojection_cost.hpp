@@ -10,7 +10,7 @@
 
 namespace pharos::slam {
 
-/// One observation of (12), over a pose (PoseBlock) and a point; rows are whitened. Cannot be told where the point is
+/// One observation of (12), over a pose (PoseBlock) and a point; rows are whitened. Evaluation fails where the point is
 /// not in front of the camera.
 class Reprojection : public ceres::CostFunction {
  public:

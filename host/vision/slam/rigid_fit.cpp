@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxTrials = 300;
 constexpr double kSure = 0.999;
-// Reprojection limits while trials are judged: depths of single features are coarse.
+// Factor of the reprojection limits for RANSAC trials: depths of single features are coarse.
 constexpr double kLoose = 4.0;
 
 std::vector<bool> inliers_of(const std::vector<Observation>& observations, const StereoCamera& camera,

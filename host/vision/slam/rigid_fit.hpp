@@ -13,9 +13,9 @@ namespace pharos::slam {
 /// least three points that are not on one line.
 std::optional<CameraFromTarget> rigid_fit(const std::vector<Vector3>& points, const std::vector<Vector3>& seen);
 
-/// A pose from points of the map matched with stereo features of a frame, many matches wrong: three at a time by
-/// rigid_fit, judged by reprojection (RANSAC, Fischler and Bolles 1981; the same `seed`, the same answer), then
-/// adjust_pose. Empty below `min_inliers`.
+/// A pose from map points matched with stereo features of a frame, with many wrong matches: RANSAC (Fischler and Bolles
+/// 1981) over three matches by rigid_fit, scored by reprojection, deterministic for one `seed`; then adjust_pose. Empty
+/// below `min_inliers`.
 std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
                                     int min_inliers, std::uint64_t seed);
 

@@ -19,8 +19,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What is told of a run: frames of each kind counted, and medians over the last of them, at least 2048; a run may be
-/// without end.
+/// Statistics of a run: number of frames of each kind, and medians over the last 2048 frames at least; a run may be
+/// endless.
 class RunFigures {
  public:
   void add_frame(const TrackedFrame& frame, const StereoFrontend::Result& seen, double took_ms);
@@ -30,7 +30,7 @@ class RunFigures {
   void set_loops_refused(int count) { counts_.loops_refused = count; }
 
   int frames() const { return counts_.frames; }
-  /// Without what only the map knows.
+  /// Without the figures of the map.
   SlamReport report() const;
 
  private:

@@ -7,7 +7,7 @@
 namespace pharos::slam {
 
 enum class Scene {
-  kTarget,  ///< a body that moves before a dark or still background, which is masked
+  kTarget,  ///< a body that moves in front of a dark or static background, which is masked
   kStatic,  ///< nothing is masked: the camera moves
 };
 
@@ -15,10 +15,11 @@ struct SlamSettings {
   Scene scene = Scene::kTarget;
   int features = 1000;
   bool close_loops = true;
-  /// Tracking, mapping and loop closing each in a thread of their own; else one after the other: same input, same bits.
+  /// Tracking, mapping and loop closing each in its own thread; else in sequence, with identical results for the same
+  /// input.
   bool threads = false;
   /// Every frame is kept for trajectory(). Else that is empty, figures are of the last frames, and memory does not grow
-  /// with time: for a run without end.
+  /// with time: for an endless run.
   bool keep_trajectory = true;
   std::size_t max_keyframes = 0;  ///< 0: no limit; the paper's is 20
   std::string vocabulary;         ///< a file; empty: the one that ships

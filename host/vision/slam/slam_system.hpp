@@ -33,21 +33,20 @@ struct SlamPoint {
 };
 
 /// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017).
-///
-/// Where one of its own threads has failed (no memory), push(), finish() and optimised_trajectory() throw
-/// std::runtime_error from then on: the map may be half changed, and only another system has a whole one.
+/// After a failure of one of its threads (no memory), push(), finish() and optimised_trajectory() throw
+/// std::runtime_error: the map may be inconsistent, and a new system is needed.
 class SlamSystem {
  public:
   virtual ~SlamSystem() = default;
   /// A raw pair of the rig's size, 8 bits a pixel; times must grow. Throws InputError for other sizes, where the first
-  /// pairs show that left and right are exchanged or of other cameras, and as long as the pairs show that right images
-  /// were not taken when left ones were (PairSkew).
+  /// pairs show that left and right are exchanged or of other cameras, and as long as the pairs show a delay between
+  /// left and right images (PairSkew).
   virtual TrackedFrame push(double time_s, ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right) = 0;
-  /// Waits for the threads and adjusts all of the map once more. After it every frame stands where the whole map says.
+  /// Waits for the threads and adjusts the whole map once more. After it every frame's pose follows from the final map.
   virtual void finish() = 0;
-  /// All frames so far, told from the keyframes as they stand now; lost ones without a pose.
+  /// All frames so far, from the present poses of the keyframes; lost ones without a pose.
   virtual std::vector<TrackedFrame> trajectory() const = 0;
-  /// What trajectory() would tell after finish(); the system goes on as if it had not been asked.
+  /// The result of trajectory() after finish(), without any effect on the system.
   virtual std::vector<TrackedFrame> optimised_trajectory() const = 0;
   virtual std::vector<SlamPoint> points() const = 0;
   virtual SlamReport report() const = 0;
@@ -61,7 +60,7 @@ class SlamSystem {
 /// Descriptors of an image's ORB features, for training a vocabulary.
 std::vector<Descriptor> describe_image(ImageView<const std::uint8_t> image, int features);
 
-/// Throws InputError where the vocabulary or the rig is no good; `rig_name` is for messages.
+/// Throws InputError where the vocabulary or the rig is invalid; `rig_name` is for messages.
 std::unique_ptr<SlamSystem> make_slam(const host::RigFile& rig, const std::string& rig_name,
                                       const SlamSettings& settings);
 

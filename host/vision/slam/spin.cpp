@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMinFrames = 10;
 constexpr int kMaxIterations = 20;
-// rad^2 over all attitudes, by which a last step may still lower the sum of squares.
+// Convergence: decrease of the sum of squares over all attitudes in the last step, rad^2.
 constexpr double kConverged = 1e-18;
 
 // d log(exp(phi + d) exp(-phi)) / d d.
@@ -31,7 +31,7 @@ struct Attitude {
   Matrix3 R;
 };
 
-// A steady turn: exp(rate (t - mean_time)) R_mean.
+// A rotation at constant rate: exp(rate (t - mean_time)) R_mean.
 struct Turn {
   Vector3 rate = Vector3::Zero();
   Matrix3 R_mean = Matrix3::Identity();
@@ -43,7 +43,7 @@ Vector3 residual(const Turn& turn, const Attitude& attitude) {
   return rotation_log(attitude.R * predicted.transpose());
 }
 
-// Unknowns: the rate (rad/s), then the turn of R_mean from the left (rad).
+// Unknowns: the rate (rad/s), then a rotation of R_mean from the left (rad).
 struct TurnDescent : optimize::LeastSquares<6, Turn> {
   explicit TurnDescent(std::span<const Attitude> a) : attitudes(a) {}
 
@@ -68,7 +68,7 @@ struct TurnDescent : optimize::LeastSquares<6, Turn> {
 };
 using Fit = optimize::Descent<TurnDescent>;
 
-// Over these attitudes, from the last fit.
+// Fit over these attitudes, starting from the last fit.
 void refine(Fit& fit, std::span<const Attitude> attitudes) {
   Turn start = fit.state;
   double mean = 0.0;
@@ -78,7 +78,7 @@ void refine(Fit& fit, std::span<const Attitude> attitudes) {
   optimize::descend(TurnDescent(attitudes), start, {kMaxIterations, kConverged}, fit);
 }
 
-// How many neighbours one residual speaks for: the sum of the correlations up to their first zero, both ways.
+// Correlation length in residuals: the sum of the correlations up to their first zero, in both directions.
 double correlation_length(const std::vector<Vector3>& residuals) {
   double variance = 0.0;
   for (const Vector3& r : residuals) variance += r.squaredNorm();
@@ -114,7 +114,7 @@ std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {
   fit.state.rate = rotation_log(attitudes[kMinFrames - 1].R * attitudes[0].R.transpose()) / first_s;
   fit.state.R_mean = attitudes[0].R;
   fit.state.mean_time_s = attitudes[0].time_s;
-  // Ever longer parts, so that what is predicted for the next is never half a turn off.
+  // Increasing lengths, so that the prediction for the next is never wrong by half a turn.
   for (std::size_t count = kMinFrames; count < attitudes.size(); count *= 2) {
     refine(fit, std::span(attitudes).first(count));
   }

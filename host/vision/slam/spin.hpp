@@ -8,24 +8,24 @@
 
 namespace pharos::slam {
 
-/// A target's constant turning in the camera's frame.
+/// A target's constant angular velocity in the camera's frame.
 struct Spin {
   Vector3 rate_rad_s = Vector3::Zero();
   Matrix3 covariance = Matrix3::Zero();  ///< of the rate, (rad/s)^2
-  double residual_rms_rad = 0.0;         ///< of single attitudes about the fit
+  double residual_rms_rad = 0.0;         ///< of single attitudes around the fit
   double turned_rad = 0.0;               ///< between first and last frame
   int frames = 0;
 
   double rate() const { return rate_rad_s.norm(); }
   Vector3 axis() const { return rate_rad_s.normalized(); }
-  /// One sigma of the axis' direction about its worst perpendicular, rad; of the rate along it, rad/s.
+  /// 1 sigma of the axis' direction, about the worst perpendicular, rad; of the rate along the axis, rad/s.
   double sigma_axis_rad() const;
   double sigma_rate_rad_s() const;
 };
 
-/// R(t) = exp(w (t - mean t)) R_mean, fitted to all attitudes by least squares over w and R_mean. Neighbouring
-/// attitudes err alike: the covariance counts as many independent ones as the residuals' correlation leaves. Empty
-/// below ten frames.
+/// R(t) = exp(w (t - mean t)) R_mean, fitted to all attitudes by least squares over w and R_mean. Errors of
+/// neighbouring attitudes are correlated: the covariance uses the effective number of independent ones, from the
+/// residuals' correlation. Empty below ten frames.
 std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames);
 
 }  // namespace pharos::slam

@@ -8,7 +8,8 @@
 namespace pharos::slam {
 namespace {
 
-constexpr float kMinSlopes = 121.0F;  // squared grey values a pixel, over the square: less tells no place
+constexpr float kMinSlopes =
+    121.0F;  // squared grey values a pixel, over the square: with less the position is undetermined
 
 class LeftSquare {
  public:
@@ -30,7 +31,7 @@ class LeftSquare {
   }
   bool told() const { return slopes_ > kMinSlopes; }
 
-  // What the shift lacks; empty where it leaves the image.
+  // Correction of the shift; empty where the square extends beyond the image.
   std::optional<Shift> step(ImageView<const std::uint8_t> right, int v, double column, const Shift& shift) const {
     Shift g = Shift::Zero();
     std::size_t k = 0;

@@ -9,16 +9,17 @@
 
 namespace pharos::slam {
 
-/// Of the pixels compared: 11x11.
+/// Half side of the compared square: 11x11 pixels.
 inline constexpr int kSquareRadius_px = 5;
 
-/// The right square as the left one sees it: a difference of brightness, the shift, and how the shift changes along u
-/// and v, as it does on a surface that is seen aslant: grey values, px, px per px.
+/// Mapping from the left square to the right one: difference of brightness (grey values), shift (px), and the gradient
+/// of the shift along u and v on an oblique surface (px per px).
 using Shift = Eigen::Vector4f;
 
-/// Where between pixels the right square equals the left one at (u, v) best, from `column` on, by least squares with
-/// the left one's slopes, which are gathered once (Lucas 1981, Baker and Matthews 2004). The left square lies inside
-/// its image with a pixel to spare. Empty where it runs away or the square tells no place.
+/// Sub-pixel position of the right square that best equals the left one at (u, v), starting at `column`, by least
+/// squares with the left one's gradients, which are computed once (Lucas 1981, Baker and Matthews 2004). The left
+/// square must be inside its image with a margin of one pixel. Empty where the iteration diverges or the square does
+/// not determine a position.
 std::optional<Shift> square_shift(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int u, int v,
                                   double column);
 

@@ -11,8 +11,8 @@
 namespace pharos::slam {
 namespace {
 
-// A feature needs differences of this many grey values (OrbSettings::min_threshold): an image whose 99.9th percentile
-// lies less above its 0.1st has none.
+// A feature needs differences of this many grey values (OrbSettings::min_threshold): an image with a smaller difference
+// of its 99.9th and 0.1st percentiles has none.
 constexpr int kMinContrast = 8;
 constexpr std::uint8_t kBright = 250;
 
@@ -73,7 +73,7 @@ struct StereoFrontend::Work {
       cv::remap(raw, side.image, side.map_u, side.map_v, cv::INTER_LINEAR);
     }
   }
-  // Whether it equals the one before.
+  // Whether the image equals the one before.
   static bool remember(Side& side, const cv::Mat& raw) {
     const bool same = side.raw_before.size() == raw.size() && cv::norm(raw, side.raw_before, cv::NORM_INF) == 0.0;
     raw.copyTo(side.raw_before);

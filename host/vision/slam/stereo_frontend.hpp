@@ -12,7 +12,7 @@
 
 namespace pharos::slam {
 
-/// A raw pair to stereo features of the rectified left image: rectification, foreground, ORB, match along rows.
+/// From a raw pair to stereo features of the rectified left image: rectification, foreground, ORB, match along rows.
 class StereoFrontend {
  public:
   StereoFrontend(Rectification rectification, const SlamSettings& settings);

@@ -17,7 +17,7 @@ constexpr int kShift_px = 5;  // searched to each side of the right feature
 constexpr int kBestMatches = (kLowDistanceThreshold + kHighDistanceThreshold) / 2;
 constexpr double kMinDisparity_px = 0.3;
 
-// Right features by the rows that they may match.
+// Right features by the rows in which they may match.
 class Rows {
  public:
   Rows(const std::vector<Feature>& right, std::int32_t height_px, double reach)
@@ -55,7 +55,8 @@ BestMatch best_match(const Feature& feature, const std::vector<Feature>& right, 
   return best;
 }
 
-// Sum of differences of two squares of pixels, each less its own middle: lamps differ from camera to camera.
+// Sum of absolute differences of two squares, each relative to its central pixel, because brightness differs between
+// the cameras.
 int difference(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int u, int v, int right_u) {
   const int offset = left.at(u, v) - right.at(right_u, v);
   int sum = 0;
@@ -73,7 +74,7 @@ struct SubPixel {
   int difference = 0;
 };
 
-// The right column of a left feature, refined on the feature's level. Below 0 where no clear minimum is inside.
+// The right column of a left feature, refined on the feature's level. Below 0 without a clear minimum in the interior.
 SubPixel refine(const Feature& feature, double right_u, const std::vector<PyramidLevel>& left_pyramid,
                 const std::vector<PyramidLevel>& right_pyramid) {
   const auto level = static_cast<std::size_t>(feature.level);
@@ -95,7 +96,7 @@ SubPixel refine(const Feature& feature, double right_u, const std::vector<Pyrami
   const double column = middle + static_cast<double>(best - sums.begin()) - kShift_px;
   const auto shift = square_shift(left, right, u, v, column);
   if (!shift) return {};
-  // From the middle pixel to the corner between pixels.
+  // From the central pixel to the corner's sub-pixel position.
   const Vector2 off = place - Vector2(u, v), stretch((*shift)[2], (*shift)[3]);
   const double right_place = column + static_cast<double>((*shift)[1]) + off.x() + stretch.dot(off);
   return {places.image_column(right_place), -stretch, *best};

@@ -8,20 +8,20 @@
 
 namespace pharos::slam {
 
-/// Where the target is: T_camera_target with the target's frame equal to the left camera's own at the first frame.
+/// Pose of the target: T_camera_target, where the target's frame equals the left camera's at the first frame.
 struct TrackedPose {
   Pose<frame::Camera, frame::Target> pose;
-  /// Of delta in Pose::moved_by: what the frame's own features leave open, and how well the keyframe that it is told
-  /// from stands relative to the first one. Of the first frame, which is where it is by definition, 0.
+  /// Covariance of delta in Pose::moved_by: that of the frame's own features, plus that of its reference keyframe
+  /// relative to the first one. 0 for the first frame, which defines the target's frame.
   Matrix6 covariance = Matrix6::Zero();
-  double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each; of the first frame, which has none, 0
+  double rms_px = 0.0;  ///< of the inliers' residuals, per coordinate; 0 for the first frame, which has none
 };
 
-/// One stereo pair and what came of it.
+/// Result of one stereo pair.
 struct TrackedFrame {
   std::int64_t number = 0;
   double time_s = 0.0;
-  std::optional<TrackedPose> placed;  ///< empty while waiting for a first map or lost
+  std::optional<TrackedPose> placed;  ///< empty before the first map and while lost
   bool lost = false;
   bool keyframe = false;
   bool relocalised = false;

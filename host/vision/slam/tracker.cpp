@@ -11,13 +11,13 @@
 namespace pharos::slam {
 namespace {
 
-constexpr double kMotionRadius_px = 7.0;  // around a predicted place; tripled where it finds too little
+constexpr double kMotionRadius_px = 7.0;  // around a predicted position; tripled where there are too few matches
 constexpr int kMinByMotion = 20;
-constexpr int kMinPlaced = 15;      // inliers of a first placement
+constexpr int kMinPlaced = 15;      // inliers of the first pose estimate
 constexpr int kMinInLocalMap = 30;  // inliers in the local map: below, the frame is lost
 constexpr int kMinRelocalised = 50;
 constexpr std::size_t kMaxCandidates = 5;  // keyframes tried to relocalise
-constexpr double kMaxTurnSteps = 20.0;     // missing frames that a prediction bridges
+constexpr double kMaxTurnSteps = 20.0;     // longest prediction over missing frames, in steps
 // Section 2.2, rules (1) to (4).
 constexpr std::int64_t kFramesBetween = 20;
 constexpr int kMinTracked = 50;
@@ -47,7 +47,7 @@ std::optional<PoseOnly> Tracker::track_motion_model(Frame& frame) {
     const double steps = std::clamp(std::round((frame.time_s - last_.time_s) / step_s_), 1.0, kMaxTurnSteps);
     for (int k = 0; k < static_cast<int>(steps); ++k) predicted = step_ * predicted;
   }
-  // Points of the map that the last frame showed, and its own stereo features that no point stands for.
+  // Map points matched in the last frame, and its stereo features without a point.
   const Pose<frame::Target, frame::Camera> T_target_last = last_pose().inverse();
   std::vector<Candidate> candidates;
   for (std::size_t k = 0; k < last_.features.size(); ++k) {
@@ -142,7 +142,7 @@ bool Tracker::needs_new_keyframe(const Frame& frame, int inliers, bool mapping_i
   if (!mapping_idle && frame.number < last_keyframe_frame_ + kFramesBetween) return false;  // (2)
   if (inliers < kMinTracked) return false;                                                  // (3)
   const Keyframe& reference = map_.keyframes.at(nearest_);
-  // What the reference alone has seen is not known to be trackable.
+  // A point that only the reference has observed may not be trackable.
   const std::size_t observers = map_.keyframes.size() == 1 ? 1 : 2;
   return inliers < kShareOfReference * map_.tracked_points(reference, observers);  // (4)
 }
@@ -183,7 +183,7 @@ Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<Pyrami
     return out;
   }
   frame.pose = placed->pose;
-  if (out.relocalised) state_ = TrackState::kLost;  // the step across the gap is no motion
+  if (out.relocalised) state_ = TrackState::kLost;  // the step across the gap is not a motion estimate
   const CameraFromTarget last = last_pose();
   reference_ = nearest_;
   T_last_reference_ = last * map_.pose_of(reference_).inverse();

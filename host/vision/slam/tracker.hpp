@@ -13,7 +13,7 @@ namespace pharos::slam {
 
 enum class TrackState { kWaiting, kTracking, kLost };
 
-/// What became of one frame.
+/// Result of tracking one frame.
 struct Tracked {
   TrackState state = TrackState::kWaiting;
   CameraFromTarget pose;
@@ -24,24 +24,24 @@ struct Tracked {
   bool wants_keyframe = false;
 };
 
-/// Section 2.2: places frames in the map.
+/// Section 2.2: estimates the pose of each frame in the map.
 ///
 /// Prediction: the step from frame before last to last, repeated. For a target that spins at a constant rate about a
-/// fixed axis before a still camera, T_k = exp(k xi) T_0: the step exp(xi) is the same in the camera's frame and, seen
-/// from the target, in its own, so one rule serves a tumbling target and a moving camera.
-/// The map must not change while a call runs.
+/// fixed axis in front of a fixed camera, T_k = exp(k xi) T_0: the step exp(xi) is the same in the camera's frame and
+/// in the target's, so one rule applies to a tumbling target and to a moving camera. The map must not change while a
+/// call runs.
 class Tracker {
  public:
   Tracker(const StereoCamera& camera, Map& map, const KeyframeDatabase* keyframe_database)
       : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
-  /// Pose and points of `frame` are filled in; features are moved to where `pyramid`, of its left image, shows their
-  /// points' patches (empty: none is). `mapping_idle` enters the keyframe rules.
+  /// Sets pose and points of `frame`; moves features to the aligned positions of their points' patches in `pyramid`, of
+  /// its left image (empty: none is moved). `mapping_idle` is an input of the keyframe rules.
   Tracked track(Frame& frame, bool mapping_idle, const std::vector<PyramidLevel>& pyramid);
-  /// The frame became the keyframe `id`, whose points it shares from now on.
+  /// The frame became the keyframe `id` and shares its points.
   void became_keyframe(const Keyframe& keyframe);
   KeyframeId reference() const { return reference_; }
-  /// From the frame before to the last one; empty where that one was lost.
+  /// Motion from the frame before to the last one; empty where one was lost.
   std::optional<Pose<frame::Camera, frame::Camera>> step() const {
     return has_step_ && state_ == TrackState::kTracking ? std::optional(step_) : std::nullopt;
   }
@@ -60,13 +60,13 @@ class Tracker {
   Map& map_;
   const KeyframeDatabase* keyframe_database_;
   TrackState state_ = TrackState::kWaiting;
-  std::vector<PyramidLevel> pyramid_;  // of the frame at hand
+  std::vector<PyramidLevel> pyramid_;  // of the present frame
   Frame last_;
   Pose<frame::Camera, frame::Camera> T_last_reference_, step_;
   bool has_step_ = false;
   double step_s_ = 0.0;
-  KeyframeId reference_ = kNone;  // that the last frame's pose is told from
-  KeyframeId nearest_ = kNone;    // that shares most points with the frame at hand
+  KeyframeId reference_ = kNone;  // to which the last frame's pose is relative
+  KeyframeId nearest_ = kNone;    // that shares most points with the present frame
   std::int64_t last_keyframe_frame_ = 0, last_relocalised_ = -1000;
 };
 

@@ -15,7 +15,7 @@ constexpr int kRounds = 8;  // of k-medians; changes are rare afterwards
 
 using Members = std::vector<const Descriptor*>;
 
-// Each bit as most have it.
+// Median descriptor: each bit by majority.
 Descriptor median_of(const Members& members) {
   Descriptor median;
   for (std::size_t bit = 0; bit < 256; ++bit) {
@@ -93,7 +93,7 @@ Vocabulary Vocabulary::train(const std::vector<std::vector<Descriptor>>& images,
   if (all.empty()) throw host::InputError("the images have no features to train a vocabulary with");
   std::mt19937_64 random(seed);
   vocabulary.nodes_.push_back({median_of(all), -1, 0, 0.0F});
-  // Breadth first: children stand together, and each node's behind those of the nodes before it.
+  // Breadth first: the children of a node are contiguous, after those of the nodes before it.
   std::deque<Open> open{{0, 0, std::move(all)}};
   for (; !open.empty(); open.pop_front()) {
     const Open& at = open.front();

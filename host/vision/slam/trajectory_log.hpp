@@ -10,20 +10,19 @@
 
 namespace pharos::slam {
 
-/// Every frame by its pose relative to a keyframe, so that what mends the map mends the trajectory.
+/// Every frame by its pose relative to a keyframe, so that corrections of the map correct the trajectory.
 class TrajectoryLog {
  public:
-  /// `own`: the covariance that the frame's features leave where `reference` stands for certain. A frame that is a
-  /// keyframe is told from itself, and has it once the map holds that keyframe no more.
+  /// `own`: the covariance of the frame's pose for an exactly known `reference`. A frame that is a keyframe is its own
+  /// reference; `own` is used once that keyframe is no longer in the map.
   void add(const TrackedFrame& frame, KeyframeId reference, const Pose<frame::Camera, frame::Camera>& T_frame_reference,
            const Matrix6& own);
-  /// Poses with the map as it stands; `R_left_rectified` takes them from the rectified camera's frame to the left
-  /// one's.
+  /// Poses from the present map; `R_left_rectified` converts them from the rectified camera's frame to the left one's.
   std::vector<TrackedFrame> frames(const Map& map, const Matrix3& R_left_rectified) const;
   std::size_t size() const { return entries_.size(); }
 
  private:
-  /// What a run holds of each frame: poses in full, the rest as small as it goes.
+  /// Data kept of each frame of a run: poses in double, the rest in small types.
   struct Entry {
     std::int64_t number;
     double time_s;
@@ -35,10 +34,10 @@ class TrajectoryLog {
     bool placed, lost, keyframe, relocalised;
   };
   static_assert(sizeof(Entry) <= 224);
-  std::deque<Entry> entries_;  // grows without moving
+  std::deque<Entry> entries_;  // grows without copying
 };
 
-/// A pose between rectified frames as the left camera's own axes tell it: R T R^T, the covariance turned alike.
+/// Converts a pose between rectified frames to the left camera's axes: R T R^T, and its covariance.
 TrackedPose in_left_frame(const TrackedPose& rectified, const Matrix3& R_left_rectified);
 
 }  // namespace pharos::slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of two keyframes to points.
+// Triangulates points from rays of two keyframes.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ std::vector<bool> pointless(const Keyframe& keyframe) {
   return free;
 }
 
-// Where two features see a point: crossing of their rays, or the nearer one's stereo depth where the rays hardly cross.
+// Point of two features: intersection of their rays, or the nearer one's stereo depth where the parallax is too small.
 bool place_of(const Keyframe& a, const Feature& in_a, const Keyframe& b, const Feature& in_b,
               const StereoCamera& camera, Vector3& point) {
   const auto T_target_a = a.pose.inverse(), T_target_b = b.pose.inverse();
@@ -50,7 +50,7 @@ bool place_of(const Keyframe& a, const Feature& in_a, const Keyframe& b, const F
   return in_b.stereo();
 }
 
-// Distance of b's feature from the line on which a's feature must lie there, px.
+// Distance of b's feature from the epipolar line of a's feature, px.
 double off_line(const Keyframe& a, const Feature& in_a, const Keyframe& b, const Feature& in_b,
                 const StereoCamera& camera) {
   const Pose<frame::Camera, frame::Camera> T_b_a = b.pose * a.pose.inverse();

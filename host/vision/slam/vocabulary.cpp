@@ -46,7 +46,7 @@ std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint32_t>(crc32(0L, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
-// Children stand behind their parent and each has one: what follows them ends.
+// Children follow their parent and every node has one parent, so that each descent ends.
 void check_tree(const std::vector<Vocabulary::Node>& nodes, const std::string& name) {
   std::int64_t next = 1;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
