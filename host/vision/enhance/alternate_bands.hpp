@@ -13,8 +13,8 @@
 namespace pharos::enhance {
 
 /// band(worker, k) for every k below `bands`, by up to `threads` workers of which the caller is number 0: the even ones
-/// at once, then the odd ones, so that neighbours are never worked on together. What a band throws in whichever thread
-/// comes to the caller, the first of several, when all threads have ended; bands that were not begun then never are.
+/// in parallel, then the odd ones, so that neighbours are never processed at the same time. The first exception of a
+/// band in any thread is thrown to the caller, when all threads have ended; bands not begun by then are skipped.
 template <class Band>
 void alternate_bands(std::int32_t bands, int threads, Band&& band) {
   const int workers = std::clamp(threads, 1, std::max(1, (bands + 1) / 2));

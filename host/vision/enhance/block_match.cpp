@@ -11,7 +11,7 @@
 namespace pharos::enhance {
 namespace {
 
-// Written so that compilers see the instruction for it.
+// In a form for which compilers use the processor's own instruction.
 std::uint32_t difference(const std::uint8_t* a, const std::uint8_t* b) {
   std::uint32_t sum = 0;
   for (std::size_t k = 0; k < kBlockPixels; ++k) sum += static_cast<std::uint32_t>(std::abs(int{a[k]} - int{b[k]}));

@@ -11,7 +11,7 @@
 
 namespace pharos::enhance {
 
-/// Most blocks that are taken together.
+/// Most blocks of a stack.
 inline constexpr std::size_t kMaxBlocks = 16;
 
 /// Upper left pixel of a block.
@@ -22,16 +22,16 @@ struct BlockPlace {
 struct MatchSettings {
   std::int32_t reach_px = 19;    ///< of the search, to each side of the reference
   std::size_t max_blocks = 16;   ///< a power of two
-  float max_difference = 0.24F;  ///< mean absolute difference of two blocks that are alike, 1 = white
+  float max_difference = 0.24F;  ///< largest mean absolute difference of matching blocks, 1 = white
 };
 
-/// Finds the blocks most like a given one, by the sum of absolute differences of 8-bit values.
+/// Finds the blocks most similar to a given one, by the sum of absolute differences of 8-bit values.
 class BlockMatcher {
  public:
   /// Rows `first` to `last` (not included) of the image, stretched so that `low` to `high` fill the 8 bits.
   void look_at(ImageView<const float> image, std::int32_t first, std::int32_t last, float low, float high);
 
-  /// The reference itself first, then others, a power of two together. Places are of the whole image.
+  /// The reference itself first, then others; their number is a power of two. Positions in the whole image.
   std::span<const BlockPlace> find(BlockPlace reference, const MatchSettings& settings);
 
  private:
@@ -41,7 +41,7 @@ class BlockMatcher {
                kBlock_px;
   }
 
-  // For each column u, the eight values from u on of every row: a block lies in 64 bytes without a gap.
+  // For each column u, the eight values from u on of every row: a block is 64 contiguous bytes.
   std::vector<std::uint8_t> strips_;
   std::vector<std::uint8_t> row_;
   std::int32_t first_ = 0, rows_ = 0, columns_ = 0;

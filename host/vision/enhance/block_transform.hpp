@@ -12,7 +12,7 @@ inline constexpr std::size_t kBlockPixels = kBlock_px * kBlock_px;
 
 namespace transform {
 
-// Four columns at a time: what every x86-64 and ARM core holds in one register.
+// Four columns at a time: one register of every x86-64 and ARM core.
 using Four = float __attribute__((vector_size(16)));
 
 inline Four load(const float* from) {
@@ -127,8 +127,8 @@ inline void turn(Four (&left)[8], Four (&right)[8]) {
 /// The two-dimensional transforms of BM3D's two steps: a wavelet for the first, the orthonormal DCT-II for the second.
 enum class BlockTransform { kWavelet, kCosine };
 
-/// Transform of the 8 x 8 values at `in`, rows `stride` apart. The 64 coefficients come transposed (horizontal
-/// frequency by rows), the mean's first; inverse_transform() takes them so.
+/// Transform of the 8 x 8 values at `in`, rows `stride` apart. The 64 coefficients are transposed (horizontal frequency
+/// by rows), the mean's first, as inverse_transform() expects them.
 template <BlockTransform kind>
 inline void forward_transform(const float* in, std::ptrdiff_t stride, float* coefficients) {
   using namespace transform;

@@ -18,13 +18,13 @@ using Index = std::ptrdiff_t;
 using Window = std::array<float, kBlockPixels>;
 
 constexpr auto kSide = static_cast<std::int32_t>(kBlock_px);
-// Rows of references from one border to the next. Every second band writes at the same time; with the reach on both
-// sides they must not meet.
+// Rows of references in a band. Every second band is written at the same time; with the reach on both sides they must
+// not overlap.
 constexpr std::int32_t kBand_px = 64;
 constexpr std::int32_t kMaxReach_px = (kBand_px - kSide) / 2;
-// From one block of the fast denoiser to the next: 8 ms for 640x480.
+// Step between blocks of the fast denoiser: 8 ms for 640x480.
 constexpr std::int32_t kFastStep_px = 2;
-// Mean absolute difference of blocks that may be stacked: beyond what noise makes of equal ones (1.13 sigma).
+// Largest mean absolute difference of stacked blocks: above that of equal blocks with noise (1.13 sigma).
 constexpr float kAlikeNoisy = 0.17F, kAlikeClean = 0.11F;
 
 // Kaiser's window with beta 2, in both dimensions.
@@ -42,7 +42,7 @@ Window kaiser() {
   return window;
 }
 
-// Blocks put together again: each pixel's sum and the sum of its weights.
+// Aggregation of blocks: each pixel's weighted sum and the sum of its weights.
 class Mosaic {
  public:
   void clear(std::int32_t width, std::int32_t height) {
@@ -78,15 +78,15 @@ class Mosaic {
   std::vector<float> weighted_, weights_;
 };
 
-// first, first + step, ... and last itself, so that every pixel has its block.
+// first, first + step, ... and last itself, so that every pixel is covered by a block.
 template <class Each>
 void each_place(std::int32_t first, std::int32_t last, std::int32_t step, Each&& each) {
   for (std::int32_t at = first; at < last; at += step) each(at);
   each(last);
 }
 
-// band(worker, first row of references, last row), neighbours never at once: no two add to the same pixel together, and
-// sums have one order.
+// band(worker, first row of references, last row), neighbours never in parallel: no two threads add to the same pixel,
+// and the order of sums is fixed.
 template <class Band>
 void over_bands(std::int32_t height_px, int threads, Band&& band) {
   const std::int32_t references = height_px - kSide + 1;
@@ -101,13 +101,13 @@ bool nothing_to_do(const FloatImage& image, double sigma) {
 
 struct Pass {
   const FloatImage& noisy;
-  const FloatImage& looked_at;  // where blocks are compared
+  const FloatImage& looked_at;  // image in which blocks are compared
   MatchSettings match;
   std::int32_t step_px;
   int threads;
 };
 
-// What becomes of one stack, from and to pixels; its weight is returned.
+// Filters one stack, from and to pixels; returns its weight.
 PHAROS_WIDE_VECTORS float hard_step(const FloatImage& noisy, std::span<const BlockPlace> places, float sigma,
                                     Stack& stack) {
   gather<BlockTransform::kWavelet>(noisy.view(), places, stack);

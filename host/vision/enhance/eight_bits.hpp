@@ -11,14 +11,14 @@
 
 namespace pharos::enhance {
 
-/// Frames of two cameras as an 8-bit consumer takes them: enhanced where that is asked for, each camera with its own
-/// Enhancer and thread (same bits as one after the other), else the upper half of each value.
+/// Converts frames of two cameras to 8 bits: enhanced where configured, each camera with its own Enhancer and thread
+/// (result identical to sequential processing), else the upper half of each value.
 class EightBitPairs {
  public:
-  /// Empty: frames as they come.
+  /// Empty: frames are not enhanced.
   explicit EightBitPairs(const std::optional<EnhanceSettings>& settings = {});
 
-  /// The left and the right frame; hold until the next call.
+  /// The left and the right frame; valid until the next call.
   std::array<ImageView<const std::uint8_t>, 2> both(ImageView<const std::uint16_t> left,
                                                     ImageView<const std::uint16_t> right);
 

@@ -12,9 +12,10 @@
 namespace pharos::enhance {
 namespace {
 
-// The epsilon of (3): keeps black black. Small beside the darkest step of 16 bits after (7), 65535^-0.8 = 1.4e-4.
+// The epsilon of (3): black stays black. Small compared with the darkest step of 16 bits after (7), 65535^-0.8 =
+// 1.4e-4.
 constexpr float kBlack = 1e-5F;
-// How far the illumination may be off the exact one, of its range (RMS).
+// Tolerance of the illumination, as a fraction of its range (RMS).
 constexpr double kTolerance = 5e-3;
 constexpr int kMaxIterations = 60;
 
@@ -35,8 +36,8 @@ void divide(const FloatImage& frame, const FloatImage& illumination, FloatImage&
   }
 }
 
-// Dark frames have an illumination that hardly follows the target's rim: all of the target may lie above white. Of
-// every fourth pixel that is lit.
+// In dark frames the illumination hardly follows the target's rim: the whole target may be above white. Computed from
+// every fourth lit pixel.
 float peak_of(const FloatImage& reflectance, std::vector<float>& lit) {
   lit.clear();
   for (std::size_t k = 0; k < reflectance.values.size(); k += 4) {

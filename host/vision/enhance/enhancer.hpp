@@ -15,7 +15,7 @@ namespace pharos::enhance {
 /// (III).
 enum class WeightStrategy { kUniform, kGradient, kWindow };
 
-/// What makes R_d of R: nothing (R_d = R), thresholds on single blocks (1 to 2 dB short of BM3D), or BM3D.
+/// The denoiser from R to R_d: none (R_d = R), thresholds on single blocks (1 to 2 dB worse than BM3D), or BM3D.
 enum class Denoiser { kNone, kFast, kBm3d };
 
 struct EnhanceSettings {
@@ -27,9 +27,10 @@ struct EnhanceSettings {
   Bm3dSettings bm3d;  ///< kVideoBm3d for frames in a stream
   /// Standard deviation of the noise in the reflectance's luma, 1 = white; empty: estimated from each frame.
   std::optional<double> noise_sigma;
-  /// Divide R by its peak() before it is denoised and recomposed; else what is above white is cut off, as in print.
+  /// Divide R by its peak() before it is denoised and recomposed; else values above white are clipped, as printed in
+  /// the paper.
   bool fit_to_white = true;
-  int threads = 2;  ///< the answer is the same, bit by bit, with any number
+  int threads = 2;  ///< the result is identical, bit by bit, for any number
 };
 
 /// Every step of one frame. L is the illumination after (7), the one that (3) and (8) use.
@@ -38,7 +39,7 @@ struct Enhanced {
   FloatImage refined;        ///< solution of (5); one plane
   FloatImage illumination;   ///< L = refined^gamma (7); one plane
   FloatImage reflectance;    ///< R = S / (L + eps) (3), unbounded; planes as the frame's
-  float peak = 1.0F;         ///< where settings fit_to_white: what 99.5 % of R's lit pixels stay below, 1 at least
+  float peak = 1.0F;         ///< with fit_to_white: the 99.5th percentile of R's lit pixels, 1 at least
   FloatImage denoised;       ///< R_d: R / peak within 0 ... 1, its luma denoised
   FloatImage result;         ///< (R / peak) L + R_d (1 - L) (8), R / peak within 0 ... 1
   double noise_sigma = 0.0;  ///< used for R_d; 0 without a denoiser
@@ -46,10 +47,9 @@ struct Enhanced {
 };
 
 /// Low-light enhancement of single frames or of a video, after paper 004, section 1 (LIME, with BM3D).
-///
-/// Keeps its buffers, and the illumination of the frame before as the start for the next: one Enhancer a camera. Frames
-/// may change size; the next one then starts cold. What denoising costs: BlockDenoiser. Not for two threads at once;
-/// two Enhancers are.
+/// Keeps its buffers, and the illumination of a frame as the start value for the next: one Enhancer a camera. Frames
+/// may change size; the next one is then computed without a start value. Cost of denoising: see BlockDenoiser. Not
+/// thread-safe; different Enhancers may be used in parallel.
 class Enhancer {
  public:
   explicit Enhancer(const EnhanceSettings& settings = {});
@@ -57,16 +57,16 @@ class Enhancer {
   Enhancer& operator=(Enhancer&&) noexcept;
   ~Enhancer();
 
-  /// All steps of a grey frame; holds until the next call. Empty for an empty view.
+  /// All steps of a grey frame; valid until the next call. Empty for an empty view.
   const Enhanced& enhance(ImageView<const std::uint8_t> frame);
   const Enhanced& enhance(ImageView<const std::uint16_t> frame);
   /// The same of one or three planes, 0 ... 1.
   const Enhanced& enhance(const FloatImage& frame);
 
-  /// The first half alone, for what needs no more: start, refined, illumination and iterations.
+  /// The first half only: start, refined, illumination and iterations.
   const Enhanced& illuminate(const FloatImage& frame);
 
-  /// The next frame starts cold: after a cut, or where frames must not depend on those before.
+  /// The next frame is computed without a start value: after a cut, or where frames must not depend on those before.
   void forget();
 
   const EnhanceSettings& settings() const { return settings_; }

@@ -9,14 +9,14 @@
 
 namespace pharos::enhance {
 
-/// Light as floats, 1 = white. One plane (grey) or three (red, green, blue), one after the other, rows without gaps.
+/// An image of floats, 1 = white. One plane (grey) or three (red, green, blue), one after the other, rows without gaps.
 struct FloatImage {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
   int channels = 1;
   std::vector<float> values;
 
-  /// Memory for such an image; what it holds is left from before.
+  /// Sets the size; the pixels are not initialised.
   void shape(std::int32_t width, std::int32_t height, int planes) {
     width_px = width;
     height_px = height;
@@ -34,7 +34,7 @@ struct FloatImage {
 void to_floats(ImageView<const std::uint8_t> in, FloatImage& out);
 void to_floats(ImageView<const std::uint16_t> in, FloatImage& out);
 
-/// Rounded and cut to 0 ... 255 or 65535; both of one size.
+/// Rounded and clipped to 0 ... 255 or 65535; both of one size.
 void to_integers(ImageView<const float> in, ImageView<std::uint8_t> out);
 void to_integers(ImageView<const float> in, ImageView<std::uint16_t> out);
 

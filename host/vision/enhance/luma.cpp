@@ -34,7 +34,7 @@ double LumaDenoiser::denoise(const FloatImage& image, float white, const Enhance
   } else {
     blocks_.thresholds(luma, sigma, settings.threads, quiet_);
   }
-  // With Cb and Cr as they are, all channels move by what Y moves.
+  // With unchanged Cb and Cr, all channels change by the same amount as Y.
   for (int c = 0; c < denoised.channels; ++c) {
     float* to = denoised.plane(c);
     for (std::size_t k = 0; k < denoised.pixels(); ++k) {

@@ -9,10 +9,10 @@ namespace pharos::enhance {
 /// Y of YCbCr (ITU-R BT.601, full range); of a grey image its only plane.
 void luma_of(const FloatImage& image, FloatImage& luma);
 
-/// An image divided by `white` and cut to 0 ... 1, and its luma denoised; Cb and Cr stay. Keeps its memory.
+/// Divides an image by `white`, clips it to 0 ... 1 and denoises its luma; Cb and Cr are unchanged. Reuses its buffers.
 class LumaDenoiser {
  public:
-  /// Returns the standard deviation of the noise that it worked with, given or estimated; 0 without a denoiser.
+  /// Returns the standard deviation of the noise that was used, given or estimated; 0 without a denoiser.
   double denoise(const FloatImage& image, float white, const EnhanceSettings& settings, FloatImage& denoised);
 
  private:

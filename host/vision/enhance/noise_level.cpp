@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kBlockSide = static_cast<std::int32_t>(kBlock_px);
 constexpr std::size_t kMinBlocks = 16;
-constexpr float kTrace = 1e-5F;  // high frequencies that rounding of floats leaves
+constexpr float kTrace = 1e-5F;  // high frequencies from rounding of floats
 
 struct Block {
   float low = 0.0F;   // energy of the low frequencies, without the mean

@@ -44,8 +44,8 @@ inline float shrink_hard(Stack& stack, std::size_t blocks, float sigma) {
   return 1.0F / static_cast<float>(std::max(1, kept));
 }
 
-/// Second step: each coefficient by the share that is signal in the first result, `pilot`, which is used up. Returns
-/// the weight of the stack, one over the sum of the squared shares.
+/// Second step: multiplies each coefficient by the signal's fraction in the first result, `pilot`, which is
+/// overwritten. Returns the weight of the stack, one over the sum of the squared fractions.
 inline float shrink_wiener(Stack& stack, Stack& pilot, std::size_t blocks, float sigma) {
   hadamard(stack.data(), blocks);
   hadamard(pilot.data(), blocks);

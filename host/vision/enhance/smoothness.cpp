@@ -26,7 +26,7 @@ std::vector<float> half_gaussian(double sigma_px) {
   return taps;
 }
 
-// Fraction of the taps that fall on 0 ... size-1, for each place.
+// Sum of the taps within 0 ... size-1, for each position.
 std::vector<float> fractions(const std::vector<float>& taps, Index size) {
   std::vector<float> found(static_cast<std::size_t>(size));
   const auto radius = static_cast<Index>(taps.size()) - 1;

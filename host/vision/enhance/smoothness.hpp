@@ -7,7 +7,7 @@
 
 namespace pharos::enhance {
 
-/// The epsilon of (5) and (6), light: below it a difference of two neighbours is none.
+/// The epsilon of (5) and (6), 1 = white: a smaller difference of two neighbours counts as none.
 inline constexpr float kFlat = 1e-3F;
 
 /// (5) as a system of linear equations: for each pixel p, L(p) + sum over its four neighbours q of

@@ -15,7 +15,7 @@ using transform::Four;
 using transform::load;
 using transform::store;
 
-// Below it lines of both directions solve a grid by themselves.
+// Smallest grid: there line sweeps in both directions suffice.
 constexpr Index kCoarsest_px = 4;
 // Two links lead from one group of 2 x 2 to the next, over twice the distance: 2 / 2 / 2.
 constexpr float kCoarseLink = 0.5F;
@@ -32,7 +32,7 @@ void resize(SmoothnessGrid& grid, Index width, Index height) {
 }
 
 // Pivots m = s + link of the tridiagonal systems, s = (links aside + mass) + link_before s_before / m_before: a sum of
-// positive terms, so that a mass of 1 beside links of 1e5 is not lost.
+// positive terms, so that a mass of 1 is not lost by rounding against links of 1e5.
 PHAROS_WIDE_VECTORS void factor(SmoothnessGrid& grid) {
   const Index width = grid.width, height = grid.height;
   std::vector<float> before(static_cast<std::size_t>(width), 0.0F);
@@ -87,7 +87,7 @@ void coarsen(const SmoothnessGrid& fine, SmoothnessGrid& coarse) {
   }
 }
 
-// store(u, (A x)(u, v)) along row v, from the rows of x around it; at the border the row itself stands for the missing
+// store(u, (A x)(u, v)) along row v, from the rows of x around it; at the border the row itself replaces the missing
 // one.
 template <class Store>
 void apply_row(const SmoothnessGrid& grid, Index v, const float* above, const float* here, const float* below,
@@ -136,7 +136,7 @@ PHAROS_WIDE_VECTORS void eliminate_row(const SmoothnessGrid& grid, Index v, floa
   for (Index u = 0; u < width; ++u) here[u] = (here[u] + link[u] * before[u]) * inverse[u];
 }
 
-// And back up; put(x, solution) along each row.
+// Back substitution, upwards; put(x, solution) along each row.
 template <class Put>
 void substitute_columns(SmoothnessGrid& grid, Put&& put) {
   const Index width = grid.width, height = grid.height;
@@ -153,7 +153,7 @@ void substitute_columns(SmoothnessGrid& grid, Put&& put) {
   }
 }
 
-// The tridiagonal system of row v: forth, and back into x.
+// The tridiagonal system of row v: forward elimination, and back substitution into x.
 void solve_row(SmoothnessGrid& grid, Index v) {
   const Index width = grid.width;
   float* y = grid.residual.data() + v * width;
@@ -237,7 +237,7 @@ class FourRows {
   Four last_{};
 };
 
-// Eight rows from v on together, since each waits for its last value.
+// Eight rows from v on together, because each step depends on the value before.
 constexpr Index kTogether = 8;
 
 void solve_rows(SmoothnessGrid& grid, Index v) {
@@ -295,7 +295,7 @@ PHAROS_WIDE_VECTORS void sweep_columns(SmoothnessGrid& grid) {
   substitute_columns(grid, [](float& x, float solution) { x += solution; });
 }
 
-// All rows are solved from the same x: the row over a group, which is done by then, is kept as it was.
+// All rows are solved from the same x: the row above a group, which is already updated, is saved before.
 PHAROS_WIDE_VECTORS void sweep_rows(SmoothnessGrid& grid) {
   const Index width = grid.width;
   for (Index v = 0; v < grid.height;) {

@@ -14,7 +14,7 @@ struct SmoothnessGrid {
   std::vector<float> mass, right, down;
   std::vector<float> along_column, along_row;  ///< inverse pivots of the tridiagonal systems of each column and row
   std::vector<float> x, b;
-  std::vector<float> residual;  ///< where sweeps work
+  std::vector<float> residual;  ///< buffer of the sweeps
   std::vector<float> row;       ///< one more row of it
 };
 
@@ -26,7 +26,7 @@ void first_columns(SmoothnessGrid& grid);
 /// x += M^-1 (b - A x), by columns and by rows.
 void sweep_columns(SmoothnessGrid& grid);
 void sweep_rows(SmoothnessGrid& grid);
-/// coarse.b = what is left of fine's b - A x, four pixels to one.
+/// coarse.b = restriction of fine's residual b - A x, four pixels to one.
 void restrict_to(SmoothnessGrid& fine, SmoothnessGrid& coarse);
 /// fine.x += coarse.x.
 void prolong(const SmoothnessGrid& coarse, SmoothnessGrid& fine);

@@ -11,17 +11,19 @@ namespace pharos::enhance {
 namespace {
 
 constexpr int kCoarsestRounds = 4;
-// Coarse corrections in a cycle. With one the iterations grow by a half to twice on textured frames.
+// Coarse corrections in a cycle. With only one, textured frames need 1.5 to 2 times the iterations.
 constexpr int kCorrections = 2;
-// Steps shrink by a ratio q, so that after one of length s some s q / (1 - q) is left. q is that of the last two steps,
-// within these limits: single steps are shorter than their like.
+// Steps decrease by a ratio q, so that after one of length s the remaining error is about s q / (1 - q). q is that of
+// the last two steps, within these limits, because single steps may be shorter than typical ones.
 constexpr double kMinRatio = 0.4, kMaxRatio = 0.9;
-// Frames by all strategies, dark and bright, cold and warm, came out 0.02 to 0.22 % off where 0.5 % was asked.
+// Frames with all strategies, dark and bright, with and without start value, had errors of 0.02 to 0.22 % with a
+// tolerance of 0.5 %.
 constexpr double kSafety = 4.0;
 
 PHAROS_WIDE_VECTORS double dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0.0;
-  constexpr std::size_t kPiece = 1024;  // floats add up well over a thousand terms; doubles over the rest
+  constexpr std::size_t kPiece =
+      1024;  // sums of up to a thousand terms are accurate in float; further sums are in double
   for (std::size_t k = 0; k < a.size(); k += kPiece) {
     std::array<float, 8> part{};
     const std::size_t end = std::min(a.size(), k + kPiece);
@@ -83,7 +85,7 @@ PHAROS_WIDE_VECTORS int SmoothnessSolver::solve(const SmoothnessSystem& system, 
   for (int k = 0; k < max_iterations; ++k) {
     cycle(0);
     const double now = dot(r, z);
-    if (!(now > 0.0)) return k;  // solved to the last bit
+    if (!(now > 0.0)) return k;  // solved exactly
     const float beta = k == 0 ? 0.0F : static_cast<float>(now / before);
     before = now;
     for (std::size_t i = 0; i < z.size(); ++i) direction_[i] = k == 0 ? z[i] : z[i] + beta * direction_[i];
