@@ -7,7 +7,7 @@ class App;
 
 namespace pharos::tools {
 
-// Every kind of calibration adds itself below `calibrate`, as subcommands do below the program.
+// Every kind of calibration registers itself as a subcommand of `calibrate`.
 void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code);
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
 void add_calibrate_stereo(CLI::App& calibrate, int& exit_code);

@@ -7,14 +7,14 @@
 
 namespace pharos::tools {
 
-/// Table 1 of paper 000: what rendered images of one board gave, beside the lens that they were rendered through.
+/// Table 1 of paper 000: calibration from rendered images of one board, beside the true lens of the renderer.
 struct BoardFigure {
   struct Parameter {
     std::string name;
     double truth = 0.0, value = 0.0, sigma = 0.0;
     double error_sigmas() const { return (value - truth) / sigma; }
   };
-  std::string refusal;  // empty: there are figures
+  std::string refusal;  // empty: there is a result
   int images = 0;       // used
   double rms_px = 0.0;
   double opencv_rms_px = 0.0;
@@ -23,9 +23,9 @@ struct BoardFigure {
 };
 
 /// Renders `images` poses of the paper's board (12 x 8, 20 mm; dots of 5 mm) through the paper's lens and calibrates.
-/// The noise is one camera's, 280 counts of 65535; retro-reflective dots return 28000 counts of contrast, a printed
-/// chessboard a tenth of that. About half a second an image. Throws host::InputError where OpenCV's module is not
-/// there.
+/// The noise is that of one camera, 280 counts of 65535; retro-reflective dots return 28000 counts of contrast, a
+/// printed chessboard a tenth of that. About half a second an image. Throws host::InputError where OpenCV's module is
+/// not there.
 BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed);
 
 }  // namespace pharos::tools

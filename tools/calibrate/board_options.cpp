@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMinPoints = 3;  // a column or row
 constexpr int kMaxPoints = 100;
-// Two dots' edges, apart by at least this part of their radius.
+// Minimum gap between two dots' edges, over their radius.
 constexpr double kMinGap = 0.4;
 // Paper 000's board.
 constexpr int kPaperColumns = 12;

@@ -11,7 +11,7 @@ class App;
 
 namespace pharos::tools {
 
-/// What `calibrate camera` and `calibrate stereo` share.
+/// Options of both `calibrate camera` and `calibrate stereo`.
 struct BoardOptions {
   std::string board = "dots";
   int columns = 0;  // 0: not given

@@ -17,7 +17,8 @@ using calibrate::ImageOutcome;
 using calibrate::ImageStatus;
 
 constexpr double kWorse = 3.0;  // than the median image
-// Dots whose area is off by more are not as large as told; a threshold's choice does not reach that far.
+// With a larger deviation of the dots' area the given radius is wrong; the choice of the threshold has a smaller
+// effect.
 constexpr double kRadiusTolerance = 0.1;
 
 std::vector<double> values_of(const BundleOutcome& outcome) {
@@ -75,7 +76,7 @@ void note_images(const std::vector<ImageOutcome>& images) {
   text.pop_back();
   note(text);
   for (const ImageOutcome& image : images) {
-    // What could not be read was told when it was met.
+    // Images that could not be read were already reported.
     if (image.search.status == ImageStatus::kUsed || image.search.status == ImageStatus::kUnreadable) continue;
     note(image.name + ": " + name_of(image.search.status) + ": " + image.search.detail);
   }

@@ -16,17 +16,17 @@ void write_board_parameters(const calibrate::BundleOutcome& outcome, const Outpu
 /// `image,status,points,rms_px,detail`: every image that was given.
 void write_image_statuses(const std::vector<calibrate::ImageOutcome>& images, const OutputOptions& options);
 
-/// On standard error: how many images were used, and why each other was not.
+/// On standard error: how many images were used, and why the others were not.
 void note_images(const std::vector<calibrate::ImageOutcome>& images);
 
-/// On standard error: how the points fit, and images that fit much worse than the rest.
+/// On standard error: residuals of the points, and images with much larger residuals than the others.
 void note_fit(const calibrate::BundleOutcome& outcome, const std::vector<calibrate::ImageOutcome>& images,
               const calibrate::Board& board);
 
 /// On standard error: where in the image points were.
 void note_coverage(const calibrate::Coverage& coverage, const std::string& whose);
 
-/// What goes into the file beside the values.
+/// The record that is written to the file beside the values.
 host::CalibrationRecord record_of(const calibrate::BundleOutcome& outcome, std::size_t points,
                                   const std::vector<std::string>& unobservable);
 

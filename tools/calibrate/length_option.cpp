@@ -11,7 +11,7 @@
 namespace pharos::tools {
 namespace {
 
-// As a target's table: no sensor stands farther from another.
+// Limit as in a target's table: no sensor is farther from another.
 constexpr double kLongest_m = 12.0;
 
 std::vector<std::string_view> split(std::string_view text) {

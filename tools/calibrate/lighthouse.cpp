@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos calibrate lighthouse: recordings of a target at rest in many poses to sensor positions and rotor parameters.
+// pharos calibrate lighthouse: recordings of a target stationary in many poses to sensor positions and rotor
+// parameters.
 #include <CLI/CLI.hpp>
 #include <set>
 
@@ -65,7 +66,7 @@ void check_files(const Options& options) {
     throw host::InputError("only one input can be standard input (-); give files for the others");
 }
 
-// A station that starts anew with other values in mid-recording makes two recordings of one.
+// Where a station restarts with other values during a recording, the recording is split in two.
 void take(const lighthouse::OotxPayload& payload, Stations& stations, calibrate::RecordingLog& log) {
   if (!stations.push(payload)) return;
   const lighthouse::StationCalibration& now = *stations.calibration(payload.station);

@@ -15,7 +15,7 @@ using calibrate::LighthouseCalibration;
 using calibrate::Parameter;
 using calibrate::SensorFit;
 
-// A parameter that keeps nine tenths of its prior sigma was not told.
+// A parameter whose sigma is still nine tenths of its prior one was not observable.
 constexpr double kUnobservable = 0.9;
 
 double rms(const std::vector<SensorFit>& fits, double SensorFit::*member) {

@@ -6,14 +6,14 @@
 
 namespace pharos::tools {
 
-/// `parameter,prior,value,prior_sigma,sigma,told`: every parameter; told is the share of its variance that the
-/// recordings took away, 0 to 1.
+/// `parameter,prior,value,prior_sigma,sigma,told`: every parameter; `told` is the fraction of its prior variance that
+/// the recordings removed, 0 to 1.
 void write_parameters(const calibrate::LighthouseCalibration& calibration, const OutputOptions& options);
 
 /// `station_id,axis,sensor,stills,before_arcsec,after_arcsec`: rms of each sensor on each rotor.
 void write_residuals(const calibrate::LighthouseCalibration& calibration, const OutputOptions& options);
 
-/// What a person should know, on standard error: how much was used, how it fits, what could not be told.
+/// Summary for the user on standard error: data used, residuals, unobservable parameters.
 void note_outcome(const calibrate::LighthouseCalibration& calibration);
 
 }  // namespace pharos::tools

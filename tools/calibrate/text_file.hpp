@@ -5,8 +5,8 @@
 
 namespace pharos::tools {
 
-/// Writes a file beside its place and puts it there when it is whole; `-` is standard output. Throws InputError when it
-/// cannot be written.
+/// Writes a file under a temporary name and renames it when it is complete; `-` is standard output. Throws InputError
+/// when it cannot be written.
 void write_text_file(const std::string& path, const std::string& text);
 
 }  // namespace pharos::tools

@@ -7,16 +7,16 @@
 
 namespace pharos::tools {
 
-/// What the first words of a command line mean.
+/// The command named by the first words of a command line.
 struct NamedCommand {
   const CLI::App* command = nullptr;  // the innermost command that they name
   std::string name;                   // "pharos", "pharos track", "pharos sim lighthouse"
-  std::string unknown;                // the word where a subcommand should stand but another thing does; else empty
+  std::string unknown;                // a word in place of a subcommand that is none; else empty
 };
 
 NamedCommand named_command(const CLI::App& app, std::span<const char* const> words);
 
-/// One line about a command line that cannot be understood: what, where, what to do (without the program's name).
+/// One line about an invalid command line: what, where, what to do (without the program's name).
 std::string usage_message(const NamedCommand& named, const CLI::ParseError& error);
 
 }  // namespace pharos::tools

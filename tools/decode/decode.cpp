@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos decode: light pulses to bearings, or to what the stations say of themselves.
+// pharos decode: light pulses to bearings, or to the stations' OOTX.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <bitset>

@@ -35,7 +35,7 @@ void draw_ellipses(std::span<const ellipse::DetectedEllipse> ellipses, host::Can
     canvas.cross({e.cx_px, e.cy_px}, colour);
     std::array<char, 32> label{};
     std::snprintf(label.data(), label.size(), "%zu %.2f", ++number, found.score);
-    // On the contour, each ellipse's label elsewhere: concentric ones would cover one another.
+    // On the contour, at different angles: labels of concentric ellipses would overlap.
     const ellipse::PointPx at = ellipse::point_at(e, 0.8 * static_cast<double>(number));
     canvas.text({at.u, at.v}, label.data(), colour, canvas.zoom() > 1 ? 2 : 1);
   }

@@ -9,7 +9,7 @@
 
 namespace pharos::tools {
 
-/// Edge points in grey, arcs each in a colour of its own: what detection worked with.
+/// Intermediate results of the detection: edge points in grey, each arc in its own colour.
 void draw_arcs(const ellipse::EllipseWorkspace& workspace, host::Canvas& canvas);
 
 /// Ellipses with centre, number (their row, from 1) and score; those bright inside in red, those dark inside in sky

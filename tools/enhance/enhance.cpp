@@ -34,7 +34,7 @@ constexpr const char* kExample =
     "steps are then folders. OUT: a PNG of the input's bits and colours; - is standard output. Steps: 16 bits.\n"
     "--report writes a row an image: its mean before and after, the noise found, and what became of it.";
 
-// The steps keep some thirty floats a pixel.
+// The steps need some thirty floats a pixel.
 constexpr std::size_t kMaxPixels = std::size_t{1} << 24;
 
 struct Options {
@@ -53,7 +53,7 @@ const std::vector<std::string> kColumns = {"image",   "width_px", "height_px",  
                                            "seconds", "status"};
 
 struct Outcome {
-  host::Picture picture;  // what was read; empty where nothing could be
+  host::Picture picture;  // empty where the image could not be read
   double mean_in = 0.0, mean_out = 0.0, noise_sigma = 0.0, peak = 1.0;
   int iterations = 0;
   double seconds = 0.0;
@@ -66,7 +66,7 @@ double mean_of(const enhance::FloatImage& image) {
   return sum / static_cast<double>(image.values.size());
 }
 
-// Throws InputError for what cannot be read.
+// Throws InputError for an image that cannot be read.
 host::Picture read_image(const std::string& from, const std::string& name) {
   host::Picture picture = host::read_picture(from);
   if (picture.pixels() > kMaxPixels) {
@@ -80,7 +80,7 @@ class Worker {
  public:
   explicit Worker(const Options& options) : options_(options), enhancer_(options.settings) {}
 
-  /// Throws InputError for what cannot be written; black and white images are refused in their row.
+  /// Throws InputError for a file that cannot be written; black and white images are refused in their row.
   Outcome work(host::Picture&& picture, const std::string& name, const std::string& to, const StepFiles& steps) {
     Outcome outcome;
     outcome.picture = std::move(picture);

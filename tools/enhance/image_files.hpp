@@ -12,10 +12,10 @@ struct ImageFile {
 };
 
 /// The images of a folder (by their names, see host::has_image_ending), sorted. Throws InputError for a folder that
-/// cannot be read, without images, or with two that would have one name as PNG.
+/// cannot be read, without images, or with two that would have the same name as PNG.
 std::vector<ImageFile> image_files(const std::string& folder);
 
-/// Throws InputError where there is none and none can be made.
+/// Throws InputError where the folder does not exist and cannot be created.
 void make_folder(const std::string& folder);
 
 }  // namespace pharos::tools

@@ -9,13 +9,13 @@
 
 namespace pharos::tools {
 
-/// Light of a picture, 0 ... 1.
+/// A picture as floats, 0 ... 1.
 enhance::FloatImage light_of(const host::Picture& picture);
 
-/// The picture of `light`, cut to 0 ... 1, with `bits` a value.
+/// The picture of `light`, clipped to 0 ... 1, with `bits` a value.
 host::Picture picture_of(const enhance::FloatImage& light, int bits);
 
-/// Which of the steps of an enhancement go to which file; empty: not written.
+/// File for each step of an enhancement; empty: not written.
 struct StepFiles {
   std::string start, refined, illumination, reflectance, denoised;
 
@@ -24,7 +24,7 @@ struct StepFiles {
   std::vector<std::string> names() const;
   /// 16 bits each, whatever the frame's. Throws InputError where one cannot be written.
   void write(const enhance::Enhanced& steps) const;
-  /// The same files inside folders named so, for frame `name`.
+  /// The same for a folder of images: the names are folders, each with a file for frame `name`.
   StepFiles inside(const std::string& name) const;
 };
 

@@ -8,8 +8,8 @@
 
 namespace pharos::evaluate {
 
-/// What takes truth to estimate: T_EstimateWorld_EstimateBody = world * T_TruthWorld_TruthBody * body, at ESTIMATE's
-/// time plus the offset on TRUTH's clock.
+/// Transformation from truth to estimate: T_EstimateWorld_EstimateBody = world * T_TruthWorld_TruthBody * body, at
+/// ESTIMATE's time plus the offset on TRUTH's clock.
 struct Alignment {
   Pose<EstimateWorld, TruthWorld> world;
   Pose<TruthBody, EstimateBody> body;
@@ -18,15 +18,15 @@ struct Alignment {
   EstimatePose predicted(const TruthPose& truth) const { return world * truth * body; }
 };
 
-/// Which parts of an Alignment are to be found; the others stay as they are.
+/// The parts of an Alignment to be estimated; the others do not change.
 struct FreeParts {
   bool world = false;
   bool body = false;
   bool time = false;
 };
 
-/// A direction in the space of what was to be found that the motion leaves open: no worse fit within 1 deg, 20 mm or
-/// 20 ms along it. The fitted poses are what they would be with any value there.
+/// A direction in the space of the estimated parameters that is unobservable with this motion: no worse fit within 1
+/// deg, 20 mm or 20 ms along it. The fitted poses do not depend on the value along it.
 struct UnobservableDirection {
   Vector3 world_rotation = Vector3::Zero();  // in ESTIMATE's world; unit length over all parts together,
   Vector3 world_offset = Vector3::Zero();    // one being 1 deg, 20 mm or 20 ms
@@ -34,11 +34,11 @@ struct UnobservableDirection {
   Vector3 body_offset = Vector3::Zero();
   double time = 0.0;
 
-  /// Attitudes are open too, not only offsets along an axis about which all turning was.
+  /// Attitudes are unobservable too, not only offsets along the axis of all rotations.
   bool turns() const;
-  /// The parts that it moves: "body_offset|world_offset".
+  /// The parts with a component along it: "body_offset|world_offset".
   std::string parts() const;
-  /// For people: "the offset of the bodies along (0.00, 0.00, 1.00) of TRUTH's body with …".
+  /// For messages: "the offset of the bodies along (0.00, 0.00, 1.00) of TRUTH's body with …".
   std::string words() const;
 };
 
@@ -48,11 +48,11 @@ struct Aligned {
   double cost = 0.0;  // robust, for comparing starts
 };
 
-/// Frame and body offsets in closed form: AX = XB over the relative motions of poses spread over the recording
-/// (rotation: Park and Martin 1994; offsets: linear), trimmed so that a tenth of wild poses does not matter. At least
+/// Frame and body offsets in closed form: AX = XB over the relative motions of poses distributed over the recording
+/// (rotation: Park and Martin 1994; offsets: linear), trimmed, so that a tenth of outliers has no effect. At least
 /// three pairs.
 Alignment hand_eye_start(const std::vector<Pair>& pairs);
-/// The same, taking the world's rotation from the paths as se3_of_positions() does: for motions that hardly turn.
+/// The same, taking the world's rotation from the paths as se3_of_positions() does: for motions with little rotation.
 Alignment path_start(const std::vector<Pair>& pairs);
 
 /// The world's pose that brings the positions together in the least-squares sense (Umeyama 1991, without scale).
@@ -63,8 +63,8 @@ struct PositionFit {
 PositionFit se3_of_positions(const std::vector<Pair>& pairs, const Alignment& present);
 
 /// Refines `start` over all free parts together: Gauss-Newton on rotation vectors and positions, each weighted by its
-/// own spread (median) and Cauchy's function. Directions that the motion leaves open are not moved and are reported;
-/// for that question a hundred poses at most count as independent, because errors of one recording are not.
+/// own spread (median) and Cauchy's function. Unobservable directions are not changed and are reported; for this test a
+/// hundred poses at most count as independent, because errors within one recording are correlated.
 Aligned align(const Trajectory<EstimatePose>& estimate, const Trajectory<TruthPose>& truth, const Alignment& start,
               FreeParts free, double max_gap_s);
 

@@ -60,7 +60,7 @@ Aligned aligned_as_asked(const EstimateTrajectory& estimate, const TruthTrajecto
   return refined;
 }
 
-/// Why an alignment cannot be believed; empty where it can.
+/// Why an alignment is not reliable; empty where it is.
 std::string too_little_motion(const Comparison& c, const ComparisonOptions& options) {
   if (options.mode == AlignMode::kSe3) {
     const double across = se3_of_positions(c.pairs.pairs, c.aligned.alignment).second_extent_m;
@@ -72,7 +72,7 @@ std::string too_little_motion(const Comparison& c, const ComparisonOptions& opti
   return {};
 }
 
-/// What can be said before anything is computed.
+/// Refusals that need no computation.
 std::optional<Comparison> unusable(const TrajectoryFile<EstimatePose>& estimate,
                                    const TrajectoryFile<TruthPose>& truth) {
   if (estimate.samples.empty()) {

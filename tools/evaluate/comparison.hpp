@@ -13,23 +13,23 @@ enum class AlignMode { kNone, kSe3, kHandEye };
 
 struct ComparisonOptions {
   AlignMode mode = AlignMode::kNone;
-  std::optional<double> time_offset_s = 0.0;  // to add to ESTIMATE's times; none: find it
+  std::optional<double> time_offset_s = 0.0;  // to add to ESTIMATE's times; none: estimate it
   std::optional<double> max_gap_s;            // none: 3.5 times TRUTH's median interval
   double relative_s = 1.0;                    // for the RPE
 };
 
 /// A comparison, or why there is none.
 struct Comparison {
-  std::string refused;  // empty where there is an answer; else a word for the column `status`
-  std::string why;      // for people
+  std::string refused;  // empty where there is a result; else a word for the column `status`
+  std::string why;      // message for the user
   Aligned aligned;
   Pairs pairs;
   AllFigures figures;
   double max_gap_s = 0.0;
-  double coverage_gap_s = 0.0;  // poses of ESTIMATE further apart leave the time between uncovered
+  double coverage_gap_s = 0.0;  // the time between poses of ESTIMATE further apart counts as uncovered
 };
 
-/// Finds time offset and frames as asked, and the figures of what is left.
+/// Estimates time offset and frames as selected, and the figures of the remaining errors.
 Comparison compare(const TrajectoryFile<EstimatePose>& estimate, const TrajectoryFile<TruthPose>& truth,
                    const ComparisonOptions& options);
 

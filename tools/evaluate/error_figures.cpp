@@ -89,7 +89,7 @@ double ate_of(const std::vector<Pair>& pairs, const Alignment& alignment) {
 
 double coverage_of(const std::vector<Pair>& pairs, CommonSpan span, double max_gap_s) {
   const double length_s = span.end_s - span.begin_s;
-  if (!(length_s > 0.0)) return 1.0;  // one instant, and it was compared
+  if (!(length_s > 0.0)) return 1.0;  // a single instant, which was compared
   double covered_s = 0.0;
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     const double step_s = pairs[i].estimate.time_s - pairs[i - 1].estimate.time_s;
@@ -115,7 +115,7 @@ Distribution distribution_of(std::vector<double> norms) {
   std::sort(norms.begin(), norms.end());
   double sum = 0.0;
   for (const double norm : norms) sum += squared(norm);
-  // The smallest value that is not exceeded by the share.
+  // The smallest value that the fraction does not exceed.
   const auto quantile = [&norms](double fraction) {
     const double rank = std::ceil(fraction * static_cast<double>(norms.size()));
     return norms[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];

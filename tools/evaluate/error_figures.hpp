@@ -31,17 +31,17 @@ struct Distribution {
 };
 Distribution distribution_of(std::vector<double> norms);
 
-/// Stated sigma (square root of a trace) against real errors.
+/// Stated sigma (square root of a trace) compared with real errors.
 struct Consistency {
-  std::array<double, 3> within{};  // share of errors up to 1, 2 and 3 sigma
+  std::array<double, 3> within{};  // fraction of errors up to 1, 2 and 3 sigma
   double normalised_square =
-      0.0;  // mean of (error / sigma)^2: 1 where sigmas are honest, more where they are too small
+      0.0;  // mean of (error / sigma)^2: 1 where sigmas are consistent, more where they are too small
 };
 
-/// One side, rotation (rad) or position (m).
+/// Figures of rotation (rad) or position (m).
 struct Figures {
   Distribution error;                      // (25)
-  double spread = 0.0;                     // (23): rms of errors about their mean, which a constant offset leaves alone
+  double spread = 0.0;                     // (23): rms of errors about their mean, independent of a constant offset
   std::optional<Consistency> consistency;  // where every compared pose states a sigma
   std::optional<double> relative;          // RPE: rms error of the motion over a time
 };
@@ -49,22 +49,21 @@ struct Figures {
 struct AllFigures {
   Figures rotation;  // rad
   Figures position;  // m
-  /// RMS position error after a least-squares fit of the paths (rotation and offset), m: what trajectory tools call
-  /// ATE.
+  /// RMS position error after a least-squares fit of the paths (rotation and offset), m: the ATE of trajectory tools.
   double ate_m = 0.0;
   std::size_t relative_pairs = 0;
   /// Fraction of the time common to both recordings in which compared poses are no further apart than the gap allowed.
   double coverage = 0.0;
 };
 
-/// Span of time that ESTIMATE (all rows, on its own clock) and TRUTH share; empty where end < begin.
+/// Time span common to ESTIMATE (all rows, on its own clock) and TRUTH; empty where end < begin.
 struct CommonSpan {
   double begin_s = 0.0;
   double end_s = 0.0;
 };
 
-/// Figures of at least one pair. `relative_s`: time over which motion errors are taken; `max_gap_s`: between poses that
-/// cover the time between them.
+/// Figures of at least one pair. `relative_s`: time over which motion errors are taken; `max_gap_s`: largest distance
+/// of poses for which the time between them counts as covered.
 AllFigures figures_of(const std::vector<Pair>& pairs, const Alignment& alignment, CommonSpan span, double relative_s,
                       double max_gap_s);
 

@@ -9,7 +9,7 @@
 namespace pharos::evaluate {
 
 /// Draws both errors over time (one panel each) with their RMS and, where stated, three sigma. At most 2000 points a
-/// curve: the greatest of each stretch, so that no peak is lost; curves break at gaps. Throws host::InputError when the
+/// curve: the maximum of each interval, so that no peak is lost; curves break at gaps. Throws host::InputError when the
 /// file cannot be written.
 void plot_errors(const std::string& path, const std::vector<PoseError>& errors, const AllFigures& figures,
                  double max_gap_s);

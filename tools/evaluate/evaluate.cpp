@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos evaluate: poses against an outside truth (002, section 4.3).
+// pharos evaluate: poses compared with an external truth (002, section 4.3).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@ constexpr std::size_t kKeyPoses = 80;  // 3160 relative motions
 constexpr int kTrimRounds = 6;
 constexpr double kTrim = 3.0;  // times the median residual
 constexpr double kMinTurn_rad = 0.02;
-constexpr double kMaxTurn_rad = 3.0;  // nearer to a half turn the rotation vector may take either sign
-constexpr double kMinSwing = 0.03;    // a lever turned by less tells nothing of its length
+constexpr double kMaxTurn_rad = 3.0;  // near a half turn the sign of the rotation vector is ambiguous
+constexpr double kMinSwing = 0.03;    // with a smaller rotation the length of a lever arm is unobservable
 
 std::vector<Pair> spread(const std::vector<Pair>& pairs) {
   std::vector<Pair> chosen;
@@ -23,7 +23,7 @@ std::vector<Pair> spread(const std::vector<Pair>& pairs) {
   return chosen;
 }
 
-/// Weights 1 or 0: kept are those within kTrim of the median residual.
+/// Weights 1 or 0: 1 for residuals within kTrim times the median.
 std::vector<double> trimmed(const std::vector<double>& residuals) {
   std::vector<double> sorted = residuals;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -87,7 +87,7 @@ Matrix3 body_rotation(const std::vector<Pair>& key) {
   return rotation_between(of_truth, of_estimate);
 }
 
-/// Offsets for known rotations: Rx Rt ty + tx = te - Rx tt. Directions of ty that were not swung stay 0.
+/// Offsets for known rotations: Rx Rt ty + tx = te - Rx tt. Unobservable directions of ty remain 0.
 void fill_offsets(const std::vector<Pair>& key, Alignment& alignment) {
   std::vector<double> weights(key.size(), 1.0);
   for (int round = 0; round < kTrimRounds; ++round) {

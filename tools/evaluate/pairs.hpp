@@ -14,14 +14,14 @@ struct Pair {
   Moving<TruthPose> truth;
 };
 
-/// What became of ESTIMATE's poses: compared, or why not.
+/// Outcome of ESTIMATE's poses: compared, or why not.
 struct Pairs {
   std::vector<Pair> pairs;
   std::size_t outside = 0;  // before TRUTH's first pose or after its last
   std::size_t in_gap = 0;   // where TRUTH has a gap
 };
 
-/// Takes TRUTH to the instants of ESTIMATE, whose clock reads `time_offset_s` less than TRUTH's.
+/// Interpolates TRUTH at the times of ESTIMATE, whose clock is `time_offset_s` behind TRUTH's.
 Pairs pair_up(const Trajectory<EstimatePose>& estimate, const Trajectory<TruthPose>& truth, double time_offset_s,
               double max_gap_s);
 

@@ -17,7 +17,7 @@ constexpr double kMinStamp_ns = 1e15;  // 16 digits: 1970-01-12
 constexpr std::size_t kTumFields = 8;
 constexpr const char* kBlank = " \t\r";
 
-/// The number that is all of `text`.
+/// `text` as a number; it must be the whole text.
 double number_of(std::string_view text, const std::string& where) {
   double value = 0.0;
   const char* const end = text.data() + text.size();

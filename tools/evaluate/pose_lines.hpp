@@ -22,10 +22,11 @@ struct RawRow {
 };
 
 /// The pose of a TUM line, `timestamp tx ty tz qx qy qz qw` with blanks between; none for a comment (#). Throws
-/// host::InputError, which begins with `where`, for fewer or more numbers and for what is none.
+/// host::InputError, which begins with `where`, for fewer or more numbers and for an invalid number.
 std::optional<RawRow> tum_row(std::string_view line, const std::string& where);
 
-/// The same of EuRoC's ground truth: ns since 1970, x, y, z, qw, qx, qy, qz and what is passed over, commas between.
+/// The same for EuRoC's ground truth: ns since 1970, x, y, z, qw, qx, qy, qz and further columns, which are ignored,
+/// separated by commas.
 std::optional<RawRow> euroc_row(std::string_view line, const std::string& where);
 
 /// Whether the first line of `head` that is neither blank nor a comment has commas.

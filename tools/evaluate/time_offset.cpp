@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinStep_s = 0.005;
 constexpr double kMaxSamples = 8192.0;    // 0.1 s of work
 constexpr double kSpeedBaseline_s = 0.2;  // noise of 0.1 deg is then 0.7 deg/s
-constexpr double kGapIntervals = 10.0;    // a lost cycle or two leaves the speed over the baseline as it is
+constexpr double kGapIntervals = 10.0;    // a lost cycle or two hardly changes the speed over the baseline
 constexpr double kClipQuantile = 0.98;    // wrong minima are spikes
 constexpr double kMinCorrelation = 0.6;
 constexpr double kSecondPeakFraction = 0.95;
@@ -62,7 +62,7 @@ Profiles profiles_of(const Trajectory<WorldFromBody>& trajectory, double step_s)
   return profiles;
 }
 
-/// Normalised correlation of a[i] with b[i + lag] over what both know; -1 where that is too little.
+/// Normalised correlation of a[i] with b[i + lag] where both exist; -1 where there are too few.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t lag,
                    std::size_t minimum) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
@@ -82,7 +82,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, s
 
 struct Peak {
   double correlation = -1.0;
-  double second_peak = -1.0;  // greatest correlation away from the peak's own hill
+  double second_peak = -1.0;  // largest correlation outside of the main peak
   std::ptrdiff_t lag = 0;
 };
 
@@ -99,7 +99,7 @@ Peak best_lag(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::ptrdiff_t lag = first; lag <= std::ssize(b); ++lag) all.push_back(correlation(a, b, lag, minimum));
   const auto top = std::max_element(all.begin(), all.end());
   Peak peak{*top, -1.0, first + (top - all.begin())};
-  // Down the hill on both sides, then whatever comes.
+  // Down to the minima on both sides of the peak; the second peak is beyond them.
   auto right = top;
   while (right != all.end() && *right > 0.5 * *top) ++right;
   auto left = top;

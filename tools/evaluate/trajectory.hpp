@@ -8,7 +8,7 @@
 
 namespace pharos::evaluate {
 
-// The four frames of a comparison: each side has a world and a body of its own.
+// The four frames of a comparison: each side has its own world and body.
 struct EstimateWorld {};
 struct EstimateBody {};
 struct TruthWorld {};
@@ -17,7 +17,7 @@ struct TruthBody {};
 using EstimatePose = Pose<EstimateWorld, EstimateBody>;
 using TruthPose = Pose<TruthWorld, TruthBody>;
 
-/// A pose at a time, with the standard deviations that its maker states (square roots of traces), where he does.
+/// A pose at a time, with its stated standard deviations (square roots of traces), where given.
 template <class WorldFromBody>
 struct Sample {
   double time_s = 0.0;
@@ -30,7 +30,7 @@ struct Sample {
 template <class WorldFromBody>
 using Trajectory = std::vector<Sample<WorldFromBody>>;
 
-/// A pose between two samples and how it changes there: angular velocity and velocity in the world.
+/// A pose between two samples, with angular velocity and velocity in the world frame.
 template <class WorldFromBody>
 struct Moving {
   WorldFromBody pose;
@@ -39,12 +39,12 @@ struct Moving {
 };
 
 /// The pose at `time_s`: linear in position, slerp in attitude. None outside the trajectory or where the neighbours are
-/// more than `max_gap_s` apart (a sample's own time is answered whatever is around it).
+/// more than `max_gap_s` apart (at the time of a sample itself there is always a pose).
 template <class WorldFromBody>
 std::optional<Moving<WorldFromBody>> pose_at(const Trajectory<WorldFromBody>& trajectory, double time_s,
                                              double max_gap_s);
 
-/// Half of the steps between samples are shorter. 0 for fewer than two samples.
+/// Median step between samples, s. 0 for fewer than two samples.
 template <class WorldFromBody>
 double median_interval_s(const Trajectory<WorldFromBody>& trajectory);
 

@@ -78,7 +78,7 @@ class Collector {
   TrajectoryFile<WorldFromBody> file_;
 };
 
-/// Which columns of a table say when.
+/// The time columns of a table.
 struct TimeColumn {
   const char* name;
   double unit_s;
@@ -105,7 +105,7 @@ class Table {
         sigma_rot_(table_.find_optional("sigma_rot_deg")),
         sigma_pos_(table_.find_optional("sigma_pos_mm")) {}
 
-  /// The next row that is wanted.
+  /// The next selected row.
   std::optional<RawRow> next(const TrajectoryChoice& choice) {
     while (table_.next()) {
       if (is_wanted(choice)) return row();

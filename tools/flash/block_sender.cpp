@@ -33,7 +33,7 @@ void BlockSender::refused(const NumberedReply& answer) {
   switch (*answer.reply.refusal) {
     case wire::NakReason::kOutOfOrder: {
       if (value == wire::kNothingBegun) throw TransferLost("the target was reset");
-      // One lost block makes the answers to all behind it refusals: go back for the first.
+      // After a lost block all later blocks are refused: go back to the lost one.
       const bool current =
           first_since_back_ && static_cast<std::int16_t>(answer.for_sequence - *first_since_back_) >= 0;
       if (current && value <= image_.size()) go_back(value);

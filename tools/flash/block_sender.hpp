@@ -10,31 +10,31 @@
 
 namespace pharos::tools {
 
-/// The target fell out of the transfer: it was reset, or what it holds is not what was sent. Begin anew.
+/// The target left the transfer: it was reset, or its data differ from those sent. The transfer must begin again.
 class TransferLost : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Sends an image in blocks, kLoaderWindow of them ahead of the answers; goes back to the offset that the loader asks
-/// for when one got lost.
+/// Sends an image in blocks, up to kLoaderWindow of them unacknowledged (go-back-N); after a lost block it continues at
+/// the offset that the loader requests.
 class BlockSender {
  public:
-  /// `line_time_ns`: what a full window takes on the line.
+  /// `line_time_ns`: transmission time of a full window.
   BlockSender(FlashSession& session, std::span<const std::uint8_t> image, std::uint32_t block_bytes,
               std::int64_t line_time_ns)
       : session_(session), image_(image), block_bytes_(block_bytes), timeout_ns_(kReplyTimeout_ns + 2 * line_time_ns) {}
 
-  /// From `offset` to the end; `progress` is told the bytes that have arrived. Throws FlashError when the target falls
-  /// silent or refuses, TransferLost when all must begin anew.
+  /// From `offset` to the end; calls `progress` with the bytes acknowledged. Throws FlashError when the target does not
+  /// respond or refuses, TransferLost when the transfer must begin again.
   void send_from(std::uint32_t offset, const std::function<void(std::size_t)>& progress);
 
   std::uint64_t blocks_sent() const { return blocks_sent_; }
 
  private:
-  /// For the target to write a page and for an adapter to hand on what came.
+  /// Time for the target to write a page and for an adapter to forward received bytes.
   static constexpr std::int64_t kReplyTimeout_ns = 300'000'000;
-  /// Times in a row that the answer to the same block fails to come.
+  /// Consecutive timeouts of the response to the same block.
   static constexpr int kMaxTimeouts = 20;
 
   void fill_window();
@@ -46,9 +46,10 @@ class BlockSender {
   std::span<const std::uint8_t> image_;
   std::uint32_t block_bytes_;
   std::int64_t timeout_ns_;
-  std::uint32_t arrived_ = 0;                      // all before it
-  std::uint32_t next_ = 0;                         // to be sent
-  std::optional<std::uint16_t> first_since_back_;  // answers to frames before it are of blocks sent again
+  std::uint32_t arrived_ = 0;  // all bytes before it are acknowledged
+  std::uint32_t next_ = 0;     // next to be sent
+  std::optional<std::uint16_t>
+      first_since_back_;  // responses to earlier frames refer to blocks sent before the retransmission
   std::uint64_t blocks_sent_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace pharos::tools {
 namespace {
 
-/// More than any flash of these boards holds: what is longer is some other file.
+/// More than the size of any flash of these boards: a longer file is not an image.
 constexpr std::size_t kLongestFile = 64 << 20;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& text) {

@@ -10,13 +10,13 @@
 
 namespace pharos::tools {
 
-/// A whole image as `pharos flash` sends it.
+/// A complete image as `pharos flash` sends it.
 struct BootImageFile {
   std::vector<std::uint8_t> bytes;
   boot_image::BootImageHeader header{};
 };
 
-/// Throws host::InputError that says what is wrong with the file: not there, no image, cut short, damaged.
+/// Throws host::InputError with the reason: file missing, not an image, truncated, damaged.
 BootImageFile read_image(const std::string& path);
 
 /// "1.2.3"

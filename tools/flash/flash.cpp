@@ -33,7 +33,7 @@ struct Options {
   OutputOptions output;
 };
 
-/// Asks on the terminal; where there is none to ask, no.
+/// Asks on the terminal; false where there is no terminal.
 bool ask_about_older(const boot_image::Version& image, const boot_image::Version& running) {
   if (isatty(STDIN_FILENO) == 0) return false;
   std::cerr << "the image is version " << to_text(image) << ", older than " << to_text(running)

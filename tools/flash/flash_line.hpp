@@ -8,7 +8,7 @@
 
 namespace pharos::tools {
 
-/// Flashing did not work out. The message is one line for a person: what, and what to do.
+/// Flashing failed. The message is one line for the user: what, and what to do.
 class FlashError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,7 +23,7 @@ class FlashLine {
   virtual ~FlashLine() = default;
 
   virtual void write(std::span<const std::uint8_t> bytes) = 0;
-  /// Waits for bytes until `deadline_ns`; how many came, 0 when none did.
+  /// Waits for bytes until `deadline_ns`; returns their number, 0 on timeout.
   virtual std::size_t read(std::span<std::uint8_t> out, std::int64_t deadline_ns) = 0;
   /// Monotonic.
   virtual std::int64_t now_ns() = 0;

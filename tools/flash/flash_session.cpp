@@ -23,7 +23,7 @@ std::optional<NumberedReply> as_reply(const wire::Frame& frame) {
 }
 
 FlashSession::FlashSession(FlashLine& line) : line_(line) {
-  // Numbers of another run are rarely ours; where they are, skip_numbers() helps.
+  // Sequence numbers of another run rarely equal ours; where they do, skip_numbers() separates them.
   const auto start = static_cast<std::uint16_t>(line.now_ns() >> 10);
   for (std::uint16_t number = 0; number != start; ++number) encoder_.skip();
 }
@@ -60,7 +60,8 @@ std::optional<Reply> FlashSession::await_reply(wire::MessageType type, std::span
 }
 
 void FlashSession::forget_received() {
-  constexpr int kMaxReads = 64;  // a port holds a few of them; a target that talks without end has no end
+  constexpr int kMaxReads =
+      64;  // a port buffers a few of them; the limit ends the loop where a target sends without pause
   for (int i = 0; i < kMaxReads && line_.read(received_, line_.now_ns()) > 0; ++i) {
   }
   begin_ = end_ = 0;

@@ -26,17 +26,17 @@ class FlashSession {
  public:
   explicit FlashSession(FlashLine& line);
 
-  /// Sends a message; the number it got.
+  /// Sends a message; returns its sequence number.
   template <class M>
   std::uint16_t send(const M& message) {
     std::array<std::uint8_t, M::kMaxBytes> payload{};
     const std::size_t size = wire::encode_payload(message, payload);
     return send_payload(M::kType, std::span(payload).first(size));
   }
-  /// The next frame that comes until `deadline_ns`. Its payload holds until the next call.
+  /// The next frame received until `deadline_ns`. Its payload is valid until the next call.
   std::optional<wire::Frame> receive(std::int64_t deadline_ns);
 
-  /// Sends until it is answered, `attempts` times, `wait_ns` each. Empty: it never was.
+  /// Sends a request until there is a response, at most `attempts` times, waiting `wait_ns` each. Empty: no response.
   template <class M>
   std::optional<Reply> request(const M& message, std::int64_t wait_ns, int attempts) {
     std::vector<std::uint16_t> sent;
@@ -47,11 +47,11 @@ class FlashSession {
     return std::nullopt;
   }
 
-  /// Drops what has come so far: bytes that waited in the port may be from hours ago.
+  /// Drops received bytes: those buffered in the port may be hours old.
   void forget_received();
-  /// A border by itself: what the target holds of a frame that was cut is no part of the next one.
+  /// Sends a single delimiter, so that an incomplete frame at the target does not become part of the next one.
   void end_partial_frame();
-  /// Leaves a gap in the numbers, so that no receiver takes the next frame for one that it had from another host.
+  /// Leaves a gap in the sequence numbers, so that no receiver takes the next frame for a repeated one of another host.
   void skip_numbers();
 
   std::int64_t now_ns() { return line_.now_ns(); }
@@ -67,11 +67,11 @@ class FlashSession {
   wire::FrameEncoder encoder_;
   wire::FrameDecoder decoder_;
   std::array<std::uint8_t, 4096> received_{};
-  std::size_t begin_ = 0;  // of what is not yet decoded
+  std::size_t begin_ = 0;  // of the bytes not yet decoded
   std::size_t end_ = 0;
 };
 
-/// What an Ack or Nak says, and which request it answers; empty for any other frame.
+/// Content of an Ack or Nak, with the number of its request; empty for any other frame.
 struct NumberedReply {
   std::uint8_t for_type = 0;
   std::uint16_t for_sequence = 0;

@@ -11,7 +11,7 @@ namespace pharos::tools {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
-/// Between two calls of a silent target: shorter than the loader's window of 200 ms after a reset.
+/// Interval of requests to a target that does not respond: shorter than the loader's window of 200 ms after a reset.
 constexpr std::int64_t kCall_ns = 80 * kMs;
 constexpr std::int64_t kHint_ns = 2000 * kMs;
 constexpr std::int64_t kReplyTimeout_ns = 500 * kMs;
@@ -21,16 +21,16 @@ constexpr std::int64_t kErase_ns = 2000 * kMs;
 constexpr int kEraseAttempts = 15;
 constexpr std::int64_t kVerify_ns = 5000 * kMs;
 constexpr int kVerifyAttempts = 3;
-/// From the loader's window to the program's first words.
+/// From the loader's window to the program's first frames.
 constexpr std::int64_t kStart_ns = 10'000 * kMs;
-/// Times that all is begun anew after the target was reset.
+/// Restarts of the whole transfer after a reset of the target.
 constexpr int kBeginnings = 4;
 
 boot_image::Version version_of(const wire::Hello& hello) {
   return {hello.firmware_major, hello.firmware_minor, hello.firmware_patch};
 }
 
-/// A loader without an image says 0.0.0.
+/// A loader without an image reports 0.0.0.
 bool has_image(const wire::Hello& hello) {
   return hello.role != wire::Role::kLoader || version_of(hello) != boot_image::Version{0, 0, 0};
 }
@@ -163,7 +163,7 @@ void Flasher::start() {
   if (reply && reply->refusal && *reply->refusal != wire::NakReason::kUnsupported) {
     throw FlashError("the target does not start what was written; run this again");
   }
-  // No answer, or a program that does not know the request: the Ack got lost and the program runs already.
+  // No response, or a program that does not know the request: the Ack was lost and the program already runs.
 }
 
 wire::Hello Flasher::await_program(const boot_image::BootImageHeader& header) {
@@ -217,7 +217,7 @@ FlashResult Flasher::flash(const BootImageFile& image) {
       }
       reports_.note(std::string(lost.what()) + "; beginning anew");
     } catch (const host::InputError&) {
-      start();  // nothing is written: let what is there run
+      start();  // nothing is written: start the present image
       throw;
     }
   }

@@ -14,43 +14,42 @@
 
 namespace pharos::tools {
 
-/// What a flashing tells while it goes on, and asks.
+/// Callbacks of a flashing for messages, progress and questions.
 struct FlashReports {
-  /// One line for people.
+  /// One line for the user.
   std::function<void(const std::string&)> note;
-  /// Bytes of the image that have arrived.
+  /// Bytes of the image that were acknowledged.
   std::function<void(std::size_t)> progress;
-  /// Whether an image older than what runs may be written. `running`: its version.
+  /// Whether an image older than the running one may be written. `running`: the latter's version.
   std::function<bool(const boot_image::Version& running)> allow_older;
 };
 
 struct FlashOptions {
   int baud = 460'800;
-  /// How long a silent target is waited for.
+  /// Timeout for a target that does not respond.
   std::int64_t wait_ns = 30'000'000'000;
 };
 
-/// What came of it.
+/// Result of a flashing.
 struct FlashResult {
-  std::optional<boot_image::Version> before;  // what ran, where something did
-  wire::Hello running;                        // what runs now, in its own words
+  std::optional<boot_image::Version> before;  // of the program that ran before, if any
+  wire::Hello running;                        // hello of the program that runs now
   std::uint32_t slot_offset = 0;
-  std::int64_t line_ns = 0;  // from the first block to the last answer
+  std::int64_t line_ns = 0;  // from the first block to the last response
   std::uint64_t blocks_sent = 0;
 };
 
-/// Brings an image into a target, whatever that does at the moment, and waits until it runs (proto/README.md,
-/// "Loader").
+/// Writes an image to a target in any state, and waits until it runs (proto/README.md, "Loader").
 class Flasher {
  public:
   Flasher(FlashLine& line, const FlashReports& reports, const FlashOptions& options);
 
-  /// Throws FlashError when it does not work out and host::InputError when the image is not for this target. In either
-  /// case what ran before still starts.
+  /// Throws FlashError when flashing fails and host::InputError when the image is not for this target. In both cases
+  /// the previous program still starts.
   FlashResult flash(const BootImageFile& image);
 
  private:
-  /// Who answers.
+  /// The program or loader that responds.
   struct Peer {
     std::optional<wire::Hello> hello;
     std::optional<wire::LoaderInfo> loader;  // empty: a program runs

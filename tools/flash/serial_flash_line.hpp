@@ -10,7 +10,7 @@ namespace pharos::tools {
 
 class SerialFlashLine final : public FlashLine {
  public:
-  /// Throws host::InputError when the port cannot be had: no such device, no permission, in use by another program.
+  /// Throws host::InputError when the port cannot be opened: no such device, no permission, in use by another program.
   SerialFlashLine(const std::string& path, int baud);
 
   void write(std::span<const std::uint8_t> bytes) override;

@@ -17,10 +17,10 @@ namespace pharos::layout {
 namespace {
 
 constexpr double kMinSize_m = 0.005;
-constexpr double kMaxSize_m = 12.0;  // as for targets: beyond it are millimetres given by mistake
+constexpr double kMaxSize_m = 12.0;  // as for targets: larger values are probably millimetres
 constexpr double kFlatness = 1e-4;   // of the body's size: printed coordinates are rounded
 constexpr double kSameDirection = 1.0 - 1e-8;
-constexpr std::size_t kMaxVertices = 2000;  // a housing, not a scan: every face is held against every vertex
+constexpr std::size_t kMaxVertices = 2000;  // a housing, not a scan: every face is checked against every vertex
 constexpr std::size_t kMaxFaces = 4000;
 constexpr const char* kBlank = " \t\r";
 
@@ -31,7 +31,7 @@ struct Mesh {
   std::vector<Face> faces;
 };
 
-/// Words of an OFF file, comments passed over.
+/// Words of an OFF file without comments.
 class Words {
  public:
   explicit Words(const std::string& path) : lines_(host::ByteSource(path), host::LastLine::kAccept) {}

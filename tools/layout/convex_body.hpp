@@ -8,7 +8,7 @@
 
 namespace pharos::layout {
 
-/// A flat side of a body, with coordinates of its own: a point is origin + x u + y v, body frame, m.
+/// A face of a body, with its own coordinates: a point is origin + x u + y v, body frame, m.
 struct Facet {
   Vector3 normal;  // outward, unit length
   Vector3 origin;
@@ -19,16 +19,16 @@ struct Facet {
   Vector3 at(const Vector2& xy) const { return origin + xy.x() * u + xy.y() * v; }
 };
 
-/// A convex polyhedron, sides in one plane joined.
+/// A convex polyhedron; coplanar faces are joined.
 struct ConvexBody {
   std::vector<Facet> facets;
-  Vector3 low = Vector3::Zero();  // its box, m
+  Vector3 low = Vector3::Zero();  // bounding box, m
   Vector3 high = Vector3::Zero();
 };
 
 /// Reads an OFF file (`OFF`, counts, vertices in metres, faces as `n i j k …`, anticlockwise seen from outside;
-/// comments
-/// #; .gz; -). Throws host::InputError naming file and place for anything but a closed convex body of 5 mm to 12 m.
+/// comments with #; .gz; -). Throws host::InputError naming file and line for anything but a closed convex body of 5 mm
+/// to 12 m.
 ConvexBody read_body(const std::string& path);
 
 /// The convex polygon of the points of `corners` at least `margin_m` from each side; empty where there is none.

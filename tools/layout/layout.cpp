@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos layout: where sensors should sit on a body (002, section 3.3: precision factors guide the layout).
+// pharos layout: sensor positions on a body (002, section 3.3: precision factors guide the layout).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -32,7 +32,7 @@ constexpr const char* kExample =
     "(--target) or, without one, sensors spread evenly. BODY is a closed convex polyhedron in metres (OFF); its faces\n"
     "give the sensors' normals, and being convex it casts no shadow on a sensor that faces the station.";
 
-// Layouts are judged at this many of the poses, spread over the file; at all of them where single poses decide.
+// Layouts are evaluated at this many of the poses, distributed over the file; at all of them where single poses decide.
 constexpr std::size_t kMaxPoses = 400;
 
 struct Options {
@@ -119,7 +119,7 @@ layout::Assessed assessed(const Target& target, const std::vector<LighthouseFrom
   return {target, layout::dops_of(target, poses, options.sight())};
 }
 
-/// Only what both measured, so that a layout is not blamed for covering more.
+/// Only poses that both measure, so that a layout is not rated worse for covering more.
 layout::Dops where_both(const layout::Dops& dops, const layout::Dops& other) {
   layout::Dops both = dops;
   for (std::size_t i = 0; i < both.size(); ++i) {
@@ -168,7 +168,7 @@ void check(const Options& options) {
   if (!options.plot.empty()) require_writable(options.plot);
 }
 
-/// The layout that others are measured by: the present one or sensors spread evenly.
+/// The reference layout: the present one or sensors distributed evenly.
 layout::Score reference_of(const Target& spread, const std::optional<layout::Assessed>& present,
                            const std::vector<LighthouseFromBody>& poses, const Options& options,
                            const Objective& objective) {

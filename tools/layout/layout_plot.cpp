@@ -88,7 +88,7 @@ Range range_of(const std::vector<const Dops*>& all, double Dop::*value) {
   }
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  // Single bad poses must not take the colours from all others.
+  // A percentile, so that single bad poses do not determine the colour scale.
   return {values.front(), std::max(values[values.size() * 95 / 100], values.front() * 1.001 + 1e-12)};
 }
 

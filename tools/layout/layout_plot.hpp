@@ -9,13 +9,13 @@
 
 namespace pharos::layout {
 
-/// A layout and what it is worth at each pose.
+/// A layout and its precision factors at each pose.
 struct Assessed {
   Target target;
   Dops dops;
 };
 
-/// Draws the body with the sensors found and, where given, the present ones, seen along its three axes, and ADOP and
+/// Draws the body with the new sensors and, where given, the present ones, in three views along its axes, and ADOP and
 /// PDOP over the volume (poses seen from above, station at the bottom). Throws host::InputError when the file cannot be
 /// written.
 void plot_layout(const std::string& path, const ConvexBody& body, const std::vector<LighthouseFromBody>& poses,

@@ -9,7 +9,7 @@
 
 namespace pharos::layout {
 
-/// What of the poses' precision counts: their mean, the worst, or the value that a share of them does not exceed.
+/// Statistic over the poses' precision: mean, maximum, or a percentile.
 struct Objective {
   enum class Kind { kMean, kWorst, kPercentile };
   Kind kind = Kind::kMean;
@@ -17,37 +17,38 @@ struct Objective {
 };
 double statistic(std::vector<double> values, const Objective& objective);
 
-/// Precision factors (22) of paper 002 at each pose; none where a target cannot be measured.
+/// Precision factors (22) of paper 002 at each pose; none where the target cannot be measured.
 struct Dop {
   double adop_deg_per_rad = 0.0;
   double pdop_m_per_rad = 0.0;
 };
 using Dops = std::vector<std::optional<Dop>>;
 
-/// How light and sensors behave.
+/// Properties of light and sensors.
 struct Sight {
-  double incidence_rad = 0.0;  // from a sensor's normal up to which it sees the station
+  double incidence_rad = 0.0;  // largest angle from a sensor's normal at which it sees the station
   double rho = 0.0;            // correlation of bearings within a rotor, (19)
 };
 
-/// Sensors are seen by their normals; the body is convex and so casts no shadow on a sensor that faces the station.
+/// Visibility follows from the sensors' normals: the body is convex and does not occlude a sensor that faces the
+/// station.
 Dops dops_of(const Target& target, const std::vector<LighthouseFromBody>& poses, const Sight& sight);
 
-/// Factors over poses, joined.
+/// Statistics of the factors over poses.
 struct Score {
   double adop_deg_per_rad = 0.0;
   double pdop_m_per_rad = 0.0;
   std::size_t measured = 0;
 };
 
-/// Over the poses that were measured. Nothing measured: zeros.
+/// Over the poses that can be measured; zeros where there is none.
 Score score_of(const Dops& dops, const Objective& objective);
 
-/// Judges layouts by one number: weight * ADOP / reference + (1 - weight) * PDOP / reference, 1 for the reference
-/// itself. A pose that cannot be measured counts as a hundred times the reference, worse than any that can.
+/// Cost of a layout: weight * ADOP / reference + (1 - weight) * PDOP / reference, 1 for the reference
+/// itself. A pose that cannot be measured counts as a hundred times the reference, worse than any other.
 class LayoutEvaluator {
  public:
-  /// `reference` has measured at least one pose.
+  /// Precondition: `reference` measures at least one pose.
   LayoutEvaluator(std::vector<LighthouseFromBody> poses, Sight sight, Objective objective, double attitude_weight,
                   const Score& reference);
   double operator()(const Target& target) const;

@@ -10,7 +10,7 @@
 namespace pharos::layout {
 namespace {
 
-constexpr double kGridMountPoints = 140.0;  // exchanges look at each for each sensor
+constexpr double kGridMountPoints = 140.0;  // exchanges try each of them for each sensor
 constexpr double kMinStep_m = 1e-4;
 constexpr double kRounding_m = 1e-5;
 constexpr int kMaxExchanges = 12;
@@ -26,7 +26,7 @@ double area_of(const std::vector<Vector2>& polygon) {
   return 0.5 * twice;
 }
 
-/// Corners, points along the sides (extremes are where precision comes from) and a grid inside.
+/// Corners, points along the sides (precision is highest with sensors far apart) and a grid inside.
 std::vector<Vector2> mount_points_of(const std::vector<Vector2>& polygon, double step_m) {
   std::vector<Vector2> mount_points;
   Vector2 low = polygon.front();

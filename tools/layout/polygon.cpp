@@ -7,7 +7,7 @@
 namespace pharos::layout {
 namespace {
 
-/// How far `p` is to the left of the line from a to b, m.
+/// Signed distance of `p` from the line from a to b, positive to the left, m.
 double left_of(const Vector2& a, const Vector2& b, const Vector2& p) {
   const Vector2 along = (b - a).normalized();
   return along.x() * (p - a).y() - along.y() * (p - a).x();

@@ -42,8 +42,9 @@ void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
                                          host::monotonic_now_ns());
 }
 
-// Through LCM's C functions: those of C++ give a subscription also where there is none, and who has it waits for ever.
-// Receiving is set up first, with LCM's test of its own multicast, so that it is known which of the two went wrong.
+// Uses LCM's C functions: those of C++ return a subscription also where it failed, and its owner would wait for ever.
+// Receiving is set up first, with LCM's own test of multicast, so that the error message can distinguish the two
+// failures.
 void subscribe(lcm::LCM& lcm, Listener& listener, const ListenOptions& options) {
   if (!lcm.good() || lcm.getFileno() < 0) {
     throw host::InputError("LCM cannot be set up with --url " + options.url +
@@ -73,7 +74,7 @@ void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals
 }
 
 int listen(const ListenOptions& options) {
-  // Blocked before LCM starts its own thread, which would take them otherwise.
+  // Signals are blocked before LCM starts its own thread, which would receive them otherwise.
   host::Signals signals{SIGINT, SIGTERM};
   std::optional<TruthFile> truth;
   if (!options.truth.empty()) truth.emplace(options.truth);

@@ -13,7 +13,7 @@
 
 namespace pharos::tools {
 
-/// Errors against the truth, as root mean square and largest.
+/// Errors compared with the truth, as root mean square and largest.
 struct ErrorSums {
   std::int64_t count = 0;
   double squared_rotation_rad2 = 0.0;
@@ -26,7 +26,7 @@ struct ErrorSums {
   double rms_position_m() const;
 };
 
-/// What came from one station on one target.
+/// Statistics of one station on one target.
 struct SourceSummary {
   std::string channel;
   std::string target;
@@ -38,16 +38,16 @@ struct SourceSummary {
   double seconds = 0.0;   // from the first to the last pose
   host::LatencyHistogram age;
   ErrorSums error;
-  /// Of poses before the station had told its calibration (the first seconds): a degree and more is normal there.
+  /// Of poses before the station's calibration was received (the first seconds): a degree and more is normal there.
   ErrorSums uncalibrated_error;
 
   double rate_hz() const { return poses > 1 && seconds > 0.0 ? static_cast<double>(poses - 1) / seconds : 0.0; }
 };
 
-/// Keeps count of everything heard.
+/// Statistics of all received messages.
 class ListenSummary {
  public:
-  /// Takes one arrival into account (all but its error). Returns the rate of its kind over the last second, 1/s.
+  /// Counts one message (all but its error). Returns the rate of its kind over the last second, 1/s.
   double add(const ReceivedPose& pose, std::int64_t monotonic_ns);
   void add_error(const ReceivedPose& pose, const PoseError& error);
 
@@ -67,7 +67,7 @@ class ListenSummary {
   std::int64_t poses_ = 0;
 };
 
-/// For people: a block a source, millimetres and degrees.
+/// As text for the user: a block a source, millimetres and degrees.
 std::string summary_text(const std::vector<SourceSummary>& sources);
 
 }  // namespace pharos::tools

@@ -19,7 +19,8 @@ namespace {
 
 // Poses without a truth yet that are kept for the end: ten minutes at 60 Hz.
 constexpr std::size_t kMaxNotCompared = 36'000;
-// A pose waits this long for its truth, which a simulator writes up to a frame later; then it is printed without.
+// A pose is held this long until its truth is available, which a simulator writes up to a frame later; then it is
+// printed without.
 constexpr std::int64_t kLongestWait_ns = 500'000'000;
 
 template <class Message>
@@ -37,7 +38,7 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.station_id = message.station_or_camera;
   pose.station = static_cast<std::uint8_t>(message.station);
   pose.status = message.status;
-  // Slam's target frame is the camera's own at the start: nothing of it faces the camera.
+  // Slam's target frame equals the camera's at the start, so its Z axis does not point to the camera.
   pose.of_camera = message.child_frame == "target" && !pose.source.starts_with("slam/");
   pose.flags = message.flags;
   pose.has_turn = pose.flags.find("no_connector") == std::string::npos;

@@ -24,17 +24,17 @@ namespace pharos::tools {
 
 enum class ListenFormat : std::uint8_t { kLines, kCsv, kJson, kNone };
 
-/// Prints the messages that it is given, and keeps their summary.
+/// Prints messages, and keeps their statistics.
 class Listener {
  public:
   Listener(ListenFormat format, std::optional<TruthFile> truth);
 
-  /// What comes before the first message: the header row of a CSV table.
+  /// Printed before the first message: the header row of a CSV table.
   void begin();
   /// Any message of a channel listened to: pose_t, pointing_t, spin_t and status_t are printed (the last three not as
-  /// CSV: they are no rows of it), others counted as foreign.
+  /// CSV, whose columns they do not have), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
-  /// Prints the poses that still wait for their truth, and compares those that were printed before it was written.
+  /// Prints the poses still held for their truth, and compares those that were printed before it was written.
   void finish();
 
   const ListenSummary& summary() const { return summary_; }
@@ -44,11 +44,11 @@ class Listener {
 
  private:
   void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
-  /// A message that is no pose; `text` makes its JSON object or its lines.
+  /// A message other than a pose; `text` returns its JSON object or its lines.
   void take_other(const std::function<std::string(bool json)>& text);
-  /// In their order: a pose waits for its truth, and others behind it.
+  /// Prints in order: a pose held for its truth delays the ones after it.
   void print_those_known(std::int64_t monotonic_ns);
-  /// False: its truth is not there (yet).
+  /// False: its truth is not available (yet).
   bool compare(ReceivedPose& pose);
   void print(const ReceivedPose& pose);
 

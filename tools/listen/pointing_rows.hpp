@@ -9,9 +9,9 @@ class pointing_t;
 
 namespace pharos::tools {
 
-/// A line for people: elevation and azimuth of the axis, and how well it and the plane that holds it are known.
+/// A line of text: elevation and azimuth of the axis, and the sigmas of the axis and of the plane that contains it.
 std::string pointing_line(const pointing_t& pointing);
-/// The whole message as one JSON object; what a refused image does not tell is null.
+/// The whole message as one JSON object; fields without a value in a refusal are null.
 std::string pointing_json(const pointing_t& pointing);
 
 }  // namespace pharos::tools

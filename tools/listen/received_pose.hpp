@@ -9,8 +9,8 @@
 
 namespace pharos::tools {
 
-/// Error of a pose against the truth: angle of the relative rotation (paper 002, 23) and distance (25). Of a pose whose
-/// turn about its own Z axis is not known, the angle between the Z axes.
+/// Error of a pose relative to the truth: angle of the relative rotation (paper 002, 23) and distance (25). Of a pose
+/// whose turn about its own Z axis is not known, the angle between the Z axes.
 struct PoseError {
   double rotation_rad = 0.0;
   double position_m = 0.0;
@@ -18,7 +18,7 @@ struct PoseError {
 
 PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth, bool has_turn = true);
 
-/// A pose_t as it arrived.
+/// A received pose_t.
 struct ReceivedPose {
   std::int64_t utime_us = 0;
   std::int64_t sequence = 0;
@@ -32,8 +32,8 @@ struct ReceivedPose {
   std::optional<LighthouseFromBody> pose;  // empty when the cycle was refused
   double sigma_rot_rad = 0.0;
   double sigma_pos_m = 0.0;
-  bool of_camera = false;  // T_camera_target, T_rig_target of a docking ring: people know the angles of paper 000
-  bool has_turn = true;    // the turn about the target's Z axis is measured, not made up
+  bool of_camera = false;  // T_camera_target, T_rig_target of a docking ring: printed as the angles of paper 000
+  bool has_turn = true;    // the turn about the target's Z axis is measured, not arbitrary
   double age_s = 0.0;      // on arrival, after the measurement
   double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;

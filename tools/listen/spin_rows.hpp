@@ -9,9 +9,9 @@ class spin_t;
 
 namespace pharos::tools {
 
-/// A line for people: rate and axis of a target's turning, and how well they are known.
+/// A line of text: rate and axis of a target's rotation, with their sigmas.
 std::string spin_line(const spin_t& spin);
-/// The whole message as one JSON object; what a refused one does not tell is null.
+/// The whole message as one JSON object; fields without a value in a refusal are null.
 std::string spin_json(const spin_t& spin);
 
 }  // namespace pharos::tools

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUsPerSecond = 1e6;
 constexpr double kMaxNormError = 0.01;
-// A time_s below this is no UTC but a recording's own counter: 1 January 2001.
+// A time_s below this (1 January 2001) is not UTC but a recording's own counter.
 constexpr double kEarliestUtc_s = 978'307'200.0;
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -98,7 +98,7 @@ void TruthFile::read_row(const std::string& line) {
 }
 
 void TruthFile::read_new_rows() {
-  in_.clear();  // the end of the file reached last time may have moved
+  in_.clear();  // the file may have grown since its end was reached
   for (std::string part; std::getline(in_, part);) {
     unfinished_ += part;
     if (in_.eof()) return;

@@ -14,15 +14,14 @@
 namespace pharos::tools {
 
 /// The true poses that a simulator writes while it plays: `utime` (microseconds UTC) or `time_s` (seconds UTC), then
-/// `qw,qx,qy,qz,tx_m,ty_m,tz_m`, with a column `station` where there are two. Other columns are passed over.
-///
-/// The file may still grow: what was added since the last look is read when it is asked for.
+/// `qw,qx,qy,qz,tx_m,ty_m,tz_m`, with a column `station` where there are two. Other columns are ignored.
+/// The file may still grow: rows added since the last call are read when needed.
 class TruthFile {
  public:
   /// Throws host::InputError when the file cannot be opened.
   explicit TruthFile(const std::string& path);
 
-  /// True pose at `utc_us`, interpolated linearly and by slerp; empty outside the rows that are there (yet).
+  /// True pose at `utc_us`, interpolated linearly and by slerp; empty outside the rows available (yet).
   /// Throws host::InputError naming file and line for a row that cannot be read.
   std::optional<LighthouseFromBody> at(int station, std::int64_t utc_us);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos precision: what a target is worth at given poses, before anything is measured (002, section 3.3).
+// pharos precision: expected precision of a target at given poses, before any measurement (002, section 3.3).
 #include "pharos/pose/precision.hpp"
 
 #include <CLI/CLI.hpp>

@@ -12,7 +12,7 @@
 namespace pharos::tools {
 namespace {
 
-// So many pairs: the first ones; of more than there are, all of them there and back again, at even times.
+// The first so many pairs; if there are fewer, all of them forwards and backwards repeatedly, at even times.
 std::vector<host::PairName> prolonged(const std::vector<host::PairName>& pairs, std::size_t wanted) {
   if (wanted <= pairs.size()) return {pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted)};
   if (pairs.size() < 2) throw host::InputError(pairs.front().left + ": one pair cannot be gone through there and back");
@@ -34,7 +34,7 @@ std::optional<std::int64_t> number_of(const std::string& name) {
   return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
-// Names that are numbers and leave some out: without stamps, time would count images as if nothing were missing.
+// File names that are numbers with gaps: without time stamps, time would be counted as if no image were missing.
 void note_gap(const std::vector<host::PairName>& pairs) {
   double usual = 0.0;  // numbers a second
   for (std::size_t k = 1; k < pairs.size(); ++k) {

@@ -14,19 +14,19 @@ namespace pharos::tools {
 /// Which pairs of two folders.
 struct PairChoice {
   std::string left, right;  // folders
-  double rate_hz = 20.0;    // where names tell no time
-  std::size_t pairs = 0;    // the first ones, or there and back again; 0: all
+  double rate_hz = 20.0;    // where names contain no time
+  std::size_t pairs = 0;    // the first ones, or forwards and backwards repeatedly; 0: all
 };
 
-/// The pairs that are wanted, in their order. Images without a partner are told, counted and left out; numbers that are
-/// missing among names without times are told. Throws InputError as host::pair_names does.
+/// The selected pairs, in order. Images without a partner are reported, counted and left out; numbers that are missing
+/// among names without times are reported. Throws InputError as host::pair_names does.
 std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& figures);
 
 struct PairImages {
   host::GreyImage left, right;
 };
 
-/// Throws InputError for what cannot be read.
+/// Throws InputError for a pair that cannot be read.
 PairImages read_pair(const host::PairName& pair);
 
 /// Throws InputError for other sizes than the rig's.

@@ -49,14 +49,14 @@ std::optional<enhance::EnhanceSettings> enhance_settings(const std::string& deno
   return settings;
 }
 
-// Pushes pairs and says what becomes of them.
+// Pushes pairs and reports their outcome.
 class Feeder {
  public:
   Feeder(const Options& options, const host::RigFile& rig, slam::SlamSystem& system)
       : options_(options), rig_(rig), system_(system), lit_(enhance_settings(options.enhance)) {}
 
-  /// Pairs that cannot be read, or are of another size than the first one, are told and left out. A first pair of
-  /// another size than the rig's cameras is an error: so would all others be.
+  /// Pairs that cannot be read, or are of another size than the first one, are reported and left out. A first pair of
+  /// another size than the rig's cameras is an error, because all others would be too.
   void feed(const host::PairName& pair, RunFigures& figures) {
     const std::optional<PairImages> images = fitting_pair(pair);
     figures.unreadable = static_cast<int>(input_.left_out());

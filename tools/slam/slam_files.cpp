@@ -141,7 +141,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   for (const MemoryAt& at : figures.memory) {
     json["memory"].push_back({{"pair", at.pair}, {"resident_mib", static_cast<double>(at.resident_kib) / 1024.0}});
   }
-  std::int64_t peak_kib = host::process_usage().peak_resident_kib;  // the kernel notes it a little late
+  std::int64_t peak_kib = host::process_usage().peak_resident_kib;  // the kernel updates it with a delay
   for (const MemoryAt& at : figures.memory) peak_kib = std::max(peak_kib, at.resident_kib);
   json["memory_peak_mib"] = static_cast<double>(peak_kib) / 1024.0;
   if (const auto spin = slam::fit_spin(trajectory)) json["spin"] = spin_json(*spin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos vocabulary: images to the visual words by which `pharos slam` knows places again.
+// pharos vocabulary: images to the visual words that `pharos slam` uses for place recognition.
 #include "host/vision/slam/vocabulary.hpp"
 
 #include <CLI/CLI.hpp>

@@ -58,7 +58,7 @@ void add_row(const host::TableReader& table, Problem& problem) {
   }
 }
 
-// In the order in which problems first appear; their rows need not stand together.
+// In the order in which problems first appear; their rows need not be contiguous.
 std::vector<Problem> read_problems(const std::string& path) {
   host::TableReader table(host::ByteSource(path), {"problem", "sensor", "theta_x_rad", "theta_y_rad"});
   std::vector<Problem> problems;
@@ -104,7 +104,7 @@ void write_answer(const Problem& problem, const LighthousePoseEstimate& estimate
   rows.integer(estimate.observations).end_row();
 }
 
-// Whether the problem had an answer.
+// Whether the problem was solved.
 bool solve_problem(const Problem& problem, const Target& target, const pose::SolveOptions& options,
                    host::RowWriter& rows) {
   if (!problem.fits()) {
@@ -120,7 +120,7 @@ bool solve_problem(const Problem& problem, const Target& target, const pose::Sol
   return static_cast<bool>(answer);
 }
 
-// Every single solve timed by itself; the median is not moved by what else the machine does.
+// Every solve is timed separately; the median does not depend on other load of the machine.
 double median_ns(const std::vector<Problem>& problems, const Target& target, const pose::SolveOptions& options,
                  int repeats) {
   std::vector<double> times_ns;

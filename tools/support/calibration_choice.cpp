@@ -31,7 +31,7 @@ void CalibrationChoice::require_a_station() const {
     if (survey_.find(slot, id) != nullptr) return;
     seen += (seen.empty() ? "" : ", ") + station_id_text(id);
   }
-  if (seen.empty()) return;  // nobody knows yet; rows of unknown stations are flagged uncalibrated
+  if (seen.empty()) return;  // not known yet; rows of unknown stations are flagged uncalibrated
   throw host::InputError(file_->content().name + ": a calibration of other stations: " + seen +
                          " of the recording is not in it; give the calibration made with it");
 }

@@ -11,25 +11,25 @@
 
 namespace pharos::tools {
 
-/// Where `track` takes the calibrations of stations and target from: `ootx`, `none` or a file (--calibration).
+/// Source of the calibrations of stations and target for `track`: `ootx`, `none` or a file (--calibration).
 class CalibrationChoice {
  public:
   /// For `ootx` (and for a file that names stations by id) a recording that can be read twice is read ahead. Throws
-  /// InputError for a calibrated file (host/calibrate) of none of the stations that the recording names.
+  /// InputError for a calibration (host/calibrate) that contains none of the recording's stations.
   CalibrationChoice(const std::string& choice, const std::string& recording_path);
   CalibrationChoice(const CalibrationChoice&) = delete;
   CalibrationChoice& operator=(const CalibrationChoice&) = delete;
 
-  /// Which calibrations the tracker takes; points into this object.
+  /// The calibrations for the tracker; points into this object.
   tracking::CalibrationPolicy policy() const;
-  /// What the recording's stations say in all of it, read ahead.
+  /// OOTX of the recording's stations, read ahead.
   const lighthouse::CalibrationStore& sent_ahead() const { return stations_.store(); }
-  /// The target with the file's sensor positions; `nominal` where none are given. Throws InputError where the file was
-  /// made of another target or with another sign form.
+  /// The target with the file's sensor positions; `nominal` where none are given. Throws InputError where the file is
+  /// of another target or another sign form.
   Target target(const Target& nominal, lighthouse::ModelForm form) const;
-  /// What nobody knows of sensors and rotors.
+  /// Remaining systematic errors of sensors and rotors.
   motion::SystematicErrors systematic() const;
-  /// Widens a pose's covariance by what is not known of the target's size.
+  /// Increases a pose's covariance by the uncertainty of the target's size.
   void widen(LighthousePoseEstimate& estimate) const;
 
  private:

@@ -14,7 +14,7 @@ class CalibrationFile {
   /// Throws InputError naming file, line and key.
   explicit CalibrationFile(const std::string& path);
 
-  /// What it says of stations; a view of this object.
+  /// Calibrations of its stations; a view of this object.
   tracking::StationSurvey survey() const;
   const calibrate::CalibrationFile& content() const { return content_; }
 

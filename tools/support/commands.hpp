@@ -8,8 +8,8 @@ class App;
 namespace pharos::tools {
 
 // Exit codes of every subcommand.
-inline constexpr int kExitAnswered = 0;  // at least one answer was given
-inline constexpr int kExitNoAnswer = 1;  // none could be had
+inline constexpr int kExitAnswered = 0;  // at least one result
+inline constexpr int kExitNoAnswer = 1;  // no result
 inline constexpr int kExitUsage = 2;     // wrong usage or unreadable input
 
 // Every subcommand adds itself to `app` with its options, help and example; its callback writes the program's exit

@@ -13,8 +13,8 @@ inline std::string shown(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-/// For ->check(): a number from `low` to `high`. CLI11's own ranges let nan through (it is neither below nor above
-/// anything) and print their ends with 300 digits.
+/// For ->check(): a number from `low` to `high`. CLI11's own ranges accept nan (it is neither below nor above a limit)
+/// and print their limits with 300 digits.
 inline CLI::Validator number_from(double low, double high) {
   const std::string range = "from " + shown(low) + " to " + shown(high);
   return {[low, high, range](std::string& text) {

@@ -24,7 +24,7 @@ std::string& message_prefix() {
   return name;
 }
 
-// A pipe or a device has no place to be put into.
+// A pipe or a device cannot be replaced by renaming.
 bool is_replaceable(const std::string& path) {
   std::error_code error;
   return !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);

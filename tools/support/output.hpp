@@ -14,7 +14,7 @@ class App;
 
 namespace pharos::tools {
 
-// What every subcommand of the table kind shares: where rows go and in which form.
+// Output of every subcommand that writes a table: destination and format.
 struct OutputOptions {
   bool json = false;
   std::string path = "-";
@@ -23,16 +23,15 @@ struct OutputOptions {
 void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// Rows on standard output or in a file, as CSV or JSON lines.
-///
-/// A file is written beside its place and put there when it is whole: a failed run leaves the old one, and a recording
-/// that was named as its own output is read to its end before it is replaced.
+/// A file is written under a temporary name in the same folder and renamed when it is complete: a failed run leaves the
+/// old one, and a recording that is also the output is read to its end before it is replaced.
 class Output {
  public:
   /// Throws InputError when the file cannot be written.
   Output(const OutputOptions& options, std::vector<std::string> columns);
 
   host::RowWriter& rows() { return *rows_; }
-  /// Everything out. Throws InputError when the disk is full.
+  /// Flushes everything and renames the file. Throws InputError when the disk is full.
   void finish();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -47,17 +46,18 @@ class Output {
   void open(const std::string& path);
 
   std::string path_;
-  std::string aside_;  // where the file grows; empty where rows go straight to their place
+  std::string aside_;  // temporary name; empty where rows are written directly
   std::unique_ptr<std::FILE, Close> file_;
   std::unique_ptr<host::RowWriter> rows_;
 };
 
-/// Throws InputError when `path` cannot be written, for a table that comes at the end of long work. Changes nothing.
+/// Throws InputError when `path` cannot be written, for a table that is written at the end of long work. Changes
+/// nothing.
 void require_writable(const std::string& path);
 
-/// Who note() speaks as: "pharos track". "pharos" until told.
+/// Sets the name that note() prints: "pharos track". Default: "pharos".
 void set_message_prefix(const std::string& name);
-/// One line for people on standard error, after the name of the command.
+/// One line for the user on standard error, after the name of the command.
 void note(const std::string& message);
 
 }  // namespace pharos::tools

@@ -10,7 +10,7 @@ namespace pharos::tools {
 namespace {
 
 constexpr std::chrono::milliseconds kRenewal{500};
-// Looking at the clock costs more than a pulse; once in so many steps is often enough when the total is unknown.
+// Reading the clock costs more than processing a pulse; once in so many steps suffices when the total is unknown.
 constexpr std::size_t kStepsPerLook = 4096;
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace pharos::tools {
 
-/// A line about long work on standard error, renewed twice a second, only when that is a terminal; gone at the end.
+/// A progress line on standard error, updated twice a second, only when that is a terminal; removed at the end.
 class Progress {
  public:
   /// "what: 12,300 units", or with a total "what: 12 of 50 units".

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kSniffBytes = host::StreamReader::kHeaderBytes;
 
-// A table begins with names; control characters and bytes beyond ASCII (but for a byte order mark) are something else.
+// A table begins with names; control characters and bytes beyond ASCII (except a byte order mark) mean another format.
 bool looks_like_text(std::string_view first_bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (first_bytes.starts_with(kByteOrderMark)) first_bytes.remove_prefix(kByteOrderMark.size());

@@ -14,11 +14,11 @@ namespace pharos::tools {
 
 class RecordingSource;
 
-/// What a recording says once decoded.
+/// One event of a decoded recording.
 using RecordingEvent = std::variant<lighthouse::Sweep, lighthouse::OotxPayload>;
 
-/// A recording from start to end: a table of light pulses, which is decoded here, or a recorded serial stream, whose
-/// sweeps the target decoded (or its raw edges, where it was in the diagnostic mode). Told apart by content.
+/// A recording from start to end: a table of light pulses, which is decoded here, or a recorded serial stream, with
+/// sweeps decoded by the target (or raw edges, in the diagnostic mode). The content determines the format.
 class Recording {
  public:
   /// Throws InputError for a file that is neither.
@@ -27,7 +27,7 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  /// `show` is called whenever a live recording has no more to say for now, before next() waits for it.
+  /// `show` is called whenever a live recording has no more data for now, before next() waits for it.
   void on_pause(std::function<void()> show);
   /// The next event in order of time; empty at the end. Throws InputError where a table is broken.
   std::optional<RecordingEvent> next();
@@ -37,7 +37,7 @@ class Recording {
 
   /// Every counter on standard error, one a line: name, value, what it counts.
   void print_statistics() const;
-  /// What a person should know at the end, on standard error: an unfinished last line, lost bytes.
+  /// Notes for the user at the end, on standard error: an unfinished last line, lost bytes.
   void print_remarks() const;
 
  private:

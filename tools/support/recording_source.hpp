@@ -16,7 +16,7 @@ namespace pharos::tools {
 /// Called with each counter's name, value and meaning.
 using CounterVisitor = std::function<void(const char* name, std::uint64_t value, const char* text)>;
 
-/// One form that a recording can have.
+/// One format of a recording.
 class RecordingSource {
  public:
   RecordingSource() = default;
@@ -26,7 +26,7 @@ class RecordingSource {
 
   virtual std::optional<RecordingEvent> next() = 0;
   virtual void visit_counters(const CounterVisitor& visit) const = 0;
-  /// Things to say to a person at the end.
+  /// Notes for the user at the end.
   virtual std::vector<std::string> remarks() const = 0;
 };
 
@@ -34,7 +34,7 @@ class RecordingSource {
 std::unique_ptr<RecordingSource> open_pulse_table(host::ByteSource bytes);
 /// A recorded serial stream.
 std::unique_ptr<RecordingSource> open_serial_stream(host::ByteSource bytes);
-/// The bare bytes of a serial line, from the border of a frame on.
+/// The raw bytes of a serial line, from the delimiter of a frame on.
 std::unique_ptr<RecordingSource> open_line_bytes(host::ByteSource bytes);
 
 }  // namespace pharos::tools

@@ -13,7 +13,7 @@
 
 namespace pharos::tools {
 
-/// Mean and spread of a stream of numbers, without keeping them (Welford).
+/// Mean and standard deviation of a stream of numbers, without storing them (Welford).
 class RunningMoments {
  public:
   void push(double value) {
@@ -24,7 +24,7 @@ class RunningMoments {
   }
   std::int64_t count() const { return count_; }
   double mean() const { return mean_; }
-  /// Around the mean; empty below two values.
+  /// Standard deviation; empty below two values.
   std::optional<double> deviation() const {
     if (count_ < 2) return std::nullopt;
     return std::sqrt(squares_ / static_cast<double>(count_ - 1));
@@ -37,11 +37,11 @@ class RunningMoments {
   double squares_ = 0.0;
 };
 
-/// What is left of every sensor's bearings over a recording, per station and axis: a sensor out of its place or a hit
-/// that is not its own shows as a mean.
+/// Residuals of every sensor's bearings over a recording, per station and axis: a misplaced sensor or hits of another
+/// sensor show as a mean that is not zero.
 class ResidualTable {
  public:
-  /// One bearing of a cycle that was answered with a pose.
+  /// One bearing of a cycle with a pose.
   void push(std::uint8_t station, const track::TrackedBearing& bearing);
   /// One row a station, axis and sensor: `station,axis,sensor,used,left_out,mean_arcsec,sd_arcsec,rms_arcsec`.
   void write(const OutputOptions& options) const;

@@ -13,8 +13,8 @@
 namespace pharos::tools {
 namespace {
 
-// A target in the diagnostic mode may send raw edges beside what it decoded of them. Whichever comes first is used, the
-// other passed over, so that nothing counts twice.
+// A target in the diagnostic mode may send raw edges and the sweeps decoded from them. The kind received first is used
+// and the other ignored, so that nothing counts twice.
 enum class Content : std::uint8_t { kUnknown, kDecoded, kRawEdges };
 
 // A recording made by StreamRecorder.
@@ -44,7 +44,7 @@ class RecordedBytes {
   host::StreamReader reader_;
 };
 
-// What came out of a serial line, byte by byte and nothing else.
+// The raw bytes of a serial line.
 class LineBytes {
  public:
   explicit LineBytes(host::ByteSource bytes) : source_(std::move(bytes)) {}

@@ -18,7 +18,7 @@ const std::map<std::string, pose::Start>& starts() {
   return words;
 }
 
-// A bearing noise of a degree is beyond any use; zero would divide by zero.
+// Limits: a bearing noise of a degree is of no use; zero would divide by zero.
 constexpr double kMinSigma_arcsec = 1e-6;
 constexpr double kMaxSigma_arcsec = 3600.0;
 constexpr double kMaxRho = 0.999999;

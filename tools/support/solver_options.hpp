@@ -11,7 +11,7 @@ class App;
 
 namespace pharos::tools {
 
-/// What the user says about the noise of bearings.
+/// Options for the noise of bearings.
 struct NoiseOptions {
   double sigma_arcsec = 8.8;
   double rho = 0.0;
@@ -19,7 +19,7 @@ struct NoiseOptions {
   double sigma_rad() const { return sigma_arcsec * kRadPerArcsec; }
 };
 
-/// What the user says about the solver.
+/// Options of the solver.
 struct SolverOptions {
   NoiseOptions noise;
   std::string start = "auto";

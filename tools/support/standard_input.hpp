@@ -8,7 +8,7 @@
 
 namespace pharos::tools {
 
-/// An input of a command and what the user gave for it.
+/// An input of a command and its argument.
 struct NamedInput {
   const char* name;  // "EDGES", "--target"
   const std::string& path;

@@ -16,7 +16,7 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// This thread's processor time, seconds: what others do on the machine counts less.
+/// This thread's processor time, seconds: less dependent on other load of the machine.
 inline double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

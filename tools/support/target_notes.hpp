@@ -8,7 +8,7 @@
 
 namespace pharos::tools {
 
-/// Says on standard error what a target's shape means for its poses, where that needs saying.
+/// Notes on standard error what a target's shape means for its poses, where the user should know it.
 inline void note_target_shape(const std::string& path, const TargetShape& shape) {
   if (shape.coplanar) {
     note(path + ": all sensors lie in one plane: some cycles fit two poses (status ambiguous)");

@@ -77,7 +77,7 @@ void write_result(const track::EpochResult& result, const std::string& station_i
   if (estimate != nullptr) {
     write_pose(rows, estimate->pose);
     rows.number(estimate->sigma_rotation_rad() * kDegPerRad).number(estimate->sigma_position_m() * kMmPerM);
-    // A moving target seen too little of late has a pose, but no cycle to tell a precision factor of.
+    // A moving target with too few recent hits has a pose, but no cycle for a precision factor.
     const bool factors = estimate->pdop_m_per_rad > 0.0;
     rows.number(factors ? std::optional(estimate->adop_deg_per_rad) : std::nullopt);
     rows.number(factors ? std::optional(estimate->pdop_m_per_rad) : std::nullopt);
@@ -118,14 +118,14 @@ class Tracking {
     while (const auto result = tracker_.flush()) take(*result);
     output_.finish();
   }
-  /// What came out so far.
+  /// Results so far.
   void show() { output_.rows().flush(); }
 
   const ResidualTable& residuals() const { return residuals_; }
   std::size_t rows() { return output_.rows().rows(); }
   std::size_t poses() const { return poses_; }
   bool uncalibrated() const { return uncalibrated_ > 0; }
-  /// The stations do not stand as the calibration says.
+  /// The stations' relative pose contradicts the calibration.
   bool stations_moved() const { return tracker_.tracker().relative_pose_rejected(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos bench: speed and accuracy beside peers, in one run.
+// pharos bench: speed and accuracy compared with peers, in one run.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>

@@ -13,9 +13,9 @@ namespace pharos::tools {
 namespace {
 
 constexpr int kSensors = 12;
-/// The image tells the clocks of three cycles an instruction, whatever the tape's core has (board/qemu_virt).
+/// The program assumes three cycles an instruction in its clock, whatever the emulated core has (board/qemu_virt).
 constexpr double kReportedCycles = 3.0;
-/// Until both stations are found, less is done.
+/// Left out of the mean: until both stations are found, the load is lower.
 constexpr std::int64_t kStart_ticks = 2 * kTicksPerSecond;
 
 }  // namespace

@@ -5,13 +5,13 @@
 
 namespace pharos::tools {
 
-/// What the image `decoder`, whole, spends of a 50 MHz core on twelve sensors and two stations at full rate.
+/// Load of a 50 MHz core by the complete program `decoder`, with twelve sensors and two stations at full rate.
 struct CpuLoad {
-  double percent = 0.0;  // mean over whole seconds: edges, frames, line and what is said by the clock
-  double lost = 0.0;     // edges and frames that it lost or skipped
+  double percent = 0.0;  // mean over whole seconds: edges, frames, serial line and periodic messages
+  double lost = 0.0;     // edges and frames lost or skipped
 };
 
-/// On a core of so many cycles an instruction, time moving with its instructions (capture_replay.hpp). Throws
+/// For a core of so many cycles an instruction; time advances with the instructions (capture_replay.hpp). Throws
 /// host::InputError when QEMU or the image is missing.
 CpuLoad cpu_load(const std::filesystem::path& images, int cycles);
 

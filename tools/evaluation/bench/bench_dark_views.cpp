@@ -22,18 +22,18 @@ constexpr int kApart = 10;  // frames of 0.5 deg
 constexpr int kSide = 0;    // left
 constexpr std::uint64_t kSeed = 1;
 
-constexpr double kEven = 0.8;  // ambient light that shows the target as bright as good light does
+constexpr double kEven = 0.8;  // ambient light in which the target is as bright as in good light
 
 sim::TumblingScenario scenario(double ambient) {
   sim::TumblingScenario dark;
   dark.good_light = false;
   dark.ambient = ambient;
   if (ambient == kEven) dark.stars = 0;
-  dark.povray = false;  // no gloss: an ambient light makes none
+  dark.povray = false;  // no gloss: ambient light has no highlights
   return dark;
 }
 
-// The most that the rim is off over pairs, of 255.
+// Maximum error at the rim over pairs, of 255.
 struct Halos {
   double outside = 0.0, inside = 0.0;
   void add(const Bytes& image, const host::GreyImage& even) {

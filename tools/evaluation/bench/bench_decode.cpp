@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kRepeats = 9;
 constexpr double kMillion = 1e6;
 
-// A folder that is gone when the benchmark is.
+// A folder that is removed at the end of the benchmark.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "pharos-bench-XXXXXX").string()) {
@@ -58,7 +58,7 @@ std::vector<lighthouse::RawPulse> read_all(const std::string& path) {
   return pulses;
 }
 
-// Takes what the decoder gives, so that its queues never fill.
+// Reads the decoder's results, so that its queues never fill.
 class Sink {
  public:
   void push(const lighthouse::RawPulse& pulse) {

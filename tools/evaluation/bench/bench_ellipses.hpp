@@ -8,12 +8,12 @@
 
 namespace pharos::tools {
 
-/// Our ellipse detector beside OpenCV's EdgeDrawing (null: alone) on the same rendered docking rings, in one run:
-/// recall, F, errors of axes and processor time on plain rings to 60 deg of tilt, on rings to 35 deg, with a third
-/// hidden, and with three times the noise.
+/// Our ellipse detector compared with OpenCV's EdgeDrawing (null: without peer) on the same rendered docking rings, in
+/// one run: recall, F, errors of axes and processor time on plain rings to 60 deg of tilt, on rings to 35 deg, with a
+/// third hidden, and with three times the noise.
 std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer);
 
-/// What choosing T_val rests on: recall, precision and F of our detector over thresholds, each on all those rings.
+/// Basis for the choice of T_val: recall, precision and F of our detector over thresholds, each on all those rings.
 void write_threshold_sweep(int images, BenchForm form);
 
 }  // namespace pharos::tools

@@ -26,7 +26,7 @@ constexpr double kEnhance_ms = 1e3;
 constexpr double kSigma = 15.0;  // of 255
 constexpr int kEnhanceRepeats = 3;
 
-// The middle of an image in grey, as 8 bits would hold it.
+// The central part of an image in grey, quantised to 8 bits.
 FloatImage middle_of_file(const std::string& path) {
   const host::Picture picture = host::read_picture(path);
   if (picture.width_px < kWidth || picture.height_px < kHeight) throw host::InputError(path + ": less than 640 x 480");
@@ -62,7 +62,7 @@ double best_seconds(Work&& work) {
   return best;
 }
 
-// The illumination of a darkened image: cold, from the frame two pixels before, and exactly.
+// The illumination of a darkened image: without start value, from a frame shifted by two pixels, and exactly.
 void add_illumination(const std::string& name, const FloatImage& image, std::vector<BenchRow>& rows) {
   FloatImage dark = image, before = image;
   for (std::size_t k = 0; k < dark.pixels(); ++k) {

@@ -16,7 +16,7 @@ namespace {
 constexpr int kMotionRepeats = 9;
 constexpr double kFlight_s = 20.0;
 
-// The paper's manoeuvre before one station, or before two that stand 2 m apart and both see it.
+// The paper's manoeuvre with one station, or with two stations 2 m apart that both see the target.
 std::vector<lighthouse::Sweep> flown_sweeps(const Target& target, int stations) {
   sim::LighthouseScenario scenario;
   scenario.duration_s = kFlight_s;

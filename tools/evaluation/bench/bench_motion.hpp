@@ -7,9 +7,9 @@
 
 namespace pharos::tools {
 
-/// What a motion-aware step costs, microseconds a hit on one core, everything included (flash smoothing, station model,
-/// checks by cycles solved alone): twenty simulated seconds of the paper's manoeuvre before one calibrated station; and
-/// before two, each station's own track and the joint hypothesis.
+/// Cost of a motion-aware step, microseconds a hit on one core, everything included (flash smoothing, station model,
+/// checks by cycles solved alone): twenty simulated seconds of the paper's manoeuvre with one calibrated station; and
+/// with two, each station's own track and the joint hypothesis.
 std::vector<BenchRow> bench_motion();
 
 }  // namespace pharos::tools

@@ -15,7 +15,7 @@ constexpr int kPoseRepeats = 9;
 constexpr int kIterativeSensors = 6;  // OpenCV's ITERATIVE starts from DLT
 constexpr std::uint64_t kPoseSeed = 1;
 constexpr double kUs = 1e6;
-// Peers get their best: in metres OpenCV's SQPNP takes the equations of so small a target for rank deficient (30 %
+// Units that suit the peers: in metres OpenCV's SQPNP treats the equations of so small a target as rank deficient (30 %
 // wrong).
 constexpr double kPeerUnitsPerMetre = 1000.0;
 // A prior pose of the size of one cycle's motion: 0.3 deg and 5 mm (1 sigma an axis).

@@ -17,7 +17,7 @@ namespace {
 constexpr double kCoreHz = 50e6;
 constexpr int kTargetSensors = 12;
 constexpr int kFromNothing = 50;
-constexpr double kStatedCycles = 3.0;  // per instruction, for which the limits hold
+constexpr double kStatedCycles = 3.0;  // per instruction, for which the limits are stated
 
 double of(const TargetFigures& figures, const std::string& name) {
   const auto found = figures.find(name);
@@ -42,7 +42,7 @@ std::string with_cycles(const std::string& what, double cycles) {
   return what + text;
 }
 
-// Percent of the core that so many instructions in so many ticks take.
+// Load of the core in percent for so many instructions in so many ticks.
 double fraction(double instructions, double ticks, double cycles) {
   return 100.0 * instructions * cycles / (ticks * kSecondsPerTick * kCoreHz);
 }
@@ -107,7 +107,7 @@ void add_poses(const TargetFigures& pose, const PoseInput& input, Rows& rows) {
            of(pose, "stack"), "bytes");
 }
 
-// Sweeps of eight hits of two stations: what a hit costs of all that is done, starts and checks included.
+// Sweeps of eight hits of two stations: cost of a hit with everything included, starts and checks too.
 void add_motion(const std::filesystem::path& images, Rows& rows) {
   constexpr int kHits = 8;
   const TargetFigures motion = run_image(images, "measure_motion", simulated_light(kHits));

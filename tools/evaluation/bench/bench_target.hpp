@@ -9,7 +9,7 @@
 
 namespace pharos::tools {
 
-/// One figure of the soft core, beside what it may be at the most and beside the host's.
+/// One figure of the soft core, with its limit and the figure of the host.
 struct TargetRow {
   std::string what;
   double target = 0.0;
@@ -25,7 +25,7 @@ struct TargetBench {
   int problems = 200;
 };
 
-/// Instructions on the soft core (RV32IM under QEMU, every run the same), memory of the images, and shares of a 50 MHz
+/// Instructions on the soft core (RV32IM under QEMU, every run the same), memory of the images, and load of a 50 MHz
 /// core at twelve sensors and two stations. Throws host::InputError when QEMU or the images are missing.
 std::vector<TargetRow> bench_target(const TargetBench& options);
 /// The same figures from 4 to 32 sensors, one row a number of sensors and figure.

@@ -22,7 +22,7 @@ constexpr double kTof_ms = 1e3;
 
 using StageSeconds = std::array<double, tof::kTofStages>;
 
-// Sums what each stage of one frame takes.
+// Sums the time of each stage of one frame.
 class StageWatch final : public tof::TofStageListener {
  public:
   void ended(tof::TofStage stage) override {
@@ -59,7 +59,7 @@ sim::TofSimulator simulator_of(const Class& one, int frames) {
   return {std::move(scenario), kTofSeed};
 }
 
-// Stretched so that one pixel of 200 is white: glints are many times as bright as what is looked for.
+// Stretched so that one pixel of 200 is white: highlights are many times as bright as the ring.
 std::vector<std::uint8_t> eight_bits(const std::vector<std::uint16_t>& image) {
   std::vector<std::uint16_t> sorted = image;
   const auto bright = sorted.end() - static_cast<std::ptrdiff_t>(sorted.size() / 200) - 1;
@@ -73,7 +73,7 @@ std::vector<std::uint8_t> eight_bits(const std::vector<std::uint16_t>& image) {
 }
 
 struct Times {
-  std::array<std::vector<double>, tof::kTofStages> stages;  // of the frames that came to each
+  std::array<std::vector<double>, tof::kTofStages> stages;  // of the frames that reached each
   std::vector<double> ellipses, all, peer;
 };
 

@@ -7,7 +7,7 @@
 
 namespace pharos::tools {
 
-/// One line of the benchmark: the same thing done by us and by a peer in the same run.
+/// One line of the benchmark: the same task solved by our code and by a peer in the same run.
 struct BenchRow {
   std::string what;
   double ours = 0.0;
@@ -15,7 +15,7 @@ struct BenchRow {
   std::string unit;
   bool less_is_better = true;
 
-  /// How many times better ours is; empty without a peer or where one of the two is zero.
+  /// Ratio by which ours is better; empty without a peer or where one of the two is zero.
   std::optional<double> ratio() const;
 };
 

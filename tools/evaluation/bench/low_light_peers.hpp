@@ -6,7 +6,7 @@
 
 namespace pharos::tools {
 
-/// What others do with dark images, by OpenCV: grey images of 8 bits without gaps, one thread.
+/// Peers for dark images, by OpenCV: grey images of 8 bits without gaps, one thread.
 using GreyBytes = std::vector<std::uint8_t>;
 
 /// fastNlMeansDenoising, windows of 7 and 21 pixels.
@@ -15,7 +15,7 @@ GreyBytes non_local_means(const GreyBytes& image, int width_px, int height_px, f
 GreyBytes clahe(const GreyBytes& image, int width_px, int height_px);
 /// Retinex at the scales 15, 80 and 250 px with equal weights, stretched from 1 to 99 %.
 GreyBytes multi_scale_retinex(const GreyBytes& image, int width_px, int height_px);
-/// 1000 ORB features each, matched across and back; how many agree with one fundamental matrix (RANSAC, 1 px).
+/// 1000 ORB features each, matched in both directions; the number of inliers of one fundamental matrix (RANSAC, 1 px).
 int inliers_of_orb(const GreyBytes& first, const GreyBytes& second, int width_px, int height_px);
 
 }  // namespace pharos::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV's ellipse detector behind the benchmark's function, as it comes (default parameters, one thread).
+// OpenCV's ellipse detector for the benchmark, with default parameters, one thread.
 #include <algorithm>
 #include <opencv2/ximgproc/edge_drawing.hpp>
 
@@ -11,7 +11,7 @@ extern "C" int pharos_bench_edge_drawing(const std::uint8_t* pixels, int width_p
   try {
     cv::setNumThreads(1);
     static const cv::Ptr<cv::ximgproc::EdgeDrawing> detector = cv::ximgproc::createEdgeDrawing();
-    // OpenCV takes what it only reads by a pointer to non-const.
+    // OpenCV takes read-only data by a pointer to non-const.
     const cv::Mat image(height_px, width_px, CV_8U, const_cast<std::uint8_t*>(pixels));
     cv::Mat found;
     *seconds = pharos::tools::processor_seconds_of([&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wrapping the arrays costs some 100 ns.
+// OpenCV's solvers. Wrapping the arrays costs some 100 ns.
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
@@ -20,7 +20,7 @@ cv::SolvePnPMethod method_of(Peer peer) {
   return cv::SOLVEPNP_SQPNP;
 }
 
-// OpenCV takes arrays that it only reads by pointers to non-const.
+// OpenCV takes read-only arrays by pointers to non-const.
 cv::Mat wrapped(const std::vector<double>& values, int columns) {
   return cv::Mat(static_cast<int>(values.size()) / columns, 1, CV_MAKETYPE(CV_64F, columns),
                  const_cast<double*>(values.data()));
@@ -31,7 +31,7 @@ cv::Mat wrapped(const std::vector<double>& values, int columns) {
 std::optional<LighthouseFromBody> solve_by_peer(Peer peer, const std::vector<double>& body,
                                                 const std::vector<double>& tangents) try {
   static const cv::Mat camera = cv::Mat::eye(3, 3, CV_64F);
-  // SQPNP may answer several poses in no order: the caller's part is to take the one that reprojects best.
+  // SQPNP may return several poses in any order: the caller selects the one with the smallest reprojection error.
   std::vector<cv::Mat> rotation_vectors, translations;
   std::vector<double> errors;
   cv::solvePnPGeneric(wrapped(body, 3), wrapped(tangents, 2), camera, cv::noArray(), rotation_vectors, translations,

@@ -12,7 +12,7 @@ namespace pharos::tools {
 enum class Peer { kSqpnp, kEpnp, kIterative };
 
 /// A pose from points (x, y, z in turn, body frame, in any unit) and their tangents (x/z, y/z in turn, lighthouse
-/// frame); its translation is in that unit. Nothing where the peer gives no answer.
+/// frame); its translation is in that unit. Empty where the peer gives no result.
 std::optional<LighthouseFromBody> solve_by_peer(Peer peer, const std::vector<double>& body,
                                                 const std::vector<double>& tangents);
 

@@ -27,7 +27,7 @@ struct Mean {
   double value() const { return count > 0.0 ? sum / count : 0.0; }
 };
 
-// Steps (also aslant) to the nearest pixel of the other kind; outside the target below 0.
+// Steps (also diagonal) to the nearest pixel of the other kind; negative outside of the target.
 std::vector<int> depths(ImageView<const std::uint16_t> even) {
   const std::int32_t width = even.width_px, height = even.height_px;
   const auto at = [width](std::int32_t u, std::int32_t v) {
@@ -85,7 +85,7 @@ struct Views {
   }
 };
 
-// What pixels as light as this one become deeper in the same part of the target.
+// Mean result of pixels of the same brightness deeper in the same part of the target.
 Mean deeper(const Views& views, std::int32_t u0, std::int32_t v0) {
   Mean mean;
   const int shade = views.shade(u0, v0);

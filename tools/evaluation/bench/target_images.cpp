@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kEmulator = "qemu-system-riscv32";
 constexpr int kNoProgram = 127;
 
-// A file that is gone when the run is over.
+// A file that is removed at the end of the run.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::vector<char>& bytes)
@@ -57,7 +57,7 @@ constexpr std::array kMachine = {kEmulator, "-M",   "virt",        "-smp",     "
   _exit(kNoProgram);
 }
 
-// Its standard output, `input` on its standard input where that is named.
+// Returns its standard output; `input` is its standard input where given.
 std::string output_of(const std::string& image, const std::vector<std::string>& options,
                       const std::string& input = "") {
   std::array<int, 2> ends{};
@@ -88,7 +88,7 @@ std::string output_of(const std::string& image, const std::vector<std::string>& 
   return text;
 }
 
-// The image's path. Throws where it is not there.
+// The image's path. Throws where it does not exist.
 std::string image_of(const fs::path& images, const std::string& name) {
   const fs::path image = images / (name + ".elf");
   std::error_code error;

@@ -10,7 +10,7 @@
 
 namespace pharos::tools {
 
-/// What a measuring program said: `name value` a line.
+/// Output of a measuring program: `name value` a line.
 using TargetFigures = std::map<std::string, std::int64_t>;
 
 /// The folder of the firmware's images: `given`, or the build tree's or the installed one beside the program. Throws
@@ -21,15 +21,15 @@ std::filesystem::path find_images(const std::string& given);
 /// host::InputError when QEMU or the image is missing, or the program fails.
 TargetFigures run_image(const std::filesystem::path& images, const std::string& name, const std::vector<char>& input);
 
-/// What IMAGES/NAME.elf, a build that flies, says on its line of `words` of the emulated capture block, to their end;
-/// repeatable as run_image. Throws as that.
+/// Output of IMAGES/NAME.elf, a production build, on its serial line, for `words` of the emulated capture block, to
+/// their end; repeatable as run_image. Throws as that.
 std::string run_image_live(const std::filesystem::path& images, const std::string& name,
                            const std::vector<char>& words);
 
-/// Bytes of an image by where they lie.
+/// Bytes of an image by section.
 struct ImageSizes {
   std::uint64_t code_and_constants = 0;
-  std::uint64_t data = 0;  // with values and without
+  std::uint64_t data = 0;  // initialised and zero
   std::uint64_t stack = 0;
 };
 

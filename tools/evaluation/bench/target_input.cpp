@@ -25,7 +25,7 @@ constexpr std::uint64_t kInputSeed = 1;
 constexpr double kDomeRadius_m = 0.06;
 constexpr double kSimulated_s = 10.0;
 constexpr double kInputPriorRotation_rad = 5e-3, kInputPriorPosition_m = 5e-3;  // a cycle's motion, 1 sigma an axis
-// Stamps that step back by more start another stretch of time (a device's stale first pulses).
+// Stamps that step back by more start another time segment (a device's stale first pulses).
 constexpr std::int64_t kStretch_ticks = 2'500'000;
 
 template <class Row>
@@ -40,8 +40,7 @@ void append_target(std::vector<char>& bytes, const Target& target) {
   }
 }
 
-// Both edges of every pulse, in order within each stretch of time, those of one tick by sensor: as the capture block
-// gives them.
+// Both edges of every pulse, in order within each time segment, those of one tick by sensor: as from the capture block.
 std::vector<lighthouse::Edge> edges_of(const std::vector<lighthouse::RawPulse>& pulses) {
   std::vector<lighthouse::Edge> edges;
   std::size_t stretch = 0;
@@ -89,7 +88,7 @@ sim::StationScenario station_at(double x_m, double turn_deg, sim::StationMode mo
   return station;
 }
 
-// The scene that stands for full rate: every sensor of a dome hit in every sweep of two stations.
+// The scene with the full rate: every sensor of a dome hit in every sweep of two stations.
 sim::LighthouseScenario full_rate(int sensors) {
   sim::LighthouseScenario scenario;
   scenario.duration_s = kSimulated_s;

@@ -17,7 +17,7 @@ namespace {
 std::string rounded(double value) {
   std::array<char, 32> text;
   const int size = std::snprintf(text.data(), text.size(), "%.3g", value);
-  // %g falls into exponents early; whole numbers of people's size read better plain.
+  // %g uses exponents early; integers of moderate size are easier to read without.
   if (std::abs(value) >= 1000.0 && std::abs(value) < 1e7) {
     return std::to_string(std::llround(value));
   }

@@ -9,32 +9,32 @@
 
 namespace pharos::tools {
 
-/// What comes out beside the paper's own method, in the same unit: with a calibration, motion-aware, with both.
+/// Results of other methods than the paper's, in the same unit: with a calibration, motion-aware, with both.
 struct FurtherColumns {
   double calibrated = 0.0;
   double motion = 0.0;
   double both = 0.0;
 };
 
-/// One line of a comparison: what a paper or a recording promises beside what came out here.
+/// One line of a comparison: a published or required figure, and ours.
 struct ComparisonRow {
   std::string item;      // "table 2", "hmd_static"
   std::string what;      // "run 1, rotation RMS"
   std::string unit;      // "deg", "arcsec", "" for counts and ratios
-  std::string expected;  // as published or asked, in the same unit: a number, a bound ("<= 9.2") or words
+  std::string expected;  // as published or required, in the same unit: a number, a bound ("<= 9.2") or text
   double ours = 0.0;
   std::string remark;
   std::optional<FurtherColumns> further = std::nullopt;
 };
 
-/// ours / published where `expected` is a number; empty else.
+/// ours / published where `expected` is a number; else empty.
 std::optional<double> ratio_of(const ComparisonRow& row);
 
 /// Writes `item,what,unit,published,ours,ratio,remark`, and `calibrated,motion,both` after it where any row has them.
 void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options);
-/// The same as a Markdown table for people, rounded to three digits; fit for a README.
+/// The same as a Markdown table for a README, rounded to three digits.
 void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path);
-/// One of the two, as --markdown says.
+/// One of the two, selected by --markdown.
 void write_comparison(const std::vector<ComparisonRow>& rows, bool markdown, const OutputOptions& options);
 
 }  // namespace pharos::tools

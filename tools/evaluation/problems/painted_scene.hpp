@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Flat shapes before a pinhole camera, painted one over the other with exact edges: pictures whose ellipses are known.
+// Flat shapes in front of a pinhole camera, painted one over the other with exact edges: images with known ellipses.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ struct TrueEllipse {
   double cx_px = 0.0, cy_px = 0.0, a_px = 0.0, b_px = 0.0, theta_rad = 0.0;
 };
 
-/// No distortion; the principal point in the middle of the image.
+/// No distortion; the principal point at the centre of the image.
 struct PaintedCamera {
   int width_px = 640, height_px = 480;
   double focal_px = 608.0;  // paper 000, table 1
@@ -89,7 +89,7 @@ struct Layer {
   }
 };
 
-/// What a lens and a sensor do to the picture.
+/// Effects of lens and sensor.
 struct Imaging {
   double blur_px = 0.7;         // sigma of the lens
   double full_well_e = 8000.0;  // shot noise
@@ -117,7 +117,7 @@ class PaintedScene {
     }
     return pixels;
   }
-  /// Uppermost layer at a place; -1 is the background.
+  /// Uppermost layer at a position; -1 is the background.
   int layer_at(double u, double v) const {
     for (std::size_t k = layers_.size(); k-- > 0;) {
       if (layers_[k].covers(camera_, u, v)) return static_cast<int>(k);
@@ -128,7 +128,7 @@ class PaintedScene {
  private:
   double value_of(int layer) const { return layer < 0 ? background_ : layers_[static_cast<std::size_t>(layer)].value; }
 
-  // Each pixel's mean light: 8 x 8 places where its corners differ, one place elsewhere.
+  // Mean intensity of each pixel: 8 x 8 samples where its corners differ, one sample elsewhere.
   std::vector<double> painted() const {
     const int w = camera_.width_px, h = camera_.height_px, stride = w + 1;
     std::vector<int> corner(static_cast<std::size_t>(stride * (h + 1)));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// PnP problems of known truth, and the measures by which answers to them are judged. One generator and one validator
-// serve the tests, the campaigns and the benchmark, so that all of them speak of the same set.
+// PnP problems with known truth, and the error measures for their solutions. Tests, campaigns and benchmark use one
+// generator and one validator, so that all of them use the same set.
 #include <array>
 #include <bitset>
 #include <cmath>
@@ -54,7 +54,7 @@ struct PnpSet {
   int min_sensors = 4, max_sensors = 8;
   double min_range_m = 1.0, max_range_m = 5.0;
   double half_field_rad = 60.0 * kRadPerDeg;  // of each angle from straight ahead
-  /// Views whose sensors seen are all coplanar: a class of their own, in which the wrong pose may fit better.
+  /// Views in which all visible sensors are coplanar: a separate class, in which the wrong pose may fit better.
   bool coplanar_views = true;
 };
 
@@ -72,7 +72,7 @@ class PnpGenerator {
   PnpGenerator(const Target& target, const PnpSet& set, std::uint64_t seed)
       : target_(target), set_(set), engine_(seed) {}
 
-  /// The next problem whose number of sensors seen lies in the set's range.
+  /// The next problem whose number of visible sensors is in the set's range.
   PnpProblem next() {
     PnpProblem problem;
     do {
@@ -134,18 +134,19 @@ class PnpGenerator {
   std::mt19937_64 engine_;
 };
 
-/// Normalised estimation error squared: delta^T C^-1 delta, 6 in the mean where the covariance is honest.
+/// Normalised estimation error squared: delta^T C^-1 delta, 6 in the mean where the covariance is consistent.
 inline double nees_of(const LighthouseFromBody& truth, const LighthousePoseEstimate& estimate) {
   const Vector6 delta = pose_difference(truth, estimate.pose);
   return delta.dot(estimate.covariance.ldlt().solve(delta));
 }
 
-/// Errors of many answers against truth and against the Cramer-Rao bound (angles of white noise, at the truth).
+/// Errors of many solutions relative to the truth, compared with the Cramer-Rao bound (angles with white noise, at the
+/// truth).
 struct PnpScore {
   static constexpr double kFailure_rad = 10.0 * kRadPerDeg;
 
   int problems = 0, refused = 0, failures = 0, ambiguous = 0, wrong_unflagged = 0;
-  // Of the answers that are no failures: squares of errors, of their bounds, and of the ratio of the two.
+  // Of the solutions that are not failures: squares of errors, of their bounds, and of the ratio of the two.
   double rotation_square = 0.0, position_square = 0.0;
   double rotation_bound_square = 0.0, position_bound_square = 0.0;
   double rotation_ratio_square = 0.0, position_ratio_square = 0.0;
@@ -175,10 +176,10 @@ struct PnpScore {
   }
 
   int answers() const { return problems - refused - failures; }
-  /// x CRB: root mean square of each error over its own bound; 1 is perfect. Every view counts the same.
+  /// x CRB: root mean square of each error over its own bound; 1 is optimal. Every view has the same weight.
   double rotation_over_bound() const { return std::sqrt(rotation_ratio_square / answers()); }
   double position_over_bound() const { return std::sqrt(position_ratio_square / answers()); }
-  /// The same with the squares summed first: a few nearly singular views (bounds of 50 deg) carry most of it.
+  /// The same with the squares summed first: dominated by a few nearly singular views (bounds of 50 deg).
   double rotation_rms_over_bound() const { return std::sqrt(rotation_square / rotation_bound_square); }
   double position_rms_over_bound() const { return std::sqrt(position_square / position_bound_square); }
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Rendered docking rings of known ellipses, and the measures by which a detector is judged on them. Independent of the
-// detector: pharos bench, its sweep of thresholds and the tests draw from one set.
+// Rendered docking rings with known ellipses, and the measures for a detector on them. Independent of the detector:
+// pharos bench, its sweep of thresholds and the tests use the same set.
 #include "tools/evaluation/problems/painted_scene.hpp"
 
 namespace pharos::test {
@@ -10,7 +10,7 @@ namespace pharos::test {
 struct RingSet {
   double min_tilt_deg = 0.0, max_tilt_deg = 60.0;
   double min_range_m = 2.0, max_range_m = 6.0;
-  double max_hidden = 0.0;    ///< share of the ring under something else
+  double max_hidden = 0.0;    ///< fraction of the ring that is covered
   bool foil = true;           ///< wrinkled foil on the body around the ring
   bool dots = true;           ///< small discs: some true ellipses under 15 px
   bool leaves_image = false;  ///< the ring's centre anywhere in the image
@@ -21,7 +21,7 @@ struct RingSet {
 struct RingImage {
   struct Truth {
     TrueEllipse ellipse;
-    double visible = 1.0;  ///< share of the outline inside the image and not hidden
+    double visible = 1.0;  ///< fraction of the outline inside the image and not hidden
   };
   std::vector<std::uint16_t> pixels;
   std::vector<Truth> truth;
@@ -146,7 +146,7 @@ class RingGenerator {
     add(scene, {sector, uniform(0.02, 0.5)});
   }
 
-  // Places just inside and outside of the outline belong to the disc and to what it lies on.
+  // Positions just inside and outside of the outline belong to the disc and to its background.
   double visible_fraction(const PaintedScene& scene, const Outline& o) const {
     constexpr int kPlaces = 180;
     int seen = 0;
@@ -172,7 +172,7 @@ class RingGenerator {
   int layers_ = 0;
 };
 
-/// Fraction of the union of two ellipses that both cover, by counting places of a grid over both.
+/// Intersection over union of two ellipses, by counting points of a grid over both.
 inline double overlap_of(const TrueEllipse& one, const TrueEllipse& other) {
   const double low_u = std::min(one.cx_px - one.a_px, other.cx_px - other.a_px),
                high_u = std::max(one.cx_px + one.a_px, other.cx_px + other.a_px);
@@ -197,10 +197,10 @@ inline double overlap_of(const TrueEllipse& one, const TrueEllipse& other) {
   return either == 0 ? 0.0 : static_cast<double>(both) / either;
 }
 
-/// How a detector did over many images, on ellipses of at least `min_minor_px`.
+/// Score of a detector over many images, on ellipses of at least `min_minor_px`.
 struct RingScore {
   double min_minor_px = 15.0;
-  double min_visible = 0.6;  ///< outlines that show less are neither asked for nor held against
+  double min_visible = 0.6;  ///< less visible outlines count neither as missed nor as false
   int wanted = 0, matched = 0, wrong = 0;
   std::vector<double> axis_errors_px;  ///< |a - true a| and |b - true b| of every match
   std::vector<double> centre_errors_px;

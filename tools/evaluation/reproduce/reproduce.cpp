@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos reproduce: the papers' tables and figures, published and ours side by side.
+// pharos reproduce: the papers' tables and figures, published and ours.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -26,7 +26,7 @@ constexpr const char* kExample =
     "Light pulses are simulated and go through the decoder, OOTX, calibration and solver as real ones do.";
 
 constexpr int kQuickSets = 10;
-constexpr double kQuickSet_s = 12.0;  // OOTX takes 9 s to come twice
+constexpr double kQuickSet_s = 12.0;  // OOTX is received twice within 9 s
 constexpr int kQuickRuns = 3;
 constexpr double kQuickRun_s = 15.0;
 constexpr CalibrationSession kQuickCalibration = {12, 1.0};
@@ -41,7 +41,7 @@ struct Options {
   OutputOptions output;
 };
 
-// --recordings DIR; else PHAROS_DATA, which names the folder that holds `lighthouse`.
+// --recordings DIR; else PHAROS_DATA, the folder that contains `lighthouse`.
 std::string recordings_directory(const std::string& given) {
   if (!given.empty()) return given;
   const char* data = std::getenv("PHAROS_DATA");

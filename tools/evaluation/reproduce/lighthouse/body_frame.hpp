@@ -6,7 +6,7 @@
 
 namespace pharos::tools {
 
-/// T_true_assumed: the motion that lays the sensors as believed on the sensors as built, by least squares.
+/// T_true_assumed: the rigid motion from the assumed sensor positions to the true ones, by least squares.
 Pose<frame::Body, frame::Body> body_frame_of(const Target& assumed, const Target& built);
 
 }  // namespace pharos::tools

@@ -7,7 +7,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr double kCarried_s = 0.2;  // in the dark, from rest to rest
+constexpr double kCarried_s = 0.2;  // without light, between stationary intervals
 constexpr double kLengthSigma_m = 0.02e-3;
 constexpr std::uint8_t kLengthFrom = 4, kLengthTo = 8;
 

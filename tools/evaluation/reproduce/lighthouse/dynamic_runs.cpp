@@ -63,11 +63,11 @@ class ErrorStatistics {
   PoseError max_;
 };
 
-// Further off than this in rotation is no noise: another minimum fitted better.
+// A larger rotation error is not noise: another minimum fitted better.
 constexpr double kOtherMinimum_deg = 10.0;
 
-// The last column answers only where it states no more than this: what a docking would ask. 2.5 and 3 of these sigmas
-// are half a degree and 6 mm.
+// Limits of the stated sigma for the last column: the requirement of a docking. 2.5 and 3 of these sigmas are half a
+// degree and 6 mm.
 constexpr motion::UncertaintyLimits kGoodEnough{0.2 * kRadPerDeg, 2e-3};
 
 struct DynamicRun {
@@ -134,7 +134,7 @@ FourColumns four_columns(const SimulatedRun& run, const CalibrationSession& sess
 SimulatedRun fly(double run_s, std::uint64_t seed) {
   sim::LighthouseScenario scenario = paper_scenario(run_s);
   scenario.errors = sim::ErrorScenario::workshop();
-  scenario.stations.front().calibration.reset();  // typical values, known from OOTX but for the workshop's errors
+  scenario.stations.front().calibration.reset();  // typical values, known from OOTX except for the workshop errors
   scenario.trajectory = sim::make_random_manoeuvre({}, run_s, sim::RandomStream(seed, "table 2"));
   return SimulatedRun(std::move(scenario), seed);
 }
@@ -171,7 +171,7 @@ void add_run_rows(std::size_t run, const FourColumns& columns, std::vector<Compa
 constexpr const char* kPublishedRotation_deg = "0.885";
 constexpr const char* kPublishedPosition_mm = "11.45";
 
-// Middle values over the runs, of each column.
+// Medians over the runs, of each column.
 void add_medians(const std::vector<FourColumns>& runs, std::vector<ComparisonRow>& rows) {
   const auto add = [&](const char* what, const char* unit, const char* published, auto&& value) {
     std::array<double, kColumns> middle{};

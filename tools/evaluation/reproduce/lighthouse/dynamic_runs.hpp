@@ -16,9 +16,9 @@ struct DynamicRunsOptions {
   std::uint64_t seed = 1;
 };
 
-/// Paper 002, section 4.3 and table 2: a target flown through 4 m x 4 m x 2 m, against truth. With the paper's noise
-/// and the systematic errors called workshop (each run draws its own). Four columns: the paper's method, that with
-/// target and station calibrated, motion-aware tracking, both.
+/// Paper 002, section 4.3 and table 2: a target flown through 4 m x 4 m x 2 m, compared with the truth. With the
+/// paper's noise and the workshop errors (drawn for each run). Four columns: the paper's method, that with target and
+/// station calibrated, motion-aware tracking, both.
 std::vector<ComparisonRow> reproduce_dynamic_runs(const DynamicRunsOptions& options);
 
 }  // namespace pharos::tools

@@ -12,7 +12,7 @@ Target paper_target() {
   for (const double x : {-0.025, 0.025}) {
     for (const double y : {-0.025, 0.025}) add({x, y, 0.0625}, Vector3::UnitZ());
   }
-  // The second pair of slanted faces is the first one turned by half a turn about z.
+  // The second pair of slanted faces is the first one rotated by half a turn about z.
   for (const double side : {1.0, -1.0}) {
     const Vector3 along_x(2.0 * side, 0.0, 1.0);
     const Vector3 along_y(0.0, 2.0 * side, 1.0);

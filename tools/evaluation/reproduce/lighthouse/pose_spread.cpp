@@ -9,7 +9,7 @@
 namespace pharos::tools {
 namespace {
 
-// Each step removes the error of the mean to second order in the spread.
+// Each step reduces the error of the mean to second order in the spread.
 constexpr int kMeanSteps = 5;
 
 Matrix3 mean_rotation(const std::vector<LighthouseFromBody>& poses) {

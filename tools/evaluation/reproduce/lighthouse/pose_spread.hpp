@@ -14,7 +14,7 @@ struct PoseSpread {
 };
 
 /// The mean rotation is the one whose rotation vectors to all others add up to zero; the paper takes the mean of the
-/// rotation vectors, which is the same for a small spread but breaks down near a half turn. `poses` must not be empty.
+/// rotation vectors, which is the same for a small spread but fails near a half turn. `poses` must not be empty.
 PoseSpread spread_of(const std::vector<LighthouseFromBody>& poses);
 
 /// (25): angle and distance between an estimate and the truth.
@@ -24,9 +24,9 @@ struct PoseError {
 };
 PoseError error_of(const LighthouseFromBody& estimate, const LighthouseFromBody& truth);
 
-/// Middle value; `values` must not be empty.
+/// Median; `values` must not be empty.
 double median_of(std::vector<double> values);
-/// Value below which the share `fraction` of the values lies.
+/// Quantile: the value below which `fraction` of the values are.
 double quantile_of(std::vector<double> values, double fraction);
 
 }  // namespace pharos::tools

@@ -25,8 +25,8 @@
 namespace pharos::tools {
 namespace {
 
-// A payload that must come so many times. The calibration is told by its bytes but for the acceleration and the unlock
-// count, which change between takes.
+// A payload with the number of times that it must be received. The calibration is identified by its bytes except
+// acceleration and unlock count, which change between recordings.
 struct ExpectedPayload {
   const char* id;
   const char* hex;
@@ -36,9 +36,9 @@ struct ExpectedPayload {
 struct RecordingCase {
   const char* name;
   std::array<ExpectedPayload, 2> payloads;
-  const char* still_sd = "";  // asked of a still sensor, arcsec; empty: nothing is asked, or it moves
+  const char* still_sd = "";  // required of a stationary sensor, arcsec; empty: no requirement, or it moves
   bool still = false;
-  bool rigid = false;  // the rigid-body residual is asked of it
+  bool rigid = false;  // there is a requirement for the rigid-body residual
 };
 
 constexpr const char* kBEC08E38 = "063d388ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100";
@@ -46,7 +46,7 @@ constexpr const char* kC33B4DE1 = "063de14d3bc3002beb2b2e9dea202b09f89c39a0007f0
 constexpr const char* kF77E21F3 = "066df3217ef7d9257327d7a005a00209bd1835180a7f073e3fb5bc472549a20100";
 constexpr const char* k0AA54F65 = "066d654fa50a812bf52b801533050409d397669b007f02c8412526d81c1d9c0000";
 
-// Counts: the recordings' README. Sigmas: what is asked (a plain decoder gets 8.8-9.2 and 5.8-6.3).
+// Counts: the recordings' README. Sigmas: the requirement (a plain decoder reaches 8.8-9.2 and 5.8-6.3).
 const std::array<RecordingCase, 4> kCases = {{
     {"hmd_static", {{{"BEC08E38", kBEC08E38, 5}, {"C33B4DE1", kC33B4DE1, 5}}}, "<= 9.2", true, true},
     {"controller_quick", {{{"BEC08E38", kBEC08E38, 16}, {"C33B4DE1", kC33B4DE1, 16}}}, "", false, false},
@@ -68,7 +68,7 @@ struct Decoded {
   std::map<Series, RunningMoments> smoothed;
 };
 
-// Bearings of sensors hit once; a reflection's second place is no noise.
+// Bearings of sensors hit once, because the angle of a reflection is not noise.
 void push_single(const lighthouse::Sweep& sweep, const lighthouse::SweepBearings& bearings,
                  std::map<Series, RunningMoments>& series) {
   std::array<int, 256> hits{};
@@ -98,7 +98,7 @@ Decoded decode(const std::string& path) {
   return out;
 }
 
-// From when on there could be an angle: the first pulse of a laser's width after the first one of a flash's length.
+// Earliest time of an angle: the first pulse with a laser's width after the first one with a flash's length.
 std::optional<double> first_light_s(const std::string& path) {
   constexpr std::int64_t kShortestFlash = 2900, kLongestFlash = 7100;  // ticks; nominal 3125 to 6771, real ones 3 % off
   constexpr std::int64_t kShortestHit = 28, kLongestHit = 1400;        // ticks; 27 to 1326 were measured at 48 MHz
@@ -170,7 +170,7 @@ void add_noise_rows(const RecordingCase& c, const Decoded& decoded, const std::s
   rows.push_back({c.name, "smoothed / raw", "", asked ? bound.data() : "", smoothed / raw, ""});
 }
 
-// What is left of the rigid body on one station.
+// Rigid-body residual on one station.
 struct Rigidity {
   std::vector<double> rms_arcsec;
   std::vector<double> reduced_chi2;

@@ -9,7 +9,7 @@
 namespace pharos::tools {
 
 /// Figures of the real recordings in `directory` (NAME.edges.csv.gz, NAME.target.csv): OOTX counts, time to lock, noise
-/// of still sensors, what is left of a rigid body. Throws InputError when a recording is missing.
+/// of stationary sensors, rigid-body residuals. Throws InputError when a recording is missing.
 std::vector<ComparisonRow> measure_recordings(const std::string& directory);
 
 }  // namespace pharos::tools

@@ -54,7 +54,7 @@ sim::LighthouseScenario paper_scenario(double duration_s) {
   scenario.target = paper_target();
   scenario.noise.sigma_arcsec = kPaperSigma_rad * kArcsecPerRad;
   scenario.noise.rho = kPaperRho;
-  scenario.noise.narrow_sigma_arcsec = 0.0;  // the paper's noise is one number, whatever the pulse's width
+  scenario.noise.narrow_sigma_arcsec = 0.0;  // the paper's noise does not depend on the pulse's width
   scenario.stations.emplace_back();
   return scenario;
 }

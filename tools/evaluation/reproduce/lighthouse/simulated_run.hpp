@@ -15,26 +15,25 @@
 
 namespace pharos::tools {
 
-/// What whoever tracks a simulated target believes of target and station.
+/// Target and station parameters assumed by the tracker.
 struct RunAssumptions {
   Target target;
   std::optional<lighthouse::StationCalibration> station;
-  /// The body frame that these sensors mean in that of the sensors as built, by least squares: what a hand-eye
-  /// calibration against another measuring system finds.
+  /// The body frame defined by these sensors in that of the true sensors, by least squares: the result of a hand-eye
+  /// calibration with another measuring system.
   Pose<frame::Body, frame::Body> T_true_assumed;
   motion::SystematicErrors systematic = motion::kUncalibratedErrors;
 };
 
-/// One simulated recording of one station, decoded: light pulses through the whole decoder, calibration as the station
-/// sent it over OOTX.
+/// One simulated recording of one station, decoded: light pulses through the whole decoder, calibration from OOTX.
 class SimulatedRun {
  public:
   SimulatedRun(sim::LighthouseScenario scenario, std::uint64_t seed);
 
-  /// Solves every cycle; `take` gets each answer with the pose that was true at its time.
+  /// Solves every cycle; calls `take` with each result and the true pose at its time.
   void track(const track::TrackOptions& options,
              const std::function<void(const track::EpochResult&, const LighthouseFromBody& truth)>& take) const;
-  /// The same with a tracker of either kind and what it is told; the truth is that of the body frame believed in.
+  /// The same with a tracker of either kind and its assumed parameters; the truth is in the assumed body frame.
   template <class Tracker>
   void feed(Tracker& tracker, const RunAssumptions& assumptions,
             const std::function<void(const track::EpochResult&, const LighthouseFromBody& truth)>& take) const {
@@ -47,12 +46,12 @@ class SimulatedRun {
     }
     while (const auto result = tracker.flush()) give(*result);
   }
-  /// The target's table and what the station sends.
+  /// Parameters of the target's table and OOTX.
   RunAssumptions as_announced() const;
-  /// What a calibration says.
+  /// Parameters of a calibration.
   RunAssumptions with_assumptions(const Target& target, const lighthouse::StationCalibration& station) const;
 
-  /// The calibration came twice within the run.
+  /// The calibration was received twice within the run.
   bool calibrated() const { return calibration_.has_value(); }
   const sim::LighthouseSimulator& simulator() const { return simulator_; }
   const std::vector<lighthouse::Sweep>& sweeps() const { return sweeps_; }
@@ -63,8 +62,8 @@ class SimulatedRun {
   std::optional<lighthouse::StationCalibration> calibration_;
 };
 
-/// One ideal station before the paper's target, with the noise that the paper measured and nothing else: the start of
-/// both experiments.
+/// One ideal station and the paper's target, with only the noise that the paper measured: the basis of both
+/// experiments.
 sim::LighthouseScenario paper_scenario(double duration_s);
 
 }  // namespace pharos::tools

@@ -13,7 +13,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr double kMaxIncidence_deg = 60.0;  // the simulator's default: a sensor is lit below it
+constexpr double kMaxIncidence_deg = 60.0;  // the simulator's default: largest incidence of a lit sensor
 
 struct StaticSet {
   int frames = 0;

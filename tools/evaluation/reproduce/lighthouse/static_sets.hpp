@@ -16,9 +16,9 @@ struct StaticSetsOptions {
   std::string sets_file;  // one row a set; empty: none
 };
 
-/// Paper 002, section 4.2 and figure 5: sets of a target at rest, what (24) predicts of their spread and what (23)
-/// measures. The target stands as the paper's did: anywhere on a 3 m x 3 m floor ahead, any attitude that shows at
-/// least four sensors.
+/// Paper 002, section 4.2 and figure 5: sets of a stationary target, their spread as predicted by (24) and measured by
+/// (23). Poses as in the paper: anywhere on a 3 m x 3 m floor ahead, any attitude in which at least four sensors are
+/// visible.
 std::vector<ComparisonRow> reproduce_static_sets(const StaticSetsOptions& options);
 
 }  // namespace pharos::tools

@@ -7,7 +7,7 @@ class App;
 
 namespace pharos::tools {
 
-/// `pharos reproduce slam`: table 1 of paper 004 beside ours.
+/// `pharos reproduce slam`: table 1 of paper 004 compared with ours.
 void add_reproduce_slam(CLI::App& reproduce, int& exit_code);
 
 }  // namespace pharos::tools

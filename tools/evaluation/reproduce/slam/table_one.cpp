@@ -47,7 +47,7 @@ bool wanted(const Variant& variant, const TableOneOptions& options) {
   return std::find(options.runs.begin(), options.runs.end(), variant.key) != options.runs.end();
 }
 
-// Turns that a variant is asked for, shortest first.
+// Turns at which a variant is evaluated, shortest first.
 std::vector<double> turns_of(const Variant& variant, const TableOneOptions& options) {
   std::vector<double> turns;
   for (const double turn : options.turns_deg) {
@@ -69,7 +69,7 @@ int last_frame(double turn_deg) { return static_cast<int>(std::lround(turn_deg /
 
 using EightBits = std::array<std::vector<std::uint8_t>, 2>;
 
-// A pair as it was taken and, where asked for, enhanced.
+// A pair as rendered and, where selected, enhanced.
 class Pictures {
  public:
   explicit Pictures(bool enhanced) {
@@ -105,7 +105,7 @@ class Pictures {
 // Errors are of frames with a pose.
 struct Outcome {
   double rmse_deg = 0.0, last_deg = 0.0;
-  double attitude_square = 0.0, position_square = 0.0;  // over what the covariances say, a degree of freedom
+  double attitude_square = 0.0, position_square = 0.0;  // NEES per degree of freedom
   int loops = 0, placed = 0, without_pose = 0;
   bool last_placed = false;
 };
@@ -125,7 +125,7 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
     const auto truth = sequence.truth(static_cast<int>(frame.number));
     outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth.R);
     outcome.rmse_deg += outcome.last_deg * outcome.last_deg;
-    // The first one with a pose is where it is by definition.
+    // The first one with a pose defines the frame.
     if (outcome.placed++ == 0) continue;
     const Matrix6& covariance = frame.placed->covariance;
     outcome.attitude_square +=
@@ -166,7 +166,7 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
   }
 }
 
-// One variant on its way through a sequence.
+// One variant while it processes a sequence.
 struct Run {
   const Variant* variant;
   std::vector<double> turns;

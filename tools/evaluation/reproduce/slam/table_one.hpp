@@ -15,23 +15,21 @@ std::vector<std::string> table_one_runs();
 
 struct TableOneOptions {
   std::vector<double> turns_deg{30.0, 60.0, 90.0, 180.0, 360.0, 720.0};
-  std::vector<std::string> runs = table_one_runs();  ///< those wanted
+  std::vector<std::string> runs = table_one_runs();  ///< the selected ones
   int features = 1000;
   bool povray = true;
   std::uint64_t seed = 1;
   std::function<void(std::size_t)> step;  ///< called with the number of pairs done
 };
 
-/// Pairs that these options make of all runs.
+/// Number of pairs of all runs with these options.
 std::size_t table_one_pairs(const TableOneOptions& options);
 
 /// Table 1 of paper 004: each turn in good light, and in low light with and without enhancement; from 360 deg on also
-/// without loop closing. Rows: attitude RMSE, error of the last attitude, squares of errors over what the
-/// covariances say (mean, a degree of freedom), frames without a pose, loops closed.
-///
-/// A shorter turn is the beginning of a longer one, picture by picture, so each run goes once through the longest and
-/// is asked at the end of each what it would have answered there (SlamSystem::optimised_trajectory). Runs in the same
-/// light share pictures.
+/// without loop closing. Rows: attitude RMSE, error of the last attitude, NEES (mean, per degree of freedom), frames
+/// without a pose, loops closed.
+/// A shorter turn is the beginning of a longer one, image by image, so each run processes the longest once and is
+/// evaluated at the end of each (SlamSystem::optimised_trajectory). Runs in the same light use the same images.
 std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options);
 
 }  // namespace pharos::tools
