@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstring>
+#include <utility>
 
+#include "host/config/live_changes.hpp"
 #include "host/runtime/process_usage.hpp"
+#include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
@@ -17,6 +21,7 @@ namespace {
 // Ports are tried again at their own pace, twice a second.
 constexpr std::chrono::milliseconds kAttendPeriod{100};
 constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
+constexpr std::int64_t kNsPerMs = 1'000'000;
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -26,8 +31,9 @@ std::string host_name() {
 }  // namespace
 
 Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed,
-               const Clock& clock, const SourceKinds& kinds)
+               const Clock& clock, const SourceKinds& kinds, DaemonControl control)
     : config_(config),
+      control_(std::move(control)),
       signals_(signals),
       clock_(clock),
       publisher_(sink, config.lcm.channel_prefix),
@@ -62,14 +68,18 @@ std::string Daemon::sources_text() const {
 
 void Daemon::run() {
   attend_timer_.start({}, kAttendPeriod);
-  status_timer_.start_every(std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(config_.publish.status_period_s)));
+  start_status_timer();
   spdlog::info("pharosd {} started, {}", PHAROS_VERSION, sources_text());
   loop_.run();
   for (const auto& source : sources_) source->stop();
   message_ = "stopped";
   publish_health();
   spdlog::info("stopped");
+}
+
+void Daemon::start_status_timer() {
+  status_timer_.start_every(std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(config_.publish.status_period_s)));
 }
 
 void Daemon::attend() {
@@ -93,8 +103,30 @@ void Daemon::warn(const char* kind, const std::string& text, std::int64_t now_ns
 }
 
 void Daemon::on_signal() {
-  while (const auto signal = signals_.take()) spdlog::info("{} received", ::strsignal(*signal));
-  loop_.stop();
+  while (const auto signal = signals_.take()) {
+    if (*signal != SIGHUP) {
+      control_.on_stop();
+      loop_.stop();
+    }
+    spdlog::info("{} received", ::strsignal(*signal));
+    if (*signal == SIGHUP) reread_config();
+  }
+}
+
+// What the file says wrong changes nothing: the daemon goes on as it is.
+void Daemon::reread_config() try {
+  const std::optional<DaemonConfig> fresh = control_.reread();
+  if (!fresh) return;
+  const std::vector<std::string> not_taken = take_live_changes(*fresh, config_);
+  control_.renew_log(config_.log);
+  for (const auto& source : sources_) source->reconfigure();
+  start_status_timer();
+  spdlog::info(
+      "configuration read again: the log's level, [publish] and calibrations of targets are in use; camera and rig "
+      "files are read at the start only");
+  for (const std::string& line : not_taken) spdlog::warn("needs a restart: {}", line);
+} catch (const InputError& error) {
+  spdlog::error("configuration not read again: {}", error.what());
 }
 
 // What is wrong beside the sources' own health, the first thing first; empty when nothing is.
@@ -121,7 +153,12 @@ void Daemon::publish_health() {
   health.message = error();
   health.counters = named_counts();
   for (const auto& source : sources_) {
-    for (SourceHealth& system : source->health()) health.sources.push_back(std::move(system));
+    for (SourceHealth& system : source->health()) {
+      spdlog::debug("{}: {}, data {} ms old, pose {} ms old, {:.1f} poses/s{}{}", system.source, name_of(system.state),
+                    system.data_age_ns / kNsPerMs, system.pose_age_ns / kNsPerMs, system.pose_rate_hz,
+                    system.message.empty() ? "" : ": ", system.message);
+      health.sources.push_back(std::move(system));
+    }
   }
   publisher_.publish_health(health);
 }
@@ -137,6 +174,7 @@ NamedCounts Daemon::named_counts() const {
     const NamedCounts own = source->daemon_counters();
     counts.insert(counts.end(), own.begin(), own.end());
   }
+  counts.push_back({"log_lines_dropped", control_.log_lines_dropped()});
   counts.push_back({"process_cpu_us", usage.cpu_us});
   counts.push_back({"process_resident_kib", usage.resident_kib});
   return counts;

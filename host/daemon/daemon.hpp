@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +19,26 @@
 
 namespace pharos::host {
 
+/// What the daemon asks of the program around it. Unless given, there is nothing to ask for.
+struct DaemonControl {
+  /// The signal to stop was taken.
+  std::function<void()> on_stop = [] {};
+  /// The configuration as its file says now. Throws InputError.
+  std::function<std::optional<DaemonConfig>()> reread = [] { return std::nullopt; };
+  /// Takes over the log's level and opens its file anew. Throws InputError.
+  std::function<void(const LogConfig&)> renew_log = [](const LogConfig&) {};
+  /// Lines that the log did not take.
+  std::function<std::int64_t()> log_lines_dropped = [] { return 0; };
+};
+
 /// All sources of a configuration in one poll loop, and the status beside them.
 class Daemon {
  public:
   /// Opens every source of every kind. Throws InputError for one that cannot be what the configuration says. `sink`,
-  /// `signals` and `clock` must outlive this. `signals` end run().
+  /// `signals` and `clock` must outlive this. Of `signals` SIGHUP makes the
+  /// configuration be read anew; any other ends run().
   Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed, const Clock& clock,
-         const SourceKinds& kinds = source_kinds());
+         const SourceKinds& kinds = source_kinds(), DaemonControl control = {});
 
   /// Until a signal comes, or every source was a recording and has come to its end.
   void run();
@@ -32,6 +47,8 @@ class Daemon {
   void stop_when_all_finished();
   void attend();
   void on_signal();
+  void reread_config();
+  void start_status_timer();
   void publish_health();
   NamedCounts named_counts() const;
   std::string error() const;
@@ -39,6 +56,7 @@ class Daemon {
   void warn(const char* kind, const std::string& text, std::int64_t now_ns);
 
   DaemonConfig config_;
+  DaemonControl control_;
   EventLoop loop_;
   Signals& signals_;
   const Clock& clock_;

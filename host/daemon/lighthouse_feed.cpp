@@ -80,6 +80,13 @@ void LighthouseFeed::on_bytes(std::span<const std::uint8_t> bytes, const Arrival
   if (recorder_) recorder_->append(bytes, arrival.utc_ns, arrival.monotonic_ns);
 }
 
+void LighthouseFeed::reconfigure() {
+  pipeline_->set_publish(context_.config.publish);
+  for (const TargetConfig& target : context_.config.targets) {
+    if (target.name == name_) pipeline_->recalibrate(target);
+  }
+}
+
 std::vector<SourceHealth> LighthouseFeed::health() {
   SourceHealth health = pipeline_->health(bytes_->device(), bytes_->state(), bytes_->error(), bytes_->monotonic_now());
   NamedCounts& counts = health.counters;

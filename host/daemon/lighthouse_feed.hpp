@@ -22,6 +22,7 @@ class LighthouseFeed final : public Source {
 
   const std::string& name() const override { return name_; }
   void attend() override { bytes_->attend(context_.clock.monotonic_ns()); }
+  void reconfigure() override;
   std::vector<SourceHealth> health() override;
   bool finished() const override { return bytes_->finished(); }
   std::string clock_notice() const override { return pipeline_->clock_notice(bytes_->monotonic_now()); }

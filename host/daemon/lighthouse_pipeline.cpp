@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/calibrate/calibration_file.hpp"
+#include "host/config/live_changes.hpp"
 #include "host/publish/messages.hpp"
 #include "host/publish/words.hpp"
 #include "pharos/base/ticks.hpp"
@@ -48,6 +49,14 @@ Report report_of(const JobResult& answer) {
   return report;
 }
 
+tracking::StationSurvey survey_of(const TargetConfig& config) {
+  return {config.calibrated_stations, config.calibrated_pair ? &*config.calibrated_pair : nullptr};
+}
+
+tracking::MethodOptions options_of(const TargetConfig& config) {
+  return {config.method, config.track, config.systematic, config.limits};
+}
+
 tracking::CalibrationPolicy policy_of(const tracking::StationSurvey& survey) {
   tracking::CalibrationPolicy policy;
   policy.survey = &survey;
@@ -64,9 +73,8 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
       source_(source),
       host_clock_(clock),
       memory_(memory),
-      survey_{config_.calibrated_stations, config_.calibrated_pair ? &*config_.calibrated_pair : nullptr},
-      tracker_(policy_of(survey_), config_.target,
-               tracking::MethodOptions{config_.method, config_.track, config_.systematic, config_.limits}),
+      survey_(survey_of(config_)),
+      tracker_(policy_of(survey_), config_.target, options_of(config_)),
       line_baud_(line_baud),
       gate_(publisher, counters_.cycles_not_finite,
             PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
@@ -77,6 +85,19 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
   lighthouse::CalibrationStore accepted;
   for (const lighthouse::StationCalibration& station : memory_.stations()) accepted.remember(station);
   tracker_.resume(accepted);
+}
+
+void LighthousePipeline::set_publish(const PublishConfig& publish) {
+  publish_ = publish;
+  gate_.set_max_age(publish.max_age_ns());
+  board_gate_.set_max_age(publish.max_age_ns());
+}
+
+void LighthousePipeline::recalibrate(const TargetConfig& config) {
+  if (same_calibration(config, config_)) return;  // the body need not be looked for anew
+  take_calibration(config, config_);
+  survey_ = survey_of(config_);
+  tracker_.rebuild(config_.target, options_of(config_));
 }
 
 void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {

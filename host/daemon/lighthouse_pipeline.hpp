@@ -40,6 +40,12 @@ class LighthousePipeline {
   /// End of a recording: publishes the cycle still held back.
   void end_of_input();
 
+  /// The limits of what is published, from now on.
+  void set_publish(const PublishConfig& publish);
+  /// Takes over sensor positions, stations and systematic errors of another calibration of the same target. The body is
+  /// looked for anew.
+  void recalibrate(const TargetConfig& config);
+
   /// Everything that this line knows of its health; `port_error` is what its port says (empty: open). Ages are taken
   /// from `monotonic_ns`, on the clock of the arrivals.
   SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_error,

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -12,7 +13,10 @@
 #include "host/config/replay_config.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/log_setup.hpp"
+#include "host/daemon/traced_sink.hpp"
 #include "host/publish/lcm_sink.hpp"
+#include "host/runtime/signals.hpp"
+#include "host/runtime/stop_deadline.hpp"
 #include "host/support/input_error.hpp"
 
 namespace {
@@ -21,6 +25,8 @@ namespace host = pharos::host;
 
 constexpr int kExitFailure = 1;
 constexpr int kExitUsage = 2;
+// Of the second that a stop may take; the rest is the kernel's, to take the process apart.
+constexpr std::chrono::milliseconds kStopLimit{800};
 
 struct Options {
   std::string config;
@@ -29,29 +35,60 @@ struct Options {
   bool fast = false;
 };
 
-int run(const Options& options) {
-  host::DaemonConfig config = host::load_daemon_config(options.config);
-  const std::vector<std::string> errors = host::directory_errors(config);
-  if (options.check) {
-    std::fputs(host::describe(config).c_str(), stdout);
-    for (const std::string& error : errors) {
-      std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), error.c_str());
-    }
-    return errors.empty() ? 0 : kExitUsage;
+// Signals that would end the program for no reason; those of a full disk, of a limit on file sizes and of a closed pipe
+// then fail the write.
+void ignore_signals() {
+  for (const int signal : {SIGXFSZ, SIGPIPE, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR}) {
+    std::signal(signal, SIG_IGN);
   }
-  if (!options.replay.empty()) config = host::replay_config(config, options.replay);
-  host::set_up_log(config.log);
-  // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
-  for (const std::string& error : errors) spdlog::warn("{}", error);
-  // A limit on file sizes then fails the write, as a full disk does, instead of ending the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
+}
+
+host::DaemonConfig load(const Options& options) {
+  const host::DaemonConfig config = host::load_daemon_config(options.config);
+  return options.replay.empty() ? config : host::replay_config(config, options.replay);
+}
+
+int check(const Options& options) {
+  const host::DaemonConfig config = host::load_daemon_config(options.config);
+  const std::vector<std::string> errors = host::directory_errors(config);
+  std::fputs(host::describe(config).c_str(), stdout);
+  for (const std::string& error : errors) {
+    std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), error.c_str());
+  }
+  return errors.empty() ? 0 : kExitUsage;
+}
+
+host::DaemonControl control_of(const Options& options, host::DaemonLog& log, host::StopDeadline& deadline) {
+  host::DaemonControl control;
+  control.on_stop = [&deadline] { deadline.begin(); };
+  control.reread = [&options] { return load(options); };
+  control.renew_log = [&log](const host::LogConfig& config) {
+    host::DaemonLog::set_level(config);
+    try {
+      log.reopen();
+    } catch (const host::InputError& error) {
+      spdlog::warn("{}", error.what());  // the old file goes on
+    }
+  };
+  control.log_lines_dropped = [&log] { return log.lines_dropped(); };
+  return control;
+}
+
+int run(const Options& options) {
+  const host::DaemonConfig config = load(options);
+  ignore_signals();
   host::Signals signals{SIGTERM, SIGINT, SIGHUP};
-  host::LcmSink sink(config.lcm.url);
+  host::StopDeadline deadline({SIGTERM, SIGINT}, kStopLimit);
+  host::DaemonLog log(config.log);
+  // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
+  for (const std::string& error : host::directory_errors(config)) spdlog::warn("{}", error);
+  host::LcmSink lcm(config.lcm.url);
+  host::TracedSink sink(lcm);
   const host::SystemClock clock;
   const auto speed = options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal;
-  host::Daemon daemon(config, sink, signals, speed, clock);
+  host::Daemon daemon(config, sink, signals, speed, clock, host::source_kinds(), control_of(options, log, deadline));
   daemon.run();
+  deadline.set_exit_code(0);  // nothing is lost any more
   return 0;
 }
 
@@ -75,7 +112,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kExitUsage;
   }
   try {
-    return run(options);
+    return options.check ? check(options) : run(options);
   } catch (const host::InputError& error) {
     std::fprintf(stderr, "pharosd: %s\n", error.what());
     return kExitUsage;

@@ -32,6 +32,8 @@ class Source {
   virtual const std::string& name() const = 0;
   /// Called ten times a second: opens what is not open, writes what is to be kept, logs what has changed.
   virtual void attend() = 0;
+  /// SourceContext::config was read anew: takes over what can change while running (publish, calibrations of targets).
+  virtual void reconfigure() {}
   /// Called once after the loop's end: writes what is still to be kept.
   virtual void stop() {}
   /// One for every system that measures with this sensor.

@@ -21,6 +21,7 @@ class TofFeed final : public Source {
 
   const std::string& name() const override { return name_; }
   void attend() override;
+  void reconfigure() override { pipeline_.set_publish(context_.config.publish); }
   std::vector<SourceHealth> health() override;
   bool finished() const override { return finished_; }
   std::string clock_notice() const override { return pipeline_.clock_notice(context_.clock.monotonic_ns()); }

@@ -34,6 +34,9 @@ class TofPipeline {
   /// A whole frame, just taken. What it gives is published before this returns.
   void take(const DepthFrame& frame);
 
+  /// The limits of what is published, from now on.
+  void set_publish(const PublishConfig& publish) { gate_.set_max_age(publish.max_age_ns()); }
+
   SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
   const TofCounters& counters() const { return counters_; }
   /// That this computer's clock was set a moment ago, for people; empty when it was not.

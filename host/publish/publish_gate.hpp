@@ -30,6 +30,11 @@ class PublishGate {
   PublishGate(const PublishGate&) = delete;  // holds references to counters
   PublishGate& operator=(const PublishGate&) = delete;
 
+  /// The age limit from now on; no effect where there is none.
+  void set_max_age(std::int64_t max_age_ns) {
+    if (limit_) limit_->max_age_ns = max_age_ns;
+  }
+
   /// Whether all numbers of the report are finite; counts it where not.
   template <class Report>
   bool finite(const Report& report) {

@@ -80,18 +80,30 @@ void ChildProcess::signal(int number) const {
   if (exit_code_ < 0) ::kill(pid_, number);
 }
 
+bool ChildProcess::has_ended() {
+  int status = 0;
+  if (exit_code_ >= 0) return true;
+  if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
+  exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return true;
+}
+
+int ChildProcess::wait_exit_unread(double seconds) {
+  const std::int64_t deadline = deadline_ns(seconds);
+  while (!has_ended()) {
+    if (monotonic_now_ns() > deadline) return -1;
+    ::poll(nullptr, 0, kSlice_ms);
+  }
+  return exit_code_;
+}
+
 int ChildProcess::wait_exit(double seconds) {
   const std::int64_t deadline = deadline_ns(seconds);
-  while (exit_code_ < 0) {
-    int status = 0;
-    if (::waitpid(pid_, &status, WNOHANG) == pid_) {
-      exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      read_available(0);
-      break;
-    }
+  while (!has_ended()) {
     if (monotonic_now_ns() > deadline) return -1;
     read_available(seconds > 0.0 ? kSlice_ms : 0);
   }
+  read_available(0);
   return exit_code_;
 }
 

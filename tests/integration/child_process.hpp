@@ -27,8 +27,11 @@ class ChildProcess {
   void signal(int number) const;
   /// Waits for its end: the exit code, 128 + signal, or -1 after `seconds`.
   int wait_exit(double seconds = 10.0);
+  /// The same for a program whose output nobody takes.
+  int wait_exit_unread(double seconds);
 
  private:
+  bool has_ended();
   void read_available(int timeout_ms);
 
   int pid_ = -1;

@@ -72,6 +72,14 @@ class CalibratedTracker {
     apply_calibrations();
   }
 
+  /// What is known of target or stations changed: the body is looked for anew, with a tracker of these arguments and
+  /// what the policy's survey says now. Stations stay who they are.
+  template <class... Arguments>
+  void rebuild(Arguments&&... tracker) {
+    tracker_ = Tracker(std::forward<Arguments>(tracker)...);
+    apply_calibrations();
+  }
+
   lighthouse::CalibrationStore::Verdict push(const lighthouse::OotxPayload& payload) {
     const auto verdict = sent_.push(payload);
     apply_calibrations();

@@ -23,6 +23,9 @@ class StereoFeed final : public Source {
 
   const std::string& name() const override { return name_; }
   void attend() override;
+  void reconfigure() override {
+    for (const auto& system : systems_) system->pipeline.set_publish(context_.config.publish);
+  }
   std::vector<SourceHealth> health() override;
   bool finished() const override { return finished_; }
   std::string clock_notice() const override { return pairs_->clock_notice(context_.clock.monotonic_ns()); }

@@ -33,6 +33,12 @@ class StereoPipeline {
   /// What became of a pair; published before this returns. `clock_was_set`: this computer's, a moment ago.
   void done(const PairWorker::Done& done, bool clock_was_set);
 
+  /// The limits of what is published, from now on.
+  void set_publish(const PublishConfig& publish) {
+    gate_.set_max_age(publish.max_age_ns());
+    spin_gate_.set_max_age(publish.max_age_ns());
+  }
+
   SourceHealth health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns);
   const StereoCounters& counters() const { return counters_; }
 

@@ -206,6 +206,40 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   EXPECT_GT(std::sqrt(before.covariance[6 * 5 + 5]), 0.005 * 2.0);
 }
 
+TEST_F(TargetPipelineTest, ACalibrationReadAgainHoldsAtOnceAndTheSameOneDisturbsNothing) {
+  constexpr double kPhase_rad = 0.01;
+  push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
+  push_cycles(20);
+  const pose_t before = poses().back();
+  const std::size_t count = poses().size();
+  pipeline_.recalibrate(config());
+  push_cycles(2);
+  EXPECT_EQ(poses().size(), count + 2) << "the same calibration must not cost a pose";
+
+  TargetConfig calibrated = config();
+  calibrated.calibrated_stations.resize(1);
+  calibrated.calibrated_stations[0].id = 0xBEC08E38;
+  calibrated.calibrated_stations[0].calibration.id = 0xBEC08E38;
+  calibrated.calibrated_stations[0].calibration.rotor[0].phase_rad = kPhase_rad;
+  pipeline_.recalibrate(calibrated);
+  push_cycles(20);
+  const pose_t after = poses().back();
+  EXPECT_EQ(after.flags, "");
+  EXPECT_NEAR(std::abs(after.position_m[0] - before.position_m[0]), kPhase_rad * 2.0, 0.2 * kPhase_rad * 2.0);
+}
+
+TEST_F(TargetPipelineTest, LimitsOfPublishingChangeWhileRunning) {
+  push_cycles(20);
+  PublishConfig strict;
+  strict.max_age_s = 0.5e-3;  // less than the bytes' own delay
+  pipeline_.set_publish(strict);
+  const std::size_t count = poses().size();
+  push_cycles(5);
+  EXPECT_EQ(poses().size(), count);
+  EXPECT_EQ(counter("cycles_stale"), 5);
+}
+
 TEST_F(TargetPipelineTest, AnotherProtocolVersionIsNamedInItsHealth) {
   for (std::uint16_t i = 0; i < 3; ++i) push(frame_of_unsupported_version(9, i), ticks_);
   const SourceHealth health = pipeline_.health("/dev/x", SourceState::kOk, "", now_ns());
