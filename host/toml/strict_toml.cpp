@@ -13,6 +13,8 @@
 #include <set>
 #include <sstream>
 
+#include "host/toml/toml_limits.hpp"
+
 namespace pharos::host {
 
 struct TomlTable::State {
@@ -103,6 +105,10 @@ std::string on_one_line(std::string_view text) {
 }  // namespace
 
 TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) {
+  if (const auto excess = toml_excess(text)) {
+    throw InputError(name + ":" + std::to_string(excess->line) + ": holds " + excess->what +
+                     "; no file of Pharos does");
+  }
   auto state = std::make_shared<TomlTable::State>();
   try {
     state->root = std::make_shared<const toml::table>(toml::parse(text, name));
@@ -116,19 +122,27 @@ TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) 
   return TomlTable(std::move(state));
 }
 
+namespace {
+
+// Enough to see that it is too much.
+std::string read_some(std::istream& in) {
+  std::string content(kMaxTomlBytes + 1, '\0');
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  return content;
+}
+
+}  // namespace
+
 TomlTable TomlTable::parse_file(const std::filesystem::path& path) {
-  std::ostringstream content;
-  if (path == "-") {
-    content << std::cin.rdbuf();
-    return parse_text(content.str(), "standard input");
-  }
+  if (path == "-") return parse_text(read_some(std::cin), "standard input");
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw InputError(path.string() + ": is a directory, not a TOML file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path.string() + ": cannot be opened; check the path and its permissions");
-  content << in.rdbuf();
+  const std::string content = read_some(in);
   if (in.bad()) throw InputError(path.string() + ": cannot be read");
-  return parse_text(content.str(), path.string());
+  return parse_text(content, path.string());
 }
 
 bool TomlTable::has(std::string_view key) const { return state_->find(key) != nullptr; }
@@ -149,8 +163,8 @@ std::vector<std::string> TomlTable::keys() const {
 }
 
 void TomlTable::fail(std::string_view key, const std::string& message) const {
-  throw InputError(state_->file + ":" + std::to_string(line_of(key)) + ": " + state_->path + std::string(key) + ": " +
-                   message);
+  throw InputError(state_->file + ":" + std::to_string(line_of(key)) + ": " +
+                   on_one_line(state_->path + std::string(key) + ": " + message));
 }
 
 double TomlTable::number(std::string_view key, Range range) const {

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/toml/toml_limits.hpp"
+
+namespace pharos::host {
+namespace {
+
+class Scan {
+ public:
+  explicit Scan(std::string_view text) : text_(text) {}
+
+  std::optional<TomlExcess> excess() {
+    while (at_ < text_.size()) {
+      take(text_[at_]);
+      if (nesting_ > kMaxTomlNesting) {
+        return TomlExcess{line_, "more than " + std::to_string(kMaxTomlNesting) + " arrays or tables in one another"};
+      }
+      if (dots_ >= kMaxTomlKeyParts) {
+        return TomlExcess{line_, "a key of more than " + std::to_string(kMaxTomlKeyParts) + " parts"};
+      }
+      if (bad_name_) return TomlExcess{line_, "a table whose name does not begin with a letter, digit, -, _ or quote"};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void take(char c) {
+    if (header_opened_ && c != ' ' && c != '\t') check_name_start(c);
+    if (c == '#') return skip_comment();
+    if (c == '"' || c == '\'') return skip_string(c);
+    ++at_;
+    count(c);
+    if (c == '=') in_value_ = true;
+    if (c == '\n') {
+      ++line_;
+      if (nesting_ == 0) in_value_ = false;
+    }
+  }
+
+  // Dots are counted in values as well: no number, date or word has so many.
+  void count(char c) {
+    if (c == '.') {
+      ++dots_;
+    } else if (c == '[' || c == '{') {
+      if (c == '[' && nesting_ == 0 && !in_value_) header_opened_ = true;
+      ++nesting_;
+      dots_ = 0;
+    } else if (c == ']' || c == '}') {
+      if (nesting_ > 0) --nesting_;
+      dots_ = 0;
+    } else if (c == ',' || c == '=' || c == '\n') {
+      dots_ = 0;
+    }
+  }
+
+  // toml++ 3.3 takes for granted that a name begins so; its behaviour is undefined where it does not.
+  void check_name_start(char c) {
+    header_opened_ = c == '[' && nesting_ == 1;
+    const bool bare =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    bad_name_ = !bare && c != '"' && c != '\'' && c != ']' && !header_opened_;
+  }
+
+  void skip_comment() {
+    const std::size_t end = text_.find('\n', at_);
+    at_ = end == std::string_view::npos ? text_.size() : end;
+  }
+
+  // A string of one line ends with that line: there the parser stops.
+  void skip_string(char quote) {
+    const bool escapes = quote == '"';
+    const std::string triple(3, quote);
+    const bool many_lines = text_.substr(at_, 3) == triple;
+    at_ += many_lines ? 3 : 1;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\n' && !many_lines) return;
+      if (c == '\n') ++line_;
+      if (escapes && c == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
+        ++at_;
+      } else if (c == quote && !many_lines) {
+        ++at_;
+        return;
+      } else if (c == quote && text_.substr(at_, 3) == triple) {
+        return skip_closing(quote);
+      }
+    }
+  }
+
+  // Up to two quotes before the closing three are the string's own.
+  void skip_closing(char quote) {
+    at_ += 3;
+    for (int own = 0; own < 2 && at_ < text_.size() && text_[at_] == quote; ++own) ++at_;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::uint32_t line_ = 1;
+  std::size_t nesting_ = 0;
+  std::size_t dots_ = 0;  // since the last separator
+  bool in_value_ = false;
+  bool header_opened_ = false;  // the last characters but blanks were [ or [[ of a table's name
+  bool bad_name_ = false;
+};
+
+}  // namespace
+
+std::optional<TomlExcess> toml_excess(std::string_view text) {
+  if (text.size() > kMaxTomlBytes) {
+    return TomlExcess{1, "more than " + std::to_string(kMaxTomlBytes >> 20) + " MiB"};
+  }
+  return Scan(text).excess();
+}
+
+}  // namespace pharos::host
