@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What compiling a Ninja tree cost, by part: seconds from start to end of each step, summed, and shares.
+"""Cost of compiling a Ninja tree, by part: seconds from start to end of each step, summed, and fractions.
 
 usage: ./build_cost.py BUILD_DIR [--files N]     N: also the N dearest files
 

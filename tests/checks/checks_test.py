@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each check is seen to fail: a violation is planted in a scratch tree, and the check must name it."""
+"""Tests of the checks: a violation is planted in a temporary tree, and the check must report it."""
 
 import pathlib
 import subprocess

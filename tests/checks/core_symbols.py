@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Reads the symbol tables of the portable core's libraries and fails on heap, exceptions, RTTI, clocks, input/output,
-threads and writable data. Builds with sanitizers or without optimisation are not checked: they add symbols of their own."""
+threads and writable data. Builds with sanitizers or without optimisation are not checked: they add their own symbols."""
 
 import argparse
 import re
 import subprocess
 import sys
 
-# What an object of the core may not ask for, by the demangled or plain name.
+# Symbols that an object of the core may not refer to, by the demangled or plain name.
 FORBIDDEN = {
     "heap": r"operator (new|delete)|^(malloc|calloc|realloc|free|aligned_alloc|posix_memalign|memalign)$",
     "exceptions": r"^__cxa_(throw|rethrow|allocate_exception|begin_catch)|^_Unwind_|^__gxx_personality|^std::__throw_",

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: data_required.sh PROGRAM...: no test that needs real data is skipped unheard where they must be there. Each
+# usage: data_required.sh PROGRAM...: no test that needs real data is skipped where they are required. Each
 # GoogleTest program runs without data: with PHAROS_REQUIRE_DATA=1 it fails and skips nothing, without it skips.
 set -u
 export PHAROS_DATA=/nowhere

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: format.sh ROOT: fails when a C++ file is not as clang-format 14 would write it; 77 (skip) without clang-format 14.
+# usage: format.sh ROOT: fails when clang-format 14 would change a C++ file; 77 (skip) without clang-format 14.
 set -u
 cd "$1" || exit 2
 if ! command -v clang-format-14 >/dev/null; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""House rules that a machine can check in any source file: licence line, no leftovers, no file too long to read."""
+"""Rules for any source file: licence line, no leftovers, no file too long."""
 
 import argparse
 import pathlib
@@ -14,7 +14,7 @@ CODE = {".hpp", ".cpp", ".h", ".c", ".py", ".sh", ".v", ""}
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 LICENCE_WITHIN_LINES = 3
 MOST_LINES = 400
-# Spelled so that this file does not find itself.
+# Written so that the patterns do not match this file.
 LEFTOVERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|X" r"XX|[Ss]t" r"ub(bed|s)?|[Nn]ot imp" r"lemented)\b")
 
 

@@ -39,7 +39,7 @@ class Rules:
         return room == allowed if allowed in self.rooms else inside(path, allowed)
 
     def is_part(self, folder):
-        """Whether `folder` belongs to the room above it: rooms whose folders are chapters of one thing say so."""
+        """Whether `folder` belongs to the room above it: rooms may declare their folders as parts of themselves."""
         return any(inside(folder, part) for part in self.parts.get("of_the_room_above", ()))
 
     def third_party_of(self, name):
@@ -107,7 +107,7 @@ def folders_without_row(root, rules):
 
 
 def cycle(rules):
-    """Rooms that reach one another by their rows, in order, or None."""
+    """A cycle of rooms by their rows, in order, or None."""
     reach = {room: sorted(other for other in rules.rooms
                           if other != room and any(rules.covers(path, other, other) for path in allowed))
              for room, allowed in rules.rooms.items() if room.split("/")[0] in LAYERED}

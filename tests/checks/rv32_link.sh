@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # usage: rv32_link.sh ROOT BUILD_DIR: compiles and links the whole portable core for the soft core's instruction set,
 # where neither heap nor C++ library exists, and shows that each planted violation breaks that link. 77 = skipped.
-# BUILD_DIR is a tree of the preset rv32im, made where there is none; that of the firmware's images serves.
+# BUILD_DIR is a tree of the preset rv32im, created where there is none; the firmware's build tree may be used.
 set -u
 root=$1
 build=$2

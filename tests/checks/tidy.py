@@ -26,7 +26,7 @@ def flags_without_output(entry):
 
 
 def fingerprint(entry, rules):
-    """None where the preprocessor fails: clang-tidy will say why."""
+    """None where the preprocessor fails: clang-tidy will report why."""
     command = flags_without_output(entry)
     text = subprocess.run(command + ["-E", "-C"], cwd=entry["directory"], capture_output=True)
     if text.returncode != 0:

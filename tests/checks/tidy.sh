@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # usage: tidy.sh ROOT BUILD_DIR JOBS [REGEX]: clang-tidy 14 over every file of the tree (or those whose path matches
 # REGEX), from a tree that is only configured. The same findings stop the build of the preset `tidy`. Files that passed
-# are remembered in BUILD_DIR/passed (tidy.py).
+# are listed in BUILD_DIR/passed (tidy.py).
 set -u
 root=$(realpath "$1")
 build=$(realpath -m "$2")

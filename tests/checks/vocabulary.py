@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails where a C++ file uses a retired identifier: a private word for which the field has another (vocabulary.toml)."""
+"""Fails where a C++ file uses a retired identifier: one for which the field has a standard term (vocabulary.toml)."""
 
 import argparse
 import pathlib
@@ -20,7 +20,7 @@ class Vocabulary:
         self.rows = [(re.compile(row["pattern"]), row["use"], set(row.get("except", ()))) for row in rows]
 
     def instead(self, word):
-        """What to write instead of a retired identifier; None for all others."""
+        """The replacement of a retired identifier; None for all others."""
         for pattern, use, kept in self.rows:
             if word not in kept and pattern.fullmatch(word):
                 return use

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""usage: bench_target_test.py PHAROS IMAGES: what the soft core spends, against its budget.
+"""usage: bench_target_test.py PHAROS IMAGES: cost on the soft core compared with its budget.
 
 Instruction counts under QEMU do not depend on the machine that counts them, so they may be asserted. The recording of
 PHAROS_DATA is decoded where there is one, simulated light otherwise. 77: no QEMU here."""
@@ -12,8 +12,8 @@ import shutil
 import subprocess
 import sys
 
-# Figure -> the most it may be. Where the product asks for less than what is reached, the figure reached with a little
-# room stands here, and the README says what is asked.
+# Figure -> its limit. Where the requirement is weaker than the measured figure, the limit is the measured one with a
+# small margin, and the README states the requirement.
 BUDGET = {
     "instructions an edge: median": 250,
     "instructions an edge: worst": 20_000,

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""usage: budget_test.py IMAGES: sections of the board's images against its block RAM. Prints the table of firmware/README.md."""
+"""usage: budget_test.py IMAGES: sections of the board's images compared with its block RAM. Prints the table of
+firmware/README.md."""
 
 import pathlib
 import subprocess
 import sys
 
 RETAINED = 32
-LOADER = 4096  # its section, whether it fills it or not
+LOADER = 4096  # its whole section
 CHIP = 36 * 1024
 SLOT = 256 * 1024
 # Most bytes of variables and stack, and of everything (code, constants, variables, stack, loader) together.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """usage: faults_test.py PHAROS IMAGE SCENARIO: a FIFO that overflows and edges faster than any budget, in the middle of good light.
-The firmware stays up, counts what is lost, and goes on. 77 = skipped."""
+The firmware keeps running, counts losses, and continues. 77 = skipped."""
 
 import pathlib
 import shutil
@@ -23,7 +23,7 @@ def light_of(pharos, scenario):
         packets = list(PACKET.iter_unpack(words.read_bytes()))
     start = packets[0][1]
     light = [packet for packet in packets if packet[1] - start < 8 * SECOND and packet[0] != 0xFFFFFFFF]
-    # Dark for a little while, so that the last frame goes out whole.
+    # A short time without light, so that the last frame is sent completely.
     return start, light + list(PACKET.iter_unpack(tape.looks(start + 8 * SECOND, start + 8 * SECOND + 10 * tape.TICKS_PER_MS)))
 
 
@@ -41,7 +41,7 @@ def sweeps_between(frames, begin, end):
 
 
 def check_alive(frames, start):
-    """One start only, counters to the end, and all the sweeps of the last two seconds."""
+    """A single start, counters to the end, and all the sweeps of the last two seconds."""
     starts = {struct.unpack_from("<H", payload, 6)[0] for kind, payload in frames if kind == tape.HELLO}
     assert len(starts) == 1, f"the firmware started anew: {starts}"
     found = sweeps_between(frames, start + 5 * SECOND, start + 7 * SECOND)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Cuts the power of a target under QEMU (SIGKILL, the flash's file stays) at random moments of `pharos flash`, until COUNT of them
-came before it ended. Every time the target must start a whole image: the one before or the new one. 77 = skipped."""
+"""Cuts the power of a target under QEMU (SIGKILL, the flash's file remains) at random times during `pharos flash`, until COUNT of
+them were before its end. Every time the target must start a complete image: the previous or the new one. 77 = skipped."""
 
 import argparse
 import pathlib
@@ -62,7 +62,7 @@ def main():
                 run.kill()
                 raise SystemExit(f"FAILED: cut {cuts}: pharos flash hangs when its target is gone")
             messages = run.stderr.read()
-            if code not in (0, 1, 2):  # 2: the power went before the port was opened
+            if code not in (0, 1, 2):  # 2: power was cut before the port was opened
                 raise SystemExit(f"FAILED: cut {cuts}: pharos flash ended with {code}: {messages}")
             target.switch_on()
             now = version_that_runs(target, f"after cut {cuts} ({messages.strip()})")

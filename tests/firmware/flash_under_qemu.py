@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""`pharos flash` against the real loader under QEMU: the ways it goes and the ways it must fail. 77 = skipped."""
+"""`pharos flash` against the real loader under QEMU: successful runs and required failures. 77 = skipped."""
 
 import argparse
 import fcntl
@@ -97,7 +97,7 @@ class FlashUnderQemu(unittest.TestCase):
         payload = int(row["image_bytes"])
         self.assertGreater(payload, 65536)
         seconds = float(row["line_s"])
-        # The seconds are those of this computer and of what else it does; the bytes are not.
+        # The seconds depend on this computer and its load; the bytes do not.
         self.assertGreaterEqual(payload / line.bytes, 0.65)
         share = 10 * payload / BAUD / seconds
         print(f"{payload} bytes in {seconds:.2f} s: {share:.0%} of the line; {line.bytes} bytes sent in all")
@@ -131,7 +131,7 @@ class FlashUnderQemu(unittest.TestCase):
         before = self.target.hello()
         self.target.command(RESET)
         self.target.forget()
-        said = [self.target.hello() for _ in range(4)]  # the last of what ran before may be among them
+        said = [self.target.hello() for _ in range(4)]  # the last one of the previous program may be among them
         hello = next((one for one in said if one and one.start_count != before.start_count), before)
         self.assertEqual((hello.role, hello.reset_cause, hello.start_count), (DECODER, CAUSE_COMMAND, before.start_count + 1))
 
@@ -162,7 +162,7 @@ class FlashUnderQemu(unittest.TestCase):
 
     def test_a_held_port_is_told(self):
         held, end = pty.openpty()
-        fcntl.flock(end, fcntl.LOCK_EX)  # as pharosd and pharos hold it
+        fcntl.flock(end, fcntl.LOCK_EX)  # as pharosd and pharos lock it
         self.addCleanup(os.close, held)
         self.addCleanup(os.close, end)
         run = flash(os.ttyname(end), self.first)

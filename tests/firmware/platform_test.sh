@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: platform_test.sh IMAGES: what start-up code, linker script, clock, stack mark and trap handler promise, seen from a
+# usage: platform_test.sh IMAGES: start-up code, linker script, clock, stack mark and trap handler, tested from a
 # program that runs under QEMU. 77 = skipped.
 set -u
 images=$1

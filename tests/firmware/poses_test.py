@@ -3,7 +3,8 @@
 """usage: poses_test.py PHAROS IMAGE SCENARIO: poses solved on board, in the block RAM of the board and at the speed of its core.
 
 At three cycles an instruction every cycle of two stations at full rate is answered, by the pose that `pharos track` gives the same
-light, to a tenth of a standard deviation; no second, those of the first poses among them, takes more than the core has. On a core that is too slow, every sweep that no pose was made of is told. 77 = skipped."""
+light, to a tenth of a standard deviation; no second, including those of the first poses, needs more than the core's time.
+On a core that is too slow, every sweep without a pose is reported. 77 = skipped."""
 
 import csv
 import math
@@ -20,8 +21,8 @@ import tape
 POSE, SPEED = 0x12, 0xFFFFFFFE
 UNCALIBRATED = 1
 MOST_SIGMAS = 0.1
-START_TICKS = 50_000_000  # the first poses of two stations are solved from nothing, a third of a second each
-DURATION_S = 14.0  # calibrations come in 9 s at most: four seconds and more of full rate
+START_TICKS = 50_000_000  # the first poses of two stations are solved without a prior, a third of a second each
+DURATION_S = 14.0  # calibrations are received within 9 s: four seconds and more of full rate
 MOST_BUSY_PERMILLE = 1000
 
 
@@ -41,7 +42,7 @@ def host_rows(pharos, light):
 
 def sigmas(row, pose):
     host = [float(row[name]) for name in ("qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m")]
-    # Of nearly equal unit quaternions the distance is half the angle.
+    # The distance of nearly equal unit quaternions is half the angle.
     apart = min(math.dist(host[:4], pose[:4]), math.dist(host[:4], [-q for q in pose[:4]]))
     return max(math.degrees(2 * apart) / float(row["sigma_rot_deg"]), 1000 * math.dist(host[4:], pose[4:]) / float(row["sigma_pos_mm"]))
 
@@ -82,7 +83,7 @@ def tells_what_it_skips(image, words):
     skipped = device[-1]["poses_skipped"] - max(second["poses_skipped"] for second in device if second["time"] < begin)
     print(f"at 12 cycles an instruction: {answers} answers of {sweeps} sweeps, {skipped} sweeps told as skipped")
     assert answers > 5 and skipped > 100, "the core was not too slow, or answered nothing at all"
-    # Of four sweeps two are dark, and two make a cycle; of a cycle's four those that were not lost are not told.
+    # Of four sweeps two are dark, and two are a cycle; those of a cycle's four that were not lost are not reported.
     assert answers + skipped >= sweeps / 4, "cycles went unanswered and untold"
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The target's program on a board of the test's own: what it says first, answers, gives up and tells of.
+// The target's program on a simulated board: its first frames, responses, discarded work and counters.
 #include "firmware/app/program.hpp"
 
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
   wire::FrameEncoder encoder;
 };
 
-// A solver that comes by and is behind.
+// A solver that is behind the sweeps.
 class LateSolver final : public PoseSolver {
  public:
   void take(const lighthouse::Sweep&) override {}
@@ -111,7 +111,7 @@ class ProgramTest : public testing::Test {
 };
 
 TEST_F(ProgramTest, SaysHelloFirstWithTheCauseOfItsStart) {
-  board.command(wire::CommandCode::kIdentify, 0);  // already waits when the program starts
+  board.command(wire::CommandCode::kIdentify, 0);  // already received when the program starts
   run(kTicksPerSecond / 100);
   ASSERT_FALSE(board.events.empty());
   const auto* hello = std::get_if<wire::Hello>(&board.events.front());
@@ -121,7 +121,7 @@ TEST_F(ProgramTest, SaysHelloFirstWithTheCauseOfItsStart) {
   EXPECT_EQ(hello->sensors, 0xFFFu);
   EXPECT_EQ(hello->board.view(), "test");
   EXPECT_EQ(board.all<wire::Ack>().size(), 1u);
-  EXPECT_EQ(board.all<wire::Hello>().size(), 1u);  // which is the one that was asked for, too
+  EXPECT_EQ(board.all<wire::Hello>().size(), 1u);  // which is also the requested one
 }
 
 TEST_F(ProgramTest, ReportsTimeTenTimesAndCountersOnceASecond) {
@@ -190,7 +190,7 @@ TEST_F(ProgramTest, CountsWhatALineThatWasSilentDidNotCarry) {
   board.room = SIZE_MAX;
   run(2 * kTicksPerSecond);
   const auto counters = board.all<report::DeviceReport>().back().counters;
-  EXPECT_GT(counters.frames_skipped, 20u);  // times and seconds that passed unsaid
+  EXPECT_GT(counters.frames_skipped, 20u);  // periodic frames that were not sent
   EXPECT_EQ(board.host.counters().frames_lost, 0u) << "no number was used up by a frame that was never made";
 }
 
@@ -211,7 +211,7 @@ TEST_F(ProgramTest, ReportsOverflowsAndRawEdgesThroughAGap) {
     EXPECT_EQ(report.edges_lost, 6u);
     edges.insert(edges.end(), report.edges.begin(), report.edges.end());
   }
-  // Sensor 0 was lit when the gap came: since when is unknown, so its fall says nothing.
+  // Sensor 0 was lit at the gap: its rise is unknown, so its fall gives no pulse.
   ASSERT_EQ(edges.size(), 3u);
   EXPECT_TRUE(edges[0].rising && edges[0].sensor == 0);
   EXPECT_TRUE(edges[1].rising && edges[1].sensor == 1);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A target under QEMU that is switched on and off: the loader, its flash kept in a file, its line a pseudo-terminal; and a line
-that is slow and loses bytes."""
+"""A target under QEMU that can be switched on and off: the loader, with its flash in a file and a pseudo-terminal as its line;
+and a line that is slow and loses bytes."""
 
 import os
 import pathlib
@@ -20,7 +20,7 @@ import zlib
 
 from tape import unstuffed
 
-FLASH_BYTES = 32 << 20  # what the machine's bank has
+FLASH_BYTES = 32 << 20  # size of the machine's flash bank
 HELLO, COMMAND = 1, 0x30
 RESIDUE = 0x2144DF1C
 DECODER, LOADER = 0, 1
@@ -39,8 +39,8 @@ def raw_line(fd):
 
 
 class QemuTarget:
-    """`flash`: the file that holds the flash; made empty when there is none. `edges`: a socket for the capture block's words, whose
-    time the decoder lives in. As a context: switched off at its end."""
+    """`flash`: the file with the flash's content; created empty when there is none. `edges`: a socket for the capture block's
+    words, which determine the decoder's time. As a context: switched off at its end."""
 
     def __init__(self, images: pathlib.Path, flash: pathlib.Path, edges: pathlib.Path | None = None):
         self.loader = images / "qemu_virt_loader.elf"
@@ -75,7 +75,7 @@ class QemuTarget:
         if not found:
             raise RuntimeError(f"QEMU did not start: {first}")
         self.port = found[0]
-        # Held open: the machine talks only while somebody listens.
+        # Kept open: the machine sends only while the other end is open.
         self.line = os.open(self.port, os.O_RDWR | os.O_NOCTTY)
         raw_line(self.line)
         self.received = b""
@@ -83,7 +83,7 @@ class QemuTarget:
             threading.Thread(target=self.feed_time, daemon=True).start()
 
     def feed_time(self):
-        """An empty capture FIFO, told again and again, with its time (board/qemu_virt/capture_tape.hpp)."""
+        """Repeated reads of an empty capture FIFO, with its time (board/qemu_virt/capture_tape.hpp)."""
         tape = socket.socket(socket.AF_UNIX)
         began = time.monotonic()
         try:
@@ -97,7 +97,7 @@ class QemuTarget:
         tape.close()
 
     def switch_off(self):
-        """As pulling the plug: SIGKILL. What was written to the flash is in the file."""
+        """Power cut: SIGKILL. Data written to the flash are in the file."""
         if self.machine:
             self.machine.kill()
             self.machine.wait()
@@ -106,7 +106,7 @@ class QemuTarget:
             self.machine = None
 
     def hello(self, seconds=20.0):
-        """The next Hello on the line; None when none comes. Not while another program has the line."""
+        """The next Hello on the line; None on timeout. Not while another program uses the line."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             while b"\0" in self.received:
@@ -119,21 +119,21 @@ class QemuTarget:
         return None
 
     def command(self, code):
-        """A Command frame; the answer comes with everything else."""
+        """Sends a Command frame; the response is among the other frames."""
         plain = struct.pack("<BBHBI", 1, COMMAND, 1, code, 0)
         plain += struct.pack("<I", zlib.crc32(plain))
         blocks = b"".join(bytes([len(block) + 1]) + block for block in plain.split(b"\0"))
         os.write(self.line, b"\0" + blocks + b"\0")
 
     def forget(self):
-        """Drops what has come so far."""
+        """Drops received bytes."""
         self.received = b""
         while select.select([self.line], [], [], 0)[0]:
             os.read(self.line, 4096)
 
 
 class PoorLine:
-    """A line between `port` and another pseudo-terminal: as slow as `baud` says, and of so many bytes one gets lost."""
+    """A line between `port` and another pseudo-terminal: with the speed of `baud`, and one lost byte of so many."""
 
     def __init__(self, port, baud, lost_of=None, seed=1):
         self.seconds_a_byte = 10 / baud

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tapes of the capture block's words (firmware/board/qemu_virt/capture_replay.hpp), the decoder image that hears them, and the
-frames that it says. As a program: records without times (edges_through_capture) on standard input become a whole tape."""
+"""Tapes of the capture block's words (firmware/board/qemu_virt/capture_replay.hpp), the decoder image that reads them, and the
+frames that it sends. As a program: converts records without times (edges_through_capture) on standard input to a complete
+tape."""
 
 import pathlib
 import struct
@@ -34,8 +35,8 @@ END = struct.pack("<4I", 0xFFFFFFFF, 0, 0, 0)
 
 
 def whole(records):
-    """Records alone, within one turn of the 32-bit counter -> a tape with a look at the clock every millisecond, from before them
-    to 1.3 s behind them."""
+    """Records alone, within one turn of the 32-bit counter -> a tape with a read of the clock every millisecond, from before them
+    to 1.3 s after them."""
     tape = bytearray()
     now = struct.unpack_from("<I", records, 4)[0] - TICKS_PER_MS
     for at in range(0, len(records), 16):
@@ -61,7 +62,7 @@ def unstuffed(stuffed):
 
 
 def frames_of(line):
-    """(type, payload) of every frame; all must be good and follow one another."""
+    """(type, payload) of every frame; all must be valid and in sequence."""
     frames = []
     for number, stuffed in enumerate(filter(None, line.split(b"\0"))):
         frame = unstuffed(stuffed)
@@ -78,7 +79,7 @@ def device_counters(frames):
 
 
 def run(image, tape, options=()):
-    """What the image's UART said, as frames; the emulator must have come to the tape's end by itself. `options`: QEMU's."""
+    """Output of the image's UART, as frames; the emulator must have reached the tape's end by itself. `options`: QEMU's."""
     emulator = pathlib.Path(__file__).resolve().parents[2] / "tools" / "lib" / "emulator.sh"
     with tempfile.TemporaryDirectory() as folder:
         line = pathlib.Path(folder) / "line"

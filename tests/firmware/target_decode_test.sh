@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # usage: target_decode_test.sh BUILD simulated|recorded|captured: the firmware under QEMU decodes what the host decodes, to
 # the tick: every row of tools/target-decode is one of `pharos decode` and the other way round (hits that end in one tick
-# have no order on pins, so rows are compared sorted). captured: the Verilated capture block at 50 MHz stands between light
+# have no order on pins, so rows are compared sorted). captured: the Verilated capture block at 50 MHz is between light
 # and firmware. 77 = skipped.
 set -euo pipefail
 build=$1 what=$2
@@ -15,7 +15,7 @@ flying=$build/firmware/bin/decoder.qemu_virt.elf # for 12 inputs; recordings hav
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-same() { # NAME EDGES ROWS-AT-LEAST OPTIONS-OF-DECODE...: the target's table of $work/target.csv against the host's
+same() { # NAME EDGES ROWS-AT-LEAST OPTIONS-OF-DECODE...: compares the target's table $work/target.csv with the host's
   local name=$1 edges=$2 least=$3
   shift 3
   "$pharos" decode "$edges" "$@" | sort >"$work/host.csv"

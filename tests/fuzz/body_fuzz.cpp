@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a body: an InputError, or a convex one with faces that look outwards.
+// Any bytes as a body: an InputError, or a convex one with outward faces.
 #include <cstdint>
 
 #include "host/support/input_error.hpp"
@@ -18,7 +18,7 @@ void check(const std::string& path) {
   require(body.facets.size() >= 4);
   for (const auto& facet : body.facets) {
     require(facet.normal.allFinite() && facet.corners.size() >= 3);
-    // No face is on the far side of the body's middle by more than rounding.
+    // The body's centre is inside of every face, up to rounding.
     require(facet.normal.dot(facet.origin - middle) > -0.5 * (body.high - body.low).norm());
     for (const auto& corner : pharos::layout::inset(facet.corners, 0.001)) require(corner.allFinite());
   }

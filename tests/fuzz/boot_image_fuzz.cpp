@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an image file, and as what lies in a slot. First byte of the input: which.
+// Any bytes as an image file, or as the content of a slot. First byte of the input: which.
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -14,7 +14,7 @@ using pharos::test::require;
 using namespace pharos::boot_image;
 using Input = std::span<const std::uint8_t>;
 
-/// What is taken is just what sealing would have made of it.
+/// An accepted image equals the result of sealing it again.
 void check_file(Input file) {
   const auto header = check_image(file);
   if (!header) return;
@@ -25,7 +25,7 @@ void check_file(Input file) {
   require(std::memcmp(&again, file.data(), sizeof again) == 0);
 }
 
-/// Any header and body, sealed: a file that is taken, unless a field means nothing.
+/// Any header and body, sealed: a file that is accepted, unless a field is invalid.
 void check_sealed(Input input) {
   BootImageHeader header;
   if (input.size() < sizeof header + 4) return;

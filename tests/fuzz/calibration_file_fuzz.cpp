@@ -7,7 +7,7 @@
 #include "host/calibrate/calibration_file.hpp"
 #include "host/support/input_error.hpp"
 
-// Any bytes are either a calibration whose target is sound, or an InputError of one line; never anything else.
+// Any bytes are either a calibration with a valid target, or an InputError of one line; never anything else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {

@@ -13,7 +13,7 @@ namespace {
 using pharos::test::require;
 using namespace pharos::host;
 
-// Any bytes are either a file that reads back as it was written, or an InputError of one line; never anything else.
+// Any bytes are either a file that is read back as written, or an InputError of one line; never anything else.
 template <class Parse, class Write>
 void check(std::string_view text, Parse parse, Write write) {
   try {

@@ -20,7 +20,7 @@ pharos::host::CameraFile a_camera() {
 
 }  // namespace
 
-// Any bytes are either a configuration that describes itself or an InputError of one line; never anything else.
+// Any bytes are either a configuration that can be printed or an InputError of one line; never anything else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const pharos::host::Environment nothing{[](const std::string&) { return pharos::host::TargetFile{}; },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder against any light: pulses and edges of any time and length, mixed with good light. Whatever came before,
-// every pulse is accounted for, nothing absurd comes out, and good light is decoded again within twelve flashes.
+// The decoder with any light: pulses and edges of any time and length, mixed with good light. In every case each pulse
+// is counted, all results are within their ranges, and good light is decoded again within twelve flashes.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -38,7 +38,7 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-/// Takes what the decoder gives and checks it by itself.
+/// Checks every result of the decoder.
 template <class AnyDecoder>
 class Watched {
  public:
@@ -63,7 +63,7 @@ class Watched {
     require(sweep.period_sixteenth_ticks > 13'000'000 && sweep.period_sixteenth_ticks < 13'700'000);
     require(!flash.skip || sweep.hits.empty());
     std::array<std::uint8_t, pharos::wire::kMaxPayload> payload{};
-    require(pharos::wire::encode_payload(pharos::report::to_wire(sweep), payload) > 0);  // the line takes it
+    require(pharos::wire::encode_payload(pharos::report::to_wire(sweep), payload) > 0);  // it can be encoded
     if (!flash.skip) lit_.push_back(flash.start_ticks);
     const std::size_t rotor = std::size_t{2} * flash.station + static_cast<std::size_t>(index_of(flash.axis));
     const SmoothedFlash smoothed = smoother_[rotor].push(sweep);
@@ -92,7 +92,7 @@ SyntheticLight light_at(std::int64_t ticks, bool lone) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes in(data, size);
   Watched<Decoder> watched;
-  Watched<SortedDecoder> promised;  // the same edges, which break what it was promised of their order
+  Watched<SortedDecoder> promised;  // the same edges, which violate its precondition on their order
   Decoder& decoder = watched.decoder;
   const bool edges_only = (in.byte() & 1U) != 0;
   const auto push_edge = [&](const Edge& edge) {
@@ -107,7 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t sensor = in.byte() % 40;
     switch (what % 8) {
       case 0:
-      case 1: {  // a pulse or edge near now, of any credible length and more
+      case 1: {  // a pulse or edge near the present time, of any plausible length and more
         now += in.number(2);
         const std::int64_t width = in.number(2) / 6 - 16;
         if (edges_only) {
@@ -126,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         break;
       }
-      case 3:  // somewhere else in time: stale, future
+      case 3:  // at another time: past or future
         if (edges_only) {
           push_edge(Edge{now + (in.number(5) - (std::int64_t{1} << 39)), sensor, (what & 8U) != 0});
         } else {
@@ -134,7 +134,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           decoder.push(RawPulse{rise, rise + 3'200, sensor});
         }
         break;
-      case 4:  // numbers without any sense
+      case 4:  // arbitrary numbers
         if (edges_only) {
           push_edge(Edge{in.number(8), sensor, (what & 8U) != 0});
         } else {
@@ -165,7 +165,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     watched.take();
   }
-  // Good light at the end, a pause later.
+  // Good light at the end, after a pause.
   now += 15'000'000;
   const SyntheticLight light = light_at(now, false);
   for (const RawPulse& pulse : light.slots(0, 40)) {
@@ -186,7 +186,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   promised.take();
   const DecoderCounters& told = promised.decoder.counters();
   require(told.edges_in == edges_accounted(told) && told.pulses_in == pulses_accounted(told));
-  // Twelve flashes are six slots. What came before may move the time base while the light is on: half a slot of room.
+  // Twelve flashes are six slots. The input before may shift the time base while the light is on: half a slot of
+  // tolerance.
   constexpr std::int64_t kHalfSlot_ticks = 208'333;
   require(watched.lit_since(light.flash(0, 6).start_ticks + decoder.time_offset_ticks() - kHalfSlot_ticks) >= 34);
   return 0;

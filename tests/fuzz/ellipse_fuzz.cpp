@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any pixels as an image to look for ellipses in: what is found is finite, within the settings, and the same again.
+// Any pixels as an image for ellipse detection: results are finite, within the settings, and repeatable.
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -13,7 +13,8 @@ namespace {
 using pharos::test::require;
 using namespace pharos::ellipse;
 
-// The first byte tells the width and how values grow to 16 bits; the rest are pixels, repeated to fill the last row.
+// The first byte gives the width and the scaling of values to 16 bits; the others are pixels, repeated to fill the last
+// row.
 std::vector<std::uint16_t> pixels_of(const std::uint8_t* data, std::size_t size, int width, bool steep) {
   std::vector<std::uint16_t> pixels;
   for (std::size_t k = 0; k < size || pixels.size() % static_cast<std::size_t>(width) != 0; ++k) {
@@ -44,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const auto workspace = std::make_unique<EllipseWorkspace>(std::span<std::uint16_t>());
   workspace->planes = planes;
   EllipseSettings settings;
-  settings.min_score = 0.2;  // more comes this far
+  settings.min_score = 0.2;  // so that more candidates reach this stage
   const pharos::ImageView<const std::uint16_t> image(pixels.data(), width, height);
   std::vector<DetectedEllipse> first;
   for (const DetectedEllipse& found : detect_ellipses(image, settings, *workspace)) {

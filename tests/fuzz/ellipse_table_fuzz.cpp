@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a table of ellipses: an InputError, or problems that the solver answers or refuses without a number that
-// is none.
+// Any bytes as a table of ellipses: an InputError, or problems that the solver solves or refuses, with finite numbers
+// only.
 #include <cmath>
 #include <cstdint>
 #include <string>

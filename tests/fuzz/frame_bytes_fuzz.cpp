@@ -7,7 +7,7 @@
 
 #include "host/device/pixel_format.hpp"
 
-// Any bytes of a camera are a frame of exactly the size agreed, or nothing is written.
+// Any bytes of a camera are a frame of exactly the expected size, or nothing is written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pharos::host;
   if (size < 2) return 0;

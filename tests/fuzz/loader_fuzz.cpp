@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes on the loader's line, and any frames: it never writes the slot that holds the good image, which starts
-// afterwards. First byte of the input: bytes (0) or frames.
+// Any bytes on the loader's line, and any frames: it never writes the slot of the valid image, which starts afterwards.
+// First byte of the input: bytes (0) or frames.
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -20,7 +20,7 @@ const Bytes& good_image() {
   return image;
 }
 
-/// Time is not what matters here.
+/// A clock that is not part of the test.
 void set_fast_flash(VirtualTarget& target) {
   target.turn_ticks = boot::kTicksPerSecond / 1000;
   target.machine.byte_ticks = 1;

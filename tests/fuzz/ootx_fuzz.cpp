@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OOTX against any bits and any payload: no crash, frames that were put in come out and no others, a good frame is read
-// whatever came before, and fields are finite or refused.
+// OOTX with any bits and any payload: no crash, exactly the encoded frames are decoded, a good frame is read after any
+// input, and fields are finite or refused.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   OotxFrames frames;
   DecoderCounters counters;
   CalibrationStore store;
-  // The input as bits; every 16th byte says where a flash was missed.
+  // The input as bits; every 16th byte gives the position of a missed flash.
   for (std::size_t i = 0; i < size; ++i) {
     for (unsigned bit = 0; bit < 8; ++bit) {
       const bool follows_last = i % 16 != 15 || bit != 3 || (data[i] & 1U) == 0;
@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (payload) check_fields({payload->begin(), payload->end()}, store);
     }
   }
-  // The input as a payload: straight to the fields, and framed.
+  // The input as a payload: directly to the fields, and framed.
   const std::vector<std::uint8_t> payload(data, data + (size < kMaxOotxPayload ? size : kMaxOotxPayload));
   check_fields(payload, store);
   if (payload.empty()) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an image file of any format: a whole image, or a complaint of one line.
+// Any bytes as an image file of any format: a complete image, or an error of one line.
 #include <cstdint>
 #include <cstdlib>
 #include <span>

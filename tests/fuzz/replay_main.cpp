@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for libFuzzer's main: feeds every file of the folders (or single files) named on the command line, in the
-// order of their names, to the target named first. A folder without inputs is an error, so that a lost corpus is
-// noticed.
+// Replaces libFuzzer's main: passes every file of the folders (or single files) named on the command line, in the
+// order of their names, to the target named first. A folder without inputs is an error, so that a missing corpus is
+// detected.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

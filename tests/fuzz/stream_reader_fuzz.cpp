@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a recording: an InputError or chunks, whose sizes add up; never a crash.
+// Any bytes as a recording: an InputError or chunks with a consistent sum of sizes; never a crash.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -33,7 +33,7 @@ std::vector<RawPulse> pulses_of(const std::string& path) {
 
 void check_round_trip(const std::vector<RawPulse>& pulses) {
   std::string text = "sensor,rise_ticks,fall_ticks\n";
-  // A first row beyond 32 bits says that times are unwrapped, so that they must come back as they are.
+  // A first row beyond 32 bits marks unwrapped times, which must be read back unchanged.
   constexpr std::int64_t kBeyond = std::int64_t{1} << 40;
   text += "0," + std::to_string(kBeyond) + "," + std::to_string(kBeyond) + "\n";
   for (const RawPulse& pulse : pulses) {

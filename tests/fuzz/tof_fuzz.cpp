@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any frame: the path ends, and what it calls a pose is finite with a covariance. The bytes paint rectangles of any
-// value over a frame that shows a ring, in either image, and bend the camera.
+// Any frame: the pipeline returns, and a pose is finite and has a covariance. The bytes are rectangles of any value
+// painted over a frame with a ring, in either image, and changes of the camera model.
 #include <cstdlib>
 #include <memory>
 

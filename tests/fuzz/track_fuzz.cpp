@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a track file: rows that can be worked with, or a complaint.
+// Any bytes as a track file: valid rows, or an InputError.
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a vocabulary: one that finds a word for everything and reads back bit by bit, or a complaint.
+// Any bytes as a vocabulary: one that finds a word for every descriptor and is read back bit by bit, or an error.
 #include <cstdlib>
 #include <vector>
 

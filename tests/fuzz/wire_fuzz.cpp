@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The serial line against any bytes. First byte of the input: how the rest is used.
+// The serial protocol with any bytes. First byte of the input: the use of the others.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ using pharos::test::require;
 using namespace pharos::wire;
 using Input = std::span<const std::uint8_t>;
 
-/// Whatever decodes must encode to the very same bytes.
+/// A decoded message must encode to the same bytes.
 template <class M>
 void check_payload(Input payload) {
   const auto message = decode_payload<M>(payload);
@@ -26,7 +26,7 @@ void check_payload(Input payload) {
   require(size == payload.size() && std::equal(payload.begin(), payload.end(), again.begin()));
 }
 
-/// Any bytes as a stream: no crash, sums that add up, and a good frame afterwards always comes through.
+/// Any bytes as a stream: no crash, consistent counters, and a good frame afterwards is always decoded.
 void check_stream(Input bytes) {
   pharos::report::LinkDecoder link;
   FrameDecoder frames;
@@ -48,7 +48,7 @@ void check_stream(Input bytes) {
   require(came || frames.counters().repeated > repeated);
 }
 
-/// Any bytes as the payload of a frame: it must come back as it was.
+/// Any bytes as the payload of a frame: the decoded payload must be equal.
 void check_frame(std::uint8_t type, Input payload) {
   FrameEncoder encoder;
   std::array<std::uint8_t, kMaxLineFrame> line{};

@@ -6,7 +6,7 @@
 
 namespace pharos::rtl {
 
-/// What the bus asks of the capture block in one tick. Offsets are those of firmware/rtl/capture_registers.h.
+/// Bus request to the capture block in one tick. Offsets are those of firmware/rtl/capture_registers.h.
 struct BusRequest {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite };
   Kind kind = Kind::kNone;
@@ -14,7 +14,7 @@ struct BusRequest {
   std::uint32_t data = 0;
 };
 
-/// The capture block made from its Verilog, one tick of the clock at a time.
+/// The Verilated capture block, simulated one clock tick at a time.
 class CaptureDevice {
  public:
   virtual ~CaptureDevice() = default;
@@ -23,15 +23,15 @@ class CaptureDevice {
   virtual void tick(std::uint32_t pins, const BusRequest& request) = 0;
   /// Four ticks of reset with these levels on the pins.
   virtual void reset(std::uint32_t pins) = 0;
-  /// What the bus reads: the answer to a read of the tick before.
+  /// Read data of the bus, for a read request of the tick before.
   virtual std::uint32_t read_data() const = 0;
   virtual bool interrupt() const = 0;
-  /// The tick counter, which simulation may set.
+  /// The tick counter, which the simulation may set.
   virtual std::uint64_t ticks() const = 0;
   virtual void set_ticks(std::uint64_t ticks) = 0;
 };
 
-/// The variant of the block that the program is linked with.
+/// Parameters of the linked variant of the block.
 std::unique_ptr<CaptureDevice> make_capture_device();
 
 }  // namespace pharos::rtl

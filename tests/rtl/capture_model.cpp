@@ -42,7 +42,7 @@ void CaptureModel::tick(std::uint32_t pins, const BusRequest& request) {
                              request.offset == PHAROS_CAPTURE_STATUS_OFFSET &&
                              (request.data & PHAROS_CAPTURE_STATUS_OVERFLOW) != 0;
   if (overflow_read) overflow_ = false;
-  // An edge of the tick in which the last room is freed comes too early for it.
+  // An edge of the tick in which an entry is freed cannot use it yet.
   arrive(cleared);
   if (popped && count > 0) records_.pop_front();
   if (cleared) records_.clear();

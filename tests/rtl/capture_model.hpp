@@ -9,7 +9,7 @@
 
 namespace pharos::rtl {
 
-/// What a variant of the block was built with.
+/// Parameters of a variant of the block.
 struct CaptureBuild {
   unsigned inputs = 12;
   unsigned depth = 512;
@@ -17,8 +17,8 @@ struct CaptureBuild {
   unsigned lost_width = 32;
 };
 
-/// What firmware/rtl/capture_registers.h promises, tick by tick, in the plainest words: the reference that the Verilog
-/// is held to. Records carry their stamp, and everything about when they can be seen follows from it.
+/// Reference model of the behaviour defined in firmware/rtl/capture_registers.h, tick by tick; the Verilog is compared
+/// with it. Records contain their stamp, which determines when they are visible.
 class CaptureModel {
  public:
   explicit CaptureModel(const CaptureBuild& build) : build_(build) {}
@@ -54,13 +54,13 @@ class CaptureModel {
   std::uint64_t high_latched_ = 0;
   std::deque<Record> records_;
 
-  // Pins on their way through the synchroniser, the newest first.
+  // Pin levels in the synchroniser, the newest first.
   std::array<std::uint32_t, 2> underway_{};
   std::uint32_t levels_ = 0;
   std::uint32_t arriving_ = 0;
   bool glitch_ = false;
   std::array<unsigned, 32> held_{};      // ticks for which an input has differed from its level
-  std::array<unsigned, 32> patience_{};  // filter length that holds for its next edge
+  std::array<unsigned, 32> patience_{};  // filter length for its next edge
 
   bool enabled_ = false;
   std::uint32_t threshold_ = 0;

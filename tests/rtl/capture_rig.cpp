@@ -8,7 +8,7 @@
 namespace pharos::rtl {
 namespace {
 
-// What the build says it made is given to the program, so that the block's own word for it is a thing to check.
+// The build passes its parameters to the program, so that the block's BUILD register can be checked against them.
 constexpr CaptureBuild kBuild{.inputs = PHAROS_RTL_INPUTS,
                               .depth = PHAROS_RTL_DEPTH,
                               .filter_width = PHAROS_RTL_FILTER_WIDTH,

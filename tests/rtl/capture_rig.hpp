@@ -21,8 +21,8 @@ struct CaptureRecord {
   bool gap() const;
 };
 
-/// The Verilated block and the reference model side by side: what they answer is compared in every tick, and the first
-/// difference fails the running test with its tick, request and both answers.
+/// The Verilated block and the reference model in parallel: their read data are compared in every tick, and the first
+/// difference fails the running test with its tick, request and both values.
 class CaptureRig {
  public:
   CaptureRig();
@@ -42,7 +42,7 @@ class CaptureRig {
 
   void tick(const BusRequest& request = {});
   void ticks(std::uint64_t count);
-  /// One tick for the request, and the answer in the tick after it; both pass on the pins too.
+  /// One tick for the request, and the read data in the tick after it; the pins are sampled in both.
   std::uint32_t read(std::uint8_t offset);
   void write(std::uint8_t offset, std::uint32_t data);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder on what the capture block gives: the same sweeps, to the tick, as from the recording itself.
+// The decoder with the records of the capture block: the same sweeps, to the tick, as from the recording itself.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -31,7 +31,7 @@ std::vector<lighthouse::Edge> edges_of(const std::vector<RecordWords>& records) 
 }
 
 // Pulses that end in one tick have an order in the recording and none in a record: hits are compared as a set, and the
-// number of sensors that saw a flash, which can hang on that order, is left out.
+// number of sensors that saw a flash, which can depend on that order, is left out.
 bool same(const lighthouse::Sweep& a, const lighthouse::Sweep& b) {
   const auto flash = [](const lighthouse::Flash& f) {
     return std::tuple(f.start_ticks, f.length_ticks, f.station, f.axis, f.data, f.skip);

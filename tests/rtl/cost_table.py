@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the capture logic costs on a Cyclone IV E, by yosys' count (no placing, no routing).
+"""Resources of the capture logic on a Cyclone IV E, counted by yosys (without place and route).
 
 Logic elements: look-up tables, plus the flip-flops that cannot share an element with the table that drives them.
 `--check` holds the block that flies (12 inputs, 512 records) to its budget, and shows that the budget can be broken.

@@ -13,7 +13,7 @@ namespace pharos::rtl {
 namespace {
 
 constexpr std::uint8_t kSensors = 32;
-// From a pin's change until its record is counted in STATUS, and as much again for certainty.
+// Latency from a pin's change until its record is counted in STATUS, doubled as a margin.
 constexpr std::uint64_t kSettle_ticks = 2 * (PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS);
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
@@ -104,7 +104,7 @@ class Player {
     return true;
   }
 
-  // The block is at rest and its FIFO empty: only the counter would change until `tick`. The reader's rhythm goes on.
+  // The block is idle and its FIFO empty: only the counter would change until `tick`. The reader's phase continues.
   void jump(std::uint64_t tick) {
     const std::uint64_t beats = (tick > next_look_) ? (tick - next_look_ - 1) / options_.service_ticks + 1 : 0;
     next_look_ += beats * options_.service_ticks;

@@ -12,7 +12,7 @@
 namespace pharos::rtl {
 namespace {
 
-constexpr std::int64_t kFrom = 2 * kTicksPerSecond;  // behind the stale rows that two recordings begin with
+constexpr std::int64_t kFrom = 2 * kTicksPerSecond;  // after the stale rows at the beginning of two recordings
 constexpr std::int64_t kTo = 3 * kTicksPerSecond;
 
 class RealEdges : public testing::TestWithParam<const char*> {};

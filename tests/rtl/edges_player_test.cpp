@@ -16,7 +16,7 @@ namespace {
 
 using lighthouse::RawPulse;
 
-// Pulses as a decoder pairs them from records: what firmware will do with the words.
+// Pulses paired from records, as the firmware does.
 std::vector<std::tuple<std::int64_t, std::int64_t, int>> pulses_of(const PlayedEdges& played) {
   std::vector<std::tuple<std::int64_t, std::int64_t, int>> pulses;
   std::array<std::uint32_t, 32> rise{};

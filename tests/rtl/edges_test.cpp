@@ -9,7 +9,7 @@ namespace {
 
 constexpr unsigned kSettle = PHAROS_CAPTURE_LATENCY_TICKS + PHAROS_CAPTURE_VISIBLE_AFTER_TICKS;
 
-// The tick in which the pins get `pins`, cut to the 32 bits of a stamp.
+// The tick in which the pins change to `pins`, truncated to the 32 bits of a stamp.
 std::uint32_t change(CaptureRig& rig, std::uint32_t pins) {
   const auto tick = static_cast<std::uint32_t>(rig.ticks());
   rig.set_pins(pins);
@@ -46,7 +46,7 @@ TEST(Edges, OfOneTickShareOneRecord) {
   EXPECT_EQ(records[0].levels, all);
   EXPECT_EQ(records[0].stamp - PHAROS_CAPTURE_LATENCY_TICKS, lit);
 
-  // Half rise while the others fall: one record too, and the levels tell which is which.
+  // Half rise while the others fall: one record too, in which the levels show the direction.
   const std::uint32_t odd = 0xAAAAAAAA & all;
   change(rig, odd);
   rig.ticks(kSettle);
@@ -146,7 +146,7 @@ TEST(Edges, OfInputsThatAreOffAreNotRecordedButTheirLevelsAre) {
   ASSERT_EQ(records.size(), 1u);
   EXPECT_EQ(records[0].changed, 1u);
   EXPECT_EQ(records[0].levels, rig.input_mask() & ~1u);
-  EXPECT_TRUE(records[0].gap());  // other inputs came to be watched or unwatched since the last one
+  EXPECT_TRUE(records[0].gap());  // the set of enabled inputs changed since the last one
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording through the simulated capture block: EDGES in, the words that firmware would read out.
+// A recording through the simulated capture block: from EDGES to the words that the firmware would read.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>

@@ -39,7 +39,7 @@ std::uint32_t busiest_sensors(std::span<const lighthouse::RawPulse> pulses, std:
 }
 
 std::size_t worst_fill(std::span<const std::int64_t> records, std::int64_t service_ticks) {
-  std::deque<std::int64_t> leaves;  // when each of the waiting records will have been served
+  std::deque<std::int64_t> leaves;  // time at which each waiting record is completely read
   std::size_t worst = 0;
   std::int64_t free_at = INT64_MIN;
   for (const std::int64_t tick : records) {

@@ -17,10 +17,10 @@ std::vector<std::int64_t> record_ticks(std::span<const lighthouse::RawPulse> pul
 /// Mask of the `count` sensors with the most pulses.
 std::uint32_t busiest_sensors(std::span<const lighthouse::RawPulse> pulses, std::size_t count);
 
-/// Most records that wait at once for a reader who needs `service_ticks` for each, the one he is at included.
+/// Largest number of waiting records for a reader that needs `service_ticks` for each, including the one being read.
 std::size_t worst_fill(std::span<const std::int64_t> records, std::int64_t service_ticks);
 
-/// Most records that come while nobody reads for `absent_ticks`.
+/// Largest number of records stored during `absent_ticks` without reading.
 std::size_t max_in_window(std::span<const std::int64_t> records, std::int64_t absent_ticks);
 
 }  // namespace pharos::rtl

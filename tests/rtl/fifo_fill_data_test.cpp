@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of the FIFO real light fills: prints the table of firmware/rtl/README.md (run with --verbose).
+// Fill level of the FIFO with real light: prints the table of firmware/rtl/README.md (run with --verbose).
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kDepth = 512;
 constexpr std::size_t kFlyingSensors = 12;
 constexpr std::size_t kAllSensors = 32;
-// 250 instructions an edge at 3 cycles each are 15 us: the slowest core that the decoder is meant for.
+// 250 instructions an edge at 3 cycles each are 15 us: the slowest core for the decoder.
 constexpr std::int64_t kService_us[] = {5, 15, 20, 30};
 constexpr std::int64_t kSlowestService_us = 20;
 constexpr std::int64_t kAbsent_us[] = {1'000, 8'333, 16'667, 33'333, 50'000};
-// Longest time for which the reader may be away: 3 turns of a rotor.
+// Longest time without reading: 3 turns of a rotor.
 constexpr std::int64_t kLongestAbsence_us = 50'000;
 
 class RealLight : public testing::TestWithParam<const char*> {};

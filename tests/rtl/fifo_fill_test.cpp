@@ -23,7 +23,7 @@ TEST(FifoFill, AReaderFasterThanTheRecordsNeverLetsTwoWait) {
   const std::vector<std::int64_t> records{0, 10, 20, 30};
   EXPECT_EQ(worst_fill(records, 10), 1u);
   EXPECT_EQ(worst_fill(records, 11), 2u);
-  EXPECT_EQ(worst_fill(records, 20), 3u);  // one of the four has gone when the last one comes
+  EXPECT_EQ(worst_fill(records, 20), 3u);  // one of the four was already read when the last one is stored
   EXPECT_EQ(worst_fill(records, 31), 4u);
 }
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: lint.sh VERILOG...: fails when Verilator warns about the capture logic at any width that it is meant for, and
+# usage: lint.sh VERILOG...: fails when Verilator warns about the capture logic at any supported width, and
 # when it does not warn about a latch planted in it.
 set -u
 if ! command -v verilator >/dev/null; then

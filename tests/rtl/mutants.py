@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants one fault at a time in a copy of the capture logic; the bench must fail on every one of them, and only then.
+"""Plants one fault at a time in a copy of the capture logic; the test bench must fail on every one of them, and only then.
 
 A mutant that lives means that the bench has a hole. `--few` takes the four that stand for the bench's main promises.
 """
@@ -36,7 +36,7 @@ class Workshop:
         self.bench = arguments.bench
 
     def bench_on(self, name, file, original, replacement):
-        """Exit code of the bench on the logic with `original` in `file` replaced."""
+        """Exit code of the test bench on the logic with `original` in `file` replaced."""
         folder = self.folder / name
         folder.mkdir(exist_ok=True)
         for verilog in VERILOG:

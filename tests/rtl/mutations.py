@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Faults to plant in the capture logic: name, file, text that stands there once, what to put in its place."""
+"""Faults to plant in the capture logic: name, file, a text that is unique there, its replacement."""
 
 RECORD = "{gap, ticks[31:0], changed, levels}"
 CHANGED = "changed <= taken & watched;"

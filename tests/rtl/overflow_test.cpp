@@ -96,7 +96,7 @@ TEST(Overflow, IsReportedUntilItIsClearedAndAgainWhenItComesAgain) {
   EXPECT_TRUE(overflow(rig));
   rig.write(PHAROS_CAPTURE_STATUS_OFFSET, PHAROS_CAPTURE_STATUS_OVERFLOW);
   EXPECT_FALSE(overflow(rig));
-  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), rig.build().inputs);  // clearing the flag forgets no edge
+  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), rig.build().inputs);  // clearing the flag does not reset the count
   toggle(rig, rig.build().depth + 1);
   rig.ticks(kOverflowSettle);
   EXPECT_TRUE(overflow(rig));
@@ -118,7 +118,7 @@ TEST(Overflow, LeavesEveryEdgeEitherRecordedOrCounted) {
   rig.enable();
   std::uint64_t recorded = 0;
   std::uint64_t made = 0;
-  // A reader that keeps up only with some of it, over many fillings.
+  // A reader that is too slow, over many overflows.
   for (unsigned round = 0; round < 40 && made < max_lost(rig); ++round) {
     toggle(rig, 1 + (round * 7) % 5);
     made += (1 + (round * 7) % 5) * rig.build().inputs;
@@ -156,7 +156,7 @@ TEST(Disabling, KeepsRecordsAndMarksTheFirstOneAfterEnabling) {
   toggle(rig, 30);
   rig.ticks(kOverflowSettle);
   EXPECT_EQ(rig.drain().size(), 1u);
-  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), 0u);  // nobody asked for them
+  EXPECT_EQ(rig.read(PHAROS_CAPTURE_LOST_OFFSET), 0u);  // the inputs are not enabled
   rig.enable();
   toggle(rig, 1);
   rig.ticks(kOverflowSettle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light knows no clock: edges at any picosecond, against what comes out of the block.
+// Light is not synchronous with the clock: edges at any picosecond, compared with the records of the block.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace pharos::rtl {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerTick = 20'000;
-// A change this near to the clock edge may be sampled as either level: the flop is metastable and settles as it likes.
-// Ten times the worst setup and hold of the family, so that the case is met often.
+// A change this near to the clock edge may be sampled as either level: the flip-flop is metastable and settles to
+// either. Ten times the worst setup and hold time of the family, so that the case is frequent.
 constexpr std::int64_t kAperture = 2'000;
 
 struct PinEdge {
@@ -25,9 +25,9 @@ struct PinEdge {
 
 class AnyPhase : public testing::TestWithParam<unsigned> {
  protected:
-  // Levels of every input, each held for at least a tick and a little: what a pulse of light does.
+  // Levels of every input, each held for a little more than a tick at least, like pulses of light.
   std::vector<PinEdge> make_edges(std::size_t per_input, const CaptureRig& rig) {
-    // Some 50 ticks to an edge over all inputs: the reader keeps up, and meetings in one tick are frequent.
+    // Some 50 ticks to an edge over all inputs: the reader is fast enough, and several edges in one tick are frequent.
     const auto longest_extra = static_cast<std::uint64_t>(100 * kPicosecondsPerTick) * rig.build().inputs;
     std::vector<PinEdge> edges;
     for (unsigned input = 0; input < rig.build().inputs; ++input) {
@@ -61,7 +61,7 @@ class AnyPhase : public testing::TestWithParam<unsigned> {
       rig.set_pins(true_pins ^ (uncertain & static_cast<std::uint32_t>(random_())));
       rig.tick({BusRequest::Kind::kNone, 0, 0});
       if (rig.ticks() % 8 == 0) {
-        // Reading takes ticks too: hold the pins as they are only for those ticks that no edge falls into.
+        // Reading takes ticks too: it is done only in ticks without edges, with constant pins.
         const bool quiet = next >= edges.size() || edges[next].picoseconds > sampled_at + 8 * kPicosecondsPerTick;
         if (quiet) {
           rig.set_pins(true_pins);
@@ -98,7 +98,7 @@ TEST_P(AnyPhase, EveryEdgeIsStampedWithinOneTickOfItsPinOnceAndInOrder) {
   for (unsigned input = 0; input < rig.build().inputs; ++input) {
     ASSERT_EQ(stamped[input].size(), truth[input].size()) << "input " << input;
     for (std::size_t i = 0; i < truth[input].size(); ++i) {
-      // The stamp names a tick; its pin changed in that tick or, within the aperture, at either end of it.
+      // The pin changed in the tick of the stamp or, within the aperture, at either end of it.
       const std::int64_t begin = stamped[input][i] * kPicosecondsPerTick;
       EXPECT_GE(truth[input][i], begin - kAperture);
       EXPECT_LE(truth[input][i], begin + kPicosecondsPerTick + kAperture);

@@ -68,7 +68,7 @@ BusRequest RandomTraffic::next_request() {
 BusRequest RandomTraffic::random_write() {
   const auto any = static_cast<std::uint32_t>(random_());
   const auto offset = static_cast<std::uint8_t>(4 * below(kOffsets));
-  // Left to chance alone, capturing would be off half the time and the threshold out of reach.
+  // With uniform random values capturing would be off half the time and the threshold never reached.
   if (offset == PHAROS_CAPTURE_CONTROL_OFFSET) {
     const std::uint32_t enable = below(8) == 0 ? 0 : PHAROS_CAPTURE_CONTROL_ENABLE;
     return {BusRequest::Kind::kWrite, offset, enable | (below(4) == 0 ? PHAROS_CAPTURE_CONTROL_CLEAR_FIFO : 0)};

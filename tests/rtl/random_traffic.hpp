@@ -8,14 +8,14 @@
 
 namespace pharos::rtl {
 
-/// Drives pins and bus at random, in stretches of different temper: silence, single edges, flashes on all inputs,
-/// one-tick pulses, every input anew in every tick; a reader that is absent, reads anything anywhere, or drains.
-/// Registers are written in the middle of it. The rig compares every tick.
+/// Drives pins and bus at random, in phases of different kinds: no edges, single edges, flashes on all inputs, one-tick
+/// pulses, every input random in every tick; a reader that is absent, reads any address, or drains the FIFO. Registers
+/// are written in between. The rig compares every tick.
 class RandomTraffic {
  public:
   RandomTraffic(CaptureRig& rig, std::uint64_t seed) : rig_(rig), random_(seed) {}
 
-  /// Runs until `ticks` have passed or the rig disagrees.
+  /// Runs for `ticks` or until the rig reports a difference.
   void run(std::uint64_t ticks);
 
  private:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads capture_registers.h: prints the register table for the README, or holds README and Verilog to the header.
+"""Reads capture_registers.h: prints the register table for the README, or checks README and Verilog against the header.
 
 usage: register_map.py FOLDER | register_map.py --check FOLDER
 """
@@ -51,7 +51,7 @@ def objections(folder):
 
 
 def planted_faults_are_found(folder):
-    """Each of the three files changed in one place must raise an objection."""
+    """A change in any of the three files must be reported."""
     faults = (("capture_registers.h", "LOST_OFFSET 0x20", "LOST_OFFSET 0x3C"), ("README.md", "| 0x20 |", "| 0x24 |"),
       ("pharos_capture.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"))
     for file, original, replacement in faults:

@@ -91,7 +91,7 @@ TEST(Registers, AnEmptyFifoReadsZeroAndGivesNothingUp) {
   rig.ticks(8);
   rig.set_pins(0);
   rig.ticks(8);
-  EXPECT_EQ(rig.drain().size(), 2u);  // reads of nothing were not remembered
+  EXPECT_EQ(rig.drain().size(), 2u);  // reads of an empty FIFO had no effect
 }
 
 TEST(Registers, InterruptIsHighFromTheThresholdOnAndOnlyThen) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The random traffic of traffic_test.cpp, for as long as a weekly run can afford.
+// The random traffic of traffic_test.cpp, with the length of a weekly run.
 #include <gtest/gtest.h>
 
 #include "rtl/random_traffic.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random traffic of every temper against the reference model, compared in every tick.
+// Random traffic of every kind, compared with the reference model in every tick.
 #include <gtest/gtest.h>
 
 #include "rtl/random_traffic.hpp"
@@ -14,11 +14,11 @@ class Traffic : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Traffic, BlockAnswersAsTheReferenceInEveryTick) {
   CaptureRig rig;
-  rig.set_ticks(kWrap - kTicks / 2);  // the wrap lies in the middle
+  rig.set_ticks(kWrap - kTicks / 2);  // the wrap is in the middle
   rig.enable();
   RandomTraffic(rig, GetParam()).run(kTicks);
   EXPECT_TRUE(rig.agrees());
-  // A run that never recorded or never lost anything has shown nothing.
+  // A run without records or without losses would not be a test.
   EXPECT_GT(rig.model().recorded_edges(), 1000u);
   EXPECT_GT(rig.model().lost_edges(), 1000u);
 }

@@ -20,8 +20,7 @@ thread_local std::size_t allocation_count = 0;
 
 #if defined(PHAROS_ADDRESS_SANITIZER)
 
-// The sanitizer owns malloc and offers hooks instead. Declared here because clang 14's headers are a package of their
-// own.
+// The sanitizer defines malloc and has hooks instead. Declared here because clang 14's headers are a separate package.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void* block,
                                                                            std::size_t size),
                                                          void (*on_free)(const volatile void* block));
@@ -35,7 +34,7 @@ namespace {
 
 #else
 
-// The C library lets a program replace malloc and its relatives as a set, and keeps its own under these names.
+// A program may replace malloc and related functions of the C library as a set; the originals have these names.
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): the C library's names.
 void* __libc_malloc(std::size_t size);

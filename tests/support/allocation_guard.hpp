@@ -5,7 +5,7 @@
 
 namespace pharos::test {
 
-/// Counts what the calling thread takes from the heap (malloc, calloc, realloc, aligned forms, and so operator new and
+/// Counts heap allocations of the calling thread (malloc, calloc, realloc, aligned forms, and so operator new and
 /// Eigen) between its construction and the call of allocations(). Guards may be nested. Link pharos_allocation_guard.
 class AllocationGuard {
  public:

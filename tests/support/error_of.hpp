@@ -6,7 +6,7 @@
 
 namespace pharos::test {
 
-/// What the exception says that `action` throws; empty where it throws none.
+/// The message of the exception thrown by `action`; empty where it throws none.
 template <class Action>
 std::string error_of(Action&& action) {
   try {

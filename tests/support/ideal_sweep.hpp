@@ -38,7 +38,7 @@ inline lighthouse::StationCalibration some_calibration() {
   return c;
 }
 
-/// The sweep that an ideal receiver would report: no noise but the half tick.
+/// The sweep of an ideal receiver: no noise except quantisation to half a tick.
 inline lighthouse::Sweep make_sweep(const Target& target, const LighthouseFromBody& pose,
                                     const lighthouse::StationCalibration& c, Axis axis, std::int64_t flash_ticks,
                                     std::uint8_t station = 0) {

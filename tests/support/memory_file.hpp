@@ -10,7 +10,7 @@
 
 namespace pharos::test {
 
-/// Bytes under a path, for readers that open files; nothing on the disk.
+/// Bytes with a path, for readers that open files; not on disk.
 class MemoryFile {
  public:
   MemoryFile(const void* data, std::size_t size) : fd_(::memfd_create("fuzz", MFD_CLOEXEC)) {

@@ -11,15 +11,14 @@
 
 namespace pharos::testing {
 
-/// A panel of 10 m x 2 m before a telescope, painted: flat grey, edges blurred, photon-like noise. No renderer is
-/// needed.
+/// Image of a panel of 10 m x 2 m in a telescope: flat grey, blurred edges, shot noise. No renderer is needed.
 struct PaintedPanel {
   PinholeCamera camera{512, 512, 3000.0, 3000.0, 255.5, 255.5, {}};
   pointing::LineOfSight sight{1.0, 0.7};
   double range_m = 100.0;
   Vector3 axis_station = Vector3::UnitX();
   double length_m = 10.0, width_m = 2.0;
-  Vector2 shift_m = Vector2::Zero();  ///< right and down of the line of sight
+  Vector2 shift_m = Vector2::Zero();  ///< to the right and down from the line of sight
   double sky = 600.0, light = 24000.0, noise = 200.0, blur_px = 1.2;
 
   /// In the image plane turned by `turn_rad`, then out of it.

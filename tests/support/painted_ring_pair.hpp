@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Ring and nozzle before a rig of two cameras, painted with exact edges: pairs whose truth is known, in a fraction of a
-// second and without POV-Ray.
+// Images of ring and nozzle in a rig of two cameras, painted with exact edges: pairs with known truth, in a fraction of
+// a second and without POV-Ray.
 #include <array>
 #include <cstdint>
 #include <string>

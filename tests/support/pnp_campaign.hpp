@@ -7,11 +7,11 @@
 
 namespace pharos::test {
 
-/// What a set of problems says of the solver.
+/// Statistics of the solver over a set of problems.
 struct CampaignResult {
   PnpScore score;
   int failures_that_truth_fits_better = 0;  // a start at the truth would have found a better minimum
-  double nees_per_freedom = 0.0;            // mean over all answers that are not ambiguous
+  double nees_per_freedom = 0.0;            // mean over all results that are not ambiguous
   double nees_all_per_freedom = 0.0;
   int nees_count = 0;
 };

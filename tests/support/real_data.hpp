@@ -29,7 +29,8 @@ inline std::string real_data_missing(const std::string& name) {
 
 }  // namespace pharos::test
 
-/// Leaves the test where the real data `name` is not at hand: skipped with a word, or failed where it must be there.
+/// Returns from the test where the real data `name` are missing: skipped with a message, or failed where they are
+/// required.
 #define PHAROS_NEEDS_DATA(name)                                                              \
   if (!std::filesystem::exists(pharos::test::real_data(name))) {                             \
     if (pharos::test::real_data_required()) FAIL() << pharos::test::real_data_missing(name); \

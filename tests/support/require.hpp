@@ -5,7 +5,7 @@
 
 namespace pharos::test {
 
-/// What a fuzz target asserts: libFuzzer and the replay both take an abort for a failure.
+/// Assertion of a fuzz target: libFuzzer and the replay both report an abort as a failure.
 inline void require(bool holds) {
   if (!holds) std::abort();
 }

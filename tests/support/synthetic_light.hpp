@@ -12,8 +12,8 @@
 
 namespace pharos::test {
 
-/// Exact light of one or two base stations on a still target, for tests of the decoder: what the public description of
-/// the stations says, written down on its own (no constant of the decoder is used), with truth beside every pulse.
+/// Exact light of one or two base stations on a stationary target, for tests of the decoder: implemented independently
+/// from the public description of the stations (no constant of the decoder is used), with truth for every pulse.
 ///
 /// 20 ns ticks. 48 MHz figures of the sources times 50/48.
 class SyntheticLight {
@@ -47,7 +47,8 @@ class SyntheticLight {
 
   explicit SyntheticLight(Settings settings) : settings_(std::move(settings)) {}
 
-  /// Truth of a station's flash in a slot. Rotors are not locked to each other: y lies 133 ticks off half a turn.
+  /// Truth of a station's flash in a slot. Rotors are not synchronised with each other: y is 133 ticks from half a
+  /// turn.
   FlashTruth flash(int station, std::int64_t slot) const {
     FlashTruth truth;
     truth.slot = slot;
@@ -75,8 +76,8 @@ class SyntheticLight {
   }
   static int hit_width(int sensor) { return 150 + 10 * sensor; }
 
-  /// Pulses of a flash on every sensor: the first strong, the others weaker and late by three quarters of what they
-  /// miss.
+  /// Pulses of a flash on every sensor: the first strong, the others weaker and late by three quarters of the
+  /// difference in length.
   void add_flash(const FlashTruth& truth, std::vector<lighthouse::RawPulse>& light) const {
     std::int64_t missing = 0;
     for (const int sensor : settings_.sensors) {
@@ -98,8 +99,8 @@ class SyntheticLight {
     return std::llround(fraction(truth.station, truth.axis, sensor) * settings_.turn_ticks);
   }
 
-  /// All light of slots [begin, end), in the order of the falling edges, as receivers send it. `seen` decides which
-  /// flashes the target sees.
+  /// All light of slots [begin, end), in the order of the falling edges, as receivers send it. `seen` selects the
+  /// flashes that the target sees.
   std::vector<lighthouse::RawPulse> slots(
       std::int64_t begin, std::int64_t end,
       const std::function<bool(const FlashTruth&)>& seen = [](const FlashTruth&) { return true; }) const {

@@ -15,8 +15,8 @@ namespace pharos::test {
 
 using CameraFromTarget = Pose<frame::Camera, frame::Target>;
 
-/// The least scene that a docking ring can be measured in: a flat ring before a flat wall, with square plates on stalks
-/// that nobody sees. For tests whose truth must be known to the last digit; the simulator is for everything else.
+/// A minimal scene for measurements of a docking ring: a flat ring in front of a flat wall, with square plates on
+/// invisible supports. For tests with exact truth; for all others there is the simulator.
 struct SyntheticRing {
   double outer_radius_m = 0.55;
   double inner_radius_m = 0.49;
@@ -26,7 +26,7 @@ struct SyntheticRing {
   double plate_grey = 7000.0;
   double plate_z_m = -0.03;
   double plate_side_m = 0.12;
-  std::vector<Vector2> plates{Vector2(0.66, 0.0)};  ///< middles, in T
+  std::vector<Vector2> plates{Vector2(0.66, 0.0)};  ///< centres, in T
 };
 
 struct SyntheticFrame {
@@ -45,7 +45,7 @@ inline DepthCamera small_camera() {
   return camera;
 }
 
-/// Where the target faces the camera, turned by (8)'s angles' matrices: columns of R_C_T are the target's axes.
+/// Target facing the camera, rotated by the matrices of (8): columns of R_C_T are the target's axes.
 inline CameraFromTarget facing(const Vector3& centre_m, const Vector3& turn_rad) {
   CameraFromTarget pose;
   pose.R = rotation_exp(turn_rad) * Vector3(1.0, -1.0, -1.0).asDiagonal();
@@ -60,10 +60,10 @@ struct Light {
   double z_m = 0.0;
 };
 
-// What a ray meets: the nearest of ring, plates and wall.
+// Intersection of a ray: the nearest of ring, plates and wall.
 inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_camera, const Vector3& ray) {
   const Vector3& eye = T_target_camera.t;
-  const Vector3 d = T_target_camera.R * ray;  // its parameter is the depth
+  const Vector3 d = T_target_camera.R * ray;  // scaled so that its parameter is the depth
   const auto at = [&](double plane_z) { return (plane_z - eye.z()) / d.z(); };
   const auto plan = [&](double s) -> Vector2 { return (eye + s * d).head<2>(); };
   const double ring = at(0.0);

@@ -11,7 +11,7 @@
 
 namespace pharos::test {
 
-/// A file with the given content, gone with the object.
+/// A file with the given content, removed by the destructor.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view content = "") {
@@ -25,7 +25,7 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() { ::unlink(path_.c_str()); }
   const std::string& path() const { return path_; }
-  /// In place of what it held.
+  /// Replaces the content.
   void write(std::string_view content) const { std::ofstream(path_, std::ios::binary) << content; }
 
  private:

@@ -18,7 +18,7 @@ namespace pharos::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A folder of its own, gone with the object.
+/// A new folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(::testing::TempDir() + "pharos_XXXXXX") {
@@ -34,13 +34,13 @@ class TemporaryFolder {
   }
   const std::filesystem::path& path() const { return path_; }
   std::string path(const std::string& name) const { return (path_ / name).string(); }
-  /// Writes a file in it; its path.
+  /// Writes a file in it; returns its path.
   std::string write(const std::string& name, std::string_view content) const {
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path(name);
   }
 
-  /// By name, which is by time of beginning.
+  /// Sorted by name, that is by start time.
   std::vector<std::filesystem::path> files() const {
     std::vector<std::filesystem::path> all;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) all.push_back(entry.path());

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""usage: compare.py HOST TARGET: the core's results on two machines, as vectors/ prints them.
+"""usage: compare.py HOST TARGET: compares the core's results on two machines, as printed by vectors/.
 
 A line is a key and its values: integers and bytes (b...) must be equal bit for bit, reals (x and their 64 bits) within
 the bound of their key. Says for every kind of real how many are equal and how far the others lie apart. Exit code 1
@@ -12,10 +12,10 @@ import struct
 import sys
 from collections import defaultdict
 
-# Largest difference: absolute, or as a part of the line's largest value; a hundred times what was measured. What has
-# no bound here must be equal bit for bit: all that is made of sums, products, quotients and square roots in an order
-# that the source fixes. The others go through sines and arctangents, or through Eigen, which adds in the order that
-# suits each machine.
+# Largest difference: absolute, or as a part of the line's largest value; a hundred times what was measured. Values
+# without a bound here must be equal bit for bit: all that are computed by sums, products, quotients and square roots in
+# an order fixed by the source. The others involve sines and arctangents, or Eigen, whose order of additions depends on
+# the machine.
 BOUNDS = {
     "pose": ("absolute", 1e-11),  # elements of a rotation; metres
     "second": ("absolute", 1e-11),
@@ -28,7 +28,7 @@ BOUNDS = {
     "tof_ring": ("absolute", 1e-13),  # m
     "tof_connector": ("absolute", 1e-13),  # m
     "tof_pose": ("absolute", 1e-13),  # m; elements of a rotation
-    "tof_covariance": ("relative", 1e-8),  # its turns are made by central differences
+    "tof_covariance": ("relative", 1e-8),  # its rotation part is by central differences
 }
 
 
@@ -41,7 +41,7 @@ def is_real(token):
 
 
 class Reals:
-    """What was seen of one kind of real."""
+    """Differences of one kind of real."""
 
     def __init__(self):
         self.count = self.equal = 0

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: results_test.sh HOST_PROGRAM TARGET_ELF: the same sources on both machines give the same results (compare.py).
+# usage: results_test.sh HOST_PROGRAM TARGET_ELF: the same sources give the same results on both machines (compare.py).
 # 77 = skipped.
 set -u
 here=$(dirname "$0")

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: tof_frame_test.sh HOST_PROGRAM TARGET_ELF: a depth frame of 640x480 gives the same on the soft core as on the
-# host (compare.py), and what it costs there. 77 = skipped.
+# usage: tof_frame_test.sh HOST_PROGRAM TARGET_ELF: a depth frame of 640x480 gives the same results on the soft core as
+# on the host (compare.py); prints its cost there. 77 = skipped.
 set -u
 here=$(dirname "$0")
 work=$(mktemp -d)

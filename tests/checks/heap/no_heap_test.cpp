@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way of the portable core, from the edges of a simulated station to a pose on the line, under the guard.
+// All stages of the portable core, from the edges of a simulated station to a pose on the serial line, under the guard.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::int64_t flash_length_ticks(Axis axis, bool data) {
   return std::lround(3125.0 + 520.83 * index_of(axis) + 1041.67 * (data ? 1 : 0));
 }
 
-// What the photodiodes see of one ideal station, in order of time.
+// The light of one ideal station on the photodiodes, in order of time.
 std::vector<lighthouse::Edge> edges_of_one_station(const Target& target) {
   std::vector<lighthouse::Edge> edges;
   const auto pulse = [&edges](std::uint8_t sensor, std::int64_t rise, std::int64_t length) {
@@ -70,7 +70,7 @@ struct Counts {
   int poses_on_the_line = 0;
 };
 
-// Target and host in one: edges -> sweeps -> bytes -> sweeps -> pose -> bytes -> pose.
+// Target and host in one program: edges -> sweeps -> bytes -> sweeps -> pose -> bytes -> pose.
 class Chain {
  public:
   explicit Chain(const Target& target) : tracker_(target, {}) { tracker_.set_calibration(0, {}); }
@@ -119,7 +119,7 @@ TEST(NoHeap, FromEdgesToAPoseOnTheLine) {
   const std::size_t allocations = guard.allocations();
 
   EXPECT_EQ(allocations, 0u);
-  // The guard says nothing of code that did not run.
+  // The guard checks only code that ran.
   EXPECT_GT(chain.counts().sweeps, kFlashes * 9 / 10);
   EXPECT_EQ(chain.counts().sweeps_on_the_line, chain.counts().sweeps);
   EXPECT_GT(chain.counts().poses, kFlashes / 2 * 9 / 10);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing runs here: the program exists to be linked with every object of the portable core. Each PHAROS_PLANT_ block
-// is one thing that the core must not do; the check's own test builds with it and expects the link to break.
+// This program is not run, only linked with every object of the portable core. Each PHAROS_PLANT_ block is one
+// violation of the core's rules; the check's own test builds with it and expects the link to fail.
 #include <cstdlib>
 #include <ctime>
 
-// The one thing of the C library that stops a program; what it does is the target's business.
+// The function of the C library that stops a program; the target defines it.
 extern "C" void abort() {
   for (;;) asm volatile("");
 }

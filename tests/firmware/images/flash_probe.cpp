@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program to be flashed: says Hello with its version, starts the loader when told to, and holds words that it checks
-// one by one before it says anything, so that an image put together of two would be silent.
+// A program to be flashed: sends Hello with its version, starts the loader on command, and contains words that it
+// checks before it sends anything, so that a mixture of two images would send nothing.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ constexpr std::array<std::uint32_t, kWords> make_words() {
 constexpr std::array<std::uint32_t, kWords> kMade = make_words();
 
 bool is_whole() {
-  // Read as memory holds them, and not as the compiler knows them.
+  // volatile: read from memory, not from the compiler's constants.
   const volatile std::uint32_t* words = kMade.data();
   std::uint32_t word = PHAROS_PROBE_PATCH;
   for (std::size_t i = 0; i < kWords; ++i) {
@@ -88,7 +88,7 @@ void execute(const wire::Frame& frame) {
 
 int main() {
 #ifdef PHAROS_PROBE_SILENT
-  board::reset_machine();  // unannounced: as the watchdog resets a program that hangs
+  board::reset_machine();  // without notice: as a reset by the watchdog
 #endif
   uart.start(0);
   if (!is_whole()) return 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says what the platform gave it, for platform_test.sh.
+// Prints the state that the platform set up, for platform_test.sh.
 #include <cstdint>
 
 #include "firmware/board/qemu_virt/machine.hpp"
@@ -54,7 +54,7 @@ int main() {
   }
   say("ticks", machine_ticks() - start_ticks);
 #ifdef PHAROS_PROBE_FAULT
-  mmio32(0x4) = 1;  // nothing is there
+  mmio32(0x4) = 1;  // no device at this address
 #endif
   return 3;
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 // The part of GoogleTest's interface that the core's tests use, for a target that has no C++ library to link the real
-// one: the same test sources compile on the host against GoogleTest and here against this file. Heap is the test's own
-// (cxx_library.cpp); the core under test has none.
+// one: the same test sources compile on the host against GoogleTest and here against this file. The heap belongs to the
+// tests (cxx_library.cpp); the core under test has none.
 #include <cmath>
 #include <concepts>
 #include <functional>
@@ -45,7 +45,7 @@ struct TestParamInfo {
   std::size_t index;
 };
 
-/// Words that a test adds to a check.
+/// Message that a test adds to a check.
 class Message {
  public:
   template <class T>
@@ -72,10 +72,10 @@ struct Case {
 };
 /// Every case of the image, in the order of the sources.
 std::vector<Case>& cases();
-/// Ends the run: the tests themselves are wrong.
+/// Ends the run because of an error in the tests themselves.
 [[noreturn]] void broken(const char* what);
 
-/// A check that failed (or a skip); what it says goes out when the words of the test are assigned to it.
+/// A check that failed (or a skip); printed when the message of the test is assigned to it.
 class Verdict {
  public:
   enum Kind { kFailed, kSkipped };
@@ -91,7 +91,7 @@ class Verdict {
   std::string what_;
 };
 
-// Each check gives what to say when it does not hold; an empty string when it does.
+// Each check returns its failure message; an empty string when it passes.
 template <class Holds, class A, class B>
 std::string compare(const char* a_text, const char* relation, const char* b_text, const A& a, const B& b) {
   if (Holds()(a, b)) return {};
@@ -110,7 +110,7 @@ inline std::string is_near(const char* a_text, const char* b_text, double a, dou
          " and " + show(b);
 }
 
-/// Equal as GoogleTest has it: at most four representable values apart.
+/// Equal as in GoogleTest: at most four representable values apart.
 struct EqualDoubles {
   bool operator()(double a, double b) const;
 };
@@ -173,7 +173,7 @@ bool instantiate(
 }  // namespace testing
 
 #define PHAROS_TEST_CLASS(suite, name) suite##_##name##_Test
-// The rest of the arguments is the call that makes the case known.
+// The other arguments are the call that registers the case.
 #define PHAROS_TEST_OF(suite, name, base, ...)                                                  \
   class PHAROS_TEST_CLASS(suite, name) : public base {                                          \
     void TestBody() override;                                                                   \
@@ -192,7 +192,7 @@ bool instantiate(
 
 #define PHAROS_VERDICT(kind, what) \
   ::testing::internal::Verdict(::testing::internal::Verdict::kind, __FILE__, __LINE__, what) = ::testing::Message()
-// The switch keeps an `else` after the check from binding to its `if`.
+// The switch prevents an `else` after the check from binding to its `if`.
 #define PHAROS_CHECK(what, on_failure)                                                  \
   switch (0)                                                                            \
   case 0:                                                                               \

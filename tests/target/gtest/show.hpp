@@ -8,7 +8,7 @@
 
 namespace testing::internal {
 
-/// A value as a failed check prints it; what has no form of its own is named by its size alone.
+/// A value as printed by a failed check; for types without a format only the size.
 template <class T>
 std::string show(const T& value) {
   if constexpr (std::is_null_pointer_v<T>) {

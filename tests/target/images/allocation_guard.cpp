@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The target's half of tests/support/allocation_guard.hpp. Images are linked with --wrap=malloc: every call of malloc,
-// operator new's included, comes through here.
+// The target's implementation of tests/support/allocation_guard.hpp. Images are linked with --wrap=malloc: every call
+// of malloc, also from operator new, is counted here.
 #include "tests/support/allocation_guard.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests (never the core) need of a C++ library, which this compiler lacks: heap through operator new, the
-// ordered containers' tree, and the ends of functions that would throw.
+// The parts of a C++ library that the tests (never the core) need and this compiler lacks: heap by operator new, the
+// tree of the ordered containers, and replacements of functions that would throw.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -9,7 +9,7 @@
 
 #include "firmware/board/qemu_virt/machine.hpp"
 
-// Heap that is used up ends the run in sbrk.
+// An exhausted heap ends the run in sbrk.
 void* operator new(std::size_t size) { return std::malloc(size); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size); }
 void* operator new[](std::size_t size) { return operator new(size); }
@@ -32,8 +32,8 @@ namespace {
 
 using Node = _Rb_tree_node_base;
 
-// The neighbour of a node; `Near` leads back towards it, `Far` away. The header's parent is the root and the root's is
-// the header.
+// The next node in order; `Near` and `Far` are the child pointers towards and away from it. The header's parent is the
+// root and the root's parent is the header.
 template <Node* Node::*Far, Node* Node::*Near>
 Node* neighbour(Node* node) {
   if (node->*Far != nullptr) {
@@ -46,7 +46,7 @@ Node* neighbour(Node* node) {
     node = parent;
     parent = parent->_M_parent;
   }
-  // Climbing from the greatest node passes the root and ends at the header.
+  // From the greatest node the way upwards passes the root and ends at the header.
   return node->*Far != parent ? parent : node;
 }
 
@@ -68,7 +68,7 @@ Node* _Rb_tree_decrement(Node* node) noexcept {
 }
 const Node* _Rb_tree_decrement(const Node* node) noexcept { return _Rb_tree_decrement(const_cast<Node*>(node)); }
 
-// An ordinary search tree serves sets as small as the tests': nothing is balanced. There is no erasing.
+// A search tree without balancing, because the tests' sets are small. Erasing is not implemented.
 void _Rb_tree_insert_and_rebalance(const bool left, Node* node, Node* parent, Node& header) noexcept {
   node->_M_parent = parent;
   node->_M_left = node->_M_right = nullptr;

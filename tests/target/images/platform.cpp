@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a test program (never the core) needs below the C library: a heap, and standard output on the first UART.
+// The functions below the C library that a test program (never the core) needs: a heap, and standard output on the
+// first UART.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +12,7 @@ namespace {
 using pharos::board::console_put;
 using pharos::board::console_write;
 
-// The machine's memory above the regions of memory_external.ld: the largest test keeps minutes of light.
+// The machine's memory above the regions of memory_external.ld: the largest test stores minutes of light.
 constexpr std::uintptr_t kHeap = 0x81000000;
 constexpr std::size_t kHeapBytes = 16 << 20;
 std::size_t heap_used = 0;

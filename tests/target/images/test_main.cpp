@@ -37,7 +37,7 @@ void Verdict::operator=(const Message& message) const {
 
 bool EqualDoubles::operator()(double a, double b) const {
   if (std::isnan(a) || std::isnan(b)) return false;
-  // Sign and magnitude -> one ascending scale.
+  // From sign and magnitude to one ascending scale.
   const auto place = [](double value) {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     constexpr std::uint64_t kSign = std::uint64_t{1} << 63;

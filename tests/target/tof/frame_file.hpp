@@ -9,8 +9,8 @@
 
 namespace pharos::test {
 
-// One frame and its camera as they lie in memory (little-endian, doubles on 8 bytes, on both sides): the host writes
-// the file, QEMU's generic loader puts it there before the target's program starts.
+// Memory layout of one frame and its camera (little-endian, doubles aligned to 8 bytes, on both sides): the host writes
+// the file, QEMU's generic loader puts it into memory before the target's program starts.
 inline constexpr std::uintptr_t kFrameAddress = 0x82000000;
 inline constexpr std::uint64_t kFrameMagic = 0x464F5450;  // "PTOF"
 

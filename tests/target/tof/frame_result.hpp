@@ -5,7 +5,7 @@
 
 namespace pharos::test {
 
-/// What a frame gave, for compare.py: ellipses, ring, connector, pose.
+/// Prints the results of a frame for compare.py: ellipses, ring, connector, pose.
 void print_result(const Result<tof::TofPose, tof::TofFailure>& result, const tof::TofWorkspace& workspace);
 
 }  // namespace pharos::test

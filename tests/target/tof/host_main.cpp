@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: host_tof_frame FILE: writes a simulated frame for the target's program and prints what the host makes of it.
+// usage: host_tof_frame FILE: writes a simulated frame for the target's program and prints the host's results.
 #include <algorithm>
 #include <cstdio>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One depth frame on the soft core: what host_main.cpp prints, and instructions by stage.
+// One depth frame on the soft core: the output of host_main.cpp, and instructions by stage.
 #include <array>
 #include <memory>
 
@@ -50,9 +50,9 @@ int main() {
     board::console_write("no frame: load it with -device loader,file=FILE,addr=0x82000000,force-raw=on\n");
     return 1;
   }
-  // The test's heap stands for the board's external memory.
+  // The test's heap replaces the board's external memory.
   const auto workspace = std::make_unique<tof::TofWorkspace>();
-  // The lens' rays are made once a camera: apart from what a frame costs.
+  // The lens' rays are computed once a camera: not part of the cost of a frame.
   const std::uint64_t begin = board::instructions_retired();
   if (!workspace->rays.prepare(file.camera().intrinsics)) return 1;
   say("rays_once", static_cast<std::int64_t>(board::instructions_retired() - begin));

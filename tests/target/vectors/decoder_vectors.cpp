@@ -22,7 +22,7 @@ constexpr std::int64_t kSlots = 800;
 constexpr std::int64_t kTicksOfStale = 37 * 50'000'000LL;
 
 std::vector<RawPulse> faulty_light() {
-  // What BEC08E38 sends, and the same with another id.
+  // The OOTX payload of BEC08E38, and the same with another id.
   const auto a = ootx_bits(from_hex("063d388ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100"));
   const auto b = ootx_bits(from_hex("063d398ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100"));
   SyntheticLight::Settings settings;

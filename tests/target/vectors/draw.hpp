@@ -5,8 +5,8 @@
 
 namespace pharos::test {
 
-/// Numbers for the input, the same bits on every machine: integers, and reals made of them by one multiplication.
-/// (The standard's distributions leave their arithmetic to each library.)
+/// Random numbers for the input, identical on every machine: integers, and reals computed from them by one
+/// multiplication. (The arithmetic of the standard's distributions differs between libraries.)
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : state_(seed) {}

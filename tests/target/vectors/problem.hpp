@@ -24,10 +24,10 @@ inline LighthouseFromBody draw_view(const Target& target, Draw& draw) {
   return pose;
 }
 
-// 0.2 arcsec: far coarser than what two mathematical libraries differ by, so that both machines get the same angles.
+// 0.2 arcsec: far more than the difference of two mathematical libraries, so that both machines get the same angles.
 inline constexpr double kGrid_rad = 0x1p-20;
 
-/// What the visible sensors show, with noise, on the grid.
+/// Bearings of the visible sensors, with noise, rounded to the grid.
 inline pose::Observations observe(const Target& target, const LighthouseFromBody& pose, double sigma_rad, Draw& draw) {
   const auto seen = pose::visible_sensors(target, pose);
   pose::Observations observations;

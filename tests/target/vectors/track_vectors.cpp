@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps of a moving target -> one answer a cycle, through the station's calibration, as the target itself does it.
+// Sweeps of a moving target -> one result a cycle, with the station's calibration, as on the target.
 #include "pharos/lighthouse/station_model.hpp"
 #include "pharos/report/reporter.hpp"
 #include "pharos/track/epoch_tracker.hpp"

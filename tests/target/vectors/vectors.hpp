@@ -7,7 +7,7 @@
 
 namespace pharos::test {
 
-// Each prints what one part of the core makes of an input that is the same bits on every machine.
+// Each prints the results of one part of the core for an input that is identical on every machine.
 void decoder_vectors();
 void pose_vectors();
 void track_vectors();
