@@ -68,7 +68,7 @@ Node* _Rb_tree_decrement(Node* node) noexcept {
 }
 const Node* _Rb_tree_decrement(const Node* node) noexcept { return _Rb_tree_decrement(const_cast<Node*>(node)); }
 
-// A search tree without balancing, because the tests' sets are small. Erasing is not implemented.
+// A search tree without balancing, because the tests' sets are small. There is no erase().
 void _Rb_tree_insert_and_rebalance(const bool left, Node* node, Node* parent, Node& header) noexcept {
   node->_M_parent = parent;
   node->_M_left = node->_M_right = nullptr;
