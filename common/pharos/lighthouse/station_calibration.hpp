@@ -32,4 +32,10 @@ struct StationCalibration {
   bool operator==(const StationCalibration&) const = default;
 };
 
+/// Where a calibration comes from, which says what it leaves of the station's errors.
+enum class CalibrationSource : std::uint8_t {
+  kSurvey,  // measured here: its file says what it leaves
+  kSent,    // by the station itself, as its factory measured it
+};
+
 }  // namespace pharos::lighthouse

@@ -21,7 +21,7 @@ PackedSymmetric<6> packed_sum(const Matrix6& a, const Matrix6& b) {
 }  // namespace
 
 CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& hits, double own_variance,
-                                                     std::int64_t time_ticks) {
+                                                     std::int64_t time_ticks, bool with_rotors) {
   const auto a = static_cast<std::size_t>(index_of(axis));
   Sweep& now = sweep_[a];
   const Sweep& before = sweep_[1 - a];
@@ -35,6 +35,7 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
     const Vector6 h = weight * hit.jacobian;
     now.square += hit.jacobian.lazyProduct(hit.jacobian.transpose());
     now.sum += hit.jacobian;
+    if (with_rotors) now.by_rotor += hit.jacobian.lazyProduct(rotor_terms(axis, hit.point_m).transpose());
     now.centred += h.lazyProduct(hit.jacobian.transpose());
     now.by_residual += h * hit.residual_rad;
     now.residual_square += weight * hit.residual_rad * hit.residual_rad;
@@ -57,6 +58,8 @@ CycleInformation::ResidualChi2 CycleInformation::set(Axis axis, const HitFits& h
     const std::array<double, 6> column = normal.solve(unit);
     for (int i = 0; i < 6; ++i) unit_(i, j) = column[static_cast<std::size_t>(i)];
   }
+  rotors_known_ = with_rotors;
+  for (std::size_t k = 0; with_rotors && k < kAxes; ++k) pose_by_rotor_[k] = unit_.lazyProduct(sweep_[k].by_rotor);
 
   constexpr int kUnknowns = 6 + kAxes;  // a pose, and a shift of each sweep
   const int freedom = now.hits + before.hits - kUnknowns;
@@ -82,6 +85,18 @@ Matrix6 CycleInformation::covariance_of(double own, double common) const {
   Matrix6 middle = own * (sweep_[0].square + sweep_[1].square);
   for (const Sweep& sweep : sweep_) middle += common * sweep.sum.lazyProduct(sweep.sum.transpose());
   return unit_.lazyProduct(Matrix6(middle.lazyProduct(unit_)));
+}
+
+std::optional<Matrix6> CycleInformation::covariance_of(const RotorSpread& spread) const {
+  if (!rotors_known_) return std::nullopt;
+  const RotorTerms variances = rotor_variances(spread);
+  Matrix6 covariance = Matrix6::Zero();
+  for (const auto& by_rotor : pose_by_rotor_) {
+    for (int k = 0; k < kRotorTerms; ++k) {
+      covariance += variances[k] * by_rotor.col(k).lazyProduct(by_rotor.col(k).transpose());
+    }
+  }
+  return covariance;
 }
 
 }  // namespace pharos::motion

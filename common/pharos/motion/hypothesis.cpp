@@ -112,7 +112,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   if (used > 0) {
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
     const CycleInformation::ResidualChi2 residual_chi2 =
-        station_state.view.set(axis, fit_.used, station_state.level * own_variance, time);
+        station_state.view.set(axis, fit_.used, station_state.level * own_variance, time, view.calibration == nullptr);
     cost_ += filter_.correct(fit_.information, fit_.pose, observer);
     const LighthouseFromBody corrected = filter_.state_estimate(observer).pose;
     station_state.view.shifted(axis, pose_difference(corrected, fit_.pose));

@@ -52,9 +52,11 @@ MotionOptions motion_options(const track::TrackOptions& same, const SystematicEr
 
 MotionTracker::MotionTracker(const Target& target, const MotionOptions& options) : target_(target), options_(options) {}
 
-void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
+void MotionTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration,
+                                    lighthouse::CalibrationSource source) {
   if (station >= kMaxStations) return;
   Station& s = stations_[station];
+  s.source = source;
   if (s.calibration == calibration) return;
   // Another calibration changes every angle: the present state no longer holds.
   s.track.lose();
@@ -79,6 +81,14 @@ StationView MotionTracker::view_of(const Station& station) const {
   return {&target_, station.calibration ? &*station.calibration : nullptr, options_.form};
 }
 
+AssumedNoise MotionTracker::noise_of(const Station& station) const {
+  AssumedNoise noise{options_.solve.sigma_rad, options_.rho, options_.systematic};
+  if (station.source == lighthouse::CalibrationSource::kSent) {
+    noise.systematic.rotor_rad = std::max(noise.systematic.rotor_rad, kUncalibratedErrors.rotor_rad);
+  }
+  return noise;
+}
+
 std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& sweep) {
   if (sweep.flash.station >= kMaxStations) return std::nullopt;
   Station& station = stations_[sweep.flash.station];
@@ -94,12 +104,12 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   }
   const bool lit = last_hit_ticks(bearings, target_) != INT64_MIN;
   if (lit) {
-    station.track.push(bearings, axis, view_of(station), noise());
-    pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise());
+    station.track.push(bearings, axis, view_of(station), noise_of(station));
+    pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise_of(station));
   }
   if (const auto cycle =
           station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
-    station.track.check(*cycle, view_of(station), noise(), options_.solve);
+    station.track.check(*cycle, view_of(station), noise_of(station), options_.solve);
   }
   if (bearings.empty()) return std::nullopt;
   return answer(station, sweep, bearings);
@@ -168,6 +178,11 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   e.pose = state_estimate.pose;
   e.pose.R = orthonormalised(state_estimate.pose.R);
   e.covariance = state_estimate.covariance;
+  if (!station.calibration) {
+    const auto unknown = best.cycle_information(observer).covariance_of(options_.unknown_station);
+    if (!unknown) return pose::Refusal::kTooUncertain;
+    e.covariance += *unknown;
+  }
   e.observations = result.observations;
   e.iterations = 1;
   e.residual_rms = residual_rms(fit.used, pose_difference(best.state_estimate().pose, fit.pose));

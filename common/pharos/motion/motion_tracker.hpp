@@ -27,6 +27,8 @@ struct MotionOptions {
   double rho = kPaperRho;
   /// Known systematic errors of target and stations, for every result's covariance.
   SystematicErrors systematic;
+  /// Of a station without calibration, which is taken for an ideal one.
+  RotorSpread unknown_station = kFactorySpread;
   UncertaintyLimits limits;
 };
 
@@ -52,7 +54,9 @@ struct InnovationStatistics {
 class MotionTracker {
  public:
   MotionTracker(const Target& target, const MotionOptions& options);
-  void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
+  /// `source`: what a station sent of itself leaves at least kUncalibratedErrors of its rotors.
+  void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration,
+                       lighthouse::CalibrationSource source = lighthouse::CalibrationSource::kSurvey);
   /// None is known any more (another station stands there): what was known of this slot goes with it. Nothing changes
   /// where none was known.
   void clear_calibration(std::uint8_t station);
@@ -82,13 +86,14 @@ class MotionTracker {
  private:
   struct Station {
     std::optional<lighthouse::StationCalibration> calibration;
+    lighthouse::CalibrationSource source = lighthouse::CalibrationSource::kSurvey;
     std::array<lighthouse::FlashSmoother, kAxes> smoother;
     track::CycleAssembler assembler;
     StationTrack track;
   };
 
   StationView view_of(const Station& station) const;
-  AssumedNoise noise() const { return {options_.solve.sigma_rad, options_.rho, options_.systematic}; }
+  AssumedNoise noise_of(const Station& station) const;
   StationPair::Tracks tracks() const { return {&stations_[0].track, &stations_[1].track}; }
   const Hypothesis* better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const;
   track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,

@@ -58,6 +58,7 @@ class Linearisation {
     gradient[index_of(axis_)] = -ahead * inverse_square;
     gradient.z() = along * inverse_square;
     fit.jacobian << q.cross(gradient), gradient;
+    fit.point_m = p;
     const double ideal = kPi / 2 - std::atan2(along, ahead);
     const double raw = view_.calibration != nullptr ? raw_theta(*view_.calibration, view_.form, axis_, p) : ideal;
     fit.residual_rad = bearing.theta_rad - raw;

@@ -25,6 +25,7 @@ struct StationView {
 /// One hit relative to a state estimate.
 struct HitFit {
   Vector6 jacobian;           // of its bearing by the pose error
+  Vector3 point_m;            // where the sensor is held to be, lighthouse frame
   double residual_rad = 0.0;  // measured - predicted
   double ideal_rad = 0.0;     // measured, the station's errors taken out
   double variance = 0.0;      // own, rad^2

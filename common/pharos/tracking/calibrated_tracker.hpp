@@ -110,6 +110,9 @@ class CalibratedTracker {
   static constexpr bool kTakesRelative = requires(Tracker & tracker, const StationSurvey& survey) {
     tracker.set_relative(survey.relative(0, 0));
   };
+  static constexpr bool kTakesSource = requires(Tracker & tracker, const lighthouse::StationCalibration& calibration) {
+    tracker.set_calibration(0, calibration, lighthouse::CalibrationSource::kSent);
+  };
   static constexpr std::int64_t kNoFlash = std::numeric_limits<std::int64_t>::min();
 
   // Every flash is light, also that of a station that is not answered. The first one ends no darkness.
@@ -122,7 +125,7 @@ class CalibratedTracker {
   [[gnu::noinline]] void apply_calibrations() {
     for (std::uint8_t station = 0; station < kMaxStations; ++station) {
       if (const auto* calibration = effective_calibration(station)) {
-        tracker_.set_calibration(station, *calibration);
+        give(station, *calibration);
       } else {
         tracker_.clear_calibration(station);
       }
@@ -131,6 +134,16 @@ class CalibratedTracker {
       if (policy_.survey != nullptr) {
         tracker_.set_relative(policy_.survey->relative(sent_.named_id(0), sent_.named_id(1)));
       }
+    }
+  }
+
+  void give(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
+    if constexpr (kTakesSource) {
+      const bool sent = &calibration == sent_.in_use(station);
+      tracker_.set_calibration(station, calibration,
+                               sent ? lighthouse::CalibrationSource::kSent : lighthouse::CalibrationSource::kSurvey);
+    } else {
+      tracker_.set_calibration(station, calibration);
     }
   }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/tracking/method_tracker.hpp"
 
+#include "pharos/tracking/unknown_station.hpp"
+
 namespace pharos::tracking {
 
-MethodTracker::MethodTracker(const Target& target, const MethodOptions& options) : tracker_(make(target, options)) {}
+MethodTracker::MethodTracker(const Target& target, const MethodOptions& options)
+    : target_(target), tracker_(make(target, options)) {}
 
 MethodTracker::Either MethodTracker::make(const Target& target, const MethodOptions& options) {
   if (options.method == Method::kEpoch) {
@@ -13,8 +16,13 @@ MethodTracker::Either MethodTracker::make(const Target& target, const MethodOpti
                 motion::motion_options(options.track, options.systematic, options.limits));
 }
 
-void MethodTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration) {
-  std::visit([&](auto& tracker) { tracker.set_calibration(station, calibration); }, tracker_);
+void MethodTracker::set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration,
+                                    lighthouse::CalibrationSource source) {
+  if (auto* motion = std::get_if<motion::MotionTracker>(&tracker_)) {
+    motion->set_calibration(station, calibration, source);
+  } else {
+    std::get<track::EpochTracker>(tracker_).set_calibration(station, calibration);
+  }
 }
 
 void MethodTracker::clear_calibration(std::uint8_t station) {
@@ -35,11 +43,24 @@ void MethodTracker::forget_stations() {
 }
 
 std::optional<track::EpochResult> MethodTracker::push(const lighthouse::Sweep& sweep) {
-  return std::visit([&](auto& tracker) { return tracker.push(sweep); }, tracker_);
+  return widened(std::visit([&](auto& tracker) { return tracker.push(sweep); }, tracker_));
+}
+
+// A cycle solved alone knows the noise of its bearings only; a station without calibration is off by far more.
+std::optional<track::EpochResult> MethodTracker::widened(std::optional<track::EpochResult> result) const {
+  const auto* epoch = std::get_if<track::EpochTracker>(&tracker_);
+  if (epoch == nullptr || !result || !result->pose || (result->flags & track::kEpochUncalibrated) == 0) return result;
+  const auto unknown = rotor_covariance(result->pose->pose, *epoch, target_, motion::kFactorySpread);
+  if (unknown) {
+    result->pose->covariance += *unknown;
+  } else {
+    result->pose = pose::Refusal::kTooUncertain;
+  }
+  return result;
 }
 
 std::optional<track::EpochResult> MethodTracker::flush() {
-  return std::visit([](auto& tracker) { return tracker.flush(); }, tracker_);
+  return widened(std::visit([](auto& tracker) { return tracker.flush(); }, tracker_));
 }
 
 std::size_t MethodTracker::bearing_count() const {

@@ -27,7 +27,8 @@ class MethodTracker {
  public:
   MethodTracker(const Target& target, const MethodOptions& options);
 
-  void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration);
+  void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration,
+                       lighthouse::CalibrationSource source);
   void clear_calibration(std::uint8_t station);
   /// Method epoch has no use for it.
   void set_relative(const std::optional<motion::StationRelative>& relative);
@@ -44,6 +45,9 @@ class MethodTracker {
   using Either = std::variant<track::EpochTracker, motion::MotionTracker>;
   static Either make(const Target& target, const MethodOptions& options);
 
+  std::optional<track::EpochResult> widened(std::optional<track::EpochResult> result) const;
+
+  Target target_;
   Either tracker_;
 };
 

@@ -66,16 +66,37 @@ inline motion::MotionOptions flight_options() {
   return options;
 }
 
-/// Flies a scenario of ideal stations through decoder and tracker; an answer's truth is in its station's frame. `spoil`
-/// may change each sweep before the tracker sees it.
+/// What a tracker is told of the stations before it flies.
+using Prepare = std::function<void(motion::MotionTracker&, const sim::LighthouseSimulator&)>;
+
+/// Every station is an ideal one.
+inline void tell_ideal_stations(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
+  for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) tracker.set_calibration(station, {});
+}
+
+/// What stations say of themselves, as their OOTX tells it.
+inline void tell_announced(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
+  for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) {
+    lighthouse::StationCalibration calibration;
+    for (std::size_t k = 0; k < kAxes; ++k) {
+      const sim::SheetErrors& sent = simulator.stations()[station].announced.rotor[k];
+      calibration.rotor[k] = {sent.phase_rad, sent.tilt_rad, sent.curve_rad, sent.gibbous_phase_rad,
+                              sent.gibbous_magnitude_rad};
+    }
+    tracker.set_calibration(station, calibration);
+  }
+}
+
+/// Flies a scenario, of ideal stations unless `prepare` tells otherwise, through decoder and tracker; an answer's truth
+/// is in its station's frame. `corrupt` may change each sweep before the tracker sees it.
 inline void fly(
     const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightSample&)>& take,
     const std::function<void(lighthouse::Sweep&)>& corrupt = [](lighthouse::Sweep&) {},
-    const motion::MotionOptions& options = flight_options()) {
+    const motion::MotionOptions& options = flight_options(), const Prepare& prepare = tell_ideal_stations) {
   sim::LighthouseSimulator simulator(scenario, seed);
   const auto decoder = std::make_unique<lighthouse::Decoder>();
   const auto tracker = std::make_unique<motion::MotionTracker>(scenario.target, options);
-  for (std::uint8_t station = 0; station < scenario.stations.size(); ++station) tracker->set_calibration(station, {});
+  prepare(*tracker, simulator);
   const auto give = [&] {
     while (decoder->take_ootx()) {
     }
@@ -98,7 +119,8 @@ inline void fly(
 /// Consistency and accuracy of many answers.
 struct FlightScore {
   int answers = 0, ambiguous = 0, refused = 0;
-  double nees = 0.0, rotation_square = 0.0, position_square = 0.0, rotation_max_deg = 0.0, position_max_mm = 0.0;
+  double nees = 0.0, rotation_nees = 0.0, position_nees = 0.0, sigma_position_square = 0.0, rotation_square = 0.0,
+         position_square = 0.0, rotation_max_deg = 0.0, position_max_mm = 0.0;
 
   void add(const FlightSample& answer) {
     if (!answer.result->pose) {
@@ -111,6 +133,13 @@ struct FlightScore {
     }
     ++answers;
     nees += answer.nees();
+    const LighthousePoseEstimate& estimate = answer.result->pose.value();
+    const Vector6 error = pose_difference(answer.truth, estimate.pose);
+    const Matrix3 rotation = estimate.covariance.topLeftCorner<3, 3>();
+    const Matrix3 position = estimate.covariance.bottomRightCorner<3, 3>();
+    rotation_nees += error.head<3>().dot(rotation.inverse() * error.head<3>());
+    position_nees += error.tail<3>().dot(position.inverse() * error.tail<3>());
+    sigma_position_square += position.trace();
     rotation_square += answer.rotation_deg() * answer.rotation_deg();
     position_square += answer.position_mm() * answer.position_mm();
     rotation_max_deg = std::max(rotation_max_deg, answer.rotation_deg());

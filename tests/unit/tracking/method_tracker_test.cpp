@@ -158,5 +158,44 @@ TEST_F(RelativePose, OfAStationThatWasMovedIsRefusedAndStaysSo) {
   EXPECT_FALSE(tracker.tracker().relative_pose_rejected()) << "all is looked at anew";
 }
 
+// Without a calibration an angle is off by tens of milliradians, whatever the method: at this range by a decimetre.
+TEST(MethodTracker, WithoutCalibrationTheStatedSigmaIsThatOfRealStations) {
+  for (const Method method : {Method::kEpoch, Method::kMotion}) {
+    MethodOptions options;
+    options.method = method;
+    const auto tracker = std::make_unique<Tested>(CalibrationPolicy{}, cube_target(), options);
+    int poses = 0;
+    for (int i = 0; i < 40; ++i) {
+      const Axis axis = i % 2 == 0 ? Axis::kX : Axis::kY;
+      const auto result = tracker->push(
+          make_sweep(cube_target(), some_pose(), lighthouse::StationCalibration{}, axis, i * kHalfTurn, 0));
+      if (!result || !result->pose) continue;
+      ++poses;
+      EXPECT_GT(result->pose->sigma_position_m(), motion::kFactorySpread.phase_rad * some_pose().t.norm());
+      EXPECT_GT(result->pose->sigma_rotation_rad(), motion::kFactorySpread.phase_rad);
+    }
+    EXPECT_GT(poses, 10);
+  }
+}
+
+// A station that the file does not describe is used as it tells itself, and that is not as good as a calibration.
+TEST(MethodTracker, ASentCalibrationLeavesMoreThanTheFileSaysOfItsOwn) {
+  MethodOptions options;
+  options.systematic = motion::kCalibratedErrors;
+  double sigma_m[2] = {};
+  for (const auto source : {lighthouse::CalibrationSource::kSurvey, lighthouse::CalibrationSource::kSent}) {
+    const auto tracker = std::make_unique<MethodTracker>(cube_target(), options);
+    tracker->set_calibration(0, some_calibration(), source);
+    for (int i = 0; i < 40; ++i) {
+      const Axis axis = i % 2 == 0 ? Axis::kX : Axis::kY;
+      const auto result =
+          tracker->push(make_sweep(cube_target(), some_pose(), some_calibration(), axis, i * kHalfTurn, 0));
+      if (result && result->pose) sigma_m[static_cast<int>(source)] = result->pose->sigma_position_m();
+    }
+  }
+  EXPECT_GT(sigma_m[1], motion::kUncalibratedErrors.rotor_rad * some_pose().t.norm());
+  EXPECT_GT(sigma_m[1], 3.0 * sigma_m[0]);
+}
+
 }  // namespace
 }  // namespace pharos::tracking

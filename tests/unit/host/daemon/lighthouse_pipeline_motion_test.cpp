@@ -78,6 +78,8 @@ TEST_F(MotionPipelineTest, TheSecondSolutionGoesWithThePose) {
   constexpr std::uint8_t kPlate = 4;
   TargetConfig flat = config(TrackMethod::kMotion);
   flat.target = StationaryTarget::target(kPlate);
+  // One of unknown calibration would be too uncertain at these ranges.
+  flat.calibrated_stations = {{std::nullopt, std::uint8_t{0}, lighthouse::StationCalibration{}}};
   const auto rotation_of = [](const double* wxyz) { return Quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]); };
   int ambiguous = 0, sure = 0;
   for (const double range_m : {3.0, 6.0, 8.0, 10.0}) {
