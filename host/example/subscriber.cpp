@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
+#include <string>
 
 #include "pharos/pose_t.hpp"
 #include "pharos/status_t.hpp"
@@ -16,6 +17,15 @@ constexpr double kMmPerM = 1000.0;
 constexpr double kDegPerRad = 57.29577951308232;
 // Older than this is no basis for steering; pick your own.
 constexpr double kTooOld_s = 0.5;
+
+// Flags of a pose that holds but is no basis for steering: a station whose own errors are unknown yet, a target whose
+// data contradict themselves, times that may have gone back. The stated sigmas say the first too; see README.
+constexpr const char* kNotForSteering[] = {"uncalibrated", "suspect", "clock_set"};
+
+// Whether `word` is one of the flags, which are words joined by '|'.
+bool has_flag(const std::string& flags, const std::string& word) {
+  return ('|' + flags + '|').find('|' + word + '|') != std::string::npos;
+}
 
 double seconds_since(std::int64_t utime) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -30,14 +40,22 @@ class Subscriber {
       return;
     }
     if (seconds_since(pose->utime) > kTooOld_s) return;  // the network held it back
+    bool steer = pose->status == "ok";                   // not "ambiguous": a second pose fits nearly as well
+    for (const char* word : kNotForSteering) steer = steer && !has_flag(pose->flags, word);
     const double* t = pose->position_m;
-    std::printf("%s: %.1f mm away (sigma %.1f mm, %.2f deg)%s\n", pose->target.c_str(),
+    std::printf("%s: %.1f mm away (sigma %.1f mm, %.2f deg) %s%s%s%s\n", pose->target.c_str(),
                 kMmPerM * std::hypot(t[0], t[1], t[2]), kMmPerM * pose->sigma_pos_m, kDegPerRad * pose->sigma_rot_rad,
-                pose->has_second != 0 ? ", AMBIGUOUS: a second pose fits nearly as well" : "");
+                pose->status.c_str(), pose->flags.empty() ? "" : " ", pose->flags.c_str(),
+                steer ? "" : ", NOT for steering");
   }
 
   void on_status(const lcm::ReceiveBuffer*, const std::string&, const pharos::status_t* status) {
     if (status->state != "ok") std::printf("pharosd: %s: %s\n", status->state.c_str(), status->message.c_str());
+    for (const pharos::source_status_t& source : status->sources) {
+      if (source.state != "ok") {
+        std::printf("%s: %s: %s\n", source.source.c_str(), source.state.c_str(), source.message.c_str());
+      }
+    }
   }
 };
 
