@@ -30,7 +30,7 @@ TEST(TickUnwrapper, IgnoresOneReadingOutOfRange) {
     const std::int64_t first = unwrapper.unwrap(1000);
     unwrapper.unwrap(static_cast<std::uint32_t>(random()));
     EXPECT_EQ((unwrapper.unwrap(2000) - first) % (std::int64_t{1} << 32), 1000);
-    // A reading less than 42.9 s off, as recordings have them, leaves no trace at all.
+    // A reading that is wrong by less than 42.9 s, as in recordings, has no effect afterwards.
     TickUnwrapper stale;
     stale.unwrap(1000);
     stale.unwrap(1000u + static_cast<std::uint32_t>(random() % 2'000'000'000u));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loader's own frames and payloads against wire's, which the rest of the house speaks.
+// The loader's own frames and payloads compared with those of wire, which all other programs use.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,8 @@ TEST(FrameReceiver, TakesNoBrokenFrameAndEveryWholeOneAfterIt) {
         encode(encoder, wire::MessageType::kLoaderBegin, random_payload(random, random() % 60, trial % 2 == 0));
     Bytes broken = good;
     const std::size_t at =
-        1 + random() % (broken.size() - 2);  // borders apart: what stands between them is still whole
+        1 + random() % (broken.size() -
+                        2);  // not a delimiter: the bytes between two delimiters would still be a complete frame
     if (trial % 3 == 0) {
       broken[at] ^= static_cast<std::uint8_t>(1 << random() % 8);
     } else if (trial % 3 == 1) {

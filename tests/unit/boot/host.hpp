@@ -18,14 +18,14 @@
 
 namespace pharos::boot::test {
 
-/// What came of a request. Neither: no answer.
+/// Result of a request. Neither: no response.
 struct Reply {
   std::optional<std::uint32_t> ack;
   std::optional<wire::NakReason> nak;
   std::uint32_t nak_value = 0;
 };
 
-/// The other end of a virtual target's line, a request at a time.
+/// The host's end of a virtual target's line, one request at a time.
 class Host {
  public:
   explicit Host(VirtualTarget& target) : target_(target) {}
@@ -41,7 +41,7 @@ class Host {
     return sequence;
   }
 
-  /// The next message of this type; the others are passed over.
+  /// The next message of this type; others are ignored.
   template <class M>
   std::optional<M> receive(std::int64_t ticks = 5 * kTicksPerSecond) {
     for (const std::int64_t end = target_.machine.now + ticks; target_.machine.now < end; target_.step()) {
@@ -83,7 +83,7 @@ class Host {
     for (std::size_t i = offset; i < std::min(offset + bytes, image.size()); ++i) data.data.push_back(image[i]);
     return ask(data);
   }
-  /// All blocks from `offset` on; the answer to the first that was not taken, else to the last.
+  /// Sends all blocks from `offset` on; returns the response to the first that was refused, else to the last.
   Reply all_data(const Bytes& image, std::size_t offset = 0) {
     Reply reply;
     for (; offset < image.size(); offset += boot_image::kPageBytes) {
@@ -92,7 +92,7 @@ class Host {
     }
     return reply;
   }
-  /// Into the loader of a target that runs or has just started. False: no answer.
+  /// Enters the loader of a target that runs or has just started. False: no response.
   bool enter() {
     target_.run(kTicksPerSecond);  // past the window
     if (target_.runs_application()) {
@@ -101,7 +101,7 @@ class Host {
     send(wire::LoaderQuery{});
     return receive<wire::LoaderInfo>().has_value();
   }
-  /// The whole way. True when all was answered with Ack; false where the target fell silent or refused.
+  /// A complete flashing. True when every response was Ack; false where the target did not respond or refused.
   bool flash(const Bytes& image) {
     return enter() && begin(image).ack && all_data(image).ack && ask(wire::LoaderVerify{}).ack &&
            ask(wire::LoaderStart{}).ack;
@@ -123,7 +123,7 @@ class Host {
   wire::FrameDecoder decoder_;
 };
 
-/// A target that runs `image`, flashed in its first slot, and says so.
+/// A target that runs `image`, flashed in its first slot, and has sent its Hello.
 inline void start_with(VirtualTarget& target, Host& host, const Bytes& image) {
   target.power_on();
   (void)host.flash(image);

@@ -28,7 +28,7 @@ inline Bytes body_of(const Bytes& file) {
   return {body.begin(), body.end()};
 }
 
-/// A whole image file with random bytes as its body.
+/// A complete image file with random bytes as its body.
 inline Bytes make_image(unsigned seed, const ImageOptions& options = {}) {
   std::mt19937 random(seed);
   Bytes body(options.body_bytes);

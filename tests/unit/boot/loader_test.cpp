@@ -95,7 +95,7 @@ TEST_F(Loader, FallsBackToTheOlderImageWhenTheNewerOneRotted) {
   target.power_on();
   target.run(kTicksPerSecond);
   EXPECT_TRUE(runs(target, old_image));
-  // What is flashed now goes over the rotten one, and is newer than it.
+  // The next image overwrites the corrupt one, and is newer.
   const Bytes before = slot_bytes(target, 0);
   ASSERT_TRUE(host.flash(new_image));
   target.run(kTicksPerSecond);
@@ -166,7 +166,7 @@ TEST_F(Loader, AsksForTheBlockThatIsMissing) {
   EXPECT_EQ(host.data(new_image, 256, 100).nak, wire::NakReason::kBadPayload);
   EXPECT_EQ(host.ask(wire::LoaderVerify{}).nak_value, 256u);
   EXPECT_EQ(host.ask(wire::LoaderStart{}).nak, wire::NakReason::kNotVerified);
-  // A host that begins again with the same image is told where to go on, one with another image starts anew.
+  // A host that begins again with the same image gets the offset to continue, one with another image starts at zero.
   EXPECT_EQ(host.begin(new_image).ack, 256u);
   EXPECT_EQ(host.begin(old_image).ack, 0u);
 }
@@ -185,7 +185,7 @@ TEST_F(Loader, MarksNothingThatDoesNotVerify) {
   EXPECT_EQ(reply.nak_value, wire::crc32(new_image));
   EXPECT_TRUE(host.ask(wire::LoaderStart{}).ack) << "nothing is begun any more, so the good image may start";
 
-  // A body that is not the header's, announced as it is.
+  // A body that does not match the header.
   Bytes flipped = new_image;
   flipped[1000] ^= 1;
   ASSERT_TRUE(host.enter());

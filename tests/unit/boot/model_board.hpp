@@ -16,7 +16,7 @@
 
 namespace pharos::boot::test {
 
-/// A board without its power: memory, flash, and a serial line on which a byte takes its time.
+/// A board without its power supply: memory, flash, and a serial line with transmission times.
 struct Machine {
   static constexpr std::uint32_t kMemoryAddress = 0x80800000;
   static constexpr std::size_t kMemoryBytes = 100 * 1024;
@@ -26,12 +26,12 @@ struct Machine {
   Retained retained;
   std::int64_t now = 0;  // ticks
   std::int64_t byte_ticks = 10 * kTicksPerSecond / 460'800;
-  /// Bytes that the UART holds before they are fetched, and before they are sent.
+  /// Sizes of the UART's receive and transmit buffers, bytes.
   std::size_t uart_holds = 16;
   std::uint64_t overruns = 0;
 
   struct TimedByte {
-    std::int64_t when;  // whole at its receiver
+    std::int64_t when;  // time of complete reception
     std::uint8_t byte;
   };
   std::deque<TimedByte> to_target;
@@ -49,7 +49,7 @@ struct Machine {
       to_target.push_back({into_target_, byte});
     }
   }
-  /// The wire is busy until then with what the host sent.
+  /// Until then the wire is busy with bytes from the host.
   std::int64_t host_busy_until() const { return into_target_; }
 
   int receive() {

@@ -13,27 +13,27 @@
 
 namespace pharos::boot::test {
 
-/// Thrown out of a write when the power goes.
+/// Thrown by a write when power is lost.
 struct PowerCut {};
 
-/// NOR flash that can lose its power at every single step: programming is a step a byte, erasing three a sector. A byte
-/// that was being programmed keeps some of its ones; a sector that was being erased holds anything; and both may read
-/// otherwise each time until they are erased again.
+/// NOR flash that can lose power at every single step: programming is a step a byte, erasing three a sector. A byte
+/// that was being programmed keeps some of its ones; a sector that was being erased has random content; and both may be
+/// read differently each time until they are erased again.
 class ModelFlash {
  public:
   static constexpr std::uint32_t kSectorBytes = 64 * 1024;
   static constexpr std::uint32_t kBytes = 4 * kSectorBytes;
 
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(kBytes, 0xFF);
-  /// Steps until the power goes.
+  /// Steps until power is lost.
   std::uint64_t steps_left = UINT64_MAX;
   std::uint64_t steps_done = 0;
   std::mt19937 random;
-  /// Called while the memory works, with a part of the ticks that the work takes.
+  /// Called during an operation, with a part of its duration in ticks.
   std::function<void(std::int64_t)> elapse = [](std::int64_t) {};
   std::int64_t program_ticks = 0;  // a page
   std::int64_t erase_ticks = 0;    // a sector
-  /// The next writes fail, and say so.
+  /// The next writes fail and report it.
   bool broken = false;
 
   void read(std::uint32_t offset, std::span<std::uint8_t> out) {
@@ -99,7 +99,7 @@ class ModelFlash {
     const auto rng = static_cast<std::uint32_t>(random());
     switch (rng % 4) {
       case 0:
-        return;  // as it was
+        return;  // unchanged
       case 1:
         bytes[at] = 0xFF;
         return;

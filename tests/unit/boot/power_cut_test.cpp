@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of two slots: power may go at any step of any write, and what starts afterwards is a whole image.
+// The guarantee of two slots: after a power loss at any step of any write a complete image starts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace {
 
 enum class Starts : std::uint8_t { kOld, kNew, kNeither };
 
-/// Time is not what matters here.
+/// A clock that is not part of the test.
 void set_fast_flash(VirtualTarget& target) {
   target.turn_ticks = kTicksPerSecond / 200;
   target.machine.byte_ticks = 1;
   target.machine.uart_holds = 1 << 20;
 }
 
-/// What a start without any request runs, seen in memory byte by byte.
+/// The image started without any request, compared in memory byte by byte.
 Starts what_starts(VirtualTarget& target, const Bytes& old_image, const Bytes& new_image) {
   std::ranges::fill(target.machine.memory, 0);
   target.power_on();
@@ -58,7 +58,7 @@ void cut_at_every_step(unsigned seed, const Bytes& before, const Bytes& old_imag
       verified = host.ask(wire::LoaderVerify{}, kTicksPerSecond).ack.has_value();
     }
     ASSERT_FALSE(verified) << "cut " << cut << " came too late";
-    for (int again = 0; again < 2; ++again) {  // bits that were half written may read otherwise the next time
+    for (int again = 0; again < 2; ++again) {  // half-written bits may be read differently the next time
       const Starts starts = what_starts(target, old_image, new_image);
       ASSERT_NE(starts, Starts::kNeither) << "cut " << cut << " of " << steps;
       (starts == Starts::kOld ? olds : news) += 1;

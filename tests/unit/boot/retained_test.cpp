@@ -6,7 +6,7 @@
 namespace pharos::boot {
 namespace {
 
-/// What memory holds after power was away.
+/// Content of the memory after a power loss.
 Retained anything() { return {0x12345678, 0x9ABCDEF0, 1, 0xFFFFFFFF, 77, 1, 2, 3}; }
 
 TEST(Retained, DistinguishesPowerOnFromAReset) {
@@ -56,7 +56,7 @@ TEST(Retained, ThreeSilentStartsInARowExhaustTheBootAttempts) {
   }
   EXPECT_TRUE(boot_attempts_exhausted(retained));
   note_start(retained);
-  confirm_start(retained);  // of the one fallen back on
+  confirm_start(retained);  // of the fallback image
   note_reset(retained);
   EXPECT_TRUE(boot_attempts_exhausted(retained));
   announce_reset(retained, wire::ResetCause::kCommand, true);

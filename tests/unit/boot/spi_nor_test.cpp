@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver of the board's serial flash against a model of such a chip.
+// The driver of the board's serial flash with a model of such a chip.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pharos::board {
 namespace {
 
 /// M25P16's rules: a command needs its write enable, programming wraps within its page and only clears bits, a busy
-/// chip hears nothing but the question for its status, and everything happens when the chip is deselected.
+/// chip accepts only the read of its status, and commands take effect when the chip is deselected.
 class ChipModel {
  public:
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(2 << 20, 0xFF);

@@ -18,22 +18,22 @@
 
 namespace pharos::boot::test {
 
-/// A target that is switched on and off: the real loader on a model board, and in place of an application one that says
-/// Hello, answers commands and talks ten times a second.
+/// A target that can be switched on and off: the real loader on a model board, and a substitute application that sends
+/// Hello, responds to commands and sends frames ten times a second.
 class VirtualTarget {
  public:
   Machine machine;
-  /// Off: what the host sends is lost.
+  /// Off: bytes from the host are lost.
   bool powered = false;
-  /// The application no longer hears or says anything.
+  /// The application neither receives nor sends any more.
   bool hangs = false;
-  /// Images of this version never hear or say anything; -1: none.
+  /// Images of this version neither receive nor send; -1: none.
   int silent_patch = -1;
-  /// What a turn of the target's main loop takes; the more, the quicker the test.
+  /// Duration of an iteration of the target's main loop; a longer one makes the test faster.
   std::int64_t turn_ticks = 250;
 
   void power_on() {
-    machine.retained = {};  // memory without power holds anything; zeros are no mark
+    machine.retained = {};  // content after a power loss; zeros are not a valid mark
     machine.flash.steps_left = UINT64_MAX;
     powered = true;
     reset();
@@ -44,7 +44,7 @@ class VirtualTarget {
     application_.reset();
     machine.to_target.clear();
   }
-  /// As the watchdog does.
+  /// A reset by the watchdog.
   void reset() {
     ModelBoard::machine = &machine;
     application_.reset();
@@ -54,11 +54,11 @@ class VirtualTarget {
   }
 
   bool runs_application() const { return application_ != nullptr; }
-  /// Of the image that runs.
+  /// Header of the running image.
   const boot_image::BootImageHeader& running() const { return application_->header; }
   const boot_image::BootImageHeader* loaded() const { return loader_ ? loader_->loaded() : nullptr; }
 
-  /// One turn of the target's main loop.
+  /// One iteration of the target's main loop.
   void step() {
     ModelBoard::machine = &machine;
     machine.now += turn_ticks;

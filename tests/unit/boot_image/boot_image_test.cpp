@@ -13,7 +13,7 @@ namespace {
 using boot::test::Bytes;
 using boot::test::make_image;
 
-/// The file with one field of its header changed, and the header's CRC made to fit.
+/// The file with one field of its header changed, and the header's CRC recomputed.
 template <class Change>
 Bytes changed(Bytes file, Change&& change) {
   BootImageHeader header;

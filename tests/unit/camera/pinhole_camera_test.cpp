@@ -16,7 +16,7 @@ PinholeCamera paper_camera() {
 }
 
 TEST(PinholeCamera, ProjectsAsOpenCvDoes) {
-  // By hand, from OpenCV's documentation of the model: ray (0.3, -0.2), r2 = 0.13.
+  // Computed by hand from OpenCV's documentation of the model: ray (0.3, -0.2), r2 = 0.13.
   const PinholeCamera camera = paper_camera();
   const double radial = 1.0 - 0.1991 * 0.13 + 0.0809 * 0.13 * 0.13 + 0.004 * 0.13 * 0.13 * 0.13;
   const double x = 0.3 * radial + 2.0 * 0.0021 * 0.3 * -0.2 - 0.0002 * (0.13 + 2.0 * 0.09);
@@ -60,7 +60,7 @@ TEST(PinholeCamera, JacobiansAreThoseOfCentralDifferences) {
 
 TEST(PinholeCamera, SaysWhereTheModelFolds) {
   PinholeCamera camera = paper_camera();
-  camera.distortion = {-0.5, 0.0, 0.0, 0.0, 0.0};  // r (1 - r2/2) turns back at r2 = 2/3 and is at most 0.544
+  camera.distortion = {-0.5, 0.0, 0.0, 0.0, 0.0};  // r (1 - r2/2) has its maximum of 0.544 at r2 = 2/3
   EXPECT_EQ(project(camera, {0.9, 0.0, 1.0}).error(), CameraFailure::kOutsideModel);
   EXPECT_FALSE(undistort(camera, {camera.cx_px + 0.6 * camera.fx_px, camera.cy_px}).ok());
   const auto just_inside = undistort(camera, {camera.cx_px + 0.5 * camera.fx_px, camera.cy_px});

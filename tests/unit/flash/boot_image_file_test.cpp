@@ -23,7 +23,7 @@ class BootImageFileTest : public ::testing::Test {
  protected:
   ~BootImageFileTest() override { std::filesystem::remove(path_); }
 
-  /// What reading such a file says; empty where it is taken.
+  /// Error message for such a file; empty where it is accepted.
   std::string error_of(const Bytes& bytes) {
     std::ofstream(path_, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
     return error();

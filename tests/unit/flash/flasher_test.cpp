@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `pharos flash` against the real loader, in virtual time.
+// `pharos flash` with the real loader, in virtual time.
 #include "tools/flash/flasher.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ class Flash : public ::testing::Test {
     Flasher flasher(line, reports, options);
     return flasher.flash(image);
   }
-  /// What the error says; empty where there is none.
+  /// The error message; empty where there is none.
   std::string error_of(const BootImageFile& image) {
     return pharos::test::error_of([&] { flash(image); });
   }
@@ -216,7 +216,7 @@ TEST_F(Flash, GoesOnWhereABrokenRunStopped) {
   EXPECT_TRUE(runs(new_image));
 }
 
-/// A line that loses and breaks bytes: each run either ends with the new image running, or with an error and the old
+/// A line that loses and corrupts bytes: each run ends either with the new image running, or with an error and the old
 /// one.
 TEST_F(Flash, OverALineThatLosesBytesSucceedsOrFailsCleanly) {
   int succeeded = 0;
@@ -250,8 +250,8 @@ TEST_F(Flash, OverALineThatLosesBytesSucceedsOrFailsCleanly) {
   EXPECT_GE(succeeded, 25) << "one byte in 400 or fewer must not keep an image out";
 }
 
-/// The budget: 64 KiB in 3 s at 460,800 baud besides erasing, and two thirds of the line used, whatever adapter and
-/// flash.
+/// The budget: 64 KiB in 3 s at 460,800 baud besides erasing, and two thirds of the line's capacity used, with any
+/// adapter and flash.
 class Speed : public Flash, public ::testing::WithParamInterface<std::pair<std::int64_t, std::int64_t>> {};
 
 TEST_P(Speed, FlashesWithinItsBudget) {

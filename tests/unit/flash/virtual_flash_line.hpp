@@ -14,19 +14,19 @@ namespace pharos::tools::test {
 
 inline constexpr std::int64_t kNsPerTick = 20;
 
-/// The line between `pharos flash` and a virtual target, in virtual time: bytes take their time on the wire, the host's
-/// adapter hands on what came every few milliseconds, and whatever a test wants gets lost.
+/// The line between `pharos flash` and a virtual target, in virtual time: bytes have their transmission time, the
+/// host's adapter delivers received bytes every few milliseconds, and a test can lose any byte.
 class VirtualFlashLine final : public FlashLine {
  public:
   explicit VirtualFlashLine(boot::test::VirtualTarget& target) : target_(target) {}
 
-  /// How often the adapter hands on what came; 0: at once.
+  /// Delivery interval of the adapter; 0: at once.
   std::int64_t adapter_ticks = 0;
-  /// What becomes of a byte on its way; empty: it is lost.
+  /// The byte as received; empty: it is lost.
   using Fault = std::function<std::optional<std::uint8_t>(std::uint8_t)>;
   Fault to_target = [](std::uint8_t byte) { return byte; };
   Fault to_host = [](std::uint8_t byte) { return byte; };
-  /// Called as time goes by.
+  /// Called when time advances.
   std::function<void()> meanwhile = [] {};
   std::uint64_t bytes_written = 0;
 

@@ -15,7 +15,7 @@ struct OnePose {
   Matrix6 covariance = Matrix6::Identity();
 };
 
-// Near a half turn, where rotation vectors are torn, and differences too large for one step to be exact.
+// Near a half turn, where rotation vectors are discontinuous, and with differences too large for one exact step.
 CameraFromTarget near_half_turn() { return {rotation_exp(Vector3(3.1, 0.2, -0.1)), Vector3(0.1, -0.2, 4.0)}; }
 
 TEST(MeanOfPoses, OfOnePoseIsThatPose) {

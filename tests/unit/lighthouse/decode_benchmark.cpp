@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses a second of processor time through the decoder, in memory, one core: recorded light, as it is and out of order
+// Pulses a second of processor time through the decoder, in memory, one core: recorded light, in order and out of order
 // by up to 200 us. usage: decode_benchmark [NAME...]; reads the recordings at $PHAROS_DATA.
 #include <algorithm>
 #include <cstdio>
@@ -16,8 +16,8 @@ using pharos::lighthouse::RawPulse;
 
 constexpr int kLaps = 10;
 
-/// Processor seconds (a busy machine does not count) for kLaps times the recording, one after the other in time; the
-/// best of five.
+/// Processor seconds (independent of other load) for kLaps repetitions of the recording, consecutive in time; the
+/// minimum of five.
 double seconds_for(const std::vector<RawPulse>& pulses, std::int64_t span_ticks, std::size_t& hits) {
   double best = 1e9;
   for (int repeat = 0; repeat < 5; ++repeat) {

@@ -12,7 +12,7 @@
 
 namespace pharos::test {
 
-/// A decoder with everything that it gave out so far.
+/// A decoder with all its results so far.
 template <class AnyDecoder>
 struct DecodedBy {
   AnyDecoder decoder;
@@ -50,9 +50,8 @@ struct DecodedBy {
 
 using Decoded = DecodedBy<lighthouse::Decoder>;
 
-/// Checks every sweep against the light that it came from: no sweep that was not there, none wrong in any bit, hits
-/// where they belong to the tick. `offset_ticks` is what the decoder had to add to time. Returns the number of lit
-/// sweeps.
+/// Checks every sweep against the light: no false sweep, no wrong bit, hits exact to the tick. `offset_ticks` is the
+/// time that the decoder had to add. Returns the number of lit sweeps.
 inline std::size_t expect_truth(const std::vector<lighthouse::Sweep>& sweeps, const SyntheticLight& light,
                                 std::int64_t slots, std::int64_t offset_ticks = 0, std::int64_t tolerance_ticks = 0) {
   std::map<std::pair<int, std::int64_t>, SyntheticLight::FlashTruth> truths;  // by station and time in half slots

@@ -21,7 +21,7 @@ inline Light joined(Light a, const Light& b) {
   return a;
 }
 
-/// Flash-length pulses of a moment that has nothing to do with the rest, as devices send after a restart.
+/// Flash-length pulses at an unrelated time, as devices send after a restart.
 inline Light burst(std::int64_t at, std::size_t pulses) {
   Light light;
   for (std::size_t i = 0; i < pulses; ++i) {
@@ -31,7 +31,7 @@ inline Light burst(std::int64_t at, std::size_t pulses) {
   return light;
 }
 
-/// Decodes synthetic light whose truth is exact, so that a wrong station, axis, bit or angle fails in expect_truth.
+/// Decodes synthetic light with exact truth, so that a wrong station, axis, bit or angle fails in expect_truth.
 class DecoderFaults : public ::testing::Test {
  protected:
   const test::SyntheticLight light_{test::SyntheticLight::Settings{}};

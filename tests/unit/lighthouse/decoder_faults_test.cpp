@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults of time, darkness and flashes that were seen in recordings, or that a target can produce: none may cost more
-// than it must, and nothing false may come out.
+// Faults of time, darkness and flashes that were seen in recordings, or that a target can produce: none may lose more
+// data than necessary, and there must be no false result.
 #include "unit/lighthouse/decoder_faults.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_F(DecoderFaults, StaleAndFuturePulsesInTheMiddleCostNothing) {
 }
 
 TEST_F(DecoderFaults, APulseFromTheNearFutureDelaysNothingForLong) {
-  // 18 ms ahead: within what a pause of light explains, so it is believed until four pulses say otherwise.
+  // 18 ms ahead: a pause of light can explain it, so it is accepted until four pulses contradict it.
   decoded_.push(light_.slots(0, 30));
   const std::int64_t ahead = light_.flash(0, 32).start_ticks - 30'000;
   decoded_.push(Light{{ahead, ahead + 500, 0}});
@@ -77,7 +77,7 @@ TEST_F(DecoderFaults, LatePulsesAreDroppedAndCounted) {
 }
 
 TEST_F(DecoderFaults, TheCounterWrapsInTheLight) {
-  // What the unwrapper behind a 32-bit source does: nothing to be seen.
+  // The unwrapper after a 32-bit source handles this: no effect.
   SyntheticLight::Settings settings;
   settings.begin_s = 85.5;
   const SyntheticLight light(settings);
@@ -92,7 +92,7 @@ TEST_F(DecoderFaults, TheCounterWrapsInTheLight) {
 }
 
 TEST_F(DecoderFaults, TheCounterWrapsInTheDark) {
-  // 60 s without light: the nearest step of a 32-bit counter points 25.9 s back. Time must go on 60 s later.
+  // 60 s without light: the nearest step of a 32-bit counter is 25.9 s backwards. Time must continue 60 s later.
   decoded_.push(light_.slots(0, 60));
   const std::int64_t dark = 60 * kSecond;
   decoded_.push(SyntheticLight::shifted(light_.slots(60, 160), dark - kCounterSpan));
@@ -110,7 +110,8 @@ TEST_F(DecoderFaults, TheCounterWrapsInTheDark) {
 }
 
 TEST_F(DecoderFaults, WhatAStepBackLeftAheadOfTimeDoesNotWaitForALeap) {
-  // Pulses wait for elders, time is found to be 15 ms earlier, then 60 s later: they keep their time and come out.
+  // Pulses are held for reordering while time is corrected by 15 ms backwards, then by 60 s forwards: they keep their
+  // time and are processed.
   const auto hits = [](std::int64_t at, int count) {
     std::vector<Edge> edges;
     for (int i = 0; i < count; ++i) {
@@ -155,7 +156,7 @@ TEST_F(DecoderFaults, ALongDarkCostsOneLock) {
 }
 
 TEST_F(DecoderFaults, AShortDarkCostsNoLock) {
-  // 24 slots without any light: the rotors' own clocks carry over it.
+  // 24 slots without any light: the rotors' clocks bridge it.
   decoded_.push(light_.slots(0, 60));
   decoded_.push(light_.slots(84, 120));
   expect_truth(120, 54 + 35);
@@ -195,7 +196,7 @@ TEST_F(DecoderFaults, StationsKeepTheirNumbersAfterADarkThatOnlyOneSurvives) {
     decoded.push(light_.slots(900, 1000));
     decoded.flush();
     EXPECT_GE(test::expect_truth(decoded.sweeps, light_, 1000), 394U + 90U + 94U) << "survivor " << survivor;
-    EXPECT_EQ(decoded.counters().locks_lost, 2U);  // the dark; then two stations explain more than one
+    EXPECT_EQ(decoded.counters().locks_lost, 2U);  // the darkness; then two stations explain the light better than one
   }
 }
 
@@ -251,12 +252,12 @@ TEST_F(DecoderFaults, StretchedAndMergedFlashesAreRefused) {
   Light light = light_.slots(0, 30);
   for (std::int64_t slot = 30; slot < 34; ++slot) {
     const auto truth = light_.flash(0, slot);
-    light.push_back({truth.start_ticks, truth.start_ticks + 7'450, 0});  // longer than any code
+    light.push_back({truth.start_ticks, truth.start_ticks + 7'450, 0});  // longer than any flash code
     light_.add_flash(light_.flash(1, slot), light);
     light_.add_hits(light_.flash(0, slot), light);
     light_.add_hits(light_.flash(1, slot), light);
   }
-  // Both flashes of a slot run together.
+  // Both flashes of a slot merge.
   const auto merged = light_.flash(0, 34);
   light.push_back({merged.start_ticks, light_.flash(1, 34).start_ticks + 5'000, 0});
   light = joined(light, light_.slots(35, 80));
@@ -269,8 +270,8 @@ TEST_F(DecoderFaults, StretchedAndMergedFlashesAreRefused) {
 }
 
 TEST_F(DecoderFaults, WeakFlashesArePutBackInTime) {
-  // From slot 100 on only a sensor that misses 400 ticks of length sees every eighth flash: 300 ticks (470 arcsec)
-  // late.
+  // From slot 100 on every eighth flash is seen only by a sensor whose pulse is 400 ticks too short: 300 ticks (470
+  // arcsec) late.
   Light light = light_.slots(0, 100);
   for (std::int64_t slot = 100; slot < 200; ++slot) {
     for (int station = 0; station < 2; ++station) {
@@ -287,7 +288,7 @@ TEST_F(DecoderFaults, WeakFlashesArePutBackInTime) {
   SyntheticLight::sort_by_fall(light);
   decoded_.push(light);
   decoded_.flush();
-  // To two ticks (3 arcsec): the rotor's own clock says where in the credible range the flash began.
+  // To two ticks (3 arcsec): the rotor's own clock gives the start of the flash within the plausible range.
   EXPECT_GE(test::expect_truth(decoded_.sweeps, light_, 200, 0, 2), 190U);
   std::size_t weak = 0;
   for (const Sweep& sweep : decoded_.sweeps) weak += (sweep.flags & kSweepFlashWeak) != 0 ? 1U : 0U;
@@ -297,7 +298,7 @@ TEST_F(DecoderFaults, WeakFlashesArePutBackInTime) {
 
 TEST_F(DecoderFaults, ARestartedStationIsFoundAgain) {
   decoded_.push(light_.slots(0, 60));
-  // Rotors come back with another phase, without a pause.
+  // Rotors continue with another phase, without a pause.
   SyntheticLight::Settings settings = light_.settings();
   settings.begin_s += 60.0 / 120.0 + 0.0031;
   const SyntheticLight restarted(settings);

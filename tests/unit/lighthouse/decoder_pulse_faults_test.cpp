@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults of single edges, pulses and hits, and what the decoder tells of them.
+// Faults of single edges, pulses and hits, and the decoder's counters.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,11 +35,11 @@ TEST_F(DecoderFaults, InvalidPulsesAreCountedByCause) {
   const std::int64_t now = light_.flash(0, 19).start_ticks;
   decoded_.push(Light{{now, now + 68'266, 1},  // saturated
                       {now, now + 15, 2},      // glitch
-                      {now, now, 3},           // nothing
+                      {now, now, 3},           // zero length
                       {now, now - 100, 4},     // negative
                       {now, now + 100, 32},    // no such sensor
                       {now, now + 100, 255},
-                      {INT64_MIN, INT64_MAX, 5},  // nonsense, whose difference overflows
+                      {INT64_MIN, INT64_MAX, 5},  // times whose difference overflows
                       {INT64_MAX, INT64_MIN, 6},
                       {INT64_MAX - 200, INT64_MAX, 7}});
   decoded_.push(light_.slots(20, 60));
@@ -161,7 +161,7 @@ TEST_F(DecoderFaults, GarbageThenCleanLightDecodesWithinTwelveFlashes) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 50; ++trial) {
     Decoded decoded;
-    // Half of the time on a decoder that was locked before.
+    // In half of the cases the decoder was locked before.
     if (trial % 2 == 0) decoded.push(light_.slots(0, 30));
     Light garbage;
     std::int64_t now = light_.flash(0, 30).start_ticks;

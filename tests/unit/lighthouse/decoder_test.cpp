@@ -125,7 +125,7 @@ TEST(Decoder, GivesASweepAsSoonAsTheClockSaysThatItsWindowHasPassed) {
   decoded.push(light.slots(0, 20));
   const std::size_t before = decoded.lit();
   const std::int64_t flash = light.flash(0, 19).start_ticks + light.flash(1, 19).start_ticks;
-  decoded.decoder.advance(flash / 2 + 300'000);  // 6 ms after the flashes: hits may still come
+  decoded.decoder.advance(flash / 2 + 300'000);  // 6 ms after the flashes: hits are still possible
   decoded.take();
   EXPECT_EQ(decoded.lit(), before);
   decoded.decoder.advance(flash / 2 + 380'000);  // 7.6 ms
@@ -169,7 +169,7 @@ TEST(Decoder, AnyOrderWithin200MicrosecondsGivesTheSame) {
   in_order.flush();
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int64_t> late(0, 10'000);
-  // Late by up to 200 us, told at the fall and told at the rise; and edges.
+  // Late by up to 200 us, in the order of the falls and in that of the rises; and edges.
   for (const bool at_rise : {false, true}) {
     std::vector<std::pair<std::int64_t, RawPulse>> arrivals;
     for (const RawPulse& pulse : pulses) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model inverted in integers beside the one in double.
+// The inverse model in integers compared with that in double.
 #include "pharos/lighthouse/fixed_station_model.hpp"
 
 #include <gtest/gtest.h>

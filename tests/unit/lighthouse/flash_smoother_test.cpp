@@ -20,7 +20,7 @@ struct Rotor {
 };
 
 struct RotorNoise {
-  double wander_ticks = 6.0;    // of the turn, per turn, drawn back to its mean
+  double wander_ticks = 6.0;    // of the rotor's period, per turn, a mean-reverting walk
   double jitter_ticks = 5.0;    // of the flash, independent of its length
   double lateness_ticks = 0.0;  // of the flash, missing from its length
   double missed = 0.0;
@@ -173,7 +173,7 @@ TEST(Bearing, AQuarterTurnIsAQuarterTurn) {
   EXPECT_EQ(raw[0].sensor, 5);
   EXPECT_EQ(raw[0].width_ticks, 120);
   EXPECT_NEAR(raw[1].theta_rad - raw[0].theta_rad, kPi / 800'000, 1e-12);  // half a tick
-  // The flash was really 8 ticks later: the hit lies 8 ticks nearer to it.
+  // The true flash was 8 ticks later: the hit is 8 ticks nearer to it.
   const SweepBearings smoothed = bearings_of(sweep, {8.0, 800'000.0});
   EXPECT_NEAR(raw[0].theta_rad - smoothed[0].theta_rad, 8 * kTwoPi / 800'000, 1e-12);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Payloads of four real stations, and what the first one says.
+// Payloads of four real stations, and the values of the first one.
 constexpr const char* kStationBEC08E38 = "063d388ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100";
 constexpr const char* kStationC33B4DE1 = "063de14d3bc3002beb2b2e9dea202b09f89c39a0007f04f3ad48ba30a1b9a00200";
 constexpr const char* kStationF77E21F3 = "066df3217ef7d9257327d7a005a00209bd1835180a7f073e3fb5bc472549a20100";
@@ -89,7 +89,7 @@ TEST_F(Frames, AMissingBitEndsTheFrameAndNothingMore) {
 
 TEST_F(Frames, EverySingleWrongBitIsNoticed) {
   const std::vector<bool> frame = test::ootx_bits(test::from_hex(kStationC33B4DE1));
-  // The pad of an odd length is covered by nothing, and says nothing.
+  // The padding byte of an odd length is not covered by the CRC and has no meaning.
   const std::size_t pad_begin = 18 + 17 * 17 + 8;
   for (std::size_t wrong = 0; wrong < frame.size(); ++wrong) {
     if (wrong >= pad_begin && wrong < pad_begin + 8) continue;
@@ -98,7 +98,7 @@ TEST_F(Frames, EverySingleWrongBitIsNoticed) {
     bits[wrong] = !bits[wrong];
     push(bits);
     push(std::vector<bool>(1, true));
-    // A wrong length may ask for more words than came: a whole frame that follows ends that.
+    // A wrong length may need more words than were received: a complete frame that follows ends that.
     EXPECT_TRUE(got_.empty()) << "bit " << wrong;
     push(frame);
     EXPECT_EQ(got_.size(), 1U) << "after bit " << wrong;

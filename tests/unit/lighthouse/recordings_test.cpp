@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder on real light. What must come out is listed beside the recordings or was decoded from them by another
-// program; the figures are those that users of still targets feel.
+// The decoder with real light. Expected results are listed with the recordings or were decoded from them by another
+// program; the figures are the noise and completeness on stationary targets.
 #include "unit/lighthouse/recordings.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Listed {
   std::map<std::string, std::size_t> payloads;  // hex, times at least
 };
 
-// Identity and calibration of each payload: what may not differ from take to take.
+// Identity and calibration of each payload, which must not differ between recordings.
 const char* const kBEC08E38 = "063d388ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100";
 const char* const kC33B4DE1 = "063de14d3bc3002beb2b2e9dea202b09f89c39a0007f04f3ad48ba30a1b9a00200";
 const char* const kF77E21F3 = "066df3217ef7d9257327d7a005a00209bd1835180a7f073e3fb5bc472549a20100";
@@ -66,7 +66,7 @@ struct Noise {
 };
 
 /// Standard deviation of theta over the whole recording, one sweep, median over sensors and rotors. Nothing is removed
-/// but hits more than 200 arcsec from their series' median (reflections) and series seen in less than half of the
+/// except hits more than 200 arcsec from their series' median (reflections) and series seen in less than half of the
 /// sweeps.
 Noise still_noise(const std::vector<Sweep>& sweeps) {
   struct Series {
@@ -134,7 +134,7 @@ TEST(Recordings, FirstAngleComesWithin150Milliseconds) {
   PHAROS_NEEDS_RECORDINGS();
   for (const Listed& listed : kListed) {
     const auto pulses = test::recorded_pulses(listed.recording);
-    // From the first good flash (sync length, not one of the stale pulses); an angle cannot come before the first hit.
+    // From the first good flash (sync length, not one of the stale pulses); there is no angle before the first hit.
     std::int64_t first_flash = -1;
     std::int64_t first_hit = -1;
     Decoded decoded;
@@ -179,7 +179,7 @@ TEST(Recordings, AStationarySensorHasTheStatedNoise) {
 
 TEST(Recordings, SmoothingDoesNotHurtInMotion) {
   PHAROS_NEEDS_RECORDINGS();
-  // Third differences of a sensor's angle over consecutive sweeps: motion as smooth as a hand's leaves little in them.
+  // Third differences of a sensor's angle over consecutive sweeps: they are small for the smooth motion of a hand.
   std::map<std::tuple<int, int, int>, std::vector<std::array<double, 3>>> series;
   std::map<std::pair<int, int>, FlashSmoother> smoothers;
   for (const Sweep& sweep : decode("controller_quick").sweeps) {
@@ -275,8 +275,8 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
   PHAROS_NEEDS_RECORDINGS();
   const std::vector<PeerAngle> peers = peer_angles();
   ASSERT_GT(peers.size(), 20'000U);
-  // Both programs saw the same pulses: the peer's time codes are these ticks at 48 MHz from another origin. The origin
-  // is where most of the peer's first angles meet a hit of the same sensor.
+  // Both programs processed the same pulses: the peer's time codes are these ticks at 48 MHz from another origin. The
+  // origin is the one at which most of the peer's first angles coincide with a hit of the same sensor.
   struct PharosAngle {
     double theta_rad;
     int station, axis;
@@ -293,7 +293,8 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
     }
   }
   std::map<std::int64_t, int> votes;
-  constexpr std::int64_t kVote_ticks = 4;  // finer than a rotor's jitter, or a whole turn off would count as well
+  constexpr std::int64_t kVote_ticks =
+      4;  // less than a rotor's jitter, else an offset of a whole turn would count as well
   for (std::size_t i = 0; i < peers.size(); i += 50) {
     for (const auto& [time, hit] : mine[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVote_ticks];
   }

@@ -16,7 +16,7 @@ using test::SyntheticLight;
 
 constexpr std::int64_t kSlot_ticks = 416'667;
 
-// Two stations with what real light has: pulses missing, glitches, reflections, edges whose partner was lost.
+// Two stations with the faults of real light: missing pulses, glitches, reflections, edges whose partner was lost.
 std::vector<Edge> faulty_edges(double begin_s, std::int64_t slots, unsigned seed) {
   SyntheticLight::Settings settings;
   settings.begin_s = begin_s;
@@ -62,7 +62,7 @@ TEST(SortedDecoder, GivesWhatDecoderGivesOfFaultyLight) {
 
 TEST(SortedDecoder, FollowsTimeOverADarkAndAStepBackAsDecoderDoes) {
   std::vector<Edge> edges = faulty_edges(1.0, 120, 1);
-  for (const double begin_s : {3.0, 90.0, 20.0}) {  // a dark, a longer one, a target that restarted
+  for (const double begin_s : {3.0, 90.0, 20.0}) {  // a darkness, a longer one, a target that restarted
     const std::vector<Edge> more = faulty_edges(begin_s, 120, static_cast<unsigned>(begin_s));
     edges.insert(edges.end(), more.begin(), more.end());
   }

@@ -12,9 +12,9 @@
 namespace pharos::lighthouse {
 namespace {
 
-constexpr double kInverseTolerance_rad = 1e-7;  // what the product promises
+constexpr double kInverseTolerance_rad = 1e-7;  // the documented accuracy
 
-// As large as real stations have them (phase .015-.062, |tilt| <= .0096, |curve| <= .0083, |gibmag| <= .0206 rad).
+// Ranges of real stations (phase .015-.062, |tilt| <= .0096, |curve| <= .0083, |gibmag| <= .0206 rad).
 StationCalibration random_station(std::mt19937& random) {
   const auto within = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -32,7 +32,7 @@ Vector3 random_point(std::mt19937& random, double half_field_rad) {
   return Vector3(std::tan(angle(random)), std::tan(angle(random)), 1.0) * 3.0;
 }
 
-// The model as the public sources state it, in the station's own frame: X right, Y up, looking along -Z.
+// The model as published, in the station's own frame: X right, Y up, optical axis along -Z.
 double published_raw(const RotorCalibration& c, ModelForm form, Axis axis, const Vector3& p_lighthouse) {
   const double X = p_lighthouse.x();
   const double Y = -p_lighthouse.y();

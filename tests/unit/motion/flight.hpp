@@ -16,7 +16,7 @@
 
 namespace pharos::test {
 
-/// One ideal station before the paper's target, with the paper's noise: what a flight varies.
+/// One ideal station and the paper's target, with the paper's noise: the base scenario of a flight.
 inline sim::LighthouseScenario flight_scenario(double duration_s) {
   sim::LighthouseScenario scenario;
   scenario.duration_s = duration_s;
@@ -35,7 +35,7 @@ inline sim::LighthouseScenario manoeuvre(double duration_s, double speed_m_s, do
   return scenario;
 }
 
-/// A random pose at rest that shows at least `lit` sensors.
+/// A random stationary pose in which at least `lit` sensors are visible.
 inline sim::LighthouseScenario still(double duration_s, double range_m, std::uint64_t seed, int lit = 6) {
   sim::LighthouseScenario scenario = flight_scenario(duration_s);
   sim::RandomStationaryPoses rest;
@@ -48,7 +48,7 @@ inline sim::LighthouseScenario still(double duration_s, double range_m, std::uin
   return scenario;
 }
 
-/// One answer beside the truth at its time.
+/// One result with the truth at its time.
 struct FlightSample {
   double time_s = 0.0;
   const track::EpochResult* result = nullptr;
@@ -59,22 +59,22 @@ struct FlightSample {
   double nees() const { return nees_of(truth, result->pose.value()); }
 };
 
-/// Options of a flight: the simulated flash has no memory, so there is nothing to smooth.
+/// Options of a flight: simulated flashes are independent, so there is nothing to smooth.
 inline motion::MotionOptions flight_options() {
   motion::MotionOptions options;
   options.smooth_flashes = false;
   return options;
 }
 
-/// What a tracker is told of the stations before it flies.
+/// Sets a tracker's calibrations before a flight.
 using Prepare = std::function<void(motion::MotionTracker&, const sim::LighthouseSimulator&)>;
 
-/// Every station is an ideal one.
+/// Every station is ideal.
 inline void tell_ideal_stations(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
   for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) tracker.set_calibration(station, {});
 }
 
-/// What stations say of themselves, as their OOTX tells it.
+/// The calibrations that the stations send over OOTX.
 inline void tell_announced(motion::MotionTracker& tracker, const sim::LighthouseSimulator& simulator) {
   for (std::uint8_t station = 0; station < simulator.stations().size(); ++station) {
     lighthouse::StationCalibration calibration;
@@ -87,8 +87,8 @@ inline void tell_announced(motion::MotionTracker& tracker, const sim::Lighthouse
   }
 }
 
-/// Flies a scenario, of ideal stations unless `prepare` tells otherwise, through decoder and tracker; an answer's truth
-/// is in its station's frame. `corrupt` may change each sweep before the tracker sees it.
+/// Simulates a scenario, with ideal stations unless `prepare` sets others, with decoder and tracker; a result's truth is
+/// in its station's frame. `corrupt` may change each sweep before the tracker sees it.
 inline void fly(
     const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightSample&)>& take,
     const std::function<void(lighthouse::Sweep&)>& corrupt = [](lighthouse::Sweep&) {},
@@ -116,7 +116,7 @@ inline void fly(
   give();
 }
 
-/// Consistency and accuracy of many answers.
+/// Consistency and accuracy of many results.
 struct FlightScore {
   int answers = 0, ambiguous = 0, refused = 0;
   double nees = 0.0, rotation_nees = 0.0, position_nees = 0.0, sigma_position_square = 0.0, rotation_square = 0.0,

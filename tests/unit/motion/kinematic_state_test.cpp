@@ -64,7 +64,7 @@ TEST(MovingState, PredictsTheCovarianceThatItsMeanHasBySmallDifferences) {
   MovingState predicted = s;
   predicted.predict(kStep_s, 0.0, 0.0);
   const Matrix18 expected = F * whole(s) * F.transpose();
-  // What is left out is half the turn of one step (0.4 %) of the rate's share.
+  // The neglected term is half the rotation of one step (0.4 %) of the rate's part.
   EXPECT_LT((whole(predicted) - expected).norm(), 1e-3 * expected.norm());
   EXPECT_LT((predicted.pose.R - end.pose.R).norm(), 1e-12);
 }
@@ -151,7 +151,8 @@ MovingState some_linked_state(unsigned seed) {
   return s;
 }
 
-// By small differences: what the second station sees of the body when the body and when that station is moved.
+// By finite differences: change of the body's pose in the second station's frame for a motion of the body and of that
+// station.
 TEST(SecondView, KnowsHowErrorsOfBodyAndStationLookFromTheSecondStation) {
   constexpr double kSmall = 1e-6;
   const MovingState s = some_linked_state(3);
@@ -188,7 +189,7 @@ TEST(SecondView, TimeCarriesItsShareOfTheCovariance) {
   EXPECT_LT((whole_with_second(predicted) - expected).norm(), 1e-3 * expected.norm());
 }
 
-// Hits of either station move the body and the second station as Kalman's gain says.
+// Hits of either station correct the body and the second station by the Kalman gain.
 TEST(SecondView, ACorrectionOfEitherStationIsKalmans) {
   for (const bool second : {false, true}) {
     MovingState s = some_linked_state(5);

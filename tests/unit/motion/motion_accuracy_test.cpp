@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paper 002, section 4.3 and table 2, with the systematic errors called workshop: ten manoeuvres of a minute, each
 // calibrated from thirty poses of two seconds and one length known to 0.02 mm. Four columns: each cycle alone or
-// motion-aware, with OOTX alone or calibrated. The body frame is that of the sensors believed in, as a hand-eye
-// calibration against a motion-capture system would find it; the station's frame is given.
+// motion-aware, with OOTX alone or calibrated. The body frame is that of the assumed sensor positions, as a hand-eye
+// calibration with a motion-capture system would find it; the station's frame is given.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -18,9 +18,9 @@ namespace {
 
 using BodyFromBody = Pose<frame::Body, frame::Body>;
 
-// From here on: a start from one cycle knows no rates yet.
+// Results from here on: after a start from one cycle the rates are unknown.
 constexpr double kSettled_s = 1.5;  // the counter starts at one second
-// Sensors of the target's top plate: views of these alone leave a tilt open.
+// Sensors of the target's top plate: with these alone a tilt is weakly observable.
 constexpr int kPlate = 4;
 // Stated sigmas whose 2.5- and 3-fold are half a degree and 6 mm.
 constexpr UncertaintyLimits kGoodEnough{0.2 * kRadPerDeg, 2e-3};
@@ -74,7 +74,7 @@ class Flight {
     sim::LighthouseSimulator stills(calibrate::test::scenario_of(session), seed);
     const auto calibration = calibrate::calibrate_lighthouse(calibrate::test::calibration_input(stills, seed));
     nominal_ = {simulator_.nominal_target(), station_of(simulator_.stations()[0].announced.rotor), kUncalibratedErrors};
-    // As a user's: through the file.
+    // Through the file, as for a user.
     const auto file =
         calibrate::parse_calibration(calibrate::calibration_text(calibration, simulator_.nominal_target()), "flight");
     calibrated_ = {calibrate::calibrated_target(file, simulator_.nominal_target()), file.stations.front().calibration,
@@ -100,11 +100,11 @@ class Flight {
     }
   }
 
-  // Kalman's covariance alone: linearised at the truth, told target, station and how smooth the flight is. `take` gets
-  // the sigma of the attitude (square root of the trace) after every sweep.
+  // Only the Kalman filter's covariance: linearised at the truth, with known target, station and jerk of the flight.
+  // `take` gets the sigma of the attitude (square root of the trace) after every sweep.
   template <class Take>
   void covariance_at_the_truth(Take&& take) const {
-    // White jerk, rad^2/s^5 and m^2/s^5: a third of what the calmest moving belief of the tracker holds possible.
+    // White jerk, rad^2/s^5 and m^2/s^5: a third of that of the tracker's moving model with the lowest jerk.
     constexpr double kTurning = 3e-4, kMoving = 1e-4, kDelta_s = 1e-3;
     const lighthouse::StationCalibration station = station_of(simulator_.stations()[0].true_errors);
     const StationView view{&simulator_.true_target(), &station};
@@ -115,7 +115,7 @@ class Flight {
     std::int64_t before_ticks = 0;
     for (const lighthouse::Sweep& sweep : sweeps_) {
       lighthouse::SweepBearings bearings = lighthouse::bearings_of(sweep);
-      for (lighthouse::Bearing& bearing : bearings) bearing.width_ticks = 0;  // noise here does not depend on it
+      for (lighthouse::Bearing& bearing : bearings) bearing.width_ticks = 0;  // the noise here does not depend on it
       const std::int64_t now_ticks = last_hit_ticks(bearings, simulator_.true_target());
       if (now_ticks == INT64_MIN) continue;
       const double now_s = ticks_to_seconds(now_ticks);
@@ -191,11 +191,11 @@ TEST(MotionAccuracy, TenCalibratedManoeuvres) {
   EXPECT_GT(both.answers, 70'000);
   EXPECT_LT(both.position_rms_mm(), 1.5);
   EXPECT_LT(both.position_max_mm, 6.0);
-  // What four coplanar sensors seen from ahead leave of the tilt is more than a tenth of a degree: see below.
+  // With four coplanar sensors seen from ahead the tilt's sigma is more than a tenth of a degree: see below.
   EXPECT_LT(both.rotation_rms_deg(), 0.15);
   EXPECT_LT(seen_well[3].rotation_rms_deg(), 0.1);
   EXPECT_LT(all[1].nees_per_freedom(), 1.5);
-  // With what is good enough told, every valid pose is, and nearly always there is one.
+  // With uncertainty limits every valid pose is within them, and there is nearly always one.
   EXPECT_LT(good.rotation_rms_deg(), 0.1);
   EXPECT_LT(good.position_rms_mm(), 1.5);
   EXPECT_LT(good.rotation_max_deg, 0.5);
@@ -203,7 +203,7 @@ TEST(MotionAccuracy, TenCalibratedManoeuvres) {
   EXPECT_GT(good.answers, 0.94 * (good.answers + good.ambiguous + good.refused));
 }
 
-// A calibration is one draw of its errors for a whole flight: it takes many to tell whether they are as large as
+// A calibration is one sample of its errors for a whole flight: many are needed to check whether they are as large as
 // stated.
 TEST(MotionAccuracy, FortyCalibrationsAreAsGoodAsTheySay) {
   test::FlightScore all, seen_well;
@@ -218,8 +218,8 @@ TEST(MotionAccuracy, FortyCalibrationsAreAsGoodAsTheySay) {
   EXPECT_LT(all.nees_per_freedom(), 1.1);
 }
 
-// Why 0.1 deg at every instant and 0.5 deg at the most cannot be had of these flights: a filter that knows all but the
-// pose does not do better.
+// Why 0.1 deg at every time and 0.5 deg at most cannot be reached in these flights: a filter that knows everything but
+// the pose is not better.
 TEST(MotionAccuracy, NoFilterKnowsTheTiltOfAPlateSeenFromAhead) {
   double square = 0.0, worst = 0.0;
   int count = 0;

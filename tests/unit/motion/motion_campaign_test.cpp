@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hundred manoeuvres from slow to fast tumbling, a third of them with darkness short and long: honest throughout.
+// A hundred manoeuvres from slow to fast tumbling, a third of them with short and long darkness: consistent throughout.
 #include <gtest/gtest.h>
 
 #include "tests/unit/motion/flight.hpp"

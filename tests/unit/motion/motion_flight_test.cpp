@@ -11,7 +11,7 @@ namespace {
 using test::FlightSample;
 using test::FlightScore;
 
-// Twelve short manoeuvres, four at each of three paces.
+// Twelve short manoeuvres, four at each of three speeds.
 TEST(MotionFlight, CovarianceIsConsistentOverManoeuvres) {
   FlightScore all;
   std::uint64_t seed = 1;
@@ -22,7 +22,7 @@ TEST(MotionFlight, CovarianceIsConsistentOverManoeuvres) {
     }
   }
   EXPECT_GT(all.answers, 10'000);
-  // Few and correlated answers: twice the campaign's band.
+  // Few and correlated results: twice the campaign's interval.
   EXPECT_GT(all.nees_per_freedom(), 0.8);
   EXPECT_LT(all.nees_per_freedom(), 1.2);
 }
@@ -66,7 +66,7 @@ TEST(MotionFlight, StationaryItNeitherDriftsNorBecomesOverconfident) {
   }
   ASSERT_GT(count, 3000);
   EXPECT_LT(std::sqrt(late_square / count), 0.1);  // mm, ten seconds on
-  EXPECT_LT(nees / count, 2.0);                    // three still poses: three correlated samples
+  EXPECT_LT(nees / count, 2.0);                    // three stationary poses: three correlated samples
 }
 
 TEST(MotionFlight, ComesBackAfterDarkness) {
@@ -82,12 +82,12 @@ TEST(MotionFlight, ComesBackAfterDarkness) {
     if (time_s > 7.5 && first_after_s == 0.0) first_after_s = time_s;
   });
   EXPECT_GT(last_before_s, 5.9);
-  EXPECT_LT(first_after_s, 7.75);  // the decoder finds its lock again, then one cycle
+  EXPECT_LT(first_after_s, 7.75);  // the decoder locks again, then one cycle
   EXPECT_LT(all.nees_per_freedom(), 1.2);
   EXPECT_LT(all.rotation_max_deg, 3.0);
 }
 
-// For four seconds one sensor gets only light that went another way, another gets both, the false one stronger.
+// For four seconds one sensor receives only reflected light, another receives both, the reflection stronger.
 TEST(MotionFlight, LeavesReflectionsOutHoweverStrong) {
   const auto corrupt = [](lighthouse::Sweep& sweep) {
     const double time_s = ticks_to_seconds(sweep.flash.start_ticks);
@@ -126,7 +126,7 @@ TEST(MotionFlight, GoesOnWhenHalfOfTheSensorsDie) {
   EXPECT_LT(all.position_max_mm, 3.0);
 }
 
-// The station is gone for a second and a half and comes back with its rotors elsewhere.
+// The station is off for a second and a half and continues with other rotor phases.
 TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   sim::LighthouseScenario scenario = test::manoeuvre(9.0, 0.5, 60.0, 6);
   scenario.faults.restarts = {{0, 4.0, 1.5}};
@@ -147,7 +147,7 @@ TEST(MotionFlight, ARestartInFlightCostsTheDarknessAndNoMore) {
   EXPECT_LT(all.nees_per_freedom(), 1.2);
 }
 
-// Stations are told apart by their slot: one identity twice costs neither its pose.
+// Stations are distinguished by their slot: with one identity twice both still have poses.
 TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
   sim::LighthouseScenario scenario = test::still(4.0, 2.0, 11, 8);
   scenario.stations.resize(2);
@@ -165,7 +165,7 @@ TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
   EXPECT_GT(good[1], 100);
 }
 
-// Sensors and rotors off by the workshop's errors, and no calibration: what is known to be wrong is in the covariance.
+// Sensors and rotors with the workshop errors, and no calibration: the known systematic errors are in the covariance.
 TEST(MotionFlight, CovarianceIncludesTheGivenSystematicErrors) {
   MotionOptions told = test::flight_options();
   told.systematic = kUncalibratedErrors;
@@ -180,7 +180,7 @@ TEST(MotionFlight, CovarianceIncludesTheGivenSystematicErrors) {
         scenario, seed, [&](const FlightSample& answer) { with_systematics.add(answer); }, none, told);
   }
   EXPECT_GT(silent.nees_per_freedom(), 4.0);
-  EXPECT_LT(with_systematics.nees_per_freedom(), 2.0);  // six draws of the errors
+  EXPECT_LT(with_systematics.nees_per_freedom(), 2.0);  // six samples of the errors
 }
 
 TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
@@ -206,13 +206,13 @@ TEST(MotionFlight, AStationThatComesBackWithAnotherCalibrationIsLookedForAnew) {
     }
   }
   ASSERT_TRUE(tracker.predicted(0, last_ticks).has_value());
-  tracker.set_calibration(0, first);  // the same again changes nothing
+  tracker.set_calibration(0, first);  // the same calibration again changes nothing
   ASSERT_TRUE(tracker.predicted(0, last_ticks).has_value());
   tracker.set_calibration(0, second);
   EXPECT_FALSE(tracker.predicted(0, last_ticks).has_value());
 }
 
-// A hand that shakes the target at 3 to 5 Hz: 30 rad/s and 2.5 m/s, reversed within four cycles of the station.
+// The target is shaken by hand at 3 to 5 Hz: 30 rad/s and 2.5 m/s, reversed within four cycles of the station.
 TEST(MotionFlight, AShakenBodyIsKnownAsWellAsItSays) {
   test::FlightScore score;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

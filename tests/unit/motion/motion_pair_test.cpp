@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two stations before one body: both in one belief, beside each of them alone on the same sweeps.
+// Two stations that see one body: both in one estimate, compared with each of them alone on the same sweeps.
 #include <gtest/gtest.h>
 
 #include "tests/unit/motion/flight.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using test::FlightScore;
 
-// Two metres apart, turned towards the volume between them.
+// Two metres apart, directed towards the volume between them.
 sim::LighthouseScenario before_two_stations(double duration_s, std::uint64_t seed) {
   sim::LighthouseScenario scenario = test::manoeuvre(duration_s, 0.5, 60.0, seed);
   scenario.stations.resize(2);
@@ -42,7 +42,7 @@ class PairFlight {
   explicit PairFlight(const sim::LighthouseScenario& scenario, const MotionOptions& options = test::flight_options())
       : scenario_(scenario), options_(options) {}
   std::optional<StationRelative> relative;
-  double settled_s = 2.0;  // answers before are not scored
+  double settled_s = 2.0;  // results before are not counted
 
   void run(std::uint64_t seed, PairScore& score) {
     sim::LighthouseSimulator simulator(scenario_, seed);
@@ -109,7 +109,7 @@ TEST(MotionPair, WithAKnownRelativePoseBothAreBetterThanEitherAlone) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const sim::LighthouseScenario scenario = before_two_stations(8.0, seed);
     PairFlight flight(scenario);
-    // As good as a calibration knows it, and off by one draw of that.
+    // With the covariance of a calibration, and an error drawn from it.
     constexpr double kTurn_rad = 0.2e-3, kPlace_m = 0.3e-3;
     sim::RandomStream random(seed, "relative pose");
     Vector6 error;
@@ -144,7 +144,7 @@ TEST(MotionPair, LearnsWhereTheSecondStationStands) {
   expect_consistent(score.fused);
 }
 
-// A relative pose that somebody mistyped, or a station that was knocked since the calibration.
+// A wrong relative pose, or a station that was moved after the calibration.
 TEST(MotionPair, AWrongRelativePoseIsRejectedReportedAndCostsNothing) {
   PairScore score;
   for (const double wrong_m : {0.02, 0.3}) {
@@ -157,7 +157,7 @@ TEST(MotionPair, AWrongRelativePoseIsRejectedReportedAndCostsNothing) {
     flight.run(3, score);
     EXPECT_TRUE(flight.fused->pair().survey_refused()) << wrong_m;
     EXPECT_GE(flight.fused->pair().refusals(), 1);
-    // It is then learnt as if nothing had been said.
+    // It is then estimated as if none had been given.
     const auto relative = flight.fused->pair().relative();
     ASSERT_TRUE(relative.has_value());
     EXPECT_LT((relative->T_0_1.t - relative_of(scenario).t).norm(), 0.02);
@@ -169,7 +169,8 @@ TEST(MotionPair, AWrongRelativePoseIsRejectedReportedAndCostsNothing) {
   }
 }
 
-// One station is dark for two seconds, then the other: the body is never lost, and what was learnt of them stays.
+// One station is dark for two seconds, then the other: the body is never lost, and their estimated relative pose is
+// kept.
 TEST(MotionPair, GoesOnWithEitherStationAlone) {
   sim::LighthouseScenario scenario = before_two_stations(12.0, 5);
   scenario.faults.restarts = {{1, 4.0, 1.5}, {0, 8.0, 1.5}};
@@ -186,7 +187,7 @@ TEST(MotionPair, GoesOnWithEitherStationAlone) {
   }
 }
 
-// Three sensors before one station are too few to begin with; what the other one sees makes them enough.
+// Three sensors of one station are too few for a start; with those of the other station they suffice.
 TEST(MotionPair, AStationThatSeesTooLittleAloneIsHelpedByTheOther) {
   const sim::LighthouseScenario scenario = before_two_stations(6.0, 7);
   sim::LighthouseSimulator simulator(scenario, 7);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real stations, with what OOTX says of them and nothing else.
+// Real stations, with only their OOTX calibrations.
 #include <gtest/gtest.h>
 
 #include <bitset>
@@ -38,7 +38,8 @@ std::size_t sensors_lit(const lighthouse::Sweep& sweep, const Target& target) {
   return lit.count();
 }
 
-// By station; and of the time in which one of them lights four sensors, how much has a pose no older than a turn.
+// By station; and the fraction of the time with four lit sensors of one station in which a pose is not older than a
+// turn.
 struct Outcomes {
   std::array<Outcome, kMaxStations> of;
   int lit = 0, known = 0;
@@ -88,12 +89,12 @@ TEST(MotionRecordings, AQuickHandKeepsItsPose) {
   PHAROS_NEEDS_DATA("lighthouse");
   const auto outcomes = track("controller_quick.edges.csv.gz", "controller_quick.target_a.csv");
   // The near station sees the hand all the time; the far one four to five sensors in a quarter of it, with half a
-  // second of darkness and more before many a sweep: that sweep has no pose of its own, but the near station's.
+  // second of darkness and more before many a sweep: that sweep has only the near station's pose.
   EXPECT_GT(outcomes.of[1].lit, 3000);
   EXPECT_GE(outcomes.known_fraction(), 0.99);
   EXPECT_GE(outcomes.of[1].valid_fraction(), 0.99);
   EXPECT_LT(outcomes.of[1].residual_chi2_per_degree_of_freedom(), 1.5);
-  // One is perfect; the hand turns at 30 rad/s and reverses within the turn in which a station is dark.
+  // One is ideal; the hand rotates at 30 rad/s and reverses within a turn in which a station is dark.
   Outcome both = outcomes.of[0];
   both.add(outcomes.of[1]);
   for (const Outcome& outcome : {outcomes.of[1], both}) {
@@ -115,7 +116,8 @@ TEST(MotionRecordings, StationaryBodiesStayWithinThePredictedCovariance) {
     const auto outcomes = track(name + ".edges.csv.gz", name + ".target.csv");
     for (const Outcome& outcome : outcomes.of) {
       EXPECT_GE(outcome.valid_fraction(), 0.985) << name;
-      // One is perfect. Sensors are tens of arcsec from where the target file says; covariances are widened for it.
+      // One is ideal. Sensors are tens of arcsec from their positions in the target file; covariances are increased for
+      // it.
       EXPECT_LT(outcome.nis_per_degree_of_freedom(), 2.0) << name;
       if (outcome.residual_degrees_of_freedom > 0) {
         EXPECT_LT(outcome.residual_chi2_per_degree_of_freedom(), 1.5) << name;

@@ -72,17 +72,18 @@ TEST(SweepInformation, AShiftOfAllHitsCountsAsOneErrorNotAsEight) {
   Sweep sweep = random_sweep(5);
   sweep.H.setZero();
   sweep.r.setConstant(1.0);
-  // Eight readings of one error of variance 0.9 (and a little of their own): chi-squared near 1 / 0.92.
+  // Eight measurements with one common error of variance 0.9 (and a little noise of their own): chi-squared near 1 /
+  // 0.92.
   const SweepInformation information = summed(sweep);
   EXPECT_GT(information.residual_chi2, 1.0);
   EXPECT_LT(information.residual_chi2, 1.11);
 }
 
-// Still sensors in recordings: pulses of 25 to 50 ticks scatter by 5 to 10 arcsec, those of 200 by 1 to 3.
+// Stationary sensors in recordings: pulses of 25 to 50 ticks scatter by 5 to 10 arcsec, those of 200 by 1 to 3.
 TEST(SweepFit, ANarrowHitCountsLess) {
   Target target;
   lighthouse::SweepBearings bearings;
-  constexpr std::array<std::uint16_t, 4> kWidths = {0, 208, 52, 20};  // 0: not told
+  constexpr std::array<std::uint16_t, 4> kWidths = {0, 208, 52, 20};  // 0: unknown
   for (std::uint8_t i = 0; i < kWidths.size(); ++i) {
     target.push_back({i, Vector3(0.02 * i, 0.01 * i * i, 0.0), Vector3::Zero()});
     bearings.push_back({1000, kPi / 2 - std::atan2(0.02 * i, 2.0), kWidths[i], i});

@@ -33,7 +33,7 @@ TEST(Damping, FallsToAThirdWhereTheModelIsRightAndGrowsWhereItIsNot) {
   Damping right(1.0), wrong(1.0);
   right.succeeded(1.0);
   EXPECT_DOUBLE_EQ(right.value(), 1.0 / 3.0);
-  wrong.succeeded(0.0);  // lowered the cost by nothing of what was predicted
+  wrong.succeeded(0.0);  // the cost did not decrease at all
   EXPECT_DOUBLE_EQ(wrong.value(), 2.0);
 }
 

@@ -22,7 +22,7 @@ TEST(Descent, SolvesAQuadraticInOneStep) {
       d);
   EXPECT_TRUE(d.converged());
   EXPECT_EQ(taken, 1);
-  EXPECT_EQ(d.iterations, 2);  // the second step has nothing left to gain
+  EXPECT_EQ(d.iterations, 2);  // the second step gives no improvement
   const VectorOf<6> gradient = problem.A.transpose() * (problem.A * d.state - problem.b);
   EXPECT_LT(gradient.norm(), 1e-12);
 }
@@ -34,7 +34,7 @@ TEST(Descent, TakesAStepBelowTheToleranceWithoutLinearisingAgain) {
   descend(problem, VectorOf<3>::Zero(), {.tolerance = 1e6}, d);
   EXPECT_TRUE(d.converged());
   EXPECT_EQ(d.iterations, 1);
-  EXPECT_NEAR(d.normal.cost, problem.linearise(d.state).cost, 1e-12);  // as the linear model says
+  EXPECT_NEAR(d.normal.cost, problem.linearise(d.state).cost, 1e-12);  // as predicted by the linear model
 }
 
 TEST(Descent, FollowsRosenbrocksValley) {
@@ -79,7 +79,7 @@ TEST(Descent, LowersTheCostWithEveryStepAndStaysFinite) {
         d);
     EXPECT_TRUE(d.state.allFinite());
     EXPECT_LE(problem.linearise(d.state).cost, at_start);
-    if (!d.converged() || problem.linearise(d.state).cost > 1e-4) continue;  // flat valleys have ends of their own
+    if (!d.converged() || problem.linearise(d.state).cost > 1e-4) continue;  // flat valleys may end elsewhere
     ++converged;
     EXPECT_LT((d.state - problem.truth).norm(), 0.05);
   }
@@ -115,7 +115,7 @@ TEST(Descent, NeverAcceptsACostThatIsNotANumber) {
   EXPECT_NEAR(d.state[0], 2.0, 1e-9);
 }
 
-// A step that every trial refuses, since what is beside the start is `beside`.
+// Every trial step is refused, because all states near the start are `beside`.
 struct Needle : VectorProblem<1> {
   double beside = kNan;
   NormalEquations<1> linearise(const VectorOf<1>& x) const {

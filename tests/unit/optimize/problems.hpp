@@ -52,7 +52,7 @@ struct Rosenbrock : VectorProblem<3> {
   }
 };
 
-/// amplitude exp(-rate t) + offset at 20 times, against what such a curve gives with noise. Rates are `unit` to one.
+/// amplitude exp(-rate t) + offset at 20 times, fitted to samples with noise. Rates are `unit` to one.
 struct Decay : VectorProblem<3> {
   VectorOf<3> truth;
   double unit = 1.0;
@@ -74,7 +74,7 @@ struct Decay : VectorProblem<3> {
   }
 };
 
-/// log x against log 2: Newton's step from far above leads below zero, where it is not a number.
+/// log x = log 2: Newton's step from far above leads below zero, where the logarithm is not a number.
 struct Logarithm : VectorProblem<1> {
   NormalEquations<1> linearise(const VectorOf<1>& x) const {
     NormalEquations<1> normal;
@@ -83,7 +83,7 @@ struct Logarithm : VectorProblem<1> {
   }
 };
 
-/// Of three unknowns only the sum of the first two is told; with kEnds such an end is asked for.
+/// Of three unknowns only the sum of the first two is observable; with kEnds such an end is requested.
 template <bool kEnds>
 struct SumOnly : VectorProblem<3> {
   static constexpr bool kEndsWhereSingular = kEnds;

@@ -120,7 +120,7 @@ TEST(Link, DropsAndCountsASweepThatNoLightGives) {
     return receive(link, Reporter::Bytes(line).first(size)).size();
   };
   EXPECT_EQ(received(), 1u);
-  payload[15] = 0xFF;  // the turn becomes 5 s
+  payload[15] = 0xFF;  // the rotor period becomes 5 s
   EXPECT_EQ(received(), 0u);
   EXPECT_EQ(link.counters().bad_payload, 1u);
 }

@@ -13,7 +13,7 @@
 
 namespace pharos::report::test {
 
-/// A sweep as the decoder may give it out.
+/// A sweep as the decoder may return it.
 inline lighthouse::Sweep random_sweep(std::mt19937_64& random, std::size_t hits) {
   lighthouse::Sweep sweep;
   sweep.flash.start_ticks = static_cast<std::int64_t>(random() % (std::uint64_t{1} << 50));

@@ -19,7 +19,7 @@ using test::make_sweep;
 using test::some_calibration;
 using test::some_pose;
 
-// Hits are stamped to half a tick: 3.8 urad. What that does to a pose of this target at 2 m.
+// Hits are stamped to half a tick: 3.8 urad. The resulting errors of a pose of this target at 2 m.
 constexpr double kPoseTolerance_m = 1e-3;
 constexpr double kPoseTolerance_rad = 2e-3;
 
@@ -48,7 +48,7 @@ TEST(EpochTracker, AnswersACycleWithItsPoseAtTheMeanHitTime) {
   ASSERT_EQ(tracker.bearing_count(), 16u);
   for (std::size_t i = 0; i < tracker.bearing_count(); ++i) {
     EXPECT_TRUE(tracker.bearing(i).used);
-    // Half a tick and the fit's own freedom: below 2 ticks (15 urad); the station's phases alone are 16 and 38 mrad.
+    // Half a tick and the error of the fit: below 2 ticks (15 urad); the station's phases alone are 16 and 38 mrad.
     EXPECT_LT(std::abs(tracker.bearing(i).residual_rad), 15e-6);
     EXPECT_GT(std::abs(tracker.bearing(i).ideal_theta_rad - tracker.bearing(i).raw.theta_rad), 5e-3);
   }
@@ -129,7 +129,7 @@ TEST(EpochTracker, ThreeSensorsNeedAFreshPoseBeforeThem) {
   ASSERT_TRUE(with);
   expect_pose(*with, some_pose());
   EXPECT_NE(with->flags & kEpochPrior, 0);
-  // Three sensors can carry on from a whole answer, not from one another: no chain of guesses.
+  // A pose from three sensors needs a prior from a complete solution, not from another such pose.
   bool refused = false;
   for (std::int64_t cycle = 6; cycle < 20; cycle += 2) {
     const auto next = cycle_of(three, cycle * kHalfTurn);
@@ -186,7 +186,7 @@ TEST(EpochTracker, WarmStartUsesSensorsThatWereHitOnOneAxisOnly) {
   const Target target = cube_target();
   TrackOptions options;
   options.warm_start = true;
-  options.solve.max_search_starts = 0;  // integers alone
+  options.solve.max_search_starts = 0;  // integer arithmetic only
   EpochTracker tracker(target, options);
   tracker.set_calibration(0, some_calibration());
   for (int i = 0; i < 50; ++i) {
@@ -217,7 +217,7 @@ class SearchLimit : public ::testing::Test {
     options.search_cooldown_ticks = kTicksPerSecond;
     return options;
   }
-  // The answer of the cycle that begins so many turns after the start; `torn`: no rigid body shows such hits.
+  // The result of the cycle that begins so many turns after the start; `torn`: hits that fit no rigid body.
   pose::Refusal refusal(std::int64_t turns, bool torn, bool with_y = true) {
     Sweep x = make_sweep(target_, some_pose(), some_calibration(), Axis::kX, 2 * turns * kHalfTurn);
     Sweep y = make_sweep(target_, some_pose(), some_calibration(), Axis::kY, (2 * turns + 1) * kHalfTurn);
@@ -237,7 +237,7 @@ class SearchLimit : public ::testing::Test {
 
 TEST_F(SearchLimit, EndsASearchAndWaitsForTheCooldown) {
   EXPECT_EQ(refusal(0, true), pose::Refusal::kSearchLimit);
-  EXPECT_EQ(refusal(1, false), pose::Refusal::kSearchLimit);  // it could be solved, but only by a search
+  EXPECT_EQ(refusal(1, false), pose::Refusal::kSearchLimit);  // solvable, but only by a search
   EXPECT_EQ(refusal(59, false), pose::Refusal::kSearchLimit);
   EXPECT_EQ(refusal(61, false), pose::Refusal::kNone);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for which station, and until when: with a tracker that only notes what it was told.
+// Which calibration is used for which station, and until when: with a tracker that only records its inputs.
 #include "pharos/tracking/calibrated_tracker.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ Sweep sweep_at(std::int64_t flash_ticks, std::uint8_t station = 0) {
   return sweep;
 }
 
-/// Answers every sweep at once and notes what it knows of the stations.
+/// Returns a result for every sweep at once and records the stations' calibrations.
 class NotingTracker {
  public:
   void set_calibration(std::uint8_t station, const StationCalibration& calibration) { known[station] = calibration; }
@@ -164,7 +164,8 @@ TEST_F(StationKnowledge, EndsWith240SecondsWithoutAFlash) {
   EXPECT_EQ(tracker.effective_calibration(0), nullptr);
 }
 
-// The board's clock may have run for hours before anybody listens: what was heard before the first flash is not old.
+// The board's clock may have run for hours before the first sweep: payloads received before the first flash are not
+// old.
 TEST_F(StationKnowledge, TheFirstFlashEndsNoDarknessHoweverLateItIs) {
   Tested tracker(CalibrationPolicy{});
   push_twice(tracker, payload_of(0, kFirstId));
@@ -179,7 +180,7 @@ TEST_F(StationKnowledge, ALateOrFalseFlashIsNoDarkness) {
   Tested tracker(CalibrationPolicy{});
   push_twice(tracker, payload_of(0, kFirstId));
   tracker.push(sweep_at(2 * kMaxDarkness_ticks));
-  tracker.push(sweep_at(0));  // out of turn
+  tracker.push(sweep_at(0));  // out of order
   EXPECT_EQ(tracker.push(sweep_at(3 * kMaxDarkness_ticks))->flags, 0);
   EXPECT_FALSE(tracker.push(sweep_at(9 * kMaxDarkness_ticks, kMaxStations))) << "of no station";
   EXPECT_EQ(tracker.push(sweep_at(3 * kMaxDarkness_ticks + 1))->flags, 0);
@@ -193,8 +194,7 @@ TEST_F(StationKnowledge, DarknessIsMeasuredAcrossALostLine) {
   EXPECT_EQ(tracker.push(sweep_at(kMaxDarkness_ticks + 1))->flags, track::kEpochUncalibrated);
 }
 
-// A soft core leaves such sweeps out. The station that it does answer must not be forgotten while the other one
-// flashes.
+// A soft core skips such sweeps. The station that it solves must not be forgotten while the other one flashes.
 TEST_F(StationKnowledge, AStationThatIsNotAnsweredIsLightAllTheSame) {
   CalibrationPolicy policy;
   policy.answer_uncalibrated = false;
@@ -203,7 +203,7 @@ TEST_F(StationKnowledge, AStationThatIsNotAnsweredIsLightAllTheSame) {
   EXPECT_TRUE(tracker.push(sweep_at(0)));
   for (int i = 1; i <= 4; ++i) EXPECT_FALSE(tracker.push(sweep_at(i * kMaxDarkness_ticks, 1)));
   EXPECT_TRUE(tracker.push(sweep_at(5 * kMaxDarkness_ticks)));
-  // And darkness is noticed although no sweep was ever answered.
+  // And darkness is detected although no sweep was ever solved.
   tracker.restart();
   tracker.push(payload_of(1, kSecondId));
   tracker.push(sweep_at(0, 1));
@@ -263,10 +263,10 @@ TEST_F(StationKnowledge, TheRelativePoseHoldsForThePairThatWasMeasuredAndNoOther
   EXPECT_EQ(tracker.tracker().relative->T_0_1.t[0], 1.0);
   tracker.restart_tracking();
   EXPECT_TRUE(tracker.tracker().relative) << "told again";
-  // Another station in slot 1 stands elsewhere.
+  // Another station in slot 1 has another pose.
   push_twice(tracker, payload_of(1, kThirdId));
   EXPECT_FALSE(tracker.tracker().relative);
-  // The other way round it is the inverse.
+  // With exchanged slots it is the inverse.
   tracker.restart();
   EXPECT_FALSE(tracker.tracker().relative);
   tracker.push(payload_of(1, kFirstId));

@@ -19,7 +19,7 @@ using test::some_calibration;
 using test::some_pose;
 using Tested = CalibratedTracker<MethodTracker>;
 
-/// A survey that knows both slots, and where the second station stands, off by `wrong_m`.
+/// A survey of both slots and of the second station's pose, with an error of `wrong_m`.
 class Surveyed {
  public:
   explicit Surveyed(double wrong_m = 0.0) {
@@ -39,7 +39,7 @@ class Surveyed {
     policy.survey = &survey_;
     return policy;
   }
-  /// Both stations are named by their payloads.
+  /// Both stations are identified by their payloads.
   static void name(Tested& tracker) {
     lighthouse::CalibrationStore sent;
     for (const std::uint8_t station : {std::uint8_t{0}, std::uint8_t{1}}) {
@@ -61,7 +61,7 @@ class Surveyed {
   StationSurvey survey_{stations_, &pair_};
 };
 
-// Sweep by sweep, the stations in turns: x and y of one, then of the other.
+// Sweep by sweep, the stations alternate: x and y of one, then of the other.
 lighthouse::Sweep sweep_number(int number) {
   const auto station = static_cast<std::uint8_t>(number / 2 % 2);
   const Axis axis = number % 2 == 0 ? Axis::kX : Axis::kY;
@@ -72,7 +72,7 @@ lighthouse::Sweep sweep_number(int number) {
 template <class Alone>
 void expect_same_answers(const MethodOptions& options, Alone& alone, int sweeps) {
   const Surveyed surveyed;
-  // Not on the stack, of which the soft core has less than two of them take.
+  // Not on the stack: two of them are larger than the soft core's.
   const auto tested = std::make_unique<Tested>(surveyed.policy(), cube_target(), options);
   Tested& tracker = *tested;
   for (std::uint8_t station = 0; station < kMaxStations; ++station) alone.set_calibration(station, some_calibration());
@@ -125,7 +125,7 @@ class RelativePose : public ::testing::Test {
  protected:
   static constexpr int kSettled = 400;  // three seconds
 
-  // Number of answers that rest on both stations.
+  // Number of results from both stations.
   static int fused_after(Tested& tracker, int from) {
     int fused = 0;
     for (int i = from; i < from + kSettled; ++i) {
@@ -150,7 +150,7 @@ TEST_F(RelativePose, OfAStationThatWasMovedIsRefusedAndStaysSo) {
   Surveyed::name(tracker);
   fused_after(tracker, 0);
   EXPECT_TRUE(tracker.tracker().relative_pose_rejected());
-  // The stations say their names again: nothing new, and no reason to believe the survey again.
+  // The stations send their identities again: no change, so the refused survey is not used again.
   Surveyed::name(tracker);
   EXPECT_TRUE(tracker.tracker().relative_pose_rejected());
   EXPECT_GT(fused_after(tracker, kSettled), kSettled / 4) << "how they stand was learnt and is kept";

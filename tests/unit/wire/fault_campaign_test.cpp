@@ -14,7 +14,7 @@ namespace {
 using test::Bytes;
 using test::RandomMessages;
 
-/// A stream of frames as a target sends it, and where on the line each of them stands.
+/// A stream of frames as a target sends it, with the position of each.
 struct Stream {
   Bytes line;
   struct Sent {
@@ -46,7 +46,7 @@ Stream make_stream(RandomMessages& random, std::size_t frames) {
   return stream;
 }
 
-/// The stream with faults, and for each frame whether it passed whole: untouched, with a border before and behind it.
+/// The stream with faults, and for each frame whether it is intact: unchanged, with a delimiter before and after it.
 struct Broken {
   Bytes line;
   std::vector<bool> whole;
@@ -105,7 +105,7 @@ class FrameCorruptor {
         hit(at, at + run);
         out_.faults += run;
         return at + run;
-      case 2:  // insert bytes; between two frames both stay whole
+      case 2:  // insert bytes; between two frames both stay intact
         if (stream_.frames[frame_at(at)].begin != at) hit(at, at + 1);
         for (std::size_t i = 0; i < run; ++i) out_.line.push_back(random_.integer<std::uint8_t>());
         out_.faults += run;
@@ -122,7 +122,7 @@ class FrameCorruptor {
         out_.faults += end - at;
         return end;
       }
-      default: {  // two runs change places
+      default: {  // exchange two runs of bytes
         const std::size_t second = std::min(at + 2 * run, stream_.line.size());
         hit(at, second);
         copy(at + run, second);
@@ -149,7 +149,7 @@ struct Outcome {
   std::uint64_t true_loss = 0;
 };
 
-/// One stream through one decoder: nothing false may come out, and every whole frame must.
+/// Decodes one stream: no false frame may be decoded, and every intact frame must be.
 Outcome run_campaign(std::uint64_t seed, std::size_t frames, std::size_t bytes_between_faults) {
   RandomMessages random(seed);
   const Stream stream = make_stream(random, frames);
@@ -219,7 +219,7 @@ TEST(FaultCampaign, RandomBytesAloneGiveNoFrame) {
   RandomMessages random(99);
   FrameDecoder decoder;
   for (int i = 0; i < 4'000'000; ++i) {
-    // Plenty of zeros, so that many short candidates reach the CRC check.
+    // Many zeros, so that many short candidates reach the CRC check.
     const auto byte = random.below(16) == 0 ? std::uint8_t{0} : random.integer<std::uint8_t>();
     ASSERT_FALSE(decoder.push(byte).has_value());
   }
@@ -227,7 +227,7 @@ TEST(FaultCampaign, RandomBytesAloneGiveNoFrame) {
 }
 
 TEST(FaultCampaign, PayloadsThatMeanNothingAreRefused) {
-  // What a broken sender could sign with a good CRC: random payloads never crash and never decode to other bytes.
+  // A faulty sender with a correct CRC: random payloads never crash and never decode to other bytes.
   RandomMessages random(98);
   for (int i = 0; i < 200'000; ++i) {
     Bytes payload(random.below(80));

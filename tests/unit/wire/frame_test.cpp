@@ -115,7 +115,7 @@ TEST(FrameDecoder, NamesAnotherProtocolVersion) {
   EXPECT_TRUE(feed(decoder, handmade(9, 0x10, 4, {1, 2, 3})).empty());
   EXPECT_EQ(decoder.unsupported_version(), 9);
   EXPECT_EQ(decoder.counters().wrong_version, 1u);
-  // A broken frame says nothing about versions.
+  // A corrupt frame is not counted as one of another version.
   Bytes broken = handmade(8, 0x10, 4, {1, 2, 3});
   broken[6] ^= 2;
   EXPECT_TRUE(feed(decoder, broken).empty());
@@ -177,7 +177,7 @@ TEST(FrameDecoder, TakesARestartedSenderAtOnceAndCountsNoLoss) {
     feed(decoder, time_frame(last));
     EXPECT_EQ(feed(decoder, hello(1)).size(), 1u);
     EXPECT_EQ(feed(decoder, time_frame(1)).size(), 1u);
-    EXPECT_EQ(decoder.counters().restarts, last == 65535 ? 0u : 1u);  // 0 follows 65,535 in any case
+    EXPECT_EQ(decoder.counters().restarts, last == 65535 ? 0u : 1u);  // 0 always follows 65,535
     EXPECT_EQ(decoder.counters().frames_lost, 0u);
   }
 }

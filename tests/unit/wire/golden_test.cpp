@@ -65,7 +65,7 @@ M decode_golden(const std::string& name) {
 TEST(GoldenFrames, DecodeAndEncodeByteForByte) {
   const auto frames = golden_frames();
   std::set<MessageType> types;
-  FrameDecoder decoder;  // one stream: the numbers follow each other
+  FrameDecoder decoder;  // one stream: consecutive numbers
   FrameEncoder encoder;
   for (const Golden& golden : frames) {
     std::size_t found = 0;

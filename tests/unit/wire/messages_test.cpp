@@ -66,7 +66,7 @@ TEST(Messages, NeverWritePastTheEnd) {
     Bytes out(kMaxPayload);
     const std::size_t whole = encode_payload(message, out);
     for (std::size_t room = 0; room < whole; ++room) {
-      Bytes small(room);  // a heap block of its own: the address sanitizer sees a byte too far
+      Bytes small(room);  // a separate heap block, so that the address sanitizer detects an overrun
       EXPECT_EQ(encode_payload(message, small), 0u);
     }
   });
@@ -114,7 +114,7 @@ TEST(SweepMessage, RefusesAStationOrReservedBitThatCannotBe) {
   EXPECT_EQ(decode_payload<Sweep>(out).error(), DecodeError::kBadValue);
 }
 
-/// A field of a sweep by its place in the payload, its size and its range.
+/// A field of a sweep: its offset in the payload, its size and its range.
 struct RangedField {
   const char* name;
   std::size_t at;

@@ -115,7 +115,7 @@ class RandomMessages {
     RawEdgesPacker packer;
     RawEdge edge{ticks(), 0, false};
     for (std::size_t i = below(RawEdges::kMaxEdges + 1); i > 0; --i) {
-      // Mostly small steps, as light has them, at times absurd ones.
+      // Mostly small steps, as in light, sometimes implausible ones.
       edge.stamp_ticks = below(20) == 0 ? ticks() : edge.stamp_ticks / 2 + static_cast<std::int64_t>(below(400000));
       edge.sensor = static_cast<std::uint8_t>(below(kMaxSensors));
       edge.rising = below(2) == 1;
@@ -177,7 +177,7 @@ struct MessageList {
   static constexpr std::size_t kSize = sizeof...(Messages);
 };
 
-/// Every message there is.
+/// All message types.
 using AllMessages = MessageList<Hello, Counters, Time, Sweep, Ootx, Pose, RawEdges, Command, LoaderQuery, LoaderInfo,
                                 LoaderBegin, LoaderData, LoaderVerify, LoaderStart, Ack, Nak>;
 

@@ -45,7 +45,7 @@ TEST(LineRate, AllThatATargetSaysLeavesHalfTheLineFree) {
   for_each_counter(DeviceCounters{}, [&](const char*, std::uint32_t, const char*) { device.values.push_back(~0u); });
   Ootx ootx;
   ootx.data.resize(33);
-  // Two stations: in every slot one sweeps (12 hits) and the other flashes with its laser dark.
+  // Two stations: in every slot one sweeps (12 hits) and the other flashes with its laser off.
   const double sweeps = kSlotsPerSecond * (line_bytes(sweep_with(12)) + line_bytes(sweep_with(0)));
   const double rest = line_bytes(decoder) + line_bytes(device) + line_bytes(Hello{}) + 10.0 * line_bytes(Time{}) +
                       2.0 * line_bytes(ootx) / 3.0;

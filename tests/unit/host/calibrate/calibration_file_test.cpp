@@ -75,7 +75,7 @@ TEST_F(CalibrationFileTest, ReadsBackWhereTheSecondStationStands) {
   EXPECT_EQ(file.pair->reference, bundle.unknowns.station[0].id);
   EXPECT_EQ(file.pair->station, bundle.unknowns.station[1].id);
   EXPECT_LT(pose_difference(file.pair->T_reference_station, *bundle.unknowns.T_reference_station[1]).norm(), 1e-14);
-  // Its rows are the last six parameters.
+  // The pair's rows are the last six parameters.
   EXPECT_EQ(file.pair->covariance, bundle.covariance.bottomRightCorner(6, 6));
   EXPECT_GT(file.pair->covariance.diagonal().minCoeff(), 0.0);
 
@@ -136,12 +136,12 @@ TEST_F(CalibrationFileTest, NamesLineAndKeyOfWhatItCannotUse) {
 TEST_F(CalibrationFileTest, SaysWhatItLeavesWrong) {
   CalibrationFile file = read(calibration_text(*calibration_, *nominal_));
   const motion::SystematicErrors left = systematic_errors(file);
-  // Far better than nobody's, and no better than some arcsec and micrometres.
+  // Much smaller than without a calibration, and at least some arcsec and micrometres.
   EXPECT_LT(left.sensor_position_m, 0.1 * motion::kUncalibratedErrors.sensor_position_m);
   EXPECT_GT(left.sensor_position_m, 0.2e-6);
   EXPECT_LT(left.rotor_rad, 0.5 * motion::kUncalibratedErrors.rotor_rad);
   EXPECT_GT(left.rotor_rad, 2.0 * kRadPerArcsec);
-  // Standard deviations of its covariance: four times this is twice those.
+  // These are standard deviations: four times the covariance gives twice their value.
   for (std::vector<double>& row : file.covariance) {
     for (double& value : row) value *= 4.0;
   }

@@ -38,7 +38,8 @@ TEST(LighthouseCalibration, FindsShapeAndRotorsWithinItsCovariance) {
       EXPECT_LT(fit.after_rad, 0.1 * fit.before_rad) << int{fit.sensor};
     }
   }
-  // Four sigma of chi-squared about 1; the simulator's gibbous phases are truer than their prior, which takes some off.
+  // Four sigma of chi-squared around 1; the simulator's gibbous phases have smaller errors than their prior, which
+  // lowers it a little.
   EXPECT_GT(squares / freedom, 0.6);
   EXPECT_LT(squares / freedom, 1.4);
 }
@@ -61,7 +62,7 @@ TEST(LighthouseCalibration, TiesTwoStationsTogether) {
   EXPECT_LT(compare(calibration, simulator).nees, 1.6);
 }
 
-// The same target in eight more poses, before the same station or another.
+// The same target in eight more poses, with the same station or another.
 LighthouseCalibrationInput two_recordings(std::uint32_t second_id) {
   LighthouseCalibrationInput material;
   for (const std::uint64_t poses_seed : {1u, 2u}) {
@@ -157,7 +158,7 @@ TEST(LighthouseCalibration, CountsWhatTheModelLeavesIntoItsCovariance) {
   sim::LighthouseSimulator simulator(scenario_of(short_session(1)), 1);
   LighthouseCalibrationInput material = calibration_input(simulator, 1);
   const LighthouseCalibration unperturbed = calibrate_lighthouse(material);
-  // Errors that no parameter explains: another for every sensor in every second.
+  // Errors that no parameter explains: random for every sensor in every second.
   sim::RandomStream random(1, "unmodelled");
   std::map<std::pair<std::int64_t, int>, double> error_rad;
   for (LoggedSweep& sweep : material.recordings.front().sweeps) {

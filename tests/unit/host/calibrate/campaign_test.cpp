@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ten sessions as an engineer would hold them, against truth.
+// Ten typical calibration sessions, compared with the truth.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -10,7 +10,7 @@
 namespace pharos::calibrate::test {
 namespace {
 
-// A rotor's phase counts as observable where the calibration says that it knows it to half of the asked 20 arcsec.
+// A rotor's phase counts as observable where its stated sigma is at most half of the required 20 arcsec.
 constexpr double kAsked_rad = 20.0 * kRadPerArcsec;
 
 TEST(CalibrationCampaign, ThirtyPosesOfTwoSecondsAndOneLength) {
@@ -40,8 +40,8 @@ TEST(CalibrationCampaign, ThirtyPosesOfTwoSecondsAndOneLength) {
     nees_rotors += truth.nees_rotors / kSessions;
   }
   std::printf("mean NEES per degree of freedom: shape %.2f, rotors %.2f, both %.2f\n", nees_shape, nees_rotors, nees);
-  // Four sigma of chi-squared: 300 degrees of freedom in shape, 200 in rotors (whose gibbous phases the simulator gets
-  // right, which takes up to two of ten off).
+  // Four sigma of chi-squared: 300 degrees of freedom in shape, 200 in rotors (of whose ten parameters the simulator
+  // draws the two gibbous phases with small errors).
   EXPECT_GT(nees_shape, 0.7);
   EXPECT_LT(nees_shape, 1.3);
   EXPECT_GT(nees_rotors, 0.6);

@@ -86,7 +86,7 @@ TEST(CalibrationRefusals, ALengthThatContradictsTheRest) {
   LighthouseCalibrationInput material = sound();
   material.lengths.front().length_m += 3e-3;
   EXPECT_THAT(refusal_of(material), AllOf(HasSubstr("--length 4,8"), HasSubstr("contradicts")));
-  // Two good lengths, then one off by ten sigma of its own: only the lengths themselves tell.
+  // Two good lengths, then one with an error of ten of its sigmas: only the lengths themselves show it.
   material = sound(12);
   const LighthouseCalibration good = calibrate_lighthouse(material);
   const auto distance = [&](std::size_t a, std::size_t b) {

@@ -114,7 +114,7 @@ Truth compare(const LighthouseCalibration& calibration, const sim::LighthouseSim
     built.col(i) = simulator.true_target()[k].position_m;
     found.col(i) = bundle.unknowns.target[k].position_m;
   }
-  // The body as built is turned by milliradians against its nominal self: too much for a linear comparison.
+  // The true body frame is rotated by milliradians relative to the nominal one: too much for a linear comparison.
   const Eigen::Matrix4d T_found_built = Eigen::umeyama(built, found, false);
   Eigen::MatrixXd motions(3 * n, 6);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -145,7 +145,7 @@ Truth compare(const LighthouseCalibration& calibration, const sim::LighthouseSim
       }
     }
   }
-  // Basis of what is free: every shape that is no rigid motion, and every rotor parameter.
+  // Basis of the compared space: every change of shape that is not a rigid motion, and every rotor parameter.
   const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ();
   const Eigen::Index all = 3 * n + rotors;
   const Eigen::MatrixXd covariance = bundle.covariance.topLeftCorner(all, all);

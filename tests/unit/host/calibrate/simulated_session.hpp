@@ -9,11 +9,11 @@
 
 namespace pharos::calibrate::test {
 
-/// What one simulated calibration session looks like: the paper's target at rest in random poses, *workshop* errors.
+/// One simulated calibration session: the paper's target stationary in random poses, *workshop* errors.
 struct Session {
   std::uint64_t seed = 1;
   int poses = 30;
-  double rest_s = 2.0;  // in each pose, and 0.2 s in the dark
+  double rest_s = 2.0;  // in each pose, and 0.2 s without light
   double min_range_m = 1.0;
   double max_range_m = 3.0;
   int stations = 1;
@@ -21,17 +21,17 @@ struct Session {
 
 sim::LighthouseScenario scenario_of(const Session& session);
 
-/// The simulator's light, decoded, with the stations' values as they announce them.
+/// The simulator's light, decoded, with the stations' calibrations from OOTX.
 RecordingLog record(sim::LighthouseSimulator& simulator);
 
-/// A length between two sensors as built; `error_sigmas`: how far the measurement is off.
+/// The true length between two sensors; `error_sigmas`: error of the measurement.
 MeasuredLength measured(const Target& target, std::uint8_t a, std::uint8_t b, double sigma_m,
                         double error_sigmas = 0.0);
 
-/// A session recorded, with one length known to 0.02 mm (off by what the seed says).
+/// A recorded session, with one length known to 0.02 mm (its error is drawn from the seed).
 LighthouseCalibrationInput calibration_input(sim::LighthouseSimulator& simulator, std::uint64_t seed);
 
-/// Estimate minus truth. Sensors are compared in shape: without the rigid motion that no recording could tell.
+/// Estimate minus truth. Sensors are compared in shape: without the rigid motion, which no recording determines.
 struct Truth {
   double shape_rms_m = 0.0;  // over sensors, of the length of the error
   double shape_worst_m = 0.0;

@@ -26,7 +26,7 @@ RecordingLog flown(double speed_m_s, double rate_deg_s) {
   return record(simulator);
 }
 
-// Four sensors on both rotors, all at rest at angles of their own; `extra` adds a second hit to sensor 0.
+// Four sensors on both rotors, all stationary at different angles; `extra` adds a second hit to sensor 0.
 RecordingLog resting(double extra_rad) {
   RecordingLog log;
   for (int turn = 0; turn < 120; ++turn) {
@@ -56,7 +56,7 @@ TEST(StationaryIntervals, AreFoundWhereTheTargetIsStationaryAndNowhereElse) {
 
 TEST(StationaryIntervals, AreNotFoundInFlightNorWhileCreeping) {
   EXPECT_TRUE(find_stationary_intervals(flown(0.5, 60.0).sweeps).intervals.empty());
-  // A flight with turning points: only where it creeps below what noise hides may it seem to rest.
+  // A flight with turning points: it may seem stationary only where its motion is hidden by the noise.
   for (const StationaryInterval& interval : find_stationary_intervals(flown(0.02, 2.0).sweeps).intervals) {
     EXPECT_LT(ticks_to_seconds(interval.to_ticks - interval.from_ticks), 1.0);
   }

@@ -43,7 +43,7 @@ TEST(RigFile, ReadsBackExactlyWhatItWrites) {
 
 TEST(RigFile, PoseTakesCameraCoordinatesToTheRig) {
   const double half = std::sqrt(0.5);
-  const RigCamera right = camera_at({half, 0.0, half, 0.0}, {0.5, 0.0, 0.0});  // looks along the rig's x
+  const RigCamera right = camera_at({half, 0.0, half, 0.0}, {0.5, 0.0, 0.0});  // optical axis along the rig's x
   EXPECT_LT((right.pose() * Vector3(0.0, 0.0, 2.0) - Vector3(2.5, 0.0, 0.0)).norm(), 1e-12);
 }
 

@@ -137,7 +137,7 @@ TEST(ClockMap, RunsBackwardsOnlyWhereAHostJumpIsCounted) {
       const auto pair = feed(map, line);
       if (map.counters().host_jumps != jumps) last_utc = last_ticks = 0;
       jumps = map.counters().host_jumps;
-      // Asked about any instant up to the newest, and a little beyond.
+      // Queries at any time up to the newest, and a little beyond.
       for (const std::int64_t back_ms : {180, 90, 20, 0, -20}) {
         const std::int64_t ticks = pair.ticks - back_ms * 50'000;
         if (ticks < last_ticks) continue;
@@ -249,7 +249,7 @@ TEST(ClockMap, IgnoresASingleOutlierTime) {
   EXPECT_EQ(map.counters().resynchronised, 0u);
 }
 
-// A false time `ahead_ns` of the truth, in good company, in the `at`-th place.
+// A false time `ahead_ns` ahead of the truth among good ones, at index `at`.
 void expect_unbent(int at, std::int64_t ahead_ns) {
   SimulatedLine line(13, 40.0, {100e3, 0, 0.0, 0});
   ClockMap map;

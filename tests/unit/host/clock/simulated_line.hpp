@@ -8,16 +8,16 @@
 
 namespace pharos::host::test {
 
-/// How long frames take from the target to the host, beyond what is certain.
+/// Latency of frames from the target to the host, beyond the certain part.
 struct LatencyModel {
   double mean_jitter_ns = 200e3;  // exponential
-  std::int64_t usb_poll_ns = 0;   // bytes are handed over at multiples of this
-  double stall_fraction = 0.0;    // share of frames that meet a busy host
+  std::int64_t usb_poll_ns = 0;   // bytes are delivered at multiples of this
+  double stall_fraction = 0.0;    // fraction of frames that are delayed by a busy host
   std::int64_t stall_ns = 0;
 };
 
-/// A target's clock and line, and the host's clocks, with known truth. Times in ns; about 116 frames a
-/// second, as a target's program gets round to them after every slot.
+/// A target's clock and line, and the host's clocks, with known truth. Times in ns; about 116 frames a second, as a
+/// target's program sends them after every slot.
 class SimulatedLine {
  public:
   SimulatedLine(std::uint64_t seed, double drift_ppm, const LatencyModel& latency)
@@ -27,7 +27,7 @@ class SimulatedLine {
     std::int64_t ticks = 0;
     std::int64_t arrival_monotonic_ns = 0;
     std::int64_t arrival_utc_ns = 0;
-    std::int64_t truth_ns = 0;  // monotonic time of the instant that `ticks` names
+    std::int64_t truth_ns = 0;  // monotonic time of the instant `ticks`
   };
 
   /// The next frame; its arrival is never before that of the one before.

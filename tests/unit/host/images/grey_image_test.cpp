@@ -34,7 +34,7 @@ class GreyImageFile : public testing::Test {
   std::string path_;
 };
 
-// CRC-32 of a chunk's type and data, so that a changed header is a lie and not a damaged file.
+// CRC-32 of a chunk's type and data, so that a changed header is false but not a damaged file.
 void mend_header_crc(std::vector<std::uint8_t>& png) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (std::size_t k = 12; k < 29; ++k) {

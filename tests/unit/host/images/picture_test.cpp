@@ -51,7 +51,7 @@ TEST(Picture, PpmIsColour) {
   EXPECT_EQ(picture.values[11], 11 * 257);
 }
 
-// Made of a slope: value 8 u + 3 v + 20 for each further channel.
+// A linear slope: value 8 u + 3 v + 20 for each further channel.
 TEST(Jpeg, GreyColourAndProgressiveAreRead) {
   for (const char* name : {"grey.jpg", "colour.jpg", "progressive.jpg"}) {
     const Picture picture = decode_picture(corpus(name), name);
@@ -95,7 +95,7 @@ TEST(Jpeg, AClaimThatItsBytesCannotHoldIsRefused) {
   EXPECT_THAT(error_message_of(bytes), HasSubstr("less data"));
 }
 
-// BT.601 of the stored values, rounded; told only where a colour was lost.
+// BT.601 of the stored values, rounded; reported only where colour was lost.
 TEST(GreyImage, OfColourIsItsLuma) {
   const Bytes colours = bytes_of(std::string("P6\n3 1\n65535\n\xFF\xFF\0\0\0\0\0\0\xFF\xFF\0\0\0\0\0\0\xFF\xFF", 31));
   const GreyImage image = decode_grey_image(colours, "c");

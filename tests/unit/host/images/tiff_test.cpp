@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 using Words = std::initializer_list<std::uint16_t>;
 
-// What libtiff is to write: values of a pattern that each test can foretell.
+// The image for libtiff to write: values of a pattern that each test can compute.
 struct Tiff {
   std::uint32_t width = 37, height = 29;
   std::uint16_t bits = 8, samples = 1;
@@ -31,7 +31,7 @@ struct Tiff {
     const std::uint32_t number = 3 * u + 2 * v + 30 * c;
     return static_cast<std::uint16_t>(bits == 8 ? number : 219 * number);
   }
-  // As read_picture gives it.
+  // The expected result of read_picture.
   std::vector<std::uint16_t> wanted() const {
     std::vector<std::uint16_t> values;
     const std::uint32_t colours = opacity ? samples - 1U : samples;
@@ -54,7 +54,7 @@ class TiffFile : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  // A piece of the image: `width` x `height` pixels from (u, v), all samples or one.
+  // A part of the image: `width` x `height` pixels from (u, v), all samples or one.
   static Bytes piece(const Tiff& tiff, std::uint32_t u0, std::uint32_t v0, std::uint32_t width, std::uint32_t height,
                      std::uint32_t first, std::uint32_t count) {
     Bytes out;
@@ -252,7 +252,7 @@ TEST_F(TiffFile, EveryTruncationIsRefused) {
   }
 }
 
-// A directory of entries (tag, type, count, value) right behind the header, and 64 bytes of zeros.
+// A directory of entries (tag, type, count, value) directly after the header, and 64 bytes of zeros.
 Bytes directory(const std::vector<std::array<std::uint32_t, 4>>& entries, std::uint32_t next = 0) {
   Bytes bytes = {'I', 'I', 42, 0, 8, 0, 0, 0};
   put(bytes, static_cast<std::uint32_t>(entries.size()), 2);

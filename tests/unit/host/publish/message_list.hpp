@@ -10,7 +10,7 @@
 
 namespace pharos::host {
 
-/// Takes messages as LCM would and keeps them; refuses them while `broken`.
+/// Stores messages in place of LCM; refuses them while `broken`.
 class MessageList : public MessageSink {
  public:
   struct Entry {

@@ -51,7 +51,7 @@ TEST(PoseMessage, ReportsThePoseInTheDocumentedFramesAndUnits) {
   EXPECT_EQ(message.flags, "uncalibrated|outliers");
   EXPECT_EQ(message.parent_frame, "lighthouse");
   EXPECT_EQ(message.child_frame, "body");
-  // The quaternion turns a vector as the matrix does, and is the one with w >= 0.
+  // The quaternion rotates a vector as the matrix does, and is the one with w >= 0.
   const Quaternion q(message.orientation_wxyz[0], message.orientation_wxyz[1], message.orientation_wxyz[2],
                      message.orientation_wxyz[3]);
   EXPECT_GE(q.w(), 0.0);
@@ -86,7 +86,7 @@ TEST(PoseMessage, ARefusedCycleHasAReasonAndNoPose) {
   EXPECT_FALSE(message.valid);
   EXPECT_EQ(message.observations, 5);
   for (const double value : message.orientation_wxyz)
-    EXPECT_EQ(value, 0.0);  // no rotation at all: cannot be taken for one
+    EXPECT_EQ(value, 0.0);  // not a valid rotation, so that it cannot be mistaken for one
   for (const double value : message.position_m) EXPECT_EQ(value, 0.0);
   for (const double value : message.covariance) EXPECT_EQ(value, 0.0);
 }

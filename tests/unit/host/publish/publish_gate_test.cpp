@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a pipeline hands in: what leaves is finite and fresh, and what does not is counted once.
+// Only finite and fresh reports are sent, and every other one is counted once.
 #include "host/publish/publish_gate.hpp"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 namespace pharos::host {
 namespace {
 
-/// What a pipeline sends through, with the counters of what it does not.
+/// A gate with its counters, as used by a pipeline.
 struct Gate {
   explicit Gate(MessageSink& sink, const std::string& prefix = "TEST_") : publisher(sink, prefix) {}
 

@@ -41,7 +41,7 @@ Read read_all(const std::filesystem::path& file) {
   return read;
 }
 
-/// Lets this process write no file beyond `bytes`: the kernel refuses as it does on a full disk.
+/// Limits file sizes of this process to `bytes`: the kernel refuses writes as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -156,7 +156,7 @@ TEST(RecordingFaults, ADiskWithRoomForAHeadAndNoChunkIsNotFilledWithHeads) {
   EXPECT_EQ(read_all(recorder.file()).lost, 200u * 100u);
 }
 
-// Chunks of one byte each, the byte their place, at these times.
+// Chunks of one byte each, the byte being their index, at these times.
 struct Times {
   std::int64_t utc_ns;
   std::int64_t monotonic_ns;

@@ -40,7 +40,7 @@ struct Pty {
   void unplug() { target.reset(); }
 };
 
-/// Waits until `fd` has something to say (bytes or the end); false after two seconds.
+/// Waits until `fd` is readable (bytes or the end); false after two seconds.
 inline bool wait_readable(int fd) {
   pollfd waiting{fd, POLLIN, 0};
   return ::poll(&waiting, 1, 2000) == 1;

@@ -18,7 +18,7 @@ using Attempt = ReopeningPort::Attempt;
 using test::Pty;
 constexpr std::int64_t kMs = 1'000'000;
 
-/// A device name that stays the same while the device behind it comes and goes, as udev's links do.
+/// A device name that does not change while the device is removed and replaced, like udev's links.
 class DeviceName {
  public:
   DeviceName() : path_(::testing::TempDir() + "pharos_port_" + std::to_string(::getpid())) { clear(); }
@@ -34,7 +34,7 @@ class DeviceName {
   std::string path_;
 };
 
-/// Reads until the line is gone or quiet.
+/// Reads until the line is gone or has no more bytes.
 std::vector<report::LinkEvent> drain(ReopeningPort& port, report::LinkDecoder& link, std::int64_t now_ns) {
   std::vector<report::LinkEvent> events;
   std::array<std::uint8_t, 256> chunk{};

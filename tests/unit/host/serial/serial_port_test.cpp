@@ -59,7 +59,7 @@ TEST(SerialPort, ReadsNothingWhenNothingIsThere) {
 }
 
 TEST(SerialPort, SetsAnySpeedTheKernelGives) {
-  // Real values, read back: a table of speed constants has no place to be wrong.
+  // Numeric speeds, read back: there is no table of constants that could be wrong.
   for (const int baud : {9'600, 115'200, 230'400, 250'000, 460'800, 921'600, 1'000'000, 3'000'000, 12'345}) {
     Pty pty;
     auto port = SerialPort::open(pty.path, baud);
@@ -92,9 +92,9 @@ TEST(SerialPort, ASecondOpenerLearnsThatItIsInUse) {
     EXPECT_EQ(second.error().error, OpenError::kBusy);
     EXPECT_NE(second.error().message.find("in use by another program"), std::string::npos);
   }
-  SerialPort moved = std::move(*first);  // moving keeps the line ours
+  SerialPort moved = std::move(*first);  // moving keeps the ownership
   EXPECT_FALSE(SerialPort::open(pty.path, 115'200).ok());
-  moved = SerialPort();  // closing gives it free
+  moved = SerialPort();  // closing releases it
   EXPECT_TRUE(SerialPort::open(pty.path, 115'200).ok());
 }
 

@@ -67,7 +67,7 @@ TEST(EdgesReader, TakesUnwrappedTimesAsWritten) {
 }
 
 TEST(EdgesReader, IgnoresAStaleStart) {
-  // As in a real recording: 14.2 s ahead of the rest, then the rest from zero.
+  // As in a real recording: first rows 14.2 s ahead of the others, which begin at zero.
   const Reading r = read_edges("sensor,rise_ticks,fall_ticks\n12,711021111,711089377\n2,0,121\n14,26,139\n");
   EXPECT_THAT(r.rises, ElementsAre(711021111, 0, 26));
 }

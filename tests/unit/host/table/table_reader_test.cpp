@@ -15,7 +15,7 @@ using pharos::test::TemporaryFile;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// Reads all numbers of columns b and a (in this order) and gives what the error says, if any.
+// Reads all numbers of columns b and a (in this order) and returns the error message, if any.
 std::string table_error(std::string_view content) {
   const TemporaryFile file(content);
   return error_of([&] {

@@ -56,7 +56,7 @@ TEST(ReadTarget, NamesTwoSensorsInOnePlace) {
 TEST(ReadTarget, RefusesMillimetresGivenByMistake) {
   EXPECT_THAT(target_error("sensor,x_m,y_m,z_m\n0,0,0,0\n1,5,0,0\n2,0,-62.5,0\n3,0,0,40\n"),
               AllOf(HasSubstr("line 4: column 'y_m': -62.5 m"), HasSubstr("give metres, not millimetres")));
-  // A body's origin may lie metres from its sensors.
+  // A body's origin may be metres from its sensors.
   EXPECT_EQ(target_error("sensor,x_m,y_m,z_m\n0,11,0,0\n1,11.1,0,0\n2,11,0.1,0\n3,11,0,0.1\n"), "");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 1 of paper 000 over several seeds: prints what the README says.
+// Table 1 of paper 000 over several seeds: prints the figures of the README.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ void run(bool dots, double max_rms_px) {
     for (const BoardFigure::Parameter& parameter : figure.parameters) {
       std::printf("  %-5s truth %10.4f value %10.4f sigma %8.5f error %5.2f sigma\n", parameter.name.c_str(),
                   parameter.truth, parameter.value, parameter.sigma, parameter.error_sigmas());
-      EXPECT_LT(std::abs(parameter.error_sigmas()), 4.0);  // one of 40 may lie beyond 3
+      EXPECT_LT(std::abs(parameter.error_sigmas()), 4.0);  // one of 40 may be beyond 3
       squares += parameter.error_sigmas() * parameter.error_sigmas();
       count += 1.0;
     }

@@ -118,7 +118,7 @@ TEST(CameraCalibration, RefusesTooFewImages) {
 }
 
 TEST(CameraCalibration, SaysWhichPartOfTheImageHasNoPoints) {
-  std::vector<CameraFromBoard> poses;  // the board stays in the left half
+  std::vector<CameraFromBoard> poses;  // the board is only in the left half
   for (const double tilt : {-0.5, -0.2, 0.1, 0.3, 0.5}) {
     poses.push_back(sim::board_at({}, {-0.2, 0.1 * tilt, 0.8}, {tilt, 0.3 - tilt, 0.0}));
   }

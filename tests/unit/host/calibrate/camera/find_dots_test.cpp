@@ -16,7 +16,7 @@ const sim::BoardRenderer& renderer() {
   return renderer;
 }
 
-// In the middle of the image, 0.4 m away: dots of 7.6 px radius.
+// At the centre of the image, 0.4 m away: dots of 7.6 px radius.
 CameraFromBoard in_the_middle(const sim::BoardSheet& sheet) {
   return sim::board_at(sheet, {0.0, 0.0, 0.4}, {0.3, -0.4, 0.0}, 0.1);
 }
@@ -48,7 +48,8 @@ TEST(FindDots, CentresAreNearTheNoiseBoundAndTheirSigmasAreTrue) {
       count += 1.0;
     }
   }
-  EXPECT_LT(std::sqrt(squares / bound), 1.5);  // the bound knows brightness, shape and blur, which the fit does not
+  EXPECT_LT(std::sqrt(squares / bound),
+            1.5);  // the bound assumes known brightness, shape and blur, which the fit estimates
   EXPECT_NEAR(std::sqrt(pulls / count), 1.0, 0.12);
 }
 

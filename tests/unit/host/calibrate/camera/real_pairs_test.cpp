@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thirteen pairs of a 9 x 6 chessboard that Debian's opencv-doc holds.
+// The thirteen pairs of a 9 x 6 chessboard in Debian's opencv-doc.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -60,7 +60,7 @@ TEST(RealPairs, FitAsWellAsOpencvsOwnAdjustment) {
   std::printf("left camera alone: rms %.4f px, OpenCV %.4f, fx %.2f +- %.2f\n", alone.outcome->rms_px,
               alone.opencv_rms_px, alone.camera().fx_px, std::sqrt(alone.outcome->covariance(0, 0)));
   EXPECT_LT(alone.outcome->rms_px, 1.001 * alone.opencv_rms_px);
-  EXPECT_NEAR(alone.camera().fx_px, 535.9, 5.0);  // opencv-doc's left_intrinsics.yml, of corners found otherwise
+  EXPECT_NEAR(alone.camera().fx_px, 535.9, 5.0);  // opencv-doc's left_intrinsics.yml, from another corner detector
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(AlternateBands, AllAreDoneOnceAndEvenOnesFirst) {
   alternate_bands(0, 2, [](std::size_t, std::int32_t) { FAIL() << "no band there"; });
 }
 
-// The caller's own band does not end before the other thread's has begun, which throws.
+// The caller's own band ends only after the other thread's has begun, which throws.
 TEST(AlternateBands, WhatAnotherThreadThrowsComesToTheCaller) {
   std::latch begun(1);
   const auto band = [&begun](std::size_t worker, std::int32_t k) {
@@ -142,7 +142,7 @@ TEST_F(Denoising, Bm3dTakesMostOfTheNoiseAndTheQuickOnesLess) {
   EXPECT_GT(fast, 5.0);
 }
 
-// Averages of blocks neither make light nor lose it.
+// Averaging of blocks preserves the mean.
 TEST_F(Denoising, BiasIsSmall) {
   denoiser_.bm3d(noisy_, kSigma, {}, 1, quiet_);
   double before = 0.0, after = 0.0;

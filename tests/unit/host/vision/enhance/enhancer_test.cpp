@@ -52,7 +52,7 @@ TEST(Enhancer, StepsAreThoseOfThePaper) {
   }
 }
 
-// Strategy III with alpha 0.15 and sigma 2 where nothing else is said; half or twice of either is another answer.
+// The defaults are strategy III with alpha 0.15 and sigma 2; half or twice of either gives another result.
 TEST(Enhancer, DefaultsAreThoseOfThePaper) {
   const FloatImage frame = test::painted_target(96, 64, 0.2F);
   const auto off = [&](double alpha, double sigma_px) {
@@ -81,7 +81,7 @@ TEST(Luma, IsThatOfTheStandard) {
   EXPECT_NEAR(luma.values[2], 0.114F, 1e-6F);
 }
 
-// Only Y is denoised: what a pixel changes by is the same in red, green and blue, wherever nothing is cut.
+// Only Y is denoised: a pixel's change is the same in red, green and blue, wherever nothing is clipped.
 TEST(Luma, DenoisedColoursKeepTheirTint) {
   FloatImage frame = coloured(3.0F, 2.0F, 1.5F);
   for (float& value : frame.values) value += 0.1F;
@@ -118,8 +118,8 @@ TEST(Enhancer, DarkTargetBecomesBrightAndBlackStaysBlack) {
   EXPECT_GT(target, 8.0 * before);
 }
 
-// A checked square in the dark, shot with a little noise: the ground around its rim is that far away, and its squares
-// near the rim are those of its middle.
+// A chequered square in the dark, with a little noise: the background near its rim must equal that far away, and its
+// fields near the rim those at its centre.
 TEST(Enhancer, TargetsRimHasNoHalo) {
   for (const float light : {0.5F, 0.08F, 0.02F}) {
     FloatImage frame;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// (4) to (6) of paper 004 and their fast solver, beside an exact one.
+// (4) to (6) of paper 004 and their fast solver, compared with an exact one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace pharos::enhance {
 namespace {
 
-constexpr double kTolerance = 5e-3;  // what Enhancer asks for
+constexpr double kTolerance = 5e-3;  // as Enhancer uses it
 constexpr int kMax = 60;
 
 struct Case {
@@ -44,7 +44,7 @@ TEST_P(Illumination, FastSolverAgreesWithTheExactOne) {
   EXPECT_LE(tools::rms_of_range(refined, exact), kTolerance);
   EXPECT_LT(cold, kMax);
 
-  // The same frame again, from its own solution: little left to do.
+  // The same frame again, starting from its own solution: few iterations.
   const int again = solver.solve(system_, start_, kTolerance, kMax, refined);
   EXPECT_LE(again, cold / 2);
   EXPECT_LE(tools::rms_of_range(refined, exact), kTolerance);
@@ -123,7 +123,7 @@ TEST(SmoothnessSolverTest, EvenLightStaysAsItIs) {
   }
 }
 
-// The sum of (5)'s equations: links cancel, so that light is moved but neither made nor lost.
+// The sum of (5)'s equations: links cancel, so that the mean is preserved.
 TEST(SmoothnessSolverTest, KeepsTheSumOfLight) {
   const FloatImage start = test::painted_target(120, 90, 0.5F);
   SmoothnessSystem system;

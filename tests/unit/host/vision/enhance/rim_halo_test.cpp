@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No halo at the rim of a target that is rendered in low light and enhanced: no glow around it, next to no edging in
-// it.
+// No halo at the rim of a target that is rendered in low light and enhanced: no glow around it, almost no edging
+// inside.
 #include "tools/evaluation/bench/rim_halo.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ tools::RimHalo halo_of(double ambient, const host::GreyImage& even) {
   return tools::rim_halo(view(out), even.view());
 }
 
-// The illumination of (5) falls towards the rim over tens of pixels where light is low, and R rises as much: 23 of 255
-// at ambient 0.1 (a multi-scale retinex: see `pharos bench enhance`).
+// In low light the illumination of (5) decreases towards the rim over tens of pixels, and R increases as much: 23 of
+// 255 at ambient 0.1 (a multi-scale retinex: see `pharos bench enhance`).
 TEST(RimHalo, AnEnhancedTargetHasNoneAroundAndLittleInside) {
   const host::GreyImage even = rendered(0.8);
   for (const auto& [ambient, edging] : {std::pair{0.1, 25.5}, {0.01, 7.0}}) {
@@ -45,7 +45,7 @@ TEST(RimHalo, AnEnhancedTargetHasNoneAroundAndLittleInside) {
   }
 }
 
-// The measure itself, on an even square: what is painted on is found.
+// The measure itself, on a uniform square: it finds painted halos.
 TEST(RimHalo, DetectsAGlowAndARim) {
   host::GreyImage even{kWidth, kHeight, 16, std::vector<std::uint16_t>(kWidth * kHeight, 0)};
   Bytes plain(even.pixels.size(), 4), glowing = plain, edged = plain;

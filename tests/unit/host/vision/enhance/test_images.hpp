@@ -10,7 +10,8 @@
 
 namespace pharos::test {
 
-/// A box with stripes and a disc before a black ground, lit from the left: edges, texture, gradients and flat parts.
+/// A box with stripes and a disc in front of a black background, lit from the left: edges, texture, gradients and flat
+/// parts.
 inline enhance::FloatImage painted_target(std::int32_t width, std::int32_t height, float light) {
   enhance::FloatImage image;
   image.shape(width, height, 1);
@@ -35,7 +36,7 @@ inline void add_noise(enhance::FloatImage& image, double sigma, std::uint32_t se
   for (float& value : image.values) value += noise(random);
 }
 
-/// The same image as counts of 8 bits would give it.
+/// The same image quantised to 8 bits.
 inline void round_to_8_bits(enhance::FloatImage& image) {
   for (float& value : image.values) value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) / 255.0F;
 }

@@ -58,7 +58,7 @@ TEST(Bundle, RecoversPosesAndPointsOfExactObservations) {
   }
 }
 
-// One point that starts behind the cameras is not what the others wait for.
+// One point that starts behind the cameras does not stop the adjustment of the others.
 TEST(Bundle, APointBehindTheCamerasIsLeftOut) {
   std::mt19937_64 random(4);
   std::vector<CameraFromTarget> poses;
@@ -115,7 +115,7 @@ TEST(Bundle, GivesTheSameBitsTwice) {
 }
 
 TEST(PoseGraph, SpreadsTheErrorOfARingOverAllOfIt) {
-  // A turn of 24 steps whose steps are each a little too long: only the last edge says so.
+  // A turn of 24 steps, each a little too long: only the last edge shows it.
   constexpr int kSteps = 24;
   const double step = 2.0 * 3.14159265358979323846 / kSteps;
   const Vector6 drift = (Vector6() << 0.0, 0.004, 0.0, 0.002, 0.0, 0.001).finished();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a fault in one of the system's own threads.
+// Failures in one of the system's own threads.
 #include "host/vision/slam/engine.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(KeyframeWorker, LeavesThoseThatWaitWhereItEnds) {
   EXPECT_GE(worked, 1);
 }
 
-// Nobody who waits is left waiting, and it is told as often as it is asked.
+// No caller waits for ever, and every call of check() throws.
 TEST(KeyframeWorker, ReportsWhatItsWorkThrew) {
   KeyframeWorker worker("mapping", [](KeyframeId id) {
     if (id == 1) throw std::runtime_error("no memory");
@@ -122,7 +122,7 @@ TEST_F(EngineWithAFault, HandsItToTheCaller) {
   EXPECT_EQ(engine.report().frames, 1);
 }
 
-// No pair's fault: the daemon must not call it a bad pair.
+// Not an error of the pair: the daemon must not count it as a bad pair.
 TEST_F(EngineWithAFault, IsNoInputErrorOfThePairThatReportsIt) {
   Engine engine = this->engine(true, [](KeyframeId) { throw host::InputError("a file that cannot be read"); });
   try {

@@ -47,7 +47,7 @@ TEST_F(Turning, DepthsOfFeaturesAreThoseOfTheFaces) {
   const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480}, false);
   EXPECT_GT(result.features.size(), 800U);
   EXPECT_GT(result.stats.matched, 500);
-  // Depth off the nearest plane of the satellite, as disparity.
+  // Distance from the nearest plane of the satellite, as disparity.
   const auto T_camera_target = sequence_.rig().left.pose().inverse() * sequence_.pose(0);
   std::vector<double> errors;  // in sigmas of a coordinate
   for (const Feature& feature : result.features) {
@@ -76,7 +76,7 @@ TEST_F(Turning, NoFeatureIsAStar) {
   const auto left_image = sequence_.image(0, 0), right_image = sequence_.image(0, 1);
   const auto left = eight_bits(left_image), right = eight_bits(right_image);
   const auto result = frontend.push({left.data(), 640, 480}, {right.data(), 640, 480}, false);
-  // 3.8 m at 5 m with 640 px, seen 0.25 m aside: nothing of the body lies higher or lower than this.
+  // 3.8 m at 5 m with 640 px, seen 0.25 m from the side: no part of the body is higher or lower than this.
   for (const Feature& feature : result.features) {
     EXPECT_GT(feature.pixel.y(), 60.0);
     EXPECT_LT(feature.pixel.y(), 420.0);

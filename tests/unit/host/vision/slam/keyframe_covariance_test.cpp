@@ -18,7 +18,8 @@ constexpr double kBodyNoise_px = 0.5;
 
 CameraFromTarget pose_at(int k) { return turned_pose(0.1 * k); }
 
-// A body that turns: each part of it is seen from four keyframes in a row, so that the last one hangs by a chain.
+// A rotating body: each part of it is seen from four consecutive keyframes, so that the last one is connected by a
+// chain.
 BundleProblem chained_views(std::mt19937_64& random) {
   BundleProblem problem;
   for (int k = 0; k < kKeyframes; ++k) {
@@ -97,7 +98,7 @@ TEST(KeyframeCovariances, AreOfThoseThatSeeMostWhereTheyAreTooMany) {
   ASSERT_EQ(few.size(), 4U);
   EXPECT_TRUE(few.contains(0));
   for (const auto& [id, covariance] : few) {
-    EXPECT_GE((covariance - all.at(id)).trace(), 0.0) << id;  // less is known from fewer
+    EXPECT_GE((covariance - all.at(id)).trace(), 0.0) << id;  // fewer observations give a larger covariance
   }
 }
 
@@ -140,7 +141,7 @@ TEST(ChainedCovariance, GoesByTheBestKeyframe) {
   EXPECT_EQ(map.keyframes.at(3).covariance, Matrix6(3.0 * Matrix6::Identity()));
 }
 
-// A keyframe that stands wrong by zeta puts every frame that is told from it wrong by what the covariance is turned to.
+// An error zeta of a keyframe causes an error in every frame relative to it, with the rotated covariance.
 TEST(FrameCovariance, IsTheKeyframesInTheFramesAxes) {
   const Map map = map_of(2);
   std::mt19937_64 random(1);

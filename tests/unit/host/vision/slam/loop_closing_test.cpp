@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball of landmarks that turns once and a little more before the cameras, followed with a drift.
+// A sphere of landmarks that makes a little more than one turn in front of the cameras, tracked with a drift.
 #include "host/vision/slam/loop_closing.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ class LoopOfATurn : public ::testing::Test {
     return landmark.place.dot(to_eye) > kMinFacing;
   }
 
-  // Each view of a landmark has five of the descriptor's bits turned.
+  // In each view of a landmark five bits of its descriptor are flipped.
   Descriptor as_seen(Descriptor descriptor) {
     for (int k = 0; k < 5; ++k) {
       const std::size_t bit = random_() % 256;
@@ -54,7 +54,7 @@ class LoopOfATurn : public ::testing::Test {
     return descriptor;
   }
 
-  // The landmarks that keyframe k shows, and their numbers.
+  // The landmarks visible in keyframe k, and their numbers.
   Frame view(int k, std::vector<std::size_t>& shown) {
     std::vector<Vector3> places;
     std::vector<Descriptor> descriptors;
@@ -79,12 +79,12 @@ class LoopOfATurn : public ::testing::Test {
     return Vocabulary::train(images, 8, 3, 1);
   }
 
-  // What tracking and mapping would leave: poses that drift (0.6 deg a turn), little over what one landmark is seen,
-  // and landmarks lost from sight that come back as new points.
+  // State as after tracking and mapping: poses that drift (0.6 deg a turn, little while one landmark is visible), and
+  // landmarks that reappear as new points.
   KeyframeId add_keyframe(int k) {
     std::vector<std::size_t> shown;
     Frame frame = view(k, shown);
-    // About the axis of the turn: errors across it cancel over a whole turn, and no loop shows them.
+    // About the axis of rotation: errors across it cancel over a whole turn, and no loop shows them.
     const Vector6 drift = (Vector6() << 0.0, 0.00025, 0.0, 0.0, 0.0, 0.0).finished();
     frame.pose = truth(k).moved_by(static_cast<double>(k) * drift);
     std::map<std::size_t, PointId> known;
@@ -117,7 +117,7 @@ class LoopOfATurn : public ::testing::Test {
 
   std::mt19937_64 random_{7};
   std::vector<Landmark> landmarks_;
-  std::map<std::size_t, PointId> points_;  // of the landmarks that the last keyframe showed
+  std::map<std::size_t, PointId> points_;  // of the landmarks visible in the last keyframe
   Map map_;
   KeyframeDatabase keyframe_database_;
   LoopCloser closer_;
@@ -128,7 +128,7 @@ TEST_F(LoopOfATurn, ClosesWhereTheTurnIsFullAndNowhereBefore) {
   int k = 0;
   for (; k < kAround + kSeenAgain && !loop; ++k) loop = closer_.find(add_keyframe(k));
   ASSERT_TRUE(loop);
-  // From here on faces show that keyframe 0 showed; neighbours of neighbours of its side are no candidates yet.
+  // From here on faces are visible that keyframe 0 showed; neighbours of neighbours of its side are no candidates yet.
   EXPECT_GT(loop->here, kAround / 2);
   const CameraFromTarget& there = map_.keyframes.at(loop->there).pose;
   const auto T_there_here = truth(static_cast<int>(loop->there)) * truth(static_cast<int>(loop->here)).inverse();
@@ -145,10 +145,11 @@ TEST_F(LoopOfATurn, TheCorrectionSpreadsOverAllKeyframesAndTheBundleEndsAtTheTru
   EXPECT_GT(drifted_last, 0.009);
   const std::size_t doubled = map_.points.size();
   closer_.correct(*loop);
-  EXPECT_LT(last_error(), 0.005);  // what the loop itself measured
-  // Edges count metres as radians, so that a turn of a body 5 m away is spread unevenly; the bundle does the rest.
+  EXPECT_LT(last_error(), 0.005);  // the error measured by the loop itself
+  // Edges count metres as radians, so that a turn of a body 5 m away is distributed unevenly; the bundle adjustment
+  // corrects this.
   EXPECT_LT(attitude_rms(), drifted);
-  EXPECT_LT(map_.points.size(), doubled - 100);  // landmarks of both sides became one
+  EXPECT_LT(map_.points.size(), doubled - 100);  // landmarks of both sides were fused
   EXPECT_TRUE(map_.keyframes.at(loop->here).loops.contains(loop->there));
   BundleProblem problem = global_problem(map_);
   const auto rejected = adjust_bundle(problem, kCamera, 20);
@@ -167,7 +168,7 @@ TEST_F(LoopOfATurn, NoLoopFollowsAnotherAtOnce) {
   EXPECT_FALSE(closer_.find(add_keyframe(kAround + kSeenAgain - 1)));
 }
 
-// Words of what was seen, in places that no rigid body has: likeness alone closes nothing.
+// Words of known views at positions that fit no rigid motion: similarity alone closes no loop.
 TEST_F(LoopOfATurn, ASimilarFrameWithOtherGeometryIsRefused) {
   for (int k = 0; k < kAround; ++k) add_keyframe(k);
   std::vector<std::size_t> shown;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// What each side knows of the other agrees, and the tree has one root.
+// Links are consistent in both directions, and the tree has one root.
 void expect_whole(const Map& map) {
   int roots = 0;
   for (const auto& [id, keyframe] : map.keyframes) {
@@ -96,7 +96,7 @@ TEST_F(MapOfTurns, ARemovedKeyframeIsStillKnownByItsPlace) {
   EXPECT_LT(pose_difference(map_.pose_of(4), before).norm(), 1e-9);
 }
 
-// What a run without end may not pile up.
+// Data that must not grow in an endless run.
 TEST_F(MapOfTurns, RemovedKeyframesWithoutReferencesAreErased) {
   for (const KeyframeId id : {3, 4, 5}) map_.remove_keyframe(id);
   map_.points.at(ids_[0]).patch = Patch{};
@@ -127,7 +127,7 @@ TEST_F(MapOfTurns, RedundantKeyframesGoAndTheLimitHolds) {
 }
 
 TEST_F(MapOfTurns, DoublePointsOfAKeyframeBecomeOne) {
-  // The same landmarks seen anew by a keyframe that was not told of them.
+  // The same landmarks observed again by a keyframe without their points.
   const Frame frame = frame_of(points_, descriptors_, turned_pose(0.1), 0.2, random_);
   const KeyframeId id = map_.add_keyframe(frame, {}).id;
   add_stereo_points(map_, id, kCamera);
@@ -139,14 +139,14 @@ TEST_F(MapOfTurns, DoublePointsOfAKeyframeBecomeOne) {
   expect_whole(map_);
 }
 
-// All of these were born eight keyframes ago.
+// All of these were created eight keyframes ago.
 TEST_F(MapOfTurns, PointsThatAreSeldomFoundOrSeenByTooFewGo) {
   for (const std::size_t k : {0U, 1U}) map_.points.at(ids_[k]).visible = 100;
   map_.points.at(ids_[0]).found = 24;
   map_.points.at(ids_[1]).found = 26;
   for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[2], id);
   for (const KeyframeId id : {2, 3, 4, 5, 6, 7}) map_.forget_observation(ids_[3], id);
-  map_.points.at(ids_[3]).created_at = map_.newest() - 2;  // too young to be judged by how many see it
+  map_.points.at(ids_[3]).created_at = map_.newest() - 2;  // too recent for the limit on its number of observers
   std::vector<PointId> recent(ids_.begin(), ids_.begin() + 5);
   cull_points(map_, recent);
   EXPECT_EQ(map_.find_point(ids_[0]), nullptr);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kPoints = 200;
 
-// Frames of points that move `moved` rows (1 sigma) and whose right images are `late`; rows err by half a pixel, and by
-// `bent` px from one side of the image to the other.
+// Frames of points that move `moved` rows (1 sigma) and whose right images are `late`; rows have errors of half a
+// pixel, and of `bent` px from one side of the image to the other.
 PairSkew after(int frames, double moved, double late, double bent = 0.0) {
   PairSkew skew;
   std::mt19937_64 random(3);
@@ -34,8 +34,8 @@ TEST(PairSkew, ReportsTheDelayInFrames) {
   }
 }
 
-// Several frames apart only points match that moved little, and they scatter more: no tenth of a frame then, but no
-// doubt.
+// Several frames apart only points with little motion match, and they scatter more: less accurate than a tenth of a
+// frame, but significant.
 TEST(PairSkew, ReportsSeveralFramesToo) {
   for (const double late : {-3.0, 3.0}) {
     const auto found = after(30, 0.2, late, 0.8).frames_late();

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// A plane with light that varies smoothly over it, seen by kCamera.
+// A plane with smoothly varying brightness, seen by kCamera.
 struct Wall {
   Vector3 normal{0.3, -0.2, -1.0};  // in the target's frame
   double offset_m = 0.0;
@@ -54,7 +54,7 @@ std::vector<PyramidLevel> pyramid_of(const std::vector<std::uint8_t>& image) {
 
 class PatchOfAWall : public ::testing::Test {
  protected:
-  // How far from the truth a feature that is `off` the place is put, where the wall then is `later`; below 0: nowhere.
+  // Error of the aligned position for a start that is `off`, with the wall at `later`; negative: not aligned.
   double error_px(const Wall& later, double turn_rad, const Vector2& off) const {
     const CameraFromTarget there = turned_pose(turn_rad);
     const auto image = later.seen(there);

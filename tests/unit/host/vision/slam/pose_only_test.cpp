@@ -55,7 +55,7 @@ TEST(PoseOnly, CovarianceDescribesItsErrors) {
     const Vector6 error = pose_difference(truth, placed.pose);
     sum += error.dot(placed.covariance.inverse() * error);
   }
-  // Chi-squared of 6 x 200 degrees of freedom: 6 +- 0.25 a run; what the outlier limit cuts off widens it a little.
+  // Chi-squared of 6 x 200 degrees of freedom: 6 +- 0.25 a run; the rejected observations increase it a little.
   EXPECT_NEAR(sum / kRuns, 6.0, 1.0);
 }
 

@@ -8,7 +8,7 @@
 namespace pharos::slam {
 namespace {
 
-// Two cameras with barrel distortion, turned against each other and against their baseline.
+// Two cameras with barrel distortion, rotated relative to each other and to their baseline.
 host::RigFile raw_rig() {
   host::RigFile rig;
   rig.left.intrinsics = {752, 480, 458.6, 457.3, 367.2, 248.4, {-0.283, 0.074, 0.0002, 0.00002, 0.0}};
@@ -21,7 +21,7 @@ host::RigFile raw_rig() {
   return rig;
 }
 
-// The rectified place of what a raw camera shows at `raw`: nearest entry of the map, moved by its slope.
+// The rectified position of the raw pixel `raw`: nearest entry of the map, corrected by its gradient.
 Vector2 rectified_place(const RectifyMap& map, const StereoCamera& camera, const Vector2& raw) {
   const auto at = [&](const std::vector<float>& values, int u, int v) {
     return static_cast<double>(values[static_cast<std::size_t>(v * camera.width_px + u)]);

@@ -25,12 +25,13 @@ inline std::vector<Vector3> random_points(std::mt19937_64& random, int count) {
   return points;
 }
 
-/// The target 5 m ahead, turned by `turn_rad` about the camera's y axis.
+/// The target 5 m ahead, rotated by `turn_rad` about the camera's y axis.
 inline CameraFromTarget turned_pose(double turn_rad) {
   return {rotation_exp(Vector3(0.05, turn_rad, 0.02)), Vector3(0.1, -0.05, 5.0)};
 }
 
-/// What a camera sees of a point, with noise of `sigma_px` in each coordinate and its share in the disparity.
+/// A camera's observation of a point, with noise of `sigma_px` in each coordinate and the corresponding one in the
+/// disparity.
 inline Observation seen(const Vector3& point, const CameraFromTarget& pose, double sigma_px, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0.0, 1.0);
   const Vector3 place = kCamera.project(pose * point);
@@ -42,10 +43,10 @@ inline Observation seen(const Vector3& point, const CameraFromTarget& pose, doub
   return observation;
 }
 
-/// A descriptor of its own for every point.
+/// A different descriptor for every point.
 inline Descriptor descriptor_of(std::mt19937_64& random) { return {{random(), random(), random(), random()}}; }
 
-/// A frame that shows all points that lie in the image, in their order.
+/// A frame with all points that are in the image, in their order.
 inline Frame frame_of(const std::vector<Vector3>& points, const std::vector<Descriptor>& descriptors,
                       const CameraFromTarget& pose, double sigma_px, std::mt19937_64& random) {
   Frame frame;

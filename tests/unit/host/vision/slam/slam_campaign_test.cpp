@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table 1 of paper 004 to its end, and the walk of 60 m: what was asked of `pharos slam`. Own rays: POV-Ray takes hours
-// (`pharos reproduce slam`).
+// The whole table 1 of paper 004, and the walk of 60 m: the requirements of `pharos slam`. Own renderer: POV-Ray takes
+// hours (`pharos reproduce slam`).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ namespace pharos::slam {
 namespace {
 
 struct Bounds {
-  double rmse_deg, last_deg;  // the latter of the longest turn, what shorter ones end with as the former
+  double rmse_deg, last_deg;  // last_deg: of the longest turn only
 };
 
 void expect_table_one(const std::string& run, const Bounds& bounds) {
@@ -48,7 +48,7 @@ TEST(SlamCampaign, GoodLight) { expect_table_one("good", {0.1, 0.1}); }
 
 TEST(SlamCampaign, LowLightEnhanced) { expect_table_one("low-enhanced", {0.2, 0.3}); }
 
-// Raw images, as they come from a rig's file; errors are not aligned away.
+// Raw images with a rig file; errors are computed without alignment.
 TEST(SlamCampaign, AWalkOfSixtyMetres) {
   const sim::RoomSequence room({}, 1);
   SlamSettings settings;

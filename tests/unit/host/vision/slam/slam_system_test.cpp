@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from images, on short sequences of a turning satellite.
+// The whole pipeline from images, on short sequences of a rotating satellite.
 #include "host/vision/slam/slam_system.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ class SlamOfATurn : public ::testing::Test {
   }
 };
 
-// Squares of errors over what the covariances tell, a degree of freedom each, mean of the frames but the first.
+// NEES per degree of freedom, mean over the frames except the first.
 struct Consistency {
   double attitude = 0.0, position = 0.0;
 };
@@ -84,8 +84,8 @@ Consistency consistency(const std::vector<TrackedFrame>& frames, Truth&& truth) 
   return mean;
 }
 
-// One short sequence errs much alike from frame to frame: a handful of independent numbers. Without drift in them the
-// covariances of a quarter turn would be three to thirteen times too small.
+// Errors of one short sequence are correlated from frame to frame: only a few independent numbers. Without drift in
+// them the covariances of a quarter turn would be three to thirteen times too small.
 void expect_consistent(const Consistency& mean) {
   EXPECT_GT(mean.attitude, 0.25);
   EXPECT_LT(mean.attitude, 2.0);
@@ -128,7 +128,7 @@ std::vector<Matrix3> attitudes_of(const std::vector<TrackedFrame>& trajectory) {
   return attitudes;
 }
 
-// Also where one of the two is asked on its way what it would say at the end.
+// Also where optimised_trajectory() was called during one of the two runs.
 TEST_F(SlamOfATurn, GivesTheSameBitsTwice) {
   const auto asked = system(), left_alone = system();
   for (int k = 0; k < 10; ++k) {
@@ -200,7 +200,7 @@ TEST_F(SlamOfATurn, ExchangedImagesAreNamed) {
   }
 }
 
-// Names alike, images not: the right camera's are those of the frame before.
+// Matching names but wrong images: the right camera's are those of the frame before.
 TEST_F(SlamOfATurn, RightImagesThatAreLateAreNamed) {
   const auto slam = system();
   try {
@@ -262,7 +262,7 @@ class SlamOfARoom : public ::testing::Test {
     }();
     return rendered;
   }
-  // The right camera exposes by this share of the left one's time.
+  // The right camera's exposure time is this fraction of the left one's.
   static void expect_followed(const std::function<double(int)>& right_fraction) {
     SlamSettings settings;
     settings.scene = Scene::kStatic;
@@ -287,7 +287,7 @@ TEST_F(SlamOfARoom, FollowsTheCamera) {
   expect_followed([](int) { return 1.0; });
 }
 
-// Cameras that choose their exposures by themselves, and choose anew on the way.
+// Cameras with automatic exposure, which changes during the run.
 TEST_F(SlamOfARoom, CamerasMayExposeDifferently) {
   expect_followed([](int k) { return k < 12 ? 0.5 : 1.4; });
 }

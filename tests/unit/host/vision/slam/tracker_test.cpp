@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of 2.2: when a frame is placed, when it becomes a keyframe, and when neither.
+// The rules of 2.2: when a frame is tracked, when it becomes a keyframe, and when neither.
 #include "host/vision/slam/tracker.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr std::size_t kPointsSeen = 150;
 
-// One keyframe that sees all points; later frames show the first of them.
+// One keyframe that observes all points; later frames observe the first of them.
 class TrackerRules : public ::testing::Test {
  protected:
   TrackerRules() {
@@ -75,7 +75,7 @@ TEST_F(TrackerRules, BusyMappingPutsKeyframesOff) {
   EXPECT_TRUE(track(20, 100, false).wants_keyframe);
 }
 
-// (1): for 20 frames after it was found again there are none; what finds it needs 50 points.
+// (1): none for 20 frames after relocalisation, which needs 50 points.
 TEST_F(TrackerRules, FoundAgainItWaitsWithKeyframes) {
   EXPECT_EQ(track(1, 0).state, TrackState::kLost);
   EXPECT_EQ(track(2, 45).state, TrackState::kLost);

@@ -14,7 +14,7 @@ namespace {
 
 using Image = std::vector<Descriptor>;
 
-// A descriptor with `flips` of its bits turned.
+// A descriptor with `flips` of its bits flipped.
 Descriptor near(Descriptor descriptor, int flips, std::mt19937_64& random) {
   for (int k = 0; k < flips; ++k) {
     const std::size_t bit = random() % 256;
@@ -23,7 +23,7 @@ Descriptor near(Descriptor descriptor, int flips, std::mt19937_64& random) {
   return descriptor;
 }
 
-// Images of 20 out of 64 things, every thing a little different each time.
+// Images of 20 out of 64 objects, every object a little different each time.
 class VocabularyTree : public ::testing::Test {
  protected:
   VocabularyTree() {
