@@ -87,8 +87,8 @@ inline void tell_announced(motion::MotionTracker& tracker, const sim::Lighthouse
   }
 }
 
-/// Simulates a scenario, with ideal stations unless `prepare` sets others, with decoder and tracker; a result's truth is
-/// in its station's frame. `corrupt` may change each sweep before the tracker sees it.
+/// Simulates a scenario, with ideal stations unless `prepare` sets others, with decoder and tracker; a result's truth
+/// is in its station's frame. `corrupt` may change each sweep before the tracker sees it.
 inline void fly(
     const sim::LighthouseScenario& scenario, std::uint64_t seed, const std::function<void(const FlightSample&)>& take,
     const std::function<void(lighthouse::Sweep&)>& corrupt = [](lighthouse::Sweep&) {},
