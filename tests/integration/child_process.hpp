@@ -8,26 +8,25 @@
 
 namespace pharos::host {
 
-/// A program that a test starts, listens to and ends.
+/// A program that a test starts, reads from and ends.
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, standard output and standard error joined into what text() holds.
-  /// `file_size_limit`: largest file it may write (RLIMIT_FSIZE, SIGXFSZ ignored), 0 = no limit: stands in for a full
-  /// disk.
+  /// Starts `arguments[0]`, standard output and standard error are both collected in text().
+  /// `file_size_limit`: largest file it may write (RLIMIT_FSIZE, SIGXFSZ ignored), 0 = no limit: simulates a full disk.
   explicit ChildProcess(const std::vector<std::string>& arguments, unsigned long file_size_limit = 0);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   int pid() const { return pid_; }
-  /// Everything it has printed so far.
+  /// Its output so far.
   const std::string& text();
-  /// Waits until text() holds `words`; false after `seconds` or when the program ended without.
+  /// Waits until text() contains `words`; false after `seconds` or when the program ended without.
   bool wait_for(const std::string& words, double seconds = 10.0);
   void signal(int number) const;
   /// Waits for its end: the exit code, 128 + signal, or -1 after `seconds`.
   int wait_exit(double seconds = 10.0);
-  /// The same for a program whose output nobody takes.
+  /// The same for a program whose output is not read.
   int wait_exit_unread(double seconds);
 
  private:

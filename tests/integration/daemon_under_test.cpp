@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The target's clock at the test's start: any, far from zero.
+// The target's clock at the test's start: an arbitrary value far from zero.
 constexpr std::int64_t kFirst_ticks = 1000 * kTicksPerSecond;
 
 std::string own_url() { return "udpm://239.255.76.68:" + std::to_string(20'000 + ::getpid() % 20'000) + "?ttl=0"; }
@@ -33,7 +33,7 @@ DaemonUnderTest::DaemonUnderTest()
   lcm_ = std::make_unique<lcm::LCM>(url_);
   target_clock_zero_ns_ = monotonic_now_ns() - ticks_to_nanoseconds(kFirst_ticks);
   if (!lcm_->good()) return;  // start() says so
-  // LCM keeps 30 messages for whoever does not ask: fewer than a daemon sends while a test waits for its end.
+  // LCM's queue has 30 messages by default: fewer than a daemon sends while a test waits for its end.
   constexpr int kMessages = 10'000;
   for (const char* system : {"LIGHTHOUSE", "TOF", "RING2", "SLAM"}) {
     lcm_->subscribe(std::string("PHAROS_") + system + "_POSE", &DaemonUnderTest::on_pose, this)

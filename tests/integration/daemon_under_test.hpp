@@ -23,7 +23,7 @@ struct ReceiveBuffer;
 
 namespace pharos::host {
 
-/// A pharosd of a test's own: its folder, its multicast port, an ear on all it sends.
+/// A pharosd for one test, with its own folder and multicast port, and a subscriber to all its messages.
 class DaemonUnderTest {
  public:
   DaemonUnderTest();
@@ -31,23 +31,23 @@ class DaemonUnderTest {
 
   const std::filesystem::path& folder() const { return folder_; }
   const std::string& url() const { return url_; }
-  /// A port's name that can be led to one pseudo-terminal after another, as udev's names are.
+  /// A port's name that can be linked to one pseudo-terminal after another, like udev's names.
   std::string port(const std::string& name = "port") const { return (folder_ / name).string(); }
   void plug_in(const PseudoTerminal& line, const std::string& name = "port") const;
   void pull_out(const std::string& name = "port") const;
 
   /// Writes pharosd.toml: [lcm], status ten times a second, one target `dock` at port(), then `more`.
   std::filesystem::path write_config(const std::string& more = "", const std::string& head = "") const;
-  /// Starts pharosd with that configuration and waits until it says that it has started.
+  /// Starts pharosd with that configuration and waits until it reports its start.
   ChildProcess& start(const std::vector<std::string>& arguments = {}, unsigned long file_size_limit = 0);
   ChildProcess& process() { return *process_; }
   static std::string program();
 
-  /// Plays cycles of `target` into `line` at real speed until `done` or `seconds` are over; true when done. The
-  /// target's clock goes on from call to call.
+  /// Sends cycles of `target` to `line` in real time until `done` or for `seconds`; true when done. The target's clock
+  /// continues from call to call.
   bool play(StationaryTarget& target, const PseudoTerminal& line, const std::function<bool()>& done,
             double seconds = 8.0);
-  /// Listens without playing.
+  /// Receives messages without sending.
   bool wait(const std::function<bool()>& done, double seconds = 8.0);
 
   const std::vector<pose_t>& poses() const { return poses_; }

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 LighthouseFromBody some_pose() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
-// True poses of a target at rest, from long before to long after this test.
+// True poses of a stationary target, from long before to long after this test.
 void write_truth(const std::filesystem::path& file) {
   const Quaternion q = some_pose().quaternion();
   std::ofstream out(file);

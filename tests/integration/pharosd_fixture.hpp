@@ -9,18 +9,18 @@
 
 namespace pharos::host {
 
-/// A daemon, a line that ends at its port and a target before its station: what nearly every test of pharosd needs.
+/// A daemon, a line at its port and a target with its station: the set-up of nearly every test of pharosd.
 class PharosdTest : public ::testing::Test {
  protected:
   static LighthouseFromBody some_pose() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
-  /// Plugs the line in, writes the configuration (see DaemonUnderTest::write_config) and starts the daemon.
+  /// Connects the line, writes the configuration (see DaemonUnderTest::write_config) and starts the daemon.
   void start(const std::string& more = "", const std::string& head = "", unsigned long file_size_limit = 0) {
     daemon.plug_in(line);
     daemon.write_config(more, head);
     daemon.start({}, file_size_limit);
   }
-  /// Plays until `count` more valid poses of `dock` have come.
+  /// Sends until `count` more valid poses of `dock` were received.
   ::testing::AssertionResult poses_come(std::size_t count) { return poses_come(count, line); }
   ::testing::AssertionResult poses_come(std::size_t count, const PseudoTerminal& on_line) {
     const std::size_t wanted = daemon.valid_poses() + count;
@@ -29,7 +29,7 @@ class PharosdTest : public ::testing::Test {
     }
     return ::testing::AssertionFailure() << "too few poses:\n" << daemon.process().text();
   }
-  /// Ends the daemon as systemd does; its exit code.
+  /// Ends the daemon like systemd; returns its exit code.
   int stop() {
     daemon.process().signal(SIGTERM);
     return daemon.process().wait_exit();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: pharosd_latency [SECONDS]
-// How long from the last byte of a cycle written to the line until its pose arrives over LCM, with pharosd in between,
-// and what pharosd takes of the computer meanwhile. 60 cycles/s of 12 sensors on a pseudo-terminal. Prints figures,
-// judges none.
+// Latency from the last byte of a cycle written to the line until its pose is received over LCM from pharosd, and the
+// load of pharosd. 60 cycles/s of 12 sensors on a pseudo-terminal. Prints figures without checks.
 #include <sched.h>
 #include <unistd.h>
 

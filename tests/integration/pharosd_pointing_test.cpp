@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharosd as it is, with a directory that a telescope's images arrive in.
+// The program pharosd with a directory in which a telescope's images arrive.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr std::int64_t kTime_s = 1'700'000'000;
-constexpr double kPointingTimeout_s = 60.0;  // of a machine that does other work
+constexpr double kPointingTimeout_s = 60.0;  // allows for other load
 
 class PharosdPointing : public ::testing::Test {
  protected:
@@ -39,7 +39,7 @@ class PharosdPointing : public ::testing::Test {
         << image << ',' << time_s << ',' << scene.sight.azimuth_rad * kDegPerRad << ','
         << scene.sight.elevation_rad * kDegPerRad << '\n';
   }
-  /// An image and its row, as a station's programs write them.
+  /// An image and its row, written like a station's programs do.
   void arrive(const std::string& image, std::int64_t time_s) {
     write_grey_png((images / image).string(), scene.image().view(), 16);
     add_row(image, time_s);
@@ -47,7 +47,7 @@ class PharosdPointing : public ::testing::Test {
   bool come(std::size_t count) {
     return daemon.wait([&] { return daemon.pointings().size() >= count; }, kPointingTimeout_s);
   }
-  /// The panel's axis and the plane that holds it, as well as the message says.
+  /// Checks the panel's axis and the plane that contains it within the stated sigmas.
   void expect_true(const pointing_t& message) const {
     EXPECT_EQ(message.status, "ok");
     EXPECT_EQ(message.valid, 1);

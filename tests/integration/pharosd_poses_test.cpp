@@ -65,7 +65,7 @@ TEST_F(Pharosd, TwoTargetsAreDistinguished) {
 TEST_F(Pharosd, WhatItHadToLeaveLyingIsNeverPublishedAsFresh) {
   start();
   ASSERT_TRUE(poses_come(60));
-  // The daemon sleeps while ten cycles arrive, and wakes up a second later.
+  // The daemon is stopped while ten cycles arrive, and continues a second later.
   daemon.process().signal(SIGSTOP);
   int cycles = 0;
   daemon.play(target, line, [&] { return cycles++ == 10; });

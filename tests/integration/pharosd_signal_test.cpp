@@ -17,10 +17,10 @@ namespace {
 using PharosdSignal = PharosdTest;
 using ::testing::HasSubstr;
 
-// What SIGTERM may take, and what a busy machine may add to it.
+// Limit of the time until the end after SIGTERM, with a margin for a busy machine.
 constexpr double kStop_s = 1.0 + 4.0;
 
-// Fills the pipe that the program writes its log to: nobody takes another byte.
+// Fills the pipe of the program's log: it accepts no further byte.
 void fill_standard_error(int pid) {
   const std::string path = "/proc/" + std::to_string(pid) + "/fd/2";
   const UniqueFd end(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
@@ -32,7 +32,7 @@ void fill_standard_error(int pid) {
   }
 }
 
-// At level trace every message is a line: what was held up there held up the poses.
+// At level trace every message is a line: a blocked log delayed the poses.
 using PharosdBlockedLog = PharosdTest;
 constexpr const char* kTrace = "log.level = 'trace'\n";
 
@@ -49,7 +49,7 @@ TEST_F(PharosdBlockedLog, EndsOnSigtermAllTheSame) {
   fill_standard_error(daemon.process().pid());
   ASSERT_TRUE(poses_come(5));
   daemon.process().signal(SIGTERM);
-  // Its output must not be read meanwhile: that would be the reader that it lacks.
+  // Its output must not be read meanwhile, because the test is about a pipe without reader.
   EXPECT_EQ(daemon.process().wait_exit_unread(kStop_s), 0);
   EXPECT_TRUE(daemon.wait([&] { return daemon.status() && daemon.status()->message == "stopped"; }));
 }
@@ -84,7 +84,7 @@ TEST_F(PharosdSignal, HangupTakesOverThePublishLimits) {
   const std::int64_t stale = daemon.counter("cycles_stale");
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for("configuration read again")) << daemon.process().text();
-  // The pseudo-terminal's light is 8 ms and more old by the time its sweep is told.
+  // The pseudo-terminal's light is 8 ms and more old when its sweep is sent.
   EXPECT_TRUE(daemon.play(target, line, [&] { return daemon.counter("cycles_stale") > stale + 5; }))
       << daemon.counter("cycles_stale");
 }

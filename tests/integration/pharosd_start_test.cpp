@@ -54,7 +54,7 @@ TEST_F(PharosdStart, WithoutLcmItSaysWhatToDoAndEndsWith1) {
   EXPECT_THAT(process.text(), AllOf(HasSubstr("LCM cannot be set up"), HasSubstr("route")));
 }
 
-// What --check finds keeps the daemon from starting as well.
+// Errors found by --check prevent the daemon's start as well.
 TEST_F(PharosdStart, WhatIsNotUnderstoodAroundTheConfigurationIsExit2WithAndWithoutCheck) {
   const std::string second = "[[target]]\nname = 'free'\ntarget_file = 'dock.csv'\nport = ";
   daemon.plug_in(line);

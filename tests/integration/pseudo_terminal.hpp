@@ -17,9 +17,8 @@
 
 namespace pharos::host {
 
-/// A capture board's end of a serial line: what is written here, the daemon reads from path().
-///
-/// Destroying it is pulling the plug: the other side sees a hang-up.
+/// A capture board's end of a serial line: the daemon reads the bytes written here from path().
+/// The destructor disconnects it: the other side gets a hang-up.
 class PseudoTerminal {
  public:
   PseudoTerminal() : fd_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
@@ -36,7 +35,7 @@ class PseudoTerminal {
   const std::string& path() const { return path_; }
   int fd() const { return fd_.get(); }
 
-  /// Writes all of it, waiting for the reader where the line's buffer is full; false after five seconds without room.
+  /// Writes all of it, waiting for the reader where the line's buffer is full; false after five seconds without space.
   bool write(std::span<const std::uint8_t> bytes) const {
     constexpr int kTimeout_ms = 5000;
     while (!bytes.empty()) {

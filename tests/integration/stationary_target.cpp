@@ -57,7 +57,7 @@ lighthouse::Sweep StationaryTarget::sweep(Axis axis, std::int64_t flash_ticks, s
 }
 
 StationaryTarget::Bytes StationaryTarget::cycle(std::int64_t end_ticks) {
-  // The last hit comes a third of a turn after its flash, at the most.
+  // The last hit is a third of a turn after its flash, at most.
   const std::int64_t y_flash = end_ticks - kTurn_ticks / 3;
   Bytes bytes = bytes_of(sweep(Axis::kX, y_flash - kHalfTurn_ticks));
   const Bytes y = bytes_of(sweep(Axis::kY, y_flash));

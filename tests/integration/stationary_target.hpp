@@ -12,10 +12,10 @@
 
 namespace pharos::host {
 
-/// A capture board on a target at rest before one ideal station: the bytes of its serial line, cycle by cycle.
+/// A capture board on a stationary target with one ideal station: the bytes of its serial line, cycle by cycle.
 ///
-/// Every sensor is hit in every sweep, noise is only the 10 ns grid: what comes out of the daemon must be `truth()` to
-/// a hundredth of a degree.
+/// Every sensor is hit in every sweep, noise is only the 10 ns grid: the daemon's poses must equal `truth()` to a
+/// hundredth of a degree.
 class StationaryTarget {
  public:
   using Bytes = std::vector<std::uint8_t>;
@@ -23,7 +23,7 @@ class StationaryTarget {
   static constexpr std::int64_t kHalfTurn_ticks = 416'667;
 
   static constexpr std::uint8_t kSensors = 6;
-  /// Sensors on two plates of different height, the first six alone already a body.
+  /// Sensors on two plates of different height, the first six alone determine a pose.
   static Target target(std::uint8_t sensors = kSensors);
   /// The same as a target file's text.
   static std::string target_table(std::uint8_t sensors = kSensors);
@@ -40,7 +40,7 @@ class StationaryTarget {
   Bytes time(std::int64_t now_ticks) { return copy(reporter_.report_time(now_ticks)); }
   Bytes hello(const char* board, std::int64_t now_ticks = 0, std::uint16_t start_count = 0);
   Bytes counters(std::uint32_t edges_in);
-  /// An OOTX payload of a made-up station that shifts no angle, as its flashes would have brought it.
+  /// An OOTX payload of an ideal station without any correction.
   Bytes ootx(std::int64_t now_ticks, std::uint32_t id);
 
  private:
@@ -51,7 +51,7 @@ class StationaryTarget {
   report::Reporter reporter_;
 };
 
-/// A good frame of another protocol version, as its sender would make it.
+/// A valid frame of another protocol version.
 StationaryTarget::Bytes frame_of_unsupported_version(std::uint8_t version, std::uint16_t sequence);
 
 }  // namespace pharos::host

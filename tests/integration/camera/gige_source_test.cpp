@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera on the network as it is: GigE Vision over loopback, served by the simulated Helios.
+// A camera on a real network: GigE Vision over loopback, with the simulated Helios.
 #include "host/device/gige_source.hpp"
 
 #include <gmock/gmock.h>
@@ -80,7 +80,7 @@ class GigeSourceTest : public ::testing::Test {
 
 TEST_F(GigeSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
   serve();
-  settings.mode = "Distance3000mmSingleFreq";  // the camera begins in another, of another scale
+  settings.mode = "Distance3000mmSingleFreq";  // the camera starts in another, with another scale
   GigeSource source(settings);
   ASSERT_TRUE(frames_come(source, 5)) << source.status().error;
   ASSERT_TRUE(last.scale);
@@ -188,7 +188,7 @@ TEST_F(GigeSourceTest, OpensASilentCameraAnew) {
   EXPECT_EQ(taken, 0);
 }
 
-// Two packets of a hundred are lost and nothing is asked for again in vain: what comes through is right.
+// Two packets of a hundred are lost, and resends are requested successfully: received frames are correct.
 TEST_F(GigeSourceTest, CountsFramesWithLostPacketsAndGivesTheOthersUnharmed) {
   play.loss = 0.02;
   play.frame_rate_hz = 100.0;

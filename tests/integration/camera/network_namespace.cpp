@@ -31,7 +31,7 @@ bool bring_loopback_up(int socket) {
   return ::ioctl(socket, SIOCSIFFLAGS, &request) == 0;
 }
 
-// For a second camera: there is one an address.
+// For a second camera: each needs its own address.
 bool add_second_address(int socket) {
   ifreq request{};
   std::strcpy(request.ifr_name, "lo:2");

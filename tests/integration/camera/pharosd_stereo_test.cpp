@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharosd as it is, with recorded pairs and with two simulated grey cameras: ring2 and slam.
+// The program pharosd with recorded pairs and with two simulated grey cameras: ring2 and slam.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr double kStereoTimeout_s = 120.0;  // of a machine that does other work
+constexpr double kStereoTimeout_s = 120.0;  // allows for other load
 constexpr double kDeg = 0.017453292519943295;
 
 Matrix3 rotation_of(const pose_t& pose) {
@@ -32,7 +32,7 @@ Matrix3 rotation_of(const pose_t& pose) {
 
 class PharosdStereoTest : public ::testing::Test {
  protected:
-  /// `dimmer`: light is that many times less than what suits eight bits.
+  /// `dimmer`: factor by which the light is below the range of eight bits.
   void write_pairs(int count, int bits = 8, std::uint16_t dimmer = 1) {
     fs::create_directories(pairs);
     truths.clear();
@@ -115,7 +115,7 @@ TEST_F(PharosdStereoTest, FollowsATumblingTargetInRecordedPairs) {
   EXPECT_GT(Vector3(spin.axis).dot(sequence.pose(0).R.col(2)), std::cos(2.0 * kDeg));
 }
 
-// Three pairs without light and one that cannot be read: said, without a pose, and then it is found again.
+// Three pairs without light and one that cannot be read: reported, without a pose, and then tracked again.
 TEST_F(PharosdStereoTest, ALostTargetHasNoPoseUntilItIsFoundAgain) {
   const sim::TumblingScenario scenario{
       .turn_deg = 13.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};
@@ -167,7 +167,7 @@ TEST_F(PharosdStereoTest, WhatIsNoGoodIsSaidBeforeAnythingStarts) {
   }
 }
 
-/// Two grey cameras whose clocks began apart and whose times jitter.
+/// Two grey cameras with different clock offsets and jitter.
 class TwoCamerasTest : public PharosdStereoTest {
  protected:
   TwoCamerasTest() {
@@ -189,7 +189,7 @@ class TwoCamerasTest : public PharosdStereoTest {
       serve(side);
     }
   }
-  /// With a window for a busy machine: what arrives late is timed late.
+  /// With a window for a busy machine: late arrivals get late times.
   void start_cameras(const std::string& more, const std::string& system = "ring2") {
     start("systems = ['" + system + "']\npacket_size = 9000\npairing_window_ms = 100\n" + more +
           "[stereo.left]\naddress = '127.0.0.1'\n[stereo.right]\naddress = '127.0.0.2'\n");
@@ -231,7 +231,7 @@ TEST_F(TwoCamerasTest, PairsFramesOfTwoClocksAndGoesOnWhenALostCameraComesBack) 
   EXPECT_EQ(daemon.process().wait_exit(), 0);
 }
 
-// The same two cameras before a satellite that stands still: the turn since the first pair is none.
+// The same two cameras with a stationary satellite: the rotation since the first pair is zero.
 TEST_F(TwoCamerasTest, FollowASatelliteWithoutAModel) {
   const sim::TumblingScenario scenario{
       .turn_deg = 0.0, .step_deg = 1.0, .width_px = 480, .height_px = 360, .povray = false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ten minutes (PHAROS_CAMERA_SECONDS: another time) of a camera at full rate before an approaching satellite. Every
-// frame that the camera sent must be found again in the counters; rates and latencies are printed, not judged.
+// Ten minutes (PHAROS_CAMERA_SECONDS: another time) of a camera at full rate with an approaching satellite. Every frame
+// that the camera sent must be in the counters; rates and latencies are printed, not checked.
 #include <cstdio>
 #include <cstdlib>
 
@@ -44,7 +44,7 @@ TEST_F(PharosdTofCampaign, LosesNoFrameSilently) {
   const std::int64_t sent = static_cast<std::int64_t>(camera->frames());
   camera.reset();
   ASSERT_TRUE(daemon.wait([&] { return daemon.source("client")->state != "ok"; }, kTimeout_s));
-  // What was in the air when the camera was taken away was sent in part, if at all.
+  // The frame in transmission when the camera was removed was sent in part, if at all.
   constexpr std::int64_t kInTheAir = 2;
   EXPECT_GE(arrived(), sent - kInTheAir);
   EXPECT_LE(arrived(), static_cast<std::int64_t>(sent + kInTheAir));

@@ -17,10 +17,10 @@
 
 namespace pharos::host {
 
-inline constexpr double kTimeout_s = 60.0;  // of a machine that does other work
+inline constexpr double kTimeout_s = 60.0;  // allows for other load
 inline constexpr const char* kByAddress = "address = '127.0.0.1'\npacket_size = 9000\n";
 
-/// pharosd and the simulated Helios before the simulated satellite.
+/// pharosd and the simulated Helios with the simulated satellite.
 class PharosdTofTest : public ::testing::Test {
  protected:
   void render(const std::string& scenario, std::size_t frames) {
@@ -39,7 +39,7 @@ class PharosdTofTest : public ::testing::Test {
     const std::size_t wanted = daemon.valid_poses("client") + count;
     return daemon.wait([&] { return daemon.valid_poses("client") >= wanted; }, kTimeout_s);
   }
-  /// Every valid pose near the truth: well within what would be called wrong, 10 mm and 2 deg.
+  /// Checks that every valid pose is near the truth: within 10 mm and 2 deg.
   void expect_true_poses() {
     const auto& truth = *sequence.frames[0].T_camera_target;
     for (const pose_t& pose : daemon.poses()) {

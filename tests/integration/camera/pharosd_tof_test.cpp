@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharosd as it is, with the simulated Helios before the simulated satellite.
+// The program pharosd with the simulated Helios and the simulated satellite.
 #include <csignal>
 
 #include "integration/camera/pharosd_tof_fixture.hpp"
@@ -65,7 +65,7 @@ TEST_F(StationaryTofTest, StopsCleanlyWhileItLooksForACamera) {
   EXPECT_EQ(daemon.process().wait_exit(), 0);
 }
 
-// frames = "DIRECTORY": what a camera recorded, at its own beat; then the source says that it has come to its end.
+// frames = "DIRECTORY": recorded frames, at their own rate; then the source reports its end.
 TEST_F(PharosdTofTest, MeasuresRecordedFrames) {
   constexpr std::size_t kFrames = 3;
   const std::filesystem::path folder = daemon.folder() / "recorded";

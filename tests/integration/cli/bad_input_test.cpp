@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user gives by mistake: one line that says what, where and what to do, exit code 2, no rows.
+// Wrong input of a user: one line that says what, where and what to do, exit code 2, no rows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(CliBadInput, ARecordingWithoutLightHasNoAnswer) {
 
 TEST(CliBadInput, ARecordingThatEndsInTheMiddleOfALineIsUsedUpToThere) {
   const std::string whole = recording().edges_text();
-  // Cut inside a number: what is left would still read as one.
+  // Cut inside a number: the remainder is still a number.
   const Folder folder;
   const std::string cut = folder.write("cut.csv", whole.substr(0, whole.size() - 3));
   const Outcome run = pharos("decode " + cut + " --stats");
@@ -148,7 +148,7 @@ TEST(CliBadInput, AStreamOfNothingHasNoAnswer) {
   const Folder folder;
   const std::string file = folder.write("stream.phraw", {reinterpret_cast<const char*>(head.data()), head.size()});
   EXPECT_EQ(pharos("decode " + file).exit_code, 1);
-  // Its head damaged: not readable.
+  // With a damaged head it is not readable.
   const std::string damaged =
       folder.write("damaged.phraw", {reinterpret_cast<const char*>(head.data()), head.size() / 2});
   expect_refusal(pharos("decode " + damaged), "damaged.phraw");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos calibrate camera and stereo as a user meets them.
+// The commands pharos calibrate camera and stereo.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

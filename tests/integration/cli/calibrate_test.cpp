@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 using ::testing::StartsWith;
 
-// A target carried between rests, and the same device in flight; made once.
+// A target with stationary intervals, and the same one in flight; simulated once.
 class CliCalibrate : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -39,7 +39,7 @@ TEST(CliDecode, GivesTheRawAngleOfEverySensorBeforeTheStationModel) {
   const auto station = calibration_from(rows_of(decode("--ootx").out).at(0));
   const auto rows = rows_of(decode().out);
   ASSERT_GT(rows.size(), 1000u);
-  // Ticks of 20 ns: a hit's centre is good to half a tick, 3.8 urad, the flash to one.
+  // Ticks of 20 ns: a hit's centre is accurate to half a tick, 3.8 urad, the flash to one.
   constexpr double kTick_rad = 7.6e-6;
   for (const Row& row : rows) {
     const auto* placement =
@@ -65,7 +65,7 @@ TEST(CliDecode, TimesRunForwardOnTheRecordingsCounter) {
   EXPECT_NEAR(std::stod(rows.back().at("time_s")), 13.0, 0.1);
   double last = 0.0;
   for (const Row& row : rows) {
-    EXPECT_GT(std::stod(row.at("time_s")), last - 0.008);  // within one sweep hits come in the order of their ends
+    EXPECT_GT(std::stod(row.at("time_s")), last - 0.008);  // within one sweep hits are in the order of their ends
     last = std::stod(row.at("time_s"));
   }
 }
@@ -77,7 +77,7 @@ TEST(CliDecode, ReadsTheSameFromStandardInput) {
   EXPECT_EQ(plain.exit_code, 0);
   EXPECT_EQ(plain.out, packed.out);
   EXPECT_EQ(count_lines(plain.out), count_lines(with_ids));
-  // A stream cannot be read ahead: its first rows do not know the station yet, its last ones do.
+  // A stream cannot be read ahead: its first rows have no station id yet, its last ones do.
   EXPECT_EQ(rows_of(plain.out).front().at("station_id"), "");
   EXPECT_EQ(rows_of(plain.out).back(), rows_of(with_ids).back());
 }
@@ -133,7 +133,7 @@ TEST(CliDecode, SmoothingChangesAnglesOnly) {
 }
 
 TEST(CliDecode, UnwrapsA32BitCounter) {
-  // The same light, its counter about to wrap: angles stay, times go on.
+  // The same light with a counter that wraps: the same angles, continuous times.
   std::string text = "sensor,rise_ticks,fall_ticks\n";
   std::istringstream lines(recording().edges_text());
   std::string line;

@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A ring of known ellipses as a PGM of 16 bits.
+// A ring with known ellipses as a PGM of 16 bits.
 struct RingFile {
   explicit RingFile(const Folder& folder) {
     const test::PaintedCamera camera{320, 240, 304.0};
@@ -73,7 +73,7 @@ TEST(CliEllipses, DrawsAPicture) {
   EXPECT_EQ(two.exit_code, 2);
   EXPECT_THAT(two.err, HasSubstr("one image"));
   EXPECT_EQ(pharos("ellipses " + ring.path + " --overlay /nowhere/x.png").exit_code, 2);
-  // The overlay is in colour: its luma shows the ring, and what was drawn over it.
+  // The overlay is in colour: its luma contains the ring and the drawing.
   const Outcome colour = pharos("ellipses " + picture);
   EXPECT_EQ(colour.exit_code, 0);
   EXPECT_THAT(colour.err, HasSubstr("in colour"));

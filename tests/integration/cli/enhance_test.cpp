@@ -15,7 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// A dark target of stripes before black, as a PGM or PPM of 8 bits.
+// A dark target of stripes on black, as a PGM or PPM of 8 bits.
 std::string dark_image(bool colour, int brightest = 25) {
   std::string file = colour ? "P6\n96 64\n255\n" : "P5\n96 64\n255\n";
   for (int v = 0; v < 64; ++v) {
@@ -55,7 +55,7 @@ TEST(CliEnhance, WritesABrighterImageAndEveryStep) {
   for (const char* step : {"r.png", "d.png"}) EXPECT_EQ(host::read_picture(folder.path(step)).channels, 3) << step;
 }
 
-// (1) and (8) from the files, of a frame so dark that R lies above white before it is made to fit.
+// (1) and (8) from the files, of a frame so dark that R is above white before it is scaled.
 TEST(CliEnhance, TheStepsMakeTheImage) {
   const Folder folder;
   const std::string in = folder.write("dark.pgm", dark_image(false, 6)), out = folder.path("bright.png");

@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// What motion capture does not share with the track: its frame, its marker body, its clock.
+// Differences of motion capture and track: frame, marker body, clock.
 struct CaptureFrame {};
 struct MarkerBody {};
 const Pose<frame::Lighthouse, CaptureFrame> kFrame = {rotation_exp({-1.4620, 1.3741, -1.0023}), {0.680, 0.624, 2.884}};

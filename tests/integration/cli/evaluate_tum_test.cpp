@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of `pharos evaluate` over TUM files, computed a second time in another way: quaternions in plain
-// arithmetic instead of matrices and logarithms, Horn's eigenvector instead of a singular value decomposition.
+// The figures of `pharos evaluate` for TUM files, computed by an independent method: quaternions in plain arithmetic
+// instead of matrices and logarithms, Horn's eigenvector instead of a singular value decomposition.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,7 +44,7 @@ Turn axis_angle(const Point& v) {
   return {std::cos(0.5 * angle), s * v[0], s * v[1], s * v[2]};
 }
 
-// A tumbling path, and the same with errors, seen from another world.
+// A tumbling path, and the same with errors in another world frame.
 struct Recordings {
   std::vector<Stamped> truth, estimate;
 
@@ -88,7 +88,8 @@ Row evaluated(const Recordings& recordings, const std::string& options) {
   return rows_of(run.out).at(0);
 }
 
-// Horn (1987): the unit quaternion that turns b onto a best is the largest eigenvector of a 4 x 4 matrix; by iteration.
+// Horn (1987): the unit quaternion of the best rotation from b to a is the eigenvector of the largest eigenvalue of a 4
+// x 4 matrix; by iteration.
 Turn horn(const std::vector<Point>& a, const std::vector<Point>& b) {
   double s[3][3] = {};
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -100,7 +101,7 @@ Turn horn(const std::vector<Point>& a, const std::vector<Point>& b) {
                           {s[1][2] - s[2][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
                           {s[2][0] - s[0][2], s[0][1] + s[1][0], -s[0][0] + s[1][1] - s[2][2], s[1][2] + s[2][1]},
                           {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], -s[0][0] - s[1][1] + s[2][2]}};
-  double shift = 0.0;  // so that the largest eigenvalue is the largest in size
+  double shift = 0.0;  // so that the largest eigenvalue has the largest magnitude
   for (const auto& row : n) {
     for (const double value : row) shift += std::abs(value);
   }
@@ -163,7 +164,7 @@ TEST(EvaluateTum, AteAgreesWithHornsMethod) {
   }
 }
 
-// Motions over a second, on either side of each other's frames: worlds make no difference.
+// Relative motions over a second, which do not depend on the world frames.
 TEST(EvaluateTum, RelativeErrorsAgree) {
   const Recordings recordings(true);
   constexpr std::size_t kSecond = 10;

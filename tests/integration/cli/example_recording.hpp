@@ -9,8 +9,8 @@
 
 namespace pharos::cli_test {
 
-/// A still target before one station, 12 s (OOTX comes three times), light without noise: what the programs must make
-/// of it is known.
+/// A stationary target with one station, 12 s (OOTX is sent three times), light without noise: the programs' correct
+/// results are known.
 class ExampleRecording {
  public:
   /// Made once for all tests of the program.

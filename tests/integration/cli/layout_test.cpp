@@ -17,7 +17,7 @@ constexpr const char* kCube =
     "OFF\n8 6 12\n0 0 0\n0.1 0 0\n0.1 0.1 0\n0 0.1 0\n0 0 0.1\n0.1 0 0.1\n0.1 0.1 0.1\n0 0.1 0.1\n"
     "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
 
-/// A cube, three poses near facing, and a place for the answer. Quaternions are taken to length 1 by the reader.
+/// A cube, three poses near facing, and a file for the result. Quaternions are normalised by the reader.
 struct Bench {
   Folder folder;
   std::string body = folder.write("cube.off", kCube);
@@ -43,7 +43,7 @@ TEST(CliLayout, WritesATargetWorthWhatItSays) {
   EXPECT_EQ(rows_of(content_of(bench.target)).size(), 8u);
   EXPECT_THAT(content_of(picture), StartsWith("<svg"));
 
-  // Against itself nothing is worse.
+  // Compared with itself nothing is worse.
   const std::string found = bench.folder.write("present.csv", content_of(bench.target));
   const Row again = rows_of(bench.layout("--sensors 8 --target " + found).out).at(0);
   EXPECT_EQ(again.at("present_adop_deg_per_rad"), gain.at("adop_deg_per_rad"));

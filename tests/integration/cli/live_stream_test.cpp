@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording that is still being made: rows come out as soon as the pipe pauses.
+// A recording in progress: rows are printed as soon as the pipe pauses.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::StartsWith;
 
-// `pharos ARGUMENTS` with its standard input and output in the test's hands.
+// `pharos ARGUMENTS` with pipes for its standard input and output.
 class LiveRun {
  public:
   explicit LiveRun(const std::string& arguments) {
@@ -27,12 +27,12 @@ class LiveRun {
     out_.reset(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK));
     input_.reset(::popen((std::string(PHAROS_PROGRAM) + " " + arguments + " >" + pipe).c_str(), "w"));
   }
-  // Sends more input; the program is then left waiting for the rest.
+  // Sends more input; the program then waits for the next.
   void send(const std::string& text) {
     EXPECT_EQ(std::fwrite(text.data(), 1, text.size(), input_.get()), text.size());
     std::fflush(input_.get());
   }
-  // Whether `lines` lines came out within 20 s.
+  // Whether `lines` lines were printed within 20 s.
   bool wait_for_lines(std::size_t lines) {
     constexpr int kLongest_ms = 20'000;
     while (count_lines(text_) < lines) {
@@ -57,7 +57,7 @@ class LiveRun {
   std::string text_;
 };
 
-// The first `seconds` of the recording, roughly, cut at a line's end.
+// About the first `seconds` of the recording, cut at a line's end.
 std::string beginning(double seconds) {
   const std::string whole = recording().edges_text();
   const auto size = static_cast<std::size_t>(static_cast<double>(whole.size()) * seconds / 12.0);
@@ -67,7 +67,8 @@ std::string beginning(double seconds) {
 TEST(CliLiveStream, DecodeShowsItsRowsWhenTheInputPauses) {
   LiveRun run("decode -");
   run.send(beginning(0.5));
-  // Far less than any buffer holds: 60 sweeps a second of some eight sensors, the first tenth of a second lost to lock.
+  // Far less than the size of any buffer: 60 sweeps a second of some eight sensors, without the first tenth of a second
+  // before lock.
   ASSERT_TRUE(run.wait_for_lines(200)) << run.text().size();
   EXPECT_LT(run.text().size(), 64u * 1024u);
   EXPECT_THAT(run.text(), StartsWith("time_s,station,"));

@@ -10,7 +10,7 @@
 
 namespace pharos::cli_test {
 
-/// What a run of the program left.
+/// Results of a run of the program.
 struct Outcome {
   int exit_code = -1;
   std::string out;

@@ -42,7 +42,7 @@ TEST(CliReproduce, GivesTheSameFiguresForTheSameSeed) {
   EXPECT_EQ(pharos("reproduce lighthouse --quick").out, quick_run().out);
 }
 
-// Whatever the paper's method makes of three short flights, calibration and motion-aware tracking together do better.
+// In three short flights calibration and motion-aware tracking together are better than the paper's method.
 TEST(CliReproduce, FliesTheManoeuvresInFourWays) {
   for (const Row& row : rows_of(quick_run().out)) {
     const bool four = row.at("item") == "table 2";

@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Ellipses of the sweep that ships, without noise, and their rig.
+// Ellipses of the installed sweep scenario, without noise, and their rig.
 struct Sweep {
   explicit Sweep(const Folder& folder) : rig(folder.path("out/rig.toml")), ellipses(folder.path("out/ellipses.csv")) {
     std::string scenario = content_of(std::string(PHAROS_SCENARIOS) + "/stereo_sweep.toml");

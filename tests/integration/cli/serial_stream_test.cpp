@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded serial stream as EDGES: what the target decoded, or its raw edges, as good as the table of its pulses.
+// A recorded serial stream as EDGES: sweeps decoded by the target, or its raw edges, give the same as the table of its
+// pulses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@
 namespace pharos::cli_test {
 namespace {
 
-// A recording file that holds what is sent to it, one chunk a frame.
+// A recording file with the frames sent to it, one chunk a frame.
 class StreamFile {
  public:
   StreamFile() : bytes_(host::stream_format::encode_head({"demo", 460'800, 0, 0})) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `pharos slam` on what a user gives by mistake: one line that says what and where, and exit code 2 where nothing can
-// be done. `pharos vocabulary`.
+// `pharos slam` with wrong input of a user: one line that says what and where, and exit code 2 where there can be no
+// result. `pharos vocabulary`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST_F(CliSlam, AnEmptyFolderIsNamed) {
   expect_refused(slam(), "holds no .png, .tif, .pgm, .ppm, .jpg or .bmp image");
 }
 
-// What is wrong with a pair costs that pair alone.
+// An invalid pair affects only itself.
 TEST_F(CliSlam, PairsThatAreNoneAreToldCountedAndLeftOut) {
   for (const char* side : {"left", "right"}) {
     for (const char* name : {"3", "4", "5"}) black(side + std::string("/") + name + ".pgm", 64, 48);
@@ -149,7 +149,7 @@ TEST_F(CliSlam, ImagesWithoutPartnersOnBothSidesAreNoPairs) {
   expect_refused(slam(), "has no partner");
 }
 
-// Raw images of the EuRoC data set's rig, whose frame is an IMU's: taken, whatever there is to see.
+// Raw images of the EuRoC data set's rig, whose frame is that of an IMU: accepted.
 TEST_F(CliSlam, TheRigOfEurocIsTaken) {
   for (const char* side : {"left", "right"}) {
     for (const char* name : {"0", "1", "2"}) black(side + std::string("/") + name + ".pgm", 752, 480);
@@ -171,7 +171,7 @@ TEST_F(CliSlam, AMapThatCannotBeWrittenIsNamedBeforeTheWork) {
   expect_refused(slam(" --map /nowhere/map.ply"), "/nowhere/map.ply: cannot be written");
 }
 
-// Words of a checkered image's features, which pharos slam then takes.
+// Words from a chequered image's features, which pharos slam then accepts.
 TEST_F(CliSlam, AVocabularyIsTrainedAndTaken) {
   std::string checks = "P5\n320 240\n255\n";
   for (int v = 0; v < 240; ++v) {
@@ -252,7 +252,7 @@ TEST(CliSlamFiles, ATumblingTargetToPosesMapAndPictures) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("seen/000006_slam.png")));
 }
 
-// Raw images of a distorting, turned rig whose names are stamps: the first decimetre of a walk.
+// Raw images with distortion of a rotated rig whose names are time stamps: the first decimetre of a walk.
 TEST(CliSlamFiles, ARawRoomToTheCamerasPath) {
   const Folder folder;
   const std::string room = folder.path("room");

@@ -23,7 +23,7 @@ std::string exact(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-// Rows of a problem as the truth would show it, for sensors 0 to `sensors`-1 of the solid target.
+// Rows of a problem without noise, for sensors 0 to `sensors`-1 of the solid target.
 std::string problem_rows(const std::string& name, std::size_t sensors) {
   const ExampleRecording& recording = ExampleRecording::get();
   std::string text;

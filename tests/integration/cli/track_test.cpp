@@ -71,7 +71,7 @@ TEST(CliTrack, SaysWhatIsUncalibrated) {
   for (const Row& row : rows_of(track("--calibration none").out)) {
     EXPECT_THAT(row.at("flags"), HasSubstr("uncalibrated"));
   }
-  // A stream learns the calibration on the way.
+  // In a stream the calibration is received during the run.
   const Outcome live = pharos("track - --target " + recording().target(), recording().edges_text());
   EXPECT_EQ(live.exit_code, 0);
   EXPECT_THAT(rows_of(live.out).front().at("flags"), HasSubstr("uncalibrated"));
@@ -94,7 +94,7 @@ TEST(CliTrack, TakesACalibrationFromAFileById) {
 TEST(CliTrack, TakesTheStationFileThatTheSimulatorWrites) {
   const std::string by_ootx = track().out;
   EXPECT_EQ(track("--calibration " + recording().stations()).out, by_ootx);
-  // Without systematic errors the stations are as they say.
+  // Without systematic errors the OOTX calibration is exact.
   EXPECT_EQ(track("--calibration " + recording().true_stations()).out, by_ootx);
   const Outcome from_pipe = pharos("track " + recording().edges() + " --calibration - --target " + recording().target(),
                                    content_of(recording().stations()));

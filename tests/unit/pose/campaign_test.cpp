@@ -73,7 +73,7 @@ TEST(Campaign, CovarianceIsConsistent) {
   }
 }
 
-// Reported, not asserted: what the covariance is worth when the noise is not as assumed.
+// Reported, not asserted: consistency of the covariance when the noise is not as assumed.
 TEST(Campaign, ReportsNeesUnderOtherNoiseThanAssumed) {
   const Target target = test::frustum_target();
   const test::PnpSet set = set_of(10.8 * kRadPerArcsec, 0.97);
@@ -101,7 +101,7 @@ TEST(Campaign, ReportsNeesUnderOtherNoiseThanAssumed) {
   }
 }
 
-// The paper's figure 5: still sets, predicted (24) against measured (23).
+// The paper's figure 5: stationary sets, predicted (24) and measured (23).
 TEST(Campaign, PredictedSigmaOfStaticSetsIsTheMeasuredOne) {
   constexpr int kSets = 50, kFrames = 3600;
   const Target target = test::frustum_target();
@@ -124,7 +124,7 @@ TEST(Campaign, PredictedSigmaOfStaticSetsIsTheMeasuredOne) {
       position += error.tail<3>().squaredNorm();
       ++frames;
     }
-    if (frames < kFrames / 2) continue;  // a view straight on to a plane
+    if (frames < kFrames / 2) continue;  // a view perpendicular to a plane
     rotation_ratio.push_back(std::sqrt(rotation / frames) * kDegPerRad / (precision->adop_deg_per_rad * set.sigma_rad));
     position_ratio.push_back(std::sqrt(position / frames) / (precision->pdop_m_per_rad * set.sigma_rad));
   }

@@ -11,7 +11,7 @@
 
 namespace pharos::pose {
 
-/// All minima that a search from every triplet's P3P poses and sixty random attitudes finds, best first.
+/// All minima found by a search from every triplet's P3P poses and sixty random attitudes, best first.
 inline std::vector<Fit> exhaustive_minima(const Target& target, const test::PnpProblem& problem, double sigma_rad,
                                           test::PnpGenerator& random) {
   HitCandidates hits;

@@ -24,7 +24,7 @@ TEST(LongCampaign, TargetClass) {
     set.coplanar_views = false;
     const auto result = test::run_campaign(test::frustum_target(), set, told(set.sigma_rad), kProblems, 11);
     test::print(arcsec < 10.0 ? "8.8 arcsec" : "60 arcsec", result);
-    EXPECT_LE(result.score.refused, kProblems / 100000);  // descents that end on a flat ridge
+    EXPECT_LE(result.score.refused, kProblems / 100000);  // iterations that end in a flat valley
     EXPECT_LE(result.score.rotation_over_bound(), 1.02);
     EXPECT_LE(result.score.position_over_bound(), 1.02);
     EXPECT_EQ(result.failures_that_truth_fits_better, 0);

@@ -75,7 +75,7 @@ TEST(Precision, SensorIsVisibleUpToTheIncidenceGiven) {
   Target target;
   target.push_back({3, {0, 0, 0}, {0, 0, 1}});
   for (const double incidence_deg : {0.0, 30.0, 59.0, 61.0, 89.0, 120.0, 180.0}) {
-    // Straight ahead of the station; at 0 deg the body's z looks back at it.
+    // Straight ahead of the station; at 0 deg the body's z points to it.
     const LighthouseFromBody pose{rotation_exp({kPi - incidence_deg * kRadPerDeg, 0, 0}), {0, 0, 2}};
     EXPECT_EQ(visible_sensors(target, pose).test(3), incidence_deg < 60.0) << incidence_deg;
     EXPECT_EQ(visible_sensors(target, pose, 90.0 * kRadPerDeg).test(3), incidence_deg < 90.0) << incidence_deg;

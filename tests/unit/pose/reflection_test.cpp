@@ -14,7 +14,7 @@
 namespace pharos::pose {
 namespace {
 
-// Where the recordings' reflections lie: some milliradians to some tens of them beside the true hit.
+// Distances of the recordings' reflections from the true hit: some milliradians to some tens of them.
 constexpr double kNearest_rad = 3e-3, kFarthest_rad = 40e-3;
 
 enum class Reflected { kBesideTrueHit, kInsteadOfTrueHit };
@@ -80,7 +80,7 @@ Count campaign(Reflected kind, int min_sensors, int problems, std::uint64_t seed
 }
 
 TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllDetected) {
-  // Set 24 holds a view of six sensors whose nine hits of twelve fit a wrong pose better than the true one.
+  // Set 24 contains a view of six sensors in which nine hits of twelve fit a wrong pose better than the true one.
   for (const std::uint64_t seed : {1U, 24U, 29U}) {
     const Count count = campaign(Reflected::kBesideTrueHit, 6, 300, seed);
     EXPECT_EQ(count.refused, 0);
@@ -91,14 +91,14 @@ TEST(Reflections, BesideTheTrueHitsOfAThirdOfTheSensorsAreAllDetected) {
 }
 
 TEST(Reflections, InsteadOfTheTrueHitsOfAThirdOfTheSensorsAreLeftOut) {
-  // Two sensors of eight: six others decide.
+  // Two sensors of eight: the other six determine the pose.
   const Count eight = campaign(Reflected::kInsteadOfTrueHit, 8, 300, 2);
   EXPECT_EQ(eight.refused, 0);
   EXPECT_EQ(eight.wrong_poses, 0);
   EXPECT_LE(eight.good_hits_lost, eight.good_hits / 500);
 }
 
-// Replaces single hits by reflections; how many answers are wrong and yet leave a residual that looks like noise.
+// Replaces single hits by reflections; counts wrong poses with a residual that is plausible as noise.
 int consistent_outliers(int sensors, int replaced, int problems, std::uint64_t seed) {
   const Target target = test::frustum_target();
   test::PnpSet set;
@@ -125,7 +125,8 @@ int consistent_outliers(int sensors, int replaced, int problems, std::uint64_t s
 }
 
 TEST(Reflections, InsteadOfTrueHitsGiveNoConsistentWrongPose) {
-  // Few sensors cannot tell a reflection from a hit; then the answer is a refusal or a residual that shows it.
+  // With few sensors a reflection cannot be distinguished from a hit; then the result is a refusal or a residual that
+  // shows it.
   constexpr int kProblems = 300;
   for (int sensors = 4; sensors <= 8; ++sensors) {
     for (int replaced = 1; replaced <= sensors / 2; ++replaced) {
@@ -156,7 +157,7 @@ TEST(Reflections, OneHitAtMostIsUsedOfEachSensorAndAxis) {
 }
 
 TEST(Reflections, HallOfMirrorsIsSolvedWithoutAnExplosion) {
-  // Every place has four hits: 4^16 combinations.
+  // Every bearing has four hits: 4^16 combinations.
   const Target target = test::frustum_target();
   test::PnpSet set;
   set.min_sensors = 8;
@@ -180,7 +181,7 @@ TEST(Reflections, SystematicErrorsOfAMilliradianAreNoReasonToThrowHitsAway) {
   const Target target = test::frustum_target();
   test::PnpSet set;
   set.min_sensors = 6;
-  set.sigma_rad = 1e-3;  // twenty-three times what the solver is told
+  set.sigma_rad = 1e-3;  // twenty-three times the solver's assumption
   test::PnpGenerator generator(target, set, 6);
   int lost = 0, hits = 0, refused = 0;
   for (int k = 0; k < 300; ++k) {
@@ -193,7 +194,7 @@ TEST(Reflections, SystematicErrorsOfAMilliradianAreNoReasonToThrowHitsAway) {
       ++refused;
     }
   }
-  // Noise that by chance looks like reflections on a third of the hits is refused, not believed: 1 of these 300.
+  // Noise that by chance looks like reflections on a third of the hits is refused: 1 of these 300.
   EXPECT_LE(refused, 3);
   EXPECT_LE(lost, hits / 100);
 }

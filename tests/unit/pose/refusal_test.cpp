@@ -19,7 +19,7 @@ class Refusals : public ::testing::Test {
     problem_ = test::PnpGenerator(target_, set, 1).next();
   }
 
-  // Perfect bearings of all sensors of a target at a pose, wherever they face.
+  // Exact bearings of all sensors of a target at a pose, whatever their direction.
   static Observations bearings_of(const Target& target, const LighthouseFromBody& pose) {
     Observations observations;
     for (const SensorPlacement& s : target) {

@@ -176,7 +176,7 @@ TEST(Solve, TangentResidualIsThePapersMinimum) {
     tangent_square += (t->estimate.pose.t - problem.truth.t).squaredNorm();
     nees += test::nees_of(problem.truth, t->estimate) / 6.0 / kProblems;
   }
-  // Its noise is not uniform, so it must be worse than the angles, and its covariance must know.
+  // Its noise is not uniform, so it must be worse than the angles, and its covariance must include that.
   EXPECT_GT(std::sqrt(tangent_square / angle_square), 1.03);
   EXPECT_LT(std::sqrt(tangent_square / angle_square), 1.3);
   EXPECT_NEAR(nees, 1.0, 0.08);

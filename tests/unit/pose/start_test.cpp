@@ -53,14 +53,14 @@ TEST(P3p, HoldsTheTruthAmongItsPosesForEveryTripletOfAPerfectView) {
   for (int k = 0; k < 300; ++k) {
     const View view = view_of(target, generator);
     for (int i = 2; i < view.rays.count; ++i) {
-      // Collinear sensors have no pose; the solver never picks them.
+      // Collinear sensors have no pose; the solver never selects them.
       if (spread_of(view.rays, {0, 1, i}) < 1e-7) continue;
       ++triplets;
       lost += nearest(p3p(view.rays, {0, 1, i}), view.problem.truth) < 1e-4 ? 0 : 1;
     }
   }
   EXPECT_GT(triplets, 400);
-  // A triplet seen at the merging of two of its poses is known to the square root of the rounding error only.
+  // Where two of a triplet's poses merge, its accuracy is only the square root of the rounding error.
   EXPECT_LE(lost, triplets / 100);
 }
 
@@ -83,13 +83,13 @@ TEST(P3p, EveryPosePutsTheThreeSensorsOnTheirRays) {
       on_rays += worst < 1e-9 ? 1 : 0;
     }
   }
-  // The few others are the real parts that stand in where there is no real root.
+  // The few others are real parts, which are used where there is no real root.
   EXPECT_GT(poses, 900);
   EXPECT_GT(on_rays, poses * 9 / 10);
 }
 
 TEST(P3p, KeepsAStartWhereNoiseMakesTheRootsComplex) {
-  // Straight on to the top plate the two poses merge, and noise leaves no exact one in half of the problems.
+  // In views perpendicular to the top plate the two poses merge, and with noise half of the problems have no exact one.
   const Target target = test::top_plate_target();
   test::PnpGenerator generator(target, {}, 3);
   for (int k = 0; k < 500; ++k) {
@@ -123,7 +123,7 @@ TEST(Dlt, FindsTheTruthInAPerfectViewOfSixSensors) {
     const View view = view_of(target, generator);
     found += nearest(dlt(view.rays), view.problem.truth) < 1e-3 ? 1 : 0;
   }
-  // Two faces of the target hold six sensors of which four are coplanar: critical for the linear method.
+  // Two faces of the target have six sensors, of which four are coplanar: critical for the linear method.
   EXPECT_GT(found, 100);
 }
 
@@ -191,8 +191,8 @@ TEST_P(EveryStart, LeadsToTheSamePose) {
 INSTANTIATE_TEST_SUITE_P(Methods, EveryStart,
                          ::testing::Values(Start::kP3p, Start::kRpnp, Start::kDlt, Start::kHomography));
 
-// How near a start is that stands in for a DLT is a matter of the view (in one of 500 of these it is 0.7 to 1.0 off):
-// what it is for is that the search ends where it ends by itself.
+// The accuracy of a start that replaces a DLT depends on the view (in one of 500 of these the error is 0.7 to 1.0): its
+// purpose is that the iteration ends in the same minimum.
 TEST(StartPoses, DltGivesWayWhereItsReprojectionFails) {
   const Target target = test::frustum_target();
   test::PnpSet set;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The integer solver beside the one in double, over campaigns: the same answers, or none.
+// The integer solver compared with the one in double, over campaigns: the same results, or none.
 #include "pharos/pose/warm.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ Comparison compared(const Target& target, const test::PnpSet& set, int problems,
   return comparison;
 }
 
-// Straight on to a plane the valley between the minima is so flat that either descent may miss a rival.
+// In views perpendicular to a plane the valley between the minima is so flat that either solver may miss a second one.
 int flags_that_may_differ(const Comparison& c) { return 1 + c.problems / 5'000; }
 
 void expect_the_same(const Comparison& c) {
@@ -113,7 +113,7 @@ TEST(WarmSolve, ReportsBothSolutionsOfCoplanarSensors) {
 }
 
 TEST(WarmSolve, ScalesWithTheTarget) {
-  // The same view of a target a thousandth and a hundred times the size, from as far in its own measure.
+  // The same view of a target of a thousandth and a hundred times the size, with the distance scaled alike.
   for (const double scale : {0.01, 100.0}) {
     test::PnpGenerator generator(test::frustum_target(), relief(), 14);
     Target target = test::frustum_target();

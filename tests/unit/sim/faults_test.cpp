@@ -211,7 +211,7 @@ TEST(Faults, HandsTurnHitsIntoFlashLengthsOnTheSensorsTheyCover) {
   ASSERT_GT(faulty.count("hand"), 0u);
   std::set<int> covered;
   for (const InjectedFault& fault : faulty.faults) covered.insert(fault.sensor);
-  // A smeared hit stands in the middle of a slot, where no flash is.
+  // A smeared hit is in the middle of a slot, where there is no flash.
   const std::int64_t first_flash = read_flashes(run(ten_seconds()).pulses)[0].rise_ticks;
   std::size_t smeared = 0;
   for (const SimulatedPulse& pulse : faulty.pulses) {

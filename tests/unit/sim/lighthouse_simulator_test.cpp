@@ -101,7 +101,7 @@ TEST(LighthouseSimulator, HitsAMovingTargetWhereItIsAtThatInstant) {
       const Vector3 p_body = find_sensor(scenario.target, static_cast<std::uint8_t>(sensor))->position_m;
       const double flash_s = static_cast<double>(flash.rise_ticks) * 20e-9;
       const double hit_s = flash_s + centres.at(0) * 20e-9;
-      // The counter runs up to 40.5 ppm fast: measured turns are longer by that.
+      // The counter is up to 40.5 ppm fast: measured turns are longer by that.
       const double period = (simulator.clock().counter_time(1.0) - simulator.clock().counter_time(0.0)) * kTurn_ticks;
       const double theta = centres.at(0) * kTwoPi / period;
       EXPECT_NEAR(theta, published_theta_form1(flash.axis_y(), {}, simulator.truth(0, hit_s) * p_body),

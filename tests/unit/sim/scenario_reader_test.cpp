@@ -164,7 +164,7 @@ TEST_F(ScenarioFile, SameSeedSameBytes) {
        {"edges.csv.gz", "truth.csv", "target_true.csv", "stations.toml", "stations_true.toml", "faults.csv"}) {
     EXPECT_EQ(bytes_of(directory_ / "a" / name), bytes_of(directory_ / "b" / name)) << name;
   }
-  // Stamps of the wrapped counter keep to 32 bits, although the recording passes the wrap.
+  // Stamps of the wrapped counter have 32 bits, although the recording passes the wrap.
   host::ByteSource source((directory_ / "a/edges.csv.gz").string());
   host::EdgesReader edges(std::move(source));
   std::int64_t minimum = INT64_MAX;

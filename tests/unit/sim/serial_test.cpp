@@ -179,7 +179,7 @@ class Line : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(directory_); }
 
-  // Reads the port at `link`, whenever it is there, until told to stop.
+  // Reads the port at `link`, whenever it exists, until stopped.
   std::vector<std::uint8_t> read_until(const fs::path& link, const std::atomic<bool>& stop) const {
     std::vector<std::uint8_t> bytes;
     host::UniqueFd port;
@@ -211,7 +211,7 @@ class Line : public ::testing::Test {
                           [start](double time_s) { return start + std::llround(time_s * 50e6); }};
     SimulatedTarget target({"line", 0xFFFu, 7, wire::kModeSweeps});
     PseudoTerminal line(link);
-    // Signals must stay with the player's thread.
+    // Signals must be delivered to the player's thread.
     std::atomic<bool> stop = false;
     Played played;
     sigset_t all;

@@ -13,8 +13,8 @@
 
 namespace pharos::sim {
 
-// A reading of simulated pulses that knows nothing of the product's decoder: good enough for clean light, written from
-// the description of the signal alone.
+// A decoder for simulated pulses that is independent of the product's: sufficient for clean light, written from the
+// description of the signal alone.
 
 inline constexpr double kTurn_ticks = 50e6 / 60.0;
 inline constexpr double kPiTest = 3.14159265358979323846;
@@ -92,7 +92,7 @@ inline Target frustum() {
 /// Body z towards the station.
 inline Matrix3 facing() { return Vector3(1, -1, -1).asDiagonal(); }
 
-/// The frustum at rest before one ideal station, without noise of any kind.
+/// The frustum, stationary, with one ideal station, without noise of any kind.
 inline LighthouseScenario noise_free_scenario(const RoomFromBody& pose = {facing(), {0.2, -0.15, 2.0}}) {
   LighthouseScenario scenario;
   scenario.duration_s = 1.0;
@@ -106,7 +106,7 @@ inline LighthouseScenario noise_free_scenario(const RoomFromBody& pose = {facing
   return scenario;
 }
 
-/// The same before two stations, master and optical slave.
+/// The same with two stations, master and optical slave.
 inline LighthouseScenario noise_free_pair() {
   LighthouseScenario scenario = noise_free_scenario();
   scenario.stations.resize(2);
@@ -116,9 +116,9 @@ inline LighthouseScenario noise_free_pair() {
   return scenario;
 }
 
-/// theta that a form-1 station measures of a point in its frame L: the published equation, written out.
+/// theta of a point in its frame L for a form-1 station: the published equation.
 inline double published_theta_form1(bool axis_y, const SheetErrors& e, const Vector3& p_L) {
-  // The makers' frame: X right, Y up, looking along -Z.
+  // The manufacturer's frame: X right, Y up, optical axis along -Z.
   const double X = p_L.x(), Y = -p_L.y(), ahead = p_L.z();
   const double a = axis_y ? Y : X, o = axis_y ? X : Y, s = axis_y ? 1.0 : -1.0;
   const double ax = s * std::atan2(a, ahead), ay = std::atan2(o, ahead), r = std::hypot(a, ahead);

@@ -49,7 +49,7 @@ TEST(WaypointTrajectory, PassesThroughItsWaypointsSmoothly) {
     EXPECT_LT((spline.at(waypoint.time_s).t - waypoint.pose.t).norm(), 1e-12);
     EXPECT_LT(rotation_angle_between(spline.at(waypoint.time_s).R, waypoint.pose.R), 1e-7);
   }
-  // The velocity does not jump at a waypoint.
+  // The velocity is continuous at a waypoint.
   const double at = waypoints[3].time_s;
   const double step = 1e-5;
   const Vector3 before = (spline.at(at).t - spline.at(at - step).t) / step;

@@ -14,7 +14,7 @@ struct Moments {
   double sigma = 0.0;
 };
 
-// Of an even grey, in electrons.
+// Of a uniform grey, in electrons.
 Moments exposed(float light, const ImageSensor& sensor) {
   LinearImage image{200, 200, std::vector<float>(40000, light)};
   RandomStream random(3, "sensor");

@@ -8,7 +8,7 @@
 namespace pharos::sim {
 namespace {
 
-// All five terms, tangential ones large enough to show.
+// All five terms, tangential ones large enough to have an effect.
 constexpr Lens kStrong{640, 480, 500.0, 520.0, 310.0, 250.0, {-0.21, 0.09, 0.006, -0.004, -0.01}};
 
 TEST(Lens, ProjectsAsThePublishedFormulaByHand) {

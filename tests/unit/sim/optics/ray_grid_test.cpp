@@ -8,10 +8,10 @@
 namespace pharos::sim {
 namespace {
 
-// The paper's lens before a quarter of the pixels each way.
+// The paper's lens with a quarter of the pixels in each direction.
 constexpr Lens kSmall{160, 120, 152.15, 151.26, 80.46, 59.74, kPaperLens.distortion};
 
-// Largest distance of the grid's points from where their rays arrive.
+// Largest distance of the grid's points from the projections of their rays.
 double worst_miss(const RayGrid& grid, double first_px, double step_px) {
   double worst = 0.0;
   for (int row = 0; row < grid.rows(); row += 7) {

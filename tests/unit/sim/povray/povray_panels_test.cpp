@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two renderers that share nothing but the scene show the same.
+// Two independent renderers give the same image of a scene.
 #include "tools/sim/stereo_tumbling/povray_panels.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace pharos::sim {
 namespace {
 
 constexpr int kRaysPerSide = 4;
-// The middle of the satellite, 8 mm a pixel, its edge and a panel.
+// The centre of the satellite, 8 mm a pixel, its edge and a panel.
 const Lens kLens{160, 120, 640.0, 630.0, 20.0, 70.0, {}};
 
 struct Both {
@@ -61,7 +61,7 @@ Difference difference(const Both& both) {
   return out;
 }
 
-// Rays of the two fall on other places of a pixel: creases of the foil differ, means do not.
+// The two sample different positions within a pixel: creases of the foil differ, means do not.
 void expect_alike(const Lighting& lighting) {
   const Difference found = difference(rendered(lighting));
   EXPECT_GT(found.light, 0.2 * (lighting.ambient + lighting.diffuse));

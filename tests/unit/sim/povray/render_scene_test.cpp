@@ -44,7 +44,7 @@ Blob blob_in(const LinearImage& image, double light) {
 }
 
 TEST(RenderScene, PutsAPointWhereThePinholeHasIt) {
-  // Principal point far from the middle, unequal focal lengths, a camera that stands and looks somewhere else.
+  // Principal point far from the centre, unequal focal lengths, a camera with another position and direction.
   const Lens lens{160, 120, 300.0, 280.0, 61.3, 70.8, {}};
   const Matrix3 R_world_camera = rotation_exp({0.2, -0.4, 0.7});
   const Vector3 t_world_camera(0.5, -1.0, 2.0);
@@ -54,7 +54,7 @@ TEST(RenderScene, PutsAPointWhereThePinholeHasIt) {
       povray_preamble() + povray_camera(lens, R_world_camera, t_world_camera) + glowing_ball(ball_world, 0.06, 0.5),
       {.width_px = 160, .height_px = 120, .rays_per_side = 9, .antialias_threshold = 0.0});
   const Blob blob = blob_in(image, 0.5);
-  // A small ball's image is an ellipse whose centre lies (radius/range)^2 farther out than its centre's image.
+  // A small sphere's image is an ellipse whose centre is (radius/range)^2 farther out than its centre's image.
   EXPECT_NEAR(blob.u_px, 61.3 + 300.0 * 0.12 / 3.0 * (1.0 + 4e-4), 0.02);
   EXPECT_NEAR(blob.v_px, 70.8 - 280.0 * 0.09 / 3.0 * (1.0 + 4e-4), 0.02);
   EXPECT_NEAR(blob.area_px2, std::numbers::pi * 300.0 * 280.0 * 4e-4, 0.5);

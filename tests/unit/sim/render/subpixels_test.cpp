@@ -46,13 +46,13 @@ TEST(BlurredSubpixels, AreSpreadAsPixelAndOpticsTogether) {
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_NEAR(moments.mean[k], 0.0, 1e-15);
       EXPECT_NEAR(moments.variance[k], blur_px * blur_px + 1.0 / 12.0,
-                  0.02 * (blur_px * blur_px + 1.0 / 12.0));  // 1024 places
+                  0.02 * (blur_px * blur_px + 1.0 / 12.0));  // 1024 samples
     }
   }
 }
 
 TEST(BlurredSubpixels, CoverAnEdgeAsTheBlurredStepAcrossIt) {
-  // The fraction of places left of an upright edge, against the error function averaged over the pixel.
+  // The fraction of samples left of a vertical edge, compared with the error function averaged over the pixel.
   const double blur_px = 0.5;
   const auto places = blurred_subpixels(1024, blur_px);
   for (const double edge : {-0.6, -0.2, 0.0, 0.3, 0.7}) {

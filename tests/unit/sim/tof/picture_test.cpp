@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the light before noise must show: the satellite's own measures.
+// The image before noise must show the satellite's dimensions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The noise is the noise that README.md states.
+// The noise is as stated in README.md.
 #include "tools/sim/tof/sensor.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TofPixels exposed(const IdealFrame& ideal, const SensorModel& sensor, std::uint6
   return expose(ideal, sensor_rays(), sensor, kNominal, kFine, RandomStream(seed, "sensor test"));
 }
 
-// Ranges minus what they should be.
+// Range errors.
 std::vector<double> errors(const TofPixels& pixels, double range_m) {
   std::vector<double> result;
   for (std::size_t i = 0; i < kPixels; ++i) {
@@ -44,7 +44,7 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// Mean of the products of errors `apart` columns from each other.
+// Covariance of errors at a distance of `apart` columns.
 double covariance(const std::vector<double>& error, int apart) {
   double sum = 0.0;
   int count = 0;

@@ -47,7 +47,7 @@ TEST(Align, IsRobustToNoiseAndOutlierPosesAndCountsThem) {
   EXPECT_LT(turn_deg(c.aligned.alignment.world.R, hidden.world.R), 0.03);
   EXPECT_LT((c.aligned.alignment.world.t - hidden.world.t).norm(), 1e-3);
   EXPECT_LT((c.aligned.alignment.body.t - hidden.body.t).norm(), 1e-3);
-  // The wild ones stay in the figures: 0.7 rad and 100 mm.
+  // The outliers remain in the figures: 0.7 rad and 100 mm.
   EXPECT_GT(c.figures.rotation.error.max * kDegPerRad, 39.0);
   EXPECT_GT(c.figures.position.error.max, 0.095);
   EXPECT_NEAR(c.figures.rotation.error.median * kDegPerRad, 1.538 * 0.1, 0.01);
@@ -89,7 +89,7 @@ TEST(Align, Se3FindsTheWorldsOnly) {
   EXPECT_LT(c.figures.ate_m, 1e-5);
 }
 
-/// Turns about the body's z only, while going round in a plane.
+/// Rotates only about the body's z, on a circle in a plane.
 class OneAxis final : public sim::Trajectory {
  public:
   sim::RoomFromBody at(double t) const override {

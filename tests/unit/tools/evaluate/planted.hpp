@@ -9,7 +9,8 @@
 
 namespace pharos::evaluate {
 
-/// What a test hides between ESTIMATE and TRUTH: the paper's frame (002, section 4.3), a marker body, a clock.
+/// Transformation that a test puts between ESTIMATE and TRUTH: the paper's frame (002, section 4.3), a marker body, a
+/// clock.
 inline Alignment planted_alignment() {
   return {{rotation_exp({-1.4620, 1.3741, -1.0023}), {0.680, 0.624, 2.884}},
           {rotation_exp({0.3, -0.2, 0.5}), {0.05, -0.03, 0.04}},
@@ -24,7 +25,7 @@ struct PlantedNoise {
   double stated_scale = 1.0;   // stated sigma per real sigma
 };
 
-/// `seconds` of ESTIMATE at 120 Hz along `motion` and TRUTH at 500 Hz, a little longer at both ends.
+/// `seconds` of ESTIMATE at 120 Hz along `motion`, and TRUTH at 500 Hz, slightly longer at both ends.
 struct Planted {
   TrajectoryFile<EstimatePose> estimate;
   TrajectoryFile<TruthPose> truth;

@@ -37,7 +37,7 @@ TEST(TrajectoryFile, TumAndTableSayTheSame) {
   }
 }
 
-// w first, times in ns, columns that are passed over, ends of lines as in the data set.
+// w first, times in ns, ignored columns, line ends as in the data set.
 TEST(TrajectoryFile, EurocGroundTruthSaysTheSame) {
   const File euroc = read(
       "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x\r\n"
@@ -54,7 +54,7 @@ TEST(TrajectoryFile, EurocGroundTruthSaysTheSame) {
   expect_refused("#timestamp\n1403636580838555648,1,2,x,0.8,0,0.6,0\n", "'x' is not a number");
 }
 
-// A comment with commas does not make a TUM file another one.
+// A comment with commas does not change the format of a TUM file.
 TEST(TrajectoryFile, TumMayHaveAnyComment) {
   EXPECT_EQ(read("# timestamp, tx, ty, tz, qx, qy, qz, qw\n1.5 1 2 3 0 0.6 0 0.8\n").samples.size(), 1u);
 }

@@ -125,7 +125,7 @@ std::vector<std::uint8_t> message_at(std::int64_t utime_us) {
   return bytes;
 }
 
-/// The file of true poses: the target rests at 1 m until `until_us`.
+/// The file of true poses: the target is stationary at 1 m until `until_us`.
 void write_truth(const std::filesystem::path& path, std::int64_t until_us) {
   std::ofstream(path) << "utime,qw,qx,qy,qz,tx_m,ty_m,tz_m\n0,1,0,0,0,0,0,1\n" << until_us << ",1,0,0,0,0,0,1\n";
 }
@@ -135,7 +135,7 @@ class ListenerWithTruth : public ::testing::Test {
   void SetUp() override { write_truth(path_, 1'000); }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  /// What is printed when one pose at `utime_us` comes and, `later_ns` after it, one whose truth is known.
+  /// Output for a pose at `utime_us` and, `later_ns` after it, one whose truth is known.
   std::string lines_of(std::int64_t utime_us, std::int64_t later_ns, std::int64_t truth_until_us) {
     Listener listener(ListenFormat::kLines, TruthFile(path_.string()));
     ::testing::internal::CaptureStdout();

@@ -11,7 +11,7 @@ namespace pharos::tools {
 namespace {
 
 TEST(SpreadOf, IsTheRootMeanSquareAboutTheMean) {
-  // Two rotations 2 deg either side of a half turn, where rotation vectors jump, and positions 3 mm apart.
+  // Two rotations 2 deg either side of a half turn, where rotation vectors are discontinuous, and positions 3 mm apart.
   const Matrix3 half_turn = rotation_exp({kPi, 0.0, 0.0});
   std::vector<LighthouseFromBody> poses;
   for (const double side : {-1.0, 1.0}) {

@@ -36,7 +36,7 @@ TEST_F(CalibrationFileTest, FindsStationsByIdAndBySlot) {
   EXPECT_EQ(survey.find(0, 0x12345678u), nullptr);
   EXPECT_EQ(survey.find(0, std::nullopt), nullptr);
   ASSERT_NE(survey.find(1, std::nullopt), nullptr);
-  EXPECT_EQ(survey.find(1, 0xBEC08E38u)->rotor[0].tilt_rad, 0.003);  // the slot decides before the id
+  EXPECT_EQ(survey.find(1, 0xBEC08E38u)->rotor[0].tilt_rad, 0.003);  // the slot has priority over the id
   EXPECT_EQ(survey.pair, nullptr);
 }
 

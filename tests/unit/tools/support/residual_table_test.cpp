@@ -15,7 +15,7 @@ namespace {
 TEST(RunningMoments, AgreeWithTheirDefinition) {
   RunningMoments moments;
   EXPECT_EQ(moments.deviation(), std::nullopt);
-  // Far from zero: the plain sum of squares would lose every digit.
+  // Far from zero: a simple sum of squares would lose every digit.
   for (const double value : {1e9 + 1.0, 1e9 + 2.0, 1e9 + 4.0}) moments.push(value);
   EXPECT_EQ(moments.count(), 3);
   EXPECT_DOUBLE_EQ(moments.mean(), 1e9 + 7.0 / 3.0);
