@@ -9,8 +9,8 @@
 namespace pharos::pointing {
 namespace {
 
-// Of a profile to either side. Shorter ones (2.5) end before a panel's cells and suit 100 m better, but from 1 km on
-// their axes err by 1.5 times what is stated.
+// Half length of a profile, sigmas of blur. Shorter ones (2.5) end before a panel's cells and are better at 100 m, but
+// from 1 km on the errors of their axes are 1.5 times the stated ones.
 constexpr double kReachSigmas = 4.0;
 constexpr double kMinReach_px = 3.5;
 constexpr double kMaxReach_px = 14.0;
@@ -18,11 +18,11 @@ constexpr double kFirstBlur_px = 1.2;
 constexpr double kMinBlur_px = 0.35;
 constexpr double kMaxBlur_px = 4.0;
 constexpr double kMaxOff_px = 2.5;      // from LSD's guess
-constexpr double kMaxOffLine_px = 0.8;  // from the edge's own line: what goes on beside it is another edge
+constexpr double kMaxOffLine_px = 0.8;  // from the edge's own line: farther points are of another edge
 constexpr double kMinContrast = 0.5;    // of the edge's median
 constexpr double kMaxContrast = 1.6;
-constexpr double kDarkness = 0.25;  // of the contrast: the dark side must be sky to that
-constexpr int kMaxMisses = 3;       // in a row, where an edge ends
+constexpr double kDarkness = 0.25;  // of the contrast: tolerance for the dark side to be sky
+constexpr int kMaxMisses = 3;       // in a row: an edge ends there
 constexpr double kCornerSigmas = 3.0;
 constexpr double kBorder_px = 3.0;
 constexpr int kSteps = 8;
@@ -31,7 +31,7 @@ constexpr double kSqrt2Pi = 2.5066282746310002;
 
 // The pixels of one row or column across the edge.
 struct Profile {
-  std::array<double, 64> position{};  // px across the edge, growing into the target
+  std::array<double, 64> position{};  // px across the edge, increasing into the target
   std::array<double, 64> value{};
   std::size_t size = 0;
 };
@@ -42,7 +42,7 @@ struct Rise {
   double residual = 0.0;  // sum of squares
 };
 
-// The Gaussian's integral and itself, by a table: to 5e-7, at a tenth of erfc's cost.
+// The Gaussian and its integral, by a table: accurate to 5e-7, at a tenth of erfc's cost.
 class RiseTable {
  public:
   RiseTable() {
@@ -73,7 +73,8 @@ const RiseTable& rise_table() {
   return table;
 }
 
-// Least squares over place, dark and bright level, for a given blur: Gauss-Newton on the place, the levels solved for.
+// Least squares over position, dark and bright level, for a given blur: Gauss-Newton on the position, the levels are
+// eliminated.
 std::optional<Rise> fit_rise(const Profile& profile, double blur, double start) {
   const RiseTable& table = rise_table();
   const auto n = static_cast<double>(profile.size);
@@ -98,7 +99,7 @@ std::optional<Rise> fit_rise(const Profile& profile, double blur, double start) 
     const double height = (n * fy - f * y) / determinant;
     rise.dark = (y - height * f) / n;
     rise.bright = rise.dark + height;
-    // The place's own derivative, with what the levels can take over taken out.
+    // The derivative by the position, with the levels projected out.
     const double by_height = (n * sf - f * s) / determinant, by_dark = (s - by_height * f) / n;
     double pp = 0.0, pr = 0.0;
     rise.residual = 0.0;
@@ -117,12 +118,12 @@ std::optional<Rise> fit_rise(const Profile& profile, double blur, double start) 
   return rise;
 }
 
-// Walks along the line in steps of one row or column, whichever it crosses more squarely.
+// Steps along the line by one row or column, whichever is closer to perpendicular.
 class EdgeScan {
  public:
   EdgeScan(ImageView<const std::uint16_t> image, const Segment& line) : image_(image), line_(line) {
     const Vector2 across = line.across();
-    along_rows_ = std::abs(across.x()) >= std::abs(across.y());  // the profile is a piece of a row
+    along_rows_ = std::abs(across.x()) >= std::abs(across.y());  // the profile is part of a row
     slope_ = along_rows_ ? across.x() : across.y();
     const Vector2 d = line.along();
     step_ = along_rows_ ? d.y() : d.x();
@@ -158,7 +159,7 @@ class EdgeScan {
     return result;
   }
 
-  /// The pixel place of a rise at `across` px from the line in this row or column.
+  /// The pixel position of a rise at `across` px from the line in this row or column.
   Vector2 place(int index, double across) const {
     Vector2 result = crossing(index);
     (along_rows_ ? result.x() : result.y()) += across / slope_;
@@ -169,7 +170,7 @@ class EdgeScan {
   ImageView<const std::uint16_t> image_;
   Segment line_;
   bool along_rows_ = false;
-  double slope_ = 1.0;  // how much further across the edge the next pixel of a profile is
+  double slope_ = 1.0;  // distance across the edge from a pixel of a profile to the next
   double step_ = 1.0;
 };
 
@@ -179,7 +180,7 @@ struct Sample {
   double contrast = 0.0;
 };
 
-// What a good point of this edge looks like.
+// Properties of a valid point of this edge.
 struct ScanSettings {
   double blur = kFirstBlur_px;
   double contrast = 0.0;  // 0: not known yet
@@ -293,7 +294,7 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
   edge.extent = guess;
   ScanSettings settings;
   settings.reach_px = std::min(6.0, std::max(2.5, reach_px));
-  // Along the guess, then anew along what was found, with the edge's own blur and contrast.
+  // Along the guess, then again along the fitted line, with the edge's own blur and contrast.
   Segment line = guess;
   for (int round = 0; round < 2; ++round) {
     const EdgeScan scan(image, line);

@@ -9,19 +9,18 @@
 
 namespace pharos::pointing {
 
-/// An edge seen closely: where grey rises from sky to target, in every row (or column) that it crosses.
+/// Sub-pixel points of an edge: the position of the rise from sky to target, in every row (or column) that it crosses.
 struct MeasuredEdge {
-  std::vector<pointing::EdgePoint> points;  ///< in order along the edge, in the image as it was taken
+  std::vector<pointing::EdgePoint> points;  ///< in order along the edge, in the distorted image
   Segment extent;                           ///< as far as the edge was followed, corners included
   double blur_px = 0.0;                     ///< sigma of the rise
   bool cut = false;                         ///< runs into the image's border
 };
 
-/// Sub-pixel places of an edge on the grey image, by a Gaussian's integral fitted to each row's or column's pixels.
-///
-/// `guess` runs with the target on its positive side; `reach_px` is how far across it pixels belong to this edge alone.
-/// Points whose dark side is not the sky (something stands before it) are left out. The edge is followed beyond the
-/// guess' ends as far as it goes; corners are left out. Empty points where no edge is there.
+/// Sub-pixel positions of an edge on the grey image, by a Gaussian's integral fitted to each row's or column's pixels.
+/// `guess` has the target on its positive side; within `reach_px` across it pixels belong to this edge alone. Points
+/// whose dark side is not the sky (another part is there) are left out. The edge is followed beyond the guess' ends to
+/// its own; corners are left out. No points where there is no edge.
 MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask& target, const Segment& guess,
                           double reach_px);
 

@@ -11,11 +11,11 @@ namespace {
 
 // A satellite's outline has some dozens.
 constexpr std::size_t kMaxSegments = 4096;
-// OpenCV's own scale, and what larger images are looked at with: its time goes by pixels, of which it sorts all. Edges
-// are then found to a pixel, and refitted on the grey image anyway.
+// OpenCV's default scale, and the smallest for larger images: its time is proportional to the pixels, all of which it
+// sorts. Edges are then found to a pixel, and refitted on the grey image anyway.
 constexpr double kUsualScale = 0.8;
 constexpr double kMinScale = 0.4;
-constexpr double kMaxPixels = 80'000.0;  // after scaling: panels of 300 px are looked at as they are
+constexpr double kMaxPixels = 80'000.0;  // after scaling: panels of 300 px are not reduced
 
 double scale_for(ImageView<const std::uint8_t> image) {
   return std::clamp(std::sqrt(kMaxPixels / static_cast<double>(image.pixels())), kMinScale, kUsualScale);

@@ -19,7 +19,7 @@ using pointing::LineFit;
 
 constexpr double kReachFraction = 0.45;    // of the distance to the opposite edge
 constexpr double kMinSeenFraction = 0.45;  // of a short edge's length
-constexpr double kOneLineChi2 = 18.0;      // of two edges as one line, two degrees of freedom: 99.99 %
+constexpr double kOneLineChi2 = 18.0;      // of two edges fitted as one line, two degrees of freedom: 99.99 %
 constexpr double kMinAspect = 1.3;         // of a lone panel; a body is as long as wide
 constexpr double kSureSigma_rad = 5.0 * kRadPerDeg;
 constexpr double kPlaneOnlySigma_rad = 20.0 * kRadPerDeg;
@@ -30,7 +30,7 @@ constexpr double kLongEdge_px = 30.0;
 struct Side {
   std::vector<EdgePoint> points;
   LineFit fit;
-  Segment extent;  // in the image as it was taken
+  Segment extent;  // in the distorted image
   double blur_px = 0.0;
   bool cut = false;
 };
@@ -89,7 +89,7 @@ Result<Panel, PointingRefusal> measured_panel(ImageView<const std::uint16_t> ima
 
 double squares(const LineFit& fit) { return fit.rms_px * fit.rms_px * static_cast<double>(fit.points); }
 
-// Two edges that are pieces of one line: the fit of both, if it is no worse than each by itself.
+// Two edges that are parts of one line: the joint fit, if it is not worse than the separate ones.
 std::optional<LineFit> as_one_line(const Side& a, const Side& b) {
   std::vector<EdgePoint> points = a.points;
   points.insert(points.end(), b.points.begin(), b.points.end());
@@ -111,7 +111,7 @@ void add_plane(AxisPlanes& planes, std::vector<Segment>& edges, const LineFit& f
   edges.push_back({fit.begin_px, fit.end_px});
 }
 
-// A wing's four long edges as two lines, where they are.
+// A wing's four long edges as two lines, where they fit.
 void add_long_sides(PanelMeasurement& result, const std::vector<Panel>& panels, const PinholeCamera& camera) {
   if (panels.size() == 1) {
     add_plane(result.long_planes, result.long_edges, panels[0].first.fit, camera);
@@ -119,7 +119,7 @@ void add_long_sides(PanelMeasurement& result, const std::vector<Panel>& panels, 
     return;
   }
   for (const Side* one : {&panels[0].first, &panels[0].second}) {
-    // Edges that run the same way round are on the same side of the wing.
+    // Edges with the same orientation are on the same side of the wing.
     const bool same_way = one->extent.along().dot(panels[1].first.extent.along()) > 0.0;
     const Side& other = same_way ? panels[1].first : panels[1].second;
     if (const auto both = as_one_line(*one, other)) {
@@ -151,8 +151,8 @@ PanelMeasurement measurement_of(const std::vector<Panel>& panels, const PinholeC
   return result;
 }
 
-// How much longer the long sides are than the short ones in space, from perspective; nothing where it does not tell.
-// One end is enough: it is square to the axis.
+// Ratio of the long sides to the short ones in space, from perspective; empty where it is not determined. One end
+// suffices: it is perpendicular to the axis.
 std::optional<double> aspect_in_space(const PanelMeasurement& panel, const PinholeCamera& camera) {
   if (panel.short_planes.empty() || panel.long_planes.size() != 2) return std::nullopt;
   const auto axis = pointing::estimate_axis({panel.long_planes.data(), 2});
@@ -232,10 +232,10 @@ PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSi
   for (const pointing::AxisPlane& plane : panel.long_planes)
     answer.planes_station.push_back(pointing::rotated(plane, R));
   const auto axis = pointing::estimate_axis({answer.planes_station.data(), answer.planes_station.size()});
-  if (!axis) return answer;  // two finite planes always have one
+  if (!axis) return answer;  // two finite planes always have an axis
   answer.axis = *axis;
   answer.axis.axis = pointing::signed_axis(axis->axis);
-  // Edges that contradict each other tell less than each of them says.
+  // Edges that contradict each other have a larger uncertainty than stated for each.
   if (axis->degrees_of_freedom > 0) {
     const double widening = std::max(1.0, axis->chi2 / axis->degrees_of_freedom);
     answer.axis.covariance *= widening;
@@ -247,7 +247,7 @@ PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSi
     const auto across = pointing::estimate_axis({panel.short_planes.data(), panel.short_planes.size()});
     if (!across) return answer;
     const Vector3 side = R * across->axis;
-    // Along either axis the angle changes as its component towards the other.
+    // Derivative of the angle by either axis: the component towards the other.
     const Vector3& d = answer.axis.axis;
     const double cosine = std::clamp(std::abs(d.dot(side)), 0.0, 1.0);
     answer.square_rad = std::acos(cosine);

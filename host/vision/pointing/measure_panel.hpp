@@ -15,15 +15,15 @@
 
 namespace pharos::pointing {
 
-/// What a reader of an image's answer should know beside its sigmas.
+/// Flags of an image's result.
 enum PointingFlag : std::uint8_t {
-  /// One panel alone: no second one in line says which of its sides is the axis.
+  /// A single panel: no second one in line determines which of its sides is the axis.
   kFlagOnePanel = 1U << 0U,
-  /// Along the plane the axis is not known (sigma above 20 deg): only the plane is.
+  /// The axis is not determined within the plane (sigma above 20 deg): only the plane is.
   kFlagPlaneOnly = 1U << 1U,
   /// Long and short side are not at right angles by more than 3 sigma and 0.5 deg: not the sides of one rectangle.
   kFlagNotSquare = 1U << 2U,
-  /// A second panel runs out of the image and was not used.
+  /// A second panel extends beyond the image and was not used.
   kFlagPanelCut = 1U << 3U,
 };
 inline constexpr std::array<FlagWord, 4> kPointingFlagWords = {{{kFlagOnePanel, "one_panel"},
@@ -37,15 +37,15 @@ struct PanelMeasurement {
   pointing::AxisPlanes short_planes;
   std::vector<Segment> long_edges;  ///< in the ideal image, for pictures
   std::vector<Segment> short_edges;
-  std::vector<Segment> outline;  ///< every edge of the outline, in the image as it was taken
+  std::vector<Segment> outline;  ///< every edge of the outline, in the distorted image
   int panels = 0;
   double rms_px = 0.0;   ///< of the long edges' points
   double blur_px = 0.0;  ///< sigma of their rise from sky to panel
   std::uint8_t flags = 0;
 };
 
-/// The image half of paper 003 (2.1): Otsu's threshold, segments, the panel's edges among them, each refitted on the
-/// grey image. Throws host::InputError where OpenCV's module is missing.
+/// The image processing of paper 003 (2.1): Otsu's threshold, segments, the panel's edges among them, each refitted on
+/// the grey image. Throws host::InputError where OpenCV's module is missing.
 Result<PanelMeasurement, PointingRefusal> measure_panel(ImageView<const std::uint16_t> image,
                                                         const PinholeCamera& camera);
 

@@ -9,15 +9,15 @@ namespace {
 
 constexpr double kMaxTurn = 0.05;          // rad between segments of one edge
 constexpr double kMaxOutlineOff_px = 1.6;  // of a segment's ends from the edge that it continues
-constexpr double kOffPerLength = 0.004;    // and for every pixel away: LSD's own ends are that good
+constexpr double kOffPerLength = 0.004;    // and for every pixel of distance: accuracy of LSD's ends
 constexpr double kMaxGap_px = 10.0;
 constexpr double kMaxGapFraction = 0.1;  // the body between a wing's panels is more
 constexpr double kMinLength_px = 6.0;
-constexpr double kBeside_px = 3.0;  // where the two sides of an edge are looked at
+constexpr double kBeside_px = 3.0;  // distance at which the two sides of an edge are sampled
 constexpr int kLooks = 7;
 
-// What Otsu's threshold makes of the image, but with the grey steps of its edges left in: LSD tells directions by them.
-// Twice the threshold's height over the sky is white, so that nothing inside the target makes an edge.
+// The image clipped around Otsu's threshold, with the grey steps of its edges, from which LSD computes directions.
+// Twice the threshold's height over the sky is white, so that there are no edges inside the target.
 std::vector<std::uint8_t> clipped(ImageView<const std::uint16_t> image, const TargetMask& target) {
   const Box& box = target.box;
   const double scale = 127.5 / std::max(1.0, target.threshold - target.sky);
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> clipped(ImageView<const std::uint16_t> image, const Ta
   return grey;
 }
 
-// How much more of the target lies on the positive side than on the other: -1 to 1.
+// Target's fraction on the positive side minus that on the other: -1 to 1.
 double side_of_target(const TargetMask& target, const Segment& segment) {
   const Vector2 step = kBeside_px * segment.across();
   int more = 0;

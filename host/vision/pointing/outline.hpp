@@ -8,12 +8,11 @@
 
 namespace pharos::pointing {
 
-/// The target's outline against the sky as straight edges, longest first; segments of one edge are one. Each runs so
-/// that the target lies on the positive side of across().
+/// The target's outline against the sky as straight edges, longest first; segments of one edge are joined. Each is
+/// oriented with the target on the positive side of across().
 std::vector<Segment> outline_edges(ImageView<const std::uint16_t> image, const TargetMask& target);
 
-/// Segments that continue each other joined: in one line, the same way round, no gap longer than a tenth of what is
-/// joined.
+/// Joins collinear segments of the same orientation, with gaps of at most a tenth of the joined length.
 std::vector<Segment> joined(std::vector<Segment> segments);
 
 }  // namespace pharos::pointing

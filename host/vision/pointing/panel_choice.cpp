@@ -17,7 +17,7 @@ constexpr double kMinFill = 0.85;       // of the strip between the edges
 constexpr double kWingTurn = 0.08;      // rad between the middle lines of a wing's panels
 constexpr double kWingOff = 0.35;       // of one's middle from the other's line, in separations
 constexpr double kWingWidths = 1.7;     // ratio of separations
-constexpr double kWingBonus = 1.6;      // a second panel in line is no accident
+constexpr double kWingBonus = 1.6;      // a second panel in line is unlikely by chance
 
 double fraction_filled(const TargetMask& target, const Segment& middle, double separation) {
   constexpr int kAlong = 16, kAcross = 5;
@@ -35,7 +35,7 @@ double fraction_filled(const TargetMask& target, const Segment& middle, double s
   return static_cast<double>(inside) / (kAlong * kAcross);
 }
 
-// Edges run with the target on their positive side, so two that face each other run opposite ways.
+// Edges have the target on their positive side, so facing ones have opposite directions.
 std::optional<EdgePair> pair_of(const Segment& a, const Segment& b, const TargetMask& target) {
   const double turn = std::acos(std::clamp(-a.along().dot(b.along()), -1.0, 1.0));
   if (turn > kMaxConvergence) return std::nullopt;

@@ -9,9 +9,9 @@
 
 namespace pharos::pointing {
 
-/// Two edges that face each other with target between them: the long sides of a panel, or any other pair.
+/// Two facing edges with target between them: the long sides of a panel, or any other pair.
 struct EdgePair {
-  Segment first, second;    ///< first runs along the pair, second the other way
+  Segment first, second;    ///< first has the pair's direction, second the opposite
   Segment middle;           ///< the line between them, where they overlap
   double separation = 0.0;  ///< px
 };
@@ -24,8 +24,8 @@ struct PanelChoice {
 /// Pairs of edges by length, slope, end points and mutual convergence.
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target);
 
-/// The panel's long sides among an outline's edges: two pairs in one line (both panels of a wing) before one alone, the
-/// longer before the shorter; body, truss and stars make shorter pairs or none. Empty where there is none.
+/// The panel's long sides among an outline's edges: two pairs in one line (both panels of a wing) are preferred to one,
+/// longer to shorter; body, truss and stars give shorter pairs or none. Empty where there is none.
 std::optional<PanelChoice> choose_panels(const std::vector<Segment>& edges, const TargetMask& target);
 
 }  // namespace pharos::pointing

@@ -5,21 +5,21 @@
 
 namespace pharos::pointing {
 
-/// Why an image has no answer.
+/// Why an image has no result.
 enum class PointingRefusal : std::uint8_t {
   kWrongSize,      // not the camera file's
-  kBlack,          // nothing stands out of the noise
-  kSaturated,      // the target is overexposed: its edges are not where they seem
+  kBlack,          // no signal above the noise
+  kSaturated,      // the target is overexposed: its edges are displaced
   kStarsOnly,      // spots, none of them large enough for a target
-  kStarsBrighter,  // no panel, and something small outshines what is there
+  kStarsBrighter,  // no panel, and a small object is brighter than the target
   kNoPanel,        // a target without two parallel edges against the sky
   kOneEdge,        // one long edge without a parallel one
-  kCutByBorder,    // an edge runs into the image's border
-  kEdgeUnsure,     // an edge that is no straight line once seen closely
-  kOutsideLens,    // an edge where the camera file's lens model has no rays
+  kCutByBorder,    // an edge reaches the image's border
+  kEdgeUnsure,     // an edge that is not a straight line at sub-pixel accuracy
+  kOutsideLens,    // an edge outside the domain of the camera file's lens model
 };
 const char* name_of(PointingRefusal refusal);
-/// For people: what it means and what to do.
+/// Message for the user: the meaning and what to do.
 const char* advice_of(PointingRefusal refusal);
 
 }  // namespace pharos::pointing

@@ -21,13 +21,13 @@ struct Segment {
     return {-d.y(), d.x()};
   }
   Vector2 middle() const { return 0.5 * (begin + end); }
-  /// Signed distance of a place from the line.
+  /// Signed distance of a point from the line.
   double offset(const Vector2& place) const { return across().dot(place - begin); }
-  /// Where a place lies along it: 0 at the beginning.
+  /// Coordinate of a point along it: 0 at the beginning.
   double station(const Vector2& place) const { return along().dot(place - begin); }
 };
 
-/// OpenCV's line segment detector (von Gioi 2010). Throws host::InputError where it cannot take the image.
+/// OpenCV's line segment detector (von Gioi 2010). Throws host::InputError where it cannot process the image.
 std::vector<Segment> find_segments(ImageView<const std::uint8_t> image);
 
 }  // namespace pharos::pointing

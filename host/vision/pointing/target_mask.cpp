@@ -8,7 +8,7 @@ namespace pharos::pointing {
 namespace {
 
 constexpr double kSaturatedValue = 65535.0 * 0.998;
-constexpr double kMaxSaturated = 0.25;  // share of the target's pixels
+constexpr double kMaxSaturated = 0.25;  // fraction of the target's pixels
 constexpr double kStandsOut = 6.0;      // sigmas of the sky
 constexpr double kBlack = 10.0;         // sigmas between the sky and the brightest thousandth of a percent
 constexpr std::size_t kMinPixels = 40;  // of a target: a panel of 20 x 2
@@ -24,7 +24,7 @@ struct Piece {
   double sum = 0.0;
 };
 
-// A stretch of one row above the level, and its piece.
+// A run of pixels of one row above the level, and its component.
 struct Run {
   std::int32_t row = 0, left = 0, right = 0;
   std::size_t piece = 0;
@@ -55,7 +55,7 @@ std::size_t root_of(std::vector<Run>& runs, std::size_t k) {
   return k;
 }
 
-// Each run's piece becomes the first run that it hangs together with (eight neighbours).
+// Each run's component becomes the first run that it is connected with (eight neighbours).
 void join_runs(std::vector<Run>& runs) {
   std::size_t above = 0;
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -82,12 +82,12 @@ void add_run(Piece& piece, const Run& run, const std::uint16_t* row) {
   }
 }
 
-// Pixels above the level in connected pieces.
+// Connected components of the pixels above the level.
 Pieces pieces_above(ImageView<const std::uint16_t> image, double level) {
   Pieces pieces{{}, runs_above(image, level)};
   std::vector<Run>& runs = pieces.runs;
   join_runs(runs);
-  std::vector<std::size_t> number(runs.size());  // of a first run's piece
+  std::vector<std::size_t> number(runs.size());  // of a first run's component
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const std::size_t root = root_of(runs, k);
     if (root == k) {
@@ -118,7 +118,7 @@ Sky sky_of(ImageView<const std::uint16_t> image) {
   }
   const std::size_t median = rank_in(histogram, image.pixels() / 2);
   std::vector<std::uint32_t> deviations(65536);
-  std::size_t step = 65536;  // between values that occur: of 8 bits 257
+  std::size_t step = 65536;  // between occurring values: 257 for 8 bits
   std::size_t last = 65536;
   for (std::size_t value = 0; value < histogram.size(); ++value) {
     if (histogram[value] == 0) continue;
@@ -132,7 +132,7 @@ Sky sky_of(ImageView<const std::uint16_t> image) {
           static_cast<double>(rank_in(histogram, image.pixels() - 1 - image.pixels() / 100'000))};
 }
 
-// Square roots above the sky, in kBins steps up to the brightest.
+// Histogram of square roots above the sky, in kBins steps up to the brightest.
 double otsu_threshold(ImageView<const std::uint16_t> image, const Box& box, double sky, double brightest,
                       const std::vector<std::uint8_t>& stars) {
   std::vector<std::uint32_t> values(65536);
@@ -177,7 +177,7 @@ Box box_around(const std::vector<Piece>& pieces, const Piece& main, ImageView<co
   return box;
 }
 
-// Within the box: what belongs to pieces that are not the target's.
+// Within the box: pixels of components that are not the target.
 std::vector<std::uint8_t> stars_in(const Box& box, const Pieces& pieces, const Piece& main) {
   std::vector<std::uint8_t> stars(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
   for (const Run& run : pieces.runs) {

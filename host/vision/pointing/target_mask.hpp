@@ -20,7 +20,7 @@ struct TargetMask {
   double sky = 0.0;                ///< median grey value of the sky
   double noise = 0.0;              ///< its standard deviation
   double threshold = 0.0;          ///< Otsu's between sky and target
-  bool has_brighter_star = false;  ///< something small is brighter than most of the target
+  bool has_brighter_star = false;  ///< a small object is brighter than most of the target
   Box box;                         ///< the target with a margin of sky
   std::vector<std::uint8_t> mask;  ///< of the box, row by row: 1 where the target is
 
@@ -34,8 +34,8 @@ struct TargetMask {
 /// Otsu's threshold (1979) of values in a histogram of equal steps: the last bin of the lower class.
 int otsu(const std::vector<std::uint32_t>& histogram);
 
-/// Tells the target from sky and stars: what stands out of the sky's noise, its largest connected piece and what is
-/// large beside it, then Otsu's threshold between the square roots (evens out shot noise) of its box's values.
+/// Separates the target from sky and stars: pixels above the sky's noise, the largest connected component and others of
+/// similar size, then Otsu's threshold between the square roots (evens out shot noise) of its box's values.
 Result<TargetMask, PointingRefusal> find_target(ImageView<const std::uint16_t> image);
 
 }  // namespace pharos::pointing

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kImage = 0, kTime = 1, kAzimuth = 2, kElevation = 3;
 
-// A column that the file may have, and what its rows say.
+// An optional column and its values.
 class Optional {
  public:
   Optional(host::TableReader& table, const std::string& column, double low, double high)

@@ -13,17 +13,18 @@ namespace {
 using ring2::Contour;
 using ring2::Rig;
 
-// Before anything is fitted. The middle of an ellipse is off its circle's centre by some hundredths of the range, and
-// the long axis says a size to as much.
+// Tolerances before any fit. The centre of an ellipse differs from the image of its circle's centre by some hundredths
+// of the range, and the size from the long axis by as much.
 constexpr double kMaxGapPerRange = 0.04;
 constexpr double kMaxSizeRatio = 1.25;
-// Parallel circles on one axis, as far as single pairs tell: a nozzle's own tilt is good to half a degree.
+// Tolerances for parallel circles on one axis, measured by single pairs: a nozzle's own tilt is accurate to half a
+// degree.
 constexpr double kMaxTilt = 6.0 * kRadPerDeg;
 constexpr double kMaxOffAxisPerRadius = 0.05;
-// A nozzle is narrower than its ring by this, and not farther from it than so many of its radii.
+// A nozzle is narrower than its ring by this factor, and its distance from it is at most so many radii.
 constexpr double kMaxNozzlePerRing = 0.75;
 constexpr double kMaxDistancePerRing = 3.0;
-// Edges of one rim: circles nearer along the axis than this share of the ring's radius are one plane's.
+// Edges of one rim: circles nearer along the axis than this fraction of the ring's radius are in one plane.
 constexpr double kOnePlanePerRing = 0.04;
 
 std::optional<Vector3> ray_of(const ring2::RigView& view, const Contour& contour) {
@@ -32,7 +33,7 @@ std::optional<Vector3> ray_of(const ring2::RigView& view, const Contour& contour
   return (view.T_rig_camera.R * Vector3(ray->x(), ray->y(), 1.0)).eval();
 }
 
-// Depths along both rays where they come nearest to each other; empty where that is behind a camera or they miss.
+// Depths along both rays at their closest points; empty where that is behind a camera or they do not intersect.
 std::optional<std::array<double, 2>> meeting_of(const Vector3& left, const Vector3& right, const Vector3& baseline) {
   // left s - right t = baseline, least squares.
   const double a = left.dot(left), b = left.dot(right), c = right.dot(right);
@@ -67,7 +68,7 @@ std::optional<MatchedCircle> match_of(const Rig& rig, const Contour& left, const
   return MatchedCircle{{}, fit->ring_centre_m, fit->normal, fit->ring_radius_m};
 }
 
-// How far along the ring's axis a circle's centre lies, where it may be the ring's nozzle.
+// Position of a circle's centre along the ring's axis, if it may be the ring's nozzle.
 std::optional<double> distance_along(const MatchedCircle& ring, const MatchedCircle& nozzle) {
   if (nozzle.radius_m > kMaxNozzlePerRing * ring.radius_m) return std::nullopt;
   if (nozzle.normal.dot(ring.normal) < std::cos(kMaxTilt)) return std::nullopt;
@@ -80,7 +81,7 @@ std::optional<double> distance_along(const MatchedCircle& ring, const MatchedCir
   return along;
 }
 
-// The nozzle of a ring: the circle nearest to the cameras, and of one rim's edges the widest.
+// The nozzle of a ring: the circle nearest to the cameras, and of the edges of one rim the widest.
 const MatchedCircle* nozzle_of(const MatchedCircle& ring, std::span<const MatchedCircle> circles) {
   const MatchedCircle* best = nullptr;
   double best_along = 0.0;

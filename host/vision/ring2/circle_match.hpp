@@ -8,7 +8,7 @@
 
 namespace pharos::host {
 
-/// Two ellipses, one of each image, that are one circle in space.
+/// Two ellipses, one of each image, that are images of one circle in space.
 struct MatchedCircle {
   std::array<std::size_t, ring2::kViews> index{};  ///< of the ellipse in each view
   Vector3 centre_m = Vector3::Zero();
@@ -16,8 +16,8 @@ struct MatchedCircle {
   double radius_m = 0.0;
 };
 
-/// All such pairs: rays through the ellipses' middles that meet, sizes that agree, and a fit of the two that leaves no
-/// more than noise.
+/// All such pairs: rays through the ellipses' centres intersect, sizes agree, and the residual of the joint fit is
+/// within the noise.
 std::vector<MatchedCircle> matched_circles(const ring2::Rig& rig,
                                            const std::array<std::vector<ring2::Contour>, ring2::kViews>& contours);
 

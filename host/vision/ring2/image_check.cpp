@@ -13,11 +13,11 @@ namespace {
 constexpr double kBlackBelow = 0.02;
 constexpr double kMinContrast = 0.02;
 constexpr double kSaturatedFraction = 0.5;
-// So many of the pixels must reach a level for it to count: a few hot ones do not make light.
+// Fraction of the pixels that must reach a level, so that a few hot pixels do not count.
 constexpr double kBrightFraction = 0.001;
-// Every so many rows are looked at: shares of some thousand pixels need no more.
+// Only every so many rows are counted: fractions of some thousand pixels suffice.
 constexpr std::int32_t kRowStep = 4;
-// Neighbours mostly have one grey value: counted into one place each waits for the other.
+// Neighbours mostly have the same grey value: counting both in one bin would serialise the additions.
 constexpr std::size_t kLanes = 4;
 
 constexpr std::size_t kGreys = 256;

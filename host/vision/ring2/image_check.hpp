@@ -9,13 +9,13 @@ namespace pharos::host {
 
 enum class ImageDefect : std::uint8_t {
   kNone,
-  kBlack,      // hardly a grey value above the lowest: cover, no light
+  kBlack,      // almost no grey value above the lowest: lens cover, no light
   kSaturated,  // most of it at the highest value
-  kEven,       // bright, but nothing stands out from anything
+  kEven,       // bright, but without contrast
 };
 const char* name_of(ImageDefect fault);
 
-/// Whether an image can hold anything at all, by its grey values alone.
+/// Whether an image can be used, by its grey values alone.
 ImageDefect fault_of(ImageView<const std::uint16_t> image);
 
 }  // namespace pharos::host

@@ -19,7 +19,7 @@ constexpr double kMaxWidth = 0.2;
 constexpr double kWidthSigma = 0.1;
 // Nearer circles are one edge, found twice.
 constexpr double kMinWidth = 0.015;
-// How far an ellipse of the rim may lie off a circle in the rim's plane about its centre.
+// Largest deviation of an ellipse of the rim from a concentric circle in the rim's plane.
 constexpr double kMaxOff_px = 0.7;
 constexpr int kPlaces = 16;
 constexpr double kStep = 1e-6;  // of the numeric derivative, rad and m
@@ -36,7 +36,7 @@ Plane plane_of(const Ring2Estimate& estimate, Feature feature, const ring2::Vect
   return {normal, centre + (estimate.distance_m + step[ring2::kDistance]) * normal};
 }
 
-// What a contour would be in a plane: mean distance from the centre and the scatter about it.
+// A contour projected to a plane: mean distance from the centre and the scatter about it.
 struct InPlane {
   double radius_m = 0.0;
   double scatter_m = 0.0;
@@ -63,7 +63,7 @@ std::optional<InPlane> in_plane(const ring2::RigView& view, const Contour& conto
   return result;
 }
 
-// Variance of a contour's growth in all directions at once, px^2.
+// Variance of a contour's common radial displacement, px^2.
 double growth_variance(const Contour& contour) {
   const double c = std::cos(contour.ellipse.theta_rad), s = std::sin(contour.ellipse.theta_rad);
   const double a = 2.0 * contour.ellipse.a_px, b = 2.0 * contour.ellipse.b_px;
@@ -77,7 +77,7 @@ struct WiderEdge {
   InPlane seen;
 };
 
-// The edges of a rim beside the one that the estimate has.
+// The edges of a rim other than that of the estimate.
 struct OtherEdges {
   bool narrower = false;
   std::optional<WiderEdge> wider;
@@ -100,8 +100,8 @@ OtherEdges other_edges(const ring2::Rig& rig, const std::array<std::vector<Conto
   return edges;
 }
 
-// The radius becomes that of the wider edge. It is as well known as plane and centre are, and the contour itself: which
-// errs in its size as much as in its shape, where shadow or body lent it edge points, however many it has.
+// The radius becomes that of the wider edge. Its variance is from that of plane and centre and from the contour itself,
+// whose error in size is as large as in shape where edge points of shadow or body were included, whatever their number.
 void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& edge, Ring2Estimate& estimate) {
   const ring2::RigView& view = rig.views[edge.view];
   ring2::Vector8 slope = ring2::Vector8::Zero();

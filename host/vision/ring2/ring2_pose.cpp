@@ -10,7 +10,7 @@ namespace {
 using Matrix65 = Eigen::Matrix<double, 6, 5>;
 
 constexpr double kAnyTurn_rad2 = std::numbers::pi * std::numbers::pi / 3.0;
-// Beyond that the rig's x axis tells no direction across the normal.
+// Beyond that the rig's x axis does not determine a direction across the normal.
 constexpr double kMaxAlongX = 0.99;
 
 Pose<frame::Rig, frame::Target> pose_of(const Vector3& normal, const Vector3& centre_m) {

@@ -6,7 +6,7 @@
 
 namespace pharos::host {
 
-/// The rig of a rig file, as the core takes it.
+/// Converts the rig of a rig file to the core's type.
 inline ring2::Rig ring2_rig(const RigFile& file) {
   return {{{{file.left.intrinsics, file.left.pose()}, {file.right.intrinsics, file.right.pose()}}}};
 }

@@ -75,8 +75,8 @@ TEST(PointingCampaign, AtAHundredMetresSingleImagesGiveTheAxis) {
   EXPECT_LE(Figures::median(figures.plane_deg), 0.02);
   EXPECT_GE(figures.axis_rms(), 0.8);
   EXPECT_LE(figures.axis_rms(), 1.2);
-  // The plane's sigma is a quarter too wide (0.77): profiles reach a panel's cells, whose steps err mirrored on
-  // opposite edges.
+  // The plane's sigma is a quarter too large (0.77): profiles reach a panel's cells, whose steps shift opposite edges
+  // in mirrored directions.
   EXPECT_GE(figures.plane_rms(), 0.7);
   EXPECT_LE(figures.plane_rms(), 1.2);
   EXPECT_LE(figures.maximum(figures.square_deg), 0.3);
@@ -124,12 +124,12 @@ TEST_P(PointingCampaignPass, ReportsTheAxisUnderItsLawAndRejectsAnother) {
     const auto panel =
         measure_panel(sim::pointing_image(scenario, k, kSeed).view(), sim::optics_as<PinholeCamera>(scenario.camera));
     if (!panel) continue;
-    // No ranges: what an optical station knows.
+    // No ranges, as at an optical station.
     images.push_back({{view.time_s, sight_of(view), 0.0}, answer_of(*panel, sight_of(view)).planes_station});
   }
   const pointing::PassSolution answer = solve(scenario, law, images);
   ASSERT_FALSE(answer.failure) << name << " " << pointing::name_of(*answer.failure);
-  // The truth in the middle of the pass lies between two images.
+  // The middle of the pass is between two images.
   const std::size_t half = scenario.views.size() / 2;
   const Vector3 truth =
       (scenario.views[half - 1].R_station_body.col(0) + scenario.views[half].R_station_body.col(0)).normalized();
@@ -142,7 +142,7 @@ TEST_P(PointingCampaignPass, ReportsTheAxisUnderItsLawAndRejectsAnother) {
     if (wrong == law) continue;
     EXPECT_EQ(solve(scenario, wrong, images).failure, pointing::PassFailure::kLawDoesNotFit) << name;
   }
-  // A nadir-locked axis does turn among the stars, once an orbit; an inertial one does not.
+  // A nadir-locked axis rotates once an orbit in inertial space; an inertial one does not.
   if (law == AttitudeLaw::kInertial) {
     EXPECT_EQ(solve(scenario, AttitudeLaw::kSpin, images).failure, pointing::PassFailure::kSpinNotSeen);
   }

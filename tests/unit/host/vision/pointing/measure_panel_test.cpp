@@ -73,7 +73,8 @@ TEST(MeasurePanel, UndoesTheLens) {
   PaintedPanel scene;
   scene.set_axis(0.4, 0.3);
   host::GreyImage image = scene.image();
-  // The same picture through a lens file that bends it: another line, another axis; without the bend the true one.
+  // The same image with a lens file that has distortion: another line, another axis; without the distortion the true
+  // one.
   PinholeCamera bent = scene.camera;
   bent.distortion = {-3.0, 0.0, 0.0, 0.0, 0.0};
   const auto straight = measure_panel(image.view(), scene.camera), curved = measure_panel(image.view(), bent);
@@ -123,7 +124,7 @@ TEST(MeasurePanelRefuses, ADimTargetWithoutAPanelAmongBrighterStars) {
 TEST(MeasurePanelRefuses, AnEdgeBeyondWhatTheLensModelReaches) {
   PaintedPanel scene;
   scene.set_axis(0.4, 0.2);
-  // This lens folds its image back well before the panel's ends.
+  // This lens model is not invertible beyond a radius well inside of the panel's ends.
   PinholeCamera folded = scene.camera;
   folded.distortion = {-400.0, 0.0, 0.0, 0.0, 0.0};
   EXPECT_EQ(refusal_of(scene.image(), folded), PointingRefusal::kOutsideLens);
@@ -133,7 +134,7 @@ TEST(MeasurePanelRefuses, ATargetWithOneEdgeOnly) {
   PaintedPanel scene;
   scene.set_axis(0.4, 0.0);
   host::GreyImage image = scene.image();
-  // Half of the panel fades into the sky: one long edge is left.
+  // Half of the panel fades into the sky: one long edge remains.
   const Matrix3 R = pointing::camera_to_station(scene.sight);
   const Vector3 axis = R.transpose() * scene.axis_station;
   const Vector2 across(-axis.y(), axis.x());

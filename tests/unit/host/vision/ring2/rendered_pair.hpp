@@ -13,7 +13,7 @@
 
 namespace pharos::host {
 
-/// How finely edges are rendered.
+/// Sampling of edges in the renderer.
 struct Rays {
   int per_side = 4;
   double threshold = 0.01;

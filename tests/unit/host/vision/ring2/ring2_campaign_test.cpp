@@ -9,8 +9,8 @@
 namespace pharos::host {
 namespace {
 
-// Fewer rays than `pharos sim stereo` has, and fewer places that get them: half the time. Edges are the rougher for it,
-// so what holds here holds there.
+// Fewer rays than in `pharos sim stereo`, at fewer positions: half the time. Edges are less accurate, so the limits
+// hold there too.
 constexpr Rays kQuick{3, 0.05};
 
 TEST(Ring2Campaign, AHundredRenderedAttitudes) {

@@ -13,7 +13,7 @@
 namespace pharos::host {
 namespace {
 
-// One pair for all tests, half the usual size: rendering is what costs.
+// One pair for all tests, half the usual size, because rendering takes most of the time.
 class Ring2DetectorTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -70,7 +70,7 @@ TEST_F(Ring2DetectorTest, ANozzleHiddenFromOneCameraIsDoneWithout) {
   const Ring2Detection all = find(*images_);
   ASSERT_TRUE(all.estimate.has_value());
   auto found = all.found;
-  // Whatever is smaller than the ring goes from the right image.
+  // Removes everything smaller than the ring from the right image.
   std::erase_if(found[1], [&](const ellipse::DetectedEllipse& e) {
     return e.ellipse.a_px < 0.6 * all.contours[1][0]->ellipse.a_px;
   });
@@ -80,7 +80,7 @@ TEST_F(Ring2DetectorTest, ANozzleHiddenFromOneCameraIsDoneWithout) {
   EXPECT_LT(angle_deg(three.estimate->normal, scenario_->target_at(0).normal), 0.2);
 }
 
-// What is found, without ellipses of a ring so large (of the outer edge's, in either view).
+// The detected ellipses without those of the size of a ring (of its outer edge, in each view).
 std::array<std::vector<ellipse::DetectedEllipse>, 2> without_ring_edges(const Ring2Detection& all, double minimum,
                                                                         double maximum, bool left, bool right) {
   auto found = all.found;
