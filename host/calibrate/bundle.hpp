@@ -66,6 +66,7 @@ struct BundleResult {
 /// Adjusts all unknowns together: sensor positions, rotor parameters, the second station's pose and the pose of every
 /// stationary interval, with Huber's loss at three sigma on each bearing. The body frame is the one in which the
 /// sensors that were hit lie on their nominal positions by least squares.
+///
 /// Cost: 30 intervals of 12 sensors take some 0.1 s, most of it the covariance: (parameters + 8 an interval and
 /// station)^3.
 BundleResult adjust(const BundleProblem& problem);

@@ -36,6 +36,7 @@ struct LighthouseCalibration {
 /// Calibrates target and stations. Throws host::InputError, one line saying what to do, where it cannot: the target was
 /// never stationary or never moved, fewer than six poses, a station without identity, two slots with one identity, more
 /// than two stations, lengths between unknown sensors or lengths that contradict all other measurements by five sigma.
+///
 /// Stationary intervals -> averages with their correlated noise -> a pose each -> bundle adjustment -> poses solved
 /// again with the calibrated parameters (corrects intervals solved as the mirror image) -> bundle adjustment. Residuals
 /// beyond the noise count as an error of every mean, so that the covariance is consistent for real stations.

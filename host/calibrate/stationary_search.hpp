@@ -25,6 +25,7 @@ struct StationarySearch {
 };
 
 /// Finds the intervals of half a second or more in which the target did not move.
+///
 /// Sweeps are grouped into blocks of 0.1 s. A block belongs to the interval before it while its mean angles agree with
 /// those of the interval, channel by channel (station, rotor, sensor), within five sigmas of the noisiest real
 /// recording (11 arcsec a sweep); four fifths of the channels, at least six, must agree, so that one reflection or hand

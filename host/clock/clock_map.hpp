@@ -26,10 +26,12 @@ struct ClockCounters {
 };
 
 /// Maps the target's 20 ns ticks to UTC, from the arrival times of frames.
+///
 /// A frame that contains an instant arrives after it, by a latency that is never negative and sometimes small. The map
 /// is the line under all delays (LowerEnvelope) in the host's monotonic clock, plus the difference of UTC to that
 /// clock, slewed smoothly (SteeredClock). The part of the latency that every frame has is not observable: the caller
 /// passes the part that is certain, the frame's transmission time. One false pair has no effect on the mapping.
+///
 /// When the host's clock is set by more than a second, UTC is set anew there, backwards too: `host_jumps` counts it and
 /// `last_jump_ns()` returns by how much, so that a caller can report why times went backwards.
 class ClockMap {

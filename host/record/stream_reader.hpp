@@ -14,6 +14,7 @@
 namespace pharos::host {
 
 /// A recorded serial stream, plain or gzip, chunk by chunk as received. Its bytes are input of report::LinkDecoder.
+///
 /// Damage loses only the chunks that it affects; dropped_bytes() counts it. A recording cut off in the middle of a
 /// chunk (power lost, disk full) gives all chunks before and reports it. Times are checked: a chunk whose monotonic
 /// time is before the last one's or more than kLongestSilence_ns after it, or whose clocks show no time of this

@@ -29,6 +29,7 @@ struct RecorderCounters {
 };
 
 /// Records a raw serial stream into a series of files `TARGET_YYYYMMDDTHHMMSSZ[_N].phraw`.
+///
 /// Never throws and never delays the poses: bytes that cannot be written (disk full, folder gone) are counted, reported
 /// by error(), and marked in the recording when it continues; writing is tried again once a second. Files always end
 /// with a complete chunk, and no file has only a head. One write() a chunk, no buffer: appended bytes survive a crash

@@ -11,6 +11,7 @@
 namespace pharos::host {
 
 /// Bytes of a file, of a gzip file (recognised by content, not by name) or, for the path `-`, of standard input.
+///
 /// Returns the available bytes without waiting for a full buffer, so that a live pipe is processed without delay.
 class ByteSource {
  public:

@@ -14,6 +14,7 @@ namespace pharos::host {
 
 /// A recording of light pulses: a table with the columns `sensor,rise_ticks,fall_ticks` (20 ns ticks, 32-bit or
 /// unwrapped, see TickColumn; other columns are ignored). About 8 M rows/s from a plain file, 4 M from gzip.
+///
 /// A last line without a line end was cut off in writing: it is dropped and ended_unfinished() is true. Anything else
 /// that is not a row of numbers is an InputError that names file, line and column. Values are not checked here: sensors
 /// above 31 (those above 255 as 255), implausible lengths and times are left to the decoder, which counts them.

@@ -18,6 +18,7 @@
 namespace pharos::host {
 
 /// A capture board's end of a serial line: the daemon reads the bytes written here from path().
+///
 /// The destructor disconnects it: the other side gets a hang-up.
 class PseudoTerminal {
  public:

@@ -15,6 +15,7 @@ namespace pharos::tools {
 
 /// The true poses that a simulator writes while it plays: `utime` (microseconds UTC) or `time_s` (seconds UTC), then
 /// `qw,qx,qy,qz,tx_m,ty_m,tz_m`, with a column `station` where there are two. Other columns are ignored.
+///
 /// The file may still grow: rows added since the last call are read when needed.
 class TruthFile {
  public:

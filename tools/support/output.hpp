@@ -23,6 +23,7 @@ struct OutputOptions {
 void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// Rows on standard output or in a file, as CSV or JSON lines.
+///
 /// A file is written under a temporary name in the same folder and renamed when it is complete: a failed run leaves the
 /// old one, and a recording that is also the output is read to its end before it is replaced.
 class Output {

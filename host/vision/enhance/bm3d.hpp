@@ -26,6 +26,7 @@ inline constexpr Bm3dSettings kVideoBm3d{6, 5, 8, 8, 16};
 /// Hadamard across the stack) and shrunk by a hard threshold; then again, matched on the first result, by the Wiener
 /// filter computed from it. Blocks of 8 x 8, wavelet 1.5 in the first step and DCT in the second, aggregated with
 /// Kaiser's window.
+///
 /// Reuses its buffers. The result is identical, bit by bit, for any number of threads. 640x480 on one core: some 0.5 s
 /// (kVideoBm3d 0.1 s); thresholds() 8 ms.
 class BlockDenoiser {

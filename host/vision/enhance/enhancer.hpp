@@ -47,6 +47,7 @@ struct Enhanced {
 };
 
 /// Low-light enhancement of single frames or of a video, after paper 004, section 1 (LIME, with BM3D).
+///
 /// Keeps its buffers, and the illumination of a frame as the start value for the next: one Enhancer a camera. Frames
 /// may change size; the next one is then computed without a start value. Cost of denoising: see BlockDenoiser. Not
 /// thread-safe; different Enhancers may be used in parallel.

@@ -10,6 +10,7 @@ namespace pharos::enhance {
 /// Solves (5) by conjugate gradients, preconditioned by one multigrid cycle: line sweeps in both directions as the
 /// smoother (links differ by five orders of magnitude, and lines follow the strong ones), 2x2 pixels to one, coarse
 /// grids of the same five-point form.
+///
 /// Stops where the error of the solution is below `tolerance` times its range (RMS): the estimate from the steps must
 /// be below a quarter of it. Reuses its buffers.
 class SmoothnessSolver {

@@ -18,6 +18,7 @@ struct MeasuredEdge {
 };
 
 /// Sub-pixel positions of an edge on the grey image, by a Gaussian's integral fitted to each row's or column's pixels.
+///
 /// `guess` has the target on its positive side; within `reach_px` across it pixels belong to this edge alone. Points
 /// whose dark side is not the sky (another part is there) are left out. The edge is followed beyond the guess' ends to
 /// its own; corners are left out. No points where there is no edge.

@@ -17,6 +17,7 @@ namespace pharos::slam {
 
 /// Implementation of SlamSystem: tracking in the caller's thread, mapping and loop closing after it or in their own
 /// threads.
+///
 /// One mutex protects map, tracker and recognition; adjustments work on copies without holding it.
 class Engine final : public SlamSystem {
  public:

@@ -9,6 +9,7 @@
 namespace pharos::slam {
 
 /// Ratio of left to right brightness of the same surface: cameras with automatic exposure differ.
+///
 /// Patches of the right image are compared with the left one's, and corner detection depends on contrast: the right
 /// image must be scaled to the left one's brightness first. Ratios within 8 % of 1 are not corrected.
 class ExposureRatio {

@@ -19,6 +19,7 @@ struct OrbSettings {
 /// ORB features of one image: FAST over each pyramid level and once more, for faint corners, in cells that have none;
 /// distributed by a quadtree; orientation and descriptor as Rublee 2011 (OpenCV's). Their positions are whole pixels of
 /// their levels.
+///
 /// Reuses its buffers; one instance a camera, not thread-safe.
 class OrbExtractor {
  public:

@@ -6,6 +6,7 @@
 namespace pharos::slam {
 
 /// Estimates the delay between the right and the left image of a pair.
+///
 /// Where the target moves up or down in the image, a right image that is late by a fraction of a frame shows it
 /// displaced by that fraction of the step. The slope of the row difference over the motion in rows, over many points
 /// and some seconds of frames, is the delay in frames. A wrong rectification causes row differences too, but not in

@@ -33,6 +33,7 @@ struct SlamPoint {
 };
 
 /// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017).
+///
 /// After a failure of one of its threads (no memory), push(), finish() and optimised_trajectory() throw
 /// std::runtime_error: the map may be inconsistent, and a new system is needed.
 class SlamSystem {

@@ -28,6 +28,7 @@ std::size_t table_one_pairs(const TableOneOptions& options);
 /// Table 1 of paper 004: each turn in good light, and in low light with and without enhancement; from 360 deg on also
 /// without loop closing. Rows: attitude RMSE, error of the last attitude, NEES (mean, per degree of freedom), frames
 /// without a pose, loops closed.
+///
 /// A shorter turn is the beginning of a longer one, image by image, so each run processes the longest once and is
 /// evaluated at the end of each (SlamSystem::optimised_trajectory). Runs in the same light use the same images.
 std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options);
