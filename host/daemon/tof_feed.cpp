@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "host/device/gige_module.hpp"
+#include "host/camera_link/camera_source.hpp"
 #include "host/device/recorded_source.hpp"
 
 namespace pharos::host {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kUsualRate_hz = 30.0;
 
 std::unique_ptr<FrameSource> frames_of(const TofConfig& config, ReplaySpeed speed) {
-  if (!config.is_recorded()) return open_gige_source(config.device);
+  if (!config.is_recorded()) return open_camera(config.device);
   const double asked_hz = config.device.frame_rate_hz;
   const double rate_hz = asked_hz > 0.0 ? asked_hz : kUsualRate_hz;
   return std::make_unique<RecordedSource>(config.frames.string(), config.device.width_px, config.device.height_px,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -58,5 +59,7 @@ struct DepthFrame {
   ImageView<const std::uint16_t> intensity_view() const { return {intensity.data(), width_px, height_px}; }
   ImageView<const std::uint16_t> depth_view() const { return {depth.data(), width_px, height_px}; }
 };
+
+using DepthFramePtr = std::unique_ptr<DepthFrame>;
 
 }  // namespace pharos::host

@@ -3,22 +3,28 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
-#include "host/device/frame_queue.hpp"
+#include "host/device/depth_frame.hpp"
 
 namespace pharos::host {
 
 // What a source counts, once by name. X(name, what it counts)
-#define PHAROS_FRAME_SOURCE_COUNTERS(X)                                                 \
-  X(frames_received, "whole frames of the right size and format")                       \
-  X(frames_incomplete, "frames with packets missing")                                   \
-  X(frames_missing, "frames of which nothing came, told by gaps in their numbers")      \
-  X(frames_wrong_size, "frames of another size or format than was agreed")              \
-  X(frames_unpaired, "depth frames whose intensity frame did not come, or the reverse") \
-  X(frames_dropped, "whole frames that gave way to newer ones: the loop was busy")      \
-  X(camera_opened, "times the camera was opened")                                       \
-  X(camera_lost, "times it was lost")                                                   \
-  X(camera_silences, "times it was opened anew because no frame came")
+#define PHAROS_FRAME_SOURCE_COUNTERS(X)                                                               \
+  X(frames_received, "whole frames of the right size and format")                                     \
+  X(frames_incomplete, "frames with packets missing")                                                 \
+  X(frames_missing, "frames of which nothing came, told by gaps in their numbers")                    \
+  X(frames_wrong_size, "frames of another size or format than was agreed")                            \
+  X(frames_out_of_order, "frames whose number cannot follow the last one's: another sender's")        \
+  X(frames_wrong_time, "frames whose time is not the camera's clock's: another sender's")             \
+  X(datagrams_discarded, "datagrams to the stream's port that were not the camera's, or had no room") \
+  X(frames_unpaired, "depth frames whose intensity frame did not come, or the reverse")               \
+  X(frames_dropped, "whole frames that gave way to newer ones: the loop was busy")                    \
+  X(camera_opened, "times the camera was opened")                                                     \
+  X(camera_lost, "times it was lost")                                                                 \
+  X(camera_silences, "times it was opened anew because no frame came")                                \
+  X(camera_process_deaths, "times the camera's process died and was started again")                   \
+  X(messages_refused, "messages of the camera's process that could not be")
 
 struct FrameSourceCounters {
 #define PHAROS_X(name, text) std::int64_t name = 0;
@@ -26,9 +32,10 @@ struct FrameSourceCounters {
 #undef PHAROS_X
 };
 
-/// Calls visit(name, value) for every counter.
-template <class Visitor>
-void for_each_counter(const FrameSourceCounters& counters, Visitor&& visit) {
+/// Calls visit(name, value) for every counter; the value may be changed where the counters may.
+template <class Counters, class Visitor>
+requires std::is_same_v<std::remove_const_t<Counters>, FrameSourceCounters>
+void for_each_counter(Counters& counters, Visitor&& visit) {
 #define PHAROS_X(name, text) visit(#name, counters.name);
   PHAROS_FRAME_SOURCE_COUNTERS(PHAROS_X)
 #undef PHAROS_X

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <string>
 
-#include "host/support/input_error.hpp"
-
 namespace pharos::host {
 
 struct ModuleFunction {
@@ -29,14 +27,6 @@ inline ModuleFunction find_module_function(const std::string& library, const cha
     if (result.why_not.empty() || std::filesystem::exists(place / library, error)) result.why_not = dlerror();
   }
   return result;
-}
-
-/// The same for a function that the command requires. Throws InputError saying what is missing.
-inline void* module_function(const std::string& library, const char* function) {
-  const ModuleFunction found = find_module_function(library, function);
-  if (found.function != nullptr) return found.function;
-  throw InputError(library + " cannot be loaded (" + found.why_not +
-                   "); build or install all of Pharos, and what `tools/install-dependencies build` names");
 }
 
 }  // namespace pharos::host

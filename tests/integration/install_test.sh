@@ -12,7 +12,7 @@ DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" || { c
 for file in bin/pharosd bin/pharos bin/pharos-example-subscriber lib/systemd/system/pharosd.service \
   lib/udev/rules.d/70-pharos.rules share/doc/pharos/README.md share/doc/pharos/subscribers.md \
   share/doc/pharos/examples/pharosd.toml share/doc/pharos/examples/target12.csv share/doc/pharos/examples/subscriber.cpp \
-  lib/pharos/libpharos_gige.so share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp; do
+  libexec/pharos/pharos-camera share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp; do
   [ -s "$root/usr/$file" ] || fail "/usr/$file is missing or empty"
 done
 [ ! -e "$root/etc" ] || fail "an installation must not touch /etc"
@@ -22,8 +22,10 @@ done
   fail "the example configuration is refused"
 "$root/usr/bin/pharosd" --version >/dev/null || fail "pharosd does not start"
 
-# The camera library must not burden those who have no camera, nor what ximgproc brings every command.
+# What pharosd starts for a camera is where it looks for it, beside its own folder; what cameras send is parsed there alone.
+"$root/usr/bin/../libexec/pharos/pharos-camera" --version >/dev/null || fail "pharos-camera does not start"
 if ldd "$root/usr/bin/pharosd" | grep -q aravis; then fail "pharosd links Aravis"; fi
+# What ximgproc brings must not burden every command.
 if ldd "$root/usr/bin/pharos" | grep -Eq 'imgcodecs|gdal'; then fail "pharos links OpenCV's imgcodecs"; fi
 
 # The unit names the installed program and, where systemd is there to say so, is sound.

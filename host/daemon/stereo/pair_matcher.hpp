@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/clock/clock_map.hpp"
-#include "host/device/frame_queue.hpp"
+#include "host/device/depth_frame.hpp"
 
 namespace pharos::host {
 

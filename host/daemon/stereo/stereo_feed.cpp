@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "host/camera_link/camera_source.hpp"
 #include "host/daemon/stereo/camera_pairs.hpp"
 #include "host/daemon/stereo/recorded_pairs.hpp"
 #include "host/daemon/stereo/ring2_estimator.hpp"
 #include "host/daemon/stereo/slam_estimator.hpp"
-#include "host/device/gige_module.hpp"
 
 namespace pharos::host {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoConfig& config) {
   if (!config.is_recorded()) {
     return std::make_unique<CameraPairs>(
-        CameraPairs::Cameras{open_gige_source(config.devices[0]), open_gige_source(config.devices[1])},
+        CameraPairs::Cameras{open_camera(config.devices[0]), open_camera(config.devices[1])},
         std::llround(config.pairing_window_s * 1e9));
   }
   RecordedPairs::Options options;

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "host/clock/clock_map.hpp"
-#include "host/device/frame_queue.hpp"
+#include "host/device/depth_frame.hpp"
 
 namespace pharos::host {
 

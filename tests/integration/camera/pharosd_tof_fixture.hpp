@@ -43,7 +43,7 @@ class PharosdTofTest : public ::testing::Test {
   void expect_true_poses() {
     const auto& truth = *sequence.frames[0].T_camera_target;
     for (const pose_t& pose : daemon.poses()) {
-      if (pose.valid == 0) continue;
+      if (pose.valid == 0 || pose.target != "client") continue;
       const Quaternion q(pose.orientation_wxyz[0], pose.orientation_wxyz[1], pose.orientation_wxyz[2],
                          pose.orientation_wxyz[3]);
       const Pose<frame::Camera, frame::Target> measured{

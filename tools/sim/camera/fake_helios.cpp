@@ -11,8 +11,8 @@
 #include <functional>
 #include <random>
 
-#include "host/device/gobject.hpp"
 #include "host/device/pixel_format.hpp"
+#include "host/gige/gobject.hpp"
 #include "host/runtime/now.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
+#include <memory>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "host/daemon/stereo/camera_pairs.hpp"
+#include "host/support/ready_event.hpp"
 
 namespace pharos::host {
 namespace {
@@ -98,24 +101,27 @@ TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
 /// A camera of a test: frames that it is given, on this computer's clock.
 class HandCamera : public FrameSource {
  public:
-  int fd() const override { return queue.fd(); }
-  DepthFramePtr take() override { return queue.take(); }
-  void recycle(DepthFramePtr frame) override {
-    ++returned;
-    queue.recycle(std::move(frame));
+  int fd() const override { return ready.fd(); }
+  DepthFramePtr take() override {
+    if (waiting.empty()) return nullptr;
+    DepthFramePtr frame = std::move(waiting.front());
+    waiting.pop_front();
+    return frame;
   }
+  void recycle(DepthFramePtr) override { ++returned; }
   FrameSourceStatus status() const override { return about; }
   std::string device() const override { return "camera " + about.identity; }
   void show(std::int64_t utc_ns) {
-    DepthFramePtr frame = queue.blank();
+    auto frame = std::make_unique<DepthFrame>();
     frame->resize_grey(2, 1);
     frame->clock = CameraClock::kHost;
     frame->camera_ns = frame->arrival_utc_ns = utc_ns;
     frame->arrival_monotonic_ns = frame->complete_monotonic_ns = utc_ns;
-    queue.push(std::move(frame));
+    waiting.push_back(std::move(frame));
   }
 
-  FrameQueue queue;
+  ReadyEvent ready;
+  std::deque<DepthFramePtr> waiting;
   FrameSourceStatus about;
   int returned = 0;
 };

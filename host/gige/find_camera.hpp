@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "host/device/camera_settings.hpp"
-#include "host/device/gobject.hpp"
+#include "host/gige/gobject.hpp"
 
 namespace pharos::host {
 
@@ -14,5 +17,7 @@ GObjectPtr<ArvCamera> find_camera(const CameraSettings& settings);
 std::string serial_of(ArvCamera* camera);
 /// IP address, as text.
 std::string address_of(ArvCamera* camera);
+/// The same as a number, host order; 0 where there is none.
+std::uint32_t ip_of(ArvCamera* camera);
 
 }  // namespace pharos::host

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/device/find_camera.hpp"
+#include "host/gige/find_camera.hpp"
 
-#include "host/device/gige_camera.hpp"
+#include <arpa/inet.h>
+
+#include "host/gige/gige_camera.hpp"
 
 namespace pharos::host {
 namespace {
@@ -45,6 +47,11 @@ std::string address_of(ArvCamera* camera) {
   if (address == nullptr || G_IS_INET_SOCKET_ADDRESS(address) == 0) return "";
   const GMemory<char> text(g_inet_address_to_string(g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address))));
   return text.get();
+}
+
+std::uint32_t ip_of(ArvCamera* camera) {
+  in_addr address{};
+  return ::inet_pton(AF_INET, address_of(camera).c_str(), &address) == 1 ? ntohl(address.s_addr) : 0;
 }
 
 GObjectPtr<ArvCamera> find_camera(const CameraSettings& settings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera on a real network: GigE Vision over loopback, with the simulated Helios.
-#include "host/device/gige_source.hpp"
+#include "host/camera_link/camera_source.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ constexpr std::int32_t kHeight = 48;
 constexpr double kRange_m = 3.0;
 constexpr std::int64_t kTimeout_ns = 20'000'000'000;
 
-class GigeSourceTest : public ::testing::Test {
+class CameraSourceTest : public ::testing::Test {
  protected:
-  GigeSourceTest() {
+  CameraSourceTest() {
     sequence.width_px = kWidth;
     sequence.height_px = kHeight;
     for (std::uint16_t i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ class GigeSourceTest : public ::testing::Test {
   void serve() { camera.emplace(sequence, play, nullptr, monotonic_now_ns()); }
 
   /// Takes frames until `done`; false after a long time.
-  bool run(GigeSource& source, const std::function<bool()>& done) {
+  bool run(CameraSource& source, const std::function<bool()>& done) {
     const std::int64_t until_ns = monotonic_now_ns() + kTimeout_ns;
     while (!done()) {
       if (monotonic_now_ns() > until_ns) return false;
@@ -61,11 +61,11 @@ class GigeSourceTest : public ::testing::Test {
     }
     return true;
   }
-  bool frames_come(GigeSource& source, int count) {
+  bool frames_come(CameraSource& source, int count) {
     const int wanted = taken + count;
     return run(source, [&] { return taken >= wanted; });
   }
-  bool wait_for_error(GigeSource& source, const std::string& words) {
+  bool wait_for_error(CameraSource& source, const std::string& words) {
     return run(source, [&] { return source.status().error.find(words) != std::string::npos; });
   }
 
@@ -78,10 +78,10 @@ class GigeSourceTest : public ::testing::Test {
   DepthFrame last;
 };
 
-TEST_F(GigeSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
+TEST_F(CameraSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
   serve();
   settings.mode = "Distance3000mmSingleFreq";  // the camera starts in another, with another scale
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(frames_come(source, 5)) << source.status().error;
   ASSERT_TRUE(last.scale);
   EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2] + last.scale->offset_m[2], kRange_m, 1e-4);
@@ -95,10 +95,10 @@ TEST_F(GigeSourceTest, GivesWholeFramesInTheScaleOfTheModeThatItSet) {
   EXPECT_EQ(status.counters.frames_incomplete, 0);
 }
 
-TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
+TEST_F(CameraSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
   play.depth_and_intensity_apart = true;
   serve();
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(frames_come(source, 3)) << source.status().error;
   EXPECT_TRUE(last.taken_in_turns);
   EXPECT_NEAR(last.depth[0] * last.scale->scale_m[2], kRange_m, 1e-3);
@@ -106,37 +106,37 @@ TEST_F(GigeSourceTest, TakesDepthAndIntensityInTurnsWhereTheyComeApart) {
   EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
 }
 
-TEST_F(GigeSourceTest, AGreyCamerasSixteenBitsComeThroughAndOfMono8TheUpperEight) {
+TEST_F(CameraSourceTest, AGreyCamerasSixteenBitsComeThroughAndOfMono8TheUpperEight) {
   play.grey = true;
   for (sim::SequenceFrame& frame : sequence.frames) std::fill(frame.intensity.begin(), frame.intensity.end(), 0x1234);
   serve();
   for (const auto& [format, value] : {std::pair{CameraFormat::kMono16, 0x1234}, {CameraFormat::kMono8, 0x1212}}) {
     settings.format = format;
-    GigeSource source(settings);
+    CameraSource source(settings, camera_program());
     ASSERT_TRUE(frames_come(source, 2)) << source.status().error;
     EXPECT_THAT(last.intensity, Each(value));
     EXPECT_EQ(source.status().counters.frames_wrong_size, 0);
   }
 }
 
-TEST_F(GigeSourceTest, FindsACameraByItsSerialNumberOrSaysWhichThereAre) {
+TEST_F(CameraSourceTest, FindsACameraByItsSerialNumberOrSaysWhichThereAre) {
   serve();
   settings.address.clear();
   settings.serial = "1234";
   {
-    GigeSource other(settings);
+    CameraSource other(settings, camera_program());
     EXPECT_TRUE(wait_for_error(other, "no camera with serial number 1234 answers; these do: " + play.serial));
     EXPECT_EQ(other.status().state, CameraState::kGone);
   }
   settings.serial = play.serial;
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   EXPECT_TRUE(frames_come(source, 2)) << source.status().error;
 }
 
-TEST_F(GigeSourceTest, SaysWhatIsWrongWithACameraThatIsNotAsConfigured) {
+TEST_F(CameraSourceTest, SaysWhatIsWrongWithACameraThatIsNotAsConfigured) {
   serve();
   const auto error_of = [&](const CameraSettings& wrong, const std::string& words) {
-    GigeSource source(wrong);
+    CameraSource source(wrong, camera_program());
     const bool came = wait_for_error(source, words);
     EXPECT_TRUE(came) << source.status().error;
     EXPECT_EQ(source.status().state, CameraState::kWrong);
@@ -152,10 +152,12 @@ TEST_F(GigeSourceTest, SaysWhatIsWrongWithACameraThatIsNotAsConfigured) {
   error_of(wrong, "gives 64 x 48 pixels, its camera file is for 640 x 48");
 }
 
-TEST_F(GigeSourceTest, WaitsForACameraThatAnotherProgramHolds) {
+TEST_F(CameraSourceTest, WaitsForACameraThatAnotherProgramHolds) {
   serve();
-  std::optional<GigeCamera> other(std::in_place, settings);
-  GigeSource source(settings);
+  std::optional<CameraSource> other(std::in_place, settings, camera_program());
+  ASSERT_TRUE(frames_come(*other, 1));
+  taken = 0;
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(wait_for_error(source, "another program controls the camera"));
   EXPECT_EQ(source.status().state, CameraState::kTaken);
   EXPECT_EQ(taken, 0);
@@ -163,9 +165,9 @@ TEST_F(GigeSourceTest, WaitsForACameraThatAnotherProgramHolds) {
   EXPECT_TRUE(frames_come(source, 2)) << source.status().error;
 }
 
-TEST_F(GigeSourceTest, ComesBackWithTheCameraInANewSession) {
+TEST_F(CameraSourceTest, ComesBackWithTheCameraInANewSession) {
   serve();
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(frames_come(source, 2));
   const std::uint32_t session = last.session;
   camera.reset();
@@ -178,10 +180,10 @@ TEST_F(GigeSourceTest, ComesBackWithTheCameraInANewSession) {
   EXPECT_EQ(counters.camera_lost + counters.camera_silences, 1);
 }
 
-TEST_F(GigeSourceTest, OpensASilentCameraAnew) {
+TEST_F(CameraSourceTest, OpensASilentCameraAnew) {
   play.stalls.push_back({0.0, 1e6});
   serve();
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(wait_for_error(source, "no frame comes"));
   EXPECT_EQ(source.status().state, CameraState::kSilent);
   EXPECT_TRUE(run(source, [&] { return source.status().counters.camera_opened >= 2; }));
@@ -189,20 +191,20 @@ TEST_F(GigeSourceTest, OpensASilentCameraAnew) {
 }
 
 // Two packets of a hundred are lost, and resends are requested successfully: received frames are correct.
-TEST_F(GigeSourceTest, CountsFramesWithLostPacketsAndGivesTheOthersUnharmed) {
+TEST_F(CameraSourceTest, CountsFramesWithLostPacketsAndGivesTheOthersUnharmed) {
   play.loss = 0.02;
   play.frame_rate_hz = 100.0;
   serve();
   settings.packet_size = 1400;
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(run(source, [&] { return taken >= 30 && source.status().counters.frames_incomplete >= 5; }));
   EXPECT_EQ(bad_pixels, 0);
 }
 
-TEST_F(GigeSourceTest, FollowsPtpWhereTheCameraDoes) {
+TEST_F(CameraSourceTest, FollowsPtpWhereTheCameraDoes) {
   play.ptp = true;
   serve();
-  GigeSource source(settings);
+  CameraSource source(settings, camera_program());
   ASSERT_TRUE(run(source, [&] { return taken > 0 && last.clock == CameraClock::kPtp; }));
   EXPECT_NEAR(static_cast<double>(last.camera_ns), static_cast<double>(last.arrival_utc_ns), 1e9);
 }

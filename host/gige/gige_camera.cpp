@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/device/gige_camera.hpp"
+#include "host/gige/gige_camera.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/device/find_camera.hpp"
-#include "host/device/frame_numbers.hpp"
-#include "host/device/gobject.hpp"
 #include "host/device/pixel_format.hpp"
+#include "host/gige/find_camera.hpp"
+#include "host/gige/frame_numbers.hpp"
+#include "host/gige/gobject.hpp"
+#include "host/gige/heartbeat.hpp"
+#include "host/gige/stream_guard.hpp"
 #include "host/runtime/now.hpp"
 
 namespace pharos::host {
 namespace {
 
-// A tenth of a second of frames that may arrive while the camera's thread is not scheduled, and those being filled.
-constexpr int kBuffers = 8;
 // Of the kernel; net.core.rmem_max may make it less.
 constexpr int kSocketBytes = 8 << 20;
 // In turns: how long the other format's frame may take, through a stop and a start of the camera.
 constexpr std::chrono::milliseconds kOtherFormatTimeout{1000};
+// Beside the pixels a frame may hold chunks of what the camera has to say of it.
+constexpr std::size_t kMaxChunks_bytes = 65'536;
+// Of looking where packets come from, before a frame is waited for.
+constexpr std::chrono::milliseconds kLearnPort{20};
 
 [[noreturn]] void refuse(const std::string& message) { throw CameraError(CameraState::kWrong, message); }
 
@@ -51,6 +55,9 @@ struct GigeCamera::Parts {
   CameraSettings settings;
   GObjectPtr<ArvCamera> camera;
   GObjectPtr<ArvStream> stream;
+  std::optional<Heartbeat> heartbeat;
+  StreamGuard guard;
+  bool believe_source_port = true;
   std::string identity;
   std::string address;
   bool in_turns = false;
@@ -80,15 +87,18 @@ struct GigeCamera::Parts {
   void read_scale();
   void start_ptp();
   void start_stream();
+  std::size_t payload() const;
+  void guard_stream(std::size_t payload_bytes);
   void start() const;
   void stop() const;
   void describe();
 
   GObjectPtr<ArvBuffer> pop(std::chrono::milliseconds timeout) const;
   void recycle(GObjectPtr<ArvBuffer> buffer) const;
-  FrameOutcome outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame, std::int64_t& missing);
-  bool unpack(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame) const;
-  FrameOutcome intensity_of(DepthFrame& frame);
+  FrameOutcome outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& about, const FrameImages& images,
+                       std::int64_t& missing);
+  bool unpack(ArvBuffer* buffer, std::uint32_t format, const FrameImages& images) const;
+  FrameOutcome intensity_of(DepthFrame& about, const FrameImages& images);
 };
 
 void GigeCamera::Parts::set_word(const char* feature, const std::string& value, const char* key) const {
@@ -187,10 +197,35 @@ void GigeCamera::Parts::start_stream() {
   if (!stream) throw CameraError(CameraState::kGone, "the camera gives no stream: " + error.text());
   g_object_set(stream.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size", kSocketBytes,
                nullptr);
-  const guint payload = arv_camera_get_payload(camera.get(), error.out());
-  if (error) throw CameraError(CameraState::kGone, "the camera does not tell its payload: " + error.text());
-  for (int i = 0; i < kBuffers; ++i) arv_stream_push_buffer(stream.get(), arv_buffer_new(payload, nullptr));
+  const std::size_t bytes = payload();
+  guard_stream(bytes);
+  for (int i = 0; i < kBuffers; ++i) arv_stream_push_buffer(stream.get(), arv_buffer_new(bytes, nullptr));
   start();
+}
+
+/// Of a frame, as the camera says; checked, since memory is taken for it.
+std::size_t GigeCamera::Parts::payload() const {
+  ArvError error;
+  const std::size_t bytes = arv_camera_get_payload(camera.get(), error.out());
+  if (error) throw CameraError(CameraState::kGone, "the camera does not tell its payload: " + error.text());
+  const std::uint32_t format = in_turns ? kCoord3dC16 : code_of(settings.format);
+  const std::size_t pixels = payload_bytes(format, settings.width_px, settings.height_px);
+  if (bytes >= pixels && bytes <= pixels + kMaxChunks_bytes) return bytes;
+  refuse("the camera says that a frame has " + std::to_string(bytes) + " bytes; " + std::to_string(settings.width_px) +
+         " x " + std::to_string(settings.height_px) + " pixels have " + std::to_string(pixels));
+}
+
+void GigeCamera::Parts::guard_stream(std::size_t payload_bytes) {
+  StreamRule rule;
+  rule.camera_address = ip_of(camera.get());
+  rule.payload_bytes = payload_bytes;
+  rule.packet_size = static_cast<std::size_t>(settings.packet_size);
+  if (const std::string mode = word("GevGVSPExtendedIDMode"); !mode.empty()) rule.extended_ids = mode == "On";
+  ArvError error;
+  const gint64 port =
+      arv_device_get_integer_feature_value(arv_camera_get_device(camera.get()), "ArvGevSCSP", error.out());
+  if (believe_source_port && !error && port > 0 && port <= 0xFFFF) rule.source_port = static_cast<std::uint16_t>(port);
+  guard = StreamGuard(arv_gv_stream_get_port(ARV_GV_STREAM(stream.get())), rule);
 }
 
 void GigeCamera::Parts::start() const {
@@ -211,10 +246,12 @@ void GigeCamera::Parts::describe() {
   identity += ", packets of " + std::to_string(settings.packet_size);
 }
 
-GigeCamera::GigeCamera(const CameraSettings& settings) : parts_(std::make_unique<Parts>()) {
+GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port) : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
   parts.settings = settings;
+  parts.believe_source_port = believe_source_port;
   parts.camera = find_camera(settings);
+  guard_control_sockets(ip_of(parts.camera.get()));
   parts.address = address_of(parts.camera.get());
   parts.stop();  // a client that died may have left it running
   parts.set_mode();
@@ -224,6 +261,7 @@ GigeCamera::GigeCamera(const CameraSettings& settings) : parts_(std::make_unique
   parts.read_scale();  // the mode and the format decide it
   parts.start_ptp();
   parts.describe();
+  parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()));
   parts.start_stream();
 }
 
@@ -231,12 +269,18 @@ GigeCamera::~GigeCamera() {
   if (parts_->stream) parts_->stop();
 }
 
+void GigeCamera::beat_if_due() { parts_->heartbeat->beat_if_due(); }
+
+void GigeCamera::restore_heartbeat() { parts_->heartbeat->restore(); }
+
 const std::string& GigeCamera::identity() const { return parts_->identity; }
 const std::string& GigeCamera::address() const { return parts_->address; }
 
 bool GigeCamera::is_controller() const {
   return arv_gv_device_is_controller(ARV_GV_DEVICE(arv_camera_get_device(parts_->camera.get()))) != 0;
 }
+
+std::int64_t GigeCamera::discarded_datagrams() const { return parts_->guard.discarded(); }
 
 bool GigeCamera::follows_ptp() const { return parts_->has_ptp && parts_->word("PtpStatus") == "Slave"; }
 
@@ -249,7 +293,7 @@ void GigeCamera::Parts::recycle(GObjectPtr<ArvBuffer> buffer) const {
   arv_stream_push_buffer(stream.get(), buffer.release());
 }
 
-bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame) const {
+bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, const FrameImages& images) const {
   if (arv_buffer_get_payload_type(buffer) != ARV_BUFFER_PAYLOAD_TYPE_IMAGE || format_of(buffer) != format) return false;
   if (arv_buffer_get_image_width(buffer) != settings.width_px ||
       arv_buffer_get_image_height(buffer) != settings.height_px) {
@@ -259,34 +303,32 @@ bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, DepthFra
   const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
   const std::span<const std::uint8_t> bytes(
       data, std::min(size, payload_bytes(format, settings.width_px, settings.height_px)));
-  if (!is_depth()) {
-    frame.resize_grey(settings.width_px, settings.height_px);
-    return format == kMono8 ? unpack_8(bytes, frame.intensity) : unpack_16(bytes, frame.intensity);
-  }
-  frame.resize(settings.width_px, settings.height_px);
-  if (format == kCoord3dAbcy16) return unpack_abcy16(bytes, frame.depth, frame.intensity);
-  return unpack_16(bytes, format == kMono16 ? frame.intensity : frame.depth);
+  if (format == kMono8) return unpack_8(bytes, images.intensity);
+  if (format == kCoord3dAbcy16) return unpack_abcy16(bytes, images.depth, images.intensity);
+  return unpack_16(bytes, format == kMono16 ? images.intensity : images.depth);
 }
 
-FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& frame,
-                                        std::int64_t& missing) {
+FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& about,
+                                        const FrameImages& images, std::int64_t& missing) {
   // Where depth and intensity take turns, frames are given up at every change: their numbers tell nothing.
   if (!in_turns) missing += numbers.missing_before(arv_buffer_get_frame_id(buffer));
   const ArvBufferStatus status = arv_buffer_get_status(buffer);
   if (status == ARV_BUFFER_STATUS_SIZE_MISMATCH) return FrameOutcome::kWrongSize;
   if (status != ARV_BUFFER_STATUS_SUCCESS) return FrameOutcome::kIncomplete;
-  if (!unpack(buffer, format, frame)) return FrameOutcome::kWrongSize;
-  frame.camera_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
-  frame.complete_monotonic_ns = monotonic_now_ns();
-  frame.arrival_utc_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
-  frame.arrival_monotonic_ns = frame.complete_monotonic_ns - (utc_now_ns() - frame.arrival_utc_ns);
-  frame.taken_in_turns = in_turns;
-  frame.scale = scale;
+  if (!unpack(buffer, format, images)) return FrameOutcome::kWrongSize;
+  about.width_px = settings.width_px;
+  about.height_px = settings.height_px;
+  about.camera_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
+  about.complete_monotonic_ns = monotonic_now_ns();
+  about.arrival_utc_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+  about.arrival_monotonic_ns = about.complete_monotonic_ns - (utc_now_ns() - about.arrival_utc_ns);
+  about.taken_in_turns = in_turns;
+  about.scale = scale;
   return FrameOutcome::kFrame;
 }
 
 // The depth is there: the same view's intensity, from the frame that follows in the other format.
-FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& frame) {
+FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& about, const FrameImages& images) {
   stop();
   set_word("PixelFormat", "Mono16", "the pixel format");
   start();
@@ -294,8 +336,9 @@ FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& frame) {
   const std::int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kOtherFormatTimeout).count();
   while (outcome == FrameOutcome::kUnpaired && monotonic_now_ns() < until_ns) {
     GObjectPtr<ArvBuffer> buffer = pop(kOtherFormatTimeout / 10);
+    heartbeat->beat_if_due();
     if (!buffer) continue;
-    if (arv_buffer_get_status(buffer.get()) == ARV_BUFFER_STATUS_SUCCESS && unpack(buffer.get(), kMono16, frame)) {
+    if (arv_buffer_get_status(buffer.get()) == ARV_BUFFER_STATUS_SUCCESS && unpack(buffer.get(), kMono16, images)) {
       outcome = FrameOutcome::kFrame;
     }
     recycle(std::move(buffer));
@@ -303,11 +346,13 @@ FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& frame) {
   stop();
   set_word("PixelFormat", "Coord3D_C16", "the pixel format");
   start();
-  frame.complete_monotonic_ns = monotonic_now_ns();
+  about.complete_monotonic_ns = monotonic_now_ns();
   return outcome;
 }
 
-FrameOutcome GigeCamera::next(DepthFrame& frame, std::chrono::milliseconds timeout, std::int64_t& missing) {
+FrameOutcome GigeCamera::next(DepthFrame& about, const FrameImages& images, std::chrono::milliseconds timeout,
+                              std::int64_t& missing) {
+  parts_->guard.learn(kLearnPort);
   GObjectPtr<ArvBuffer> buffer = parts_->pop(timeout);
   if (!buffer) return FrameOutcome::kNone;
   if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the camera changed
@@ -315,9 +360,9 @@ FrameOutcome GigeCamera::next(DepthFrame& frame, std::chrono::milliseconds timeo
     return FrameOutcome::kNone;
   }
   const std::uint32_t format = parts_->in_turns ? kCoord3dC16 : code_of(parts_->settings.format);
-  const FrameOutcome outcome = parts_->outcome(buffer.get(), format, frame, missing);
+  const FrameOutcome outcome = parts_->outcome(buffer.get(), format, about, images, missing);
   parts_->recycle(std::move(buffer));
-  return outcome == FrameOutcome::kFrame && parts_->in_turns ? parts_->intensity_of(frame) : outcome;
+  return outcome == FrameOutcome::kFrame && parts_->in_turns ? parts_->intensity_of(about, images) : outcome;
 }
 
 }  // namespace pharos::host

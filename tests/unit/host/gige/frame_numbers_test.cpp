@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/device/frame_numbers.hpp"
+#include "host/gige/frame_numbers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/camera_link/frame_slots.hpp"
 #include "host/device/camera_settings.hpp"
 #include "host/device/depth_frame.hpp"
 #include "host/device/frame_source.hpp"
@@ -35,19 +36,32 @@ enum class FrameOutcome : std::uint8_t {
 /// One GigE Vision camera, held and streaming. Everything of Aravis and GLib is in its .cpp file. One thread only.
 class GigeCamera {
  public:
+  /// A tenth of a second of frames that may arrive while this process is not scheduled, and those being filled.
+  static constexpr int kBuffers = 8;
+
   /// Finds, takes, sets and starts the camera: mode, format (Coord3D_ABCY16, else Coord3D_C16 and Mono16 in turns; of a
   /// grey camera as asked), packets; then reads scale and offset. Throws CameraError. Takes up to 3.5 s where no camera
   /// answers.
-  explicit GigeCamera(const CameraSettings& settings);
+  /// `believe_source_port`: what GevSCSP says of the port that its stream comes from holds; else that is learnt.
+  explicit GigeCamera(const CameraSettings& settings, bool believe_source_port = true);
   ~GigeCamera();
 
-  /// Waits for the next frame. `missing` grows by the frames that the camera numbered and of which nothing came.
-  FrameOutcome next(DepthFrame& frame, std::chrono::milliseconds timeout, std::int64_t& missing);
+  /// Waits for the next frame. `images` are of the settings'
+  /// size; the rest of the frame goes into `about`. `missing` grows by the frames that the camera numbered and of which
+  /// nothing came.
+  FrameOutcome next(DepthFrame& about, const FrameImages& images, std::chrono::milliseconds timeout,
+                    std::int64_t& missing);
 
   /// False once the camera heeds another program, or none.
   bool is_controller() const;
   /// Whether its clock is led by PTP now; asks the camera.
   bool follows_ptp() const;
+  /// Datagrams to the stream's port that the kernel dropped: not the camera's, or without room.
+  std::int64_t discarded_datagrams() const;
+  /// Tells the camera that its master lives, four times a second; asks it, so not while a frame waits.
+  void beat_if_due();
+  /// Before a camera that is well is given back: its heartbeat timeout as it was found.
+  void restore_heartbeat();
   /// Vendor, model, serial number, mode, format, packets.
   const std::string& identity() const;
   /// Where it was found, for a quicker way back to it.

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gige/camera_server.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <exception>
+#include <utility>
+
+#include "host/runtime/now.hpp"
+
+namespace pharos::host {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRetry{250};
+constexpr milliseconds kWait{50};
+// A wait that ends much sooner without a frame (the camera's socket is gone) must not turn the process into a spinner.
+constexpr milliseconds kBreath{20};
+// Frames come every 33 ms, in turns every 0.3 s: as long without any is a camera that was lost.
+constexpr std::int64_t kSilence_ns = 1'000'000'000;
+// PTP's state changes within seconds; asking costs the camera a packet.
+constexpr std::int64_t kAskPtp_ns = 1'000'000'000;
+constexpr std::int64_t kReportPeriod_ns = 100'000'000;
+
+std::int64_t ns(milliseconds duration) { return std::chrono::nanoseconds(duration).count(); }
+
+}  // namespace
+
+CameraServer::CameraServer(const CameraSettings& settings, int socket, int memory)
+    : settings_(settings),
+      socket_(socket),
+      has_depth_(settings.format == CameraFormat::kDepth),
+      slots_(memory, SlotLayout::of(settings)) {}
+
+/// True unless pharosd has closed its end, or is gone. It sends nothing after the order.
+bool CameraServer::pause(milliseconds duration) {
+  pollfd other_end{socket_, POLLIN, 0};
+  stopped_ = stopped_ || ::poll(&other_end, 1, static_cast<int>(duration.count())) > 0;
+  return !stopped_;
+}
+
+bool CameraServer::send(const CameraMessage& message) const {
+  const std::vector<std::uint8_t> bytes = encode(message);
+  return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) > 0;
+}
+
+void CameraServer::report() {
+  reported_ns_ = monotonic_now_ns();
+  send(report_);
+}
+
+void CameraServer::report_if_due() {
+  if (monotonic_now_ns() - reported_ns_ >= kReportPeriod_ns) report();
+}
+
+void CameraServer::set_state(CameraState state, const std::string& error) {
+  report_.state = state;
+  report_.error = error;
+  report();
+}
+
+void CameraServer::run() {
+  while (pause(milliseconds(0))) {
+    look_for_camera();
+    pause(kRetry);
+  }
+}
+
+void CameraServer::look_for_camera() {
+  CameraSettings settings = settings_;
+  // A camera comes back where it was, and is found there without asking the whole network; if not, the network is
+  // asked.
+  if (settings.address.empty()) settings.address = std::exchange(last_address_, "");
+  try {
+    GigeCamera camera(settings, believe_source_port_);
+    last_address_ = camera.address();
+    ++report_.session;
+    ++report_.counters.camera_opened;
+    report_.identity = camera.identity();
+    set_state(CameraState::kOpen, "");
+    stream(camera);
+    discarded_before_ = report_.counters.datagrams_discarded;
+  } catch (const CameraError& error) {
+    set_state(error.state(), error.what());
+  } catch (const std::exception& error) {  // a fault of ours: tried again
+    set_state(CameraState::kWrong, std::string("internal error: ") + error.what());
+  }
+}
+
+void CameraServer::stream(GigeCamera& camera) {
+  std::int64_t last_ns = monotonic_now_ns();
+  bool any = false;
+  ptp_asked_ns_ = 0;
+  while (pause(milliseconds(0))) {
+    const std::int64_t began_ns = monotonic_now_ns();
+    const FrameOutcome outcome = take_frame(camera);
+    const std::int64_t now_ns = monotonic_now_ns();
+    any = any || outcome != FrameOutcome::kNone;
+    if (outcome != FrameOutcome::kNone) {
+      last_ns = now_ns;
+      ask(camera, now_ns);
+    }
+    if (now_ns - last_ns > kSilence_ns) break;
+    if (outcome == FrameOutcome::kNone && now_ns - began_ns < ns(kBreath)) pause(kBreath);
+    report_.counters.datagrams_discarded = discarded_before_ + camera.discarded_datagrams();
+    report_if_due();
+  }
+  // A port that the camera tells and does not send from would keep all of its packets out.
+  believe_source_port_ = any;
+  if (stopped_) {
+    camera.restore_heartbeat();
+    return;
+  }
+  const bool lost = !camera.is_controller();
+  ++(lost ? report_.counters.camera_lost : report_.counters.camera_silences);
+  set_state(lost ? CameraState::kGone : CameraState::kSilent,
+            lost ? "the camera was lost; looking for it" : "no frame comes from the camera; opening it anew");
+}
+
+FrameOutcome CameraServer::take_frame(GigeCamera& camera) {
+  FrameNotice notice;
+  std::int64_t missing = 0;
+  const FrameOutcome outcome = camera.next(notice.about, slots_.begin(), kWait, missing);
+  count(outcome, missing);
+  if (outcome == FrameOutcome::kFrame) hand_over(notice);
+  return outcome;
+}
+
+// Between frames, so that none waits for the camera's answers. Not where nothing comes: an answer that does not come
+// either takes 2.5 s.
+void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
+  camera.beat_if_due();
+  if (now_ns - ptp_asked_ns_ <= kAskPtp_ns) return;
+  follows_ptp_ = camera.follows_ptp();
+  ptp_asked_ns_ = now_ns;
+}
+
+void CameraServer::count(FrameOutcome outcome, std::int64_t missing) {
+  FrameSourceCounters& counters = report_.counters;
+  counters.frames_missing += missing;
+  counters.frames_received += outcome == FrameOutcome::kFrame ? 1 : 0;
+  counters.frames_incomplete += outcome == FrameOutcome::kIncomplete ? 1 : 0;
+  counters.frames_wrong_size += outcome == FrameOutcome::kWrongSize ? 1 : 0;
+  counters.frames_unpaired += outcome == FrameOutcome::kUnpaired ? 1 : 0;
+}
+
+void CameraServer::hand_over(FrameNotice& notice) {
+  DepthFrame& frame = notice.about;
+  frame.clock = follows_ptp_ ? CameraClock::kPtp : CameraClock::kOwn;
+  frame.session = report_.session;
+  notice.has_depth = has_depth_;
+  notice.sequence = slots_.publish();
+  // Nobody reads any more: pharosd is held up, and newer frames will be what it wants.
+  if (!send(notice)) ++report_.counters.frames_dropped;
+}
+
+}  // namespace pharos::host

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// pharos-camera: one GigE Vision camera for pharosd, which starts it. Whatever a camera's packets do to the library
+// that parses them, they do it here.
+#include <glib.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <optional>
+
+#include "host/camera_link/camera_message.hpp"
+#include "host/camera_link/camera_process.hpp"
+#include "host/gige/camera_server.hpp"
+#include "host/gige/process_limits.hpp"
+
+namespace {
+
+namespace host = pharos::host;
+
+constexpr int kExitFailure = 1;
+constexpr int kExitUsage = 2;
+// It was sent before this program began.
+constexpr int kOrderTimeout_ms = 1000;
+
+std::optional<host::CameraOrder> receive_order() {
+  pollfd waiting{host::kCameraSocketFd, POLLIN, 0};
+  if (::poll(&waiting, 1, kOrderTimeout_ms) <= 0) return std::nullopt;
+  std::array<std::uint8_t, host::kMaxCameraMessage_bytes> buffer{};
+  const ssize_t count = ::recv(host::kCameraSocketFd, buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (count <= 0) return std::nullopt;
+  auto message = host::decode_camera_message({buffer.data(), static_cast<std::size_t>(count)});
+  if (!message || !std::holds_alternative<host::CameraOrder>(*message)) return std::nullopt;
+  return std::get<host::CameraOrder>(*message);
+}
+
+// What GLib says before it ends the process, as when memory runs out: pharosd tells it in its log.
+void tell_last_words(const char*, GLogLevelFlags level, const char* text, void*) {
+  if ((level & (G_LOG_LEVEL_ERROR | G_LOG_FLAG_FATAL)) == 0 || text == nullptr) return;
+  const std::vector<std::uint8_t> bytes = host::encode(host::LastWords{text});
+  static_cast<void>(::send(host::kCameraSocketFd, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) > 0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
+    std::puts(PHAROS_VERSION);
+    return 0;
+  }
+  host::bind_to_parent();
+  try {
+    const auto order = receive_order();
+    if (!order || !host::is_child_of(order->parent_pid)) {
+      std::fputs("pharos-camera: is started by pharosd, of the same version, for a camera of its configuration\n",
+                 stderr);
+      return kExitUsage;
+    }
+    host::limit_address_space(host::address_space_limit(order->settings));
+    g_log_set_default_handler(tell_last_words, nullptr);
+    host::CameraServer(order->settings, host::kCameraSocketFd, host::kCameraMemoryFd).run();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pharos-camera: %s\n", error.what());
+    return kExitFailure;
+  }
+}

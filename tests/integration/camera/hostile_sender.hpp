@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "host/support/unique_fd.hpp"
+
+namespace pharos::host {
+
+/// Who sends to a camera's stream without being the camera.
+enum class Attacker : std::uint8_t {
+  kOtherAddress,  // 127.0.0.3
+  kOtherPort,     // the camera's address
+  kCamerasPort,   // its address and port: a spoofed source, as on an open network
+};
+inline constexpr std::array kAttackers{Attacker::kOtherAddress, Attacker::kOtherPort, Attacker::kCamerasPort};
+
+/// Ports of this network's UDP sockets that are bound to 127.0.0.1 and are not of this process: those of the camera's
+/// process.
+std::vector<std::uint16_t> ports_of_others();
+/// The socket that the simulated camera of this process streams from; -1 where there is none.
+int socket_of_simulated_camera();
+
+/// Makes and sends datagrams that a parser may fall over: the one that makes Aravis take 68 GB, random bytes of random
+/// length, and GVSP packets of every kind with one or more fields beyond what may be.
+class HostileSender {
+ public:
+  explicit HostileSender(std::uint64_t seed);
+  /// `count` datagrams to `port` of 127.0.0.1, kinds mixed.
+  void send(Attacker attacker, std::uint16_t port, int count);
+  std::int64_t sent() const { return sent_; }
+
+ private:
+  std::vector<std::uint8_t> make();
+  std::vector<std::uint8_t> make_packet();
+  std::uint64_t number(std::uint64_t below) { return random_() % below; }
+
+  std::mt19937_64 random_;
+  UniqueFd other_address_;
+  UniqueFd other_port_;
+  int cameras_ = -1;
+  std::int64_t sent_ = 0;
+};
+
+}  // namespace pharos::host
