@@ -106,14 +106,14 @@ class Calibration {
   void tie_stations(const std::vector<StationPoses>& poses) {
     nominal_.T_reference_station.assign(nominal_.station.size(), std::nullopt);
     nominal_.T_reference_station[0] = ReferenceFromStation{};
-    std::vector<ReferenceFromStation> said;
+    std::vector<ReferenceFromStation> estimates;
     for (const StationPoses& here : poses) {
-      if (here[0] && here[1]) said.push_back(*here[0] * here[1]->inverse());
+      if (here[0] && here[1]) estimates.push_back(*here[0] * here[1]->inverse());
     }
     double minimum = std::numeric_limits<double>::infinity();
-    for (const ReferenceFromStation& candidate : said) {
+    for (const ReferenceFromStation& candidate : estimates) {
       double sum = 0.0;
-      for (const ReferenceFromStation& other : said) sum += pose_difference(candidate, other).norm();
+      for (const ReferenceFromStation& other : estimates) sum += pose_difference(candidate, other).norm();
       if (sum >= minimum) continue;
       minimum = sum;
       nominal_.T_reference_station[1] = candidate;

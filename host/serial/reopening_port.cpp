@@ -18,9 +18,9 @@ ReopeningPort::Attempt ReopeningPort::try_open(std::int64_t now_ns) {
   waiting_ = true;
   next_attempt_ns_ = now_ns + kReopenPeriod_ns;
   OpenFailure now = opened.error();
-  const bool told = now.message == failure_.message;
+  const bool reported = now.message == failure_.message;
   failure_ = std::move(now);
-  return told ? Attempt::kStillGone : Attempt::kFailed;
+  return reported ? Attempt::kStillGone : Attempt::kFailed;
 }
 
 Transfer ReopeningPort::checked(Transfer transfer, std::int64_t now_ns) {

@@ -184,8 +184,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (edges_only) require(counters.edges_in == edges_accounted(counters));
   promised.decoder.flush();
   promised.take();
-  const DecoderCounters& told = promised.decoder.counters();
-  require(told.edges_in == edges_accounted(told) && told.pulses_in == pulses_accounted(told));
+  const DecoderCounters& promised_counters = promised.decoder.counters();
+  require(promised_counters.edges_in == edges_accounted(promised_counters) &&
+          promised_counters.pulses_in == pulses_accounted(promised_counters));
   // Twelve flashes are six slots. The input before may shift the time base while the light is on: half a slot of
   // tolerance.
   constexpr std::int64_t kHalfSlot_ticks = 208'333;

@@ -126,12 +126,12 @@ void CaptureModel::filter(std::uint32_t seen) {
     if (((seen ^ before) & bit) == 0) {
       if (held_[input] > 0 && (watched & bit) != 0) glitch_ = true;
       held_[input] = 0;
-      patience_[input] = filter_length_;
-    } else if (++held_[input] > patience_[input]) {
+      required_[input] = filter_length_;
+    } else if (++held_[input] > required_[input]) {
       levels_ ^= bit;
       arriving_ |= bit & watched;
       held_[input] = 0;
-      patience_[input] = filter_length_;
+      required_[input] = filter_length_;
     }
   }
 }

@@ -60,7 +60,7 @@ class CaptureModel {
   std::uint32_t arriving_ = 0;
   bool glitch_ = false;
   std::array<unsigned, 32> held_{};      // ticks for which an input has differed from its level
-  std::array<unsigned, 32> patience_{};  // filter length for its next edge
+  std::array<unsigned, 32> required_{};  // filter length for its next edge
 
   bool enabled_ = false;
   std::uint32_t threshold_ = 0;

@@ -188,18 +188,18 @@ int run(Options options) {
   }
   std::optional<Output> report;
   if (!options.report.empty()) report.emplace(OutputOptions{options.json, options.report}, kColumns);
-  int answer = kExitAnswered;
+  int code = kExitAnswered;
   if (options.in != "-" && std::filesystem::is_directory(options.in)) {
-    answer = run_folder(options, report ? &*report : nullptr);
+    code = run_folder(options, report ? &*report : nullptr);
   } else {
     Worker worker(options);
     const std::string name = options.in == "-" ? "standard input" : options.in;
     const Outcome outcome = worker.work(read_image(options.in, name), name, options.out, options.steps);
     if (report) write_row(name, outcome, report->rows());
-    answer = outcome.status == "ok" ? kExitAnswered : kExitNoAnswer;
+    code = outcome.status == "ok" ? kExitAnswered : kExitNoAnswer;
   }
   if (report) report->finish();
-  return answer;
+  return code;
 }
 
 void add_settings(CLI::App& command, Options& options) {

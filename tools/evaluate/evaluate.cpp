@@ -136,7 +136,7 @@ const char* name_of(AlignMode mode) {
 
 void write_count(host::RowWriter& rows, std::size_t count) { rows.integer(static_cast<std::int64_t>(count)); }
 
-void write_answer(host::RowWriter& rows, const evaluate::Comparison& c, double relative_s) {
+void write_figures(host::RowWriter& rows, const evaluate::Comparison& c, double relative_s) {
   rows.number(c.figures.coverage);
   write_half(rows, c.figures.rotation, kDegPerRad);
   write_half(rows, c.figures.position, kMmPerM);
@@ -164,7 +164,7 @@ void write_row(host::RowWriter& rows, const Options& options, const evaluate::Tr
   write_count(rows, c.pairs.outside);
   write_count(rows, c.pairs.in_gap);
   if (answered) {
-    write_answer(rows, c, options.relative_s);
+    write_figures(rows, c, options.relative_s);
   } else {
     rows.none(1 + 2 * kFigureColumns + kOtherFigures + 2 * kPoseColumns).text(open_parts(c.aligned));
     rows.text(c.refused).end_row();

@@ -28,14 +28,14 @@ void BlockSender::go_back(std::uint32_t offset) {
   first_since_back_.reset();
 }
 
-void BlockSender::refused(const NumberedReply& answer) {
-  const std::uint32_t value = answer.reply.value;
-  switch (*answer.reply.refusal) {
+void BlockSender::refused(const NumberedReply& response) {
+  const std::uint32_t value = response.reply.value;
+  switch (*response.reply.refusal) {
     case wire::NakReason::kOutOfOrder: {
       if (value == wire::kNothingBegun) throw TransferLost("the target was reset");
       // After a lost block all later blocks are refused: go back to the lost one.
       const bool current =
-          first_since_back_ && static_cast<std::int16_t>(answer.for_sequence - *first_since_back_) >= 0;
+          first_since_back_ && static_cast<std::int16_t>(response.for_sequence - *first_since_back_) >= 0;
       if (current && value <= image_.size()) go_back(value);
       return;
     }
@@ -57,12 +57,12 @@ void BlockSender::take(const wire::Frame& frame) {
     if (hello && hello->role != wire::Role::kLoader) throw TransferLost("the target was reset and runs its program");
     return;
   }
-  const auto answer = as_reply(frame);
-  if (!answer || answer->for_type != static_cast<std::uint8_t>(wire::MessageType::kLoaderData)) return;
-  if (answer->reply.refusal) {
-    refused(*answer);
-  } else if (answer->reply.value > arrived_ && answer->reply.value <= image_.size()) {
-    arrived_ = answer->reply.value;
+  const auto response = as_reply(frame);
+  if (!response || response->for_type != static_cast<std::uint8_t>(wire::MessageType::kLoaderData)) return;
+  if (response->reply.refusal) {
+    refused(*response);
+  } else if (response->reply.value > arrived_ && response->reply.value <= image_.size()) {
+    arrived_ = response->reply.value;
     next_ = std::max(next_, arrived_);
   }
 }

@@ -39,7 +39,7 @@ class BlockSender {
 
   void fill_window();
   void take(const wire::Frame& frame);
-  void refused(const NumberedReply& answer);
+  void refused(const NumberedReply& response);
   void go_back(std::uint32_t offset);
 
   FlashSession& session_;

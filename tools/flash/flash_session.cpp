@@ -50,10 +50,10 @@ std::optional<wire::Frame> FlashSession::receive(std::int64_t deadline_ns) {
 std::optional<Reply> FlashSession::await_reply(wire::MessageType type, std::span<const std::uint16_t> sent,
                                                std::int64_t deadline_ns) {
   while (const auto frame = receive(deadline_ns)) {
-    const auto answer = as_reply(*frame);
-    if (answer && answer->for_type == static_cast<std::uint8_t>(type) &&
-        std::ranges::find(sent, answer->for_sequence) != sent.end()) {
-      return answer->reply;
+    const auto response = as_reply(*frame);
+    if (response && response->for_type == static_cast<std::uint8_t>(type) &&
+        std::ranges::find(sent, response->for_sequence) != sent.end()) {
+      return response->reply;
     }
   }
   return std::nullopt;

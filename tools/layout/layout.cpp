@@ -149,11 +149,11 @@ void write_gain(const Options& options, const Objective& objective, std::size_t 
   rows.integer(static_cast<std::int64_t>(ours.measured));
   rows.number(ours.adop_deg_per_rad).number(ours.pdop_m_per_rad);
   if (present) {
-    const layout::Score theirs = layout::score_of(where_both(other, found.dops), objective);
+    const layout::Score other_score = layout::score_of(where_both(other, found.dops), objective);
     rows.integer(static_cast<std::int64_t>(layout::score_of(present->dops, objective).measured));
-    rows.number(theirs.adop_deg_per_rad).number(theirs.pdop_m_per_rad);
-    rows.number(100.0 * (1.0 - ours.adop_deg_per_rad / theirs.adop_deg_per_rad));
-    rows.number(100.0 * (1.0 - ours.pdop_m_per_rad / theirs.pdop_m_per_rad));
+    rows.number(other_score.adop_deg_per_rad).number(other_score.pdop_m_per_rad);
+    rows.number(100.0 * (1.0 - ours.adop_deg_per_rad / other_score.adop_deg_per_rad));
+    rows.number(100.0 * (1.0 - ours.pdop_m_per_rad / other_score.pdop_m_per_rad));
   } else {
     rows.none(5);
   }

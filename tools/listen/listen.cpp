@@ -97,8 +97,8 @@ int listen(const ListenOptions& options) {
     throw host::InputError(
         "standard output: rows were lost, it cannot be written; free the disk or choose another file");
   }
-  const bool heard = listener.summary().poses() > 0 || listener.other_messages() > 0;
-  return heard ? kExitAnswered : kExitNoAnswer;
+  const bool received = listener.summary().poses() > 0 || listener.other_messages() > 0;
+  return received ? kExitAnswered : kExitNoAnswer;
 }
 
 }  // namespace

@@ -34,16 +34,16 @@ std::string pointing_json(const pointing_t& pointing) {
                                 {"images", pointing.images},     {"status", pointing.status},
                                 {"flags", pointing.flags}};
   const bool valid = pointing.valid != 0;
-  const auto told = [&](const char* name, const nlohmann::ordered_json& value) {
+  const auto add = [&](const char* name, const nlohmann::ordered_json& value) {
     out[name] = valid ? value : nlohmann::ordered_json();
   };
-  told("pitch_deg", pointing.pitch_rad * kDegPerRad);
-  told("yaw_deg", pointing.yaw_rad * kDegPerRad);
-  told("axis_station", json_of(pointing.axis_station));
-  told("axis_earth", json_of(pointing.axis_earth));
-  told("sigma_deg", pointing.sigma_axis_rad * kDegPerRad);
-  told("plane_normal_station", json_of(pointing.plane_normal_station));
-  told("sigma_plane_deg", pointing.sigma_plane_rad * kDegPerRad);
+  add("pitch_deg", pointing.pitch_rad * kDegPerRad);
+  add("yaw_deg", pointing.yaw_rad * kDegPerRad);
+  add("axis_station", json_of(pointing.axis_station));
+  add("axis_earth", json_of(pointing.axis_earth));
+  add("sigma_deg", pointing.sigma_axis_rad * kDegPerRad);
+  add("plane_normal_station", json_of(pointing.plane_normal_station));
+  add("sigma_plane_deg", pointing.sigma_plane_rad * kDegPerRad);
   return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -34,20 +34,20 @@ std::string spin_json(const spin_t& spin) {
                                 {"sequence", spin.sequence}, {"reference_frame", spin.reference_frame},
                                 {"status", spin.status}};
   const bool valid = spin.valid != 0;
-  const auto told = [&out](const char* name, bool known, const nlohmann::ordered_json& value) {
+  const auto add = [&out](const char* name, bool known, const nlohmann::ordered_json& value) {
     out[name] = known ? value : nlohmann::ordered_json();
   };
   constexpr double k = kDegPerRad;
-  told("rate_deg_s", valid, {k * spin.rate_rad_s[0], k * spin.rate_rad_s[1], k * spin.rate_rad_s[2]});
+  add("rate_deg_s", valid, {k * spin.rate_rad_s[0], k * spin.rate_rad_s[1], k * spin.rate_rad_s[2]});
   nlohmann::ordered_json covariance;
   for (const double value : spin.covariance) covariance.push_back(k * k * value);
-  told("covariance_deg2_s2", valid, covariance);
-  told("axis", valid && has_axis(spin), {spin.axis[0], spin.axis[1], spin.axis[2]});
-  told("sigma_rate_deg_s", valid, k * spin.sigma_rate_rad_s);
-  told("sigma_axis_deg", valid && has_axis(spin), k * spin.sigma_axis_rad);
-  told("residual_rms_deg", valid, k * spin.residual_rms_rad);
-  told("attitudes", valid, spin.attitudes);
-  told("span_s", valid, spin.span_s);
+  add("covariance_deg2_s2", valid, covariance);
+  add("axis", valid && has_axis(spin), {spin.axis[0], spin.axis[1], spin.axis[2]});
+  add("sigma_rate_deg_s", valid, k * spin.sigma_rate_rad_s);
+  add("sigma_axis_deg", valid && has_axis(spin), k * spin.sigma_axis_rad);
+  add("residual_rms_deg", valid, k * spin.residual_rms_rad);
+  add("attitudes", valid, spin.attitudes);
+  add("span_s", valid, spin.span_s);
   return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -94,7 +94,7 @@ void write_refusal(const Problem& problem, const char* reason, host::RowWriter& 
   rows.none(2).integer(static_cast<std::int64_t>(problem.observations.size())).end_row();
 }
 
-void write_answer(const Problem& problem, const LighthousePoseEstimate& estimate, host::RowWriter& rows) {
+void write_solution(const Problem& problem, const LighthousePoseEstimate& estimate, host::RowWriter& rows) {
   rows.text(problem.name);
   write_pose(rows, estimate.pose);
   rows.number(estimate.residual_rms * kArcsecPerRad).number(estimate.adop_deg_per_rad).number(estimate.pdop_m_per_rad);
@@ -111,13 +111,13 @@ bool solve_problem(const Problem& problem, const Target& target, const pose::Sol
     write_refusal(problem, "too_many_angles", rows);
     return false;
   }
-  const auto answer = pose::solve(target, observations_of(problem), options);
-  if (answer) {
-    write_answer(problem, answer->estimate, rows);
+  const auto solution = pose::solve(target, observations_of(problem), options);
+  if (solution) {
+    write_solution(problem, solution->estimate, rows);
   } else {
-    write_refusal(problem, pose::name_of(answer.error()), rows);
+    write_refusal(problem, pose::name_of(solution.error()), rows);
   }
-  return static_cast<bool>(answer);
+  return static_cast<bool>(solution);
 }
 
 // Every solve is timed separately; the median does not depend on other load of the machine.
@@ -131,9 +131,9 @@ double median_ns(const std::vector<Problem>& problems, const Target& target, con
       if (!problem.fits()) continue;
       const pose::Observations observations = observations_of(problem);
       const auto start = std::chrono::steady_clock::now();
-      const auto answer = pose::solve(target, observations, options);
+      const auto solution = pose::solve(target, observations, options);
       const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
-      if (answer) times_ns.push_back(taken.count());
+      if (solution) times_ns.push_back(taken.count());
     }
     progress.step();
   }

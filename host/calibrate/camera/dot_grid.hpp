@@ -14,7 +14,7 @@ namespace pharos::calibrate {
 struct DotGrid {
   ImageStatus status = ImageStatus::kNoBoard;
   std::string detail;
-  std::vector<std::size_t> blob;  // of each board point in the board's order; whole when fate is kUsed
+  std::vector<std::size_t> blob;  // of each board point in the board's order; complete when status is kUsed
   std::size_t found = 0;          // dots in the largest grid: the score of an attempt
 };
 

@@ -227,37 +227,37 @@ Result<PanelMeasurement, PointingRefusal> measure_panel(ImageView<const std::uin
 
 PointingResult answer_of(const PanelMeasurement& panel, const pointing::LineOfSight& sight) {
   const Matrix3 R = pointing::camera_to_station(sight);
-  PointingResult answer;
-  answer.flags = panel.flags;
+  PointingResult result;
+  result.flags = panel.flags;
   for (const pointing::AxisPlane& plane : panel.long_planes)
-    answer.planes_station.push_back(pointing::rotated(plane, R));
-  const auto axis = pointing::estimate_axis({answer.planes_station.data(), answer.planes_station.size()});
-  if (!axis) return answer;  // two finite planes always have an axis
-  answer.axis = *axis;
-  answer.axis.axis = pointing::signed_axis(axis->axis);
+    result.planes_station.push_back(pointing::rotated(plane, R));
+  const auto axis = pointing::estimate_axis({result.planes_station.data(), result.planes_station.size()});
+  if (!axis) return result;  // two finite planes always have an axis
+  result.axis = *axis;
+  result.axis.axis = pointing::signed_axis(axis->axis);
   // Edges that contradict each other have a larger uncertainty than stated for each.
   if (axis->degrees_of_freedom > 0) {
     const double widening = std::max(1.0, axis->chi2 / axis->degrees_of_freedom);
-    answer.axis.covariance *= widening;
-    answer.axis.sigma_along_rad *= std::sqrt(widening);
-    answer.axis.sigma_plane_rad *= std::sqrt(widening);
+    result.axis.covariance *= widening;
+    result.axis.sigma_along_rad *= std::sqrt(widening);
+    result.axis.sigma_plane_rad *= std::sqrt(widening);
   }
-  if (answer.axis.sigma_along_rad > kPlaneOnlySigma_rad) answer.flags |= kFlagPlaneOnly;
+  if (result.axis.sigma_along_rad > kPlaneOnlySigma_rad) result.flags |= kFlagPlaneOnly;
   if (panel.short_planes.size() >= 2) {
     const auto across = pointing::estimate_axis({panel.short_planes.data(), panel.short_planes.size()});
-    if (!across) return answer;
+    if (!across) return result;
     const Vector3 side = R * across->axis;
     // Derivative of the angle by either axis: the component towards the other.
-    const Vector3& d = answer.axis.axis;
+    const Vector3& d = result.axis.axis;
     const double cosine = std::clamp(std::abs(d.dot(side)), 0.0, 1.0);
-    answer.square_rad = std::acos(cosine);
+    result.square_rad = std::acos(cosine);
     const Matrix3 covariance = R * across->covariance * R.transpose();
-    const double variance = side.dot(answer.axis.covariance * side) + d.dot(covariance * d);
-    answer.sigma_square_rad = std::sqrt(variance);
-    if (0.5 * kPi - *answer.square_rad > 3.0 * answer.sigma_square_rad + kSquareSlack_rad)
-      answer.flags |= kFlagNotSquare;
+    const double variance = side.dot(result.axis.covariance * side) + d.dot(covariance * d);
+    result.sigma_square_rad = std::sqrt(variance);
+    if (0.5 * kPi - *result.square_rad > 3.0 * result.sigma_square_rad + kSquareSlack_rad)
+      result.flags |= kFlagNotSquare;
   }
-  return answer;
+  return result;
 }
 
 }  // namespace pharos::pointing

@@ -157,8 +157,8 @@ void LoopCloser::correct(const Loop& loop) {
     }
   }
   const std::set<PointId> around = points_around(map_, loop.there);
-  const std::vector<PointId> theirs(around.begin(), around.end());
-  for (const KeyframeId id : side) fuse_points(map_, theirs, id, camera_, kLoopRadius_px);
+  const std::vector<PointId> nearby_points(around.begin(), around.end());
+  for (const KeyframeId id : side) fuse_points(map_, nearby_points, id, camera_, kLoopRadius_px);
   Keyframe& here = map_.keyframes.at(loop.here);
   Keyframe& there = map_.keyframes.at(loop.there);
   here.loops[loop.there] = here.pose * there.pose.inverse();
@@ -192,9 +192,9 @@ void apply_global(const BundleProblem& solved, const std::vector<std::size_t>& r
     if (solved.poses.contains(id) || keyframe.parent == kNone) continue;
     keyframe.pose = before.at(id) * before.at(keyframe.parent).inverse() * map.keyframes.at(keyframe.parent).pose;
   }
-  std::set<PointId> told;
-  for (const auto& [id, position] : solved.points) told.insert(id);
-  move_points(map, before, told);
+  std::set<PointId> solved_points;
+  for (const auto& [id, position] : solved.points) solved_points.insert(id);
+  move_points(map, before, solved_points);
 }
 
 }  // namespace pharos::slam

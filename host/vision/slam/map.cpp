@@ -189,9 +189,9 @@ const Matrix6& Map::covariance_of(KeyframeId id) const {
 }
 
 void Map::forget_removed(KeyframeId kept) {
-  std::set<KeyframeId> told;
+  std::set<KeyframeId> referenced;
   const auto keep = [&](KeyframeId id) {
-    for (auto at = removed_.find(id); at != removed_.end() && told.insert(id).second; at = removed_.find(id)) {
+    for (auto at = removed_.find(id); at != removed_.end() && referenced.insert(id).second; at = removed_.find(id)) {
       id = at->second.parent;
     }
   };
@@ -199,7 +199,7 @@ void Map::forget_removed(KeyframeId kept) {
   for (const auto& [id, point] : points) {
     if (point.patch) keep(point.patch->keyframe);
   }
-  std::erase_if(removed_, [&told](const auto& entry) { return !told.contains(entry.first); });
+  std::erase_if(removed_, [&referenced](const auto& entry) { return !referenced.contains(entry.first); });
 }
 
 int Map::tracked_points(const Keyframe& keyframe, std::size_t observers) const {

@@ -118,11 +118,11 @@ void fuse_with_neighbours(Map& map, KeyframeId id, const StereoCamera& camera) {
   };
   const std::vector<PointId> own = points_of(id);
   for (const KeyframeId other : around) fuse_points(map, own, other, camera, kFuseRadius_px);
-  std::set<PointId> theirs;
+  std::set<PointId> neighbour_points;
   for (const KeyframeId other : around) {
-    for (const PointId point : points_of(other)) theirs.insert(point);
+    for (const PointId point : points_of(other)) neighbour_points.insert(point);
   }
-  fuse_points(map, {theirs.begin(), theirs.end()}, id, camera, kFuseRadius_px);
+  fuse_points(map, {neighbour_points.begin(), neighbour_points.end()}, id, camera, kFuseRadius_px);
   for (const PointId point : points_of(id)) map.refresh(point);
   map.update_neighbours(id);
 }

@@ -29,7 +29,7 @@ class LeftSquare {
     slopes_ = H(1, 1);
     solver_.compute(H);
   }
-  bool told() const { return slopes_ > kMinSlopes; }
+  bool is_determined() const { return slopes_ > kMinSlopes; }
 
   // Correction of the shift; empty where the square extends beyond the image.
   std::optional<Shift> step(ImageView<const std::uint8_t> right, int v, double column, const Shift& shift) const {
@@ -71,7 +71,7 @@ std::optional<Shift> square_shift(ImageView<const std::uint8_t> left, ImageView<
   constexpr int kSteps = 8;
   constexpr float kEnough_px = 0.005F, kMaxShift_px = 1.0F, kMaxStretch = 0.3F;
   const LeftSquare square(left, u, v);
-  if (!square.told()) return std::nullopt;
+  if (!square.is_determined()) return std::nullopt;
   Shift shift = Shift::Zero();
   for (int k = 0; k < kSteps; ++k) {
     const auto move = square.step(right, v, column, shift);

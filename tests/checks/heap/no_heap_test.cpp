@@ -95,8 +95,8 @@ class Chain {
     report::PoseReport pose;
     pose.pose = *result->pose;
     for (const std::uint8_t sent : pose_to_host_.report(pose)) {
-      const auto heard = pose_at_host_.push(sent);
-      if (heard && std::holds_alternative<report::PoseReport>(*heard)) ++counts_.poses_on_the_line;
+      const auto received = pose_at_host_.push(sent);
+      if (received && std::holds_alternative<report::PoseReport>(*received)) ++counts_.poses_on_the_line;
     }
   }
 

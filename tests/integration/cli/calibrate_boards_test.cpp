@@ -69,31 +69,31 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheStatusOfEachImage) {
   EXPECT_EQ(file.calibration->parameters.size(), 8U);
   EXPECT_TRUE(std::filesystem::exists(path("overlay/left0.png")));
   EXPECT_TRUE(std::filesystem::exists(path("overlay/dark.png")));
-  const std::vector<Row> fates = rows_of(content_of(path("fates.csv")));
-  ASSERT_EQ(fates.size(), 5U);
-  EXPECT_EQ(fates[0].at("status"), "used");
-  EXPECT_EQ(fates[4].at("status"), "no_board");
-  EXPECT_EQ(fates[4].at("rms_px"), "");
+  const std::vector<Row> outcomes = rows_of(content_of(path("fates.csv")));
+  ASSERT_EQ(outcomes.size(), 5U);
+  EXPECT_EQ(outcomes[0].at("status"), "used");
+  EXPECT_EQ(outcomes[4].at("status"), "no_board");
+  EXPECT_EQ(outcomes[4].at("rms_px"), "");
 }
 
 TEST_F(BoardImages, ThatCannotBeReadAreLeftOutAndKeepTheirRow) {
   render_tilted(4);
   folder_.write("broken.tif", std::string("II*\0", 4));
-  const std::string fates = path("fates.csv");
+  const std::string outcomes = path("fates.csv");
   const Outcome run = pharos("calibrate camera " + path("broken.tif") + list("left", 4) + kBoard + " --output " +
-                             path("camera.toml") + " --images " + fates + " --overlay " + path("overlay"));
+                             path("camera.toml") + " --images " + outcomes + " --overlay " + path("overlay"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("broken.tif: damaged TIFF"));
   EXPECT_THAT(run.err, HasSubstr("5 images: 1 unreadable, 4 used"));
   EXPECT_THAT(run.err, HasSubstr("1 of 5 images could not be used"));
-  ASSERT_EQ(rows_of(content_of(fates)).size(), 5U);
-  EXPECT_EQ(rows_of(content_of(fates))[0].at("status"), "unreadable");
+  ASSERT_EQ(rows_of(content_of(outcomes)).size(), 5U);
+  EXPECT_EQ(rows_of(content_of(outcomes))[0].at("status"), "unreadable");
 
   const Outcome rig =
       pharos("calibrate stereo --left" + list("left", 4) + " " + path("broken.tif") + " --right" + list("right", 4) +
-             " " + path("right0.png") + kBoard + " --output " + path("rig.toml") + " --images " + fates);
+             " " + path("right0.png") + kBoard + " --output " + path("rig.toml") + " --images " + outcomes);
   ASSERT_EQ(rig.exit_code, 0) << rig.err;
-  const std::vector<Row> rows = rows_of(content_of(fates));
+  const std::vector<Row> rows = rows_of(content_of(outcomes));
   ASSERT_EQ(rows.size(), 10U);
   EXPECT_EQ(rows[4].at("status"), "unreadable");
   EXPECT_EQ(rows[9].at("status"), "no_partner");

@@ -86,8 +86,8 @@ TEST(CliEvaluate, CountsEveryRowOnce) {
   const Experiment& e = Experiment::get();
   const Row row = rows_of(pharos("evaluate " + e.poses + " " + e.truth).out).at(0);
   double sum = 0.0;
-  for (const char* fate : {"compared", "refused", "ambiguous", "flagged", "outside", "in_gap"})
-    sum += number(row, fate);
+  for (const char* outcome : {"compared", "refused", "ambiguous", "flagged", "outside", "in_gap"})
+    sum += number(row, outcome);
   EXPECT_EQ(sum, number(row, "rows"));
   EXPECT_EQ(rows_of(content_of(e.poses)).size(), number(row, "rows"));
 }

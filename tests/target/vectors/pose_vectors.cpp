@@ -32,9 +32,9 @@ void print(const LighthousePoseEstimate& estimate) {
 
 }  // namespace
 
-void print_answer(const Result<LighthousePoseEstimate, pose::Refusal>& answer) {
-  ResultLine("answer") << static_cast<int>(answer.error()) << answer.ok();
-  if (answer.ok()) print(*answer);
+void print_result(const Result<LighthousePoseEstimate, pose::Refusal>& result) {
+  ResultLine("answer") << static_cast<int>(result.error()) << result.ok();
+  if (result.ok()) print(*result);
 }
 
 namespace {
@@ -57,10 +57,10 @@ void solve_vectors(const Target& target, double sigma_rad, std::uint64_t seed) {
     print(observations);
     const auto solution = pose::solve(target, observations, options, k % 3 == 0 ? nullptr : &view);
     if (solution.ok()) {
-      print_answer(solution->estimate);
+      print_result(solution->estimate);
       ResultLine("used") << solution->used.count();
     } else {
-      print_answer(solution.error());
+      print_result(solution.error());
     }
     const auto warm = pose::solve_warm(target, observations, options, view);
     ResultLine("warm_answer") << warm.has_value();

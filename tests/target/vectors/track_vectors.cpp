@@ -59,7 +59,7 @@ void track_vectors() {
       const auto result = tracker.push(sweep);
       if (!result) continue;
       ResultLine("cycle") << result->station << result->flags << result->time_ticks << result->observations;
-      print_answer(result->pose);
+      print_result(result->pose);
     }
   }
 }

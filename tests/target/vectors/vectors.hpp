@@ -12,6 +12,6 @@ void decoder_vectors();
 void pose_vectors();
 void track_vectors();
 
-void print_answer(const Result<LighthousePoseEstimate, pose::Refusal>& answer);
+void print_result(const Result<LighthousePoseEstimate, pose::Refusal>& result);
 
 }  // namespace pharos::test

@@ -19,7 +19,7 @@ void set_fast_flash(VirtualTarget& target) {
 }
 
 /// The image started without any request, compared in memory byte by byte.
-Starts what_starts(VirtualTarget& target, const Bytes& old_image, const Bytes& new_image) {
+Starts started_image(VirtualTarget& target, const Bytes& old_image, const Bytes& new_image) {
   std::ranges::fill(target.machine.memory, 0);
   target.power_on();
   target.run(kTicksPerSecond / 2);
@@ -59,7 +59,7 @@ void cut_at_every_step(unsigned seed, const Bytes& before, const Bytes& old_imag
     }
     ASSERT_FALSE(verified) << "cut " << cut << " came too late";
     for (int again = 0; again < 2; ++again) {  // half-written bits may be read differently the next time
-      const Starts starts = what_starts(target, old_image, new_image);
+      const Starts starts = started_image(target, old_image, new_image);
       ASSERT_NE(starts, Starts::kNeither) << "cut " << cut << " of " << steps;
       (starts == Starts::kOld ? olds : news) += 1;
       target.power_off();
@@ -67,7 +67,7 @@ void cut_at_every_step(unsigned seed, const Bytes& before, const Bytes& old_imag
     if (cut % 50 == 0) {
       target.power_on();
       ASSERT_TRUE(host.flash(new_image)) << "after cut " << cut;
-      ASSERT_EQ(what_starts(target, old_image, new_image), Starts::kNew);
+      ASSERT_EQ(started_image(target, old_image, new_image), Starts::kNew);
     }
   }
   EXPECT_GT(olds, 2 * steps - 200) << "all but cuts within the mark";

@@ -59,10 +59,10 @@ TEST_F(DecoderFaults, LostAndDoubledEdgesCostOnlyTheirPulses) {
   }
   std::stable_sort(edges.begin(), edges.end(), [](auto& a, auto& b) { return a.stamp_ticks < b.stamp_ticks; });
   std::mt19937 random(11);
-  std::uniform_int_distribution<int> fate(0, 999);
+  std::uniform_int_distribution<int> outcome(0, 999);
   std::vector<Edge> damaged;
   for (const Edge& edge : edges) {
-    const int what = fate(random);
+    const int what = outcome(random);
     if (what < 10) continue;
     damaged.push_back(edge);
     if (what < 20) damaged.push_back(edge);

@@ -282,21 +282,21 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
     int station, axis;
     std::size_t sweep;
   };
-  std::map<int, std::map<std::int64_t, PharosAngle>> mine;  // by sensor, by 48 MHz time
+  std::map<int, std::map<std::int64_t, PharosAngle>> own_angles;  // by sensor, by 48 MHz time
   const Decoded decoded = decode("two_bodies_hmd");
   for (std::size_t i = 0; i < decoded.sweeps.size(); ++i) {
     for (const Bearing& bearing : bearings_of(decoded.sweeps[i])) {
       const Flash& flash = decoded.sweeps[i].flash;
       const double rise_ticks = static_cast<double>(bearing.time_ticks) - 0.5 * bearing.width_ticks;
-      mine[bearing.sensor][std::llround(rise_ticks * 0.96)] = {bearing.theta_rad, flash.station, index_of(flash.axis),
-                                                               i};
+      own_angles[bearing.sensor][std::llround(rise_ticks * 0.96)] = {bearing.theta_rad, flash.station,
+                                                                     index_of(flash.axis), i};
     }
   }
   std::map<std::int64_t, int> votes;
   constexpr std::int64_t kVote_ticks =
       4;  // less than a rotor's jitter, else an offset of a whole turn would count as well
   for (std::size_t i = 0; i < peers.size(); i += 50) {
-    for (const auto& [time, hit] : mine[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVote_ticks];
+    for (const auto& [time, hit] : own_angles[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVote_ticks];
   }
   const auto maximum =
       std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) { return a.second < b.second; });
@@ -310,7 +310,7 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
   std::size_t in_time = 0;
   for (const PeerAngle& peer : peers) {
     const std::int64_t time = peer.timecode48 - origin;
-    const auto& hits = mine[peer.sensor];
+    const auto& hits = own_angles[peer.sensor];
     const auto found = hits.lower_bound(time - kSamePulse_ticks);
     if (time < 0) continue;  // the recording begins later than the peer's list
     ++in_time;

@@ -47,10 +47,10 @@ void expect_what_decoder_gives(const std::vector<Edge>& edges, std::size_t min_s
   ASSERT_GE(reference.sweeps.size(), min_sweeps);
   ASSERT_EQ(sorted.sweeps.size(), reference.sweeps.size());
   for (std::size_t k = 0; k < sorted.sweeps.size(); ++k) test::expect_equal(sorted.sweeps[k], reference.sweeps[k]);
-  std::vector<std::uint32_t> told;
-  for_each_counter(reference.counters(), [&](auto, std::uint32_t value, auto) { told.push_back(value); });
+  std::vector<std::uint32_t> expected;
+  for_each_counter(reference.counters(), [&](auto, std::uint32_t value, auto) { expected.push_back(value); });
   for_each_counter(sorted.counters(), [&, k = std::size_t{0}](const char* name, std::uint32_t value, auto) mutable {
-    EXPECT_EQ(value, told[k++]) << name;
+    EXPECT_EQ(value, expected[k++]) << name;
   });
   EXPECT_EQ(sorted.counters().edges_in, edges_accounted(sorted.counters()));
   test::expect_balance(sorted.counters());

@@ -167,8 +167,8 @@ TEST(MotionFlight, TwoStationsOfOneIdentityKeepTheirOwnPoses) {
 
 // Sensors and rotors with the workshop errors, and no calibration: the known systematic errors are in the covariance.
 TEST(MotionFlight, CovarianceIncludesTheGivenSystematicErrors) {
-  MotionOptions told = test::flight_options();
-  told.systematic = kUncalibratedErrors;
+  MotionOptions options = test::flight_options();
+  options.systematic = kUncalibratedErrors;
   FlightScore silent, with_systematics;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     sim::LighthouseScenario scenario = test::manoeuvre(6.0, 0.5, 60.0, seed);
@@ -177,7 +177,7 @@ TEST(MotionFlight, CovarianceIncludesTheGivenSystematicErrors) {
     test::fly(
         scenario, seed, [&](const FlightSample& answer) { silent.add(answer); }, none);
     test::fly(
-        scenario, seed, [&](const FlightSample& answer) { with_systematics.add(answer); }, none, told);
+        scenario, seed, [&](const FlightSample& answer) { with_systematics.add(answer); }, none, options);
   }
   EXPECT_GT(silent.nees_per_freedom(), 4.0);
   EXPECT_LT(with_systematics.nees_per_freedom(), 2.0);  // six samples of the errors

@@ -199,7 +199,7 @@ TEST(MotionPair, AStationThatSeesTooLittleAloneIsHelpedByTheOther) {
     alone->set_calibration(station, {});
   }
   fused->set_relative(StationRelative{relative_of(scenario), sigmas(0.2e-3, 0.3e-3)});
-  int answered = 0, answered_alone = 0, asked = 0;
+  int solved = 0, solved_alone = 0, asked = 0;
   double worst_mm = 0.0;
   while (const auto pulse = simulator.next()) {
     decoder->push(lighthouse::RawPulse{pulse->rise_ticks, pulse->fall_ticks, pulse->sensor});
@@ -213,16 +213,16 @@ TEST(MotionPair, AStationThatSeesTooLittleAloneIsHelpedByTheOther) {
       const double time_s = ticks_to_seconds(sweep->flash.start_ticks);
       if (sweep->flash.station != 1 || time_s < 3.0 || !together) continue;
       ++asked;
-      if (single && single->pose) ++answered_alone;
+      if (single && single->pose) ++solved_alone;
       if (!together->pose) continue;
-      ++answered;
+      ++solved;
       const auto truth = simulator.truth(1, ticks_to_seconds(together->time_ticks));
       worst_mm = std::max(worst_mm, (together->pose->pose.t - truth.t).norm() * kMmPerM);
     }
   }
   EXPECT_GT(asked, 150);
-  EXPECT_EQ(answered_alone, 0);
-  EXPECT_GT(answered, asked * 99 / 100);
+  EXPECT_EQ(solved_alone, 0);
+  EXPECT_GT(solved, asked * 99 / 100);
   EXPECT_LT(worst_mm, 15.0);
 }
 

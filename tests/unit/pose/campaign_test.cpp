@@ -19,7 +19,7 @@ test::PnpSet set_of(double sigma_rad, double rho = 0.0) {
   return set;
 }
 
-SolveOptions told(const test::PnpSet& set) {
+SolveOptions options_for(const test::PnpSet& set) {
   SolveOptions options;
   options.sigma_rad = set.sigma_rad;
   options.rho = set.rho;
@@ -29,7 +29,7 @@ SolveOptions told(const test::PnpSet& set) {
 TEST(Campaign, ReachesTheCramerRaoBoundAtThePapersNoise) {
   test::PnpSet set = set_of(kPaperSigma_rad);
   set.coplanar_views = false;
-  const auto result = test::run_campaign(test::frustum_target(), set, told(set), 2000, 1);
+  const auto result = test::run_campaign(test::frustum_target(), set, options_for(set), 2000, 1);
   test::print("8.8 arcsec", result);
   EXPECT_EQ(result.score.refused, 0);
   EXPECT_LE(result.score.rotation_over_bound(), 1.02);
@@ -41,11 +41,11 @@ TEST(Campaign, ReachesTheCramerRaoBoundAtThePapersNoise) {
 
 TEST(Campaign, NoFailureAtSixtyArcsecIsAMissedMinimum) {
   test::PnpSet set = set_of(kRoughSigma_rad);
-  const auto everything = test::run_campaign(test::frustum_target(), set, told(set), 2000, 2);
+  const auto everything = test::run_campaign(test::frustum_target(), set, options_for(set), 2000, 2);
   test::print("60 arcsec, coplanar views too", everything);
   EXPECT_EQ(everything.failures_that_truth_fits_better, 0);
   set.coplanar_views = false;
-  const auto result = test::run_campaign(test::frustum_target(), set, told(set), 2000, 2);
+  const auto result = test::run_campaign(test::frustum_target(), set, options_for(set), 2000, 2);
   test::print("60 arcsec", result);
   EXPECT_EQ(result.score.refused, 0);
   EXPECT_LE(result.score.rotation_over_bound(), 1.02);
@@ -56,7 +56,7 @@ TEST(Campaign, NoFailureAtSixtyArcsecIsAMissedMinimum) {
 TEST(Campaign, CoplanarSensorsAreWrongOnlyWhereTheWrongPoseFitsBetterAndThenSaySo) {
   test::PnpSet set = set_of(kPaperSigma_rad);
   set.max_sensors = 4;
-  const auto result = test::run_campaign(test::top_plate_target(), set, told(set), 4000, 3);
+  const auto result = test::run_campaign(test::top_plate_target(), set, options_for(set), 4000, 3);
   test::print("four coplanar, 8.8 arcsec", result);
   EXPECT_EQ(result.score.refused, 0);
   EXPECT_EQ(result.failures_that_truth_fits_better, 0);
@@ -66,7 +66,7 @@ TEST(Campaign, CoplanarSensorsAreWrongOnlyWhereTheWrongPoseFitsBetterAndThenSayS
 TEST(Campaign, CovarianceIsConsistent) {
   for (const double rho : {0.0, kPaperRho}) {
     const test::PnpSet set = set_of(kPaperSigma_rad, rho);
-    const auto result = test::run_campaign(test::frustum_target(), set, told(set), 10000, 4);
+    const auto result = test::run_campaign(test::frustum_target(), set, options_for(set), 10000, 4);
     test::print(rho == 0.0 ? "NEES, rho 0" : "NEES, rho 0.8717", result);
     EXPECT_GT(result.nees_per_freedom, 0.95);
     EXPECT_LT(result.nees_per_freedom, 1.05);
@@ -116,7 +116,7 @@ TEST(Campaign, PredictedSigmaOfStaticSetsIsTheMeasuredOne) {
     int frames = 0;
     for (int k = 0; k < kFrames; ++k) {
       generator.observe(problem);
-      const auto solution = solve(target, problem.observations, told(set));
+      const auto solution = solve(target, problem.observations, options_for(set));
       ASSERT_TRUE(solution.ok());
       if (solution->estimate.ambiguous()) continue;
       const Vector6 error = pose_difference(solution->estimate.pose, problem.truth);

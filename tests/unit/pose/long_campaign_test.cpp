@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kProblems = 200000;
 
-SolveOptions told(double sigma_rad) {
+SolveOptions options_with(double sigma_rad) {
   SolveOptions options;
   options.sigma_rad = sigma_rad;
   return options;
@@ -20,9 +20,9 @@ TEST(LongCampaign, TargetClass) {
     test::PnpSet set;
     set.sigma_rad = arcsec * kRadPerArcsec;
     test::print("coplanar views too",
-                test::run_campaign(test::frustum_target(), set, told(set.sigma_rad), kProblems, 11));
+                test::run_campaign(test::frustum_target(), set, options_with(set.sigma_rad), kProblems, 11));
     set.coplanar_views = false;
-    const auto result = test::run_campaign(test::frustum_target(), set, told(set.sigma_rad), kProblems, 11);
+    const auto result = test::run_campaign(test::frustum_target(), set, options_with(set.sigma_rad), kProblems, 11);
     test::print(arcsec < 10.0 ? "8.8 arcsec" : "60 arcsec", result);
     EXPECT_LE(result.score.refused, kProblems / 100000);  // iterations that end in a flat valley
     EXPECT_LE(result.score.rotation_over_bound(), 1.02);
@@ -36,7 +36,7 @@ TEST(LongCampaign, TargetClass) {
 TEST(LongCampaign, FourCoplanar) {
   test::PnpSet set;
   set.max_sensors = 4;
-  const auto result = test::run_campaign(test::top_plate_target(), set, told(set.sigma_rad), kProblems, 12);
+  const auto result = test::run_campaign(test::top_plate_target(), set, options_with(set.sigma_rad), kProblems, 12);
   test::print("four coplanar, 8.8 arcsec", result);
   EXPECT_EQ(result.failures_that_truth_fits_better, 0);
   EXPECT_LE(result.score.failures, kProblems * 75 / 1000);

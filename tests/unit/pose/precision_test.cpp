@@ -42,10 +42,10 @@ TEST(Precision, AgreesWithTheEquationsAsPrinted) {
     const Vector3 phi = -rotation_log(problem.truth.R);  // passive
     for (const double rho : {0.0, kPaperRho, 0.97}) {
       const auto ours = precision_of(target, problem.truth, problem.seen, rho);
-      const Precision theirs = printed(target, phi, problem.truth.t, problem.seen, rho);
+      const Precision expected = printed(target, phi, problem.truth.t, problem.seen, rho);
       ASSERT_TRUE(ours.ok());
-      EXPECT_NEAR(ours->adop_deg_per_rad / theirs.adop_deg_per_rad, 1.0, 1e-5);
-      EXPECT_NEAR(ours->pdop_m_per_rad / theirs.pdop_m_per_rad, 1.0, 1e-5);
+      EXPECT_NEAR(ours->adop_deg_per_rad / expected.adop_deg_per_rad, 1.0, 1e-5);
+      EXPECT_NEAR(ours->pdop_m_per_rad / expected.pdop_m_per_rad, 1.0, 1e-5);
     }
   }
 }

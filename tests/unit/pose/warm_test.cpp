@@ -33,13 +33,13 @@ double sigmas_between(const LighthousePoseEstimate& a, const LighthousePoseEstim
 
 struct Comparison {
   double variance = kPaperSigma_rad * kPaperSigma_rad;
-  int problems = 0, unanswered = 0, ambiguous = 0, other_flags = 0;
+  int problems = 0, unsolved = 0, ambiguous = 0, other_flags = 0;
   double largest_distance_sigma = 0.0, largest_sigma_ratio = 1.0, largest_delta = 0.0, largest_chi2 = 0.0;
 
   void add(const std::optional<Solution>& warm, const Result<Solution, Refusal>& full) {
     ++problems;
     if (!warm) {
-      ++unanswered;
+      ++unsolved;
       return;
     }
     ASSERT_TRUE(full.ok()) << "an answer where solve() has none";
@@ -85,7 +85,7 @@ void expect_the_same(const Comparison& c) {
   EXPECT_LT(c.largest_sigma_ratio, 1.05);
   EXPECT_LT(c.largest_chi2, 0.01);
   EXPECT_LT(c.largest_delta, 0.01);
-  EXPECT_LE(c.unanswered, c.problems / 500);
+  EXPECT_LE(c.unsolved, c.problems / 500);
 }
 
 TEST(WarmSolve, AnswersAsSolveDoesOverTenThousandProblems) {
@@ -109,7 +109,7 @@ TEST(WarmSolve, ReportsBothSolutionsOfCoplanarSensors) {
   EXPECT_LE(c.other_flags, flags_that_may_differ(c));
   EXPECT_LT(c.largest_distance_sigma, 0.1);
   EXPECT_GT(c.ambiguous, 500);
-  EXPECT_LT(c.unanswered, c.problems / 20);
+  EXPECT_LT(c.unsolved, c.problems / 20);
 }
 
 TEST(WarmSolve, ScalesWithTheTarget) {

@@ -48,7 +48,7 @@ class NotingTracker {
  public:
   void set_calibration(std::uint8_t station, const StationCalibration& calibration) { known[station] = calibration; }
   void clear_calibration(std::uint8_t station) { known[station].reset(); }
-  void set_relative(const std::optional<motion::StationRelative>& told) { relative = told; }
+  void set_relative(const std::optional<motion::StationRelative>& value) { relative = value; }
   void forget_stations() {
     known = {};
     relative.reset();

@@ -70,7 +70,7 @@ lighthouse::Sweep sweep_number(int number) {
 }
 
 template <class Alone>
-void expect_same_answers(const MethodOptions& options, Alone& alone, int sweeps) {
+void expect_same_results(const MethodOptions& options, Alone& alone, int sweeps) {
   const Surveyed surveyed;
   // Not on the stack: two of them are larger than the soft core's.
   const auto tested = std::make_unique<Tested>(surveyed.policy(), cube_target(), options);
@@ -101,14 +101,14 @@ TEST(MethodTracker, EpochAnswersCycleByCycleAsItsTrackerAlone) {
   MethodOptions options;
   options.method = Method::kEpoch;
   track::EpochTracker alone(cube_target(), options.track);
-  expect_same_answers(options, alone, 12);
+  expect_same_results(options, alone, 12);
 }
 
 TEST(MethodTracker, MotionAnswersSweepBySweepAsItsTrackerAlone) {
   MethodOptions options;
   EXPECT_EQ(options.method, Method::kMotion);
   motion::MotionTracker alone(cube_target(), motion::motion_options(options.track, options.systematic, options.limits));
-  expect_same_answers(options, alone, 12);
+  expect_same_results(options, alone, 12);
 }
 
 TEST(MethodTracker, EpochHasNoUseForARelativePose) {

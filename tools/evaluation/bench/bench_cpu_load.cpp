@@ -28,13 +28,13 @@ CpuLoad cpu_load(const std::filesystem::path& images, int cycles) {
   CpuLoad fraction;
   for (const char byte : line) {
     const auto event = link.push(static_cast<std::uint8_t>(byte));
-    const auto* told = event ? std::get_if<report::DeviceReport>(&*event) : nullptr;
-    if (told == nullptr) continue;
-    if (first_ticks < 0) first_ticks = told->time_ticks;
-    if (told->time_ticks - first_ticks < kStart_ticks) continue;
+    const auto* device = event ? std::get_if<report::DeviceReport>(&*event) : nullptr;
+    if (device == nullptr) continue;
+    if (first_ticks < 0) first_ticks = device->time_ticks;
+    if (device->time_ticks - first_ticks < kStart_ticks) continue;
     ++seconds;
-    fraction.percent += 0.1 * told->counters.busy_permille * cycles / kReportedCycles;
-    fraction.lost = static_cast<double>(told->counters.edges_lost) + told->counters.frames_skipped;
+    fraction.percent += 0.1 * device->counters.busy_permille * cycles / kReportedCycles;
+    fraction.lost = static_cast<double>(device->counters.edges_lost) + device->counters.frames_skipped;
   }
   if (seconds == 0) throw host::InputError("decoder.qemu_virt.elf: told no counters on its line; build it anew");
   fraction.percent /= seconds;

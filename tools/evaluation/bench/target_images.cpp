@@ -148,8 +148,8 @@ std::string run_image_live(const fs::path& images, const std::string& name, cons
             {"-serial", "file:" + line.path(), "-chardev", "stdio,id=edges,signal=off", "-device",
              "virtio-serial-device", "-device", "virtconsole,chardev=edges"},
             tape.path());
-  std::ifstream said(line.path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(said), std::istreambuf_iterator<char>()};
+  std::ifstream printed(line.path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(printed), std::istreambuf_iterator<char>()};
 }
 
 std::optional<ImageSizes> image_sizes(const fs::path& images, const std::string& name) {

@@ -155,16 +155,16 @@ struct PnpScore {
     ++problems;
     ++refused;
   }
-  void add(const PnpProblem& problem, const LighthouseFromBody& answer, bool flagged, const Matrix6& bound) {
+  void add(const PnpProblem& problem, const LighthouseFromBody& estimate, bool flagged, const Matrix6& bound) {
     ++problems;
     ambiguous += flagged ? 1 : 0;
-    const double angle = rotation_angle_between(answer.R, problem.truth.R);
+    const double angle = rotation_angle_between(estimate.R, problem.truth.R);
     if (angle > kFailure_rad) {
       ++failures;
       wrong_unflagged += flagged ? 0 : 1;
       return;
     }
-    const double distance_square = (answer.t - problem.truth.t).squaredNorm();
+    const double distance_square = (estimate.t - problem.truth.t).squaredNorm();
     const double rotation_bound = bound.topLeftCorner<3, 3>().trace();
     const double position_bound = bound.bottomRightCorner<3, 3>().trace();
     rotation_square += angle * angle;

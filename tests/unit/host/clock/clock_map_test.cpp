@@ -238,9 +238,9 @@ TEST(ClockMap, IgnoresASingleOutlierTime) {
   SimulatedLine line(8, 0.0, {100e3, 0, 0.0, 0});
   ClockMap map;
   feed_seconds(map, line, 10);
-  for (const std::int64_t wild_s : {-1000, 37, 100'000}) {
+  for (const std::int64_t error_s : {-1000, 37, 100'000}) {
     auto pair = line.next();
-    map.add(pair.ticks + wild_s * 50'000'000, pair.arrival_utc_ns, pair.arrival_monotonic_ns);
+    map.add(pair.ticks + error_s * 50'000'000, pair.arrival_utc_ns, pair.arrival_monotonic_ns);
     pair = feed_seconds(map, line, 1);
     ASSERT_TRUE(map.map(pair.ticks).has_value());
     EXPECT_LT(std::abs(map.map(pair.ticks)->utc_ns - pair.truth_ns - line.utc_offset_ns()), kMs);

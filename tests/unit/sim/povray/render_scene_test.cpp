@@ -85,14 +85,14 @@ TEST(RenderScene, SaysWhatIsWrongWithAScene) {
 TEST(RenderScene, SaysWhatToInstallWherePovrayIsMissing) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
-  std::string said;
+  std::string message;
   try {
     render_scene("", {.width_px = 8, .height_px = 8});
   } catch (const host::InputError& error) {
-    said = error.what();
+    message = error.what();
   }
   setenv("PATH", path.c_str(), 1);
-  EXPECT_THAT(said, testing::HasSubstr("install povray"));
+  EXPECT_THAT(message, testing::HasSubstr("install povray"));
 }
 
 }  // namespace

@@ -121,10 +121,11 @@ using FourColumns = std::array<DynamicRun, kColumns>;
 FourColumns four_columns(const SimulatedRun& run, const CalibrationSession& session, std::uint64_t seed) {
   const RunAssumptions announced = run.as_announced(), calibrated = calibrate_for(run, session, seed);
   const track::TrackOptions paper = paper_method();
-  track::TrackOptions told;
-  told.solve.rho = kPaperRho;
+  track::TrackOptions track_options;
+  track_options.solve.rho = kPaperRho;
   const auto motion = [&](const RunAssumptions& assumptions, const motion::UncertaintyLimits& limits) {
-    return motion::MotionTracker(assumptions.target, motion::motion_options(told, assumptions.systematic, limits));
+    return motion::MotionTracker(assumptions.target,
+                                 motion::motion_options(track_options, assumptions.systematic, limits));
   };
   return {evaluate(run, announced, track::EpochTracker(announced.target, paper)),
           evaluate(run, calibrated, track::EpochTracker(calibrated.target, paper)),

@@ -133,9 +133,9 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
     outcome.position_square += normalised_square(truth.t - frame.placed->pose.t, covariance.bottomRightCorner<3, 3>());
   }
   if (outcome.placed > 0) outcome.rmse_deg = std::sqrt(outcome.rmse_deg / outcome.placed);
-  const int told = std::max(1, outcome.placed - 1);
-  outcome.attitude_square /= told;
-  outcome.position_square /= told;
+  const int tracked = std::max(1, outcome.placed - 1);
+  outcome.attitude_square /= tracked;
+  outcome.position_square /= tracked;
   outcome.loops = system.report().loops;
   return outcome;
 }

@@ -168,10 +168,10 @@ TEST(TrajectoryLog, AddsAKeyframesCovarianceToAFramesOwn) {
   TrajectoryLog log;
   log.add(frame, 1, {}, own);
   const Matrix3 R_left_rectified = rotation_exp({0.02, -0.01, 0.03});
-  const auto told = log.frames(map, R_left_rectified).at(0).placed;
-  ASSERT_TRUE(told);
+  const auto placed = log.frames(map, R_left_rectified).at(0).placed;
+  ASSERT_TRUE(placed);
   const Matrix6 expected = turned(R_left_rectified, turned(pose.R, spread.asDiagonal()) + own);
-  EXPECT_LT((told->covariance - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_LT((placed->covariance - expected).norm(), 1e-6 * expected.norm());
   frame.keyframe = true;
   log.add(frame, 1, {}, own);
   const Matrix6 of_keyframe = turned(R_left_rectified, turned(pose.R, spread.asDiagonal()));
@@ -182,8 +182,8 @@ TEST(TrajectoryLog, AddsAKeyframesCovarianceToAFramesOwn) {
   const Matrix6 alone = turned(R_left_rectified, own);
   EXPECT_LT((log.frames(map, R_left_rectified).at(1).placed->covariance - alone).norm(), 1e-6 * alone.norm())
       << "a keyframe that went is a frame like others";
-  EXPECT_EQ(told->pose.t, R_left_rectified * pose.t);
-  EXPECT_EQ(told->rms_px, 0.5);
+  EXPECT_EQ(placed->pose.t, R_left_rectified * pose.t);
+  EXPECT_EQ(placed->rms_px, 0.5);
 }
 
 }  // namespace

@@ -75,11 +75,11 @@ Consistency consistency(const std::vector<TrackedFrame>& frames, Truth&& truth) 
   Consistency mean;
   const double fraction = 1.0 / (3.0 * static_cast<double>(frames.size() - 1));
   for (std::size_t k = 1; k < frames.size(); ++k) {
-    const TrackedPose& told = *frames[k].placed;
-    const Vector6 delta = pose_difference(truth(frames[k].number), told.pose);
+    const TrackedPose& placed = *frames[k].placed;
+    const Vector6 delta = pose_difference(truth(frames[k].number), placed.pose);
     const Vector3 turn = delta.head<3>(), move = delta.tail<3>();
-    mean.attitude += fraction * turn.dot(told.covariance.topLeftCorner<3, 3>().inverse() * turn);
-    mean.position += fraction * move.dot(told.covariance.bottomRightCorner<3, 3>().inverse() * move);
+    mean.attitude += fraction * turn.dot(placed.covariance.topLeftCorner<3, 3>().inverse() * turn);
+    mean.position += fraction * move.dot(placed.covariance.bottomRightCorner<3, 3>().inverse() * move);
   }
   return mean;
 }
