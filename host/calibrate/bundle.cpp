@@ -19,7 +19,7 @@ namespace {
 constexpr double kHuber = 3.0;
 constexpr int kMaxSteps = 60;
 
-// One adjustment: its rows, and what each of them stands for.
+// One adjustment: its rows and their meaning.
 class Adjustment {
  public:
   explicit Adjustment(const BundleProblem& problem) : problem_(problem), blocks_(problem) {

@@ -15,7 +15,7 @@
 
 namespace pharos::tools {
 
-/// The answer to a request.
+/// The response to a request.
 struct Reply {
   std::optional<wire::NakReason> refusal;  // empty: Ack
   std::uint32_t value = 0;

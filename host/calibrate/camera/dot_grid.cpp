@@ -149,7 +149,7 @@ double rightward(const Grid& grid, const std::vector<Blob>& blobs) {
 
 std::string times(int columns, int rows) { return std::to_string(columns) + " x " + std::to_string(rows); }
 
-// A dot beyond the grid's edge would lie outside the image, or lies on its border.
+// A dot beyond the grid's edge would be outside the image or on its border.
 bool reaches_border(const Grid& grid, const std::vector<Blob>& blobs, int width_px, int height_px) {
   constexpr std::array<Cell, 4> kWays{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   for (const auto& [cell, blob] : grid) {

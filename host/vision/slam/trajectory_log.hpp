@@ -22,7 +22,7 @@ class TrajectoryLog {
   std::size_t size() const { return entries_.size(); }
 
  private:
-  /// Data kept of each frame of a run: poses in double, the rest in small types.
+  /// Data kept of each frame of a run: poses in double, the others in small types.
   struct Entry {
     std::int64_t number;
     double time_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of a station comes in stages: nothing, what it sends of itself, what a calibration finds. In each of
-// them errors are as large as stated. (The third stage: motion_accuracy_test.cpp.)
+// Stages of a station's parameters: unknown, OOTX, calibrated. In each of them errors are as large as stated. (The
+// third stage: motion_accuracy_test.cpp.)
 #include <gtest/gtest.h>
 
 #include <cstdio>

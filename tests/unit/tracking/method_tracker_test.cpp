@@ -178,7 +178,7 @@ TEST(MethodTracker, WithoutCalibrationTheStatedSigmaIsThatOfRealStations) {
   }
 }
 
-// A station that the file does not describe is used as it tells itself, and that is not as good as a calibration.
+// A station that is not in the file is used with its OOTX parameters, which are less accurate than a calibration.
 TEST(MethodTracker, ASentCalibrationLeavesMoreThanTheFileSaysOfItsOwn) {
   MethodOptions options;
   options.systematic = motion::kCalibratedErrors;

@@ -183,7 +183,7 @@ TEST(RecordingFaults, ImpossibleTimesAreDroppedAndCountedAndAffectNoOther) {
                                           {kUtc, kMin},                       //
                                           {kMax, 52 * kS},                    // UTC beyond all bounds
                                           {kMin, 52 * kS},                    //
-                                          {kUtc - 3600 * kS, 52 * kS},        // 8: somebody set the clock
+                                          {kUtc - 3600 * kS, 52 * kS},        // 8: the clock was set
                                           {kUtc, 52 * kS + 7 * 86'400 * kS},  // 9: a week of silence
                                           {kUtc, 53 * kS}});                  // backwards now
   StreamReader reader{ByteSource(file)};

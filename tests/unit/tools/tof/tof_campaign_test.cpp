@@ -23,7 +23,7 @@ std::string text_of(const CampaignResult& result) {
   return text;
 }
 
-// The share of answered frames is asked of all classes together, the rest of each.
+// The fraction of frames with a pose is required of all classes together, the other figures of each.
 TEST(TofCampaign, FramesHavePosesAndNoneIsOverconfident) {
   int frames = 0;
   int good = 0;
