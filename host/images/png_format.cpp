@@ -71,8 +71,8 @@ class PngReader {
       : context_(spng_ctx_new(SPNG_CTX_IGNORE_ADLER32)), bytes_(bytes), name_(name) {
     if (!context_) throw InputError(name + ": no memory to read it");
     constexpr std::uint32_t kAny = std::numeric_limits<std::int32_t>::max();
-    spng_set_image_limits(context_.get(), kAny,
-                          kAny);  // our limits are checked afterwards, with a message that names them
+    // Our limits are checked afterwards, with a message that names them.
+    spng_set_image_limits(context_.get(), kAny, kAny);
     spng_set_chunk_limits(context_.get(), kMaxChunkBytes, kMaxChunkBytes);
     require(spng_set_png_buffer(context_.get(), bytes.data(), bytes.size()));
     require(spng_get_ihdr(context_.get(), &header_));

@@ -60,8 +60,8 @@ std::optional<Reply> FlashSession::await_reply(wire::MessageType type, std::span
 }
 
 void FlashSession::forget_received() {
-  constexpr int kMaxReads =
-      64;  // a port buffers a few of them; the limit ends the loop where a target sends without pause
+  // A port buffers a few of them; the limit ends the loop where a target sends without pause.
+  constexpr int kMaxReads = 64;
   for (int i = 0; i < kMaxReads && line_.read(received_, line_.now_ns()) > 0; ++i) {
   }
   begin_ = end_ = 0;

@@ -14,8 +14,8 @@ namespace pharos::layout {
 struct Rules {
   std::size_t sensors = 12;
   double spacing_m = 0.012;  // between centres
-  double edge_m =
-      0.003;  // minimum distance of a centre from its face's edges: half of a photodiode of 5 mm, and 0.5 mm
+  /// Minimum distance of a centre from its face's edges: half of a photodiode of 5 mm, and 0.5 mm.
+  double edge_m = 0.003;
 };
 
 /// A position on a body.

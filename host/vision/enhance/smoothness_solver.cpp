@@ -22,8 +22,8 @@ constexpr double kSafety = 4.0;
 
 PHAROS_WIDE_VECTORS double dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0.0;
-  constexpr std::size_t kPiece =
-      1024;  // sums of up to a thousand terms are accurate in float; further sums are in double
+  // Sums of up to a thousand terms are accurate in float; further sums are in double.
+  constexpr std::size_t kPiece = 1024;
   for (std::size_t k = 0; k < a.size(); k += kPiece) {
     std::array<float, 8> part{};
     const std::size_t end = std::min(a.size(), k + kPiece);

@@ -13,8 +13,8 @@ constexpr int kSide_px = 2 * kHalf_px + 1;
 constexpr int kSteps = 8;
 constexpr float kEnough_px = 0.01F;
 constexpr float kMaxMove_px = 1.5F;  // a larger one means another corner
-constexpr float kMinSlopes =
-    81.0F;  // squared grey values a pixel, over the square: with less the position is undetermined
+// Squared grey values a pixel, over the square: with less the position is undetermined.
+constexpr float kMinSlopes = 81.0F;
 constexpr float kMaxDissimilarity = 0.2F;  // of the square's own variance
 constexpr float kMinContrast = 0.4F, kMaxContrast = 2.5F;
 constexpr double kMinArea = 0.4, kMaxArea = 2.5;  // ratio of a pixel's areas in the two images
@@ -179,8 +179,8 @@ std::optional<FoundPatch> find_patch(const Patch& patch, const Pose<frame::Camer
     return std::nullopt;
   }
   const auto spare = static_cast<float>(seen.value.size() - 4);
-  const double variance =
-      static_cast<double>(residual_variance / spare / slopes);  // along the direction of the smaller gradient
+  // Along the direction of the smaller gradient.
+  const double variance = static_cast<double>(residual_variance / spare / slopes);
   return FoundPatch{feature.pixel + scale * off.head<2>().cast<double>(),
                     std::min(kCornerSigma_px, std::sqrt(kPatchSigma_px * kPatchSigma_px + variance))};
 }

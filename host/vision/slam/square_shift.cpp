@@ -8,8 +8,8 @@
 namespace pharos::slam {
 namespace {
 
-constexpr float kMinSlopes =
-    121.0F;  // squared grey values a pixel, over the square: with less the position is undetermined
+// Squared grey values a pixel, over the square: with less the position is undetermined.
+constexpr float kMinSlopes = 121.0F;
 
 class LeftSquare {
  public:

@@ -293,8 +293,8 @@ TEST(Recordings, AgreeWithAnotherDecoderToArcSeconds) {
     }
   }
   std::map<std::int64_t, int> votes;
-  constexpr std::int64_t kVote_ticks =
-      4;  // less than a rotor's jitter, else an offset of a whole turn would count as well
+  // Less than a rotor's jitter, else an offset of a whole turn would count as well.
+  constexpr std::int64_t kVote_ticks = 4;
   for (std::size_t i = 0; i < peers.size(); i += 50) {
     for (const auto& [time, hit] : own_angles[peers[i].sensor]) ++votes[(peers[i].timecode48 - time) / kVote_ticks];
   }

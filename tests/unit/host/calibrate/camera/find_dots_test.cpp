@@ -48,8 +48,8 @@ TEST(FindDots, CentresAreNearTheNoiseBoundAndTheirSigmasAreTrue) {
       count += 1.0;
     }
   }
-  EXPECT_LT(std::sqrt(squares / bound),
-            1.5);  // the bound assumes known brightness, shape and blur, which the fit estimates
+  // The bound assumes known brightness, shape and blur, which the fit estimates.
+  EXPECT_LT(std::sqrt(squares / bound), 1.5);
   EXPECT_NEAR(std::sqrt(pulls / count), 1.0, 0.12);
 }
 
