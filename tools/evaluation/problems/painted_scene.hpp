@@ -97,6 +97,46 @@ struct Imaging {
   double full_scale = 60000.0;  // counts of value 1
 };
 
+/// Blurred by a Gaussian; the border's values continue outside.
+inline std::vector<double> blurred(const std::vector<double>& light, int w, int h, double sigma) {
+  const int reach = static_cast<int>(std::ceil(4.0 * sigma));
+  std::vector<double> kernel;
+  double sum = 0.0;
+  for (int k = -reach; k <= reach; ++k) sum += kernel.emplace_back(std::exp(-0.5 * k * k / (sigma * sigma)));
+  std::vector<double> rows;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::vector<double>& in = pass == 0 ? light : rows;
+    std::vector<double> out(light.size(), 0.0);
+    for (int v = 0; v < h; ++v) {
+      for (int u = 0; u < w; ++u) {
+        double mean = 0.0;
+        for (int k = -reach; k <= reach; ++k) {
+          const int x = pass == 0 ? std::clamp(u + k, 0, w - 1) : u, y = pass == 0 ? v : std::clamp(v + k, 0, h - 1);
+          mean += kernel[static_cast<std::size_t>(k + reach)] * in[static_cast<std::size_t>(y * w + x)];
+        }
+        out[static_cast<std::size_t>(v * w + u)] = mean / sum;
+      }
+    }
+    rows = std::move(out);
+  }
+  return rows;
+}
+
+/// Light of 0 to 1 through lens and sensor: grey values 0 to 65535, row by row.
+inline std::vector<std::uint16_t> photographed(const std::vector<double>& light, int w, int h, const Imaging& imaging,
+                                               std::mt19937_64& random) {
+  const std::vector<double> seen_light = blurred(light, w, h, imaging.blur_px);
+  std::vector<std::uint16_t> pixels(light.size());
+  std::normal_distribution<double> normal;
+  for (std::size_t k = 0; k < light.size(); ++k) {
+    const double electrons = imaging.full_well_e * seen_light[k];
+    const double seen = electrons + std::sqrt(electrons + imaging.read_noise_e * imaging.read_noise_e) * normal(random);
+    pixels[k] =
+        static_cast<std::uint16_t>(std::clamp(seen / imaging.full_well_e * imaging.full_scale + 0.5, 0.0, 65535.0));
+  }
+  return pixels;
+}
+
 class PaintedScene {
  public:
   explicit PaintedScene(PaintedCamera camera, double background) : camera_(camera), background_(background) {}
@@ -105,17 +145,7 @@ class PaintedScene {
 
   /// Grey values 0 to 65535, row by row.
   std::vector<std::uint16_t> image(const Imaging& imaging, std::mt19937_64& random) const {
-    std::vector<double> light = blurred(painted(), imaging.blur_px);
-    std::vector<std::uint16_t> pixels(light.size());
-    std::normal_distribution<double> normal;
-    for (std::size_t k = 0; k < light.size(); ++k) {
-      const double electrons = imaging.full_well_e * light[k];
-      const double seen =
-          electrons + std::sqrt(electrons + imaging.read_noise_e * imaging.read_noise_e) * normal(random);
-      pixels[k] =
-          static_cast<std::uint16_t>(std::clamp(seen / imaging.full_well_e * imaging.full_scale + 0.5, 0.0, 65535.0));
-    }
-    return pixels;
+    return photographed(painted(), camera_.width_px, camera_.height_px, imaging, random);
   }
   /// Uppermost layer at a position; -1 is the background.
   int layer_at(double u, double v) const {
@@ -154,30 +184,6 @@ class PaintedScene {
       }
     }
     return sum / (kPlaces * kPlaces);
-  }
-
-  std::vector<double> blurred(std::vector<double> light, double sigma) const {
-    const int w = camera_.width_px, h = camera_.height_px, reach = static_cast<int>(std::ceil(4.0 * sigma));
-    std::vector<double> kernel;
-    double sum = 0.0;
-    for (int k = -reach; k <= reach; ++k) sum += kernel.emplace_back(std::exp(-0.5 * k * k / (sigma * sigma)));
-    std::vector<double> rows(light.size());
-    for (int pass = 0; pass < 2; ++pass) {
-      const std::vector<double>& in = pass == 0 ? light : rows;
-      std::vector<double> out(light.size(), 0.0);
-      for (int v = 0; v < h; ++v) {
-        for (int u = 0; u < w; ++u) {
-          double mean = 0.0;
-          for (int k = -reach; k <= reach; ++k) {
-            const int x = pass == 0 ? std::clamp(u + k, 0, w - 1) : u, y = pass == 0 ? v : std::clamp(v + k, 0, h - 1);
-            mean += kernel[static_cast<std::size_t>(k + reach)] * in[static_cast<std::size_t>(y * w + x)];
-          }
-          out[static_cast<std::size_t>(v * w + u)] = mean / sum;
-        }
-      }
-      rows = std::move(out);
-    }
-    return rows;
   }
 
   PaintedCamera camera_;
