@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
+#include "pharos/ellipse/direct_fit.hpp"
+#include "pharos/ellipse/ellipse.hpp"
 #include "pharos/ellipse/polygon.hpp"
 
 namespace pharos::ellipse {
@@ -24,6 +27,20 @@ constexpr float kMinTurn_rad = 0.10F;
 // Limits of an arc that may propose an ellipse.
 constexpr std::uint32_t kMinSeedPoints = 12;
 constexpr float kMinSeedTurn_rad = 0.35F;
+// A contour closes where its ends are neighbours: the diagonal of a pixel, and half a pixel of each point's own offset.
+constexpr float kClosed_px = 2.5F;
+// A closed one turns once, but for the gap between its ends, where tangents are means of some points.
+constexpr float kMinClosedTurn_rad = 1.2F * std::numbers::pi_v<float>;
+constexpr float kMaxClosedTurn_rad = 2.4F * std::numbers::pi_v<float>;
+// An open one that turns by less is not fitted alone.
+constexpr float kMinOpenTurn_rad = 1.75F;
+// The polygon of a smaller radius of curvature bends as corners do: sqrt(8 * 0.7 / 5.1) = 1.05, and a tenth for noise.
+constexpr double kMinPolygonRadius_px = 5.6;
+// Longer contours are left to the polygon, which is their only test: the samples of a whole one stand 16 px apart.
+constexpr std::size_t kMaxWholePoints = 256;
+// Maximum distance of a whole contour's samples from one ellipse: noise of edges, and a bow of the contour that the
+// blur's shift makes on small ones. An occluded or angular contour is cut instead.
+constexpr double kWholeRms_px = 0.35;
 // Tangents at ends: mean of the gradients of so many points.
 constexpr std::uint32_t kEndPoints = 4;
 
@@ -101,6 +118,7 @@ class ArcCutter {
   void cut(std::uint32_t begin, std::uint32_t end) {
     points_ = std::span<const EdgePoint>(workspace_.ordered.data() + begin, end - begin);
     offset_ = begin;
+    if (keep_whole()) return;
     approximate_polygon(points_, kPolygonTolerance_px, vertices_);
     std::uint16_t arc_begin = 0;
     float before = 0.0F;
@@ -140,6 +158,31 @@ class ArcCutter {
     };
     return rounded(k - 1) || rounded(k + 1);
   }
+  // A contour that is one ellipse is one arc, where it closes or where the polygon could not tell its tips from
+  // corners.
+  bool keep_whole() {
+    if (points_.size() < kMinPoints || points_.size() > kMaxWholePoints) return false;
+    const PointF gap = side(points_, static_cast<std::uint16_t>(points_.size() - 1), 0);
+    const bool closed = gap.u * gap.u + gap.v * gap.v <= kClosed_px * kClosed_px;
+    Arc arc = make_arc(points_, offset_);
+    const float turn = std::abs(arc.turn_rad);
+    if (turn < (closed ? kMinClosedTurn_rad : kMinOpenTurn_rad) || turn > kMaxClosedTurn_rad) return false;
+    const std::optional<Ellipse> ellipse = fit_direct(arc.samples);
+    if (!ellipse || !lies_on(*ellipse, arc)) return false;
+    if (!closed && ellipse->b_px * ellipse->b_px > kMinPolygonRadius_px * ellipse->a_px) return false;
+    arc.seed = true;
+    store(arc);
+    return true;
+  }
+  static bool lies_on(const Ellipse& ellipse, const Arc& arc) {
+    const EllipseDistance distance(ellipse);
+    double squares = 0.0;
+    for (const PointF& p : arc.samples) {
+      const double d = distance.px({static_cast<double>(p.u), static_cast<double>(p.v)});
+      squares += d * d;
+    }
+    return squares <= kWholeRms_px * kWholeRms_px * kArcSamples;
+  }
   void keep(std::uint16_t first, std::uint16_t last) {
     const std::uint32_t count = last + 1U - first;
     if (count < kMinPoints) return;
@@ -147,6 +190,9 @@ class ArcCutter {
     const float turn = std::abs(arc.turn_rad);
     if (turn < kMinTurn_rad) return;
     arc.seed = count >= kMinSeedPoints && turn >= kMinSeedTurn_rad;
+    store(arc);
+  }
+  void store(const Arc& arc) {
     if (workspace_.arcs.push_back(arc)) return;
     ++workspace_.counters.arcs_dropped;
     Arc& shortest = *std::min_element(workspace_.arcs.begin(), workspace_.arcs.end(),

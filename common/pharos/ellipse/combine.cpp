@@ -9,6 +9,7 @@
 #include <span>
 
 #include "pharos/ellipse/arc_pair.hpp"
+#include "pharos/ellipse/close_edges.hpp"
 #include "pharos/ellipse/cluster.hpp"
 #include "pharos/ellipse/direct_fit.hpp"
 #include "pharos/ellipse/refine_fit.hpp"
@@ -32,11 +33,15 @@ constexpr std::array<Trim, 4> kTrims = {{{0, 0}, {3, 3}, {5, 0}, {0, 5}}};
 constexpr std::size_t kTrimsOfPairs = 2;
 // Maximum distance of the arcs of one ellipse from their fit; of arcs with larger ones the best part is used.
 constexpr double kGoodFitRms_px = 0.25;
+// Before the blur's shift is undone a semi-axis is too small by 0.27 px at most (a disc of 3 px).
+constexpr double kSeenMinor = 0.85;
 // Edge points join a first fit within this distance, a refined one within less.
 constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
 // Best fits with one arc that are completed.
 constexpr std::size_t kBestFits = 3;
+// Iterations of the fit that only decides which points belong: it is within the gate after these.
+constexpr int kFirstIterations = 3;
 // Neighbouring edge points share pixels through the filter: with sigma = 1 px their noise is that of one measurement in
 // 3.5 px (the sum of exp(-d^2/4) over the distances d).
 constexpr double kCorrelation_px = 3.5;
@@ -52,8 +57,9 @@ struct Candidate {
   double rank = 0.0;  // fraction of the contour covered by its arcs
 };
 
-bool plausible(const Ellipse& e, const EllipseSettings& settings) {
-  return e.b_px >= settings.min_minor_px && e.a_px < settings.max_axis_ratio * e.b_px && e.a_px < kMaxSide_px;
+bool plausible(const Ellipse& e, const EllipseSettings& settings, double of_min_minor = 1.0) {
+  return e.b_px >= of_min_minor * settings.min_minor_px && e.a_px < settings.max_axis_ratio * e.b_px &&
+         e.a_px < kMaxSide_px;
 }
 
 class Combiner {
@@ -116,7 +122,7 @@ class Combiner {
       }
       const std::span<const PointF> fitted(points.data(), points.size());
       const std::optional<Ellipse> ellipse = fit_direct(fitted);
-      if (!ellipse || !plausible(*ellipse, settings_)) continue;
+      if (!ellipse || !plausible(*ellipse, settings_, kSeenMinor)) continue;
       const double squares = mean_square_px2(*ellipse, fitted, best_squares);
       if (!(squares <= best_squares)) continue;
       best = ellipse;
@@ -153,22 +159,21 @@ class Combiner {
   std::optional<DetectedEllipse> complete(const Ellipse& start, bool bright_inside) {
     collect_support(start, bright_inside, kFirstGate_px, workspace_, support_);
     if (score_of(start, support_, settings_).value() < kHope * settings_.min_score) return std::nullopt;
-    std::optional<RefinedFit> fit = refit(start);
+    std::optional<RefinedFit> fit = refit(start, kFirstIterations);
     if (!fit) return std::nullopt;
     collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
     if (score_of(fit->ellipse, support_, settings_).value() < kHopeOfRefined * settings_.min_score) return std::nullopt;
     fit = refit(fit->ellipse);
     if (!fit || !plausible(fit->ellipse, settings_)) return std::nullopt;
     collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
-    if (support_.count == 0 ||
-        support_.squared_sum_px2 > settings_.max_rms_px * settings_.max_rms_px * support_.count) {
-      return std::nullopt;
-    }
+    if (support_.count == 0 || fit->rms_px > max_rms_px(fit->ellipse)) return std::nullopt;
+    if (!is_determined(*fit)) return std::nullopt;
     DetectedEllipse found;
     found.ellipse = fit->ellipse;
     found.covariance = fit->covariance;
     found.score = score_of(fit->ellipse, support_, settings_).value();
-    found.rms_px = std::sqrt(support_.squared_sum_px2 / support_.count);
+    found.rms_px = fit->rms_px;
+    found.gradient = static_cast<float>(std::sqrt(support_.squared_gradient));
     found.coverage = support_.length_fraction;
     found.points = static_cast<std::int32_t>(support_.count);
     found.arcs = static_cast<std::int32_t>(support_.arcs);
@@ -176,9 +181,34 @@ class Combiner {
     return found;
   }
 
-  std::optional<RefinedFit> refit(const Ellipse& ellipse) {
+  // What edges may scatter about an ellipse: by the image's noise, by what the scene itself is off (print, lens, JPEG),
+  // and by a fiftieth of its size. A small polygon scatters by more: a square of half-side h by 0.03 h after blur and
+  // gates, yet less than a fixed limit for rings allows.
+  double max_rms_px(const Ellipse& e) const {
+    // The steepest place of an edge of blur s and gradient g moves by s^2 n'/g; the noise's slope n' is sigma / 1.1 px.
+    constexpr double kNoiseToEdge_px = 1.7, kOfNoise = 1.5, kScene_px = 0.15, kOfSize = 0.02;
+    const double noise = kOfNoise * kNoiseToEdge_px * static_cast<double>(workspace_.noise);
+    const double size = kOfSize * e.b_px;
+    return std::min(settings_.max_rms_px,
+                    std::sqrt(noise * noise / support_.squared_gradient + kScene_px * kScene_px + size * size));
+  }
+
+  // An axis that is not known to a tenth of the smaller one is no measurement. Where the image's border cuts the
+  // contour, what is inside must say what the whole is: five sigmas, the most that a fit is off, stay within that
+  // tenth, and the arcs turn by as much as a lone one must.
+  bool is_determined(const RefinedFit& fit) const {
+    constexpr double kTolerance = 0.1, kSigmas = 5.0;
+    const bool cut = support_.inside_fraction < 1.0;
+    const double limit = kTolerance * fit.ellipse.b_px / (cut ? kSigmas : 1.0);
+    const double turn_rad = 2.0 * std::numbers::pi * support_.turn_fraction;
+    return fit.covariance(2, 2) <= limit * limit && fit.covariance(3, 3) <= limit * limit &&
+           (!cut || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
+  }
+
+  std::optional<RefinedFit> refit(const Ellipse& ellipse, int iterations = kMaxFitIterations) {
     const double independent = std::min(1.0, support_.stride / kCorrelation_px);
-    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent);
+    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent,
+                      iterations);
   }
 
   void mark_explained(const DetectedEllipse& e) {
@@ -202,6 +232,7 @@ class Combiner {
 void combine_arcs(const EllipseSettings& settings, EllipseWorkspace& workspace) {
   workspace.found.clear();
   Combiner(settings, workspace).run();
+  separate_close_edges(workspace);
   std::sort(workspace.found.begin(), workspace.found.end(),
             [](const DetectedEllipse& a, const DetectedEllipse& b) { return a.score > b.score; });
 }

@@ -12,6 +12,8 @@ namespace pharos::ellipse {
 
 void trace_contours(ImageView<const std::uint16_t> image, EllipseWorkspace& workspace, Contours& contours) {
   workspace.counters = {};
+  workspace.width_px = image.width_px;
+  workspace.height_px = image.height_px;
   workspace.edges.clear();
   workspace.ordered.clear();
   workspace.arcs.clear();
@@ -29,6 +31,7 @@ void trace_contours(ImageView<const std::uint16_t> image, EllipseWorkspace& work
   smooth(image, magnitude, smoothed);
   gradient_magnitude(smoothed, magnitude);
   const EdgeThresholds thresholds = adaptive_thresholds(magnitude, kMaxEdgePoints);
+  workspace.noise = thresholds.noise;
   find_edges(smoothed, magnitude, thresholds.low, places, workspace);
   follow_contours(magnitude, thresholds.high, places, workspace, contours);
 }

@@ -18,6 +18,7 @@ struct DetectedEllipse {
   double rms_px = 0.0;  ///< of the edge points' distances from the contour
   /// Fraction of the contour, 0 to 1, along which edge points lie on it.
   double coverage = 0.0;
+  float gradient = 0.0F;       ///< across the contour, root of the mean square; the unit is that of the smoothed image
   std::int32_t points = 0;     ///< edge points on the contour
   std::int32_t arcs = 0;       /// arcs that contain them
   bool bright_inside = false;  ///< brighter inside the contour than outside

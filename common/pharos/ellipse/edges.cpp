@@ -97,12 +97,13 @@ bool edge_at(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint1
 void find_edges(ImageView<const std::uint16_t> smoothed, ImageView<const std::uint16_t> magnitude, std::uint16_t low,
                 ImageView<std::uint16_t> places, EllipseWorkspace& workspace) {
   workspace.edges.clear();
-  const std::int32_t last = magnitude.width_px - 1;
+  const std::int32_t last = magnitude.width_px - kBorder_px;
   for (std::int32_t v = 0; v < magnitude.height_px; ++v) {
     std::uint16_t* place = places.row(v);
     std::fill_n(place, magnitude.width_px, std::uint16_t{0});
-    const std::uint16_t* row = magnitude.row(v);  // 0 along the border
-    for (std::int32_t block = 1; block < last; block += kBlock_px) {
+    if (v < kBorder_px || v >= magnitude.height_px - kBorder_px) continue;
+    const std::uint16_t* row = magnitude.row(v);
+    for (std::int32_t block = kBorder_px; block < last; block += kBlock_px) {
       const std::int32_t end = std::min(block + kBlock_px, last);
       const bool whole = end - block == kBlock_px;
       if (whole && !any_above(row + block, low)) continue;

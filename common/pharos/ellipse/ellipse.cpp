@@ -45,6 +45,14 @@ double EllipseDistance::px(PointPx point) const {
   return slope * b > 1e-9 ? std::max(f / slope, -b) : -b;
 }
 
+double EllipseDistance::far_px(PointPx point) const {
+  const double a = ellipse_.a_px, b = ellipse_.b_px;
+  const double u = point.u - ellipse_.cx_px, v = point.v - ellipse_.cy_px;
+  const double x = (cos_ * u + sin_ * v) / a, y = (cos_ * v - sin_ * u) / b;
+  const double size = std::hypot(x, y), slope = std::hypot(x / a, y / b);
+  return slope * b > 1e-9 ? size * (size - 1.0) / slope : -b;
+}
+
 double distance_px(const Ellipse& e, PointPx point) { return EllipseDistance(e).px(point); }
 
 Ellipse normalised(Ellipse e) {

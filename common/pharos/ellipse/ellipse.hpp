@@ -34,6 +34,8 @@ class EllipseDistance {
  public:
   explicit EllipseDistance(const Ellipse& ellipse);
   double px(PointPx point) const;
+  /// Exact for a circle, and good where a point is as far away as the contour's radius of curvature.
+  double far_px(PointPx point) const;
 
  private:
   Ellipse ellipse_;

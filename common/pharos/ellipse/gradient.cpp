@@ -101,7 +101,7 @@ EdgeThresholds adaptive_thresholds(ImageView<const std::uint16_t> magnitude, std
   const float low = std::max({kLowSigmas * sigma, kLowFraction * strong, crowded, 1.0F});
   const float high = std::max({kHighSigmas * sigma, kHighFraction * strong, low + 1.0F});
   const auto limited = [](float value) { return static_cast<std::uint16_t>(std::min(value, 65535.0F)); };
-  return {limited(low), limited(high)};
+  return {limited(low), limited(high), sigma};
 }
 
 }  // namespace pharos::ellipse

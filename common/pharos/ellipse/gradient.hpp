@@ -27,6 +27,7 @@ void gradient_magnitude(ImageView<const std::uint16_t> smoothed, ImageView<std::
 struct EdgeThresholds {
   std::uint16_t low = 0;   /// an edge continues down to this
   std::uint16_t high = 0;  /// and must reach this at some point
+  float noise = 0.0F;      /// sigma of the noise's gradient, each component
 };
 
 /// Thresholds for this image: above its noise, estimated from the median magnitude (most of an image has no edge), and

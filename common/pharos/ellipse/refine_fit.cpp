@@ -10,16 +10,18 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr int kIterations = 10;
 constexpr double kConverged_px = 1e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
 constexpr double kMedianToSigma = 1.4826;
 // Lower limit of an edge's sigma, even if few points agree by chance.
 constexpr double kMinSigma_px = 0.02;
-// Blur moves the edge of a disc of radius r inwards by sigma^2 / 2r (the steepest place of a blurred disc: its profile
-// falls as r^-1/2 exp(-(r - R)^2 / 2 sigma^2)). The variances that edges are found through: the filter 1, the central
-// difference 1/3, the pixel 1/12, and a lens of 0.7 px.
-constexpr double kBlurVariance_px2 = 1.0 + 1.0 / 3.0 + 1.0 / 12.0 + 0.7 * 0.7;
+// The shift sigma^2 / 2r at a tip whose radius of curvature is near sigma: s / sqrt(1 + (s / 0.435 sigma)^2) with s of
+// the line above, within 0.004 sigma of the blurred tip of a parabola up to a curvature of 1 / sigma.
+constexpr double kMaxShift = 0.435;
+// Where the contour's other side is within the blur both sides push each other outwards: for a line of half-width
+// b = beta sigma by 2 beta exp(-2 beta^2) sigma, for a disc by 1.2 exp(-beta^2) sigma; in between by q = b/a. Of
+// ellipses blurred numerically: within 0.04 sigma from beta = 1.1, within 0.01 from 1.6.
+constexpr double kBetaOfNoPush = 3.0;
 constexpr double kThetaVariance = std::numbers::pi * std::numbers::pi / 12.0;
 
 struct Turned {
@@ -40,13 +42,28 @@ struct Distances {
   Column value;
 };
 
+// By how much the blurred flanks of a narrow ellipse push the contour outwards at the ends of its axes.
+struct Push {
+  double at_a_px = 0.0, at_b_px = 0.0;
+};
+
+Push push_of(const Ellipse& e) {
+  const double sigma = std::sqrt(kFlankVariance_px2), beta = e.b_px / sigma, q = e.b_px / e.a_px;
+  if (beta > kBetaOfNoPush) return {};
+  const double fall = std::exp(-beta * beta);
+  const double of_disc = 1.2 * fall, of_line = 2.0 * beta * fall * fall;
+  return {sigma * q * q * of_disc, sigma * (of_line + q * q * q * (of_disc - of_line))};
+}
+
 class FittedContour {
  public:
   explicit FittedContour(const Ellipse& e)
-      : e_(e), turned_(e.theta_rad), ka_(1.0 / (e.a_px * e.a_px)), kb_(1.0 / (e.b_px * e.b_px)) {}
+      : e_(e), turned_(e.theta_rad), ka_(1.0 / (e.a_px * e.a_px)), kb_(1.0 / (e.b_px * e.b_px)), push_(push_of(e)) {}
 
   void measure(std::span<const PointF> points, Distances& d) const {
     const double cx = e_.cx_px, cy = e_.cy_px, cosine = turned_.cos, sine = turned_.sin, ka = ka_, kb = kb_;
+    const double at_a = 0.5 * push_.at_a_px, at_b = 0.5 * push_.at_b_px;
+    constexpr double kPerMaxShift = 1.0 / (kMaxShift * kMaxShift * kBlurVariance_px2);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double u = static_cast<double>(points[k].u) - cx, v = static_cast<double>(points[k].v) - cy;
       const double x = cosine * u + sine * v, y = cosine * v - sine * u;
@@ -58,7 +75,9 @@ class FittedContour {
       d.fx[k] = fx;
       d.fy[k] = fy;
       d.per_length[k] = per_length;
-      d.value[k] = (0.5 * (x * fx + y * fy) - 1.0) * per_length + 0.5 * kBlurVariance_px2 * curvature;
+      const double shift = 0.5 * kBlurVariance_px2 * curvature;
+      const double inwards = shift / std::sqrt(1.0 + shift * shift * kPerMaxShift);
+      d.value[k] = (0.5 * (x * fx + y * fy) - 1.0) * per_length + inwards - (at_a * x * fx + at_b * y * fy);
     }
   }
   // Of a point's distance by (cx, cy, m, e1, e2), m = (a+b)/2, (e1, e2) = (a-b)/2 (cos, sin)(2 theta).
@@ -78,6 +97,7 @@ class FittedContour {
   const Ellipse& e_;
   Turned turned_;
   double ka_, kb_;
+  Push push_;
 };
 
 std::optional<Ellipse> moved(const Ellipse& e, const Turned& turned, const Vector5& step) {
@@ -101,6 +121,7 @@ struct Normal {
   Matrix5 matrix = Matrix5::Zero();
   Vector5 gradient = Vector5::Zero();
   double sigma = 0.0;
+  double squares = 0.0;  // of the distances
 };
 
 // Lower triangles only.
@@ -111,6 +132,7 @@ Normal normal_equations(const FittedContour& contour, std::span<const PointF> po
   normal.sigma = scatter_of(distances.value, points.size());
   const double per_width = 1.0 / (kTukey * normal.sigma);
   for (std::size_t k = 0; k < points.size(); ++k) {
+    normal.squares += distances.value[k] * distances.value[k];
     const double ratio = distances.value[k] * per_width;
     if (std::abs(ratio) >= 1.0) continue;
     const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
@@ -143,11 +165,12 @@ Matrix5 in_axes(const Matrix5& covariance, const Ellipse& e, const Turned& turne
 
 }  // namespace
 
-std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent) {
+std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent,
+                                     int iterations) {
   if (points.size() > kMaxFitPoints) points = points.first(kMaxFitPoints);
   if (points.size() <= 5) return std::nullopt;
   RefinedFit fit{start, Matrix5::Zero(), 0.0};
-  for (int k = 0; k < kIterations; ++k) {
+  for (int k = 0; k < iterations; ++k) {
     const FittedContour contour(fit.ellipse);
     const Normal normal = normal_equations(contour, points);
     const Eigen::LDLT<Matrix5, Eigen::Lower> solver(normal.matrix);
@@ -157,9 +180,10 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
     const Vector5 step = -solver.solve(normal.gradient);
     const std::optional<Ellipse> next = moved(fit.ellipse, contour.turned(), step);
     if (!next) return std::nullopt;
-    const bool done = k + 1 == kIterations || step.cwiseAbs().maxCoeff() < kConverged_px;
+    const bool done = k + 1 == iterations || step.cwiseAbs().maxCoeff() < kConverged_px;
     if (done) {
       fit.sigma_px = normal.sigma;
+      fit.rms_px = std::sqrt(normal.squares / static_cast<double>(points.size()));
       // Column by column: Eigen solves for a matrix by a kernel that keeps the caches' sizes in a static.
       Matrix5 inverse;
       for (int i = 0; i < 5; ++i) inverse.col(i) = solver.solve(Vector5::Unit(i));

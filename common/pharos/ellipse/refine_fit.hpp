@@ -10,13 +10,24 @@
 
 namespace pharos::ellipse {
 
+/// A refinement stops earlier where its steps are below 0.001 px.
+inline constexpr int kMaxFitIterations = 10;
 /// Maximum points that a refinement uses.
 inline constexpr std::size_t kMaxFitPoints = 192;
+
+/// Blur moves the edge of a disc of radius r inwards by sigma^2 / 2r (the steepest place of a blurred disc: its profile
+/// falls as r^-1/2 exp(-(r - R)^2 / 2 sigma^2)). The variances that edges are found through: the filter 1, the central
+/// difference 1/3, the pixel 1/12, and a lens of 0.7 px.
+inline constexpr double kBlurVariance_px2 = 1.0 + 1.0 / 3.0 + 1.0 / 12.0 + 0.7 * 0.7;
+/// The same for two edges near each other: the parabola through a pixel's neighbours takes a third of the third
+/// derivative into its slope, as a blur of variance 1/3 does. On a disc's profile that cancels.
+inline constexpr double kFlankVariance_px2 = kBlurVariance_px2 + 1.0 / 3.0;
 
 struct RefinedFit {
   Ellipse ellipse;
   Matrix5 covariance = Matrix5::Zero();  ///< of (cx, cy, a, b, theta), as DetectedEllipse::covariance
-  double sigma_px = 0.0;                 ///< robust scatter of the points about the contour
+  double sigma_px = 0.0;                 ///< robust scatter of the points about the contour as blur shows it
+  double rms_px = 0.0;                   ///< of all points' distances from there
 };
 
 /// The ellipse of least distance to `points` (at most kMaxFitPoints are used), outliers downweighted (Tukey).
@@ -24,6 +35,7 @@ struct RefinedFit {
 /// Gauss-Newton on (cx, cy, (a+b)/2, (a-b)/2 cos 2 theta, (a-b)/2 sin 2 theta), which is not singular at the circle.
 /// `independent`: fraction of the points that count as independent measurements, from 0 to 1: neighbours share the
 /// noise of their pixels. Empty where the points leave some parameter undetermined.
-std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent);
+std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent,
+                                     int iterations = kMaxFitIterations);
 
 }  // namespace pharos::ellipse

@@ -9,7 +9,7 @@ namespace pharos::ellipse {
 /// reasons.
 struct EllipseSettings {
   /// Minimum semi-minor axis.
-  double min_minor_px = 4.0;
+  double min_minor_px = 2.0;
   /// T1 of (2): a/b above it scores 0. The paper's 2 refuses circles tilted by more than 60 deg.
   double max_axis_ratio = 4.0;
   /// T_val: an ellipse with F_val below it is dropped.

@@ -86,15 +86,16 @@ bool may_touch(const Contact& contact, const Arc& arc) {
   return false;
 }
 
-// Calls take(point, distance) for every point of the arc on the contour; returns how many there were.
+// Calls take(point, distance, squared gradient) for every point of the arc on the contour; returns how many there were.
 template <class Take>
 std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const EllipseWorkspace& workspace, Take&& take) {
   std::uint32_t count = 0;
   const auto look = [&](const EdgePoint& p) {
     const PointF place{p.u_px, p.v_px};
+    const PointF gradient{static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)};
     float distance = 0.0F;
-    if (!contact.touches(place, {static_cast<float>(p.gradient_u), static_cast<float>(p.gradient_v)}, distance)) return;
-    take(place, distance);
+    if (!contact.touches(place, gradient, distance)) return;
+    take(place, distance, gradient.u * gradient.u + gradient.v * gradient.v);
     ++count;
   };
   const std::span<const EdgePoint> points(workspace.ordered.data() + arc.begin, arc.points());
@@ -118,9 +119,12 @@ std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const Ellips
 // every machine.
 class Sectors {
  public:
-  explicit Sectors(const Ellipse& e) : e_(e) {
+  Sectors(const Ellipse& e, std::int32_t width_px, std::int32_t height_px)
+      : e_(e), right_(width_px - 1.0 - kBorder_px), bottom_(height_px - 1.0 - kBorder_px) {
     constexpr double kLength_px = 4.0;
     quarter_ = std::clamp(static_cast<int>(perimeter_px(e) / (4.0 * kLength_px)), 2, kMaxSectors / 4);
+    cut_ = width_px > 0 && (e.cx_px - e.a_px < kBorder_px || e.cy_px - e.a_px < kBorder_px ||
+                            e.cx_px + e.a_px > right_ || e.cy_px + e.a_px > bottom_);
   }
 
   // A point in units of the axes.
@@ -147,21 +151,43 @@ class Sectors {
       lengths[static_cast<std::size_t>(k)] = std::sqrt(slant) * anomaly;
       turns[static_cast<std::size_t>(k)] = anomaly / slant;
     }
-    double length = 0.0, turn = 0.0, all_length = 0.0, all_turn = 0.0;
+    double length = 0.0, turn = 0.0, inside_length = 0.0, inside_turn = 0.0, all_length = 0.0, all_turn = 0.0;
+    const double c = std::cos(e_.theta_rad), s = std::sin(e_.theta_rad);
     for (int k = 0; k < 4 * quarter_; ++k) {
       const auto step = static_cast<std::size_t>(k < 2 * quarter_ ? k : k - 2 * quarter_);
       all_length += lengths[step];
       all_turn += turns[step];
-      if ((marked_ >> k & 1U) == 0) continue;
+      const bool marked = (marked_ >> k & 1U) != 0;
+      if (!marked && cut_ && outside(k, c, s)) continue;
+      inside_length += lengths[step];
+      inside_turn += turns[step];
+      if (!marked) continue;
       length += lengths[step];
       turn += turns[step];
     }
     support.length_fraction = length / all_length;
     support.turn_fraction = turn / all_turn;
+    support.inside_fraction = inside_length / all_length;
+    support.inside_turn = inside_turn / all_turn;
   }
 
  private:
+  // Whether a sector's middle is outside the image.
+  bool outside(int sector, double cosine, double sine) const {
+    const int quadrant = sector / quarter_;
+    const double fraction = (sector % quarter_ + 0.5) / quarter_;
+    const bool odd = quadrant % 2 != 0;  // the step runs from the y axis to the x axis
+    const double x = odd ? fraction : 1.0 - fraction, y = 1.0 - x;
+    const double length = std::sqrt(x * x + y * y);
+    const double along = e_.a_px * (quadrant == 1 || quadrant == 2 ? -x : x) / length;
+    const double across = e_.b_px * (quadrant >= 2 ? -y : y) / length;
+    const double u = e_.cx_px + cosine * along - sine * across, v = e_.cy_px + sine * along + cosine * across;
+    return u < kBorder_px || v < kBorder_px || u > right_ || v > bottom_;
+  }
+
   const Ellipse& e_;
+  double right_, bottom_;
+  bool cut_ = false;  // by the image's border
   int quarter_;
   std::uint64_t marked_ = 0;
 };
@@ -172,7 +198,7 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
                      Support& support) {
   support.clear();
   const Contact contact(ellipse, bright_inside, gate_px);
-  Sectors sectors(ellipse);
+  Sectors sectors(ellipse, workspace.width_px, workspace.height_px);
   StaticVector<std::uint16_t, kMaxArcs> touching;
   std::uint32_t possible = 0;
   for (std::size_t k = 0; k < workspace.arcs.size(); ++k) {
@@ -181,23 +207,28 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
     possible += workspace.arcs[k].points();
   }
   support.stride = 1 + possible / static_cast<std::uint32_t>(kMaxFitPoints);
+  double squares = 0.0;
   for (const std::uint16_t k : touching) {
     const Arc& arc = workspace.arcs[k];
-    const std::uint32_t count = for_points_on(contact, arc, workspace, [&](PointF place, float distance) {
-      support.distance_sum_px += std::abs(static_cast<double>(distance));
-      support.squared_sum_px2 += static_cast<double>(distance) * static_cast<double>(distance);
-      if (support.count++ % support.stride != 0) return;
-      support.points.push_back(place);
-      sectors.mark(contact.scaled(place));
-    });
+    const std::uint32_t count =
+        for_points_on(contact, arc, workspace, [&](PointF place, float distance, float squared) {
+          squares += static_cast<double>(squared);
+          support.distance_sum_px += std::abs(static_cast<double>(distance));
+          if (support.count++ % support.stride != 0) return;
+          support.points.push_back(place);
+          sectors.mark(contact.scaled(place));
+        });
     if (count > 0) ++support.arcs;
   }
+  if (support.count > 0) support.squared_gradient = squares / support.count;
   sectors.fractions(support);
 }
 
 std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,
                         const EllipseWorkspace& workspace) {
-  return for_points_on(Contact(ellipse, bright_inside, gate_px), arc, workspace, [](PointF, float) {});
+  const Contact contact(ellipse, bright_inside, gate_px);
+  if (!contact.may_touch_within(arc.about, arc.radius_px)) return 0;
+  return for_points_on(contact, arc, workspace, [](PointF, float, float) {});
 }
 
 }  // namespace pharos::ellipse

@@ -19,16 +19,19 @@ struct Support {
   std::uint32_t count = 0;                     ///< N of (3) and (4): all that lie on it
   std::uint32_t arcs = 0;                      ///< j of (4): arcs with points on it
   double distance_sum_px = 0.0;                ///< sum of L_i of (3)
-  double squared_sum_px2 = 0.0;
-  double length_fraction = 0.0;  ///< of the contour's length, in sectors that have points
+  double squared_gradient = 0.0;               ///< mean of the points'
+  double length_fraction = 0.0;                ///< of the contour's length, in sectors that have points
   double turn_fraction =
       0.0;  ///< of the contour's full turn, in sectors that have points: sum of theta_i of (4) / 2 pi
+  double inside_fraction = 1.0;  ///< of the contour's length, inside the image
+  double inside_turn = 1.0;      ///< of its full turn, inside the image
 
   void clear() {
     points.clear();
     stride = 1;
     count = arcs = 0;
-    distance_sum_px = squared_sum_px2 = length_fraction = turn_fraction = 0.0;
+    distance_sum_px = squared_gradient = length_fraction = turn_fraction = 0.0;
+    inside_fraction = inside_turn = 1.0;
   }
 };
 

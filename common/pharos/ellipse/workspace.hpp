@@ -16,14 +16,17 @@ namespace pharos::ellipse {
 /// Maximum edge points stored of one image: twice those of the busiest rendered frame of 640x480. More are counted; the
 /// thresholds rise before that happens.
 inline constexpr std::size_t kMaxEdgePoints = 40960;
-/// Maximum arcs stored of one image.
-inline constexpr std::size_t kMaxArcs = 512;
-/// Maximum ellipses returned of one image, the best by score.
-inline constexpr std::size_t kMaxEllipses = 64;
+/// Maximum arcs stored of one image: three calibration sheets of 70 rings, two edges each, in a few pieces.
+inline constexpr std::size_t kMaxArcs = 2048;
+/// Maximum ellipses returned of one image, the best by score: three sheets of 70 rings, two edges each.
+inline constexpr std::size_t kMaxEllipses = 512;
 /// Planes of 16 bits a pixel lent by the caller: the smoothed image, gradient magnitude, indices of edge points.
 inline constexpr std::size_t kPlanes = 3;
 /// Narrower or lower images are too small for an edge with its surroundings.
 inline constexpr std::int32_t kMinSide_px = 8;
+/// Edges so near to the border are not used: smoothing reaches 2 px and the difference one more, so beyond the border
+/// pixels that do not exist would bend them.
+inline constexpr std::int32_t kBorder_px = 3;
 /// Wider or higher images would not fit an edge point's column and row, nor the steps of its arithmetic.
 inline constexpr std::int32_t kMaxSide_px = 32767;
 
@@ -45,6 +48,9 @@ struct EllipseWorkspace {
   explicit EllipseWorkspace(std::span<std::uint16_t> planes_of_caller) : planes(planes_of_caller) {}
 
   std::span<std::uint16_t> planes;
+  std::int32_t width_px = 0;  ///< of the last image; 0: unbounded
+  std::int32_t height_px = 0;
+  float noise = 0.0F;  ///< sigma of the last image's gradient, each component, in the edge points' unit
   EllipseCounters counters;
 
   StaticVector<EdgePoint, kMaxEdgePoints> edges;    ///< as found, row by row

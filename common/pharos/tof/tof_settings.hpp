@@ -63,7 +63,8 @@ struct ConnectorSettings {
 };
 
 struct TofSettings {
-  ellipse::EllipseSettings ellipse;
+  /// Of rings and connectors; small dots are not searched, which saves their time.
+  ellipse::EllipseSettings ellipse{.min_minor_px = 4.0};
   RingSettings ring;
   DepthNoise noise;
   ConnectorSettings connector;

@@ -60,6 +60,8 @@ TEST(Ellipse, DistanceIsSignedAndOfFirstOrder) {
   EXPECT_NEAR(distance_px(circle, {10.0, 50.5}), 0.5, 0.01);
   EXPECT_NEAR(distance_px(circle, {39.5, 20.0}), -0.5, 0.01);
   EXPECT_LT(distance_px(circle, {10.0, 20.0}), -20.0);
+  EXPECT_NEAR(EllipseDistance(circle).far_px({10.0, 56.0}), 6.0, 1e-9);
+  EXPECT_NEAR(EllipseDistance(circle).far_px({10.0, 44.0}), -6.0, 1e-9);
 }
 
 TEST(Ellipse, NormalFormHasLongAxisFirstAndHalfATurn) {

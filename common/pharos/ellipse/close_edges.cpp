@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/ellipse/close_edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pharos/ellipse/direct_fit.hpp"
+#include "pharos/ellipse/refine_fit.hpp"
+
+namespace pharos::ellipse {
+namespace {
+
+constexpr int kCloseEdgePlaces = 32;
+// Edges farther apart than this move by less than 0.02 px: 2 h exp(-2 h^2 / s^2).
+constexpr double kMaxStrip_px = 4.8;
+// Below the first a strip's width is noise; what is seen never is narrower than two sigmas.
+constexpr double kMinSeenStrip = 1.03;
+// Of the two steps' ratio: more is no ring's.
+constexpr double kMaxStepRatio = 2.0;
+constexpr int kNewtonSteps = 6;
+
+double gap_px(const Ellipse& outer, const EllipseDistance& to_inner, int place) {
+  return to_inner.far_px(point_at(outer, 2.0 * std::numbers::pi * place / kCloseEdgePlaces));
+}
+
+// Whether `inner` lies in `outer`, their contours within reach of each other somewhere and never crossing.
+bool are_close(const Ellipse& outer, const Ellipse& inner) {
+  if (outer.a_px <= inner.a_px || outer.b_px <= inner.b_px || outer.b_px - inner.b_px > kMaxStrip_px) return false;
+  if (std::abs(outer.cx_px - inner.cx_px) > kMaxStrip_px || std::abs(outer.cy_px - inner.cy_px) > kMaxStrip_px)
+    return false;
+  const EllipseDistance distance(inner);
+  double minimum = kMaxStrip_px;
+  for (int k = 0; k < kCloseEdgePlaces; ++k) minimum = std::min(minimum, gap_px(outer, distance, k));
+  return minimum > 0.0 && minimum < kMaxStrip_px;
+}
+
+// The contour moved at every place by what the edge at the gap there was pushed, times `part`; outwards where negative.
+std::optional<Ellipse> pushed_back(const Ellipse& contour, const Ellipse& other, bool is_outer, double part,
+                                   double& slope) {
+  const EllipseDistance distance(other);
+  std::array<PointF, kCloseEdgePlaces> points;
+  double slopes = 0.0;
+  for (int k = 0; k < kCloseEdgePlaces; ++k) {
+    const double t = 2.0 * std::numbers::pi * k / kCloseEdgePlaces;
+    const PointPx p = point_at(contour, t);
+    const double seen = 0.5 * std::abs(distance.far_px(p));
+    const StripWidth strip = strip_of(seen);
+    slopes += strip.slope / kCloseEdgePlaces;
+    const double push = (is_outer ? 1.0 : -1.0) * part * std::max(0.0, seen - strip.half_px);
+    const double c = std::cos(contour.theta_rad), s = std::sin(contour.theta_rad);
+    const double x = std::cos(t) / contour.a_px, y = std::sin(t) / contour.b_px, length = std::hypot(x, y);
+    points[static_cast<std::size_t>(k)] = {static_cast<float>(p.u - push * (c * x - s * y) / length),
+                                           static_cast<float>(p.v - push * (s * x + c * y) / length)};
+  }
+  slope = slopes;
+  return fit_direct(points);
+}
+
+void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
+  // The stronger step pushes the weaker one's edge farther.
+  const double ratio = std::clamp(static_cast<double>(inner.gradient) / static_cast<double>(outer.gradient),
+                                  1.0 / kMaxStepRatio, kMaxStepRatio);
+  double slope = 1.0;
+  const std::optional<Ellipse> outside = pushed_back(outer.ellipse, inner.ellipse, true, ratio, slope);
+  const std::optional<Ellipse> inside = pushed_back(inner.ellipse, outer.ellipse, false, 1.0 / ratio, slope);
+  if (!outside || !inside || !(inside->b_px > 0.0)) return;
+  outer.ellipse = *outside;
+  inner.ellipse = *inside;
+  // Both are the strip's middle, half of the sum, and its width, half of the difference times the slope.
+  const Matrix5 both = 0.25 * (1.0 + slope * slope) * (outer.covariance + inner.covariance);
+  for (DetectedEllipse* one : {&outer, &inner}) {
+    const double theta = one->covariance(4, 4);
+    one->covariance = both;
+    if (both(4, 4) <= theta) continue;
+    one->covariance.row(4).setZero();
+    one->covariance.col(4).setZero();
+    one->covariance(4, 4) = theta;
+  }
+}
+
+}  // namespace
+
+StripWidth strip_of(double seen_px) {
+  const double x = std::max(seen_px, kMinSeenStrip * std::sqrt(kFlankVariance_px2));
+  if (2.0 * x > kMaxStrip_px) return {seen_px, 1.0};
+  double half = x, falling = 0.0, bend = 0.0;
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    bend = std::tanh(x * half / kFlankVariance_px2);
+    falling = (1.0 - bend * bend) / kFlankVariance_px2;
+    half -= (half - x * bend) / (1.0 - x * x * falling);
+  }
+  return {half, (bend + x * half * falling) / (1.0 - x * x * falling)};
+}
+
+void separate_close_edges(EllipseWorkspace& workspace) {
+  auto& found = workspace.found;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t j = i + 1; j < found.size(); ++j) {
+      if (found[i].bright_inside == found[j].bright_inside) continue;
+      const bool first_is_outer = found[i].ellipse.a_px > found[j].ellipse.a_px;
+      DetectedEllipse &outer = first_is_outer ? found[i] : found[j], &inner = first_is_outer ? found[j] : found[i];
+      if (are_close(outer.ellipse, inner.ellipse)) separate(outer, inner);
+    }
+  }
+}
+
+}  // namespace pharos::ellipse
