@@ -28,6 +28,9 @@ constexpr double kElsewhere_m = 0.02;
 constexpr double kElsewhere_rad = 5.0 * kRadPerDeg;
 constexpr std::size_t kFewestPoses = 6;
 constexpr double kContradiction = 5.0;
+// Root mean square of the sensors' shifts over their priors from which on they are another body's: of thirty
+// coordinates within their priors chance makes 1 +- 0.13.
+constexpr double kOtherBody = 3.0;
 
 class Calibration {
  public:
@@ -48,11 +51,13 @@ class Calibration {
     require_length_ends();
     fits_.add_before(problem(), alone_);
     const BundleResult first = adjust(problem());
+    refuse_other_body(first);
     refuse_contradiction(first);
     // Intervals solved as the mirror image, or ambiguous, are solved again with the calibrated parameters.
     intervals_ = all_intervals_;
     start(first.unknowns.target, first.unknowns.station, std::hypot(kCalibratedSigma_rad, unmodelled_of(first)));
     result_.bundle = settle();
+    refuse_other_body(result_.bundle);
     refuse_contradiction(result_.bundle);
     fits_.add_after(intervals_, result_.bundle.residuals);
     result_.fits = fits_.table();
@@ -229,6 +234,31 @@ class Calibration {
         length.length_m * kMmPerM, bundle.lengths[worst].sigmas_apart, bundle.lengths[worst].predicted_m * kMmPerM,
         bundle.lengths[worst].predicted_sigma_m * kMmPerM);
     throw InputError(text_of(length) + text.data());
+  }
+
+  // A table of another body is bent to this one where the recordings allow it: then its sensors move by many times
+  // what was stated of them. One that is a little out of its place is what a calibration is for.
+  void refuse_other_body(const BundleResult& bundle) const {
+    double squares = 0.0, count = 0.0, worst_m = 0.0, prior_m = 0.0;
+    std::uint8_t worst = 0;
+    const Target& found = bundle.unknowns.target;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Vector3 shift = found[i].position_m - input_.target[i].position_m;
+      if (shift.isZero(0.0)) continue;  // never hit
+      squares += shift.squaredNorm() / (input_.sigmas.sensor_position_m * input_.sigmas.sensor_position_m);
+      count += 3.0;
+      if (shift.norm() <= worst_m) continue;
+      worst_m = shift.norm();
+      worst = found[i].sensor;
+      prior_m = input_.sigmas.sensor_position_m;
+    }
+    if (squares <= kOtherBody * kOtherBody * count) return;
+    std::array<char, 256> text{};
+    std::snprintf(text.data(), text.size(),
+                  "not this target: sensor %d lies %.1f mm from where --target has it, known to %.2f mm; give the "
+                  "table of the body that was recorded, or measure that sensor again",
+                  int{worst}, worst_m * kMmPerM, prior_m * kMmPerM);
+    throw InputError(text.data());
   }
 
   LighthouseCalibrationInput input_;

@@ -24,6 +24,14 @@ namespace pharos::host {
 
 using TrackMethod = tracking::Method;
 
+/// Whom a target's capture board must tell itself to be, by what its greeting holds; empty: anybody.
+struct ExpectedIdentity {
+  std::optional<std::uint32_t> serial;  // unique id of the board
+  std::optional<int> sensors;           // inputs of the board
+
+  bool any() const { return serial.has_value() || sensors.has_value(); }
+};
+
 /// One cooperative target: the port that its capture board hangs on and how its pose is found.
 struct TargetConfig {
   /// Told in every message: letters, digits, `-` and `_`; no two targets share one.
@@ -31,6 +39,7 @@ struct TargetConfig {
   /// A terminal device, or `replay:FILE` for a recorded serial stream.
   std::string port;
   int baud = 460'800;
+  ExpectedIdentity identity;
   std::filesystem::path target_file;
   Target target;  // as calibrated, where a calibration is named
   TargetShape shape;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <sstream>
 
 #include "host/config/load_config.hpp"
@@ -38,6 +40,12 @@ void describe_recording(std::ostream& out, const std::optional<RecordingConfig>&
 void describe_target(std::ostream& out, const TargetConfig& target) {
   out << "target " << target.name << ":\n  port: " << target.port;
   if (!target.is_replay()) out << " at " << target.baud << " baud";
+  if (target.identity.serial) {
+    std::array<char, 9> serial{};
+    std::snprintf(serial.data(), serial.size(), "%08X", *target.identity.serial);
+    out << "\n  must be the board with serial number " << serial.data();
+  }
+  if (target.identity.sensors) out << "\n  must be a board of " << *target.identity.sensors << " sensors";
   out << "\n  sensors: " << target.shape.sensors << " from " << target.target_file.string();
   if (target.shape.coplanar) out << " (all in one plane: single cycles may fit two poses)";
   if (!target.calibration_file.empty()) {

@@ -2,6 +2,7 @@
 #include "host/config/load_config.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <set>
 #include <sstream>
@@ -87,6 +88,24 @@ motion::UncertaintyLimits read_limits(const TomlTable& table) {
   return limits;
 }
 
+ExpectedIdentity read_identity(const TomlTable& table) {
+  ExpectedIdentity identity;
+  if (table.has("serial")) {
+    constexpr std::size_t kDigits = 8;
+    const std::string serial = table.text("serial");
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(serial.data(), serial.data() + serial.size(), value, 16);
+    if (serial.size() != kDigits || error != std::errc{} || end != serial.data() + kDigits || value == 0) {
+      table.fail("serial", "must be the board's number as eight hex digits, as `pharos listen PHAROS_STATUS` shows it");
+    }
+    identity.serial = value;
+  }
+  if (table.has("sensors")) {
+    identity.sensors = static_cast<int>(table.integer_or("sensors", 0, 1, static_cast<std::int64_t>(kMaxSensors)));
+  }
+  return identity;
+}
+
 // Sensor positions and stations as calibrated.
 void read_calibration(const TomlTable& table, const fs::path& folder, const Environment& environment,
                       TargetConfig& target) {
@@ -134,6 +153,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   const TomlTable solve = table.table_or_empty("solve");
   target.track = read_solve(solve);
   target.limits = read_limits(solve);
+  target.identity = read_identity(table.table_or_empty("identity"));
   target.target_file = read_path(table, "target_file", folder);
   try {
     const TargetFile file = environment.read_target(target.target_file.string());

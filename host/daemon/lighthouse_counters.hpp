@@ -17,6 +17,7 @@ namespace pharos::host {
   X(cycles_stale, "cycles answered, not sent: measurement older than publish.max_age_s") \
   X(cycles_no_clock, "cycles answered, not sent: target's clock not mapped to UTC yet")  \
   X(cycles_not_finite, "cycles answered, not sent: not finite (a bug of ours)")          \
+  X(cycles_wrong_target, "cycles refused: the board is not the expected one")            \
   X(board_poses, "poses solved on board")                                                \
   X(ootx_payloads, "OOTX payloads received")                                             \
   X(ootx_unreadable, "OOTX payloads of no known protocol")                               \

@@ -41,7 +41,10 @@ SourceHealth LighthousePipeline::health(const std::string& device, SourceState p
 // From the wire upwards: the lowest thing that is wrong is the one to tell.
 void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const {
   health.state = SourceState::kWaiting;
-  if (rate_.pose_within(kSilence_ns, now_ns)) {
+  if (!identity_fault_.empty() && rate_.data_within(kSilence_ns, now_ns)) {
+    health.state = SourceState::kError;
+    health.message = identity_fault_;
+  } else if (rate_.pose_within(kSilence_ns, now_ns)) {
     health.state = SourceState::kOk;
   } else if (last_bytes_ns_ < 0) {
     health.message = "nothing came from the target yet: is it powered, is this its port?";
@@ -72,7 +75,7 @@ NamedCounts LighthousePipeline::named_counts() const {
   for_each_counter(counters_, add(""));
   for (std::size_t i = 1; i < counters_.refused.size(); ++i) {
     const std::string name = pose::name_of(static_cast<pose::Refusal>(i));
-    if (i <= static_cast<std::size_t>(pose::Refusal::kBadInput)) {
+    if (i <= static_cast<std::size_t>(pose::kLastRefusal)) {
       counts.push_back({"cycles_refused_" + name, counters_.refused[i]});
     }
   }

@@ -2,6 +2,7 @@
 #include "host/daemon/lighthouse_pipeline.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "host/calibrate/calibration_file.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 // A target's clock that goes back by more than any reordering on the line was started anew.
 constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
+
+constexpr const char* kWrongTarget = "wrong_target";
+constexpr const char* kNotIntroduced = "the board has not said yet who it is, and a certain one is expected";
 
 std::string version_text(const wire::Hello& hello) {
   return std::to_string(hello.firmware_major) + '.' + std::to_string(hello.firmware_minor) + '.' +
@@ -80,7 +84,8 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
             PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
       board_gate_(publisher, counters_.cycles_not_finite,
                   PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
-      log_(config.name) {
+      log_(config.name),
+      identity_fault_(config.identity.any() ? kNotIntroduced : "") {
   if (!config_.remember_calibrations) return;
   lighthouse::CalibrationStore accepted;
   for (const lighthouse::StationCalibration& station : memory_.stations()) accepted.remember(station);
@@ -152,6 +157,7 @@ void LighthousePipeline::line_lost() {
   link_.restart();
   frame_bytes_ = 0;
   tracker_.restart_tracking();
+  if (config_.identity.any()) identity_fault_ = kNotIntroduced;
 }
 
 // ReportedCounters once: a station that was knocked, or a calibration of how they stood before.
@@ -224,13 +230,39 @@ void LighthousePipeline::take(const wire::Hello& hello) {
   const std::pair start{hello.unique_id, hello.start_count};
   if (known_start_ && *known_start_ != start) restart("it says so");
   known_start_ = start;
+  check_identity(hello);
   std::string identity = std::string(hello.board.view()) + ' ' + version_text(hello);
+  if (hello.unique_id != 0) identity += ' ' + station_id_text(hello.unique_id);
   if (!hello.target.view().empty()) identity += " \"" + std::string(hello.target.view()) + '"';
   if (hello.role == wire::Role::kLoader) identity += " (boot loader)";
   if (hello.role == wire::Role::kSimulator) identity += " (simulated)";
   if (identity == identity_) return;
   identity_ = identity;
   log_.info("identity", identity_ + " speaks", arrival_.monotonic_ns);
+}
+
+// Another body on this port would be measured with this one's table, under its name.
+void LighthousePipeline::check_identity(const wire::Hello& hello) {
+  const ExpectedIdentity& expected = config_.identity;
+  std::string fault;
+  if (expected.serial && hello.unique_id != *expected.serial) {
+    fault = "the board's serial number is " + station_id_text(hello.unique_id) + ", not " +
+            station_id_text(*expected.serial);
+  } else if (const int sensors = std::popcount(hello.sensors); expected.sensors && sensors != *expected.sensors) {
+    fault = "the board has " + std::to_string(sensors) + " sensors, not " + std::to_string(*expected.sensors);
+  }
+  if (!fault.empty()) fault += ": another target is on this port; correct the port or [target.identity]";
+  if (fault == identity_fault_) return;
+  identity_fault_ = fault;
+  if (!fault.empty()) log_.error("wrong target", fault, arrival_.monotonic_ns);
+}
+
+bool LighthousePipeline::refuse_wrong_target(MeasurementOutcome& outcome) {
+  if (identity_fault_.empty()) return false;
+  outcome.refusal = kWrongTarget;
+  last_refusal_ = kWrongTarget;
+  ++counters_.cycles_wrong_target;
+  return true;
 }
 
 void LighthousePipeline::count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose) {
@@ -265,7 +297,11 @@ bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::i
 void LighthousePipeline::answer(const track::EpochResult& result) {
   auto report = report_of<CycleReport>(result);
   if (!gate_.finite(report)) return;
-  count_answer(result.pose);
+  if (refuse_wrong_target(report)) {
+    report.ambiguous = false;
+  } else {
+    count_answer(result.pose);
+  }
   if (!stamp(report, result.station, result.time_ticks)) return;
   if (report.answered()) calibrate::widen_by_scale(report.pose, config_.scale_sigma);
   if (!gate_.passes(report)) return;
@@ -291,6 +327,7 @@ void LighthousePipeline::publish_bearings(const CycleReport& report, const track
 void LighthousePipeline::take(const report::PoseReport& pose) {
   ++counters_.board_poses;
   auto report = report_of<BoardPoseReport>(pose);
+  if (refuse_wrong_target(report)) report.ambiguous = false;
   if (stamp(report, pose.station, pose.time_ticks)) board_gate_.publish(report);
 }
 

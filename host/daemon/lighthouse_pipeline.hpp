@@ -80,6 +80,8 @@ class LighthousePipeline {
   }
 
   void check_relative_pose();
+  void check_identity(const wire::Hello& hello);
+  bool refuse_wrong_target(MeasurementOutcome& outcome);
   void check_clock(const report::LinkEvent& event);
   void restart(const char* why);
   void answer(const track::EpochResult& result);
@@ -118,6 +120,7 @@ class LighthousePipeline {
   BoardCounters board_counters_;
   RateLimitedLog log_;
   std::string identity_;
+  std::string identity_fault_;  // why the board is not the expected one; empty where it is
   LatencyHistogram latency_;
   std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
   std::int64_t last_sweep_ns_ = -1;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/calibrate/camera/rig_calibration.hpp"
+#include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/geometry/rotation.hpp"
@@ -60,6 +61,20 @@ void write_overlays(const StereoOptions& options, const calibrate::Board& board,
   }
 }
 
+// Two images of one pair that are the same picture, or cameras that stand the other way round.
+host::PairFault fault_of(const BoardPictures& left, const BoardPictures& right) {
+  for (std::size_t i = 0; i < left.pictures().size(); ++i) {
+    const host::PairFault fault = host::pair_fault({left.pictures()[i].image, right.pictures()[i].image});
+    if (fault != host::PairFault::kNone) return fault;
+  }
+  return host::PairFault::kNone;
+}
+
+host::PairFault fault_of(const calibrate::RigCalibration& result) {
+  const Vector3& t_left_right = result.outcome->state.T_left_right.t;
+  return host::pair_fault({t_left_right.x(), t_left_right.y(), t_left_right.z()});
+}
+
 int run_stereo(const StereoOptions& options) {
   if (options.left.size() != options.right.size()) {
     throw host::InputError(std::to_string(options.left.size()) + " left and " + std::to_string(options.right.size()) +
@@ -70,6 +85,11 @@ int run_stereo(const StereoOptions& options) {
   ImageInput input;
   const BoardPictures left(options.left, input), right(options.right, input);
   if (input.nothing_read()) return input.finish(false);
+  const auto refuse = [&input](const std::string& why) {
+    note("no rig: " + why);
+    return input.finish(false);
+  };
+  if (const auto fault = fault_of(left, right); fault != host::PairFault::kNone) return refuse(text_of(fault));
   calibrate::RigCalibration result;
   {
     Progress progress("looking for boards", "images", 2 * options.left.size());
@@ -79,10 +99,8 @@ int run_stereo(const StereoOptions& options) {
   note_images(images);
   if (!options.board.images.empty()) write_image_statuses(images, {options.board.json, options.board.images});
   if (!options.board.overlay.empty()) write_overlays(options, choices.board, {&left, &right}, result);
-  if (!result.refusal.empty()) {
-    note("no rig: " + result.refusal);
-    return input.finish(false);
-  }
+  if (!result.refusal.empty()) return refuse(result.refusal);
+  if (const auto fault = fault_of(result); fault != host::PairFault::kNone) return refuse(text_of(fault));
   note_fit(*result.outcome, images, choices.board);
   note(printf_text("epipolar rms %.4f px from %zu pairs", result.epipolar_rms_px, result.pairs));
   note(printf_text("OpenCV's own adjustment to the same points: rms %.4f px, epipolar rms %.4f px",

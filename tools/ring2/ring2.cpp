@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
@@ -82,11 +83,28 @@ bool from_table(const ring2::Rig& rig, const Options& options) {
   return answered;
 }
 
+// Whether the images show more of ring and nozzle, and fit, when they are taken for each other's: a rig whose cameras
+// look towards each other also sees a smaller or larger circle in images that were exchanged.
+bool better_exchanged(host::Ring2Detector& finder, const host::Ring2Detection& given, const host::Ring2Images& images) {
+  if (given.refusal == name_of(ring2::Ring2Failure::kExchanged)) return true;
+  const host::Ring2Detection exchanged = finder.find({images[1], images[0]});
+  if (!exchanged.estimate) return false;
+  return !given.estimate || exchanged.estimate->ellipses > given.estimate->ellipses;
+}
+
 bool from_images(const ring2::Rig& rig, const Options& options) {
   ImageInput input;
   const std::array<host::GreyImage, 2> images{input.read(options.images[0]), input.read(options.images[1])};
   host::Ring2Detector finder(rig, {});
-  host::Ring2Detection circles = finder.find({images[0].view(), images[1].view()});
+  const host::Ring2Images views{images[0].view(), images[1].view()};
+  host::Ring2Detection circles = finder.find(views);
+  host::PairFault fault = host::pair_fault({views[0], views[1]});
+  if (fault == host::PairFault::kNone && better_exchanged(finder, circles, views)) fault = host::PairFault::kExchanged;
+  if (fault != host::PairFault::kNone) {
+    note(text_of(fault));
+    circles.estimate.reset();
+    circles.refusal = fault == host::PairFault::kEqual ? "left_right_equal" : name_of(ring2::Ring2Failure::kExchanged);
+  }
   Output output(options.output, ring2_columns(false));
   const bool by_paper = options.method == "paper";
   if (circles.estimate && by_paper) {

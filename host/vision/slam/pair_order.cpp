@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/pair_order.hpp"
 
+#include "host/cameras/pair_order.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::slam {
@@ -21,7 +22,7 @@ void PairOrder::add(std::size_t features, const StereoMatchStats& stats) {
   ++pairs_;
   if (!known()) return;
   if (sum_.swapped > 2 * sum_.matched) {
-    throw host::InputError("left and right images seem to be exchanged: what both show lies on the wrong side");
+    throw host::InputError(text_of(host::PairFault::kExchanged));
   }
   if (sum_.off_rows > 2 * sum_.matched) {
     throw host::InputError(

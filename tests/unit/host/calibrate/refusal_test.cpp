@@ -53,6 +53,15 @@ TEST(CalibrationRefusals, AnotherTargetsSensors) {
   EXPECT_THAT(refusal_of(material), HasSubstr("--target"));
 }
 
+// A table with one sensor where another body has it: the recordings are enough to bend it to the body that was there.
+TEST(CalibrationRefusals, AnotherBodysTable) {
+  LighthouseCalibrationInput material = sound();
+  EXPECT_EQ(refusal_of(material), "");
+  material.lengths.clear();
+  material.target[0].position_m.x() += 0.02;
+  EXPECT_THAT(refusal_of(material), AllOf(HasSubstr("not this target"), HasSubstr("mm from where --target has it")));
+}
+
 TEST(CalibrationRefusals, AStationThatNobodyKnowsAndTwoThatAreOne) {
   LighthouseCalibrationInput material = sound();
   material.recordings.front().station[1] = material.recordings.front().station[0];

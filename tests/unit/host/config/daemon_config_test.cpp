@@ -47,6 +47,20 @@ TEST(DaemonConfig, TracksMotionUnlessConfiguredToTakeEachCycleAlone) {
   EXPECT_THROW(method("method = 'cycle'\n"), InputError);
 }
 
+TEST(DaemonConfig, TakesWhoTheBoardMustBe) {
+  const auto identity = [&](const std::string& more) {
+    return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).identity;
+  };
+  EXPECT_FALSE(identity("").any());
+  const ExpectedIdentity told = identity("[target.identity]\nserial = '0A1b2C3D'\nsensors = 12\n");
+  EXPECT_EQ(told.serial, 0x0A1B2C3Du);
+  EXPECT_EQ(told.sensors, 12);
+  for (const char* wrong :
+       {"serial = '0A1B'", "serial = '00000000'", "serial = '0A1B2C3G'", "sensors = 0", "sensors = 33"}) {
+    EXPECT_THROW(identity("[target.identity]\n" + std::string(wrong) + "\n"), InputError) << wrong;
+  }
+}
+
 TEST(DaemonConfig, TakesWhatIsGoodEnough) {
   const auto limits = [&](const std::string& more) {
     return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).limits;

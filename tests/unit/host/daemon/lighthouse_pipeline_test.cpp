@@ -276,5 +276,48 @@ TEST_F(TargetPipelineTest, WhatThePortSaysGoesBeforeWhatThePipelineSays) {
   EXPECT_EQ(health.message, "/dev/x: no such device");
 }
 
+// Another body on this port would be measured with this one's table and told by its name.
+TEST_F(TargetPipelineTest, ABoardThatIsNotTheExpectedOneIsRefusedAndTold) {
+  TargetConfig certain = config();
+  certain.identity.sensors = 5;  // the test's board has StationaryTarget::kSensors
+  LighthousePipeline pipeline(certain, PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
+  const auto cycles = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      ticks_ += kCycle_ticks;
+      pipeline.push(target_.cycle(ticks_), arrival_at(ticks_));
+    }
+  };
+  cycles(40);
+  ASSERT_FALSE(poses().empty());
+  EXPECT_EQ(poses().back().status, "refused_wrong_target") << "it has not said who it is";
+  pipeline.push(target_.hello("test board", ticks_), arrival_at(ticks_));
+  cycles(2);
+  EXPECT_EQ(poses().back().status, "refused_wrong_target");
+  EXPECT_FALSE(poses().back().valid);
+  EXPECT_EQ(poses().back().position_m[2], 0.0);
+  const SourceHealth health = pipeline.health("", SourceState::kOk, "", now_ns());
+  EXPECT_EQ(health.state, SourceState::kError);
+  EXPECT_NE(health.message.find("sensors, not 5"), std::string::npos) << health.message;
+}
+
+TEST_F(TargetPipelineTest, TheExpectedBoardIsAnsweredOnceItHasSaidWhoItIs) {
+  TargetConfig certain = config();
+  certain.identity.sensors = StationaryTarget::kSensors;
+  LighthousePipeline pipeline(certain, PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
+  pipeline.push(target_.hello("test board", ticks_), arrival_at(ticks_));
+  for (int i = 0; i < 40; ++i) {
+    ticks_ += kCycle_ticks;
+    pipeline.push(target_.cycle(ticks_), arrival_at(ticks_));
+  }
+  ASSERT_FALSE(poses().empty());
+  EXPECT_EQ(poses().back().status, "ok");
+  pipeline.line_lost();  // who is there now, nobody knows
+  for (int i = 0; i < 3; ++i) {
+    ticks_ += kCycle_ticks;
+    pipeline.push(target_.cycle(ticks_), arrival_at(ticks_));
+  }
+  EXPECT_EQ(poses().back().status, "refused_wrong_target");
+}
+
 }  // namespace
 }  // namespace pharos::host
