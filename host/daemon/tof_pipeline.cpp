@@ -98,9 +98,19 @@ bool TofPipeline::average(TofReport& report) {
   return true;
 }
 
+// Recorded frames are whoever's they are, and may be of different views.
+void TofPipeline::refuse_jump(TofReport& report, const MappedTime& time) {
+  if (config_.is_recorded() || !report.answered() || report.ambiguous) return;
+  if (jump_check_.passes(report.pose, time.monotonic_ns)) return;
+  report.refusal = kJumpRefusal;
+  report.advice = kJumpAdvice;
+  report.pose = {};
+}
+
 void TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
   TofReport report = report_of(answer, time);
   if (!gate_.passes(report)) return;
+  refuse_jump(report, time);
   count(report);
   if (report.answered() && config_.average_frames > 1 && !average(report)) return;
   publish(report);

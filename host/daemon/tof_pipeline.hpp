@@ -10,6 +10,7 @@
 #include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/frame_clock.hpp"
 #include "host/daemon/pose_average.hpp"
+#include "host/daemon/pose_jump_check.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/tof_counters.hpp"
@@ -44,6 +45,7 @@ class TofPipeline {
 
  private:
   std::optional<MappedTime> time_of(const DepthFrame& frame);
+  void refuse_jump(TofReport& report, const MappedTime& time);
   void answer(const TofResult& answer, const MappedTime& time);
   void count(const TofReport& report);
   TofReport report_of(const TofResult& answer, const MappedTime& time) const;
@@ -58,6 +60,7 @@ class TofPipeline {
   Measure measure_;
   RateLimitedLog log_;
   FrameClock clock_;
+  PoseJumpCheck jump_check_;
   PoseAverage average_;
   TofCounters counters_;
   PublishGate gate_;

@@ -12,6 +12,7 @@ StereoPipeline::StereoPipeline(const StereoConfig& config, const PublishConfig& 
       target_(config.target),
       source_(source),
       clock_(clock),
+      is_recorded_(config.is_recorded()),
       log_(source),
       gate_(publisher, counters_.pairs_not_finite, PublishGate::AgeLimit{publish.max_age_ns(), counters_.pairs_stale}),
       spin_gate_(publisher, counters_.spins_not_finite,
@@ -50,6 +51,16 @@ StereoReport StereoPipeline::report_of(const StereoPair& pair, const PairResult&
   return report;
 }
 
+// Of a ring; slam has its own idea of how far its target can have moved. Recorded pairs may be of different views.
+void StereoPipeline::refuse_jump(StereoReport& report, std::int64_t time_ns) {
+  const auto* const pose = std::get_if<Ring2PoseEstimate>(&report.pose);
+  if (is_recorded_ || pose == nullptr || !report.answered() || report.ambiguous) return;
+  if (jump_check_.passes(*pose, time_ns)) return;
+  report.refusal = kJumpRefusal;
+  report.advice = kJumpAdvice;
+  report.pose = Ring2PoseEstimate{};
+}
+
 void StereoPipeline::publish_spin(const StereoReport& report, const SpinResult& answer) {
   SpinReport spin;
   static_cast<MeasurementHeader&>(spin) = report;
@@ -67,6 +78,7 @@ void StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
   if (!answer.figures.empty()) figures_ = answer.figures;
   StereoReport report = report_of(*done.job, answer);
   if (!gate_.passes(report)) return;
+  refuse_jump(report, done.job->time.monotonic_ns);
   const std::int64_t now_ns = clock_.monotonic_ns();
   count(report, now_ns);
   if (clock_was_set) add_flag_word(report.flags, kClockSetWord);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/pose_jump_check.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
@@ -44,6 +45,7 @@ class StereoPipeline {
 
  private:
   StereoReport report_of(const StereoPair& pair, const PairResult& answer) const;
+  void refuse_jump(StereoReport& report, std::int64_t time_ns);
   void publish_spin(const StereoReport& report, const SpinResult& answer);
   void count(const StereoReport& report, std::int64_t monotonic_ns);
   void assess(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t monotonic_ns) const;
@@ -53,6 +55,8 @@ class StereoPipeline {
   std::string target_;
   std::string source_;
   const Clock& clock_;
+  bool is_recorded_;
+  PoseJumpCheck jump_check_;
   RateLimitedLog log_;
   StereoCounters counters_;
   PublishGate gate_;

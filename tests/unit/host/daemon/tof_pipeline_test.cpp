@@ -195,6 +195,30 @@ TEST_F(TofPipelineTest, SaysAmbiguousAndBothPoses) {
   EXPECT_EQ(counter("frames_ambiguous"), 1);
 }
 
+TEST_F(TofPipelineTest, RefusesAPoseThatTheLastOnesCannotHaveComeTo) {
+  for (int i = 0; i < 5; ++i) pipeline->take(frame_now());
+  next_answer.estimate.pose.t.x() += 0.398;
+  pipeline->take(frame_now());
+  next_answer = good_answer();
+  pipeline->take(frame_now());
+  ASSERT_EQ(poses().size(), 7u);
+  EXPECT_EQ(poses()[5].status, "refused_jump");
+  EXPECT_FALSE(poses()[5].valid);
+  EXPECT_EQ(poses()[6].status, "ok");
+  EXPECT_EQ(counter("refused.jump"), 1);
+}
+
+TEST_F(TofPipelineTest, RecordedFramesMayShowDifferentViews) {
+  TofConfig config = camera_config();
+  config.frames = "recorded";
+  make(config);
+  for (int i = 0; i < 5; ++i) {
+    next_answer.estimate.pose.t.x() = i;
+    pipeline->take(frame_now());
+  }
+  EXPECT_EQ(counter("frames_ok"), 5);
+}
+
 TEST_F(TofPipelineTest, SendsOneMeanForAWindowOfFrames) {
   TofConfig config = camera_config();
   config.average_frames = 5;

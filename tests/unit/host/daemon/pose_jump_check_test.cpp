@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/pose_jump_check.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pharos::host {
+namespace {
+
+using Estimate = PoseEstimate<frame::Camera, frame::Target>;
+constexpr std::int64_t kPosePeriod_ns = 33'333'333;
+
+Estimate at(double x_m, double tilt_rad = 0.0, double sigma_m = 0.0005) {
+  Estimate estimate;
+  estimate.pose.R = rotation_exp(Vector3(tilt_rad, 0.0, 0.0));
+  estimate.pose.t = Vector3(x_m, 0.0, 4.0);
+  estimate.covariance = Matrix6::Identity() * sigma_m * sigma_m / 3.0;
+  return estimate;
+}
+
+class PoseJumpCheckTest : public ::testing::Test {
+ protected:
+  bool next(const Estimate& estimate) { return check.passes(estimate, time_ns += kPosePeriod_ns); }
+  void settle() {
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(next(at(0.0)));
+  }
+  PoseJumpCheck check;
+  std::int64_t time_ns = 0;
+};
+
+TEST_F(PoseJumpCheckTest, ATargetThatMovesAndTurnsPasses) {
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(next(at(0.01 * i, 0.02 * i)));
+}
+
+TEST_F(PoseJumpCheckTest, NoiseOfTheStatedSizePasses) {
+  settle();
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(next(at(i % 2 == 0 ? 0.2 : 0.0, 0.0, 0.05)));
+}
+
+// What six frames of another sender did: a pose 398 mm off at a stated sigma of 0.47 mm.
+TEST_F(PoseJumpCheckTest, SixFramesOfAnotherSenderGiveNoPose) {
+  settle();
+  for (int i = 0; i < 6; ++i) EXPECT_FALSE(next(at(0.398, 0.0, 0.00047)));
+  EXPECT_TRUE(next(at(0.0)));
+}
+
+TEST_F(PoseJumpCheckTest, FramesOfTwoSendersInTurnsNeverMoveThePose) {
+  settle();
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_FALSE(next(at(0.398)));
+    EXPECT_TRUE(next(at(0.0)));
+  }
+}
+
+TEST_F(PoseJumpCheckTest, AJumpOfTheAxisAloneIsRefusedToo) {
+  settle();
+  EXPECT_FALSE(next(at(0.0, 0.5)));
+}
+
+TEST_F(PoseJumpCheckTest, ATargetThatReallyMovedIsTakenAfterHalfASecond) {
+  settle();
+  int refused = 0;
+  while (!next(at(0.9))) ++refused;
+  EXPECT_GE(refused, PoseJumpCheck::kConfirmations);
+  EXPECT_NEAR(refused, 15, 2);
+  EXPECT_TRUE(next(at(0.9)));
+}
+
+TEST_F(PoseJumpCheckTest, PosesThatDoNotAgreeConfirmNothing) {
+  settle();
+  for (int i = 0; i < 12; ++i) EXPECT_FALSE(next(at(0.5 + 0.3 * (i % 3))));
+}
+
+TEST_F(PoseJumpCheckTest, AfterAPauseTheTargetMayBeElsewhere) {
+  settle();
+  time_ns += 2'000'000'000;
+  EXPECT_TRUE(next(at(1.5)));
+}
+
+}  // namespace
+}  // namespace pharos::host
