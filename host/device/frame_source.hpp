@@ -23,6 +23,7 @@ namespace pharos::host {
   X(camera_opened, "times the camera was opened")                                                     \
   X(camera_lost, "times it was lost")                                                                 \
   X(camera_silences, "times it was opened anew because no frame came")                                \
+  X(camera_contested, "times it was opened anew because frames of two senders came")                  \
   X(camera_process_deaths, "times the camera's process died and was started again")                   \
   X(messages_refused, "messages of the camera's process that could not be")
 

@@ -20,8 +20,12 @@ constexpr milliseconds kWait{50};
 constexpr milliseconds kBreath{20};
 // Frames come every 33 ms, in turns every 0.3 s: as long without any is a camera that was lost.
 constexpr std::int64_t kSilence_ns = 1'000'000'000;
-// PTP's state changes within seconds; asking costs the camera a packet.
-constexpr std::int64_t kAskPtp_ns = 1'000'000'000;
+// PTP's state changes within seconds, and clocks run apart by microseconds; asking costs the camera four packets.
+constexpr std::int64_t kAsk_ns = 1'000'000'000;
+// So many whole frames within a second that the camera cannot have sent after the others: two senders, and which of
+// them is the camera cannot be told. On another port the other one has to find it again.
+constexpr std::size_t kMaxForeignFrames = 5;
+constexpr std::int64_t kForeignWindow_ns = 1'000'000'000;
 constexpr std::int64_t kReportPeriod_ns = 100'000'000;
 
 std::int64_t ns(milliseconds duration) { return std::chrono::nanoseconds(duration).count(); }
@@ -92,16 +96,17 @@ void CameraServer::look_for_camera() {
 void CameraServer::stream(GigeCamera& camera) {
   std::int64_t last_ns = monotonic_now_ns();
   bool any = false;
-  ptp_asked_ns_ = 0;
+  asked_ns_ = 0;
+  foreign_ns_.clear();
   while (pause(milliseconds(0))) {
     const std::int64_t began_ns = monotonic_now_ns();
     const FrameOutcome outcome = take_frame(camera);
     const std::int64_t now_ns = monotonic_now_ns();
+    const bool foreign = outcome == FrameOutcome::kOutOfOrder || outcome == FrameOutcome::kWrongTime;
     any = any || outcome != FrameOutcome::kNone;
-    if (outcome != FrameOutcome::kNone) {
-      last_ns = now_ns;
-      ask(camera, now_ns);
-    }
+    if (outcome != FrameOutcome::kNone) ask(camera, now_ns);
+    if (outcome != FrameOutcome::kNone && !foreign) last_ns = now_ns;
+    if (foreign && two_senders(now_ns)) break;
     if (now_ns - last_ns > kSilence_ns) break;
     if (outcome == FrameOutcome::kNone && now_ns - began_ns < ns(kBreath)) pause(kBreath);
     report_.counters.datagrams_discarded = discarded_before_ + camera.discarded_datagrams();
@@ -111,6 +116,11 @@ void CameraServer::stream(GigeCamera& camera) {
   believe_source_port_ = any;
   if (stopped_) {
     camera.restore_heartbeat();
+    return;
+  }
+  if (foreign_ns_.size() > kMaxForeignFrames) {
+    ++report_.counters.camera_contested;
+    set_state(CameraState::kSilent, "frames of two senders come to the camera's port; opening it anew on another");
     return;
   }
   const bool lost = !camera.is_controller();
@@ -132,9 +142,17 @@ FrameOutcome CameraServer::take_frame(GigeCamera& camera) {
 // either takes 2.5 s.
 void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
   camera.beat_if_due();
-  if (now_ns - ptp_asked_ns_ <= kAskPtp_ns) return;
+  if (now_ns - asked_ns_ <= kAsk_ns) return;
+  asked_ns_ = now_ns;
   follows_ptp_ = camera.follows_ptp();
-  ptp_asked_ns_ = now_ns;
+  camera.read_clock();
+}
+
+/// A frame that is not the camera's, or makes it doubtful that the others were.
+bool CameraServer::two_senders(std::int64_t now_ns) {
+  foreign_ns_.push_back(now_ns);
+  while (now_ns - foreign_ns_.front() > kForeignWindow_ns) foreign_ns_.pop_front();
+  return foreign_ns_.size() > kMaxForeignFrames;
 }
 
 void CameraServer::count(FrameOutcome outcome, std::int64_t missing) {
@@ -143,6 +161,8 @@ void CameraServer::count(FrameOutcome outcome, std::int64_t missing) {
   counters.frames_received += outcome == FrameOutcome::kFrame ? 1 : 0;
   counters.frames_incomplete += outcome == FrameOutcome::kIncomplete ? 1 : 0;
   counters.frames_wrong_size += outcome == FrameOutcome::kWrongSize ? 1 : 0;
+  counters.frames_out_of_order += outcome == FrameOutcome::kOutOfOrder ? 1 : 0;
+  counters.frames_wrong_time += outcome == FrameOutcome::kWrongTime ? 1 : 0;
   counters.frames_unpaired += outcome == FrameOutcome::kUnpaired ? 1 : 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <string>
 
 #include "host/camera_link/camera_message.hpp"
@@ -25,6 +26,7 @@ class CameraServer {
   void look_for_camera();
   void stream(GigeCamera& camera);
   FrameOutcome take_frame(GigeCamera& camera);
+  bool two_senders(std::int64_t now_ns);
   void count(FrameOutcome outcome, std::int64_t missing);
   void hand_over(FrameNotice& notice);
   void ask(GigeCamera& camera, std::int64_t now_ns);
@@ -42,7 +44,8 @@ class CameraServer {
   std::string last_address_;  // where a camera known by its serial number was last
   bool believe_source_port_ = true;
   std::int64_t discarded_before_ = 0;  // datagrams, of former sessions
-  std::int64_t ptp_asked_ns_ = 0;
+  std::int64_t asked_ns_ = 0;
+  std::deque<std::int64_t> foreign_ns_;  // when frames came that cannot be the camera's
   bool follows_ptp_ = false;
   CameraReport report_;
   std::int64_t reported_ns_ = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/device/pixel_format.hpp"
+#include "host/gige/camera_time.hpp"
 #include "host/gige/find_camera.hpp"
 #include "host/gige/frame_numbers.hpp"
 #include "host/gige/gobject.hpp"
@@ -23,8 +24,7 @@ constexpr int kSocketBytes = 8 << 20;
 constexpr std::chrono::milliseconds kOtherFormatTimeout{1000};
 // Beside the pixels a frame may hold chunks of what the camera has to say of it.
 constexpr std::size_t kMaxChunks_bytes = 65'536;
-// Of looking where packets come from, before a frame is waited for.
-constexpr std::chrono::milliseconds kLearnPort{20};
+constexpr std::chrono::milliseconds kTakeWhileLearning{1};
 
 [[noreturn]] void refuse(const std::string& message) { throw CameraError(CameraState::kWrong, message); }
 
@@ -56,6 +56,7 @@ struct GigeCamera::Parts {
   GObjectPtr<ArvCamera> camera;
   GObjectPtr<ArvStream> stream;
   std::optional<Heartbeat> heartbeat;
+  std::optional<CameraTime> time;
   StreamGuard guard;
   bool believe_source_port = true;
   std::string identity;
@@ -262,6 +263,7 @@ GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port)
   parts.start_ptp();
   parts.describe();
   parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()));
+  parts.time.emplace(arv_camera_get_device(parts.camera.get()));
   parts.start_stream();
 }
 
@@ -270,6 +272,8 @@ GigeCamera::~GigeCamera() {
 }
 
 void GigeCamera::beat_if_due() { parts_->heartbeat->beat_if_due(); }
+
+void GigeCamera::read_clock() { parts_->time->read(); }
 
 void GigeCamera::restore_heartbeat() { parts_->heartbeat->restore(); }
 
@@ -311,10 +315,13 @@ bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, const Fr
 FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& about,
                                         const FrameImages& images, std::int64_t& missing) {
   // Where depth and intensity take turns, frames are given up at every change: their numbers tell nothing.
-  if (!in_turns) missing += numbers.missing_before(arv_buffer_get_frame_id(buffer));
+  const std::int64_t now_ns = monotonic_now_ns();
+  const auto gap = in_turns ? 0 : numbers.missing_before(arv_buffer_get_frame_id(buffer), now_ns);
+  missing += gap.value_or(0);
   const ArvBufferStatus status = arv_buffer_get_status(buffer);
   if (status == ARV_BUFFER_STATUS_SIZE_MISMATCH) return FrameOutcome::kWrongSize;
   if (status != ARV_BUFFER_STATUS_SUCCESS) return FrameOutcome::kIncomplete;
+  if (!gap) return FrameOutcome::kOutOfOrder;
   if (!unpack(buffer, format, images)) return FrameOutcome::kWrongSize;
   about.width_px = settings.width_px;
   about.height_px = settings.height_px;
@@ -324,6 +331,7 @@ FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format,
   about.arrival_monotonic_ns = about.complete_monotonic_ns - (utc_now_ns() - about.arrival_utc_ns);
   about.taken_in_turns = in_turns;
   about.scale = scale;
+  if (!time->agrees(about.camera_ns, about.arrival_monotonic_ns)) return FrameOutcome::kWrongTime;
   return FrameOutcome::kFrame;
 }
 
@@ -352,8 +360,10 @@ FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& about, const FrameImage
 
 FrameOutcome GigeCamera::next(DepthFrame& about, const FrameImages& images, std::chrono::milliseconds timeout,
                               std::int64_t& missing) {
-  parts_->guard.learn(kLearnPort);
-  GObjectPtr<ArvBuffer> buffer = parts_->pop(timeout);
+  // Until the port is known the time is spent with looking for it, and frames are taken in between.
+  const bool learning = parts_->guard.is_on() && !parts_->guard.knows_port();
+  if (learning) parts_->guard.learn(timeout);
+  GObjectPtr<ArvBuffer> buffer = parts_->pop(learning ? kTakeWhileLearning : timeout);
   if (!buffer) return FrameOutcome::kNone;
   if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the camera changed
     parts_->recycle(std::move(buffer));

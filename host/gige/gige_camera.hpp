@@ -31,6 +31,8 @@ enum class FrameOutcome : std::uint8_t {
   kIncomplete,  // packets are missing
   kWrongSize,   // another size or format than agreed
   kUnpaired,    // depth without intensity, or the reverse
+  kOutOfOrder,  // whole, with a number that cannot follow the last one's
+  kWrongTime,   // whole, with a time that is not of the camera's clock
 };
 
 /// One GigE Vision camera, held and streaming. Everything of Aravis and GLib is in its .cpp file. One thread only.
@@ -60,6 +62,8 @@ class GigeCamera {
   std::int64_t discarded_datagrams() const;
   /// Tells the camera that its master lives, four times a second; asks it, so not while a frame waits.
   void beat_if_due();
+  /// Reads the camera's clock, which its frames' times are held against; not while a frame waits either.
+  void read_clock();
   /// Before a camera that is well is given back: its heartbeat timeout as it was found.
   void restore_heartbeat();
   /// Vendor, model, serial number, mode, format, packets.

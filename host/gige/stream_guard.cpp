@@ -3,6 +3,8 @@
 
 #include <poll.h>
 
+#include "host/runtime/now.hpp"
+
 namespace pharos::host {
 
 StreamGuard::StreamGuard(std::uint16_t port, const StreamRule& rule) : rule_(rule) {
@@ -13,17 +15,17 @@ StreamGuard::StreamGuard(std::uint16_t port, const StreamRule& rule) : rule_(rul
 
 void StreamGuard::learn(std::chrono::milliseconds timeout) {
   if (!is_on() || knows_port()) return;
-  pollfd waiting{socket_, POLLIN, 0};
-  if (::poll(&waiting, 1, static_cast<int>(timeout.count())) <= 0) return;
   // Aravis' thread takes them away at the same time: some are seen, of a frame's many.
-  constexpr int kLooks = 16;
-  for (int i = 0; i < kLooks && agreeing_ < kAgreeing; ++i) {
+  const std::int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(timeout).count();
+  while (agreeing_ < kAgreeing) {
+    const std::int64_t rest_ns = until_ns - monotonic_now_ns();
+    pollfd waiting{socket_, POLLIN, 0};
+    if (rest_ns <= 0 || ::poll(&waiting, 1, static_cast<int>(rest_ns / 1'000'000 + 1)) <= 0) return;
     const auto datagram = next_waiting(socket_, rule_.camera_address);
     if (!datagram || *datagram == last_) continue;
     agreeing_ = datagram->source_port == last_.source_port ? agreeing_ + 1 : 1;
     last_ = *datagram;
   }
-  if (agreeing_ < kAgreeing) return;
   rule_.source_port = last_.source_port;
   attach_filter(socket_, stream_filter(rule_));
 }

@@ -11,11 +11,13 @@
 #include <string>
 
 #include "host/gige/udp_sockets.hpp"
+#include "support/datagram.hpp"
 
 namespace pharos::host {
 namespace {
 
-using Datagram = std::vector<std::uint8_t>;
+using test::Datagram;
+using test::put;
 
 constexpr std::uint16_t kControlPort = 3956;
 constexpr std::array<std::uint8_t, 28> kTakes68GB{0xd4, 0xaf, 0x90, 0x98, 0x82, 0x85, 0xcf, 0x7a, 0x9a, 0xf7,
@@ -30,18 +32,14 @@ sockaddr_in address_of(const char* text, std::uint16_t port) {
   return address;
 }
 
-UniqueFd socket_at(const char* address) {
+}  // namespace
+
+UniqueFd bound_socket(const char* address) {
   UniqueFd fd(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   const sockaddr_in own = address_of(address, 0);
   if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0) fd.reset();
   return fd;
 }
-
-void put(Datagram& bytes, std::uint64_t value, int count) {
-  for (int i = count - 1; i >= 0; --i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
-
-}  // namespace
 
 int socket_of_simulated_camera() {
   for (const UdpSocket& socket : udp_sockets()) {
@@ -74,8 +72,8 @@ std::vector<std::uint16_t> ports_of_others() {
 
 HostileSender::HostileSender(std::uint64_t seed)
     : random_(seed),
-      other_address_(socket_at("127.0.0.3")),
-      other_port_(socket_at("127.0.0.1")),
+      other_address_(bound_socket("127.0.0.3")),
+      other_port_(bound_socket("127.0.0.1")),
       cameras_(socket_of_simulated_camera()) {}
 
 /// A packet as it should be, but for what chance changes.

@@ -24,6 +24,9 @@ std::vector<std::uint16_t> ports_of_others();
 /// The socket that the simulated camera of this process streams from; -1 where there is none.
 int socket_of_simulated_camera();
 
+/// A UDP socket at that address of this computer.
+UniqueFd bound_socket(const char* address);
+
 /// Makes and sends datagrams that a parser may fall over: the one that makes Aravis take 68 GB, random bytes of random
 /// length, and GVSP packets of every kind with one or more fields beyond what may be.
 class HostileSender {

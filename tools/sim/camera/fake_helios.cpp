@@ -183,6 +183,8 @@ void FakeHelios::Parts::fill(ArvBuffer* buffer, std::uint32_t format) {
   const bool frozen = any_holds(play.freezes, time_s) && shown > 0;
   if (!frozen) take_picture(utc_ns);
   arv_buffer_set_timestamp(buffer, static_cast<guint64>(last_camera_ns));
+  write(kClockRegister, static_cast<std::uint32_t>(static_cast<std::uint64_t>(last_camera_ns) >> 32));
+  write(kClockRegister + 4, static_cast<std::uint32_t>(last_camera_ns & 0xFFFFFFFF));
   const SequenceFrame& frame = sequence.at(shown - 1);
   std::size_t received = 0;  // what a receiver would have got; the memory is as large as the payload
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &received)));

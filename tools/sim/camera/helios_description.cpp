@@ -144,6 +144,11 @@ std::string transport() {
          boolean("PtpEnable", kPtpEnableRegister) +
          enumeration("PtpStatus", kPtpStatusRegister,
                      {{"Initializing", 0}, {"Disabled", kPtpDisabled}, {"Listening", 4}, {"Slave", kPtpSlave}}, "RO") +
+         command("TimestampLatch", "TimestampLatchRegister", 1) +
+         int_register("TimestampLatchRegister", kClockLatchRegister, "WO") +
+         "<IntReg Name=\"TimestampLatchValue\"><Address>" + hex(kClockRegister) +
+         "</Address><Length>8</Length><AccessMode>RO</AccessMode><pPort>Device</pPort><Cachable>NoCache</Cachable>"
+         "<Sign>Unsigned</Sign><Endianess>BigEndian</Endianess></IntReg>\n"
          "<Port Name=\"Device\"></Port>\n";
 }
 

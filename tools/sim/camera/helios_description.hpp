@@ -19,8 +19,10 @@ inline constexpr std::uint32_t kModeRegister = 0x2000;
 inline constexpr std::uint32_t kAxisRegister = 0x2004;
 inline constexpr std::uint32_t kPtpEnableRegister = 0x2008;
 inline constexpr std::uint32_t kPtpStatusRegister = 0x200C;
-inline constexpr std::uint32_t kScaleTable = 0x2100;   // mm a count: by mode, then by axis
-inline constexpr std::uint32_t kOffsetTable = 0x2200;  // mm: the same
+inline constexpr std::uint32_t kClockLatchRegister = 0x2030;
+inline constexpr std::uint32_t kClockRegister = 0x2034;  // 64 bits: the camera's clock at its last frame
+inline constexpr std::uint32_t kScaleTable = 0x2100;     // mm a count: by mode, then by axis
+inline constexpr std::uint32_t kOffsetTable = 0x2200;    // mm: the same
 inline constexpr std::uint32_t kAxisStride = 8;
 inline constexpr std::uint32_t kModeStride = 3 * kAxisStride;
 

@@ -12,21 +12,19 @@
 #include "host/gige/stream_guard.hpp"
 #include "host/gige/udp_sockets.hpp"
 #include "host/support/unique_fd.hpp"
+#include "support/datagram.hpp"
 
 namespace pharos::host {
 namespace {
 
-using Datagram = std::vector<std::uint8_t>;
+using test::Datagram;
+using test::put;
 
 constexpr std::size_t kBlock_bytes = 1000;
 constexpr std::size_t kPackets = 10;
 constexpr std::uint32_t kLoopback = 0x7F000001;
 
 StreamRule some_rule() { return {kLoopback, std::nullopt, kPackets * kBlock_bytes, kBlock_bytes + 36, std::nullopt}; }
-
-void put(Datagram& bytes, std::uint64_t value, int count) {
-  for (int i = count - 1; i >= 0; --i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
 
 struct Packet {
   std::uint16_t status = 0;
@@ -172,7 +170,7 @@ TEST_F(StreamFilterTest, TheGuardLearnsTheCamerasPortAndCountsWhatItKeepsOut) {
   for (std::uint32_t i = 1; i <= StreamGuard::kAgreeing; ++i) {
     EXPECT_FALSE(guard.knows_port());
     camera.send(host, bytes_of({.number = i}));
-    for (int look = 0; look < 2; ++look) guard.learn(std::chrono::milliseconds(1000));
+    for (int look = 0; look < 2; ++look) guard.learn(std::chrono::milliseconds(2));
     EXPECT_TRUE(host.received()) << "what was looked at is still there";
   }
   EXPECT_TRUE(guard.knows_port());
