@@ -39,23 +39,23 @@ bool are_close(const Ellipse& outer, const Ellipse& inner) {
 
 // The contour moved at every place by what the edge at the gap there was pushed, times `part`; outwards where negative.
 std::optional<Ellipse> pushed_back(const Ellipse& contour, const Ellipse& other, bool is_outer, double part,
-                                   double& slope) {
+                                   StripWidth& mean) {
   const EllipseDistance distance(other);
   std::array<PointF, kCloseEdgePlaces> points;
-  double slopes = 0.0;
+  mean = {0.0, 0.0, 0.0};
   for (int k = 0; k < kCloseEdgePlaces; ++k) {
     const double t = 2.0 * std::numbers::pi * k / kCloseEdgePlaces;
     const PointPx p = point_at(contour, t);
     const double seen = 0.5 * std::abs(distance.far_px(p));
     const StripWidth strip = strip_of(seen);
-    slopes += strip.slope / kCloseEdgePlaces;
+    mean.slope += strip.slope / kCloseEdgePlaces;
+    mean.by_blur += strip.by_blur / kCloseEdgePlaces;
     const double push = (is_outer ? 1.0 : -1.0) * part * std::max(0.0, seen - strip.half_px);
     const double c = std::cos(contour.theta_rad), s = std::sin(contour.theta_rad);
     const double x = std::cos(t) / contour.a_px, y = std::sin(t) / contour.b_px, length = std::hypot(x, y);
     points[static_cast<std::size_t>(k)] = {static_cast<float>(p.u - push * (c * x - s * y) / length),
                                            static_cast<float>(p.v - push * (s * x + c * y) / length)};
   }
-  slope = slopes;
   return fit_direct(points);
 }
 
@@ -63,14 +63,17 @@ void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
   // The stronger step pushes the weaker one's edge farther.
   const double ratio = std::clamp(static_cast<double>(inner.gradient) / static_cast<double>(outer.gradient),
                                   1.0 / kMaxStepRatio, kMaxStepRatio);
-  double slope = 1.0;
-  const std::optional<Ellipse> outside = pushed_back(outer.ellipse, inner.ellipse, true, ratio, slope);
-  const std::optional<Ellipse> inside = pushed_back(inner.ellipse, outer.ellipse, false, 1.0 / ratio, slope);
+  StripWidth strip;
+  const std::optional<Ellipse> outside = pushed_back(outer.ellipse, inner.ellipse, true, ratio, strip);
+  const std::optional<Ellipse> inside = pushed_back(inner.ellipse, outer.ellipse, false, 1.0 / ratio, strip);
   if (!outside || !inside || !(inside->b_px > 0.0)) return;
   outer.ellipse = *outside;
   inner.ellipse = *inside;
   // Both are the strip's middle, half of the sum, and its width, half of the difference times the slope.
-  const Matrix5 both = 0.25 * (1.0 + slope * slope) * (outer.covariance + inner.covariance);
+  Matrix5 both = 0.25 * (1.0 + strip.slope * strip.slope) * (outer.covariance + inner.covariance);
+  // Nobody tells the lens: a wider blur widens what is seen, at both axes alike.
+  const double by_lens = kBlurSpread_px2 * strip.by_blur;
+  both.block<2, 2>(2, 2).array() += by_lens * by_lens;
   for (DetectedEllipse* one : {&outer, &inner}) {
     const double theta = one->covariance(4, 4);
     one->covariance = both;
@@ -85,14 +88,15 @@ void separate(DetectedEllipse& outer, DetectedEllipse& inner) {
 
 StripWidth strip_of(double seen_px) {
   const double x = std::max(seen_px, kMinSeenStrip * std::sqrt(kFlankVariance_px2));
-  if (2.0 * x > kMaxStrip_px) return {seen_px, 1.0};
+  if (2.0 * x > kMaxStrip_px) return {seen_px, 1.0, 0.0};
   double half = x, falling = 0.0, bend = 0.0;
   for (int k = 0; k < kNewtonSteps; ++k) {
     bend = std::tanh(x * half / kFlankVariance_px2);
     falling = (1.0 - bend * bend) / kFlankVariance_px2;
     half -= (half - x * bend) / (1.0 - x * x * falling);
   }
-  return {half, (bend + x * half * falling) / (1.0 - x * x * falling)};
+  const double remaining = 1.0 - x * x * falling;
+  return {half, (bend + x * half * falling) / remaining, -x * x * half * falling / (kFlankVariance_px2 * remaining)};
 }
 
 void separate_close_edges(EllipseWorkspace& workspace) {

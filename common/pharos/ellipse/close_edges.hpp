@@ -11,7 +11,8 @@ namespace pharos::ellipse {
 /// Gaussian g of the blur's sigma s, hence h = x tanh(x h / s^2).
 struct StripWidth {
   double half_px = 0.0;
-  double slope = 1.0;  ///< change of half_px by that of seen_px
+  double slope = 1.0;    ///< change of half_px by that of seen_px
+  double by_blur = 0.0;  ///< change of half_px by that of the blur's variance, 1/px
 };
 StripWidth strip_of(double seen_px);
 

@@ -49,6 +49,8 @@ constexpr double kCorrelation_px = 3.5;
 // by another (285 accepted: at least 0.836 and 0.844). Nine of ten that are completed are rejected.
 constexpr double kHope = 0.8;
 constexpr double kHopeOfRefined = 0.84;
+// A contour of which less has edges is partly hidden or outside the image.
+constexpr double kWhole = 0.8;
 // An arc of which this fraction lies on an accepted ellipse proposes no other.
 constexpr double kExplained = 0.5;
 
@@ -182,27 +184,31 @@ class Combiner {
   }
 
   // What edges may scatter about an ellipse: by the image's noise, by what the scene itself is off (print, lens, JPEG),
-  // and by a fiftieth of its size. A small polygon scatters by more: a square of half-side h by 0.03 h after blur and
+  // and by a part of its size. A small polygon scatters by more: a square of half-side h by 0.03 h after blur and
   // gates, yet less than a fixed limit for rings allows.
   double max_rms_px(const Ellipse& e) const {
     // The steepest place of an edge of blur s and gradient g moves by s^2 n'/g; the noise's slope n' is sigma / 1.1 px.
-    constexpr double kNoiseToEdge_px = 1.7, kOfNoise = 1.5, kScene_px = 0.15, kOfSize = 0.02;
+    constexpr double kNoiseToEdge_px = 1.7, kOfNoise = 1.5, kScene_px = 0.12, kOfSize = 0.015;
+    constexpr double kMaxRmsOfPart_px = 0.3, kMinRoughness_px = 0.1, kOfCorners = 0.02;
     const double noise = kOfNoise * kNoiseToEdge_px * static_cast<double>(workspace_.noise);
     const double size = kOfSize * e.b_px;
-    return std::min(settings_.max_rms_px,
-                    std::sqrt(noise * noise / support_.squared_gradient + kScene_px * kScene_px + size * size));
+    // Rougher than a true ring's 0.25 px, with a margin, no part shows the whole; nor does noise of a fiftieth of the
+    // size show whether a small contour has corners.
+    const double of_shape = support_.length_fraction < kWhole ? kMaxRmsOfPart_px : settings_.max_rms_px;
+    const double of_corners = kMinRoughness_px + kOfCorners * e.b_px;
+    return std::min({of_shape, of_corners, settings_.max_rms_px,
+                     std::sqrt(noise * noise / support_.squared_gradient + kScene_px * kScene_px + size * size)});
   }
 
-  // An axis that is not known to a tenth of the smaller one is no measurement. Where the image's border cuts the
-  // contour, what is inside must say what the whole is: five sigmas, the most that a fit is off, stay within that
-  // tenth, and the arcs turn by as much as a lone one must.
+  // An axis that is not known to a tenth of the smaller one is no measurement. Where a part of the contour is hidden or
+  // outside the image, the rest must say what the whole is: five sigmas, the most that a fit is off, stay within that
+  // tenth. Beyond the border the score asks for nothing: there the arcs must turn by as much as a lone one.
   bool is_determined(const RefinedFit& fit) const {
     constexpr double kTolerance = 0.1, kSigmas = 5.0;
-    const bool cut = support_.inside_fraction < 1.0;
-    const double limit = kTolerance * fit.ellipse.b_px / (cut ? kSigmas : 1.0);
+    const double limit = kTolerance * fit.ellipse.b_px / (support_.length_fraction < kWhole ? kSigmas : 1.0);
     const double turn_rad = 2.0 * std::numbers::pi * support_.turn_fraction;
     return fit.covariance(2, 2) <= limit * limit && fit.covariance(3, 3) <= limit * limit &&
-           (!cut || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
+           (support_.inside_fraction == 1.0 || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
   }
 
   std::optional<RefinedFit> refit(const Ellipse& ellipse, int iterations = kMaxFitIterations) {

@@ -155,6 +155,12 @@ Matrix5 in_axes(const Matrix5& covariance, const Ellipse& e, const Turned& turne
   change.row(3) << 0.0, 0.0, 1.0, -turned.cos2, -turned.sin2;
   change.row(4) << 0.0, 0.0, 0.0, -turned.sin2 / (2.0 * half), turned.cos2 / (2.0 * half);
   Matrix5 out = change * covariance * change.transpose();
+  const double of_a = 0.5 * kBlurSpread_px2 * e.a_px / (e.b_px * e.b_px);
+  const double of_b = 0.5 * kBlurSpread_px2 * e.b_px / (e.a_px * e.a_px);
+  out(2, 2) += of_a * of_a;
+  out(3, 3) += of_b * of_b;
+  out(2, 3) += of_a * of_b;
+  out(3, 2) += of_a * of_b;
   if (out(4, 4) > kThetaVariance) {
     out.row(4).setZero();
     out.col(4).setZero();

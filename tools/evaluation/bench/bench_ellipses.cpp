@@ -8,12 +8,13 @@
 
 #include "host/table/row_writer.hpp"
 #include "pharos/ellipse/detect.hpp"
-#include "tools/evaluation/problems/ring_images.hpp"
+#include "tools/evaluation/problems/drawn_ellipses.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
 namespace {
 
+using test::PaintedCamera;
 using test::RingImage;
 using test::RingScore;
 using test::RingSet;
@@ -22,6 +23,8 @@ using test::TrueEllipse;
 constexpr int kEllipseRepeats = 3;
 constexpr std::uint64_t kEllipseSeed = 1;
 constexpr double kEllipse_ms = 1e3;
+// Dots and holes of a sheet count from here on.
+constexpr double kSmallestOnSheet_px = 4.0;
 
 struct NamedSet {
   const char* name;
@@ -43,13 +46,12 @@ struct EllipseRecord {
 
 class OurDetector {
  public:
-  explicit OurDetector(const RingSet& set)
-      : planes_(ellipse::kPlanes * static_cast<std::size_t>(set.camera.width_px * set.camera.height_px)) {
+  explicit OurDetector(const PaintedCamera& camera)
+      : camera_(camera), planes_(ellipse::kPlanes * static_cast<std::size_t>(camera.width_px * camera.height_px)) {
     workspace_->planes = planes_;
   }
-  std::vector<TrueEllipse> detect(const RingImage& image, const RingSet& set, const ellipse::EllipseSettings& settings,
-                                  double& seconds) {
-    const ImageView<const std::uint16_t> view(image.pixels.data(), set.camera.width_px, set.camera.height_px);
+  std::vector<TrueEllipse> detect(const RingImage& image, const ellipse::EllipseSettings& settings, double& seconds) {
+    const ImageView<const std::uint16_t> view(image.pixels.data(), camera_.width_px, camera_.height_px);
     seconds = processor_seconds_of([&] { ellipse::detect_ellipses(view, settings, *workspace_); });
     std::vector<TrueEllipse> found;
     for (const ellipse::DetectedEllipse& one : workspace_->found) {
@@ -60,6 +62,7 @@ class OurDetector {
   }
 
  private:
+  PaintedCamera camera_;
   std::vector<std::uint16_t> planes_;
   std::unique_ptr<ellipse::EllipseWorkspace> workspace_ =
       std::make_unique<ellipse::EllipseWorkspace>(std::span<std::uint16_t>());
@@ -78,13 +81,13 @@ void run_one(const RingImage& image, EllipseRecord& record, Detect&& detect) {
   record.score.add(image, found);
 }
 
-std::vector<TrueEllipse> peer_ellipses(EdgeDrawingFunction peer, const RingImage& image, const RingSet& set,
+std::vector<TrueEllipse> peer_ellipses(EdgeDrawingFunction peer, const RingImage& image, const PaintedCamera& camera,
                                        double& seconds) {
   std::vector<std::uint8_t> bytes;
   for (const std::uint16_t value : image.pixels) bytes.push_back(static_cast<std::uint8_t>(value >> 8));
-  constexpr int kMax = 256;
+  constexpr int kMax = 512;
   std::array<double, 5 * kMax> rows{};
-  const int count = peer(bytes.data(), set.camera.width_px, set.camera.height_px, rows.data(), kMax, &seconds);
+  const int count = peer(bytes.data(), camera.width_px, camera.height_px, rows.data(), kMax, &seconds);
   std::vector<TrueEllipse> found;
   for (std::size_t k = 0; count > 0 && k < static_cast<std::size_t>(count); ++k) {
     found.push_back({rows[5 * k], rows[5 * k + 1], rows[5 * k + 2], rows[5 * k + 3], rows[5 * k + 4]});
@@ -92,30 +95,43 @@ std::vector<TrueEllipse> peer_ellipses(EdgeDrawingFunction peer, const RingImage
   return found;
 }
 
+// Both detectors on the images of one generator, and their rows.
+template <class Generator>
+void compare(const std::string& name, const PaintedCamera& camera, double min_minor_px, Generator generator, int images,
+             EdgeDrawingFunction peer, std::vector<BenchRow>& rows) {
+  EllipseRecord ours, theirs;
+  ours.score.min_minor_px = theirs.score.min_minor_px = min_minor_px;
+  OurDetector detector(camera);
+  for (int k = 0; k < images; ++k) {
+    const RingImage image = generator.next();
+    run_one(image, ours, [&](double& seconds) { return detector.detect(image, {}, seconds); });
+    if (peer == nullptr) continue;
+    run_one(image, theirs, [&](double& seconds) { return peer_ellipses(peer, image, camera, seconds); });
+  }
+  const auto add = [&](const char* what, double our_value, double their_value, const char* unit, bool less) {
+    const std::optional<double> value = peer == nullptr ? std::nullopt : std::optional<double>(their_value);
+    rows.push_back({name + ": " + what, our_value, value, unit, less});
+  };
+  add("recall", ours.score.recall(), theirs.score.recall(), "", false);
+  add("F", ours.score.f(), theirs.score.f(), "", false);
+  add("median error of an axis", middle_of(ours.score.axis_errors_px), middle_of(theirs.score.axis_errors_px), "px",
+      true);
+  add("time", kEllipse_ms * middle_of(ours.seconds), kEllipse_ms * middle_of(theirs.seconds), "ms", true);
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_ellipses(int images, EdgeDrawingFunction peer) {
   std::vector<BenchRow> rows;
   for (const NamedSet& named : sets()) {
-    const RingSet& set = named.set;
-    EllipseRecord ours, theirs;
-    OurDetector detector(set);
-    test::RingGenerator generator(set, kEllipseSeed);
-    for (int k = 0; k < images; ++k) {
-      const RingImage image = generator.next();
-      run_one(image, ours, [&](double& seconds) { return detector.detect(image, set, {}, seconds); });
-      if (peer == nullptr) continue;
-      run_one(image, theirs, [&](double& seconds) { return peer_ellipses(peer, image, set, seconds); });
-    }
-    const auto add = [&](const char* what, double our_value, double their_value, const char* unit, bool less) {
-      const std::optional<double> value = peer == nullptr ? std::nullopt : std::optional<double>(their_value);
-      rows.push_back({std::string("rings ") + named.name + ": " + what, our_value, value, unit, less});
-    };
-    add("recall", ours.score.recall(), theirs.score.recall(), "", false);
-    add("F", ours.score.f(), theirs.score.f(), "", false);
-    add("median error of an axis", middle_of(ours.score.axis_errors_px), middle_of(theirs.score.axis_errors_px), "px",
-        true);
-    add("time", kEllipse_ms * middle_of(ours.seconds), kEllipse_ms * middle_of(theirs.seconds), "ms", true);
+    compare(std::string("rings ") + named.name, named.set.camera, RingScore{}.min_minor_px,
+            test::RingGenerator(named.set, kEllipseSeed), images, peer, rows);
+  }
+  for (const bool rings : {false, true}) {
+    test::SheetSet set;
+    set.rings = rings;
+    compare(rings ? "sheets of rings" : "sheets of dots", set.camera, kSmallestOnSheet_px,
+            test::SheetGenerator(set, kEllipseSeed), images, peer, rows);
   }
   return rows;
 }
@@ -125,7 +141,7 @@ void write_threshold_sweep(int images, BenchForm form) {
   std::array<RingScore, kThresholds.size()> scores;
   for (const NamedSet& named : sets()) {
     const RingSet& set = named.set;
-    OurDetector detector(set);
+    OurDetector detector(set.camera);
     test::RingGenerator generator(set, kEllipseSeed + 1);
     for (int k = 0; k < images; ++k) {
       const RingImage image = generator.next();
@@ -133,7 +149,7 @@ void write_threshold_sweep(int images, BenchForm form) {
         ellipse::EllipseSettings settings;
         settings.min_score = kThresholds[t];
         double seconds = 0.0;
-        scores[t].add(image, detector.detect(image, set, settings, seconds));
+        scores[t].add(image, detector.detect(image, settings, seconds));
       }
     }
   }
