@@ -40,8 +40,6 @@ constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
 // Best fits with one arc that are completed.
 constexpr std::size_t kBestFits = 3;
-// Iterations of the fit that only decides which points belong: it is within the gate after these.
-constexpr int kFirstIterations = 3;
 // Neighbouring edge points share pixels through the filter: with sigma = 1 px their noise is that of one measurement in
 // 3.5 px (the sum of exp(-d^2/4) over the distances d).
 constexpr double kCorrelation_px = 3.5;
@@ -161,13 +159,20 @@ class Combiner {
   std::optional<DetectedEllipse> complete(const Ellipse& start, bool bright_inside) {
     collect_support(start, bright_inside, kFirstGate_px, workspace_, support_);
     if (score_of(start, support_, settings_).value() < kHope * settings_.min_score) return std::nullopt;
-    std::optional<RefinedFit> fit = refit(start, kFirstIterations);
+    const std::uint32_t at_first = support_.count;
+    std::optional<RefinedFit> fit = refit(start);
     if (!fit) return std::nullopt;
     collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
-    if (score_of(fit->ellipse, support_, settings_).value() < kHopeOfRefined * settings_.min_score) return std::nullopt;
-    fit = refit(fit->ellipse);
-    if (!fit || !plausible(fit->ellipse, settings_)) return std::nullopt;
-    collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
+    // The same points would give the same fit.
+    if (support_.count != at_first) {
+      if (score_of(fit->ellipse, support_, settings_).value() < kHopeOfRefined * settings_.min_score) {
+        return std::nullopt;
+      }
+      fit = refit(fit->ellipse);
+      if (!fit) return std::nullopt;
+      collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
+    }
+    if (!plausible(fit->ellipse, settings_)) return std::nullopt;
     if (support_.count == 0 || fit->rms_px > max_rms_px(fit->ellipse)) return std::nullopt;
     if (!is_determined(*fit)) return std::nullopt;
     DetectedEllipse found;
@@ -211,10 +216,9 @@ class Combiner {
            (support_.inside_fraction == 1.0 || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
   }
 
-  std::optional<RefinedFit> refit(const Ellipse& ellipse, int iterations = kMaxFitIterations) {
+  std::optional<RefinedFit> refit(const Ellipse& ellipse) {
     const double independent = std::min(1.0, support_.stride / kCorrelation_px);
-    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent,
-                      iterations);
+    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent);
   }
 
   void mark_explained(const DetectedEllipse& e) {

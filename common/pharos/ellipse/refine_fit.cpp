@@ -10,7 +10,9 @@
 namespace pharos::ellipse {
 namespace {
 
-constexpr double kConverged_px = 1e-3;
+constexpr int kIterations = 10;
+// A tenth of what the best fits are uncertain by.
+constexpr double kConverged_px = 2e-3;
 constexpr double kTukey = 4.685;  // 95 % efficiency on normal noise
 constexpr double kMedianToSigma = 1.4826;
 // Lower limit of an edge's sigma, even if few points agree by chance.
@@ -171,12 +173,11 @@ Matrix5 in_axes(const Matrix5& covariance, const Ellipse& e, const Turned& turne
 
 }  // namespace
 
-std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent,
-                                     int iterations) {
+std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent) {
   if (points.size() > kMaxFitPoints) points = points.first(kMaxFitPoints);
   if (points.size() <= 5) return std::nullopt;
   RefinedFit fit{start, Matrix5::Zero(), 0.0};
-  for (int k = 0; k < iterations; ++k) {
+  for (int k = 0; k < kIterations; ++k) {
     const FittedContour contour(fit.ellipse);
     const Normal normal = normal_equations(contour, points);
     const Eigen::LDLT<Matrix5, Eigen::Lower> solver(normal.matrix);
@@ -186,7 +187,7 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
     const Vector5 step = -solver.solve(normal.gradient);
     const std::optional<Ellipse> next = moved(fit.ellipse, contour.turned(), step);
     if (!next) return std::nullopt;
-    const bool done = k + 1 == iterations || step.cwiseAbs().maxCoeff() < kConverged_px;
+    const bool done = k + 1 == kIterations || step.cwiseAbs().maxCoeff() < kConverged_px;
     if (done) {
       fit.sigma_px = normal.sigma;
       fit.rms_px = std::sqrt(normal.squares / static_cast<double>(points.size()));

@@ -10,8 +10,6 @@
 
 namespace pharos::ellipse {
 
-/// A refinement stops earlier where its steps are below 0.001 px.
-inline constexpr int kMaxFitIterations = 10;
 /// Maximum points that a refinement uses.
 inline constexpr std::size_t kMaxFitPoints = 192;
 
@@ -37,7 +35,6 @@ struct RefinedFit {
 /// Gauss-Newton on (cx, cy, (a+b)/2, (a-b)/2 cos 2 theta, (a-b)/2 sin 2 theta), which is not singular at the circle.
 /// `independent`: fraction of the points that count as independent measurements, from 0 to 1: neighbours share the
 /// noise of their pixels. Empty where the points leave some parameter undetermined.
-std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent,
-                                     int iterations = kMaxFitIterations);
+std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent);
 
 }  // namespace pharos::ellipse
