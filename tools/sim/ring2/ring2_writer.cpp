@@ -59,6 +59,8 @@ void write_ellipses(const std::string& number, const Ring2Scenario& scenario, co
 
 }  // namespace
 
+std::string rig_text_of(const StereoRig& rig) { return host::rig_text({rig_camera(rig[0]), rig_camera(rig[1]), {}}); }
+
 host::GreyImage ring2_image(const Ring2Scenario& scenario, std::size_t pair, std::size_t view, std::uint64_t seed) {
   const StereoCamera& camera = scenario.rig[view];
   const LinearImage light = render_scene(ring2_scene_text(scenario, pair, view), {.width_px = camera.width_px,
@@ -75,7 +77,7 @@ void write_ring2_pairs(const Ring2Scenario& scenario, std::uint64_t seed, const 
                        const std::function<void()>& after_each) {
   const fs::path folder(directory);
   make_output_folder(folder);
-  write_output(folder / "rig.toml", host::rig_text({rig_camera(scenario.rig[0]), rig_camera(scenario.rig[1]), {}}));
+  write_output(folder / "rig.toml", rig_text_of(scenario.rig));
   TableFile truth(folder / "truth.csv", {"pair", "theta_deg", "gamma_deg", "nx", "ny", "nz", "cx_m", "cy_m", "cz_m",
                                          "ring_radius_m", "nozzle_radius_m", "distance_m"});
   TableFile ellipses(folder / "ellipses.csv", {"problem", "view", "feature", "cx_px", "cy_px", "a_px", "b_px",

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sim/render/solid_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tools/sim/render/solid_shapes.hpp"
+#include "tools/sim/render/subpixels.hpp"
+
+namespace pharos::sim {
+namespace {
+
+constexpr int kTile_px = 16;
+// A shadow's ray begins so far off the surface.
+constexpr double kOffSurface_m = 1e-5;
+// Difference of light between neighbours that is worth more rays.
+constexpr float kWorthRays = 0.01F;
+constexpr double kShininess = 40.0;
+
+double hashed(std::int64_t x, std::int64_t y) {
+  std::uint64_t h =
+      static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15ULL ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL;
+  h = (h ^ (h >> 31)) * 0xBF58476D1CE4E5B9ULL;
+  h ^= h >> 29;
+  return static_cast<double>(h >> 11) * 0x1p-53 - 0.5;
+}
+
+// Smooth random values on a lattice, -0.5 to 0.5.
+double noise_at(double x, double y) {
+  const double fx = std::floor(x), fy = std::floor(y);
+  const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
+  const double a = ease(x - fx), b = ease(y - fy);
+  const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
+  return (1 - b) * ((1 - a) * hashed(i, j) + a * hashed(i + 1, j)) +
+         b * ((1 - a) * hashed(i, j + 1) + a * hashed(i + 1, j + 1));
+}
+
+Vector3 wrinkled(const Vector3& normal, const Vector2& place_m, const Material& material) {
+  const Vector2 p = place_m / material.bump_size_m;
+  const Vector3 tilt(noise_at(p.x(), p.y()), noise_at(p.x() + 91.7, p.y() + 13.1),
+                     noise_at(p.x() + 47.3, p.y() - 71.9));
+  return (normal + 2.0 * material.bumps * tilt).normalized();
+}
+
+double albedo_at(const Vector2& place_m, const Material& material) {
+  if (material.line_m <= 0.0) return material.albedo;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double cell = material.cell_m[axis];
+    if (cell <= 0.0) continue;
+    const double at = std::abs(place_m[axis] - cell * std::round(place_m[axis] / cell));
+    if (at < 0.5 * material.line_m) return material.line_albedo;
+  }
+  return material.albedo;
+}
+
+class Caster {
+ public:
+  Caster(const SolidScene& scene, const Vector3& eye) : scene_(scene), eye_(eye) {
+    for (const Solid& solid : scene.solids) {
+      const Bounds bounds = bounds_of(solid);
+      bounds_.push_back({solid.R * bounds.centre_m + solid.t_m, bounds.radius_m});
+    }
+  }
+
+  struct Seen {
+    double light = 0.0;
+    int solid = -1;
+  };
+
+  Seen look(const Vector3& direction, const std::vector<std::uint16_t>& candidates) const {
+    SolidHit nearest;
+    int which = -1;
+    for (const std::uint16_t k : candidates) {
+      const SolidHit hit = meet_solid(k, eye_, direction, 1e-9);
+      if (hit.depth >= nearest.depth) continue;
+      nearest = hit;
+      which = k;
+    }
+    if (which < 0) return {};
+    return {light_of(scene_.solids[static_cast<std::size_t>(which)], nearest, direction), which};
+  }
+
+  const std::vector<Bounds>& bounds() const { return bounds_; }
+
+ private:
+  SolidHit meet_solid(std::size_t k, const Vector3& origin, const Vector3& direction, double nearest) const {
+    const Solid& solid = scene_.solids[k];
+    const Vector3 o = solid.R.transpose() * (origin - solid.t_m), d = solid.R.transpose() * direction;
+    return std::visit([&](const auto& shape) { return meet(shape, o, d, nearest); }, solid.shape);
+  }
+
+  bool in_shadow(const Vector3& place) const {
+    for (std::size_t k = 0; k < scene_.solids.size(); ++k) {
+      const Vector3 to = bounds_[k].centre_m - place;
+      const double along = to.dot(scene_.to_sun);
+      if (along < -bounds_[k].radius_m) continue;
+      if ((to - along * scene_.to_sun).squaredNorm() > bounds_[k].radius_m * bounds_[k].radius_m) continue;
+      if (meet_solid(k, place, scene_.to_sun, kOffSurface_m).depth != kNever) return true;
+    }
+    return false;
+  }
+
+  double light_of(const Solid& solid, const SolidHit& hit, const Vector3& direction) const {
+    const Material& material = solid.material;
+    const Vector3 sight = direction.normalized();
+    Vector3 flat = solid.R * hit.normal;
+    if (flat.dot(sight) > 0.0) flat = -flat;
+    const Vector3 normal = material.bumps > 0.0 ? wrinkled(flat, hit.place_m, material) : flat;
+    const double albedo = albedo_at(hit.place_m, material);
+    double light = scene_.fill * albedo * std::max(0.0, -normal.dot(sight));
+    const double sun = normal.dot(scene_.to_sun);
+    if (sun <= 0.0 || flat.dot(scene_.to_sun) <= 0.0) return light;
+    if (in_shadow(eye_ + hit.depth * direction + kOffSurface_m * flat)) return light;
+    light += albedo * sun;
+    if (material.gloss > 0.0) {
+      const Vector3 between = (scene_.to_sun - sight).normalized();
+      light += material.gloss * std::pow(std::max(0.0, between.dot(normal)), kShininess);
+    }
+    return light;
+  }
+
+  const SolidScene& scene_;
+  Vector3 eye_;
+  std::vector<Bounds> bounds_;
+};
+
+// Which solids may be seen in each tile of the image.
+class Tiles {
+ public:
+  Tiles(const Lens& lens, const std::vector<Bounds>& bounds, const Matrix3& R_scene_camera, const Vector3& eye)
+      : columns_((lens.width_px + kTile_px - 1) / kTile_px), rows_((lens.height_px + kTile_px - 1) / kTile_px) {
+    lists_.resize(static_cast<std::size_t>(columns_ * rows_));
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      const Vector3 centre = R_scene_camera.transpose() * (bounds[k].centre_m - eye);
+      const double radius = bounds[k].radius_m;
+      int left = 0, right = columns_ - 1, top = 0, bottom = rows_ - 1;
+      if (centre.z() > 1.05 * radius) {
+        // The sphere's image lies within this of its middle's; a distorting lens moves it by tenths of that.
+        const double reach = radius / std::sqrt(centre.squaredNorm() - radius * radius) *
+                             (1.0 + centre.head<2>().squaredNorm() / (centre.z() * centre.z())) * 1.6;
+        const Vector2 middle = pixel_of(lens, centre);
+        const double u = lens.fx_px * reach + 4.0, v = lens.fy_px * reach + 4.0;
+        const auto tile = [](double px) { return static_cast<int>(std::floor(px / kTile_px)); };
+        left = std::max(left, tile(middle.x() - u));
+        right = std::min(right, tile(middle.x() + u));
+        top = std::max(top, tile(middle.y() - v));
+        bottom = std::min(bottom, tile(middle.y() + v));
+      }
+      for (int row = top; row <= bottom; ++row) {
+        for (int column = left; column <= right; ++column) {
+          lists_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<std::uint16_t>(k));
+        }
+      }
+    }
+  }
+  const std::vector<std::uint16_t>& at(int u, int v) const {
+    return lists_[static_cast<std::size_t>((v / kTile_px) * columns_ + u / kTile_px)];
+  }
+
+ private:
+  int columns_, rows_;
+  std::vector<std::vector<std::uint16_t>> lists_;
+};
+
+std::vector<Subpixel> even_subpixels(int count) { return blurred_subpixels(count, 0.0); }
+
+}  // namespace
+
+LinearImage solid_image(const SolidScene& scene, const Lens& lens, const Matrix3& R_scene_camera,
+                        const Vector3& t_scene_camera_m, int rays) {
+  const Caster caster(scene, t_scene_camera_m);
+  const Tiles tiles(lens, caster.bounds(), R_scene_camera, t_scene_camera_m);
+  const auto pixels = static_cast<std::size_t>(lens.width_px) * static_cast<std::size_t>(lens.height_px);
+  LinearImage image{lens.width_px, lens.height_px, std::vector<float>(pixels, 0.0F)};
+  std::vector<std::int16_t> solids(pixels, -1);
+  const bool plain = !has_distortion(lens);
+  const auto look = [&](double u, double v, const std::vector<std::uint16_t>& list) -> Caster::Seen {
+    const Vector2 seen((u - lens.cx_px) / lens.fx_px, (v - lens.cy_px) / lens.fy_px);
+    const auto ray = plain ? std::optional<Vector2>(seen) : undistorted(lens, seen, seen);
+    if (!ray) return {};
+    return caster.look(R_scene_camera * Vector3(ray->x(), ray->y(), 1.0), list);
+  };
+  for (int v = 0; v < lens.height_px; ++v) {
+    for (int u = 0; u < lens.width_px; ++u) {
+      const auto& list = tiles.at(u, v);
+      if (list.empty()) continue;
+      const Caster::Seen seen = look(u, v, list);
+      image.at(u, v) = static_cast<float>(seen.light);
+      solids[static_cast<std::size_t>(v * lens.width_px + u)] = static_cast<std::int16_t>(seen.solid);
+    }
+  }
+  const std::vector<Subpixel> places = even_subpixels(rays);
+  const LinearImage once = image;
+  const auto differs = [&](int u, int v, int x, int y) {
+    if (x < 0 || y < 0 || x >= lens.width_px || y >= lens.height_px) return false;
+    return solids[static_cast<std::size_t>(v * lens.width_px + u)] !=
+               solids[static_cast<std::size_t>(y * lens.width_px + x)] ||
+           std::abs(once.at(u, v) - once.at(x, y)) > kWorthRays;
+  };
+  for (int v = 0; v < lens.height_px; ++v) {
+    for (int u = 0; u < lens.width_px; ++u) {
+      const auto& list = tiles.at(u, v);
+      if (list.empty()) continue;
+      bool worth = false;
+      for (int y = -1; y <= 1 && !worth; ++y) {
+        for (int x = -1; x <= 1 && !worth; ++x) worth = differs(u, v, u + x, v + y);
+      }
+      if (!worth) continue;
+      double sum = 0.0;
+      for (const Subpixel& place : places) sum += look(u + place[0], v + place[1], list).light;
+      image.at(u, v) = static_cast<float>(sum / static_cast<double>(places.size()));
+    }
+  }
+  return image;
+}
+
+}  // namespace pharos::sim
