@@ -26,6 +26,11 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
       return result;
     }
     const pointing::PointingResult answer = pointing::answer_of(*panel, job.observation.sight);
+    if (answer.second_axis) {
+      result.refusal = "panel_ambiguous";
+      result.advice = job.file.string() + ": two pairs of edges may be the panel's";
+      return result;
+    }
     result.axis = answer.axis;
     result.planes_station = answer.planes_station;
     result.flags = joined_flags(answer.flags, pointing::kPointingFlagWords);

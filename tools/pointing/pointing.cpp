@@ -91,6 +91,7 @@ class Measurer {
     const pointing::PointingResult answer = pointing::answer_of(*panel, sight);
     write_image(rows_, name, *panel, answer, station_);
     if (!picture.empty()) write_pointing_overlay(picture, image.view(), camera_, *panel, answer);
+    if (answer.second_axis) return std::nullopt;  // a pass rests on what is sure
     return answer.planes_station;
   }
 
@@ -127,7 +128,8 @@ int run_image(const Options& options) {
   Output output(options.output, pointing_columns());
   Measurer measurer(options, station, output.rows());
   const pointing::LineOfSight sight{*options.azimuth_deg * kRadPerDeg, *options.elevation_deg * kRadPerDeg};
-  const bool answered = measurer.measure(options.image, image, sight, options.overlay).has_value();
+  static_cast<void>(measurer.measure(options.image, image, sight, options.overlay));
+  const bool answered = measurer.last_error().empty();  // an ambiguous answer is one
   output.finish();
   report_time(options, image, measurer.camera(), sight);
   if (answered) return kExitAnswered;

@@ -58,7 +58,7 @@ void write_image(host::RowWriter& rows, const std::string& image, const pointing
   write_axis(rows, answer.axis.axis, station);
   rows.number(answer.axis.sigma_rad() * kDegPerRad);
   write_vector(rows, pointing::signed_axis(answer.axis.plane.normal));
-  rows.number(answer.axis.sigma_plane_rad * kDegPerRad).text("ok");
+  rows.number(answer.axis.sigma_plane_rad * kDegPerRad).text(answer.second_axis ? "ambiguous" : "ok");
   rows.text(host::joined_flags(answer.flags, pointing::kPointingFlagWords))
       .number(answer.axis.sigma_along_rad * kDegPerRad);
   if (answer.square_rad) {
@@ -68,7 +68,14 @@ void write_image(host::RowWriter& rows, const std::string& image, const pointing
   }
   rows.integer(panel.panels).integer(static_cast<std::int64_t>(panel.long_planes.size()));
   rows.number(panel.rms_px).number(panel.blur_px);
-  rows.none(kPass.size()).end_row();
+  constexpr std::size_t kAxis = 3;  // the last columns: alt_sx, alt_sy, alt_sz
+  rows.none(kPass.size() - kAxis);
+  if (answer.second_axis) {
+    write_vector(rows, *answer.second_axis);
+  } else {
+    rows.none(kAxis);
+  }
+  rows.end_row();
 }
 
 void write_pointing_refusal(host::RowWriter& rows, const std::string& image, const std::string& reason) {

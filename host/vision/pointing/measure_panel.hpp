@@ -35,7 +35,8 @@ inline constexpr std::array<FlagWord, 4> kPointingFlagWords = {{{kFlagOnePanel, 
 struct PanelMeasurement {
   pointing::AxisPlanes long_planes;
   pointing::AxisPlanes short_planes;
-  std::vector<Segment> long_edges;  ///< in the ideal image, for pictures
+  pointing::AxisPlanes other_planes;  ///< long sides of what may as well be the panel; empty where nothing else may
+  std::vector<Segment> long_edges;    ///< in the ideal image, for pictures
   std::vector<Segment> short_edges;
   std::vector<Segment> outline;  ///< every edge of the outline, in the distorted image
   int panels = 0;
@@ -53,6 +54,8 @@ Result<PanelMeasurement, PointingRefusal> measure_panel(ImageView<const std::uin
 struct PointingResult {
   pointing::AxisEstimate axis;  ///< with its sign (signed_axis)
   pointing::AxisPlanes planes_station;
+  /// The axis of what may as well be the panel: the answer is ambiguous.
+  std::optional<Vector3> second_axis;
   /// Angle between long and short side (paper 003, 3.2), and its sigma; where a short edge was seen.
   std::optional<double> square_rad;
   double sigma_square_rad = 0.0;

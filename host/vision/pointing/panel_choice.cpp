@@ -9,23 +9,25 @@ namespace {
 
 constexpr double kMinPanelLength_px = 14.0;
 constexpr double kMinPanelFraction = 0.12;  // of the longest edge
-constexpr double kMaxConvergence = 0.2;     // rad: perspective of a panel as deep as an eighth of its distance
-constexpr double kMinOverlap = 0.55;        // of the shorter edge; a body may hide the rest
+// rad: perspective of a panel as wide as a half of its distance; what converges by accident is no rectangle in space.
+constexpr double kMaxConvergence = 0.5;
+constexpr double kMinOverlap = 0.55;  // of the shorter edge; a body may hide the rest
 constexpr double kMinSeparation_px = 3.5;
 constexpr double kMaxSeparation = 3.0;  // times the overlap: foreshortened panels
 constexpr double kMinFill = 0.85;       // of the strip between the edges
 constexpr double kWingTurn = 0.08;      // rad between the middle lines of a wing's panels
 constexpr double kWingOff = 0.35;       // of one's middle from the other's line, in separations
 constexpr double kWingWidths = 1.7;     // ratio of separations
-constexpr double kWingBonus = 1.6;      // a second panel in line is unlikely by chance
 
-double fraction_filled(const TargetMask& target, const Segment& middle, double separation) {
+// Of the strip between two edges that converge, from one end of their overlap to the other.
+double fraction_filled(const TargetMask& target, const Segment& first, const Segment& second) {
   constexpr int kAlong = 16, kAcross = 5;
   int inside = 0;
   for (int i = 0; i < kAlong; ++i) {
     for (int k = 0; k < kAcross; ++k) {
-      const Vector2 place = middle.begin + (i + 0.5) / kAlong * (middle.end - middle.begin) +
-                            (0.7 * separation * ((k + 0.5) / kAcross - 0.5)) * middle.across();
+      const double along = (i + 0.5) / kAlong, across = 0.15 + 0.7 * (k + 0.5) / kAcross;
+      const Vector2 place = (1.0 - across) * (first.begin + along * (first.end - first.begin)) +
+                            across * (second.begin + along * (second.end - second.begin));
       inside += target.at(static_cast<std::int32_t>(std::lround(place.x())),
                           static_cast<std::int32_t>(std::lround(place.y())))
                     ? 1
@@ -54,11 +56,14 @@ std::optional<EdgePair> pair_of(const Segment& a, const Segment& b, const Target
       a, b, {0.5 * (place_on(a, low) + place_on(back, low)), 0.5 * (place_on(a, high) + place_on(back, high))}, 0.0};
   pair.separation = across.dot(place_on(back, 0.5 * (low + high)) - place_on(a, 0.5 * (low + high)));
   if (pair.separation < kMinSeparation_px || pair.separation > kMaxSeparation * overlap) return std::nullopt;
-  if (fraction_filled(target, pair.middle, pair.separation) < kMinFill) return std::nullopt;
+  const Segment ours{place_on(a, low), place_on(a, high)}, theirs{place_on(back, low), place_on(back, high)};
+  if (fraction_filled(target, ours, theirs) < kMinFill) return std::nullopt;
   return pair;
 }
 
 bool same(const Segment& a, const Segment& b) { return a.begin == b.begin && a.end == b.end; }
+
+}  // namespace
 
 bool is_wing(const EdgePair& a, const EdgePair& b) {
   if (same(a.first, b.first) || same(a.first, b.second) || same(a.second, b.first) || same(a.second, b.second))
@@ -73,8 +78,6 @@ bool is_wing(const EdgePair& a, const EdgePair& b) {
          std::abs(b.middle.offset(a.middle.middle())) < kWingOff * narrower;
 }
 
-}  // namespace
-
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target) {
   std::vector<EdgePair> pairs;
   if (edges.empty()) return pairs;
@@ -86,27 +89,6 @@ std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const Targ
     }
   }
   return pairs;
-}
-
-std::optional<PanelChoice> choose_panels(const std::vector<Segment>& edges, const TargetMask& target) {
-  const std::vector<EdgePair> pairs = facing_pairs(edges, target);
-  PanelChoice choice;
-  double best = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double alone = pairs[i].middle.length();
-    if (alone > best) {
-      best = alone;
-      choice.panels = {pairs[i]};
-    }
-    for (std::size_t k = i + 1; k < pairs.size(); ++k) {
-      const double both = kWingBonus * (alone + pairs[k].middle.length());
-      if (both <= best || !is_wing(pairs[i], pairs[k])) continue;
-      best = both;
-      choice.panels = {pairs[i], pairs[k]};
-    }
-  }
-  if (choice.panels.empty()) return std::nullopt;
-  return choice;
 }
 
 }  // namespace pharos::pointing

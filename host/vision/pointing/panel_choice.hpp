@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "host/vision/pointing/segment.hpp"
@@ -16,16 +15,10 @@ struct EdgePair {
   double separation = 0.0;  ///< px
 };
 
-/// One panel, or the two of a wing.
-struct PanelChoice {
-  std::vector<EdgePair> panels;
-};
-
 /// Pairs of edges by length, slope, end points and mutual convergence.
 std::vector<EdgePair> facing_pairs(const std::vector<Segment>& edges, const TargetMask& target);
 
-/// The panel's long sides among an outline's edges: two pairs in one line (both panels of a wing) are preferred to one,
-/// longer to shorter; body, truss and stars give shorter pairs or none. Empty where there is none.
-std::optional<PanelChoice> choose_panels(const std::vector<Segment>& edges, const TargetMask& target);
+/// Whether two pairs stand in one line in the image with a gap between them, as a wing's panels do.
+bool is_wing(const EdgePair& a, const EdgePair& b);
 
 }  // namespace pharos::pointing

@@ -23,6 +23,8 @@ const char* name_of(PointingRefusal refusal) {
       return "cut_by_border";
     case PointingRefusal::kEdgeUnsure:
       return "edge_unsure";
+    case PointingRefusal::kAlongSight:
+      return "along_sight";
     case PointingRefusal::kOutsideLens:
       return "outside_lens";
   }
@@ -49,6 +51,8 @@ const char* advice_of(PointingRefusal refusal) {
       return "a panel's edge runs out of the image; point so that the panel is in it as a whole";
     case PointingRefusal::kEdgeUnsure:
       return "a panel's edge is no straight line; a sharper or brighter image is needed";
+    case PointingRefusal::kAlongSight:
+      return "the panel's axis points at the telescope; look from another direction";
     case PointingRefusal::kOutsideLens:
       return "the camera file's lens model has no rays where the panel is";
   }

@@ -14,9 +14,10 @@ enum class PointingRefusal : std::uint8_t {
   kStarsBrighter,  // no panel, and a small object is brighter than the target
   kNoPanel,        // a target without two parallel edges against the sky
   kOneEdge,        // one long edge without a parallel one
-  kCutByBorder,    // an edge reaches the image's border
-  kEdgeUnsure,     // an edge that is not a straight line at sub-pixel accuracy
-  kOutsideLens,    // an edge outside the domain of the camera file's lens model
+  kCutByBorder,    // an edge runs into the image's border
+  kEdgeUnsure,     // an edge that is no straight line once seen closely
+  kAlongSight,     // the panel's axis is within 10 deg of the line of sight
+  kOutsideLens,    // an edge where the camera file's lens model has no rays
 };
 const char* name_of(PointingRefusal refusal);
 /// Message for the user: the meaning and what to do.

@@ -57,6 +57,53 @@ TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsObservable) {
   EXPECT_LT(answer.axis.sigma_plane_rad * kDegPerRad, 0.02);
 }
 
+// A panel as deep as its own distance: its sides converge by a fifth of a radian and more.
+PaintedPanel near_panel(double out_rad) {
+  PaintedPanel scene;
+  scene.camera.fx_px = scene.camera.fy_px = 450.0;
+  scene.range_m = 12.0;
+  scene.length_m = 8.0;
+  scene.width_m = 3.0;
+  scene.set_axis(0.4, out_rad);
+  return scene;
+}
+
+TEST(MeasurePanel, SidesOfANearPanelConverge) {
+  const PaintedPanel scene = near_panel(0.95);
+  const auto panel = measure_panel(scene.image().view(), scene.camera);
+  ASSERT_TRUE(panel.ok()) << name_of(panel.error());
+  const Vector2 first = panel->long_edges[0].along(), second = panel->long_edges[1].along();
+  EXPECT_LT(std::abs(first.dot(second)), std::cos(0.2));
+  EXPECT_EQ(panel->short_planes.size(), 2u);  // the ends confirm it
+  const PointingResult answer = answer_of(*panel, scene.sight);
+  EXPECT_FALSE(answer.second_axis.has_value());
+  EXPECT_LT(angle_between(answer.axis.axis, scene.axis_station), 5.0 * answer.axis.sigma_rad());
+  EXPECT_LT(angle_between(answer.axis.axis, scene.axis_station) * kDegPerRad, 0.3);
+}
+
+// Two edges that converge by perspective, but with ends that are not square to them: no panel in space.
+TEST(MeasurePanelRefuses, EdgesThatAreNoRectangleInSpace) {
+  PaintedPanel scene = near_panel(0.95);
+  host::GreyImage image = scene.image();
+  // The lower right of a slanted cut becomes sky: one end is askew.
+  for (int v = 0; v < image.height_px; ++v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      const double off = 0.9 * (u - 255.5) - 0.43 * (v - 255.5) - 20.0;
+      auto& pixel = image.pixels[static_cast<std::size_t>(v) * 512 + static_cast<std::size_t>(u)];
+      const double fraction = 0.5 * std::erfc(off / (1.2 * std::sqrt(2.0)));
+      pixel = static_cast<std::uint16_t>(600.0 + fraction * std::max(0.0, pixel - 600.0));
+    }
+  }
+  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
+}
+
+TEST(MeasurePanelRefuses, APanelThatIsSeenAlongItsAxis) {
+  PaintedPanel scene = near_panel(1.45);  // 7 deg off the line of sight
+  scene.camera.fx_px = scene.camera.fy_px = 800.0;
+  scene.length_m = 12.0;
+  EXPECT_EQ(refusal_of(scene.image(), scene.camera), PointingRefusal::kAlongSight);
+}
+
 TEST(MeasurePanel, StarsEvenBrighterOnesChangeNothing) {
   PaintedPanel scene;
   scene.set_axis(0.4, 0.2);

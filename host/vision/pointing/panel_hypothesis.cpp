@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/panel_hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/vision/pointing/panel_measurement.hpp"
+#include "pharos/base/units.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+constexpr double kMinAspect = 1.3;  // of a lone panel; a body is as long as wide
+// Pairs that are measured, the longest: a wing's four edges make four, a body's as many.
+constexpr std::size_t kMaxPairs = 12;
+constexpr double kWingBonus = 1.6;  // a second panel in line is no accident
+// From here on an axis is so uncertain that a wrong one lies within its sigmas: nothing needs to confirm it.
+constexpr double kUnsureSigma_rad = 5.0 * kRadPerDeg;
+// Beyond chance, and what lens and blur move edges by.
+constexpr double kMaxSigmas = 5.0;
+constexpr double kAngleSlack_rad = 0.3 * kRadPerDeg;
+// A test of right angles that could not have failed confirms nothing.
+constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
+// Of the panel's length: what a third edge needs to be told from an accident.
+constexpr double kMinThirdEdge = 0.15;
+constexpr double kThirdEdgeReach_px = 4.0;
+// Nearer to the line of sight an axis is a matter of the panel's thickness.
+constexpr double kMinFromSight_rad = 10.0 * kRadPerDeg;
+// Of the best one's length: a shorter one is no rival.
+constexpr double kRivalLength = 0.5;
+constexpr double kOtherAxis_rad = 1.0 * kRadPerDeg;
+
+struct Hypothesis {
+  std::vector<EdgePair> pairs;
+  PanelMeasurement measurement;
+  AxisEstimate axis;  // in C
+  double score = 0.0;
+};
+
+double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
+
+// How far an edge's plane is off an axis, and that angle's sigma.
+bool lies_along(const AxisPlane& plane, const AxisEstimate& axis) {
+  const double off = std::abs(std::asin(std::clamp(plane.normal.dot(axis.axis), -1.0, 1.0)));
+  const double sigma =
+      std::hypot(plane.sigma_rad(axis.axis), std::sqrt(plane.normal.dot(axis.covariance * plane.normal)));
+  return off < kMaxSigmas * sigma + kAngleSlack_rad;
+}
+
+// Angle between long sides and ends beyond a right one, where both ends are seen.
+struct Square {
+  double off_rad = 0.0;
+  double sigma_rad = 0.0;
+};
+std::optional<Square> square_of(const PanelMeasurement& panel, const AxisEstimate& axis) {
+  if (panel.short_planes.size() < 2) return std::nullopt;
+  const auto across = estimate_axis({panel.short_planes.data(), panel.short_planes.size()});
+  if (!across) return std::nullopt;
+  const double variance =
+      across->axis.dot(axis.covariance * across->axis) + axis.axis.dot(across->covariance * axis.axis);
+  return Square{0.5 * kPi - angle_of(axis.axis, across->axis), std::sqrt(variance)};
+}
+
+bool is_contradicted(const Hypothesis& h) {
+  const auto square = square_of(h.measurement, h.axis);
+  if (square && square->off_rad > kMaxSigmas * square->sigma_rad + kAngleSlack_rad) return true;
+  // The sides of a wing's two panels are parallel in space.
+  return std::any_of(h.measurement.long_planes.begin(), h.measurement.long_planes.end(),
+                     [&](const AxisPlane& plane) { return !lies_along(plane, h.axis); });
+}
+
+std::optional<AxisEstimate> axis_of(const PanelMeasurement& panel) {
+  const auto axis = estimate_axis({panel.long_planes.data(), panel.long_planes.size()});
+  return axis ? std::optional(*axis) : std::nullopt;
+}
+
+// Long and short side by their lengths in space; false where it is no panel.
+bool settle_sides(const EdgePair& pair, const PinholeCamera& camera, PanelMeasurement& panel) {
+  double aspect = pair.middle.length() / pair.separation;
+  if (const auto in_space = aspect_in_space(panel, camera)) {
+    aspect = std::max(*in_space, 1.0 / *in_space);
+    if (*in_space < 1.0) {
+      if (panel.short_planes.size() < 2) return false;
+      std::swap(panel.long_planes, panel.short_planes);
+      std::swap(panel.long_edges, panel.short_edges);
+    }
+  }
+  return aspect >= kMinAspect;
+}
+
+class Chooser {
+ public:
+  Chooser(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
+          const std::vector<Segment>& outline)
+      : image_(image), target_(target), camera_(camera), outline_(outline) {}
+
+  void measure(std::vector<EdgePair> pairs) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const EdgePair& a, const EdgePair& b) { return a.middle.length() > b.middle.length(); });
+    if (pairs.size() > kMaxPairs) pairs.resize(kMaxPairs);
+    for (const EdgePair& pair : pairs) {
+      const auto panel = measured_panel(image_, target_, camera_, pair, outline_);
+      if (panel) {
+        measured_.push_back({pair, *panel});
+      } else if (!refusal_ || panel.error() == PointingRefusal::kCutByBorder) {
+        refusal_ = panel.error();
+        is_cut_ = is_cut_ || panel.error() == PointingRefusal::kCutByBorder;
+      }
+    }
+  }
+
+  Result<PanelMeasurement, PointingRefusal> choice() {
+    if (measured_.empty()) return *refusal_;
+    std::vector<Hypothesis> hypotheses = wings();
+    for (const auto& [pair, sides] : measured_) add_lone(pair, sides, hypotheses);
+    std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+    std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_contradicted(h) || !is_confirmed(h); });
+    if (hypotheses.empty()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
+    Hypothesis& best = hypotheses.front();
+    if (is_along_sight(best)) return PointingRefusal::kAlongSight;
+    for (const Hypothesis& other : hypotheses) {
+      if (!is_rival(best, other)) continue;
+      best.measurement.other_planes = other.measurement.long_planes;
+      break;
+    }
+    if (is_cut_ && best.pairs.size() == 1) best.measurement.flags |= kFlagPanelCut;
+    return best.measurement;
+  }
+
+ private:
+  std::vector<Hypothesis> wings() const {
+    std::vector<Hypothesis> wings;
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+      for (std::size_t k = i + 1; k < measured_.size(); ++k) {
+        const auto& [a, a_sides] = measured_[i];
+        const auto& [b, b_sides] = measured_[k];
+        if (!is_wing(a, b)) continue;
+        Hypothesis wing{{a, b}, measurement_of({a_sides, b_sides}, camera_), {}, 0.0};
+        const auto axis = axis_of(wing.measurement);
+        if (!axis) continue;
+        wing.axis = *axis;
+        wing.score = kWingBonus * (a.middle.length() + b.middle.length());
+        wings.push_back(std::move(wing));
+      }
+    }
+    return wings;
+  }
+
+  void add_lone(const EdgePair& pair, const PanelSides& sides, std::vector<Hypothesis>& hypotheses) const {
+    Hypothesis lone{{pair}, measurement_of({sides}, camera_), {}, pair.middle.length()};
+    if (!settle_sides(pair, camera_, lone.measurement)) return;
+    const auto axis = axis_of(lone.measurement);
+    if (!axis) return;
+    lone.axis = *axis;
+    hypotheses.push_back(std::move(lone));
+  }
+
+  bool is_confirmed(const Hypothesis& h) const {
+    if (h.pairs.size() == 2 || h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+    const auto square = square_of(h.measurement, h.axis);
+    if (square && square->sigma_rad < kMaxSquareSigma_rad) return true;
+    return std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
+  }
+
+  // An edge beside the panel's own that runs along its axis: the other panel's, where that is half hidden.
+  bool is_third(const Hypothesis& h, const Segment& edge) const {
+    const EdgePair& pair = h.pairs.front();
+    if (edge.length() < kMinThirdEdge * pair.middle.length()) return false;
+    const auto is_own = [&](const Segment& own) { return edge.begin == own.begin && edge.end == own.end; };
+    if (is_own(pair.first) || is_own(pair.second)) return false;
+    const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
+    if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
+    const AxisPlane plane = plane_of_line(side->fit.line, camera_);
+    // An edge whose own direction is open would lie along anything.
+    return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
+  }
+
+  bool is_along_sight(const Hypothesis& h) const {
+    if (h.axis.sigma_rad() > kUnsureSigma_rad) return false;
+    const Vector2 middle = h.pairs.front().middle.middle();
+    const Vector3 sight((middle.x() - camera_.cx_px) / camera_.fx_px, (middle.y() - camera_.cy_px) / camera_.fy_px,
+                        1.0);
+    return angle_of(sight, h.axis.axis) < kMinFromSight_rad;
+  }
+
+  static bool is_rival(const Hypothesis& best, const Hypothesis& other) {
+    if (other.score < kRivalLength * best.score || other.pairs.size() < best.pairs.size()) return false;
+    const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
+    return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
+  }
+
+  ImageView<const std::uint16_t> image_;
+  const TargetMask& target_;
+  const PinholeCamera& camera_;
+  const std::vector<Segment>& outline_;
+  std::vector<std::pair<EdgePair, PanelSides>> measured_;
+  std::optional<PointingRefusal> refusal_;
+  bool is_cut_ = false;
+};
+
+}  // namespace
+
+Result<PanelMeasurement, PointingRefusal> choose_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
+                                                       const PinholeCamera& camera, const std::vector<Segment>& outline,
+                                                       const std::vector<EdgePair>& pairs) {
+  Chooser chooser(image, target, camera, outline);
+  chooser.measure(pairs);
+  return chooser.choice();
+}
+
+}  // namespace pharos::pointing

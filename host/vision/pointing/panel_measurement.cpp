@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/panel_measurement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+using pointing::EdgePoint;
+using pointing::LineFit;
+
+constexpr double kOneLineChi2 = 18.0;  // of two edges as one line, two degrees of freedom: 99.99 %
+constexpr double kSureSigma_rad = 5.0 * kRadPerDeg;
+
+double squares(const LineFit& fit) { return fit.rms_px * fit.rms_px * static_cast<double>(fit.points); }
+
+// Two edges that are pieces of one line: the fit of both, if it is no worse than each by itself.
+std::optional<LineFit> as_one_line(const Side& a, const Side& b) {
+  std::vector<EdgePoint> points = a.points;
+  points.insert(points.end(), b.points.begin(), b.points.end());
+  const Vector2 along = a.extent.along();
+  std::sort(points.begin(), points.end(),
+            [&](const EdgePoint& p, const EdgePoint& q) { return along.dot(p.place_px) < along.dot(q.place_px); });
+  const auto fit = pointing::fit_line(points);
+  if (!fit || fit->points + 8 < a.fit.points + b.fit.points) return std::nullopt;
+  const double apart = squares(a.fit) + squares(b.fit);
+  const double variance = apart / static_cast<double>(a.fit.points + b.fit.points - 4);
+  const double worse = (squares(*fit) - apart) / std::max(1e-12, variance);
+  const double correlated = std::max(a.fit.variance_inflation, b.fit.variance_inflation);
+  if (worse > kOneLineChi2 * correlated) return std::nullopt;
+  return *fit;
+}
+
+void add_plane(AxisPlanes& planes, std::vector<Segment>& edges, const LineFit& fit, const PinholeCamera& camera) {
+  planes.push_back(pointing::plane_of_line(fit.line, camera));
+  edges.push_back({fit.begin_px, fit.end_px});
+}
+
+// A wing's four long edges as two lines, where they are.
+void add_long_sides(PanelMeasurement& result, const std::vector<PanelSides>& panels, const PinholeCamera& camera) {
+  if (panels.size() == 1) {
+    add_plane(result.long_planes, result.long_edges, panels[0].first.fit, camera);
+    add_plane(result.long_planes, result.long_edges, panels[0].second.fit, camera);
+    return;
+  }
+  for (const Side* one : {&panels[0].first, &panels[0].second}) {
+    // Edges that run the same way round are on the same side of the wing.
+    const bool same_way = one->extent.along().dot(panels[1].first.extent.along()) > 0.0;
+    const Side& other = same_way ? panels[1].first : panels[1].second;
+    if (const auto both = as_one_line(*one, other)) {
+      add_plane(result.long_planes, result.long_edges, *both, camera);
+    } else {
+      add_plane(result.long_planes, result.long_edges, one->fit, camera);
+      add_plane(result.long_planes, result.long_edges, other.fit, camera);
+    }
+  }
+}
+
+}  // namespace
+
+PanelMeasurement measurement_of(const std::vector<PanelSides>& panels, const PinholeCamera& camera) {
+  PanelMeasurement result;
+  result.panels = static_cast<int>(panels.size());
+  add_long_sides(result, panels, camera);
+  double square = 0.0, points = 0.0;
+  for (const PanelSides& panel : panels) {
+    for (const Side* side : {&panel.first, &panel.second}) {
+      square += squares(side->fit);
+      points += static_cast<double>(side->fit.points);
+      result.blur_px += 0.5 * side->blur_px / static_cast<double>(panels.size());
+    }
+    for (const Side& end : panel.ends) {
+      if (!result.short_planes.full()) add_plane(result.short_planes, result.short_edges, end.fit, camera);
+    }
+  }
+  result.rms_px = std::sqrt(square / points);
+  if (panels.size() == 1) result.flags |= kFlagOnePanel;
+  return result;
+}
+
+std::optional<double> aspect_in_space(const PanelMeasurement& panel, const PinholeCamera& camera) {
+  if (panel.short_planes.empty() || panel.long_planes.size() != 2) return std::nullopt;
+  const auto axis = pointing::estimate_axis({panel.long_planes.data(), 2});
+  if (!axis || axis->sigma_rad() > kSureSigma_rad) return std::nullopt;
+  const Vector3& end = panel.short_planes[0].normal;
+  const Vector3 normal = axis->axis.cross(axis->axis.cross(end)).normalized();
+  const auto on_panel = [&](const Vector3& ray) { return Vector3(ray / normal.dot(ray)); };
+  const auto ray_of = [&](const Vector2& place) {
+    return Vector3((place.x() - camera.cx_px) / camera.fx_px, (place.y() - camera.cy_px) / camera.fy_px, 1.0);
+  };
+  double length = 0.0;
+  std::array<Vector3, 2> corners;
+  for (std::size_t i = 0; i < 2; ++i) {
+    corners[i] = on_panel(panel.long_planes[i].normal.cross(end));
+    for (const Vector2& place : {panel.long_edges[i].begin, panel.long_edges[i].end}) {
+      length = std::max(length, (on_panel(ray_of(place)) - corners[i]).norm());
+    }
+  }
+  return length / (corners[0] - corners[1]).norm();
+}
+
+}  // namespace pharos::pointing

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/pointing/panel_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/vision/pointing/edge_points.hpp"
+
+namespace pharos::pointing {
+namespace {
+
+constexpr double kReachFraction = 0.45;   // of the distance to the opposite edge
+constexpr double kMinSeenFraction = 0.4;  // of a short edge's length
+// Corners, where long edges end: where they were followed to, past a rounded corner or short of a frame.
+constexpr double kCornerOff_px = 6.0;
+constexpr double kCornerOffFraction = 0.015;
+constexpr double kMaxEndTurn = 0.1;
+
+// The outline's edge between two corners that are known to some pixels; the longest, where others interrupt it.
+const Segment* edge_along(const Segment& guess, const std::vector<Segment>& outline) {
+  const double slack = kCornerOff_px + kCornerOffFraction * guess.length();
+  const Segment* best = nullptr;
+  for (const Segment& edge : outline) {
+    if (edge.along().dot(guess.along()) < std::cos(kMaxEndTurn)) continue;
+    if (std::abs(guess.offset(edge.begin)) > slack || std::abs(guess.offset(edge.end)) > slack) continue;
+    if (guess.station(edge.end) < 0.0 || guess.station(edge.begin) > guess.length()) continue;
+    if (best == nullptr || edge.length() > best->length()) best = &edge;
+  }
+  return best;
+}
+
+// The ends of a panel: from the end of each long side to the beginning of the other.
+void measure_ends(ImageView<const std::uint16_t> image, const TargetMask& target, const PinholeCamera& camera,
+                  const std::vector<Segment>& outline, PanelSides& panel) {
+  for (const auto& [from, to] : {std::pair{panel.first.extent.end, panel.second.extent.begin},
+                                 {panel.second.extent.end, panel.first.extent.begin}}) {
+    const Segment guess{from, to};
+    const double reach = kReachFraction * std::min(panel.first.extent.length(), panel.second.extent.length());
+    if (guess.length() < 4.0) continue;
+    const Segment* seen = edge_along(guess, outline);
+    const auto side = measured_side(image, target, camera, seen != nullptr ? *seen : guess, reach);
+    if (!side || side->cut || side->fit.length_px() < kMinSeenFraction * guess.length()) continue;
+    panel.ends.push_back(*side);
+  }
+}
+
+}  // namespace
+
+Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image, const TargetMask& target,
+                                            const PinholeCamera& camera, const Segment& guess, double reach_px) {
+  MeasuredEdge edge = measure_edge(image, target, guess, reach_px);
+  Side side;
+  side.cut = edge.cut;
+  side.blur_px = edge.blur_px;
+  side.extent = edge.extent;
+  side.points = std::move(edge.points);
+  if (!pointing::undo_distortion(side.points, camera)) return PointingRefusal::kOutsideLens;
+  const auto fit = pointing::fit_line(side.points);
+  if (!fit) return side.cut ? PointingRefusal::kCutByBorder : PointingRefusal::kEdgeUnsure;
+  side.fit = *fit;
+  return side;
+}
+
+Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
+                                                   const PinholeCamera& camera, const EdgePair& pair,
+                                                   const std::vector<Segment>& outline) {
+  const double reach = kReachFraction * pair.separation;
+  const auto first = measured_side(image, target, camera, pair.first, reach);
+  const auto second = measured_side(image, target, camera, pair.second, reach);
+  for (const auto* side : {&first, &second}) {
+    if (*side ? (*side)->cut : side->error() == PointingRefusal::kCutByBorder) return PointingRefusal::kCutByBorder;
+  }
+  if (first.ok() != second.ok()) {
+    const PointingRefusal why = first ? second.error() : first.error();
+    return why == PointingRefusal::kEdgeUnsure ? PointingRefusal::kOneEdge : why;
+  }
+  if (!first) return first.error();
+  PanelSides panel{*first, *second, {}};
+  measure_ends(image, target, camera, outline, panel);
+  return panel;
+}
+
+}  // namespace pharos::pointing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/vision/pointing/panel_choice.hpp"
+#include "host/vision/pointing/pointing_refusal.hpp"
+#include "host/vision/pointing/target_mask.hpp"
+#include "pharos/base/result.hpp"
+#include "pharos/pointing/line_fit.hpp"
+
+namespace pharos::pointing {
+
+/// One side of a panel: its points in the ideal image and the line through them.
+struct Side {
+  std::vector<pointing::EdgePoint> points;
+  pointing::LineFit fit;
+  Segment extent;  ///< in the image as it was taken
+  double blur_px = 0.0;
+  bool cut = false;
+};
+
+/// A panel's long sides, and those of its ends that the sky stands behind.
+struct PanelSides {
+  Side first, second;
+  std::vector<Side> ends;
+};
+
+/// An edge of the outline as a side. kCutByBorder, kEdgeUnsure, kOutsideLens.
+Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image, const TargetMask& target,
+                                            const PinholeCamera& camera, const Segment& guess, double reach_px);
+
+/// A pair's edges measured on the grey image, and the ends between them.
+Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
+                                                   const PinholeCamera& camera, const EdgePair& pair,
+                                                   const std::vector<Segment>& outline);
+
+}  // namespace pharos::pointing
