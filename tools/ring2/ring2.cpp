@@ -5,6 +5,7 @@
 
 #include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
+#include "host/cameras/target_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"
@@ -22,6 +23,7 @@ namespace {
 constexpr const char* kExample =
     "Example:\n"
     "  pharos circles left.png right.png --rig rig.toml --overlay found.png\n"
+    "  pharos circles left.png right.png --rig rig.toml --target target.toml\n"
     "  pharos circles --ellipses ellipses.csv --rig rig.toml --method paper\n"
     "Rig frame: x right, y down, z ahead. n = Rx(theta) Ry(gamma) (0, 0, -1) points from the ring towards the "
     "cameras;\n"
@@ -39,9 +41,20 @@ struct Options {
   std::string ellipses;
   std::string method = "exact";
   std::string overlay;
+  std::string target;
   int repeats = 0;
   OutputOptions output;
 };
+
+// What a target description says of ring and nozzle.
+host::RingSizes sizes_of(const std::string& path) {
+  if (path.empty()) return {};
+  const host::TargetFile file = host::read_target_file(path);
+  const auto known = [](const std::optional<host::StatedLength>& length) {
+    return length ? std::optional(host::KnownLength{length->value_m, length->sigma_m}) : std::nullopt;
+  };
+  return {known(file.outer_radius), known(file.inner_radius), known(file.exit_radius), known(file.nozzle_distance)};
+}
 
 using Solved = Result<ring2::Ring2Estimate, ring2::Ring2Failure>;
 
@@ -95,7 +108,9 @@ bool better_exchanged(host::Ring2Detector& finder, const host::Ring2Detection& g
 bool from_images(const ring2::Rig& rig, const Options& options) {
   ImageInput input;
   const std::array<host::GreyImage, 2> images{input.read(options.images[0]), input.read(options.images[1])};
-  host::Ring2Detector finder(rig, {});
+  host::Ring2Settings settings;
+  settings.sizes = sizes_of(options.target);
+  host::Ring2Detector finder(rig, settings);
   const host::Ring2Images views{images[0].view(), images[1].view()};
   host::Ring2Detection circles = finder.find(views);
   host::PairFault fault = host::pair_fault({views[0], views[1]});
@@ -127,6 +142,9 @@ int run(const Options& options) {
   const bool table = !options.ellipses.empty();
   if (table != options.images.empty()) throw host::InputError("give two images LEFT RIGHT, or --ellipses FILE");
   if (!table && options.images.size() != 2) throw host::InputError("give both images: LEFT RIGHT; one tells no length");
+  if (table && !options.target.empty()) {
+    throw host::InputError("--target decides between circles of images; --ellipses names them");
+  }
   if (table && !options.overlay.empty()) throw host::InputError("--overlay draws on images; --ellipses has none");
   const std::string& read = table ? options.ellipses : options.images[0];
   const bool twice = read == "-" && (options.rig == "-" || (!table && options.images[1] == "-"));
@@ -144,6 +162,8 @@ void add_ring2(CLI::App& app, int& exit_code) {
       ->expected(0, 2);
   command->add_option("--rig", options->rig, "Rig file of both cameras (pharos calibrate stereo)")->required();
   command->add_option("--ellipses", options->ellipses, "Ellipses instead of images; - is standard input");
+  command->add_option("--target", options->target,
+                      "Target description (TOML): sizes that tell which circle is the ring");
   command->add_option("--method", options->method, "exact, or paper: as published")
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();

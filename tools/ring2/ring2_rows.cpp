@@ -35,7 +35,16 @@ const std::vector<std::string> kDetails = {"sigma_position_mm",
                                            "alt_theta_deg",
                                            "alt_gamma_deg",
                                            "delta_chi2",
-                                           "one_edge"};
+                                           "one_edge",
+                                           "centre_cov_xx_m2",
+                                           "centre_cov_xy_m2",
+                                           "centre_cov_xz_m2",
+                                           "centre_cov_yy_m2",
+                                           "centre_cov_yz_m2",
+                                           "centre_cov_zz_m2",
+                                           "alt_cx_m",
+                                           "alt_cy_m",
+                                           "alt_cz_m"};
 
 void write_vector(const Vector3& vector, bool told, host::RowWriter& rows) {
   for (int axis = 0; axis < 3; ++axis) rows.number(told ? std::optional<double>(vector[axis]) : std::nullopt);
@@ -105,7 +114,14 @@ void write_ring2(const Ring2Estimate& e, bool by_paper, std::uint8_t one_edge, h
   } else {
     rows.none(3);
   }
-  rows.text(host::joined_flags(one_edge, kOneEdgeWords)).end_row();
+  rows.text(host::joined_flags(one_edge, kOneEdgeWords));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      rows.number(when(!by_paper && told.ring, e.covariance(ring2::kCentre + i, ring2::kCentre + j)));
+    }
+  }
+  write_vector(e.second ? e.second->ring_centre_m : Vector3::Zero().eval(), e.second.has_value() && told.ring, rows);
+  rows.end_row();
 }
 
 void write_refusal(const std::string& reason, host::RowWriter& rows) {

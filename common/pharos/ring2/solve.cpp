@@ -22,8 +22,6 @@ constexpr double kSameMinimum = 0.1;
 // Ellipses of one rig disagree by noise and by calibration errors; half a pixel and five sigma are neither.
 constexpr double kMaxRms_px = 0.5;
 constexpr double kMaxChi2PerFreedom = 25.0;
-// From here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve): stated sigmas are scaled.
-constexpr double kChancePerFreedom = 3.5;
 
 // The problem's first and second circle.
 struct Roles {

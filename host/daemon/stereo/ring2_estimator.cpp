@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/stereo/ring2_estimator.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "host/support/flag_text.hpp"
@@ -17,23 +16,6 @@ enum Ring2Flag : std::uint8_t {
 };
 constexpr std::array<FlagWord, 2> kRing2FlagWords{{{kNoConnector, "no_connector"}, {kNoNozzle, "no_nozzle"}}};
 
-// Of the ellipses that the answer rests on.
-int edge_points(const Ring2Detection& circles) {
-  int points = 0;
-  for (std::size_t view = 0; view < ring2::kViews; ++view) {
-    for (const auto& contour : circles.contours[view]) {
-      if (!contour) continue;
-      const auto is_it = [&contour](const ellipse::DetectedEllipse& found) {
-        return Vector2(found.ellipse.cx_px, found.ellipse.cy_px) == contour->centre_px &&
-               found.ellipse.a_px == contour->ellipse.a_px;
-      };
-      const auto found = std::find_if(circles.found[view].begin(), circles.found[view].end(), is_it);
-      if (found != circles.found[view].end()) points += found->points;
-    }
-  }
-  return points;
-}
-
 // What a person can do about a refusal of host/vision/ring2 or common/ring2.
 const char* advice_of(const std::string& refusal) {
   const auto ends = [&refusal](const char* end) { return refusal.ends_with(end); };
@@ -45,6 +27,8 @@ const char* advice_of(const std::string& refusal) {
   if (refusal == "no_common_circle" || refusal == "inconsistent") {
     return "what the cameras see is no one circle before this rig: has a camera been moved since its calibration?";
   }
+  if (refusal == "ring_unsure")
+    return "circles are seen, but none that is surely the ring: is the nozzle in view and lit?";
   return "the ellipses do not tell a ring's pose";
 }
 
@@ -66,7 +50,7 @@ PairResult Ring2Estimator::measure(const StereoPair& pair) {
     return answer;
   }
   Ring2PoseEstimate pose = ring2_pose(*circles.estimate, focal_px_);
-  pose.observations = answer.observations = edge_points(circles);
+  pose.observations = answer.observations = circles.edge_points;
   const bool no_nozzle = (circles.estimate->unobservable & ring2::kUnobservableNozzle) != 0;
   answer.flags = joined_flags(kNoConnector | (no_nozzle ? kNoNozzle : 0), kRing2FlagWords);
   answer.pose = pose;

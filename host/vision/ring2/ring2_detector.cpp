@@ -9,6 +9,7 @@
 #include "host/vision/ring2/circle_match.hpp"
 #include "host/vision/ring2/image_check.hpp"
 #include "host/vision/ring2/rim.hpp"
+#include "host/vision/ring2/rim_evidence.hpp"
 #include "pharos/ellipse/detect.hpp"
 
 namespace pharos::host {
@@ -109,6 +110,78 @@ Ring2Detection ring2_among(const ring2::Rig& rig, const Ring2Settings& settings,
   return answer;
 }
 
+namespace {
+
+// Contours of images disagree by what light and rims do to edges, which no edge point knows of: their own scatter
+// tells, where there are enough of them.
+ring2::Ring2Estimate with_scatter(ring2::Ring2Estimate estimate) {
+  constexpr int kMinFreedom = 4;
+  const double per_freedom = estimate.chi2 / std::max(1, estimate.degrees_of_freedom);
+  // Beyond this the estimator has widened it itself.
+  if (estimate.degrees_of_freedom >= kMinFreedom && per_freedom > 1.0 && per_freedom <= ring2::kChancePerFreedom) {
+    estimate.covariance *= per_freedom;
+  }
+  return estimate;
+}
+
+std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Settings& settings,
+                                         const Ring2Images& images, std::vector<RingHypothesis> hypotheses) {
+  std::vector<RingHypothesis> near;
+  const bool is_size_told = settings.sizes.outer_radius || settings.sizes.inner_radius;
+  for (RingHypothesis& hypothesis : hypotheses) {
+    if (!hypothesis.has_nozzle && !is_size_told) continue;  // it may as well be the nozzle
+    if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kFirst, hypothesis)) continue;
+    const auto is_known = [&](const RingHypothesis& other) { return is_same(other, hypothesis); };
+    if (std::none_of(near.begin(), near.end(), is_known)) near.push_back(std::move(hypothesis));
+  }
+  std::vector<FollowedHypothesis> result;
+  for (RingHypothesis& hypothesis : near) {
+    if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kLast, hypothesis)) continue;
+    const auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
+    if (!estimate || estimate->unobservable != (hypothesis.has_nozzle ? 0 : ring2::kUnobservableNozzle)) continue;
+    const double rim = rim_evidence(rig, images, {estimate->ring_centre_m, estimate->normal, estimate->ring_radius_m});
+    result.push_back({std::move(hypothesis), with_scatter(*estimate), rim});
+  }
+  return result;
+}
+
+void take(const RingDecision& decision, Ring2Detection& answer) {
+  answer.contours = decision.best->hypothesis.contours;
+  answer.edge_points = decision.best->hypothesis.edges;
+  answer.estimate = decision.best->estimate;
+  ring2::Ring2Estimate& estimate = *answer.estimate;
+  if (decision.rival != nullptr && !(estimate.second && estimate.second->delta_chi2 < decision.delta_chi2)) {
+    const ring2::Ring2Estimate& rival = decision.rival->estimate;
+    estimate.second = {rival.normal, rival.ring_centre_m, decision.delta_chi2};
+  }
+}
+
+// The answer by the images' edges; where there is none, the reason by the ellipses.
+Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settings, const Ring2Images& images,
+                              std::array<std::vector<DetectedEllipse>, ring2::kViews> found) {
+  const auto contours = contours_of(found, settings.systematic_px);
+  for (const auto& hypotheses_of : {ring_hypotheses, three_ellipse_hypotheses}) {
+    const std::vector<FollowedHypothesis> all = followed(rig, settings, images, hypotheses_of(rig, contours));
+    const RingDecision decision = decide(rig, all, settings.sizes);
+    if (decision.best == nullptr) continue;
+    Ring2Detection answer;
+    answer.found = std::move(found);
+    take(decision, answer);
+    answer.one_edge = settle_rims(rig, contours, *answer.estimate);
+    return answer;
+  }
+  Ring2Detection answer = ring2_among(rig, settings, std::move(found));
+  if (!answer.estimate) return answer;
+  answer.estimate.reset();
+  const ring2::ContourSet exchanged = chosen_contours(rig, {contours[1], contours[0]});
+  const bool whole = exchanged[0][0] && exchanged[1][0] && exchanged[0][1] && exchanged[1][1];
+  answer.refusal =
+      whole && ring2::solve_ring2(rig, exchanged) ? name_of(ring2::Ring2Failure::kExchanged) : "ring_unsure";
+  return answer;
+}
+
+}  // namespace
+
 // One image's search, with memory that lasts: making and clearing it would cost a tenth of the search.
 class Ring2Detector::View {
  public:
@@ -167,7 +240,7 @@ Ring2Detection Ring2Detector::find(const Ring2Images& images) {
     answer.refusal = std::string(kViewNames[v]) + '_' + name_of(views_[v]->fault);
     return answer;
   }
-  return ring2_among(rig_, settings_, {std::move(views_[0]->found), std::move(views_[1]->found)});
+  return ring2_by_edges(rig_, settings_, images, {std::move(views_[0]->found), std::move(views_[1]->found)});
 }
 
 }  // namespace pharos::host

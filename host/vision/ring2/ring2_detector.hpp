@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/vision/ring2/ring_choice.hpp"
+#include "host/vision/ring2/ring_hypothesis.hpp"
 #include "pharos/base/image_view.hpp"
 #include "pharos/ellipse/settings.hpp"
 #include "pharos/ring2/solve.hpp"
@@ -17,17 +19,21 @@ namespace pharos::host {
 /// What is looked for in a pair of images.
 struct Ring2Settings {
   ellipse::EllipseSettings ellipses{.min_minor_px = 12.0, .min_proposal_points = 70};
-  /// Deviation of an edge that more points of it do not make smaller: lens, rim, light from one side.
+  /// Deviation of an ellipse's edge that more points of it do not make smaller: lens, rim, light from one side.
   double systematic_px = 0.03;
+  /// The same of a contour that was measured on the image where the model puts it: parts that shadows and other edges
+  /// take differ from view to view. Errors over sigmas of simulated bodies are 1 with it.
+  double edge_systematic_px = 0.07;
+  /// What is told of the target; it decides between circles, and is no part of the fit.
+  RingSizes sizes;
 };
-
-using Ring2Images = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
 
 /// A pair's answer: circles, or the word for why there are none.
 struct Ring2Detection {
   std::optional<ring2::Ring2Estimate> estimate;
   std::uint8_t one_edge = 0;  ///< OneEdge bits (rim.hpp): radii that may be those of an inner edge; their sigmas say so
   std::string refusal;  ///< left_black, right_saturated, left_no_ellipse, no_common_circle, left_right_exchanged, ...
+  int edge_points = 0;  ///< that the answer rests on
   ring2::ContourSet contours;                                              ///< the ellipses that the answer rests on
   std::array<std::vector<ellipse::DetectedEllipse>, ring2::kViews> found;  ///< all that were detected
 };

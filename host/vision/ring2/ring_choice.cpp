@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/vision/ring2/ring_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pharos/base/units.hpp"
+#include "pharos/geometry/pose_estimate.hpp"
+
+namespace pharos::host {
+namespace {
+
+// Of a circle's edges against chance: a factor of 160,000, some hundred times the places at which a circle of that size
+// could be found.
+constexpr double kMinEvidence = 12.0;
+// Of a contour, mean of both views. A contour that changes over between the edges of rim, wall and shadow finds about
+// half of its places on one of them; of a true one a third may be hidden or dark.
+constexpr double kMinSeenOnAverage = 0.6;
+constexpr double kMinSeenInOneView = 0.4;
+// Of the evidence that undisturbed edges would give. A ring's contour is long and its rim is a face in the light; a
+// nozzle's lip is thin, and half of it stands before darkness.
+constexpr double kMinCleanRing = 0.35, kMinCleanNozzle = 0.1;
+// Two answers are one where a reader would not tell them apart.
+constexpr double kSameNormal_rad = 0.5 * kRadPerDeg;
+constexpr double kSameCentre_m = 0.005;
+// Two circles whose images are nearer than this, of the larger one's radius, share their edges.
+constexpr double kOverPerRadius = 0.2;
+// A docking ring stands before the body. Of circles about one axis the foremost is the ring, and what is behind is its
+// foot, a groove or the body's own edge: where its edges are plain, measured by those of the other one. Where they are
+// fainter nobody knows; noise has less than the least of it.
+constexpr double kPlainRing = 0.3, kFaintRing = 0.1;
+// Circles about one axis, as far as their centres tell.
+constexpr double kAsidePerRadius = 0.01;
+// Sizes that are told: beyond so many deviations it is another circle.
+constexpr double kMaxSizeSigmas = 5.0;
+// The two edges of a nozzle's lip are this far apart; nobody knows which one is told.
+constexpr double kLipPerRadius = 0.15;
+
+double mean_seen(const RingHypothesis& h, std::size_t feature) {
+  return 0.5 * (h.seen[0][feature] + h.seen[1][feature]);
+}
+
+bool is_shown(const RingHypothesis& h, std::size_t feature, double evidence, double min_clean) {
+  return evidence > kMinEvidence && evidence > min_clean * h.evidence_limit[feature] &&
+         mean_seen(h, feature) > kMinSeenOnAverage;
+}
+// A ring that one view does not show is placed by its nozzle and the other view; half shown, its edges are others'.
+bool is_half_shown(double seen) { return seen > 0.0 && seen < kMinSeenInOneView; }
+bool has_ring(const RingHypothesis& h) {
+  return is_shown(h, 0, h.evidence - h.nozzle_evidence, kMinCleanRing) && !is_half_shown(h.seen[0][0]) &&
+         !is_half_shown(h.seen[1][0]);
+}
+bool has_nozzle(const RingHypothesis& h) { return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle); }
+
+bool agrees(double found_m, double sigma_m, const KnownLength& told, double slack_m) {
+  const double off = std::max(0.0, std::abs(found_m - told.value_m) - slack_m);
+  return off < kMaxSizeSigmas * std::hypot(sigma_m, told.sigma_m);
+}
+
+// Whether the sizes that are told are this hypothesis' sizes.
+bool agrees(const FollowedHypothesis& f, const RingSizes& sizes) {
+  const ring2::Ring2Estimate& e = f.estimate;
+  const auto sigma = [&](int unknown) { return std::sqrt(e.covariance(unknown, unknown)); };
+  if (sizes.outer_radius || sizes.inner_radius) {
+    const bool outer = sizes.outer_radius && agrees(e.ring_radius_m, sigma(ring2::kRadius), *sizes.outer_radius, 0.0);
+    const bool inner = sizes.inner_radius && agrees(e.ring_radius_m, sigma(ring2::kRadius), *sizes.inner_radius, 0.0);
+    if (!outer && !inner) return false;
+  }
+  if (!f.hypothesis.has_nozzle) return true;
+  const double lip_m = kLipPerRadius * e.nozzle_radius_m;
+  if (sizes.exit_radius && !agrees(e.nozzle_radius_m, sigma(ring2::kSecondRadius), *sizes.exit_radius, lip_m)) {
+    return false;
+  }
+  return !sizes.distance || agrees(e.distance_m, sigma(ring2::kDistance), *sizes.distance, 0.0);
+}
+
+bool is_candidate(const FollowedHypothesis& f, const RingSizes& sizes) {
+  if (!has_ring(f.hypothesis) || !agrees(f, sizes)) return false;
+  if (f.hypothesis.has_nozzle && !has_nozzle(f.hypothesis)) return false;
+  if (sizes.outer_radius || sizes.inner_radius) return true;
+  return f.hypothesis.has_nozzle && f.rim_evidence > kMinEvidence;
+}
+
+double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+bool is_same_answer(const FollowedHypothesis& a, const FollowedHypothesis& b) {
+  const double sigma_rad = std::hypot(a.estimate.sigma_normal_rad(), b.estimate.sigma_normal_rad());
+  const double variance =
+      a.estimate.covariance.block<3, 3>(2, 2).trace() + b.estimate.covariance.block<3, 3>(2, 2).trace();
+  return angle_between(a.estimate.normal, b.estimate.normal) < std::max(kSameNormal_rad, 3.0 * sigma_rad) &&
+         (a.estimate.ring_centre_m - b.estimate.ring_centre_m).norm() <
+             std::max(kSameCentre_m, 3.0 * std::sqrt(variance));
+}
+
+// Whether two circles' images lie over each other in one view.
+bool is_over(const Vector3& from, const Vector3& a, double radius_a, const Vector3& b, double radius_b) {
+  const double range_a = (a - from).norm(), range_b = (b - from).norm();
+  const double size_a = radius_a / range_a, size_b = radius_b / range_b;
+  const double apart = angle_between(a - from, b - from), larger = std::max(size_a, size_b);
+  return apart < kOverPerRadius * larger && std::abs(size_a - size_b) < kOverPerRadius * larger;
+}
+
+// Whether ring or nozzle of one lie where ring or nozzle of the other lie, in either image: explanations of the same
+// edges.
+bool shares_edges(const ring2::Rig& rig, const ring2::Ring2Estimate& a, const ring2::Ring2Estimate& b) {
+  return std::any_of(rig.views.begin(), rig.views.end(), [&](const ring2::RigView& view) {
+    const Vector3& from = view.T_rig_camera.t;
+    return is_over(from, a.ring_centre_m, a.ring_radius_m, b.ring_centre_m, b.ring_radius_m) ||
+           is_over(from, a.nozzle_centre_m, a.nozzle_radius_m, b.nozzle_centre_m, b.nozzle_radius_m) ||
+           is_over(from, a.nozzle_centre_m, a.nozzle_radius_m, b.ring_centre_m, b.ring_radius_m) ||
+           is_over(from, a.ring_centre_m, a.ring_radius_m, b.nozzle_centre_m, b.nozzle_radius_m);
+  });
+}
+
+// Whether both rings stand about one axis, one behind the other: the edge of a round body behind its docking ring.
+bool is_nested(const ring2::Ring2Estimate& a, const ring2::Ring2Estimate& b) {
+  const double sigma_rad = 3.0 * std::hypot(a.sigma_normal_rad(), b.sigma_normal_rad());
+  const Vector3 between = b.ring_centre_m - a.ring_centre_m;
+  const Vector3 aside = between - between.dot(a.normal) * a.normal;
+  const double slack_m = kAsidePerRadius * std::max(a.ring_radius_m, b.ring_radius_m) + sigma_rad * between.norm();
+  return angle_between(a.normal, b.normal) < kSameNormal_rad + sigma_rad && aside.norm() < slack_m;
+}
+
+double ring_evidence(const FollowedHypothesis& f) { return f.hypothesis.evidence - f.hypothesis.nozzle_evidence; }
+
+// How far one ring stands before the other on their axis.
+double ahead_m(const FollowedHypothesis& f, const FollowedHypothesis& of) {
+  return (f.estimate.ring_centre_m - of.estimate.ring_centre_m).dot(of.estimate.normal);
+}
+
+// How much less likely than the best another one is that gives another answer.
+double delta_chi2(const ring2::Rig& rig, const FollowedHypothesis& best, const FollowedHypothesis& other) {
+  const double by_edges = 2.0 * (best.hypothesis.evidence - other.hypothesis.evidence);
+  if (is_nested(best.estimate, other.estimate)) {
+    // Both circles may be there. Of a ring that stands ahead a part may be hidden or dark; what is behind is not it.
+    const bool may_be_ring = ahead_m(other, best) > 0.0 && ring_evidence(other) > kFaintRing * ring_evidence(best);
+    return may_be_ring ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  return shares_edges(rig, best.estimate, other.estimate) ? by_edges : 0.0;
+}
+
+}  // namespace
+
+RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> followed, const RingSizes& sizes) {
+  RingDecision decision;
+  for (const FollowedHypothesis& f : followed) {
+    if (!is_candidate(f, sizes)) continue;
+    const bool better = decision.best == nullptr || (f.hypothesis.has_nozzle != decision.best->hypothesis.has_nozzle
+                                                         ? f.hypothesis.has_nozzle
+                                                         : f.hypothesis.evidence > decision.best->hypothesis.evidence);
+    if (better) decision.best = &f;
+  }
+  if (decision.best == nullptr) return decision;
+  const FollowedHypothesis* foremost = decision.best;
+  for (const FollowedHypothesis& f : followed) {
+    if (!is_candidate(f, sizes) || f.hypothesis.has_nozzle != foremost->hypothesis.has_nozzle) continue;
+    if (!is_nested(decision.best->estimate, f.estimate) || is_same_answer(f, *foremost)) continue;
+    if (ring_evidence(f) > kPlainRing * ring_evidence(*decision.best) && ahead_m(f, *foremost) > 0.0) foremost = &f;
+  }
+  decision.best = foremost;
+  double least = kAmbiguousDeltaChi2;
+  for (const FollowedHypothesis& f : followed) {
+    if (!is_candidate(f, sizes) || is_same_answer(f, *decision.best)) continue;
+    if (f.hypothesis.has_nozzle != decision.best->hypothesis.has_nozzle) continue;
+    const double delta = std::max(0.0, delta_chi2(rig, *decision.best, f));
+    if (delta >= least) continue;
+    least = delta;
+    decision.rival = &f;
+    decision.delta_chi2 = delta;
+  }
+  return decision;
+}
+
+}  // namespace pharos::host
