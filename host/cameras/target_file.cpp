@@ -57,9 +57,10 @@ TargetFile parse_target(std::string_view text, const std::string& name) {
 }
 
 std::string target_text(const TargetFile& file) {
-  std::string out = "[ring]\n" + length_line("outer_radius_m", file.outer_radius) + length_line("inner_radius_m", file.inner_radius) +
-                    length_line("height_m", file.ring_height);
-  out += "\n[nozzle]\n" + length_line("exit_radius_m", file.exit_radius) + length_line("distance_m", file.nozzle_distance);
+  std::string out = "[ring]\n" + length_line("outer_radius_m", file.outer_radius) +
+                    length_line("inner_radius_m", file.inner_radius) + length_line("height_m", file.ring_height);
+  out +=
+      "\n[nozzle]\n" + length_line("exit_radius_m", file.exit_radius) + length_line("distance_m", file.nozzle_distance);
   for (const StatedConnector& connector : file.connectors) {
     out += "\n[[connector]]\n" + length_line("x_m", connector.x) + length_line("y_m", connector.y) +
            length_line("height_m", connector.height) + "size_m = " + exact_list(connector.size_m) + "\n";

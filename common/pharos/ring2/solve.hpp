@@ -77,8 +77,8 @@ struct Ring2Estimate {
   double sigma_normal_rad() const;
 };
 
-/// Of chi2: from here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve), and the covariance
-/// is scaled.
+/// Of chi2: from here on disagreement is not chance (1e-3 at two degrees of freedom, 1e-5 at twelve), and the
+/// covariance is scaled.
 inline constexpr double kChancePerFreedom = 3.5;
 
 /// Poses of ring and nozzle from one to four ellipses: each cone's two circles, selected by two views, then least

@@ -64,10 +64,11 @@ void write_pair(std::uint64_t seed, const std::filesystem::path& folder) {
 }  // namespace
 
 IntegrityKind ring2_kind() {
-  return {"ring2",
-          "ring and nozzle are whole in both images, the nozzle's semi-minor axis above 15 px, the sun within 65 deg of "
-          "the ring's normal, no boom across it and no second ring with a nozzle",
-          trial_of, write_pair};
+  return {
+      "ring2",
+      "ring and nozzle are whole in both images, the nozzle's semi-minor axis above 15 px, the sun within 65 deg of "
+      "the ring's normal, no boom across it and no second ring with a nozzle",
+      trial_of, write_pair};
 }
 
 }  // namespace pharos::tools
