@@ -22,6 +22,8 @@ namespace {
 // An arc that turns by less is not fitted alone, nor a pair that does so together: the fit would follow the noise.
 constexpr float kMinTurnAlone_rad = 1.75F;
 constexpr float kMinTurnOfPair_rad = 1.0F;
+// An arc that turns by more closes but for its ends: it is an ellipse of its own, no other's partner.
+constexpr float kTurnOfWhole_rad = 5.5F;
 // Maximum distance of a first fit from its own samples.
 constexpr double kMaxFitRms_px = 1.0;
 // Samples left out at an arc's two ends, in this order, where the whole arc does not fit. The one-sided ones for single
@@ -85,13 +87,16 @@ class Combiner {
     const std::uint16_t seed = order_[position];
     const Arc& arc = arcs()[seed];
     if (!arc.seed || explained_[seed]) return;
+    const bool whole = std::abs(arc.turn_rad) >= kTurnOfWhole_rad;
+    if (whole && static_cast<double>(arc.radius_px) < kSeenMinor * settings_.min_minor_px) return;
     best_ = {};
     if (std::abs(arc.turn_rad) >= kMinTurnAlone_rad && enough(arc.points())) consider(arc, nullptr);
-    if (!(std::abs(arc.turn_rad) >= 5.5F && !best_.empty())) {
+    if (!(whole && !best_.empty())) {
       for (std::size_t k = position + 1; k < arcs().size(); ++k) {
         const std::uint16_t other = order_[k];
         const Arc& partner = arcs()[other];
         if (!partner.seed || explained_[other] || !enough(arc.points() + partner.points())) continue;
+        if (std::abs(partner.turn_rad) >= kTurnOfWhole_rad) continue;
         if (std::abs(arc.turn_rad + partner.turn_rad) < kMinTurnOfPair_rad || !may_pair(arc, partner)) continue;
         consider(arc, &partner);
       }
