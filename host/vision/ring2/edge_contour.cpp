@@ -40,6 +40,7 @@ constexpr int kMaxLag = 40;
 constexpr double kRidge = 1e-6;
 
 struct Profile {
+  Vector2 place = Vector2::Zero();
   Vector5 slope = Vector5::Zero();  // of the contour's displacement with its parameters
   EdgePeaks peaks;
   double offset_px = 0.0;  // of the edge that is taken
@@ -146,7 +147,7 @@ std::vector<Profile> profiles_along(ImageView<const std::uint16_t> image, const 
     const Contour::Offset offset = contour.offset_of({point.u, point.v});
     const auto peaks = peaks_across(image, {point.u, point.v}, offset.normal, search.reach_px);
     if (!peaks) continue;
-    Profile profile{offset.slope, *peaks, 0.0, 0.0};
+    Profile profile{{point.u, point.v}, offset.slope, *peaks, 0.0, 0.0};
     take_edge(profile, search.scale_px);
     profiles.push_back(profile);
   }
@@ -237,14 +238,22 @@ Evidence evidence_of(const std::vector<Profile>& profiles, double sigma_px, doub
 }  // namespace
 
 std::vector<ContourPeaks> contour_peaks(const ring2::RigView& view, ImageView<const std::uint16_t> image,
-                                        const ExpectedCircle& circle, double reach_px) {
+                                        const ExpectedCircle& circle, double reach_px, double max_width) {
+  ExpectedCircle wide = circle, narrow = circle;
+  wide.radius_m *= 1.0 + max_width;
+  narrow.radius_m *= 1.0 - max_width;
   const auto expected = expected_ellipse(view, circle);
-  if (!expected || !ring2::is_usable(*expected)) return {};
+  const auto outer = expected_ellipse(view, wide), inner = expected_ellipse(view, narrow);
+  if (!expected || !outer || !inner || !ring2::is_usable(*expected)) return {};
   const Contour contour = ring2::contour_of(*expected, 1.0, 1.0);
+  const Contour outside = ring2::contour_of(*outer, 1.0, 1.0), inside = ring2::contour_of(*inner, 1.0, 1.0);
   std::vector<ContourPeaks> peaks;
   for (const Profile& profile : profiles_along(image, contour, {reach_px, 1.0})) {
-    const Vector2 normal = profile.slope.head<2>();
-    peaks.push_back({profile.peaks, std::sqrt(normal.dot(contour.shape_px2 * normal))});
+    // Perspective moves the middle of a wider circle's image: not the same share of the radius all around.
+    const double to_outer = -outside.offset_of(profile.place).distance_px;
+    const double to_inner = -inside.offset_of(profile.place).distance_px;
+    peaks.push_back({profile.peaks, 0.5 * (to_outer - to_inner) / max_width,
+                     0.5 * (to_outer + to_inner) / (max_width * max_width)});
   }
   return peaks;
 }

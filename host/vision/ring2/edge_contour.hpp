@@ -32,13 +32,15 @@ struct EdgePeaks {
   std::size_t count = 0;
 };
 
-/// The edges that an image has about an expected contour, profile by profile.
+/// The edges that an image has about an expected contour, profile by profile. `max_width`: of other circles in its
+/// plane about its centre, as a fraction of the radius.
 struct ContourPeaks {
   EdgePeaks peaks;
-  double radius_px = 0.0;  ///< of the ellipse along the profile: from its middle to the tangent
+  /// Where the circle's image would be along the profile if its radius were wider by w: w slope_px + w^2 bend_px.
+  double slope_px = 0.0, bend_px = 0.0;
 };
 std::vector<ContourPeaks> contour_peaks(const ring2::RigView& view, ImageView<const std::uint16_t> image,
-                                        const ExpectedCircle& circle, double reach_px);
+                                        const ExpectedCircle& circle, double reach_px, double max_width);
 
 /// What an image has along an expected contour.
 struct EdgeContour {

@@ -25,9 +25,10 @@ constexpr int kWidthSteps = 160;
 double face_evidence_at(const std::vector<ContourPeaks>& profiles, double density, double width) {
   double sum = 0.0;
   for (const ContourPeaks& profile : profiles) {
+    const double place_px = width * (profile.slope_px + width * profile.bend_px);
     double near = 0.0;
     for (std::size_t i = 0; i < profile.peaks.count; ++i) {
-      const double z = (profile.peaks.offset_px[i] - width * profile.radius_px) / kFaceScatter_px;
+      const double z = (profile.peaks.offset_px[i] - place_px) / kFaceScatter_px;
       if (std::abs(z) < 4.0) near += std::exp(-0.5 * z * z) / (kFaceScatter_px * std::sqrt(kTwoPi));
     }
     sum += std::log(1.0 - kFaceFound + kFaceFound * near / density);
@@ -45,7 +46,7 @@ double rim_evidence(const ring2::Rig& rig, const Ring2Images& images, const Expe
     const Vector3 from = circle.centre_m - rig.views[v].T_rig_camera.t;
     const double radius_px = rig.views[v].intrinsics.fx_px * circle.radius_m / from.norm();
     const double reach_px = std::min(kMaxFaceReach_px, kMaxFace * radius_px + 2.0);
-    profiles[v] = contour_peaks(rig.views[v], images[v], circle, reach_px);
+    profiles[v] = contour_peaks(rig.views[v], images[v], circle, reach_px, kMaxFace);
     if (profiles[v].empty()) continue;
     largest_px = std::max(largest_px, radius_px);
     double peaks = 1.0;
