@@ -49,6 +49,7 @@ Report report_of(const JobResult& answer) {
     report.refusal = pose::name_of(answer.pose.error());
   }
   report.flags = flag_words(answer.flags);
+  if (!answer.pose && answer.pose.error() == pose::Refusal::kSuspectTarget) add_flag_word(report.flags, kSuspectWord);
   report.observations = answer.observations;
   return report;
 }

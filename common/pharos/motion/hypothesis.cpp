@@ -41,6 +41,13 @@ void predict(ImmFilter& filter, double dt_s) {
 constexpr int kMinSensorsForRateReset = 4;
 // Chi-squared of a sweep (five degrees of freedom) beyond every model's gate: one in ten million.
 constexpr double kRateResetChi2 = 40.0;
+// Of a sweep beyond what the filter's present models hold possible, by far: a quiet body was pushed, or the sweep is
+// wrong. It is withheld; the next one of either rotor tells.
+constexpr double kSurpriseChi2 = 500.0;
+// Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
+constexpr double kAgitated = 0.3;
+// Sweeps in a row that confirm a state: one of each rotor.
+constexpr int kConfirming = 2;
 // A sweep that rotates the estimate by less is linear enough; how often one that rotates it further is linearised
 // again.
 constexpr double kStraight_rad = 0.02;
@@ -77,6 +84,8 @@ Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose
     }
     start = predicted(begun_ticks).pose;
   }
+  agreements_ = fitted_ = 0;
+  confirmed_ = false;
 }
 
 void Hypothesis::link(const StationFromStation& T_second_reference, const Matrix6& covariance, bool surveyed) {
@@ -89,27 +98,44 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
                                  const AssumedNoise& noise, Observer observer) {
   const std::int64_t time = std::max(time_ticks_, last_hit_ticks(bearings, *view.target));
   const double since_s = ticks_to_seconds(time - time_ticks_);
+  const bool quiet = filter_.probability().back() < kAgitated;
   predict(filter_, since_s);
   if (filter_.linked() && !surveyed_) inflate_relative_covariance(since_s);
   time_ticks_ = time;
   observer_ = observer;
   ++sweeps_;
   StationState& station_state = this->station_state(observer);
+  const auto axis_index = static_cast<std::size_t>(index_of(axis));
   const SweepNoise now{noise.sigma_rad * std::sqrt((1.0 - noise.rho) * station_state.level),
                        noise.sigma_rad * std::sqrt(noise.rho)};
   StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
-  rates_reset_ = fit_.sensors >= kMinSensorsForRateReset && exceeds_rate_reset_gate(fit_, prediction);
+  const bool contradicts = fit_.sensors >= kMinSensorsForRateReset && exceeds_rate_reset_gate(fit_, prediction);
+  const bool surprises =
+      contradicts || (fit_.sensors >= kMinSensorsForRateReset && !fit_.used.empty() &&
+                      innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2 > kSurpriseChi2);
+  withheld_ = quiet && surprises && !contradicted_ && !station_state.contradicted[axis_index];
+  contradicted_ = station_state.contradicted[axis_index] = surprises;
+  rates_reset_ = contradicts && !withheld_;
   if (rates_reset_) {
     filter_.reset_rates(since_s);
     prediction = with_systematics(filter_, observer);
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
   follow(bearings, axis, view, prediction, now);
+  diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
-  consecutive_rejections_ = rates_reset_ || used == 0 || 2 * used < fit_.sensors ? consecutive_rejections_ + 1 : 0;
+  consecutive_rejections_ = contradicts || used == 0 || 2 * used < fit_.sensors ? consecutive_rejections_ + 1 : 0;
   cost_ += fit_.log_density;
-  if (used > 0) {
+  if (diverged_) {
+    // The state stays as predicted.
+    cost_ += nis_;
+    agreements_ = 0;
+    fitted_ = 0;
+    confirmed_ = confirmed_ && withheld_;
+  } else if (used > 0) {
+    agreements_ = rates_reset_ || nis_ > kRateResetChi2 ? 0 : agreements_ + 1;
+    confirmed_ = confirmed_ || ++fitted_ >= kConfirming;
     const double own_variance = noise.sigma_rad * noise.sigma_rad * (1.0 - noise.rho);
     const CycleInformation::ResidualChi2 residual_chi2 =
         station_state.view.set(axis, fit_.used, station_state.level * own_variance, time, view.calibration == nullptr);
@@ -219,6 +245,8 @@ StateEstimate Hypothesis::with_systematics(const ImmFilter& filter, Observer obs
   state_estimate.gate_covariance += systematic;
   return state_estimate;
 }
+
+bool Hypothesis::noise_implausible() const { return station_state(observer_).level >= kMaxLevel; }
 
 double Hypothesis::noise_scale(Observer observer) const { return std::sqrt(station_state(observer).level); }
 

@@ -77,10 +77,18 @@ class Hypothesis {
   double cost() const { return cost_; }
   void reset_cost() { cost_ = 0.0; }
   int sweeps() const { return sweeps_; }
+  /// A sweep of each rotor was fitted since it began, or since it diverged.
+  bool confirmed() const { return confirmed_; }
+  /// Sweeps in a row that agreed: with the prediction, and not by way of new rates.
+  int agreements() const { return agreements_; }
+  /// The last sweep contradicted a quiet body and was left out.
+  bool withheld() const { return withheld_; }
   /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as estimated.
   double noise_scale(Observer observer = Observer::kReference) const;
+  /// It is as large as is ever believed: not noise, nor what sensors are out of their places.
+  bool noise_implausible() const;
 
  private:
   // What one station's sweeps show beyond the body's motion.
@@ -88,8 +96,9 @@ class Hypothesis {
     CycleInformation view;
     Matrix6 systematic = Matrix6::Zero();  // of the pose it sees, from errors that do not average out
     std::int64_t seen_ticks = INT64_MIN;
-    double level = 1.0;                     // own variance over the assumed one
-    double noise_degrees_of_freedom = 0.0;  // that it was estimated from
+    std::array<bool, kAxes> contradicted{};  // the last sweep of each rotor
+    double level = 1.0;                      // own variance over the assumed one
+    double noise_degrees_of_freedom = 0.0;   // that it was estimated from
   };
 
   Hypothesis() = default;
@@ -116,8 +125,12 @@ class Hypothesis {
   double cost_ = 0.0;
   double nis_ = 0.0;
   int sweeps_ = 0;
+  int agreements_ = 0, fitted_ = 0;
+  bool confirmed_ = false;
   int consecutive_rejections_ = 0;
   bool rates_reset_ = false;
+  bool withheld_ = false;
+  bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;
 };
 

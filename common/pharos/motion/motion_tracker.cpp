@@ -75,6 +75,7 @@ void MotionTracker::set_relative(const std::optional<StationRelative>& relative)
 void MotionTracker::forget_stations() {
   stations_ = {};
   pair_ = {};
+  contradictions_ = {};
 }
 
 StationView MotionTracker::view_of(const Station& station) const {
@@ -93,6 +94,9 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   if (sweep.flash.station >= kMaxStations) return std::nullopt;
   Station& station = stations_[sweep.flash.station];
   const Axis axis = sweep.flash.axis;
+  if (!station.gate[static_cast<std::size_t>(index_of(axis))].fits(sweep)) {
+    return refused_as_mistimed(sweep);
+  }
   const lighthouse::SmoothedFlash smoothed = station.smoother[static_cast<std::size_t>(index_of(axis))].push(sweep);
   if (sweep.flash.skip) return std::nullopt;
   const lighthouse::SweepBearings bearings =
@@ -106,6 +110,8 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   if (lit) {
     station.track.push(bearings, axis, view_of(station), noise_of(station));
     pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise_of(station));
+    const Hypothesis* own = station.track.best();
+    if (own != nullptr && (own->withheld() || own->noise_implausible())) contradictions_.add(sweep.flash.start_ticks);
   }
   if (const auto cycle =
           station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
@@ -169,6 +175,8 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
   if (best.noise_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
   if (!answers(best)) return pose::Refusal::kPoorFit;
+  if (contradictions_.suspect(result.time_ticks)) return pose::Refusal::kSuspectTarget;
+  if (!trusted(best, result.time_ticks)) return pose::Refusal::kUnconfirmed;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 
@@ -202,6 +210,26 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
     if (delta < kAmbiguousDeltaChi2) e.second = {alternative->state_estimate().pose, std::max(0.0, delta)};
   }
   return e;
+}
+
+// After a contradiction a state must be confirmed by sweeps in a row, by more the more contradictions there were.
+bool MotionTracker::trusted(const Hypothesis& best, std::int64_t ticks) const {
+  const int contradictions = contradictions_.recent(ticks);
+  return best.confirmed() && (contradictions < Contradictions::kFew || best.agreements() >= 2 << contradictions);
+}
+
+std::optional<track::EpochResult> MotionTracker::refused_as_mistimed(const lighthouse::Sweep& sweep) {
+  ++mistimed_;
+  contradictions_.add(sweep.flash.start_ticks);
+  if (sweep.hits.empty()) return std::nullopt;
+  track::EpochResult result;
+  result.station = sweep.flash.station;
+  result.time_ticks = sweep.flash.start_ticks;
+  result.observations = static_cast<int>(sweep.hits.size());
+  result.pose = pose::Refusal::kSuspectTarget;
+  innovation_ = {};
+  bearings_.clear();
+  return result;
 }
 
 void MotionTracker::keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pharos/base/units.hpp"
+#include "pharos/motion/contradictions.hpp"
 #include "pharos/motion/station_pair.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 
@@ -79,6 +80,8 @@ class MotionTracker {
   std::size_t bearing_count() const { return bearings_.size(); }
   track::TrackedBearing bearing(std::size_t index) const { return bearings_[index]; }
   const InnovationStatistics& innovation() const { return innovation_; }
+  /// Sweeps left out since the start, because their flash came when the rotor cannot have turned.
+  std::int64_t mistimed() const { return mistimed_; }
 
   /// After this long without a hit that fits, the body is lost and the track starts again.
   static constexpr double kLost_s = 0.5;
@@ -87,6 +90,7 @@ class MotionTracker {
   struct Station {
     std::optional<lighthouse::StationCalibration> calibration;
     lighthouse::CalibrationSource source = lighthouse::CalibrationSource::kSurvey;
+    std::array<RotorGate, kAxes> gate;
     std::array<lighthouse::FlashSmoother, kAxes> smoother;
     track::CycleAssembler assembler;
     StationTrack track;
@@ -101,6 +105,8 @@ class MotionTracker {
   Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station, const Hypothesis& best,
                                                          const lighthouse::SweepBearings& bearings,
                                                          track::EpochResult& result) const;
+  bool trusted(const Hypothesis& best, std::int64_t ticks) const;
+  std::optional<track::EpochResult> refused_as_mistimed(const lighthouse::Sweep& sweep);
   void keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit);
 
   Target target_;
@@ -110,6 +116,8 @@ class MotionTracker {
   // The sweep last answered.
   StaticVector<track::TrackedBearing, kMaxHitsPerSweep> bearings_;
   InnovationStatistics innovation_;
+  Contradictions contradictions_;
+  std::int64_t mistimed_ = 0;
 };
 
 }  // namespace pharos::motion

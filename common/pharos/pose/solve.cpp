@@ -187,6 +187,10 @@ const char* name_of(Refusal refusal) {
       return "search_limit";
     case Refusal::kTooUncertain:
       return "too_uncertain";
+    case Refusal::kUnconfirmed:
+      return "unconfirmed";
+    case Refusal::kSuspectTarget:
+      return "suspect_target";
   }
   return "unknown";
 }

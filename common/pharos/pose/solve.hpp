@@ -48,8 +48,10 @@ enum class Refusal : std::uint8_t {
   kBadInput,       // a bearing outside (0, pi) or not finite
   kSearchLimit,    // hits compete or contradict, and the search limit was reached without a consistent pose
   kTooUncertain,   // the covariance exceeds the limits (motion::UncertaintyLimits)
+  kUnconfirmed,    // begun, or contradicted, a moment ago: the next sweeps of both rotors must fit first
+  kSuspectTarget,  // the target's data contradict themselves too often to trust those that fit
 };
-inline constexpr Refusal kLastRefusal = Refusal::kTooUncertain;
+inline constexpr Refusal kLastRefusal = Refusal::kSuspectTarget;
 /// Sensors required for a pose without a prior.
 inline constexpr int kMinSensorsAlone = 4;
 

@@ -17,6 +17,7 @@ namespace pharos::motion {
 namespace {
 
 struct Outcome {
+  int suspected = 0;
   int lit = 0, valid = 0;  // sweeps of four and more sensors of the target
   double nis = 0.0, residual_chi2 = 0.0;
   int nis_degrees_of_freedom = 0, residual_degrees_of_freedom = 0;
@@ -73,6 +74,7 @@ Outcomes track(const std::string& recording, const std::string& target_name) {
     const bool lit = sensors_lit(sweep, target) >= 4;
     outcome.lit += lit ? 1 : 0;
     outcomes.lit += lit ? 1 : 0;
+    outcome.suspected += !result->pose && result->pose.error() == pose::Refusal::kSuspectTarget ? 1 : 0;
     if (result->pose) last_valid_ticks = result->time_ticks;
     if (lit && result->time_ticks - last_valid_ticks <= kTurn_ticks) ++outcomes.known;
     if (!result->pose) continue;
@@ -122,6 +124,20 @@ TEST(MotionRecordings, StationaryBodiesStayWithinThePredictedCovariance) {
       if (outcome.residual_degrees_of_freedom > 0) {
         EXPECT_LT(outcome.residual_chi2_per_degree_of_freedom(), 1.5) << name;
       }
+    }
+  }
+}
+
+// Hands, reflections and the far station's dropouts are no fault of the target's.
+TEST(MotionRecordings, NoTargetIsSuspected) {
+  PHAROS_NEEDS_DATA("lighthouse");
+  for (const char* recording : {"controller_quick", "hmd_static", "two_bodies_controller", "two_bodies_hmd"}) {
+    const std::string name = recording;
+    const auto outcomes =
+        track(name + ".edges.csv.gz", name + (name == "controller_quick" ? ".target_a.csv" : ".target.csv"));
+    for (const Outcome& outcome : outcomes.of) {
+      std::printf("%s: %d of %d sweeps suspected\n", recording, outcome.suspected, outcome.lit);
+      EXPECT_LT(10'000 * outcome.suspected, outcome.lit) << recording;
     }
   }
 }
