@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/calibration_memory.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <exception>
 
+#include "host/files/atomic_file.hpp"
 #include "host/stations/station_file.hpp"
 #include "host/support/input_error.hpp"
-#include "host/support/unique_fd.hpp"
 
 namespace pharos::host {
 namespace {
@@ -21,16 +17,6 @@ constexpr const char* kHeading =
     "# Calibrations that stations sent of themselves and that pharosd accepted. Written by pharosd; delete the file to "
     "forget them.\n";
 
-bool write_all(int fd, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t written = ::write(fd, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    done += static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
 }  // namespace
 
 CalibrationMemory::CalibrationMemory(const std::filesystem::path& directory)
@@ -40,13 +26,32 @@ void CalibrationMemory::load() {
   stations_.clear();
   std::error_code error;
   if (file_.empty() || !std::filesystem::exists(file_, error)) return;
-  std::vector<StationCalibration> stations;
-  for (const StationEntry& entry : read_station_file(file_)) {
-    if (!entry.id) throw InputError(file_.string() + ": a [[station]] without id is not pharosd's; delete the file");
-    stations.push_back(entry.calibration);
+  try {
+    read();
+  } catch (const std::exception& damage) {
+    stations_.clear();
+    ++counters_.damaged_files;
+    throw InputError(std::string(damage.what()) + set_aside());
   }
-  stations_ = std::move(stations);
+}
+
+void CalibrationMemory::read() {
+  std::error_code error;
+  // Opening a pipe would wait for whoever writes into it.
+  if (!std::filesystem::is_regular_file(file_, error)) throw InputError(file_.string() + ": is no file");
+  for (const StationEntry& entry : read_station_file(file_)) {
+    if (!entry.id) throw InputError(file_.string() + ": a [[station]] without id was not written by pharosd");
+    stations_.push_back(entry.calibration);
+  }
   while (stations_.size() > kMaxStations) drop_oldest();
+}
+
+// Kept for whoever wants to know what happened to it; an older damaged one makes room.
+std::string CalibrationMemory::set_aside() const {
+  const std::filesystem::path aside = file_.string() + ".damaged";
+  std::error_code error;
+  std::filesystem::rename(file_, aside, error);
+  return error ? "; it cannot be renamed: " + error.message() : "; it is " + aside.string() + " now";
 }
 
 void CalibrationMemory::drop_oldest() {
@@ -81,15 +86,15 @@ void CalibrationMemory::write() {
   for (const StationCalibration& station : stations_) text += "\n" + station_text(station);
   std::error_code ignored;  // if the folder cannot be made, opening says why
   std::filesystem::create_directories(file_.parent_path(), ignored);
-  const std::filesystem::path aside = file_.string() + ".new";
-  UniqueFd fd(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  unsaved_ = !fd.valid() || !write_all(fd.get(), text) || ::rename(aside.c_str(), file_.c_str()) != 0;
-  error_ = unsaved_ ? file_.string() + ": cannot be written: " + std::strerror(errno) +
-                          "; calibrations are not kept across a restart"
-                    : "";
-  if (!unsaved_) return;
-  ++counters_.write_failures;
-  if (fd.valid()) (void)::unlink(aside.c_str());
+  try {
+    write_file(file_.string(), text);
+    unsaved_ = false;
+    error_.clear();
+  } catch (const InputError& error) {
+    unsaved_ = true;
+    error_ = std::string(error.what()) + "; calibrations are not kept across a restart";
+    ++counters_.write_failures;
+  }
 }
 
 }  // namespace pharos::host

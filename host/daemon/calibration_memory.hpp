@@ -11,16 +11,18 @@
 
 namespace pharos::host {
 
-/// How often the file could not be written, and how many calibrations made room for others or were none of any station.
+/// How often the file could not be written, how many calibrations made room for others or were none of any station, and
+/// how many files were damaged.
 struct MemoryCounters {
   std::int64_t write_failures = 0;
   std::int64_t dropped = 0;
+  std::int64_t damaged_files = 0;
 };
 
 /// Station calibrations that were accepted once, by station id, kept in `stations.toml` across restarts.
 ///
-/// The file has the form that `pharos track --calibration FILE` takes. It is replaced whole (written aside, renamed),
-/// so a reader and a program that dies see the old one or the new one. It is not synced: see README.md.
+/// The file has the form that `pharos track --calibration FILE` takes. It is replaced whole
+/// (AtomicFile), so a reader and a program that dies see the old one or the new one. It is not synced: see README.md.
 class CalibrationMemory {
  public:
   /// More stations than a site has, and each target's own store takes only the newest eight; ids are what a target says
@@ -32,8 +34,8 @@ class CalibrationMemory {
   /// An empty `directory` keeps nothing.
   explicit CalibrationMemory(const std::filesystem::path& directory);
 
-  /// Reads the file; none there is an empty memory. Throws InputError for one that cannot be read or understood; the
-  /// memory is empty then, and the next save() of something kept replaces the file.
+  /// Reads the file; none there is an empty memory. One that cannot be read or is not what pharosd wrote
+  /// is renamed to stations.toml.damaged and counted, and an InputError says so; the memory is empty then.
   void load();
   /// Oldest acceptance first.
   const std::vector<lighthouse::StationCalibration>& stations() const { return stations_; }
@@ -51,6 +53,8 @@ class CalibrationMemory {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  void read();
+  std::string set_aside() const;
   void write();
   void drop_oldest();
 

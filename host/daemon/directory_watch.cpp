@@ -36,7 +36,8 @@ std::vector<std::string> DirectoryWatch::take() {
       at += static_cast<ssize_t>(sizeof event + event.len);
       if ((event.mask & IN_Q_OVERFLOW) != 0) ++overflows_;
       if (event.wd != watch_) continue;
-      if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0 && event.len > 0 && (event.mask & IN_ISDIR) == 0) {
+      if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0 && event.len > 0 && (event.mask & IN_ISDIR) == 0 &&
+          name[0] != '.') {
         names.emplace_back(name);
       }
       if ((event.mask & IN_MOVE_SELF) != 0) ::inotify_rm_watch(inotify_.get(), watch_);

@@ -11,7 +11,8 @@ namespace pharos::host {
 
 /// Tells of files that have become whole in a directory: closed after writing, or moved there (inotify).
 ///
-/// What was there before is not told. A directory that is not there (yet, or any more) is looked for by attend().
+/// Hidden files (".name": AtomicFile, rsync and others write under such names) and what was there before are not
+/// reported. A directory that is not there (yet, or any more) is looked for by attend().
 class DirectoryWatch {
  public:
   /// Throws std::system_error where the kernel gives no inotify descriptor.

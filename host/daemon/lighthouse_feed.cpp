@@ -35,6 +35,7 @@ class CalibrationKeeper final : public Source {
   NamedCounts daemon_counters() const override {
     return {{"calibrations.kept", static_cast<std::int64_t>(memory_.stations().size())},
             {"calibrations.dropped", memory_.counters().dropped},
+            {"calibrations.damaged_files", memory_.counters().damaged_files},
             {"calibrations.write_failures", memory_.counters().write_failures}};
   }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/files/atomic_file.hpp"
 #include "host/images/limits.hpp"
 #include "host/images/samples.hpp"
 #include "host/support/input_error.hpp"
@@ -224,11 +225,11 @@ Picture decode_png(std::span<const std::uint8_t> bytes, const std::string& name)
 
 void write_png(const std::string& path, std::int32_t width_px, std::int32_t height_px, PngPixels pixels,
                std::span<const std::uint8_t> rows) {
-  std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
+  std::optional<AtomicFile> place;
+  std::FILE* file = path == "-" ? stdout : place.emplace(path).stream();
   const auto refuse = [&](const std::string& why) {
     throw InputError((path == "-" ? "standard output" : path) + ": cannot be written: " + why);
   };
-  if (file == nullptr) refuse(std::strerror(errno));
   const bool wide = pixels == PngPixels::kGrey16 || pixels == PngPixels::kRgb16;
   const bool colour = pixels == PngPixels::kRgb8 || pixels == PngPixels::kRgb16;
   spng_ihdr header{};
@@ -239,9 +240,9 @@ void write_png(const std::string& path, std::int32_t width_px, std::int32_t heig
   errno = 0;
   const int code = encode(file, header, rows);
   const int reason = errno;
-  const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
   if (code != 0) refuse(code == SPNG_IO_ERROR && reason != 0 ? std::strerror(reason) : spng_strerror(code));
-  if (!closed) refuse(std::strerror(errno));
+  if (place) return place->commit();
+  if (std::fflush(file) != 0) refuse(std::strerror(errno));
 }
 
 }  // namespace pharos::host

@@ -60,6 +60,8 @@ RowWriter::RowWriter(std::FILE* stream, RowFormat format, std::vector<std::strin
 
 RowWriter::~RowWriter() {
   // For early returns only; callers that must detect a full disk call flush() themselves.
+  // After flush() the stream may be closed already.
+  if (buffer_.empty()) return;
   std::fwrite(buffer_.data(), 1, buffer_.size(), stream_);
   std::fflush(stream_);
 }

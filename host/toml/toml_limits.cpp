@@ -17,31 +17,19 @@ class Scan {
       if (dots_ >= kMaxTomlKeyParts) {
         return TomlExcess{line_, "a key of more than " + std::to_string(kMaxTomlKeyParts) + " parts"};
       }
-      if (bad_name_) return TomlExcess{line_, "a table whose name does not begin with a letter, digit, -, _ or quote"};
     }
     return std::nullopt;
   }
 
  private:
+  // Dots are counted in values as well: no number, date or word has so many.
   void take(char c) {
-    if (header_opened_ && c != ' ' && c != '\t') check_name_start(c);
     if (c == '#') return skip_comment();
     if (c == '"' || c == '\'') return skip_string(c);
     ++at_;
-    count(c);
-    if (c == '=') in_value_ = true;
-    if (c == '\n') {
-      ++line_;
-      if (nesting_ == 0) in_value_ = false;
-    }
-  }
-
-  // Dots are counted in values as well: no number, date or word has so many.
-  void count(char c) {
     if (c == '.') {
       ++dots_;
     } else if (c == '[' || c == '{') {
-      if (c == '[' && nesting_ == 0 && !in_value_) header_opened_ = true;
       ++nesting_;
       dots_ = 0;
     } else if (c == ']' || c == '}') {
@@ -50,14 +38,7 @@ class Scan {
     } else if (c == ',' || c == '=' || c == '\n') {
       dots_ = 0;
     }
-  }
-
-  // toml++ 3.3 takes for granted that a name begins so; its behaviour is undefined where it does not.
-  void check_name_start(char c) {
-    header_opened_ = c == '[' && nesting_ == 1;
-    const bool bare =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    bad_name_ = !bare && c != '"' && c != '\'' && c != ']' && !header_opened_;
+    if (c == '\n') ++line_;
   }
 
   void skip_comment() {
@@ -65,9 +46,8 @@ class Scan {
     at_ = end == std::string_view::npos ? text_.size() : end;
   }
 
-  // A string of one line ends with that line: there the parser stops.
+  // A string of one line ends with that line: the parser stops there.
   void skip_string(char quote) {
-    const bool escapes = quote == '"';
     const std::string triple(3, quote);
     const bool many_lines = text_.substr(at_, 3) == triple;
     at_ += many_lines ? 3 : 1;
@@ -75,7 +55,7 @@ class Scan {
       const char c = text_[at_];
       if (c == '\n' && !many_lines) return;
       if (c == '\n') ++line_;
-      if (escapes && c == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
+      if (quote == '"' && c == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
         ++at_;
       } else if (c == quote && !many_lines) {
         ++at_;
@@ -86,7 +66,7 @@ class Scan {
     }
   }
 
-  // Up to two quotes before the closing three are the string's own.
+  // Up to two quotes before the closing three belong to the string.
   void skip_closing(char quote) {
     at_ += 3;
     for (int own = 0; own < 2 && at_ < text_.size() && text_[at_] == quote; ++own) ++at_;
@@ -97,9 +77,6 @@ class Scan {
   std::uint32_t line_ = 1;
   std::size_t nesting_ = 0;
   std::size_t dots_ = 0;  // since the last separator
-  bool in_value_ = false;
-  bool header_opened_ = false;  // the last characters but blanks were [ or [[ of a table's name
-  bool bad_name_ = false;
 };
 
 }  // namespace

@@ -25,9 +25,8 @@ struct TomlExcess {
   std::string what;
 };
 
-/// The first excess in `text`, or the one thing that the parser does not look out for, a table's name that does
-/// not begin as one; empty where there is none. Reads as the parser does as far as that would read; time
-/// linear in the text, no recursion.
+/// The first excess in `text`; empty where there is none. Strings and comments are skipped as the parser skips them.
+/// Time linear in the text, no recursion.
 std::optional<TomlExcess> toml_excess(std::string_view text);
 
 }  // namespace pharos::host

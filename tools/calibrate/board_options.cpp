@@ -6,6 +6,7 @@
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/support/number_option.hpp"
+#include "tools/support/output_place.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -35,9 +36,11 @@ void add_board_options(CLI::App& command, BoardOptions& options) {
       ->check(number_from(0.001, 5000.0))
       ->capture_default_str();
   command.add_flag("--hold-k3", options.fix_k3, "Hold the fifth distortion term at 0");
-  command.add_option("-o,--output", options.output, "File to write (TOML); - is standard output")->required();
-  command.add_option("--images", options.images, "File for what became of each image (a table)");
-  command.add_option("--overlay", options.overlay, "Folder for pictures of what was found");
+  command.add_option("-o,--output", options.output, "File to write (TOML); - is standard output")
+      ->check(output_place())
+      ->required();
+  command.add_option("--images", options.images, "File for what became of each image (a table)")->check(output_place());
+  command.add_option("--overlay", options.overlay, "Folder for pictures of what was found")->check(output_place());
   command.add_flag("--json", options.json, "Tables as one JSON object a line instead of CSV");
 }
 

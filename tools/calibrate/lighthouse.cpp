@@ -18,6 +18,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/recording.hpp"
 #include "tools/support/stations.hpp"
@@ -139,6 +140,7 @@ void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code) {
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]: the nominal positions")
       ->required();
   command->add_option("-o,--output", options->output, "Calibration file to write (TOML); - is standard output")
+      ->check(output_place())
       ->required();
   command
       ->add_option(
@@ -159,8 +161,9 @@ void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code) {
       ->add_option("--form", options->form, "Sign form of the station model's curve term; real stations fit 1 better")
       ->check(CLI::IsMember({1, 2}))
       ->capture_default_str();
-  command->add_option("--residuals", options->residuals, "File for each sensor's and rotor's rms before and after");
-  command->add_option("--picture", options->picture, "File for the same as a picture (SVG)");
+  command->add_option("--residuals", options->residuals, "File for each sensor's and rotor's rms before and after")
+      ->check(output_place());
+  command->add_option("--picture", options->picture, "File for the same as a picture (SVG)")->check(output_place());
   command->add_flag("--json", options->json, "Tables as one JSON object a line instead of CSV");
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

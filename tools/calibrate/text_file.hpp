@@ -5,8 +5,8 @@
 
 namespace pharos::tools {
 
-/// Writes a file under a temporary name and renames it when it is complete; `-` is standard output. Throws InputError
-/// when it cannot be written.
+/// Writes a calibration so that it survives a power cut; `-` is standard output. Throws InputError when it cannot be
+/// written.
 void write_text_file(const std::string& path, const std::string& text);
 
 }  // namespace pharos::tools

@@ -5,6 +5,17 @@
 #include "tools/cli/usage.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
+
+namespace {
+
+// Every command alike, before it opens anything.
+void refuse_lost_inputs(CLI::App& command) {
+  for (CLI::App* inner : command.get_subcommands({})) refuse_lost_inputs(*inner);
+  command.parse_complete_callback([&command] { pharos::tools::refuse_output_onto_input(command); });
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace pharos::tools;
@@ -14,6 +25,7 @@ int main(int argc, char** argv) {
   app.footer("Every subcommand has --help with an example. Exit code: 0 at least one answer, 1 none, 2 wrong usage.");
   int exit_code = kExitAnswered;
   add_commands(app, exit_code);
+  refuse_lost_inputs(app);
   const NamedCommand named = named_command(app, {argv + std::min(argc, 1), argv + argc});
   set_message_prefix(named.name);
   try {

@@ -13,6 +13,7 @@
 #include "tools/support/image_input.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stopwatch.hpp"
 
@@ -144,7 +145,8 @@ void add_ellipses(CLI::App& app, int& exit_code) {
       ->check(number_from(0.0, 1.0));
   command->add_option("--time", options->repeats, "Detect so many times more; median ms an image on standard error")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--overlay", options->overlay, "Draw edges, arcs and ellipses into this PNG");
+  command->add_option("--overlay", options->overlay, "Draw edges, arcs and ellipses into this PNG")
+      ->check(output_place());
   add_output_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

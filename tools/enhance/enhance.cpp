@@ -15,6 +15,7 @@
 #include "tools/support/image_input.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -242,16 +243,22 @@ void add_enhance(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("enhance", "Dark images to bright ones, step by step");
   const auto options = std::make_shared<Options>();
   command->add_option("IN", options->in, "Image, folder of images, or - (standard input)")->required();
-  command->add_option("OUT", options->out, "PNG, folder, or - (standard output)")->required();
-  command->add_option("--max-rgb", options->steps.start, "Write the illumination's start (2)");
-  command->add_option("--refined", options->steps.refined, "Write the solution of (5)");
-  command->add_option("--illumination", options->steps.illumination, "Write the illumination L, after (7)");
-  command->add_option(
-      "--reflectance", options->steps.reflectance,
-      "Write the reflectance R, (3), as (8) uses it: divided by the report's reflectance_peak, cut at white");
-  command->add_option("--denoised", options->steps.denoised,
-                      "Write the denoised reflectance R_d: OUT is R L + R_d (1 - L), (8)");
-  command->add_option("--report", options->report, "A row an image (CSV) into this file; - is standard output");
+  command->add_option("OUT", options->out, "PNG, folder, or - (standard output)")->check(output_place())->required();
+  command->add_option("--max-rgb", options->steps.start, "Write the illumination's start (2)")->check(output_place());
+  command->add_option("--refined", options->steps.refined, "Write the solution of (5)")->check(output_place());
+  command->add_option("--illumination", options->steps.illumination, "Write the illumination L, after (7)")
+      ->check(output_place());
+  command
+      ->add_option(
+          "--reflectance", options->steps.reflectance,
+          "Write the reflectance R, (3), as (8) uses it: divided by the report's reflectance_peak, cut at white")
+      ->check(output_place());
+  command
+      ->add_option("--denoised", options->steps.denoised,
+                   "Write the denoised reflectance R_d: OUT is R L + R_d (1 - L), (8)")
+      ->check(output_place());
+  command->add_option("--report", options->report, "A row an image (CSV) into this file; - is standard output")
+      ->check(output_place());
   command->add_flag("--json", options->json, "The report as one JSON object a line");
   add_settings(*command, *options);
   command->footer(kExample);

@@ -13,6 +13,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/standard_input.hpp"
 
 namespace pharos::tools {
@@ -252,7 +253,8 @@ void add_evaluate(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--ambiguous", options->choice.keep_ambiguous, "Count ambiguous poses among the answers");
   command->add_option("--without", options->choice.without_flags, "Leave out rows with this word in flags; repeatable");
-  command->add_option("--plot", options->plot, "File for a picture (SVG) of the errors over time");
+  command->add_option("--plot", options->plot, "File for a picture (SVG) of the errors over time")
+      ->check(output_place());
   add_output_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -15,6 +15,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 #include "tools/support/standard_input.hpp"
@@ -222,6 +223,7 @@ void add_options(CLI::App& command, Options& options) {
       ->check(number_from(4, static_cast<double>(kMaxSensors)));
   command.add_option("--poses", options.poses, "Table pose,qw,qx,qy,qz,tx_m,ty_m,tz_m (T_lighthouse_body)")->required();
   command.add_option("-o,--output", options.target, "File for the target found, sensor,x_m,y_m,z_m,nx,ny,nz")
+      ->check(output_place())
       ->required();
   command.add_option("--target", options.present, "The present layout, to compare with");
   command.add_option("--objective", options.objective, "Over the poses: mean, worst or percentile:P")
@@ -250,7 +252,7 @@ void add_options(CLI::App& command, Options& options) {
       ->check(number_from(1, 100))
       ->capture_default_str();
   add_seed_option(command, options.seed, "Of the starts but the first");
-  command.add_option("--plot", options.plot, "File for a picture (SVG) of layout and precision");
+  command.add_option("--plot", options.plot, "File for a picture (SVG) of layout and precision")->check(output_place());
   command.add_flag("--json", options.json, "The gain as one JSON object instead of CSV");
 }
 

@@ -2,14 +2,12 @@
 #include "tools/plot/svg.hpp"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
-#include "host/support/input_error.hpp"
+#include "host/files/atomic_file.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -96,16 +94,12 @@ void Svg::text(PlotPoint at, std::string_view words, double size, std::string_vi
 }
 
 void Svg::write(const std::string& path) const {
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "w"));
-  if (!file) throw host::InputError(path + ": cannot be written: " + std::strerror(errno) + "; choose another file");
-  std::fprintf(file.get(),
+  host::AtomicFile file(path);
+  std::fprintf(file.stream(),
                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\">\n"
                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n%s</svg>\n",
                width_, height_, body_.c_str());
-  if (std::fflush(file.get()) != 0) throw host::InputError(path + ": cannot be written: " + std::strerror(errno));
+  file.commit();
 }
 
 PlotPoint Axes::at(double x, double y) const {

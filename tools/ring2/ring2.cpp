@@ -15,6 +15,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
@@ -167,7 +168,7 @@ void add_ring2(CLI::App& app, int& exit_code) {
   command->add_option("--method", options->method, "exact, or paper: as published")
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();
-  command->add_option("--overlay", options->overlay, "Draw what was found into this PNG");
+  command->add_option("--overlay", options->overlay, "Draw what was found into this PNG")->check(output_place());
   command->add_option("--time", options->repeats, "Solve so many times more; median ms on standard error")
       ->check(CLI::Range(1, 1'000'000));
   add_output_options(*command, options->output);

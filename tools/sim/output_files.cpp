@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
+#include "host/files/atomic_file.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::sim {
@@ -23,11 +23,7 @@ void make_output_folder(const std::filesystem::path& folder) {
   }
 }
 
-void write_output(const std::filesystem::path& path, std::string_view bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!out) refuse_output(path);
-}
+void write_output(const std::filesystem::path& path, std::string_view bytes) { host::write_file(path.string(), bytes); }
 
 std::string padded_number(std::size_t index, std::size_t digits) {
   const std::string number = std::to_string(index);

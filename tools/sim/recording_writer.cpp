@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/recording_writer.hpp"
 
+#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
@@ -8,10 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <memory>
 #include <string>
 
+#include "host/files/atomic_file.hpp"
 #include "host/stations/station_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/row_writer.hpp"
@@ -27,17 +27,6 @@ using host::InputError;
   throw InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-File create(const fs::path& path) {
-  File file(std::fopen(path.c_str(), "w"));
-  if (!file) refuse(path);
-  return file;
-}
-
 std::string shortest(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
@@ -46,7 +35,8 @@ std::string shortest(double value) {
 // Pulses as a gzip table, gathered into large writes.
 class PulseTable {
  public:
-  PulseTable(const fs::path& path, bool wrap32) : path_(path), wrap32_(wrap32), file_(gzopen(path.c_str(), "wb6")) {
+  PulseTable(const fs::path& path, bool wrap32)
+      : path_(path), wrap32_(wrap32), place_(path.string()), file_(gzdopen(::dup(::fileno(place_.stream())), "wb6")) {
     if (file_ == nullptr) refuse(path);
     buffer_ = "sensor,rise_ticks,fall_ticks\n";
   }
@@ -67,6 +57,7 @@ class PulseTable {
     gzFile file = file_;
     file_ = nullptr;
     if (gzclose(file) != Z_OK) refuse(path_);
+    place_.commit();
   }
 
  private:
@@ -86,13 +77,14 @@ class PulseTable {
 
   fs::path path_;
   bool wrap32_;
+  host::AtomicFile place_;
   gzFile file_;
   std::string buffer_;
 };
 
 void write_target(const fs::path& path, const Target& target) {
-  const File file = create(path);
-  host::RowWriter rows(file.get(), host::RowFormat::kCsv, {"sensor", "x_m", "y_m", "z_m", "nx", "ny", "nz"});
+  host::AtomicFile file(path.string());
+  host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"sensor", "x_m", "y_m", "z_m", "nx", "ny", "nz"});
   for (const SensorPlacement& sensor : target) {
     rows.integer(sensor.sensor);
     for (int i = 0; i < 3; ++i) rows.number(sensor.position_m[i]);
@@ -104,11 +96,12 @@ void write_target(const fs::path& path, const Target& target) {
     rows.end_row();
   }
   rows.flush();
+  file.commit();
 }
 
 void write_truth(const fs::path& path, const LighthouseSimulator& simulator) {
-  const File file = create(path);
-  host::RowWriter rows(file.get(), host::RowFormat::kCsv,
+  host::AtomicFile file(path.string());
+  host::RowWriter rows(file.stream(), host::RowFormat::kCsv,
                        {"time_s", "station", "qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"});
   const auto first = static_cast<std::int64_t>(std::ceil(simulator.start_s() * 1000.0));
   const auto last = static_cast<std::int64_t>(std::floor(simulator.end_s() * 1000.0));
@@ -124,6 +117,7 @@ void write_truth(const fs::path& path, const LighthouseSimulator& simulator) {
     }
   }
   rows.flush();
+  file.commit();
 }
 
 lighthouse::StationCalibration calibration(std::uint32_t id, const std::array<SheetErrors, 2>& errors) {
@@ -136,19 +130,13 @@ lighthouse::StationCalibration calibration(std::uint32_t id, const std::array<Sh
   return station;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text << std::flush;
-  if (!out) refuse(path);
-}
-
 // What the stations say of themselves.
 void write_announced(const fs::path& path, const LighthouseSimulator& simulator) {
   std::string text = "# What the simulated stations say of themselves, for track --calibration.\n";
   for (const SimulatedStation& station : simulator.stations()) {
     text += "\n" + host::station_text(calibration(station.announced.id, station.announced.rotor));
   }
-  write_text(path, text);
+  host::write_file(path.string(), text);
 }
 
 // What is true of them; for track --calibration, too. Where they stand is for people: a comment.
@@ -163,12 +151,12 @@ void write_true(const fs::path& path, const LighthouseSimulator& simulator) {
             shortest(q.x()) + ", " + shortest(q.y()) + ", " + shortest(q.z()) + "\n";
     text += host::station_text(calibration(station.announced.id, station.true_errors));
   }
-  write_text(path, text);
+  host::write_file(path.string(), text);
 }
 
 void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults) {
-  const File file = create(path);
-  host::RowWriter rows(file.get(), host::RowFormat::kCsv, {"time_s", "kind", "station", "sensor", "amount"});
+  host::AtomicFile file(path.string());
+  host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"time_s", "kind", "station", "sensor", "amount"});
   for (const InjectedFault& fault : faults) {
     rows.number(fault.time_s).text(fault.kind);
     fault.station < 0 ? rows.none() : rows.integer(fault.station);
@@ -177,6 +165,7 @@ void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults
     rows.end_row();
   }
   rows.flush();
+  file.commit();
 }
 
 }  // namespace

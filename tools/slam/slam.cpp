@@ -14,6 +14,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -153,9 +154,9 @@ void add_slam(CLI::App& app, int& exit_code) {
   command
       ->add_option("--pairs", options->names.pairs, "Stop after so many; where there are fewer, there and back again")
       ->check(CLI::Range(1, 10'000'000));
-  command->add_option("--report", options->report, "File for figures of the run (JSON)");
-  command->add_option("--map", options->map, "File for the map's points (PLY)");
-  command->add_option("--overlay", options->overlay, "Folder for pictures of the features");
+  command->add_option("--report", options->report, "File for figures of the run (JSON)")->check(output_place());
+  command->add_option("--map", options->map, "File for the map's points (PLY)")->check(output_place());
+  command->add_option("--overlay", options->overlay, "Folder for pictures of the features")->check(output_place());
   command
       ->add_option(
           "--enhance", options->enhance,

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
+#include "host/files/atomic_file.hpp"
 #include "host/images/canvas.hpp"
 #include "host/runtime/process_usage.hpp"
 #include "host/support/exact_number.hpp"
@@ -18,10 +19,6 @@
 
 namespace pharos::tools {
 namespace {
-
-void finish(std::ofstream& file, const std::string& path) {
-  if (!file.flush()) throw host::InputError(path + ": cannot be written");
-}
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -96,7 +93,7 @@ int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera)
 }
 
 void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points) {
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "ply\nformat ascii 1.0\ncomment metres, in the left camera's frame at the first frame\nelement vertex "
        << points.size()
        << "\nproperty double x\nproperty double y\nproperty double z\nproperty int observers\nend_header\n";
@@ -104,7 +101,7 @@ void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& 
     for (int k = 0; k < 3; ++k) file << host::exact_number(point.position_m[k]) << ' ';
     file << point.observers << '\n';
   }
-  finish(file, path);
+  host::write_file(path, file.str());
 }
 
 void note_quarter(std::size_t done, std::size_t all, RunFigures& figures) {
@@ -145,9 +142,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   for (const MemoryAt& at : figures.memory) peak_kib = std::max(peak_kib, at.resident_kib);
   json["memory_peak_mib"] = static_cast<double>(peak_kib) / 1024.0;
   if (const auto spin = slam::fit_spin(trajectory)) json["spin"] = spin_json(*spin);
-  std::ofstream file(path);
-  file << json.dump(2) << '\n';
-  finish(file, path);
+  host::write_file(path, json.dump(2) + '\n');
 }
 
 void write_slam_overlay(const std::string& folder, const std::string& stem, const slam::SlamSystem& system) {

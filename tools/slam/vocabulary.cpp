@@ -3,15 +3,15 @@
 #include "host/vision/slam/vocabulary.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <memory>
 
-#include "host/support/input_error.hpp"
+#include "host/files/atomic_file.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/slam/slam_files.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -40,9 +40,7 @@ int run_vocabulary(const VocabularyOptions& options) {
   if (described.empty()) return exit_code;
   const slam::Vocabulary vocabulary = slam::Vocabulary::train(described, options.branches, options.depth, options.seed);
   const std::vector<std::uint8_t> bytes = vocabulary.bytes();
-  std::ofstream file(options.output, std::ios::binary);
-  for (const std::uint8_t byte : bytes) file.put(static_cast<char>(byte));
-  if (!file.flush()) throw host::InputError(options.output + ": cannot be written");
+  host::write_file(options.output, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   note(std::to_string(vocabulary.words()) + " words of " + std::to_string(described.size()) + " images, " +
        std::to_string(bytes.size()) + " bytes");
   return exit_code;
@@ -54,7 +52,7 @@ void add_vocabulary(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("vocabulary", "Train the visual words that `pharos slam` knows places by");
   const auto options = std::make_shared<VocabularyOptions>();
   command->add_option("IMAGE", options->images, "Images, far apart from each other in what they show")->required();
-  command->add_option("--output", options->output, "Vocabulary file to write")->required();
+  command->add_option("--output", options->output, "Vocabulary file to write")->check(output_place())->required();
   command->add_option("--branches", options->branches, "Children of a node (default 8)")
       ->check(CLI::Range(2, slam::Vocabulary::kMaxBranches));
   command->add_option("--depth", options->depth, "Levels of the tree (default 4)")

@@ -11,6 +11,7 @@
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/tof/overlay.hpp"
 #include "tools/tof/quantise.hpp"
@@ -157,7 +158,7 @@ void add_tof(CLI::App& app, int& exit_code) {
   command->add_option("DIR", options->folder, "Folder of frames")->required();
   command->add_option("--camera", options->camera, "Camera file (TOML)")->required();
   command->add_flag("--summary", options->summary, "Mean and standard deviation of all frames, as the paper's table 2");
-  command->add_option("--overlay", options->overlay, "Folder for pictures of what was found");
+  command->add_option("--overlay", options->overlay, "Folder for pictures of what was found")->check(output_place());
   command->add_option("--window", options->window, "Mean of so many frames, with its covariance")
       ->check(CLI::Range(1, 100'000));
   command->add_option("--depth-bits", options->depth_bits, "Round depths to 2^N grey values first, as the paper (8)")

@@ -12,6 +12,7 @@
 #include "tools/support/calibration_choice.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/pose_columns.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/recording.hpp"
@@ -226,7 +227,8 @@ void add_track(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.01, 1e4))
       ->capture_default_str();
   command->add_flag("--raw-flashes", options->raw_flashes, "Flash times as measured, not smoothed");
-  command->add_option("--sensors", options->sensors, "File for what is left of each sensor: mean, sd, rms per station");
+  command->add_option("--sensors", options->sensors, "File for what is left of each sensor: mean, sd, rms per station")
+      ->check(output_place());
   command->add_flag("--stats", options->stats, "Every counter at the end, on standard error");
   add_solver_options(*command, options->solver);
   add_output_options(*command, options->output);

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/integration/cli/program.hpp"
 
 namespace pharos::cli_test {
@@ -41,6 +43,57 @@ TEST(CliUsage, WrongUsageIsOneLineOfTheCommandThatEndsWith2) {
     EXPECT_THAT(run.err, StartsWith("pharos " + words.substr(0, words.find(' ')) + ": ")) << words;
     EXPECT_LT(run.err.size(), 200u) << run.err;
   }
+}
+
+// Whatever links lead to it: the input would be gone before or after it was read.
+TEST(CliUsage, RefusesToWriteOntoWhatItReads) {
+  const Folder folder;
+  const std::string file = folder.write("own.csv", "mine");
+  std::filesystem::create_symlink("own.csv", folder.path("link.csv"));
+  std::filesystem::create_hard_link(file, folder.path("hard.csv"));
+  std::filesystem::create_directory(folder.path("images"));
+  folder.write("images/one.png", "mine");
+  const std::string at = folder.path().string() + "/";
+  const std::string images = at + "images";
+  for (const std::string& arguments : {"track " + file + " --target t.csv -o " + file,
+                                       "track a.csv --target " + file + " -o " + at + "./link.csv",
+                                       "track a.csv --target " + file + " --sensors " + file,
+                                       "decode " + file + " -o " + at + "hard.csv",
+                                       "solve " + file + " --target t.csv --output=" + file,
+                                       "precision --target " + file + " --poses p.csv -o " + file,
+                                       "enhance " + file + " " + file,
+                                       "enhance " + images + " " + images + "/../images",
+                                       "enhance " + images + " out --report " + images,
+                                       "ellipses " + file + " --overlay " + file,
+                                       "circles a.png " + file + " --rig r.toml --overlay " + file,
+                                       "line " + file + " --camera c.toml --overlay " + file,
+                                       "slam " + images + " r --rig r.toml --overlay " + images,
+                                       "slam l r --rig " + file + " --report " + file,
+                                       "tof " + images + " --camera c.toml --overlay " + images,
+                                       "evaluate " + file + " t.csv --plot " + file,
+                                       "evaluate e.csv " + file + " -o " + file,
+                                       "vocabulary a.png " + file + " --output " + file,
+                                       "layout --body " + file + " --sensors 4 --poses p.csv -o " + file,
+                                       "calibrate lighthouse " + file + " --target t.csv -o " + file,
+                                       "calibrate camera " + file + " -o " + file,
+                                       "calibrate stereo --left " + file + " --right r.png -o " + file,
+                                       "sim lighthouse " + file + " --output " + file,
+                                       "sim capture " + file + " --output " + file}) {
+    const Outcome run = pharos(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr("is the same file or folder as")) << arguments;
+    EXPECT_EQ(count_lines(run.err), 1u) << run.err;
+  }
+  EXPECT_EQ(content_of(file), "mine");
+  EXPECT_EQ(content_of(folder.path("images/one.png")), "mine");
+}
+
+TEST(CliUsage, TwoOutputsInOneFileAreRefused) {
+  const Folder folder;
+  const Outcome run =
+      pharos("track a.csv --target t.csv -o " + folder.path("new") + " --sensors " + folder.path("new"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is the same file or folder as"));
 }
 
 TEST(CliUsage, NamesAnUnknownCommandAndThoseThatThereAre) {

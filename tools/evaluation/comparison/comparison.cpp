@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <memory>
 
-#include "host/support/input_error.hpp"
+#include "host/files/atomic_file.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -76,11 +73,7 @@ void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& p
     }
     text += "\n";
   }
-  const auto close = [](std::FILE* file) { return file == stdout ? 0 : std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(path == "-" ? stdout : std::fopen(path.c_str(), "w"), close);
-  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0) {
-    throw host::InputError(path + ": cannot be written: " + std::strerror(errno));
-  }
+  host::write_file(path, text);
 }
 
 void write_comparison(const std::vector<ComparisonRow>& rows, bool markdown, const OutputOptions& options) {

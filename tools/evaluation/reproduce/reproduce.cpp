@@ -13,6 +13,7 @@
 #include "tools/evaluation/reproduce/slam/add_reproduce_slam.hpp"
 #include "tools/evaluation/reproduce/tof/add_reproduce_tof.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/seed_option.hpp"
 
 namespace pharos::tools {
@@ -88,7 +89,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
                                                 "The real recordings in DIR instead (default: PHAROS_DATA/lighthouse)");
   recordings->type_name("[DIR]")->expected(0, 1);
   add_seed_option(*command, options->seed, "Of poses, noise and errors");
-  command->add_option("--sets", options->sets_file, "File for one row a set of figure 5");
+  command->add_option("--sets", options->sets_file, "File for one row a set of figure 5")->check(output_place());
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

@@ -2,12 +2,12 @@
 #include "tools/sim/camera/make_sequence.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/device/frame_directory.hpp"
 #include "host/device/pair_names.hpp"
+#include "host/files/atomic_file.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/sim/optics/ray_grid.hpp"
@@ -39,10 +39,7 @@ FrameSequence sequence_of_scenario(const std::string& scenario, std::uint64_t se
     file.camera.intrinsics = optics_as<PinholeCamera>(about.lens);
     file.camera.depth_scale_m = about.depth.scale_m;
     file.camera.depth_origin_z_m = about.depth.origin_z_m;
-    std::ofstream out(camera_file);
-    if (!(out << host::camera_text(file) << std::flush)) {
-      throw host::InputError(camera_file.string() + ": cannot be written; choose another --camera-file");
-    }
+    host::write_file(camera_file.string(), host::camera_text(file));
   }
   const std::size_t count = std::min(maximum, static_cast<std::size_t>(simulator.frames()));
   for (std::size_t i = 0; i < count; ++i) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/sim/recording_writer.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/seed_option.hpp"
 
 namespace pharos::tools {
@@ -28,7 +29,9 @@ void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
                    "scenario file (TOML; examples in tools/sim/scenarios); - is standard input")
       ->required();
   add_seed_option(*command, options->seed, "same seed, same bytes");
-  command->add_option("--output", options->output, "directory for the recording, its truth and its target")->required();
+  command->add_option("--output", options->output, "directory for the recording, its truth and its target")
+      ->check(output_place())
+      ->required();
   command->footer(
       "Writes edges.csv.gz, truth.csv (T_lighthouse_body, a row per millisecond and station), target.csv,\n"
       "target_true.csv, stations.toml (calibrations as announced), stations_true.toml and faults.csv.\n\n"

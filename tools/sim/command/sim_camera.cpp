@@ -13,6 +13,7 @@
 #include "tools/sim/camera/make_sequence.hpp"
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/support/number_option.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 
@@ -126,8 +127,10 @@ void add_sim_camera(CLI::App& sim, int& exit_code) {
   command->add_option("--frames", options->frames, "how many frames are made beforehand; they are shown to and fro")
       ->check(CLI::Range(1, kMaxFrames))
       ->capture_default_str();
-  command->add_option("--camera-file", options->camera_file, "write the scenario's camera file here");
-  command->add_option("--truth", play.truth_file, "write true poses here as they are shown (utime: microseconds UTC)");
+  command->add_option("--camera-file", options->camera_file, "write the scenario's camera file here")
+      ->check(output_place());
+  command->add_option("--truth", play.truth_file, "write true poses here as they are shown (utime: microseconds UTC)")
+      ->check(output_place());
   command->add_option("--address", play.address, "address of this computer to serve at")->capture_default_str();
   command->add_option("--serial", play.serial, "serial number")->capture_default_str();
   command->add_option("--rate", play.frame_rate_hz, "frames a second")

@@ -19,6 +19,7 @@
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/sim/playback_input.hpp"
 #include "tools/support/number_option.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/seed_option.hpp"
 
 namespace pharos::tools {
@@ -136,6 +137,7 @@ void add_sim_capture(CLI::App& sim, int& exit_code) {
                    "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks; - is standard input)")
       ->required();
   command->add_option("--output", options->output, "file or pipe for the words; - is standard output")
+      ->check(output_place())
       ->capture_default_str();
   command->add_option("--speed", options->speed, "times real speed; 0: as fast as the reader reads")
       ->check(number_from(0.0, 1e4))
@@ -144,7 +146,8 @@ void add_sim_capture(CLI::App& sim, int& exit_code) {
       ->check(CLI::Range(1, 32))
       ->capture_default_str();
   add_seed_option(*command, options->seed, "of the scenario");
-  command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)");
+  command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)")
+      ->check(output_place());
   command->footer(
       "Gives four little-endian 32-bit words a record, as firmware in the emulator reads them: see\n"
       "firmware/board/qemu_virt/capture_replay.hpp. tools/target-decode shows its use.\n\n"

@@ -6,6 +6,7 @@
 
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/sim/pointing/pointing_writer.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 
@@ -35,6 +36,7 @@ void add_sim_pointing(CLI::App& sim, int& exit_code) {
       ->required();
   add_seed_option(*command, options->seed, "same seed, same bytes");
   command->add_option("--output", options->output, "directory for the images, the camera file, the track and the truth")
+      ->check(output_place())
       ->required();
   command->footer(
       "Writes NNNN.png, camera.toml, track.csv (time, azimuth, elevation of each image) and truth.csv (the panel's\n"

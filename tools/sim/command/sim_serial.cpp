@@ -11,6 +11,7 @@
 #include "tools/sim/playback_input.hpp"
 #include "tools/sim/serial_player.hpp"
 #include "tools/support/number_option.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/seed_option.hpp"
 
 namespace pharos::tools {
@@ -87,7 +88,8 @@ void add_sim_serial(CLI::App& sim, int& exit_code) {
       ->capture_default_str();
   add_seed_option(*command, options->serial.seed, "of the scenario and of the line's faults");
   command->add_option("--name", options->name, "name that the target gives itself");
-  command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)");
+  command->add_option("--truth", options->truth, "write true poses here while playing (utime: microseconds UTC)")
+      ->check(output_place());
   command->add_flag("--raw-edges", options->raw_edges, "diagnostic mode: every edge instead of sweeps");
   command->add_flag("--free-running", options->free_running, "do not wait until a program has opened the port");
   command->add_option("--corrupt", options->serial.corrupt_rate, "share of bytes with one bit flipped")

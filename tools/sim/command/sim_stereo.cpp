@@ -7,6 +7,7 @@
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/sim/command/tumbling_options.hpp"
 #include "tools/sim/ring2/ring2_writer.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 
@@ -31,7 +32,9 @@ void add_sim_stereo(CLI::App& sim, int& exit_code) {
                    "scenario file (TOML; examples in tools/sim/scenarios/stereo_*.toml); - is standard input")
       ->excludes(command->get_option("--scene"));
   add_seed_option(*command, options->seed, "same seed, same bytes");
-  command->add_option("--output", options->output, "directory for images, rig file, ellipses and truth")->required();
+  command->add_option("--output", options->output, "directory for images, rig file, ellipses and truth")
+      ->check(output_place())
+      ->required();
   command->footer(
       "SCENARIO: rig.toml, truth.csv, ellipses.csv (for pharos circles --ellipses) and, where it renders with "
       "POV-Ray,\n"

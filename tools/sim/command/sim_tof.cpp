@@ -6,6 +6,7 @@
 
 #include "tools/sim/command/add_sim.hpp"
 #include "tools/sim/tof/tof_writer.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 
@@ -35,6 +36,7 @@ void add_sim_tof(CLI::App& sim, int& exit_code) {
       ->required();
   add_seed_option(*command, options->seed, "same seed, same bytes");
   command->add_option("--output", options->output, "directory for the frames, the camera file and the truth")
+      ->check(output_place())
       ->required();
   command->footer(
       "Writes NNNN_intensity.png and NNNN_depth.png (16 bit; or NNNN_abcy16.raw), camera.toml and truth.csv\n"

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -128,17 +129,51 @@ TEST_F(CalibrationMemoryTest, AnEmptyFileIsAnEmptyMemory) {
   EXPECT_TRUE(reread().empty());
 }
 
-TEST_F(CalibrationMemoryTest, ADamagedFileIsReportedAndThenReplaced) {
-  for (const std::string& damaged : {std::string("[[station]]\nid = \"XYZ\"\n"), std::string(300, '\0')}) {
+// Each of the keys and arrays would overflow the stack of a reader that descends once a level.
+TEST_F(CalibrationMemoryTest, ADamagedFileIsSetAsideCountedAndThenReplaced) {
+  std::string deep_key, deep_array = "a = ";
+  for (int i = 0; i < 50'000; ++i) {
+    deep_key += "a.";
+    deep_array += '[';
+  }
+  for (const std::string& damaged : {std::string("[[station]]\nid = \"XYZ\"\n"), std::string("[[station]]\n"),
+                                     std::string(300, '\0'), deep_key + "a = 1\n", deep_array}) {
     fs::create_directories(folder_);
     std::ofstream(folder_ / "stations.toml") << damaged;
     CalibrationMemory memory(folder_);
     EXPECT_THROW(memory.load(), InputError);
     EXPECT_TRUE(memory.stations().empty());
+    EXPECT_EQ(memory.counters().damaged_files, 1);
+    EXPECT_FALSE(fs::exists(folder_ / "stations.toml"));
+    EXPECT_EQ(fs::file_size(folder_ / "stations.toml.damaged"), damaged.size());
     memory.keep(station(7));
     memory.save(0);
     EXPECT_THAT(reread(), ElementsAre(station(7)));
   }
+}
+
+TEST_F(CalibrationMemoryTest, WhatIsNoFileIsSetAsideWithoutWaitingForIt) {
+  fs::create_directories(folder_ / "stations.toml");
+  CalibrationMemory of_folder(folder_);
+  EXPECT_THROW(of_folder.load(), InputError);
+  fs::remove(folder_ / "stations.toml.damaged");
+  ASSERT_EQ(::mkfifo((folder_ / "stations.toml").c_str(), 0600), 0);
+  CalibrationMemory of_pipe(folder_);
+  EXPECT_THROW(of_pipe.load(), InputError);
+  EXPECT_FALSE(fs::exists(folder_ / "stations.toml"));
+}
+
+// Anybody who may write into the folder could lead the writer elsewhere.
+TEST_F(CalibrationMemoryTest, WritesThroughNoLink) {
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "other") << "mine";
+  fs::create_symlink("other", folder_ / "stations.toml.new");
+  fs::create_symlink("other", folder_ / "stations.toml");
+  CalibrationMemory memory(folder_);
+  memory.keep(station(7));
+  memory.save(0);
+  EXPECT_EQ(fs::file_size(folder_ / "other"), 4u);
+  EXPECT_THAT(reread(), ElementsAre(station(7)));
 }
 
 TEST_F(CalibrationMemoryTest, SaysWhyItCannotBeWrittenAndTriesAgainAfterAWhile) {

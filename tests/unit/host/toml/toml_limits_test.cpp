@@ -62,15 +62,6 @@ TEST(TomlLimits, AreNotLedAstrayByQuotes) {
   }
 }
 
-// The parser's behaviour is undefined there.
-TEST(TomlLimits, RefuseATableWhoseNameDoesNotBeginAsOne) {
-  for (const std::string text : {"[.a]\n", "[ \t.a]\n", "[[.a]]\n", "[[ .'a']]\n", "[!]\n", "[=]\n", "[\n",
-                                 "[\xc3\xa4]\n", "a = [\n1\n]\n[#]\n", "[", "[["}) {
-    EXPECT_THAT(refusal(text), HasSubstr(text.back() == '\n' ? "does not begin" : "not valid TOML")) << text;
-  }
-  EXPECT_EQ(refusal("['.a'.b]\n[ c . d ]\n[[ \"e\" ]]\nf = [ '.', '.',\n[\n'.' ] ]\n[-]\n[1.2]\n"), "");
-}
-
 TEST(TomlLimits, LeaveRoomForWhatFilesHold) {
   EXPECT_EQ(refusal(repeated("a.", kMaxTomlKeyParts - 1) + "a = " + repeated("[", kMaxTomlNesting) +
                     repeated("]", kMaxTomlNesting) + "\n"),
