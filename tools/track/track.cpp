@@ -165,9 +165,6 @@ void check_files(const Options& options) {
   require_one_standard_input(
       {{"EDGES", options.edges}, {"--target", options.target}, {"--calibration", options.calibration}});
   if (options.sensors.empty()) return;
-  if (options.sensors == options.output.path) {
-    throw host::InputError("--sensors and --output both name " + options.sensors + "; give two files");
-  }
   require_writable(options.sensors);
 }
 

@@ -33,7 +33,7 @@ TEST(CliBadInput, WhatCannotBeWrittenAtTheEndIsSaidAtTheStart) {
   expect_refusal(pharos(track + " --sensors /nowhere/sensors.csv"), "/nowhere/sensors.csv: cannot be written");
   const Folder folder;
   const std::string same = folder.path("same.csv");
-  expect_refusal(pharos(track + " --sensors " + same + " --output " + same), "--sensors and --output both name");
+  expect_refusal(pharos(track + " --sensors " + same + " --output " + same), "is the same file or folder as --output");
 }
 
 TEST(CliBadInput, OneStandardInputCannotBeTwoTables) {
