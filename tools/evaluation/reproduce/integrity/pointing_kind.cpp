@@ -4,56 +4,66 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/cameras/camera_file.hpp"
+#include "host/images/grey_image.hpp"
 #include "host/vision/pointing/measure_panel.hpp"
 #include "pharos/base/units.hpp"
-#include "tools/sim/pointing/pointing_image.hpp"
-#include "tools/sim/pointing/pointing_views.hpp"
-#include "tools/sim/pointing/pointing_writer.hpp"
+#include "tools/sim/output_files.hpp"
+#include "tools/sim/pointing/random_satellite.hpp"
+#include "tools/sim/pointing/sky_frames.hpp"
 
 namespace pharos::tools {
 namespace {
 
 constexpr double kTolerance_deg = 1.0;
+// Where every telescope of the campaign points.
+constexpr double kAzimuth_rad = 1.0, kElevation_rad = 0.7;
+// The rule of availability.
+constexpr double kMinFromSight_rad = 20.0 * kRadPerDeg;
+constexpr double kMaxPanelTilt_rad = 60.0 * kRadPerDeg, kMaxSunIncidence_rad = 65.0 * kRadPerDeg;
+constexpr double kMinPanel_px = 120.0;
 
-// One view of one satellite: sizes, range and attitude at random.
-sim::PointingScenario scenario_of(std::uint64_t seed) {
-  sim::RandomStream random(seed, "line body");
-  sim::PointingScenario scenario;
-  scenario.satellite.panel_length_m = random.uniform(4.0, 12.0);
-  scenario.satellite.panel_width_m = random.uniform(1.5, 3.0);
-  scenario.satellite.body_m = {random.uniform(1.0, 3.0), random.uniform(1.0, 3.0), random.uniform(1.0, 3.0)};
-  sim::RandomPointingViews limits;
-  limits.count = 1;
-  limits.range_m = 100.0 * random.uniform(1.0, 3.0) * scenario.satellite.panel_length_m / 6.0;
-  scenario.views = sim::random_views(limits, sim::RandomStream(seed, "line views"));
-  return scenario;
+bool is_answerable(const sim::RandomSatellite& satellite) {
+  return satellite.in_image && satellite.from_sight_rad > kMinFromSight_rad &&
+         satellite.panel_tilt_rad < kMaxPanelTilt_rad && satellite.sun_incidence_rad < kMaxSunIncidence_rad &&
+         satellite.panel_px > kMinPanel_px;
 }
 
 IntegrityTrial trial_of(std::uint64_t seed) {
-  const sim::PointingScenario scenario = scenario_of(seed);
-  const host::GreyImage image = sim::pointing_image(scenario, 0, seed);
+  const sim::RandomSatellite satellite = sim::random_satellite(seed);
+  const host::GreyImage image = sim::image_of(satellite, seed);
   IntegrityTrial trial;
-  const auto panel = pointing::measure_panel(image.view(), sim::optics_as<PinholeCamera>(scenario.camera));
+  trial.answerable = is_answerable(satellite);
+  const auto panel = pointing::measure_panel(image.view(), sim::optics_as<PinholeCamera>(satellite.lens));
   if (!panel) {
     trial.status = std::string("refused_") + pointing::name_of(panel.error());
     return trial;
   }
-  const sim::PointingView& view = scenario.views[0];
-  const pointing::PointingResult answer = pointing::answer_of(*panel, {view.azimuth_rad, view.elevation_rad});
-  trial.status = "ok";
-  const Vector3 truth = view.R_station_body.col(0);
+  const pointing::PointingResult answer = pointing::answer_of(*panel, {kAzimuth_rad, kElevation_rad});
+  trial.status = answer.second_axis ? "ambiguous" : "ok";
+  const Vector3 truth = sim::station_from_camera(kAzimuth_rad, kElevation_rad) * satellite.axis_camera;
   const double error_deg = std::asin(std::min(1.0, answer.axis.axis.cross(truth).norm())) * kDegPerRad;
   trial.deviations.push_back({"axis, deg", error_deg, answer.axis.sigma_rad() * kDegPerRad, kTolerance_deg});
   return trial;
 }
 
+void write_image(std::uint64_t seed, const std::filesystem::path& folder) {
+  const sim::RandomSatellite satellite = sim::random_satellite(seed);
+  sim::make_output_folder(folder);
+  host::CameraFile file;
+  file.camera.intrinsics = sim::optics_as<PinholeCamera>(satellite.lens);
+  sim::write_output(folder / "camera.toml", host::camera_text(file));
+  host::write_grey_png((folder / "image.png").string(), sim::image_of(satellite, seed).view(), 8);
+}
+
 }  // namespace
 
 IntegrityKind pointing_kind() {
-  return {"line", "two panels are in the image, more than 30 deg off the line of sight", trial_of,
-          [](std::uint64_t seed, const std::filesystem::path& folder) {
-            sim::write_pointing_images(scenario_of(seed), seed, folder, [] {});
-          }};
+  return {
+      "line",
+      "every panel is whole in the image, one of them longer than 120 px, the axis more than 20 deg off the line of "
+      "sight, the panels' normal within 60 deg of it, the sun within 65 deg of that normal",
+      trial_of, write_image};
 }
 
 }  // namespace pharos::tools
