@@ -15,8 +15,8 @@ namespace pharos::test {
 
 using CameraFromTarget = Pose<frame::Camera, frame::Target>;
 
-/// A minimal scene for measurements of a docking ring: a flat ring in front of a flat wall, with square plates on
-/// invisible supports. For tests with exact truth; for all others there is the simulator.
+/// A minimal scene for measurements of a docking ring: a flat ring in front of a flat wall, and boxes on that. For tests
+/// with exact truth; for all others there is the simulator.
 struct SyntheticRing {
   double outer_radius_m = 0.55;
   double inner_radius_m = 0.49;
@@ -72,9 +72,19 @@ inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_
     return {scene.ring_grey, scene.wall_z_m == 0.0 ? at(0.0) : ring};
   }
   const double plate = at(scene.wall_z_m == 0.0 ? 0.0 : scene.plate_z_m);
+  const double half = 0.5 * scene.plate_side_m;
   for (const Vector2& middle : scene.plates) {
     const Vector2 off = plan(plate) - middle;
-    if (std::max(std::fabs(off.x()), std::fabs(off.y())) <= 0.5 * scene.plate_side_m) return {scene.plate_grey, plate};
+    if (std::max(std::fabs(off.x()), std::fabs(off.y())) <= half) return {scene.plate_grey, plate};
+    for (int axis = 0; axis < 2; ++axis) {  // the sides that face the camera
+      const double side = middle[axis] + (d[axis] < 0.0 ? half : -half);
+      const double s = (side - eye[axis]) / d[axis];
+      const double z = eye.z() + s * d.z();
+      if (s > 0.0 && z < scene.plate_z_m && z > scene.wall_z_m &&
+          std::fabs(plan(s)[1 - axis] - middle[1 - axis]) <= half) {
+        return {scene.plate_grey * std::fabs(d[axis] / d.z()), s};
+      }
+    }
   }
   return {scene.wall_grey, at(scene.wall_z_m)};
 }

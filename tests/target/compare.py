@@ -26,7 +26,8 @@ BOUNDS = {
     "station": ("absolute", 1e-14),  # rad
     "tof_ellipse": ("absolute", 1e-11),  # px
     "tof_ring": ("absolute", 1e-13),  # m
-    "tof_connector": ("absolute", 1e-13),  # m
+    "tof_box": ("absolute", 1e-5),  # m; cells vote in single precision
+    "tof_connector": ("absolute", 1e-9),  # m; starts at the box
     "tof_pose": ("absolute", 1e-13),  # m; elements of a rotation
     "tof_covariance": ("relative", 1e-8),  # its rotation part is by central differences
 }

@@ -83,16 +83,13 @@ void draw_rectangle(Canvas& canvas, const DepthCamera& camera, const tof::RingMo
   canvas.polyline(places, colour, width);
 }
 
-void draw_regions(Canvas& canvas, const DepthCamera& camera, const tof::TofPose& pose,
-                  const tof::ConnectorWorkspace& found) {
-  for (std::int32_t v = 0; v < found.rect.height_px; ++v) {
-    for (std::int32_t u = 0; u < found.rect.width_px; ++u) {
-      if (found.mask.at(u, v)) canvas.tint(found.rect.u + u, found.rect.v + v, colours::kPink, 0.25);
-    }
-  }
+// What stands on the plate: connectors' shapes, others, and the one that gives the turn.
+void draw_boxes(Canvas& canvas, const DepthCamera& camera, const tof::TofPose& pose,
+                const tof::RaisedWorkspace& found) {
   const tof::RingModel& ring = pose.ring.fit.model;
-  for (const tof::RegionReport& region : found.connectors) {
-    draw_rectangle(canvas, camera, ring, region.rectangle, region.height_m, colours::kPink, 1.5);
+  for (const tof::RaisedBox& box : found.boxes) {
+    const bool connector = box.verdict == tof::BoxVerdict::kConnector;
+    draw_rectangle(canvas, camera, ring, box.rectangle, box.height_m, connector ? colours::kPink : colours::kSky, 1.5);
   }
   if (pose.has_turn()) {
     draw_rectangle(canvas, camera, ring, pose.connector.rectangle, pose.connector.height_m, colours::kOrange, 2.5);
@@ -142,7 +139,7 @@ std::vector<std::string> words_of(const tof::TofPose& pose) {
 void write_overlay(const std::string& path, const tof::TofFrame& frame, const DepthCamera& camera,
                    const Result<tof::TofPose, tof::TofFailure>& pose, const tof::TofWorkspace& workspace) {
   Canvas canvas(frame.intensity, Canvas::zoom_for(frame.intensity.width_px));
-  if (pose) draw_regions(canvas, camera, *pose, workspace.connector);
+  if (pose) draw_boxes(canvas, camera, *pose, workspace.raised);
   draw_arcs(canvas, workspace.ellipse);
   draw_ellipses(canvas, workspace.ellipse);
   std::vector<std::string> words;

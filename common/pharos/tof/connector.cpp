@@ -6,6 +6,7 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/tof/connector_heights.hpp"
+#include "pharos/tof/constants.hpp"
 #include "pharos/tof/surroundings.hpp"
 
 namespace pharos::tof {
@@ -25,11 +26,6 @@ constexpr double kMedianNoise = 1.25;
 constexpr double kAlikeArea = 2.0;
 // The smallest rectangle is searched by rotation in these steps.
 constexpr int kTurns = 45;
-// Minimum clearance of a region's centre from the ring, as a fraction of its side.
-constexpr double kClearOfRing = 0.4;
-// Nearer to the ring's centre than this fraction of its outer radius the direction is too inaccurate, and the nozzle is
-// there.
-constexpr double kMinDistance = 0.4;
 
 double ellipse_area_px(const RingModel& ring, const DepthCamera& camera) {
   const double per_m = camera.intrinsics.fx_px / ring.centre_m.z();
@@ -92,16 +88,13 @@ class RegionClassifier {
     report.height_m = mean_height(region);
     measure_shape(region, report);
     report.verdict = verdict(region, report);
-    if (report.verdict == RegionVerdict::kAspect || report.verdict == RegionVerdict::kFill) {
-      report.doubtful = std::fabs(report.height_m) <= 0.9 * kMaxHeight_m && stands_out(region, report);
-    }
     return report;
   }
 
  private:
   RegionVerdict verdict(const Region& region, RegionReport& report) const {
     const double radius = ring_.radius_m[0];
-    if (!(report.distance_m > kMinDistance * radius && report.distance_m < settings_.reach * radius)) {
+    if (!(report.distance_m > kMinConnectorDistance * radius && report.distance_m < settings_.reach * radius)) {
       return RegionVerdict::kPlace;
     }
     const double clear = kClearOfRing * std::sqrt(report.area_m2);
@@ -283,6 +276,12 @@ void keep_nearest_first(StaticVector<RegionReport, kMaxConnectors>& list, const 
   }
 }
 
+// Equal in height, and in area within the factor: they may be two connectors of one satellite.
+bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor) {
+  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && area_factor * a.area_m2 > b.area_m2 &&
+         a.area_m2 < area_factor * b.area_m2;
+}
+
 // A satellite's connectors are of one kind: regions much smaller or lower than the most prominent are dropped.
 void keep_alike(StaticVector<RegionReport, kMaxConnectors>& list) {
   const auto prominence = [](const RegionReport& report) { return report.step_m * report.area_m2; };
@@ -311,16 +310,10 @@ void for_each_region(ConnectorWorkspace& workspace, BitImage& mask, Visit visit)
 
 }  // namespace
 
-bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor) {
-  return a.step_m > 0.5 * b.step_m && a.step_m < 2.0 * b.step_m && area_factor * a.area_m2 > b.area_m2 &&
-         a.area_m2 < area_factor * b.area_m2;
-}
-
 void find_connectors(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& fit,
                      const ConnectorSettings& settings, ConnectorWorkspace& workspace) {
   workspace.regions.clear();
   workspace.connectors.clear();
-  workspace.doubtful.clear();
   const RingModel& ring = fit.model;
   workspace.rect = search_rect(camera, ring, settings.reach);
   const PixelRect& rect = workspace.rect;
@@ -346,7 +339,6 @@ void find_connectors(const TofFrame& frame, const DepthCamera& camera, const Ray
     const RegionReport report = classifier.report(region);
     if (report.verdict != RegionVerdict::kArea) workspace.regions.push_back(report);
     if (report.verdict == RegionVerdict::kConnector) keep_nearest_first(workspace.connectors, report);
-    if (report.doubtful) keep_nearest_first(workspace.doubtful, report);
   });
   keep_alike(workspace.connectors);
 }

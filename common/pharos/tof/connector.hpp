@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "pharos/base/static_vector.hpp"
+#include "pharos/tof/connector_choice.hpp"
 #include "pharos/tof/height_image.hpp"
 #include "pharos/tof/local_threshold.hpp"
+#include "pharos/tof/planar_rectangle.hpp"
 #include "pharos/tof/regions.hpp"
 #include "pharos/tof/ring_fit.hpp"
 
@@ -15,17 +17,9 @@ namespace pharos::tof {
 /// Why a region of the depth image is not a connector; in the order of the checks.
 enum class RegionVerdict : std::uint8_t { kConnector, kArea, kPlace, kAspect, kFill, kNotRaised };
 
-/// A rectangle in a plane parallel to the ring's, in the axes of axes_of(normal) about the ring's centre.
-struct PlanarRectangle {
-  Vector2 centre_m = Vector2::Zero();
-  double angle_rad = 0.0;  ///< of its first side, from the first axis
-  Vector2 half_sides_m = Vector2::Zero();
-};
-
 /// A region found by the local threshold, and the results of the filters.
 struct RegionReport {
   RegionVerdict verdict = RegionVerdict::kArea;
-  bool doubtful = false;  ///< stands out like a connector, but has another shape
   std::int32_t area_px = 0;
   std::int32_t left = 0, top = 0, right = 0, bottom = 0;  ///< bounds in the frame, included
   double aspect = 0.0;
@@ -40,8 +34,6 @@ struct RegionReport {
 
 /// Maximum number of regions reported of one frame, the first found; beyond that only connectors are kept.
 inline constexpr std::size_t kMaxRegions = 48;
-/// Connectors compared of one frame; satellites have two to four.
-inline constexpr std::size_t kMaxConnectors = 8;
 
 struct ConnectorWorkspace {
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxPixels)> heights;
@@ -54,14 +46,10 @@ struct ConnectorWorkspace {
   PixelRect rect;  ///< of the frame that was searched
   StaticVector<RegionReport, kMaxRegions> regions;
   StaticVector<RegionReport, kMaxConnectors> connectors;
-  /// Regions with the step of a connector but another shape: noise may have enlarged the region.
-  StaticVector<RegionReport, kMaxConnectors> doubtful;
 };
 
-/// Equal in height, and in area within this factor: they may be two connectors of one satellite.
-bool are_alike(const RegionReport& a, const RegionReport& b, double area_factor);
-
-/// Finds regions that stand over their surroundings like a connector (paper 000, 2.2.2): heights over the ring's plane,
+/// The paper's way (2.2.2), for comparison; poses take what find_raised_boxes finds. Regions that stand over their
+/// surroundings like a connector: heights over the ring's plane,
 /// local threshold (5), morphology, region growing, each region's mask recomputed at half its step, filters by area,
 /// aspect ratio and fill in the ring's plane (so that tilt does not change them). Patches of noise pass all these: a
 /// connector must also stand over the median of its surroundings by more than noise can explain, and its outline must

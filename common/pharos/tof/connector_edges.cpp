@@ -4,120 +4,141 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/tof/constants.hpp"
-#include "pharos/tof/layer_intensity.hpp"
+#include "pharos/tof/edge_profile.hpp"
 
 namespace pharos::tof {
 namespace {
 
-using Vector5 = Eigen::Matrix<double, 5, 1>;
-using Matrix5 = Eigen::Matrix<double, 5, 5>;
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-constexpr int kSides = 4;
-constexpr int kPointsPerSide = 24;
-// Corners are rounded in the image: the part of a side between them.
-constexpr double kUsedFraction = 0.75;
-constexpr int kSideSearch_px = 4;
-constexpr int kSideRounds = 3;
-constexpr double kSideGate = 3.0;
-constexpr double kMinSideStrength = 0.3;
+// Of the unknowns: centre (0, 1), turn (2), half sides (3, 4), brightness (5), walls of either pair of sides (6, 7),
+// the logarithm of the blur (8).
+constexpr int kBrightness = 5;
+constexpr int kWalls = 6;
+constexpr int kBlur = 8;
+
+constexpr int kRounds = 6;
+// Pixel and lens together blur an edge by this much (1 sigma): a pixel's own width is 0.29 px, lenses double or treble
+// that. The deviation is of its logarithm.
+constexpr double kBlur_px = 0.6;
+constexpr double kBlurSigma = 0.4;
+// Pixels farther inside than this are not of an edge, px.
+constexpr double kRim_px = 2.0;
+// And so far outside, beyond the wall, px.
+constexpr double kOutside_px = 2.5;
+constexpr std::size_t kMaxFacePixels = 3000;
 // A pixel darker than this fraction of the ring and without depth is dark background.
-constexpr double kDarkSideFraction = 0.3;
-constexpr int kMinPerSide = 4;
-// Maximum ratio of a face's sides; anything longer is not a connector.
-constexpr double kMaxSlender = 1.6;
-// Neighbouring profiles share pixels: the variance of their mean is wider by this factor (measured on white noise).
+constexpr double kDarkFraction = 0.3;
+// Residuals larger than this many deviations count as much as one of that size (Huber).
+constexpr double kHuber = 1.5;
+// A wall's brightness over the top's follows the cosine of incidence to this fraction.
+constexpr double kWallSigma = 0.3;
+// Sides differ by this fraction (1 sigma): the paper's limits of 0.7 and 1.5 are 2.5 such deviations.
+constexpr double kSquareSigma = 0.15;
+// Neighbouring pixels share noise: the variance of a mean is wider by this factor (correlated over 1.5 px).
 constexpr double kCorrelation = 2.0;
-// Walls brighter than the cosine law, foil of uneven height and rounded corners shift the rectangle as a whole:
-// averaging does not reduce that. Root mean square over the simulated classes.
+// Foil of uneven height, rounded corners and painted rims shift the rectangle as a whole: averaging does not reduce
+// that. Root mean square over the simulated classes.
 constexpr double kSilhouetteSigma_px = 0.1;
-// Deviation of a region's centroid, px: used where its edges are not seen.
-constexpr double kCentroidSigma_px = 0.8;
+// Deviation of a box's centre in the depths, px: used where its edges are not fitted.
+constexpr double kCoarseSigma_px = 0.8;
+// Of a fit that follows the box: sides over those of the box, either way, and movement of the centre in pixels.
+constexpr double kMaxSideChange = 1.5;
+constexpr double kMaxMove_px = 2.5;
+// Scatter of the pixels over the top's brightness: beyond it there is no rectangle.
+constexpr double kMaxScatter = 0.5;
 
-struct SidePoint {
-  int side = 0;
-  Vector2 planar_m = Vector2::Zero();
-  double strength = 0.0;
-};
-using SidePoints = StaticVector<SidePoint, static_cast<std::size_t>(kSides* kPointsPerSide)>;
-
-Vector2 outward(const PlanarRectangle& rectangle, int side) {
-  const double angle = rectangle.angle_rad + 0.5 * kPi * side;
-  return {std::cos(angle), std::sin(angle)};
+double median(double* values, std::size_t count) {
+  double* middle = values + count / 2;
+  std::nth_element(values, middle, values + count);
+  return *middle;
 }
-double half_side(const PlanarRectangle& rectangle, int side) { return rectangle.half_sides_m[side % 2]; }
 
 class FaceFitter {
  public:
-  FaceFitter(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring)
+  FaceFitter(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
+             const RaisedBox& box)
       : frame_(frame),
         camera_(camera),
         rays_(rays),
         ring_(ring.model),
         axes_(axes_of(ring.model.normal)),
         plane_(ring.model.plane()),
-        dark_counts_(kDarkSideFraction * ring.amplitude) {}
+        dark_counts_(kDarkFraction * ring.amplitude),
+        box_(box) {}
 
-  ConnectorFace fit(const RegionReport& region) {
+  ConnectorFace fit() {
     ConnectorFace face;
-    // A square of the region's area about its centroid: protrusions affect the smallest rectangle more than these.
-    const double half = 0.5 * std::sqrt(region.area_m2);
-    face.rectangle = {region.centroid_m, region.rectangle.angle_rad, Vector2(half, half)};
-    measure_heights(region, face);
+    face.rectangle = box_.rectangle;
+    measure_height(face);
     metres_per_px_ = ring_.centre_m.z() / camera_.intrinsics.fx_px;
-    const double coarse = kCentroidSigma_px * metres_per_px_;
+    const double coarse = kCoarseSigma_px * metres_per_px_ / std::max(0.3, -ring_.normal.z());
     face.covariance = coarse * coarse * Matrix2::Identity();
+    if (!prepare(face)) return face;
+    take_pixels(face);
     ConnectorFace refined = face;
-    for (int round = 0; round < kSideRounds; ++round) {
-      find_points(refined);
-      if (!improve(refined)) return face;
-    }
-    // A rectangle that diverged from its region followed other edges.
-    const Vector2 moved = refined.rectangle.centre_m - face.rectangle.centre_m;
-    if (moved.norm() > 2.0 * metres_per_px_ + 0.25 * face.rectangle.half_sides_m.maxCoeff()) return face;
-    const Vector2& sides = refined.rectangle.half_sides_m;
-    if (sides.maxCoeff() > kMaxSlender * sides.minCoeff() || refined.edge_rms_px > 1.0) return face;
+    if (!refine(refined) || !follows_box(refined)) return face;
     return refined;
   }
 
-  // Position at which the square of half side `half`, its sides along the axes, has the greatest mean height.
-  Vector2 highest_place(const RegionReport& region, double half) const {
-    constexpr int kSteps = 8;  // to either side
-    constexpr int kGrid = 5;
-    const double reach = std::max(half, region.rectangle.half_sides_m.maxCoeff());
-    Vector2 best = region.centroid_m;
-    double best_height = -kMaxHeight_m;
-    for (int i = -kSteps; i <= kSteps; ++i) {
-      for (int j = -kSteps; j <= kSteps; ++j) {
-        const Vector2 place = region.rectangle.centre_m + reach / kSteps * Vector2(i, j);
-        double sum = 0.0;
-        for (int k = 0; k < kGrid * kGrid; ++k) {
-          const Vector2 off(k % kGrid - kGrid / 2, k / kGrid - kGrid / 2);
-          double height = 0.0;
-          const bool seen = height_at(place + 0.4 * half * off, region.height_m, height);
-          sum += seen ? std::clamp(height, -kMaxHeight_m, 0.0) : -kMaxHeight_m;
+ private:
+  // The top from its inner pixels, the plate from the box's surroundings.
+  void measure_height(ConnectorFace& face) {
+    constexpr int kGrid = 9;
+    std::array<double, kGrid * kGrid> heights{};
+    std::size_t count = 0;
+    const PlanarRectangle& r = face.rectangle;
+    for (int i = 0; i < kGrid; ++i) {
+      for (int j = 0; j < kGrid; ++j) {
+        const double s = 0.7 * (2.0 * i / (kGrid - 1) - 1.0) * r.half_sides_m.x();
+        const double t = 0.7 * (2.0 * j / (kGrid - 1) - 1.0) * r.half_sides_m.y();
+        double height = 0.0;
+        if (height_at(r.centre_m + s * r.outward(0) + t * r.outward(1), box_.height_m, height)) {
+          heights[count++] = height;
         }
-        if (sum <= best_height * kGrid * kGrid) continue;
-        best_height = sum / (kGrid * kGrid);
-        best = place;
       }
     }
-    return best;
+    base_m_ = box_.base_m;
+    face.height_m = box_.height_m;
+    face.sigma_height_m = 0.25 * box_.step_m();
+    if (count > 8) {
+      face.height_m = median(heights.data(), count);
+      for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - face.height_m);
+      const double spread = kMedianToSigma * median(heights.data(), count);
+      // Noise is correlated between samples: a seventh of them count. A median is noisier than a mean by 1.25.
+      face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
+    }
+    measure_base(face);
+  }
+  void measure_base(const ConnectorFace& face) {
+    constexpr int kAround = 64;
+    std::array<double, kAround> feet{};
+    std::size_t found = 0;
+    const double halfway = 0.5 * (box_.height_m + box_.base_m);
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = kTwoPi * k / kAround;
+      const Vector2 place = face.rectangle.centre_m +
+                            1.9 * face.rectangle.half_sides_m.maxCoeff() * Vector2(std::cos(angle), std::sin(angle));
+      double height = 0.0;
+      if (height_at(place, box_.base_m, height) && height < halfway && height > box_.base_m - box_.step_m()) {
+        feet[found++] = height;
+      }
+    }
+    if (found > kAround / 4) base_m_ = median(feet.data(), found);
   }
 
- private:
   Vector3 point(const Vector2& planar, double height) const {
     return ring_.centre_m + planar.x() * axes_.first + planar.y() * axes_.second + height * ring_.normal;
   }
-  Vector2 planar(const Vector2& pixel, double height) const {
-    const Vector2 ray = rays_.at(pixel.x(), pixel.y());
+  Vector2 planar(const Vector2& ray, double height) const {
     const double z = (1.0 - height * plane_.q.norm()) * plane_.z_m(ray);
     const Vector3 arm = z * Vector3(ray.x(), ray.y(), 1.0) - ring_.centre_m;
     return {axes_.first.dot(arm), axes_.second.dot(arm)};
   }
-  // Height of the pixel at a plan position, NaN-free: false where it has none.
+  // Height of the pixel at a plan position: false where it has none.
   bool height_at(const Vector2& plan, double height, double& result) const {
     const auto pixel = project(camera_.intrinsics, point(plan, height));
     if (!pixel) return false;
@@ -128,152 +149,194 @@ class FaceFitter {
     return true;
   }
 
-  // The face's height from its interior, the base's from a frame around it (median: a neighbour may stand there).
-  void measure_heights(const RegionReport& region, ConnectorFace& face) {
-    face.height_m = region.height_m;
-    constexpr int kGrid = 9;
-    std::array<double, kGrid * kGrid> heights{};
-    std::size_t count = 0;
-    const PlanarRectangle& r = face.rectangle;
-    for (int i = 0; i < kGrid; ++i) {
-      for (int j = 0; j < kGrid; ++j) {
-        const double s = 0.6 * (2.0 * i / (kGrid - 1) - 1.0) * r.half_sides_m.x();
-        const double t = 0.6 * (2.0 * j / (kGrid - 1) - 1.0) * r.half_sides_m.y();
-        double height = 0.0;
-        if (height_at(r.centre_m + s * outward(r, 0) + t * outward(r, 1), region.height_m, height)) {
-          heights[count++] = height;
+  // Pixels' size and walls' slope at the box.
+  bool prepare(const ConnectorFace& face) {
+    const Vector3 middle = point(face.rectangle.centre_m, face.height_m);
+    const auto pixel = project(camera_.intrinsics, middle);
+    if (!pixel || !(face.height_m - base_m_ > 0.3 * box_.step_m())) return false;
+    middle_px_ = *pixel;
+    const Vector2 at = planar(rays_.at(pixel->x(), pixel->y()), face.height_m);
+    per_pixel_.col(0) = planar(rays_.at(pixel->x() + 1.0, pixel->y()), face.height_m) - at;
+    per_pixel_.col(1) = planar(rays_.at(pixel->x(), pixel->y() + 1.0), face.height_m) - at;
+    // In the top's plane, where the wall's foot appears beside its upper edge.
+    foot_ = (face.height_m - base_m_) / ring_.normal.dot(middle) *
+            Vector2(axes_.first.dot(middle), axes_.second.dot(middle));
+    return true;
+  }
+  double blur_m(const Vector2& direction) const { return blur_px_ * (per_pixel_.transpose() * direction).norm(); }
+
+  // Pixels of the rectangle's surroundings, their places in the top's plane.
+  void take_pixels(const ConnectorFace& face) {
+    pixels_.clear();
+    const double step = face.height_m - base_m_;
+    const double reach = face.rectangle.half_sides_m.norm() + foot_.norm();
+    const Matrix2 to_pixel = per_pixel_.inverse();
+    const double wide = to_pixel.row(0).norm() * reach + kOutside_px,
+                 tall = to_pixel.row(1).norm() * reach + kOutside_px;
+    const auto clamped = [](double value, std::int32_t size) {
+      return static_cast<std::int32_t>(std::clamp(value, 0.0, size - 1.0));
+    };
+    const std::int32_t right = clamped(middle_px_.x() + wide, frame_.depth.width_px);
+    const std::int32_t bottom = clamped(middle_px_.y() + tall, frame_.depth.height_px);
+    for (std::int32_t v = clamped(middle_px_.y() - tall, frame_.depth.height_px); v <= bottom; ++v) {
+      for (std::int32_t u = clamped(middle_px_.x() - wide, frame_.depth.width_px); u <= right; ++u) {
+        const std::uint16_t depth = frame_.depth.at(u, v), light = frame_.intensity.at(u, v);
+        if (light == kFullScale) continue;
+        const Vector2 ray = rays_.at(u, v);
+        double layer = 0.0;
+        if (has_depth(depth)) {
+          const double over = (plane_.height_m(ray, depth_z_m(camera_, depth)) - base_m_) / step;
+          if (over > 2.0) continue;  // something before the satellite
+          layer = light * std::max(over, -1.0);
+        } else if (light > dark_counts_) {
+          continue;
         }
+        if (!pixels_.push_back({planar(ray, face.height_m), layer})) return;
       }
     }
-    if (count > 8) {
-      face.height_m = median(heights.data(), count);
-      double spread = 0.0;
-      for (std::size_t i = 0; i < count; ++i) heights[i] = std::fabs(heights[i] - face.height_m);
-      spread = kMedianToSigma * median(heights.data(), count);
-      // Noise is correlated between samples: a seventh of them count.
-      face.sigma_height_m = 1.25 * spread / std::sqrt(std::max(1.0, static_cast<double>(count) / 7.0));
-    } else {
-      face.sigma_height_m = 0.25 * kMaxHeight_m;
-    }
-    constexpr int kAround = 64;
-    std::array<double, kAround> feet{};
-    std::size_t found = 0;
-    for (int k = 0; k < kAround; ++k) {
-      const double angle = kTwoPi * k / kAround;
-      const Vector2 place = r.centre_m + 1.9 * r.half_sides_m.maxCoeff() * Vector2(std::cos(angle), std::sin(angle));
-      double height = 0.0;
-      if (height_at(place, 2.0 * region.height_m, height) && height < face.height_m) feet[found++] = height;
-    }
-    base_m_ = found > 4 ? median(feet.data(), found) : face.height_m;
   }
 
-  static double median(double* values, std::size_t count) {
-    double* middle = values + count / 2;
-    std::nth_element(values, middle, values + count);
-    return *middle;
+  struct Sides {
+    EdgeProfile along, across;
+    Vector2 first, second;
+  };
+  Sides sides_of(const PlanarRectangle& r) const {
+    Sides sides;
+    sides.first = r.outward(0);
+    sides.second = r.outward(1);
+    sides.along = {r.half_sides_m.x(), blur_m(sides.first), foot_.dot(sides.first)};
+    sides.across = {r.half_sides_m.y(), blur_m(sides.second), foot_.dot(sides.second)};
+    return sides;
   }
 
-  void find_points(const ConnectorFace& face) {
-    points_.clear();
-    for (int side = 0; side < kSides; ++side) find_side(face, side);
-    if (points_.empty()) return;
-    std::array<double, kSides * kPointsPerSide> strengths{};
-    for (std::size_t i = 0; i < points_.size(); ++i) strengths[i] = points_[i].strength;
-    const double minimum = kMinSideStrength * median(strengths.data(), points_.size());
-    std::size_t kept = 0;
-    for (const SidePoint& p : points_) {
-      if (p.strength >= minimum) points_[kept++] = p;
-    }
-    points_.resize(kept);
+  // Cosine law: the wall's incidence over the top's.
+  Vector2 cosine_ratio(const PlanarRectangle& r) const {
+    const double step = box_.step_m();
+    return {std::min(1.0, std::fabs(foot_.dot(r.outward(0))) / step),
+            std::min(1.0, std::fabs(foot_.dot(r.outward(1))) / step)};
   }
 
-  void find_side(const ConnectorFace& face, int side) {
-    const PlanarRectangle& r = face.rectangle;
-    const Vector2 normal = outward(r, side);
-    const Vector2 along(-normal.y(), normal.x());
-    const Vector2 middle = r.centre_m + half_side(r, side) * normal;
-    const Vector3 normal_3d = normal.x() * axes_.first + normal.y() * axes_.second;
-    for (int k = 0; k < kPointsPerSide; ++k) {
-      const double t = kUsedFraction * half_side(r, side + 1) * (2.0 * (k + 0.5) / kPointsPerSide - 1.0);
-      const Vector3 p = point(middle + t * along, face.height_m);
-      const auto pixel = project(camera_.intrinsics, p);
-      if (!pixel) continue;
-      const Matrix23 slope = project_jacobian(camera_.intrinsics, p);
-      const Vector2 direction = (slope * normal_3d).normalized();
-      LightProfile light;
-      if (!sample_light(frame_, camera_, rays_, plane_, *pixel, direction, kSideSearch_px, dark_counts_, light))
-        continue;
-      const ProfileEdge edge =
-          steepest_of_samples(light_of_layer(light, kSideSearch_px, face.height_m, base_m_), kSideSearch_px, -1.0);
-      if (!(edge.strength > 0.0)) continue;
-      // Positive where the wall below this side is in sight.
-      const double wall_fraction = p.dot(normal_3d) / p.dot(ring_.normal);
-      const Vector2 wall_px = slope * ((base_m_ - face.height_m) * ring_.normal);
-      const double shift = wall_shift_px(std::min(wall_fraction, kBrightWall), std::fabs(wall_px.dot(direction)));
-      points_.push_back({side, planar(*pixel + (edge.offset_px - shift) * direction, face.height_m), edge.strength});
-    }
-  }
-
-  static Vector5 row_of(const PlanarRectangle& r, const SidePoint& p) {
-    const Vector2 normal = outward(r, p.side);
-    const Vector2 arm = p.planar_m - r.centre_m;
-    Vector5 row = Vector5::Zero();
-    row[0] = normal.x();
-    row[1] = normal.y();
-    row[2] = -Vector2(-normal.y(), normal.x()).dot(arm);
-    row[3 + p.side % 2] = 1.0;
-    return row;
-  }
-  static double residual(const PlanarRectangle& r, const SidePoint& p) {
-    return outward(r, p.side).dot(p.planar_m - r.centre_m) - half_side(r, p.side);
-  }
-
-  bool improve(ConnectorFace& face) const {
-    const std::size_t count = points_.size();
-    std::array<double, kSides * kPointsPerSide> sizes{};
-    std::array<int, kSides> per_side{};
-    Vector5 change = Vector5::Zero();
-    double gate = 4.0 * metres_per_px_;
-    for (int pass = 0; pass < 4; ++pass) {
-      Matrix5 normal = Matrix5::Zero();
-      Vector5 right = Vector5::Zero();
-      double squares = 0.0;
-      per_side.fill(0);
-      int used = 0;
-      for (const SidePoint& p : points_) {
-        const Vector5 row = row_of(face.rectangle, p);
-        const double left = residual(face.rectangle, p) - row.dot(change);
-        if (!(std::fabs(left) < gate)) continue;
-        add_outer<5>(normal, row, 1.0);
-        right += row * residual(face.rectangle, p);
-        squares += left * left;
-        ++used;
-        ++per_side[static_cast<std::size_t>(p.side)];
+  bool refine(ConnectorFace& face) {
+    PlanarRectangle& r = face.rectangle;
+    Vector2 walls = cosine_ratio(r);
+    double brightness = starting_brightness(r);
+    if (!(brightness > 0.0)) return false;
+    double sigma = 0.3 * brightness;
+    for (int round = 0; round < kRounds; ++round) {
+      Matrix9 normal = Matrix9::Zero();
+      Vector9 right = Vector9::Zero();
+      std::size_t used = 0;
+      const Sides sides = sides_of(r);
+      for (const FacePixel& p : pixels_) {
+        Vector9 row;
+        double residual = 0.0;
+        if (!observe(p, r, sides, walls, brightness, row, residual)) continue;
+        const double size = std::fabs(residual);
+        residuals_[used++] = size;
+        const double weight = size > kHuber * sigma ? kHuber * sigma / size : 1.0;
+        add_outer<9>(normal, row, weight);
+        right += weight * residual * row;
       }
-      for (const int n : per_side) {
-        if (n < kMinPerSide) return false;
+      if (used < 24) return false;
+      sigma = std::max(1e-3 * brightness, kMedianToSigma * median(residuals_.data(), used));
+      const double unit = 1.0 / (sigma * sigma);
+      normal *= unit;
+      right *= unit;
+      const Vector2 expected = cosine_ratio(r);
+      for (int k = 0; k < 2; ++k) {
+        const double known = 1.0 / std::pow(kWallSigma * expected[k] + 0.02, 2);
+        normal(kWalls + k, kWalls + k) += known;
+        right[kWalls + k] += known * (expected[k] - walls[k]);
       }
-      const auto inverse = positive_inverse<5>(normal);
+      const double blurred = std::log(blur_px_ / kBlur_px);
+      normal(kBlur, kBlur) += 1.0 / (kBlurSigma * kBlurSigma);
+      right[kBlur] -= blurred / (kBlurSigma * kBlurSigma);
+      // Nearly square, as far as the pixels do not tell.
+      const double half = 0.5 * (r.half_sides_m.x() + r.half_sides_m.y());
+      const double tight = 1.0 / (kSquareSigma * kSquareSigma * half * half);
+      const double excess = r.half_sides_m.x() - r.half_sides_m.y();
+      normal(3, 3) += tight;
+      normal(4, 4) += tight;
+      normal(3, 4) -= tight;
+      normal(4, 3) -= tight;
+      right[3] -= tight * excess;
+      right[4] += tight * excess;
+      const auto inverse = positive_inverse<9>(normal);
       if (!inverse) return false;
-      change = *inverse * right;
+      const Vector9 change = *inverse * right;
       if (!change.allFinite()) return false;
-      if (pass == 3) {
-        const double variance = squares / std::max(1, used - 5);
-        const double common = kSilhouetteSigma_px * metres_per_px_;
-        face.covariance =
-            kCorrelation * variance * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
-        face.edge_rms_px = std::sqrt(variance) / metres_per_px_;
-        face.edge_points = used;
+      r.centre_m += limited(change.head<2>(), metres_per_px_);
+      r.angle_rad += std::clamp(change[2], -0.2, 0.2);
+      for (int k = 0; k < 2; ++k) {
+        const double side = r.half_sides_m[k];
+        r.half_sides_m[k] = std::clamp(side + change[3 + k], 0.7 * side, 1.4 * side);
+        walls[k] = std::clamp(walls[k] + change[kWalls + k], 0.0, 1.2);
       }
-      for (std::size_t i = 0; i < count; ++i) {
-        sizes[i] = std::fabs(residual(face.rectangle, points_[i]) - row_of(face.rectangle, points_[i]).dot(change));
-      }
-      gate = std::max(0.1 * metres_per_px_, kSideGate * kMedianToSigma * median(sizes.data(), count));
+      blur_px_ = kBlur_px * std::exp(std::clamp(blurred + change[kBlur], -0.8, 0.8));
+      brightness = std::clamp(brightness + change[kBrightness], 0.5 * brightness, 2.0 * brightness);
+      face.edge_points = static_cast<std::int32_t>(used);
+      const double common = kSilhouetteSigma_px * metres_per_px_;
+      face.covariance = kCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
     }
-    face.rectangle.centre_m += change.head<2>();
-    face.rectangle.angle_rad += change[2];
-    face.rectangle.half_sides_m += change.tail<2>();
-    return face.rectangle.half_sides_m.minCoeff() > 0.0 && std::fabs(change[2]) < 0.5;
+    // An edge falls by 0.4 of the brightness over a blur's deviation.
+    face.edge_rms_px = sigma / brightness * blur_px_ / 0.4;
+    return sigma < kMaxScatter * brightness;
+  }
+  static Vector2 limited(const Vector2& by, double most) {
+    const double size = by.norm();
+    return size > most ? Vector2(most / size * by) : by;
+  }
+
+  struct FacePixel {
+    Vector2 place_m;
+    double layer = 0.0;
+  };
+
+  double starting_brightness(const PlanarRectangle& r) {
+    std::size_t count = 0;
+    for (const FacePixel& p : pixels_) {
+      const Vector2 off = p.place_m - r.centre_m;
+      if (std::fabs(r.outward(0).dot(off)) < 0.8 * r.half_sides_m.x() &&
+          std::fabs(r.outward(1).dot(off)) < 0.8 * r.half_sides_m.y()) {
+        residuals_[count++] = p.layer;
+      }
+    }
+    return count > 0 ? median(residuals_.data(), count) : 0.0;
+  }
+
+  // A pixel's residual and derivatives; false where it is not about the sides.
+  bool observe(const FacePixel& p, const PlanarRectangle& r, const Sides& sides, const Vector2& walls,
+               double brightness, Vector9& row, double& residual) const {
+    const Vector2 off = p.place_m - r.centre_m;
+    const double s = sides.first.dot(off), t = sides.second.dot(off);
+    const double inside_s = (r.half_sides_m.x() - std::fabs(s)) / sides.along.blur_m * blur_px_;
+    const double inside_t = (r.half_sides_m.y() - std::fabs(t)) / sides.across.blur_m * blur_px_;
+    if (inside_s > kRim_px && inside_t > kRim_px) return false;
+    if (inside_s < -kOutside_px - std::fabs(sides.along.foot_m) / sides.along.blur_m * blur_px_ ||
+        inside_t < -kOutside_px - std::fabs(sides.across.foot_m) / sides.across.blur_m * blur_px_) {
+      return false;
+    }
+    const EdgeProfile::Value x = sides.along.at(s, walls[0]), y = sides.across.at(t, walls[1]);
+    const double cover = x.value * y.value;
+    const double by_s = brightness * x.by_place * y.value, by_t = brightness * x.value * y.by_place;
+    row << -by_s * sides.first.x() - by_t * sides.second.x(), -by_s * sides.first.y() - by_t * sides.second.y(),
+        by_s * t - by_t * s, brightness * x.by_half * y.value, brightness * x.value * y.by_half, cover,
+        brightness * x.by_wall * y.value, brightness * x.value * y.by_wall,
+        brightness * (x.by_blur * y.value + x.value * y.by_blur);
+    residual = p.layer - brightness * cover;
+    return true;
+  }
+
+  bool follows_box(const ConnectorFace& face) const {
+    const PlanarRectangle &r = face.rectangle, &start = box_.rectangle;
+    const double cell_px = 2.0 * metres_per_px_;
+    if ((r.centre_m - start.centre_m).norm() > kMaxMove_px * metres_per_px_ / std::max(0.3, -ring_.normal.z())) {
+      return false;
+    }
+    const double ratio = std::sqrt(r.area_m2() / start.area_m2());
+    const double allowed = kMaxSideChange + cell_px / (2.0 * start.half_sides_m.minCoeff());
+    return ratio < allowed && ratio * allowed > 1.0 && face.edge_points > 0 &&
+           std::sqrt(face.covariance.trace()) < kCoarseSigma_px * metres_per_px_;
   }
 
   const TofFrame& frame_;
@@ -283,34 +346,22 @@ class FaceFitter {
   PlaneAxes axes_;
   DepthPlane plane_;
   double dark_counts_;
+  const RaisedBox& box_;
   double base_m_ = 0.0;
   double metres_per_px_ = 0.0;
-  SidePoints points_;
+  double blur_px_ = kBlur_px;
+  Vector2 middle_px_ = Vector2::Zero();
+  Matrix2 per_pixel_ = Matrix2::Identity();  // d place in the top's plane / d pixel
+  Vector2 foot_ = Vector2::Zero();
+  StaticVector<FacePixel, kMaxFacePixels> pixels_;
+  std::array<double, kMaxFacePixels> residuals_;
 };
 
 }  // namespace
 
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
-                       const RegionReport& region) {
-  return FaceFitter(frame, camera, rays, ring).fit(region);
-}
-
-ConnectorFace fit_face_within(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                              const RingFit& ring, const RegionReport& region, const ConnectorFace& like) {
-  FaceFitter fitter(frame, camera, rays, ring);
-  const double half = std::sqrt(like.rectangle.half_sides_m.x() * like.rectangle.half_sides_m.y());
-  RegionReport square = region;
-  square.centroid_m = fitter.highest_place(region, half);
-  square.area_m2 = 4.0 * half * half;
-  square.height_m = like.height_m;
-  ConnectorFace face;
-  constexpr int kTurns = 4;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    square.rectangle.angle_rad = 0.5 * kPi * turn / kTurns;
-    face = fitter.fit(square);
-    if (face.edge_points > 0) break;
-  }
-  return face;
+                       const RaisedBox& box) {
+  return FaceFitter(frame, camera, rays, ring, box).fit();
 }
 
 }  // namespace pharos::tof

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
-#include "pharos/tof/connector.hpp"
-#include "pharos/tof/image_profile.hpp"
+#include "pharos/tof/raised_box.hpp"
+#include "pharos/tof/ring_fit.hpp"
 
 namespace pharos::tof {
 
@@ -14,22 +12,22 @@ struct ConnectorFace {
   double height_m = 0.0;  ///< over the ring's plane
   double sigma_height_m = 0.0;
   Matrix2 covariance = Matrix2::Zero();  ///< of the centre, in the ring's plane, m^2
-  double edge_rms_px = 0.0;
-  std::int32_t edge_points = 0;
+  double edge_rms_px = 0.0;              ///< deviation of one pixel at an edge, as a displacement of it
+  std::int32_t edge_points = 0;          ///< pixels used; 0: the fit failed
 };
 
-/// Fits a rectangle to the edges of the face's layer intensity (layer_intensity.hpp) around a region: a region's
-/// centroid is only accurate to a tenth of a pixel, as its rim is affected by noise. Light of the surroundings, which
-/// may be the brighter side, has no influence; upright walls in sight below a side are modelled.
+/// Fits a rectangle to the pixels about the sides of a raised box.
 ///
-/// `edge_points` is 0 where a side has no edge: the region's own centre is then used, with its own deviation.
+/// Observed is each pixel's layer intensity, amplitude x (height - base) / (top - base): the light that comes from the
+/// top, linear in the part of the pixel that the top covers (depths mix weighted by amplitude), whatever the brightness
+/// of what lies beside it. Model: the rectangle's area within the pixel, blurred, and the upright walls in sight, whose
+/// part falls linearly to zero at their foot. Unknowns are centre, turn, sides, the top's brightness and the walls'
+/// brightness over it, the latter with the cosine law as prior; robust Gauss-Newton. The top's inner part is left out:
+/// it may have any pattern.
+///
+/// `edge_points` is 0 where that does not converge to a rectangle near the box: centre and deviation are then those of
+/// the box in the depths.
 ConnectorFace fit_face(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
-                       const RegionReport& region);
-
-/// The same for a region whose outline is not a connector's, because noise or foil has enlarged it: the square of the
-/// size of `like` with the greatest mean height within the region is fitted instead, rotated in steps until its edges
-/// are found.
-ConnectorFace fit_face_within(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                              const RingFit& ring, const RegionReport& region, const ConnectorFace& like);
+                       const RaisedBox& box);
 
 }  // namespace pharos::tof

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pharos/tof/constants.hpp"
+#include "pharos/tof/mixed_pixel.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -60,8 +61,28 @@ void take_places(const InverseDepth& inverse, const Vector2& middle, const Vecto
   }
 }
 
-// False where a pixel has light but no depth; a dark one then counts as no light.
-bool take_corners(const TofFrame& frame, double dark_counts, std::size_t count, Places& places) {
+// Depths over the plane's, less 1, of a pixel: linear in its height.
+struct OverPlane {
+  const TofFrame& frame;
+  const DepthCamera& camera;
+  const InverseDepth& inverse;
+  const Vector2& middle;
+
+  double inverse_z(std::int32_t u, std::int32_t v) const {
+    return inverse.here + (u - middle.x()) * inverse.per_u + (v - middle.y()) * inverse.per_v;
+  }
+  double operator()(std::int32_t u, std::int32_t v) const {
+    return depth_z_m(camera, frame.depth.at(u, v)) * inverse_z(u, v) - 1.0;
+  }
+  // The depth, in counts, of a pixel that is so far over the plane.
+  double counts_of(std::int32_t u, std::int32_t v, double over) const {
+    return ((over + 1.0) / inverse_z(u, v) - camera.depth_origin_z_m) / camera.depth_scale_m;
+  }
+};
+
+// False where a pixel has light but no depth, and its neighbours do not tell it; a dark one counts as no light.
+bool take_corners(const TofFrame& frame, const OverPlane& over, const Vector2& direction, double dark_counts,
+                  std::size_t count, Places& places) {
   const auto dark = static_cast<std::int32_t>(std::clamp(std::floor(dark_counts), -1.0, double{kFullScale}));
   bool usable = true;
   for (std::size_t i = 0; i < count; ++i) {
@@ -69,9 +90,17 @@ bool take_corners(const TofFrame& frame, double dark_counts, std::size_t count, 
     const std::uint16_t* counts = frame.depth.row(places.top[i]) + places.left[i];
     const auto take = [&](std::size_t corner, std::uint16_t bright, std::uint16_t far) {
       const bool seen = has_depth(far);
-      usable = usable && bright != kFullScale && (seen || bright <= dark);
       places.light[corner][i] = seen ? bright : 0;
       places.counts[corner][i] = far;
+      usable = usable && bright != kFullScale;
+      if (seen || bright <= dark || !usable) return;
+      const std::int32_t u = places.left[i] + static_cast<std::int32_t>(corner % 2);
+      const std::int32_t v = places.top[i] + static_cast<std::int32_t>(corner / 2);
+      const auto mixed = mixed_height(frame, u, v, direction, over);
+      usable = mixed.has_value();
+      if (!mixed) return;
+      places.light[corner][i] = bright;
+      places.counts[corner][i] = over.counts_of(u, v, *mixed);
     };
     take(0, light[0], counts[0]);
     take(1, light[1], counts[1]);
@@ -116,7 +145,8 @@ bool sample_light(const TofFrame& frame, const DepthCamera& camera, const RayGri
   const std::size_t count = 2U * static_cast<std::size_t>(search_px + kProfileReach_px) + 1U;
   Places places;
   take_places(inverse, middle, direction, reach, count, places);
-  if (!take_corners(frame, dark_counts, count, places)) return false;
+  const OverPlane over{frame, camera, inverse, middle};
+  if (!take_corners(frame, over, direction, dark_counts, count, places)) return false;
   sum_corners(camera, inverse, 1.0 / plane.q.norm(), count, places, profile);
   return true;
 }

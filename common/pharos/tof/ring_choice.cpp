@@ -58,9 +58,10 @@ bool nested(const Ellipse& outer, const Ellipse& inner, const RingSettings& sett
   return apart < outer.b_px - inner.b_px;
 }
 
+// Between read noise, which grows with the range's square, and shot noise, which grows with the range: the larger.
 double expected_sigma_m(const DepthNoise& noise, double z) {
   const double ratio = z / noise.range_m;
-  return noise.sigma_m * ratio * ratio;
+  return noise.sigma_m * std::max(ratio, ratio * ratio);
 }
 
 // Fraction of the points beside the ring that lie behind its plane, of those with a result.

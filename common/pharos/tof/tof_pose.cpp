@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pharos/ellipse/detect.hpp"
+#include "pharos/tof/connector_choice.hpp"
 #include "pharos/tof/relief_image.hpp"
 
 namespace pharos::tof {
@@ -13,8 +14,6 @@ namespace {
 constexpr double kPartlyHidden = 0.9;
 // A boom that fills most of the frame, and the face behind it.
 constexpr int kFacePlanes = 2;
-// Protrusions and missing corners included.
-constexpr double kDoubtfulArea = 3.0;
 
 void tell(TofStageListener* listener, TofStage ended) {
   if (listener != nullptr) listener->ended(ended);
@@ -25,114 +24,23 @@ bool is_good(const TargetPose& target) {
   return (target.covariance.diagonal().array() > 0.0).all();
 }
 
-// A face and its source.
-struct Choice {
-  ConnectorFace face;
-  bool sure = false;  // its edges were found
-
-  double distance_m() const { return face.rectangle.centre_m.norm(); }
-};
-
-// Connectors are of one kind: their fitted sides agree to within this factor.
-constexpr double kAlikeSides = 1.25;
-
-bool of_one_size(const ConnectorFace& one, const ConnectorFace& other) {
-  const auto area = [](const ConnectorFace& face) {
-    return face.rectangle.half_sides_m.x() * face.rectangle.half_sides_m.y();
-  };
-  const double ratio = area(one) / area(other);
-  return ratio < kAlikeSides * kAlikeSides && ratio * kAlikeSides * kAlikeSides > 1.0;
-}
-
-class ConnectorChoice {
- public:
-  ConnectorChoice(const TofFrame& frame, const DepthCamera& camera, const TofWorkspace& workspace, const RingFit& ring)
-      : frame_(frame), camera_(camera), workspace_(workspace), ring_(ring) {}
-
-  // Nearest first. False where it is undecided whether a region is a nearer connector: then none may be chosen.
-  // Doubtful regions are only used where connectors are missing.
-  bool choose(std::int32_t expected, double min_difference_m) {
-    const auto& found = workspace_.connector.connectors;
-    for (std::size_t i = 0; i < found.size() && i < 3; ++i) add(found[i]);
-    if (static_cast<std::int32_t>(found.size()) >= expected) return true;
-    for (const RegionReport& doubt : workspace_.connector.doubtful) {
-      if (!found.empty() && !are_alike(doubt, found[0], kDoubtfulArea)) continue;
-      if (add_doubtful(doubt, min_difference_m)) continue;
-      if (choices_.empty() || doubt.distance_m < choices_[0].distance_m() + min_difference_m) return false;
-    }
-    return !choices_.empty();
-  }
-  const StaticVector<Choice, 8>& choices() const { return choices_; }
-
- private:
-  // By the edges around the region; else by those of a square like the nearest connector's, which may show another
-  // connector but never a nearer one: protrusions shift it.
-  bool add_doubtful(const RegionReport& doubt, double min_difference_m) {
-    const Choice own = choice_of(doubt);
-    if (own.sure && is_another(own)) {
-      insert(own);
-      return true;
-    }
-    if (choices_.empty() || !choices_[0].sure) return false;
-    const Choice like = choice_like(doubt);
-    if (!like.sure || !is_another(like)) return false;
-    if (like.distance_m() < choices_[0].distance_m() + min_difference_m) return false;
-    insert(like);
-    return true;
-  }
-  Choice choice_of(const RegionReport& region) const {
-    const ConnectorFace face = fit_face(frame_, camera_, workspace_.rays, ring_, region);
-    return {face, face.edge_points > 0};
-  }
-  Choice choice_like(const RegionReport& region) const {
-    const ConnectorFace face = fit_face_within(frame_, camera_, workspace_.rays, ring_, region, choices_[0].face);
-    return {face, face.edge_points > 0};
-  }
-  // Of the same kind, and not one of those already known.
-  bool is_another(const Choice& choice) const {
-    const double side = 2.0 * choice.face.rectangle.half_sides_m.minCoeff();
-    for (const Choice& known : choices_) {
-      const Vector2 apart = choice.face.rectangle.centre_m - known.face.rectangle.centre_m;
-      if (!of_one_size(choice.face, known.face) || apart.norm() < side) return false;
-    }
-    return true;
-  }
-  void add(const RegionReport& region) { insert(choice_of(region)); }
-  void insert(const Choice& choice) {
-    if (!choices_.push_back(choice)) return;
-    for (std::size_t i = choices_.size() - 1; i > 0 && choices_[i].distance_m() < choices_[i - 1].distance_m(); --i) {
-      std::swap(choices_[i], choices_[i - 1]);
-    }
-  }
-
-  const TofFrame& frame_;
-  const DepthCamera& camera_;
-  const TofWorkspace& workspace_;
-  const RingFit& ring_;
-  StaticVector<Choice, 8> choices_;
-};
-
 void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
                    TofWorkspace& workspace, TofStageListener* listener, TofPose& result) {
   const RingFit& ring = result.ring.fit;
-  find_connectors(frame, camera, workspace.rays, ring, settings.connector, workspace.connector);
+  find_raised_boxes(frame, camera, workspace.rays, ring, settings.connector, workspace.raised);
   tell(listener, TofStage::kConnector);
-  ConnectorChoice choice(frame, camera, workspace, ring);
-  const bool told = choice.choose(settings.connector.expected, settings.connector.min_difference_m);
-  const bool few = static_cast<std::int32_t>(choice.choices().size()) < settings.connector.expected;
-  if (!told || few) {
+  const ConnectorChoice choice =
+      choose_connector(frame, camera, workspace.rays, ring, settings.connector, workspace.raised);
+  if (choice.doubt != ConnectorDoubt::kNone) {
     result.flags |= kFlagNoConnector;
-    if (few && !choice.choices().empty()) result.flags |= kFlagFewConnectors;
+    if (choice.doubt == ConnectorDoubt::kHidden) result.flags |= kFlagFewConnectors;
     result.target = target_pose_without_turn(ring);
     return;
   }
-  const auto& choices = choice.choices();
-  result.connector = choices[0].face;
+  result.connector = choice.seen[0].face;
   result.target = target_pose(ring, result.connector);
-  if (!choices[0].sure) result.flags |= kFlagCoarseConnector;
-  if (choices.size() > 1 && choices[1].distance_m() - choices[0].distance_m() < settings.connector.min_difference_m) {
-    result.second = target_pose(ring, choices[1].face);
-  }
+  if (!choice.seen[0].sure) result.flags |= kFlagCoarseConnector;
+  if (choice.two_nearest) result.second = target_pose(ring, choice.seen[1].face);
 }
 
 std::span<const ellipse::DetectedEllipse> ellipses_in(ImageView<const std::uint16_t> image, const TofSettings& settings,
@@ -178,6 +86,7 @@ Result<TofPose, TofFailure> measure_tof_pose(const TofFrame& frame, const DepthC
                                              TofStageListener* listener) {
   workspace.connector.regions.clear();
   workspace.connector.connectors.clear();
+  workspace.raised.boxes.clear();
   workspace.ellipse.found.clear();
   workspace.ellipse.arcs.clear();
   for (RingEdgePoints& points : workspace.edges.points) points.clear();

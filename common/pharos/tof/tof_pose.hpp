@@ -7,6 +7,8 @@
 #include "pharos/base/flag_word.hpp"
 #include "pharos/base/result.hpp"
 #include "pharos/ellipse/workspace.hpp"
+#include "pharos/tof/connector.hpp"
+#include "pharos/tof/connector_edges.hpp"
 #include "pharos/tof/frame_check.hpp"
 #include "pharos/tof/ring_choice.hpp"
 #include "pharos/tof/target_frame.hpp"
@@ -60,6 +62,7 @@ struct TofWorkspace {
   RayGrid rays;
   RingFitWorkspace edges;
   ConnectorWorkspace connector;
+  RaisedWorkspace raised;
 };
 static_assert(sizeof(TofWorkspace) <= 8U * 1024U * 1024U, "fits the board's external memory");
 

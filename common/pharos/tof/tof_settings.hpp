@@ -51,6 +51,8 @@ struct ConnectorSettings {
   double min_aspect = 0.7;
   double max_aspect = 1.5;
   double min_fill = 0.7;
+  /// Both sides of a connector are at least this long. Metres.
+  double min_side_m = 0.04;
   /// Search radius for connectors from the ring's centre, in outer radii.
   double reach = 1.7;
   /// Minimum height of its face over its surroundings, m.

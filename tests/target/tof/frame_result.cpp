@@ -34,8 +34,9 @@ void print_result(const Result<tof::TofPose, tof::TofFailure>& result, const tof
   }
   const tof::RingFit& ring = result->ring.fit;
   ResultLine("tof_ring") << ring.edge_points << ring.plane_pixels << ring.model.radius_m[0] << ring.model.radius_m[1];
-  for (const tof::RegionReport& region : workspace.connector.connectors) {
-    ResultLine("tof_region") << region.area_px << region.left << region.top << region.right << region.bottom;
+  for (const tof::RaisedBox& box : workspace.raised.boxes) {
+    ResultLine("tof_box") << static_cast<int>(box.verdict) << box.rectangle.centre_m.x() << box.rectangle.centre_m.y()
+                          << box.rectangle.half_sides_m.x() << box.rectangle.half_sides_m.y() << box.height_m;
   }
   ResultLine("tof_connector") << result->connector.edge_points << result->connector.rectangle.centre_m.x()
                               << result->connector.rectangle.centre_m.y() << result->connector.height_m;

@@ -120,6 +120,8 @@ class FourTests {
     const auto seen = tof::measure_tof_pose(frame_of(coarse), camera_, {}, *workspace_);
     if (!seen || !seen->has_turn()) return;
     result.eight_bit.add(values_of(seen->target.pose));
+    tof::find_connectors(frame_of(coarse), camera_, workspace_->rays, seen->ring.fit, tof::ConnectorSettings{},
+                         workspace_->connector);
     const auto published_way = paper_pose(coarse, camera_, *seen, *workspace_);
     if (published_way) result.paper.add(values_of(*published_way));
   }
