@@ -57,8 +57,8 @@ TofResult TofEstimator::measure(const DepthFrame& frame) {
   answer.estimate.pose = pose->target.pose;
   answer.estimate.covariance = pose->target.covariance;
   answer.estimate.observations = answer.observations;
-  // Both connectors are as near as can be told: neither fits the frame worse.
-  if (pose->second) answer.estimate.second = {pose->second->pose, 0.0};
+  // Two connectors that are equally near: neither fits the frame worse.
+  if (pose->second) answer.estimate.second = {pose->second->pose, pose->delta_chi2};
   return answer;
 }
 

@@ -27,6 +27,11 @@ struct SyntheticRing {
   double plate_z_m = -0.03;
   double plate_side_m = 0.12;
   std::vector<Vector2> plates{Vector2(0.66, 0.0)};  ///< centres, in T
+  std::vector<Vector2> sides;                       ///< of the first plates, along x and y; the others are square
+
+  Vector2 half_sides(std::size_t plate) const {
+    return 0.5 * (plate < sides.size() ? sides[plate] : Vector2(plate_side_m, plate_side_m));
+  }
 };
 
 struct SyntheticFrame {
@@ -72,16 +77,16 @@ inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_
     return {scene.ring_grey, scene.wall_z_m == 0.0 ? at(0.0) : ring};
   }
   const double plate = at(scene.wall_z_m == 0.0 ? 0.0 : scene.plate_z_m);
-  const double half = 0.5 * scene.plate_side_m;
-  for (const Vector2& middle : scene.plates) {
+  for (std::size_t k = 0; k < scene.plates.size(); ++k) {
+    const Vector2 &middle = scene.plates[k], half = scene.half_sides(k);
     const Vector2 off = plan(plate) - middle;
-    if (std::max(std::fabs(off.x()), std::fabs(off.y())) <= half) return {scene.plate_grey, plate};
+    if (std::fabs(off.x()) <= half.x() && std::fabs(off.y()) <= half.y()) return {scene.plate_grey, plate};
     for (int axis = 0; axis < 2; ++axis) {  // the sides that face the camera
-      const double side = middle[axis] + (d[axis] < 0.0 ? half : -half);
+      const double side = middle[axis] + (d[axis] < 0.0 ? half[axis] : -half[axis]);
       const double s = (side - eye[axis]) / d[axis];
       const double z = eye.z() + s * d.z();
       if (s > 0.0 && z < scene.plate_z_m && z > scene.wall_z_m &&
-          std::fabs(plan(s)[1 - axis] - middle[1 - axis]) <= half) {
+          std::fabs(plan(s)[1 - axis] - middle[1 - axis]) <= half[1 - axis]) {
         return {scene.plate_grey * std::fabs(d[axis] / d.z()), s};
       }
     }

@@ -2,6 +2,7 @@
 // pharos tof: frames of a depth camera to poses of the docking ring (paper 000).
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "host/cameras/camera_file.hpp"
@@ -13,6 +14,7 @@
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
+#include "tools/tof/described_target.hpp"
 #include "tools/tof/overlay.hpp"
 #include "tools/tof/quantise.hpp"
 #include "tools/tof/tof_rows.hpp"
@@ -25,6 +27,8 @@ constexpr const char* kExample =
     "  pharos tof recording --camera camera.toml --overlay pictures > poses.csv\n"
     "The folder holds NNNN_intensity.png with NNNN_depth.png (16 bits), or the same as TIFF or PGM, or "
     "NNNN_abcy16.raw.\n"
+    "  pharos tof recording --camera camera.toml --learn ring.toml; pharos tof other --camera camera.toml --target "
+    "ring.toml\n"
     "Poses are T_camera_target: the ring's centre, and (8) of the paper for the angles. Without a connector (flag "
     "no_connector) gamma and the\n"
     "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.";
@@ -33,6 +37,8 @@ struct Options {
   std::string folder;
   std::string camera;
   std::string overlay;
+  std::string target;
+  std::string learn;
   bool summary = false;
   int window = 1;
   int depth_bits = 16;
@@ -124,9 +130,26 @@ class Rows {
   int in_window_ = 0;
 };
 
+void write_learnt(const std::string& path, const TargetLearner& learner) {
+  if (learner.frames() == 0) {
+    note("--learn: no frame shows ring and connectors; nothing was written to " + path);
+    return;
+  }
+  std::ofstream out(path);
+  if (!(out << host::target_text(learner.learnt()) << std::flush)) {
+    throw host::InputError(path + ": cannot be written; check the folder and the space left");
+  }
+  note("--learn: " + path + " from " + std::to_string(learner.frames()) + " frames");
+}
+
 int run(Options options) {
   if (options.min_diameter_mm > 0.0) options.settings.ring.min_outer_radius_m = 0.0005 * options.min_diameter_mm;
   if (options.max_diameter_mm > 0.0) options.settings.ring.max_outer_radius_m = 0.0005 * options.max_diameter_mm;
+  if (!options.target.empty()) {
+    apply_target(host::read_target_file(options.target), options.target, options.settings);
+  }
+  if (!options.learn.empty()) require_writable(options.learn);
+  TargetLearner learner;
   Measurer measurer(options);
   if (!options.overlay.empty()) {
     std::error_code error;
@@ -140,12 +163,14 @@ int run(Options options) {
   for (std::size_t k = 0; k < measurer.frames(); ++k) {
     const Outcome outcome = measurer.measure(k);
     if (!outcome.pose) reason = outcome.reason;
+    if (outcome.pose && !options.learn.empty()) learner.add(*outcome.pose);
     rows.add(measurer.name(k), outcome, k + 1 == measurer.frames());
     progress.step();
   }
   if (options.summary && rows.summary().frames() > 0) write_summary(output.rows(), rows.summary());
   output.finish();
   const bool answered = rows.summary().frames() > 0;
+  if (!options.learn.empty()) write_learnt(options.learn, learner);
   if (!answered) note(options.folder + ": no frame has a pose; the last one was refused_" + reason);
   return measurer.input().finish(answered);
 }
@@ -171,6 +196,8 @@ void add_tof(CLI::App& app, int& exit_code) {
       ->add_option("--connectors", options->settings.connector.expected,
                    "How many connectors the target carries (default 2); with fewer in sight gamma is not given")
       ->check(CLI::Range(1, 8));
+  command->add_option("--target", options->target, "Target description (TOML): any one of its connectors gives gamma");
+  command->add_option("--learn", options->learn, "Write a target description of ring and connectors, as seen");
   add_output_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -65,7 +65,7 @@ void write_frame(host::RowWriter& rows, const std::string& frame, const tof::Tof
   if (pose.second) {
     write_quaternion(rows, pose.second->pose.R);
     const Vector3& t = pose.second->pose.t;
-    rows.number(t.x()).number(t.y()).number(t.z()).number(0.0);
+    rows.number(t.x()).number(t.y()).number(t.z()).number(pose.delta_chi2);
   } else {
     rows.none(kSecond.size());
   }

@@ -106,6 +106,13 @@ TargetPose target_pose(const RingFit& ring, const ConnectorFace& face) {
   return result;
 }
 
+TargetPose target_pose(const RingFit& ring, const ConnectorFace& face, double direction_rad) {
+  TargetPose result = target_pose(ring, face);
+  // About Z': the error, in the camera frame, is that of the direction to the connector.
+  result.pose.R = result.pose.R * about_z(-direction_rad);
+  return result;
+}
+
 TargetPose target_pose_without_turn(const RingFit& ring) {
   const Vector3& normal = ring.model.normal;
   const PlaneAxes axes = axes_of(normal);

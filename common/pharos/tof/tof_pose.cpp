@@ -6,6 +6,7 @@
 
 #include "pharos/ellipse/detect.hpp"
 #include "pharos/tof/connector_choice.hpp"
+#include "pharos/tof/described_turn.hpp"
 #include "pharos/tof/relief_image.hpp"
 
 namespace pharos::tof {
@@ -24,11 +25,35 @@ bool is_good(const TargetPose& target) {
   return (target.covariance.diagonal().array() > 0.0).all();
 }
 
+// By the description: any one of its connectors gives the turn.
+void add_described(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
+                   const TofWorkspace& workspace, TofPose& result) {
+  const RingFit& ring = result.ring.fit;
+  const auto turn = find_described_turn(frame, camera, workspace.rays, ring, settings.target, workspace.raised);
+  if (!turn) {
+    result.flags |= kFlagNoConnector;
+    result.target = target_pose_without_turn(ring);
+    return;
+  }
+  const auto pose_by = [&](const IdentifiedConnector& one) {
+    const Vector2& place = settings.target.connectors[one.described].place_m;
+    return target_pose(ring, one.face, std::atan2(place.y(), place.x()));
+  };
+  result.connector = turn->best.face;
+  result.target = pose_by(turn->best);
+  if (turn->best.face.edge_points == 0) result.flags |= kFlagCoarseConnector;
+  if (turn->second) {
+    result.second = pose_by(*turn->second);
+    result.delta_chi2 = turn->delta_chi2;
+  }
+}
+
 void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
                    TofWorkspace& workspace, TofStageListener* listener, TofPose& result) {
   const RingFit& ring = result.ring.fit;
   find_raised_boxes(frame, camera, workspace.rays, ring, settings.connector, workspace.raised);
   tell(listener, TofStage::kConnector);
+  if (settings.target.stated()) return add_described(frame, camera, settings, workspace, result);
   const ConnectorChoice choice =
       choose_connector(frame, camera, workspace.rays, ring, settings.connector, workspace.raised);
   if (choice.doubt != ConnectorDoubt::kNone) {
@@ -37,6 +62,7 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
     result.target = target_pose_without_turn(ring);
     return;
   }
+  result.seen = choice.seen;
   result.connector = choice.seen[0].face;
   result.target = target_pose(ring, result.connector);
   if (!choice.seen[0].sure) result.flags |= kFlagCoarseConnector;

@@ -8,6 +8,7 @@
 #include "pharos/base/result.hpp"
 #include "pharos/ellipse/workspace.hpp"
 #include "pharos/tof/connector.hpp"
+#include "pharos/tof/connector_choice.hpp"
 #include "pharos/tof/connector_edges.hpp"
 #include "pharos/tof/frame_check.hpp"
 #include "pharos/tof/ring_choice.hpp"
@@ -38,10 +39,12 @@ inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "n
 /// The measured pose of one frame, T_camera_target, and the measurements behind it.
 struct TofPose {
   TargetPose target;
-  /// Where two connectors are equally near: the pose by the other one.
+  /// Where two connectors are equally near, or two turns explain a target description: the pose by the other one.
   std::optional<TargetPose> second;
+  double delta_chi2 = 0.0;  ///< by which the second explains the frame worse
   RingChoice ring;
   ConnectorFace connector;  ///< unless kFlagNoConnector
+  SeenConnectors seen;      ///< nearest first; by a target description none
   std::uint8_t flags = 0;
 
   bool ambiguous() const { return second.has_value(); }

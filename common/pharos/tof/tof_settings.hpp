@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "pharos/ellipse/settings.hpp"
+#include "pharos/tof/target_description.hpp"
 
 namespace pharos::tof {
 
@@ -70,6 +71,7 @@ struct TofSettings {
   RingSettings ring;
   DepthNoise noise;
   ConnectorSettings connector;
+  TargetDescription target;
 };
 
 }  // namespace pharos::tof

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/tof/described_turn.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::tof {
+namespace {
+
+// Distances, places and heights agree within this many deviations, and within this much beside: foil under a connector,
+// rounded corners.
+constexpr double kGate = 4.0;
+constexpr double kPlaceMargin_m = 0.004;
+constexpr double kHeightMargin_m = 0.012;
+// Sides agree to within this factor: noise of a cell on either side, at the far end.
+constexpr double kLikeDescribed = 1.35;
+// What one connector can say at most for or against a turn, as the logarithm of odds. One that is absent in plain sight
+// says less: bodies differ from drawings, and any one connector gives the turn.
+constexpr double kMaxFor = 15.0;
+constexpr double kMaxAgainst = 10.0;
+// Turns closer than this are one, rad.
+constexpr double kSameTurn_rad = 0.05;
+// DESIGN's bound on the second minimum's chi-squared.
+constexpr double kAmbiguous = 9.21;
+
+struct Hypothesis {
+  std::size_t seen = 0;
+  std::size_t described = 0;
+  double turn_rad = 0.0;
+  double log_odds = 0.0;
+};
+
+class TurnFinder {
+ public:
+  TurnFinder(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingFit& ring,
+             const TargetDescription& target, const RaisedWorkspace& workspace)
+      : frame_(frame), camera_(camera), rays_(rays), ring_(ring), target_(target), workspace_(workspace) {}
+
+  std::optional<DescribedTurn> find() {
+    for (const RaisedBox& box : workspace_.boxes) {
+      if (box.verdict == BoxVerdict::kStructure || faces_.full()) continue;
+      faces_.push_back(fit_face(frame_, camera_, rays_, ring_, box));
+    }
+    propose();
+    const Hypothesis* best = nullptr;
+    for (const Hypothesis& one : hypotheses_) {
+      if (one.log_odds > 0.0 && (best == nullptr || better(one, *best))) best = &one;
+    }
+    if (best == nullptr) return std::nullopt;
+    const Hypothesis* second = nullptr;
+    for (const Hypothesis& one : hypotheses_) {
+      if (same_turn(one, *best) || (second != nullptr && one.log_odds <= second->log_odds)) continue;
+      second = &one;
+    }
+    DescribedTurn result{{faces_[best->seen], best->described}, std::nullopt, 0.0};
+    if (second != nullptr) {
+      result.delta_chi2 = std::max(0.0, 2.0 * (best->log_odds - second->log_odds));
+      if (result.delta_chi2 < kAmbiguous) {
+        result.second = IdentifiedConnector{faces_[second->seen], second->described};
+      }
+    }
+    return result;
+  }
+
+ private:
+  static bool same_turn(const Hypothesis& a, const Hypothesis& b) {
+    return std::fabs(std::remainder(a.turn_rad - b.turn_rad, kTwoPi)) < kSameTurn_rad;
+  }
+  // Of one turn: by the connector whose direction is best known.
+  bool better(const Hypothesis& one, const Hypothesis& other) const {
+    if (!same_turn(one, other)) return one.log_odds > other.log_odds;
+    return direction_sigma(faces_[one.seen]) < direction_sigma(faces_[other.seen]);
+  }
+  static double direction_sigma(const ConnectorFace& face) {
+    return std::sqrt(face.covariance.trace()) / std::max(0.01, face.rectangle.centre_m.norm());
+  }
+
+  void propose() {
+    for (std::size_t seen = 0; seen < faces_.size(); ++seen) {
+      for (std::size_t k = 0; k < target_.connectors.size(); ++k) {
+        const Vector2 &at = faces_[seen].rectangle.centre_m, &described = target_.connectors[k].place_m;
+        if (!(described.norm() > 0.0) || !could_be(faces_[seen], target_.connectors[k])) continue;
+        if (std::fabs(at.norm() - described.norm()) > gate_m(faces_[seen], target_.connectors[k])) continue;
+        const double turn = std::atan2(at.y(), at.x()) - std::atan2(described.y(), described.x());
+        hypotheses_.push_back({seen, k, turn, log_odds(turn)});
+      }
+    }
+  }
+
+  double gate_m(const ConnectorFace& face, const DescribedConnector& described) const {
+    return kPlaceMargin_m +
+           kGate * std::sqrt(0.5 * face.covariance.trace() + described.sigma_place_m * described.sigma_place_m);
+  }
+
+  // By height, over the ring's plane or over the plate, and size.
+  bool could_be(const ConnectorFace& face, const DescribedConnector& described) const {
+    const double gate = kHeightMargin_m + kGate * std::hypot(face.sigma_height_m, described.sigma_height_m);
+    const double over_plate = face.height_m - plate_at(face.rectangle.centre_m);
+    if (std::min(std::fabs(face.height_m - described.height_m), std::fabs(over_plate - described.height_m)) > gate) {
+      return false;
+    }
+    const auto alike = [](double a, double b) { return a < kLikeDescribed * b && b < kLikeDescribed * a; };
+    const Vector2 sides = 2.0 * face.rectangle.half_sides_m;
+    return alike(sides.minCoeff(), described.size_m.minCoeff()) && alike(sides.maxCoeff(), described.size_m.maxCoeff());
+  }
+  double plate_at(const Vector2& place) const {
+    return place.norm() < ring_.model.radius_m[0] ? workspace_.base_m : workspace_.outer_base_m;
+  }
+
+  // Of a turn, all described connectors together.
+  double log_odds(double turn) const {
+    const double c = std::cos(turn), s = std::sin(turn);
+    double sum = 0.0;
+    for (const DescribedConnector& described : target_.connectors) {
+      const Vector2 place(c * described.place_m.x() - s * described.place_m.y(),
+                          s * described.place_m.x() + c * described.place_m.y());
+      sum += stands_at(place, described) ? kMaxFor : std::clamp(evidence_at(place, described), -kMaxAgainst, 0.0);
+    }
+    return sum;
+  }
+  bool stands_at(const Vector2& place, const DescribedConnector& described) const {
+    return std::any_of(faces_.begin(), faces_.end(), [&](const ConnectorFace& face) {
+      // The turn is that of one of them, whose own error moves the others' places.
+      return could_be(face, described) && (face.rectangle.centre_m - place).norm() < 2.0 * gate_m(face, described);
+    });
+  }
+  // In the ring's plane a face appears where its ray meets it.
+  double evidence_at(const Vector2& place, const DescribedConnector& described) const {
+    const ReliefGrid& grid = workspace_.grid;
+    const double plate = plate_at(place);
+    // Heights over the plate are positive; one over the ring's plane is seldom as far over it as the plate is below.
+    const double over_plane = described.height_m > -0.5 * plate ? described.height_m + plate : described.height_m;
+    const PlaneAxes axes = axes_of(ring_.model.normal);
+    const Vector3 point = ring_.model.centre_m + place.x() * axes.first + place.y() * axes.second;
+    const Vector2 slope = Vector2(axes.first.dot(point), axes.second.dot(point)) / -ring_.model.normal.dot(point);
+    const Vector2 seen_at = place + over_plane * slope;
+    const auto column = static_cast<int>(std::lround(grid.column_of(seen_at.x())));
+    const auto row = static_cast<int>(std::lround(grid.column_of(seen_at.y())));
+    if (column < 0 || row < 0 || column >= grid.side() || row >= grid.side()) return 0.0;
+    return log_likelihood_of_box(workspace_, ring_.model, column, row, 0.5 * described.size_m.minCoeff(),
+                                 over_plane - plate);
+  }
+
+  const TofFrame& frame_;
+  const DepthCamera& camera_;
+  const RayGrid& rays_;
+  const RingFit& ring_;
+  const TargetDescription& target_;
+  const RaisedWorkspace& workspace_;
+  StaticVector<ConnectorFace, kMaxRaised> faces_;
+  StaticVector<Hypothesis, kMaxRaised * kMaxDescribed> hypotheses_;
+};
+
+}  // namespace
+
+std::optional<DescribedTurn> find_described_turn(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                                 const RingFit& ring, const TargetDescription& target,
+                                                 const RaisedWorkspace& workspace) {
+  return TurnFinder(frame, camera, rays, ring, target, workspace).find();
+}
+
+}  // namespace pharos::tof
