@@ -13,8 +13,8 @@ namespace {
 using ellipse::DetectedEllipse;
 using ellipse::Ellipse;
 
-// Narrower rings leave no pixel between their mixed edges.
-constexpr double kMinWidth_px = 2.5;
+// Narrower rings leave no pixel between their edges. A ring 3 px wide is detected up to a pixel narrower.
+constexpr double kMinWidth_px = 1.5;
 // Two circles of one plane have images of one shape but for perspective, a few per cent at these distances.
 constexpr double kMaxShapeDifference = 0.12;
 // Pairs checked and pairs measured: nested ellipses are few, and the right pair has the most pixels.
@@ -213,7 +213,9 @@ class RingSelector {
   bool stands_out(const RingModel& model, const PlaneFit& plane) const {
     // Far enough from the edges that no pixel there is mixed with the ring's own.
     const double beside = 3.5 * model.centre_m.z() / camera_.intrinsics.fx_px / std::max(0.3, -model.normal.z());
-    const double step = std::max(settings_.min_step_m, 3.0 * plane.rms_m);
+    // One deviation: of painted circles' surroundings two of three are then level, of dark foil behind a far ring one
+    // of twenty.
+    const double step = std::max(settings_.min_step_m, plane.rms_m);
     return step_fraction(frame_, camera_, rays_, model, model.radius_m[0] + beside, step) >= kMinStepFraction &&
            step_fraction(frame_, camera_, rays_, model, model.radius_m[1] - beside, step) >= kMinStepFraction;
   }
