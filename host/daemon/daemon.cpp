@@ -38,7 +38,13 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
       clock_(clock),
       publisher_(sink, config.lcm.channel_prefix),
       log_limit_(kLogPeriod_ns),
-      context_{loop_, clock, publisher_, config_, replay_speed, [this] { stop_when_all_finished(); }},
+      context_{loop_,
+               clock,
+               publisher_,
+               config_,
+               replay_speed,
+               [this] { stop_when_all_finished(); },
+               [this] { publish_health(); }},
       started_ns_(clock.monotonic_ns()) {
   for (const SourceKind& kind : kinds) counts_.emplace_back(kind.noun, kind.open(context_, sources_));
   loop_.watch(signals_.fd(), [this] { on_signal(); });

@@ -88,6 +88,11 @@ void LighthouseFeed::reconfigure() {
   }
 }
 
+void LighthouseFeed::attend() {
+  bytes_->attend(context_.clock.monotonic_ns());
+  if (pipeline_->sight_changed(bytes_->monotonic_now())) context_.on_state_change();
+}
+
 std::vector<SourceHealth> LighthouseFeed::health() {
   SourceHealth health = pipeline_->health(bytes_->device(), bytes_->state(), bytes_->error(), bytes_->monotonic_now());
   NamedCounts& counts = health.counters;

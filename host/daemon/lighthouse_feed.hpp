@@ -21,7 +21,7 @@ class LighthouseFeed final : public Source {
   LighthouseFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory);
 
   const std::string& name() const override { return name_; }
-  void attend() override { bytes_->attend(context_.clock.monotonic_ns()); }
+  void attend() override;
   void reconfigure() override;
   std::vector<SourceHealth> health() override;
   bool finished() const override { return bytes_->finished(); }

@@ -17,6 +17,8 @@ namespace {
 // A target's clock that goes back by more than any reordering on the line was started anew.
 constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
 
+// The attend timer runs ten times a second, and half a second after its last pose an absence is told.
+constexpr std::int64_t kOutOfSight_ns = 300'000'000;
 constexpr const char* kWrongTarget = "wrong_target";
 constexpr const char* kNotIntroduced = "the board has not said yet who it is, and a certain one is expected";
 
@@ -172,6 +174,19 @@ void LighthousePipeline::check_relative_pose() {
               arrival_.monotonic_ns);
   }
   relative_pose_rejected_ = refused;
+}
+
+bool LighthousePipeline::sight_changed(std::int64_t monotonic_ns) {
+  const bool in_sight = rate_.pose_within(kOutOfSight_ns, monotonic_ns);
+  if (in_sight == in_sight_) return false;
+  in_sight_ = in_sight;
+  const std::string why = last_refusal_.empty() ? "" : " (last refusal: " + last_refusal_ + ')';
+  if (in_sight) {
+    log_.info("found", "FOUND: poses come", monotonic_ns);
+  } else {
+    log_.warn("lost", "LOST: no pose for " + std::to_string(kOutOfSight_ns / 1'000'000) + " ms" + why, monotonic_ns);
+  }
+  return true;
 }
 
 void LighthousePipeline::end_of_input() {

@@ -51,6 +51,9 @@ class LighthousePipeline {
   SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_error,
                       std::int64_t monotonic_ns);
 
+  /// Whether the target came into sight or went out of it since the last call; the log tells it.
+  bool sight_changed(std::int64_t monotonic_ns);
+
   /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
   std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
 
@@ -126,6 +129,7 @@ class LighthousePipeline {
   std::int64_t last_sweep_ns_ = -1;
   RateMonitor rate_;
   std::string last_refusal_;
+  bool in_sight_ = false;
   bool relative_pose_rejected_ = false;
   std::optional<std::uint8_t> last_logged_version_;
 };

@@ -58,6 +58,8 @@ struct SourceContext {
   const DaemonConfig& config;
   ReplaySpeed replay_speed = ReplaySpeed::kReal;
   std::function<void()> on_finished = [] {};
+  /// A source calls it when something changed that nobody should wait a second for: the status goes out at once.
+  std::function<void()> on_state_change = [] {};
 };
 
 /// A kind of source, as the daemon knows it.

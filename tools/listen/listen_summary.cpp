@@ -48,9 +48,10 @@ double ErrorSums::rms_rotation_rad() const { return root_mean(squared_rotation_r
 double ErrorSums::rms_position_m() const { return root_mean(squared_position_m2, count); }
 
 double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
-  Stream& stream = streams_[{pose.channel, pose.target, pose.station}];
+  Stream& stream = streams_[{pose.channel, pose.target, pose.station, pose.source}];
   SourceSummary& summary = stream.summary;
   summary.channel = pose.channel;
+  summary.source = pose.source;
   summary.target = pose.target;
   summary.station = pose.station;
   if (pose.of_camera) summary.camera = pose.station_id;
@@ -72,7 +73,7 @@ double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
 }
 
 void ListenSummary::add_error(const ReceivedPose& pose, const PoseError& error) {
-  SourceSummary& summary = streams_[{pose.channel, pose.target, pose.station}].summary;
+  SourceSummary& summary = streams_[{pose.channel, pose.target, pose.station, pose.source}].summary;
   const bool uncalibrated = pose.flags.find("uncalibrated") != std::string::npos;
   (uncalibrated ? summary.uncalibrated_error : summary.error).add(error);
 }
@@ -86,8 +87,11 @@ std::vector<SourceSummary> ListenSummary::sources() const {
 std::string summary_text(const std::vector<SourceSummary>& sources) {
   std::string out;
   for (const SourceSummary& source : sources) {
-    const std::string by =
-        source.camera.empty() ? fmt::format("station {}", source.station) : "camera " + source.camera;
+    std::string by = source.camera.empty() ? fmt::format("station {}", source.station) : "camera " + source.camera;
+    const auto same = [&source](const SourceSummary& other) {
+      return other.channel == source.channel && other.target == source.target && other.station == source.station;
+    };
+    if (std::count_if(sources.begin(), sources.end(), same) > 1) by += ", source " + source.source;
     out += fmt::format("{}, target {}, {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost\n", source.channel,
                        source.target, by, source.poses, source.seconds, source.rate_hz(), source.refused, source.lost);
     if (source.poses > 0) {

@@ -26,9 +26,10 @@ struct ErrorSums {
   double rms_position_m() const;
 };
 
-/// Statistics of one station on one target.
+/// Statistics of one station on one target, as one source tells them.
 struct SourceSummary {
   std::string channel;
+  std::string source;
   std::string target;
   int station = 0;
   std::string camera;  // empty: a station's
@@ -55,7 +56,7 @@ class ListenSummary {
   std::vector<SourceSummary> sources() const;
 
  private:
-  using Key = std::tuple<std::string, std::string, int>;  // channel, target, station
+  using Key = std::tuple<std::string, std::string, int, std::string>;  // channel, target, station, source
   struct Stream {
     SourceSummary summary;
     std::int64_t first_utime_us = 0;

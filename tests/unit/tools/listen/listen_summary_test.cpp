@@ -40,6 +40,17 @@ TEST(ListenSummary, CountsLossesByGapsAndNotARestart) {
   EXPECT_EQ(summary.poses(), 6);
 }
 
+TEST(ListenSummary, ThreeSourcesOnOneTargetAreThreeRows) {
+  ListenSummary summary;
+  for (const char* source : {"lighthouse/a", "lighthouse/b", "lighthouse/c"}) {
+    ReceivedPose received = pose(0);
+    received.source = source;
+    summary.add(received, 0);
+  }
+  ASSERT_EQ(summary.sources().size(), 3u);
+  EXPECT_THAT(summary_text(summary.sources()), HasSubstr("source lighthouse/b"));
+}
+
 TEST(ListenSummary, ARefusedCycleIsNoPose) {
   ListenSummary summary;
   summary.add(pose(0, false), 0);
