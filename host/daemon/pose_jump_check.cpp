@@ -9,7 +9,8 @@ namespace pharos::host {
 bool PoseJumpCheck::fits(const Sample& before, const Sample& after) {
   const double tilt_rad = std::acos(std::clamp(before.axis.dot(after.axis), -1.0, 1.0));
   const double moved_m = (after.centre_m - before.centre_m).norm() + kRadius_m * tilt_rad;
-  const double time_s = static_cast<double>(std::max<std::int64_t>(0, after.time_ns - before.time_ns)) * 1e-9;
+  const std::int64_t gap_ns = std::clamp<std::int64_t>(after.time_ns - before.time_ns, 0, kMaxGap_ns);
+  const double time_s = static_cast<double>(gap_ns) * 1e-9;
   return moved_m <= kMaxSpeed_m_s * time_s + kSigmas * std::sqrt(before.variance_m2 + after.variance_m2);
 }
 

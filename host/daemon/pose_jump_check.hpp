@@ -20,6 +20,9 @@ class PoseJumpCheck {
   /// Faster than this a ring cannot be measured: a depth frame is made of exposures over some 30 ms, during which its
   /// edges would move by 30 mm.
   static constexpr double kMaxSpeed_m_s = 1.0;
+  /// Three frames' time. Over a longer gap no more than this counts: who keeps the camera's frames away makes the gap,
+  /// and that nothing was seen does not mean that the target moved.
+  static constexpr std::int64_t kMaxGap_ns = 100'000'000;
   /// From the ring's middle to its edge; of what the configuration takes as a ring by default, the middle.
   static constexpr double kRadius_m = 0.5;
   static constexpr double kSigmas = 5.0;

@@ -98,6 +98,7 @@ void CameraServer::stream(GigeCamera& camera) {
   bool any = false;
   asked_ns_ = 0;
   foreign_ns_.clear();
+  passed_over_ = 0;
   while (pause(milliseconds(0))) {
     const std::int64_t began_ns = monotonic_now_ns();
     const FrameOutcome outcome = take_frame(camera);
@@ -106,7 +107,10 @@ void CameraServer::stream(GigeCamera& camera) {
     any = any || outcome != FrameOutcome::kNone;
     if (outcome != FrameOutcome::kNone) ask(camera, now_ns);
     if (outcome != FrameOutcome::kNone && !foreign) last_ns = now_ns;
-    if (foreign && two_senders(now_ns)) break;
+    // Aravis itself drops a frame whose number was passed: with another sender ahead, those are the camera's own.
+    const std::int64_t passed_over = camera.frames_passed_over();
+    const bool overtaken = passed_over > std::exchange(passed_over_, passed_over);
+    if ((foreign || overtaken) && two_senders(now_ns)) break;
     if (now_ns - last_ns > kSilence_ns) break;
     if (outcome == FrameOutcome::kNone && now_ns - began_ns < ns(kBreath)) pause(kBreath);
     report_.counters.datagrams_discarded = discarded_before_ + camera.discarded_datagrams();

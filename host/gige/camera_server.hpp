@@ -47,6 +47,7 @@ class CameraServer {
   std::int64_t asked_ns_ = 0;
   std::deque<std::int64_t> foreign_ns_;  // when frames came that cannot be the camera's
   bool follows_ptp_ = false;
+  std::int64_t passed_over_ = 0;  // frames whose number had been passed, of this session
   CameraReport report_;
   std::int64_t reported_ns_ = 0;
 };

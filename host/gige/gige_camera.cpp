@@ -58,6 +58,7 @@ struct GigeCamera::Parts {
   std::optional<Heartbeat> heartbeat;
   std::optional<CameraTime> time;
   StreamGuard guard;
+  std::uint64_t packets_per_frame = 1;
   bool believe_source_port = true;
   std::string identity;
   std::string address;
@@ -226,6 +227,7 @@ void GigeCamera::Parts::guard_stream(std::size_t payload_bytes) {
   const gint64 port =
       arv_device_get_integer_feature_value(arv_camera_get_device(camera.get()), "ArvGevSCSP", error.out());
   if (believe_source_port && !error && port > 0 && port <= 0xFFFF) rule.source_port = static_cast<std::uint16_t>(port);
+  packets_per_frame = std::max<std::uint64_t>(1, payload_bytes / rule.packet_size);
   guard = StreamGuard(arv_gv_stream_get_port(ARV_GV_STREAM(stream.get())), rule);
 }
 
@@ -269,6 +271,13 @@ GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port)
 
 GigeCamera::~GigeCamera() {
   if (parts_->stream) parts_->stop();
+}
+
+std::int64_t GigeCamera::frames_passed_over() const {
+  ArvStream* const stream = parts_->stream.get();
+  if (arv_stream_get_info_uint64_by_name(stream, "n_underruns") > 0) return 0;  // then there was no room
+  const std::uint64_t packets = arv_stream_get_info_uint64_by_name(stream, "n_ignored_packets");
+  return static_cast<std::int64_t>(packets / parts_->packets_per_frame);
 }
 
 void GigeCamera::beat_if_due() { parts_->heartbeat->beat_if_due(); }

@@ -60,6 +60,9 @@ class GigeCamera {
   bool follows_ptp() const;
   /// Datagrams to the stream's port that the kernel dropped: not the camera's, or without room.
   std::int64_t discarded_datagrams() const;
+  /// Frames' worth of packets so far whose number Aravis had passed already, while it had room: it drops them by
+  /// itself.
+  std::int64_t frames_passed_over() const;
   /// Tells the camera that its master lives, four times a second; asks it, so not while a frame waits.
   void beat_if_due();
   /// Reads the camera's clock, which its frames' times are held against; not while a frame waits either.

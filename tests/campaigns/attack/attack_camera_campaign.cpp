@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A million hostile datagrams to a camera's process while a lighthouse and the camera measure.
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -77,6 +78,31 @@ TEST_F(AttackCampaign, DatagramsToACamerasPorts) {
       static_cast<long long>(daemon.counter("device.datagrams_discarded", kCamera)),
       static_cast<long long>(daemon.counter("device.frames_out_of_order", kCamera)), static_cast<long long>(deaths),
       daemon.valid_poses(kCamera), back_s);
+}
+
+TEST_F(AttackCampaign, KillsOfACamerasProcess) {
+  constexpr int kKills = 5;
+  start_both();
+  ASSERT_TRUE(both_measure()) << daemon.process().text();
+  double longest_s = 0.0;
+  for (int kill = 1; kill <= kKills; ++kill) {
+    // As after a quiet time: else each restart waits twice as long as the one before.
+    constexpr double kGoodLife_s = 10.5;
+    play_until([] { return false; }, kGoodLife_s);
+    const std::int64_t began_ns = monotonic_now_ns();
+    ::kill(camera_process(), SIGKILL);
+    ASSERT_TRUE(play_until([&] { return daemon.source(kCamera)->state == "gone"; }));
+    ASSERT_TRUE(camera_poses_come(1)) << daemon.process().text();
+    longest_s = std::max(longest_s, static_cast<double>(monotonic_now_ns() - began_ns) * 1e-9);
+  }
+  const std::int64_t lost = lighthouse_poses_lost();
+  const int wrong = false_poses();
+  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(wrong, 0);
+  std::printf("test                    | load                | false | lost | memory\n");
+  std::printf("camera's process killed | %9d times     | %5d | %4lld | pharosd %.0f MiB\n", kKills, wrong,
+              static_cast<long long>(lost), peak_mib(daemon.process().pid()));
+  std::printf("kill to the next pose %.2f s at the most\n", longest_s);
 }
 
 }  // namespace

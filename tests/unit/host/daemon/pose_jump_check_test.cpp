@@ -67,13 +67,14 @@ TEST_F(PoseJumpCheckTest, ATargetThatReallyMovedIsTakenAfterHalfASecond) {
 
 TEST_F(PoseJumpCheckTest, PosesThatDoNotAgreeConfirmNothing) {
   settle();
-  for (int i = 0; i < 12; ++i) EXPECT_FALSE(next(at(0.5 + 0.3 * (i % 3))));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(next(at(0.5 + 0.3 * (i % 3))));
 }
 
-TEST_F(PoseJumpCheckTest, AfterAPauseTheTargetMayBeElsewhere) {
+TEST_F(PoseJumpCheckTest, AfterAPauseATargetThatIsElsewhereIsConfirmedFirst) {
   settle();
   time_ns += 2'000'000'000;
-  EXPECT_TRUE(next(at(1.5)));
+  EXPECT_FALSE(next(at(0.17))) << "who keeps the camera's frames away makes the pause";
+  EXPECT_TRUE(next(at(0.05)));
 }
 
 }  // namespace
