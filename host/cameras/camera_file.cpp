@@ -11,7 +11,8 @@ namespace {
 constexpr Range kScale_m{1e-9, 1.0};
 // The zero of depth is within the camera; the origin of raw coordinates may be far from it.
 constexpr Range kOrigin_m{-10.0, 10.0};
-constexpr Range kOffset_m{-1e4, 1e4};
+// Ten times as far as depth cameras see; -8192 is one in millimetres.
+constexpr Range kOffset_m{-100.0, 100.0};
 
 CameraFile read(const TomlTable& root) {
   CameraFile file;

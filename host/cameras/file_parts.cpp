@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cameras/file_parts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdio>
@@ -13,9 +14,9 @@ namespace {
 
 constexpr std::int64_t kLargestSide_px = 32768;
 // A telescope of 30 m focal length on pixels of 3 um has 1e7; the principal point of a cropped image may be outside of
-// it; narrow fields of view have large coefficients.
+// it (no file of ours describes such a one); narrow fields of view have large coefficients.
 constexpr Range kFocalLength_px{1.0, 1e9};
-constexpr Range kPrincipalPoint_px{-1e6, 1e6};
+constexpr Range kPrincipalPoint_px{-1e6, 1e6};  // then held against the image
 constexpr Range kDistortion{-1e12, 1e12};
 // Two cameras with nine values each, and their relative pose.
 constexpr std::size_t kMaxParameters = 24;
@@ -42,6 +43,21 @@ std::string toml_strings(const std::vector<std::string>& texts) {
   return "[" + out + "]";
 }
 
+// Whether k1, k2, k3 map greater angles to greater radii, as every lens does, out to the corner that is nearest to the
+// principal point: d/dr of r (1 + k1 r^2 + k2 r^4 + k3 r^6).
+bool is_monotonic(const PinholeCamera& camera) {
+  const double x = std::min(camera.cx_px, camera.width_px - camera.cx_px) / camera.fx_px;
+  const double y = std::min(camera.cy_px, camera.height_px - camera.cy_px) / camera.fy_px;
+  const double corner = x * x + y * y;
+  constexpr int kSteps = 32;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double r2 = corner * i / kSteps;
+    const double k1 = camera.distortion[0], k2 = camera.distortion[1], k3 = camera.distortion[4];
+    if (1.0 + r2 * (3.0 * k1 + r2 * (5.0 * k2 + r2 * 7.0 * k3)) <= 0.0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 PinholeCamera read_intrinsics(const TomlTable& table) {
@@ -52,7 +68,14 @@ PinholeCamera read_intrinsics(const TomlTable& table) {
   intrinsics.fy_px = table.number("fy_px", kFocalLength_px);
   intrinsics.cx_px = table.number("cx_px", kPrincipalPoint_px);
   intrinsics.cy_px = table.number("cy_px", kPrincipalPoint_px);
+  if (intrinsics.cx_px < 0.0 || intrinsics.cx_px > intrinsics.width_px)
+    table.fail("cx_px", "lies outside of the image");
+  if (intrinsics.cy_px < 0.0 || intrinsics.cy_px > intrinsics.height_px)
+    table.fail("cy_px", "lies outside of the image");
   intrinsics.distortion = table.vector<5>("distortion", kDistortion);
+  if (!is_monotonic(intrinsics)) {
+    table.fail("distortion", "folds the image: within it a ray further from the axis is seen nearer to it");
+  }
   return intrinsics;
 }
 

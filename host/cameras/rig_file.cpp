@@ -9,7 +9,9 @@
 namespace pharos::host {
 namespace {
 
+// Both cameras are on one spacecraft, or one bench.
 constexpr Range kPosition_m{-1e4, 1e4};
+constexpr double kMaxBaseline_m = 100.0;
 constexpr Range kQuaternion{-1.001, 1.001};
 // A quaternion written with four decimals has a length that is wrong by 1e-4.
 constexpr double kLengthTolerance = 1e-3;
@@ -40,6 +42,9 @@ RigFile read_rig(const TomlTable& root) {
   root.reject_unknown();
   if ((file.left.pose().t - file.right.pose().t).norm() < kMinBaseline_m) {
     right.fail("position_m", "is the left camera's: two cameras in one place see no depth");
+  }
+  if ((file.left.pose().t - file.right.pose().t).norm() > kMaxBaseline_m) {
+    right.fail("position_m", "is more than 100 m from the left camera; positions are in metres");
   }
   return file;
 }

@@ -102,6 +102,34 @@ void add_error(std::vector<std::string>& errors, const char* key, const fs::path
                    std::strerror(reason) + "; change its owner or permissions, or name another");
 }
 
+void add_log_error(std::vector<std::string>& errors, const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) {
+    errors.push_back("log.file: " + file.string() + ": its folder does not exist; create it, or name another");
+    return;
+  }
+  if (!fs::exists(file, error)) return add_error(errors, "log.file", folder);
+  const bool writable = !fs::is_directory(file, error) && ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) == 0;
+  if (!writable) errors.push_back("log.file: " + file.string() + ": cannot be written; name another");
+}
+
+// A port may be plugged in later; what stands in its place must not be something else.
+void add_port_error(std::vector<std::string>& errors, const TargetConfig& target) {
+  if (target.is_replay()) return;
+  const fs::path port = target.port;
+  const std::string key = "target " + target.name + ": port: " + target.port;
+  std::error_code error;
+  if (fs::exists(port, error)) {
+    if (!fs::is_character_file(port, error)) errors.push_back(key + ": is no terminal device; name one (/dev/...)");
+    return;
+  }
+  const bool may_come = port.string().rfind("/dev/", 0) == 0;  // udev makes folders as devices come
+  if (!may_come && !fs::is_directory(port.parent_path(), error)) {
+    errors.push_back(key + ": its folder does not exist; check the path");
+  }
+}
+
 }  // namespace
 
 Environment host_environment() {
@@ -126,6 +154,14 @@ std::vector<std::string> directory_errors(const DaemonConfig& config) {
   std::vector<std::string> errors;
   if (!config.state_directory.empty()) add_error(errors, "state_directory", config.state_directory);
   if (config.recording) add_error(errors, "recording.directory", config.recording->directory);
+  if (config.log.sink == LogSink::kFile) add_log_error(errors, config.log.file);
+  for (const TargetConfig& target : config.targets) add_port_error(errors, target);
+  for (const PointingConfig& telescope : config.telescopes) {
+    std::error_code error;
+    if (fs::is_directory(telescope.directory, error)) continue;
+    errors.push_back("telescope " + telescope.name + ": directory: " + telescope.directory.string() +
+                     ": is no folder; create it, or name another");
+  }
   return errors;
 }
 

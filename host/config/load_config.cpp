@@ -166,11 +166,35 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   return target;
 }
 
-std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const Environment& environment) {
+// Tells what is wrong with each part of a configuration, not only with the first.
+class Errors {
+ public:
+  // Reads one part; what it throws is kept.
+  template <class Read>
+  void attempt(Read&& read) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      if (std::find(lines_.begin(), lines_.end(), error.what()) == lines_.end()) lines_.emplace_back(error.what());
+    }
+  }
+  bool any() const { return !lines_.empty(); }
+  void throw_all() const {
+    std::string text;
+    for (const std::string& line : lines_) text += (text.empty() ? "" : "\n") + line;
+    if (any()) throw InputError(text);
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const Environment& environment,
+                                       Errors& errors) {
   std::vector<TargetConfig> targets;
   std::set<std::string> names;
   std::map<std::string, std::string> ports;  // identity -> spelling
-  for (const TomlTable& table : root.tables("target")) {
+  const auto read = [&](const TomlTable& table) {
     targets.push_back(read_target_table(table, folder, environment));
     const TargetConfig& target = targets.back();
     if (!names.insert(target.name).second) table.fail("name", "\"" + target.name + "\" is taken by another target");
@@ -180,28 +204,39 @@ std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& fo
       table.fail("port", "\"" + target.port + "\" is taken by another target" +
                              (taken->second == target.port ? "" : ", as \"" + taken->second + "\""));
     }
+    table.reject_unknown();
+  };
+  for (const TomlTable& table : root.tables("target")) {
+    errors.attempt([&] { read(table); });
   }
   return targets;
 }
 
 DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   DaemonConfig config;
-  config.source = read_name(root, "source", root.text_or("source", config.source));
-  if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
-  config.lcm = read_lcm(root.table_or_empty("lcm"));
-  config.publish = read_publish(root.table_or_empty("publish"));
-  if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
-  config.log = read_log(root.table_or_empty("log"), folder);
-  config.targets = read_targets(root, folder, environment);
-  config.cameras = read_tof_cameras(root, folder, environment);
-  config.telescopes = read_pointing(root, folder, environment);
-  config.stereos = read_stereos(root, folder, environment, config.cameras);
+  Errors errors;
+  errors.attempt([&] { config.source = read_name(root, "source", root.text_or("source", config.source)); });
+  errors.attempt([&] {
+    if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
+  });
+  errors.attempt([&] { config.lcm = read_lcm(root.table_or_empty("lcm")); });
+  errors.attempt([&] { config.publish = read_publish(root.table_or_empty("publish")); });
+  errors.attempt([&] {
+    if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
+  });
+  errors.attempt([&] { config.log = read_log(root.table_or_empty("log"), folder); });
+  errors.attempt([&] { config.targets = read_targets(root, folder, environment, errors); });
+  errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment); });
+  errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment); });
+  errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras); });
+  // A part that was not read to its end has keys that nobody asked for.
+  errors.attempt([&] { errors.any() ? root.reject_unknown_here() : root.reject_unknown(); });
+  errors.throw_all();
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",
               "is missing; add a [[target]] with name, port and target_file, or a [[camera]] with name, target, "
               "camera_file and serial, or a [[stereo]] or [[telescope]]");
   }
-  root.reject_unknown();
   return config;
 }
 

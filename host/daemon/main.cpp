@@ -2,10 +2,12 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -43,8 +45,20 @@ void ignore_signals() {
   }
 }
 
+bool plays_recordings(const host::DaemonConfig& config) {
+  return std::any_of(config.targets.begin(), config.targets.end(),
+                     [](const auto& source) { return source.is_replay(); }) ||
+         std::any_of(config.cameras.begin(), config.cameras.end(),
+                     [](const auto& source) { return source.is_recorded(); }) ||
+         std::any_of(config.stereos.begin(), config.stereos.end(),
+                     [](const auto& source) { return source.is_recorded(); });
+}
+
 host::DaemonConfig load(const Options& options) {
   const host::DaemonConfig config = host::load_daemon_config(options.config);
+  if (options.fast && options.replay.empty() && !plays_recordings(config)) {
+    throw host::InputError("--fast is for recordings, and there is none; give --replay FILE");
+  }
   return options.replay.empty() ? config : host::replay_config(config, options.replay);
 }
 
@@ -114,7 +128,8 @@ int main(int argc, char** argv) {
   try {
     return options.check ? check(options) : run(options);
   } catch (const host::InputError& error) {
-    std::fprintf(stderr, "pharosd: %s\n", error.what());
+    std::istringstream lines(error.what());
+    for (std::string line; std::getline(lines, line);) std::fprintf(stderr, "pharosd: %s\n", line.c_str());
     return kExitUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pharosd: %s\n", error.what());

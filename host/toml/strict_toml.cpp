@@ -347,7 +347,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   return result;
 }
 
-void TomlTable::reject_unknown() const {
+void TomlTable::reject_unknown_here() const {
   if (state_->table != nullptr) {
     for (const auto& [key, node] : *state_->table) {
       if (state_->asked.contains(key.str())) continue;
@@ -355,6 +355,10 @@ void TomlTable::reject_unknown() const {
       fail(key.str(), "unknown key" + (like.empty() ? std::string() : "; did you mean \"" + like + "\"?"));
     }
   }
+}
+
+void TomlTable::reject_unknown() const {
+  reject_unknown_here();
   for (const auto& [name, child] : state_->children) TomlTable(child).reject_unknown();
 }
 

@@ -80,6 +80,8 @@ class TomlTable {
   /// Throws for the first key, in this table or any table read from it, that nobody asked for; says which known key it
   /// resembles.
   void reject_unknown() const;
+  /// The same for the keys of this table alone.
+  void reject_unknown_here() const;
   /// Throws "file:line: key: message" for a value that was read but cannot be worked with.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   /// Line of the key in the file, or of the table itself where the key is absent.

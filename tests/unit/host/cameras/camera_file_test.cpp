@@ -66,6 +66,16 @@ TEST(CameraFile, ReadsBackExactlyWhatItWrites) {
   EXPECT_EQ(read.calibration->unobservable, file.calibration->unobservable);
 }
 
+TEST(CameraFile, RefusesWhatNoCameraHas) {
+  const auto says = [](const std::string& text, const std::string& words) {
+    return message(text).find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says(kPlain + "offset_m = [-8192.0, -8192.0, 0.0]\n", "offset_m: each must lie in -100 to 100"));
+  EXPECT_TRUE(says(with("cx_px = 321.85", "cx_px = 641.0"), "cx_px: lies outside of the image"));
+  EXPECT_TRUE(says(with("cy_px = 238.94", "cy_px = -1.0"), "cy_px: lies outside of the image"));
+  EXPECT_TRUE(says(with("-0.1991, 0.0809", "-900.0, 0.0809"), "distortion: folds the image"));
+}
+
 TEST(CameraFile, NamesFileLineAndKeyOfWhatIsWrong) {
   EXPECT_EQ(message(with("fx_px = 608.61\n", "")), "camera.toml:1: fx_px: is missing");
   EXPECT_EQ(message(with("fx_px = 608.61", "fx_px = 0.5")), "camera.toml:3: fx_px: must lie in 1 to 1e+09, not 0.5");

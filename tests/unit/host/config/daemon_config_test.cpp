@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -158,6 +159,19 @@ TEST(DaemonConfig, NamesFileLineAndKeyOfAnUnknownKeyAndTheOneMeant) {
   EXPECT_THAT(error_of(std::string("[lcm]\ncolour = 1\n") + kOneTarget),
               StartsWith("p.toml:2: lcm.colour: unknown key"));
   EXPECT_THAT(error_of(std::string("[sonar]\n") + kOneTarget), StartsWith("p.toml:1: sonar: unknown key"));
+}
+
+TEST(DaemonConfig, ReportsWhatIsWrongWithEachPartInOneRun) {
+  const std::string error = error_of(
+      "source = 'a b'\n[lcm]\nurl = 'x'\n[publish]\nmax_age_s = 99\n[log]\nlevel = 'loud'\n[sonar]\n"
+      "[[target]]\nname = 'a'\nport = '/dev/a'\ntarget_file = 'a.csv'\nbauds = 1\n"
+      "[[target]]\nname = 'b'\nport = '/dev/b'\ntarget_file = 'b.csv'\nbaud = 1\n");
+  for (const char* line :
+       {"p.toml:1: source: ", "p.toml:3: lcm.url: ", "p.toml:5: publish.max_age_s: ", "p.toml:7: log.level: ",
+        "p.toml:8: sonar: unknown key", "p.toml:13: target[0].bauds: unknown", "p.toml:18: target[1].baud: "}) {
+    EXPECT_THAT(error, HasSubstr(line));
+  }
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 6);
 }
 
 struct BadConfig {

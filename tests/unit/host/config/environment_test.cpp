@@ -117,6 +117,22 @@ TEST_F(EnvironmentTest, WritableDirectoriesPassAndNothingIsMade) {
   EXPECT_EQ(everything(), before);
 }
 
+TEST_F(EnvironmentTest, WhatStandsInThePlaceOfAPortALogOrATelescopesFolderIsReported) {
+  std::ofstream(path("file")) << "";
+  DaemonConfig config;
+  config.log.sink = LogSink::kFile;
+  config.targets.resize(4);
+  config.targets[0].port = path("file");
+  config.targets[1].port = path("no/port");
+  config.targets[2].port = "/dev/null";
+  config.targets[3].port = path("awaited");
+  config.telescopes.resize(1);
+  config.telescopes[0].directory = path("no");
+  config.log.file = path("file/log");
+  EXPECT_THAT(directory_errors(config), ElementsAre(HasSubstr("log.file: "), HasSubstr("is no terminal device"),
+                                                    HasSubstr("its folder does not exist"), HasSubstr("is no folder")));
+}
+
 TEST_F(EnvironmentTest, AFileInADirectorysPlaceIsReported) {
   std::ofstream(path("file")) << "";
   EXPECT_THAT(errors(path("file"), path("file/below")),
