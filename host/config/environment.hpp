@@ -50,8 +50,9 @@ struct Environment {
 /// This computer's files and devices.
 Environment host_environment();
 
-/// Folders, a log file and ports that cannot be what the configuration says, one line each for a person. Nothing is made
-/// on the disk, not even the directories where they are missing: then the folder that they would be made in is asked.
+/// Folders, a log file and ports that cannot be what the configuration says, one line each for a person. Nothing is
+/// made on the disk, not even the directories where they are missing: then the folder that they would be made in is
+/// asked.
 std::vector<std::string> directory_errors(const DaemonConfig& config);
 
 }  // namespace pharos::host
