@@ -23,6 +23,8 @@ constexpr double kMinContrast = 0.5;    // of the edge's median
 constexpr double kMaxContrast = 1.6;
 constexpr double kDarkness = 0.25;  // of the contrast: tolerance for the dark side to be sky
 constexpr int kMaxMisses = 3;       // in a row: an edge ends there
+// Of a pixel's noise, what the median of an edge's dark levels may be off: many times its own deviation.
+constexpr double kHalfNoise = 0.5;
 constexpr double kCornerSigmas = 3.0;
 constexpr double kBorder_px = 3.0;
 constexpr int kSteps = 8;
@@ -178,6 +180,7 @@ struct Sample {
   int index = 0;
   double across = 0.0;
   double contrast = 0.0;
+  double dark = 0.0;
 };
 
 // Properties of a valid point of this edge.
@@ -200,7 +203,7 @@ std::optional<Sample> sample(const EdgeScan& scan, const TargetMask& target, int
   if (contrast < minimum || std::abs(rise->dark - target.sky) > kDarkness * contrast + 3.0 * target.noise) {
     return std::nullopt;
   }
-  return Sample{index, rise->place, contrast};
+  return Sample{index, rise->place, contrast, rise->dark};
 }
 
 double median(std::vector<double> values) {
@@ -320,11 +323,15 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
   edge.cut = near_border(image, edge.extent.begin, kBorder_px + 1.5 * settings.reach_px) ||
              near_border(image, edge.extent.end, kBorder_px + 1.5 * settings.reach_px);
   const double corner = kCornerSigmas * settings.blur + 1.0;
+  std::vector<double> darks, contrasts;
   for (const Sample& one : samples_between(scan, target, first, last, settings)) {
     const Vector2 place = scan.place(one.index, one.across);
     if ((place - edge.extent.begin).norm() < corner || (place - edge.extent.end).norm() < corner) continue;
     edge.points.push_back({place, 1.0});
+    darks.push_back(one.dark);
+    contrasts.push_back(one.contrast);
   }
+  if (!darks.empty()) edge.backing = (median(darks) - target.sky - kHalfNoise * target.noise) / median(contrasts);
   return edge;
 }
 

@@ -14,7 +14,9 @@ struct MeasuredEdge {
   std::vector<pointing::EdgePoint> points;  ///< in order along the edge, in the distorted image
   Segment extent;                           ///< as far as the edge was followed, corners included
   double blur_px = 0.0;                     ///< sigma of the rise
-  bool cut = false;                         ///< runs into the image's border
+  /// How far the dark side is brighter than the sky, of the edge's contrast: another face in the dark, not the sky.
+  double backing = 0.0;
+  bool cut = false;  ///< runs into the image's border
 };
 
 /// Sub-pixel positions of an edge on the grey image, by a Gaussian's integral fitted to each row's or column's pixels.

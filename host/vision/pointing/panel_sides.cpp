@@ -16,6 +16,8 @@ constexpr double kMinSeenFraction = 0.4;  // of a short edge's length
 constexpr double kCornerOff_px = 6.0;
 constexpr double kCornerOffFraction = 0.015;
 constexpr double kMaxEndTurn = 0.1;
+// Of an edge's contrast: what optics scatter beside an edge stays below it.
+constexpr double kMaxBacking = 0.015;
 
 // The outline's edge between two corners that are known to some pixels; the longest, where others interrupt it.
 const Segment* edge_along(const Segment& guess, const std::vector<Segment>& outline) {
@@ -53,6 +55,7 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   Side side;
   side.cut = edge.cut;
   side.blur_px = edge.blur_px;
+  side.backing = edge.backing;
   side.extent = edge.extent;
   side.points = std::move(edge.points);
   if (!pointing::undo_distortion(side.points, camera)) return PointingRefusal::kOutsideLens;
@@ -76,6 +79,8 @@ Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t
     return why == PointingRefusal::kEdgeUnsure ? PointingRefusal::kOneEdge : why;
   }
   if (!first) return first.error();
+  // A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark.
+  if (std::max(first->backing, second->backing) > kMaxBacking) return PointingRefusal::kNoPanel;
   PanelSides panel{*first, *second, {}};
   measure_ends(image, target, camera, outline, panel);
   return panel;

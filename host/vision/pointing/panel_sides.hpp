@@ -18,6 +18,7 @@ struct Side {
   pointing::LineFit fit;
   Segment extent;  ///< in the image as it was taken
   double blur_px = 0.0;
+  double backing = 0.0;  ///< see MeasuredEdge
   bool cut = false;
 };
 

@@ -97,6 +97,21 @@ TEST(MeasurePanelRefuses, EdgesThatAreNoRectangleInSpace) {
   EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
 }
 
+// A face of a body: beyond one of its sides is another face, in the dark but not as dark as the sky.
+TEST(MeasurePanelRefuses, AFaceWithAnotherOneBesideIt) {
+  const PaintedPanel scene = near_panel(0.95);
+  host::GreyImage image = scene.image();
+  const Vector2 across(-std::sin(0.4), std::cos(0.4));
+  for (int v = 0; v < image.height_px; ++v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      auto& pixel = image.pixels[static_cast<std::size_t>(v) * 512 + static_cast<std::size_t>(u)];
+      const double off = across.dot(Vector2(u - 255.5, v - 255.5));
+      if (off > 0.0 && off < 160.0) pixel = static_cast<std::uint16_t>(pixel + 0.04 * (24600.0 - pixel));
+    }
+  }
+  EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
+}
+
 TEST(MeasurePanelRefuses, APanelThatIsSeenAlongItsAxis) {
   PaintedPanel scene = near_panel(1.45);  // 7 deg off the line of sight
   scene.camera.fx_px = scene.camera.fy_px = 800.0;
