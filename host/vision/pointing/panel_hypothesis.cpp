@@ -25,6 +25,7 @@ constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
 // Of the panel's length: what a third edge needs to be told from an accident.
 constexpr double kMinThirdEdge = 0.15;
 constexpr double kThirdEdgeReach_px = 4.0;
+constexpr double kThirdEdgeOff = 0.02;  // of the panel's length: what lens and fit leave of one line
 // Nearer to the line of sight an axis is a matter of the panel's thickness.
 constexpr double kMinFromSight_rad = 10.0 * kRadPerDeg;
 // Of the best one's length: a shorter one is no rival.
@@ -164,12 +165,19 @@ class Chooser {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
   }
 
-  // An edge beside the panel's own that runs along its axis: the other panel's, where that is half hidden.
+  // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.
   bool is_third(const Hypothesis& h, const Segment& edge) const {
     const EdgePair& pair = h.pairs.front();
     if (edge.length() < kMinThirdEdge * pair.middle.length()) return false;
     const auto is_own = [&](const Segment& own) { return edge.begin == own.begin && edge.end == own.end; };
     if (is_own(pair.first) || is_own(pair.second)) return false;
+    // In line with one of them and beyond its end: beside it a body's edges are as parallel.
+    const auto continues = [&](const Segment& own) {
+      const double at = own.station(edge.middle());
+      const double slack = kThirdEdgeReach_px + kThirdEdgeOff * own.length();
+      return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < slack;
+    };
+    if (!continues(pair.first) && !continues(pair.second)) return false;
     const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
     if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
     const AxisPlane plane = plane_of_line(side->fit.line, camera_);
