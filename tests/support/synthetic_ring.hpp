@@ -15,8 +15,8 @@ namespace pharos::test {
 
 using CameraFromTarget = Pose<frame::Camera, frame::Target>;
 
-/// A minimal scene for measurements of a docking ring: a flat ring in front of a flat wall, and boxes on that. For tests
-/// with exact truth; for all others there is the simulator.
+/// A minimal scene for measurements of a docking ring: a flat ring in front of a flat wall, and boxes on that. For
+/// tests with exact truth; for all others there is the simulator.
 struct SyntheticRing {
   double outer_radius_m = 0.55;
   double inner_radius_m = 0.49;
