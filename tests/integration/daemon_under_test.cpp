@@ -95,12 +95,15 @@ bool DaemonUnderTest::play(StationaryTarget& target, const PseudoTerminal& line,
                            double seconds) {
   const std::int64_t end_ns = monotonic_now_ns() + static_cast<std::int64_t>(seconds * 1e9);
   const auto now_ticks = [&] { return (monotonic_now_ns() - target_clock_zero_ns_) / kNanosecondsPerTick; };
-  std::int64_t ticks = now_ticks();
+  // A station turns on between two calls: its next flash comes after whole turns.
+  const std::int64_t pause_ticks = now_ticks() - last_cycle_ticks_;
+  std::int64_t ticks = last_cycle_ticks_ + pause_ticks / StationaryTarget::kTurn_ticks * StationaryTarget::kTurn_ticks;
   while (!done()) {
     if (monotonic_now_ns() > end_ns) return false;
     ticks += StationaryTarget::kTurn_ticks;
     while (now_ticks() < ticks) listen(static_cast<int>((ticks - now_ticks()) / (kTicksPerSecond / 1000)));
     line.write(target.cycle(ticks));
+    last_cycle_ticks_ = ticks;
     line.write(target.time(now_ticks()));
   }
   return true;

@@ -77,6 +77,7 @@ class DaemonUnderTest {
   std::vector<spin_t> spins_;
   std::optional<status_t> status_;
   std::int64_t target_clock_zero_ns_ = 0;
+  std::int64_t last_cycle_ticks_ = 0;
 };
 
 }  // namespace pharos::host
