@@ -126,6 +126,13 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["points"] = report.points;
   json["loops"] = report.loops;
   json["loops_refused"] = report.loops_refused;
+  const slam::LoopCounts& candidates = report.loop_candidates;
+  json["loop_candidates"] = candidates.candidates;
+  json["loop_candidates_refused"] = {{"geometry", candidates.geometry},
+                                     {"trajectory", candidates.trajectory},
+                                     {"one_surface", candidates.one_surface},
+                                     {"neighbours", candidates.neighbours},
+                                     {"rival", candidates.rival}};
   json["features_median"] = report.features_median;
   json["inliers_median"] = report.inliers_median;
   json["tracking_median_ms"] = report.tracking_median_ms;

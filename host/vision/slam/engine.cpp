@@ -224,7 +224,7 @@ void Engine::close_loop(KeyframeId id) {
   {
     const std::lock_guard lock(mutex_);
     const auto loop = closer_.find(id);
-    figures_.set_loops_refused(closer_.refused());
+    figures_.set_loops_refused(closer_.refused(), closer_.counts());
     if (!loop) return;
     closer_.correct(*loop);
     ++corrections_;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "host/vision/slam/loop_evidence.hpp"
 #include "host/vision/slam/mapping.hpp"
+#include "host/vision/slam/place_gate.hpp"
 #include "host/vision/slam/projection_match.hpp"
 #include "host/vision/slam/rigid_fit.hpp"
 
@@ -13,28 +15,7 @@ namespace {
 constexpr KeyframeId kMinApart = 10;  // keyframes since the start and since the last loop
 constexpr std::size_t kMaxLoopCandidates = 3;
 constexpr int kMinDescriptorMatches = 20, kMinInliers = 40;
-constexpr std::size_t kSurroundings = 10;
-constexpr double kLoopRadius_px = 5.0;
 constexpr int kStrong = 100;  // shared points of an edge of the essential graph
-
-// The feature counts as a corner: it was not aligned with this point's patch.
-Observation corner_of(const Feature& feature, const Vector3& point_m) {
-  Observation at = observation_of(feature, point_m);
-  at.variance_px2 = feature.corner_variance_px2();
-  return at;
-}
-
-std::set<PointId> points_around(const Map& map, KeyframeId id) {
-  std::vector<KeyframeId> around = map.best_neighbours(id, kSurroundings);
-  around.push_back(id);
-  std::set<PointId> points;
-  for (const KeyframeId near : around) {
-    for (const PointId point : map.keyframes.at(near).points) {
-      if (point != kNone) points.insert(point);
-    }
-  }
-  return points;
-}
 
 void move_points(Map& map, const std::map<KeyframeId, CameraFromTarget>& before, const std::set<PointId>& but) {
   for (auto& [id, point] : map.points) {
@@ -59,14 +40,47 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
     for (const auto& [other, also] : map_.keyframes.at(near).neighbours) connected.insert(other);
   }
   const auto candidates = keyframe_database_.detect_candidates(here.words, map_, connected);
+  std::optional<Loop> found;
+  bool rival = false;
   for (std::size_t k = 0; k < std::min(candidates.size(), kMaxLoopCandidates); ++k) {
-    if (auto loop = check(here, candidates[k].keyframe)) return loop;
+    auto loop = check(here, candidates[k].keyframe);
+    if (!loop) continue;
+    if (!found) {
+      found = std::move(loop);
+    } else if (contradicts(
+                   place_offset(loop->corrected, found->corrected),
+                   found->covariance + loop->covariance + drift_between(map_, found->there, loop->there, camera_))) {
+      rival = true;
+    }
   }
-  refused_ += candidates.empty() ? 0 : 1;
-  return std::nullopt;
+  if (found && rival) {
+    counts_.rival += 1;
+    found.reset();
+  }
+  refused_ += candidates.empty() || found ? 0 : 1;
+  return found;
 }
 
 std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate) {
+  ++counts_.candidates;
+  std::optional<Loop> loop = fit(here, candidate);
+  int* refused = nullptr;
+  if (!loop) {
+    refused = &counts_.geometry;
+  } else if (contradicts(place_offset(loop->corrected, here.pose),
+                         drift_between(map_, here.id, candidate, camera_) + loop->covariance)) {
+    refused = &counts_.trajectory;
+  } else if (on_one_plane(map_, loop->seen, here, camera_)) {
+    refused = &counts_.one_surface;
+  } else if (!neighbours_agree(map_, here, loop->corrected, candidate, camera_)) {
+    refused = &counts_.neighbours;
+  }
+  if (refused == nullptr) return loop;
+  ++*refused;
+  return std::nullopt;
+}
+
+std::optional<Loop> LoopCloser::fit(const Keyframe& here, KeyframeId candidate) const {
   const Keyframe& there = map_.keyframes.at(candidate);
   std::vector<bool> known(there.points.size());
   for (std::size_t k = 0; k < known.size(); ++k) known[k] = there.points[k] != kNone;
@@ -78,27 +92,10 @@ std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate
   }
   const auto placed = robust_pose(observations, camera_, kMinDescriptorMatches, static_cast<std::uint64_t>(here.id));
   if (!placed) return std::nullopt;
-  std::vector<Candidate> candidates;
-  for (const PointId id : points_around(map_, candidate)) {
-    const MapPoint& point = map_.points.at(id);
-    candidates.push_back({id, point.position_m, point.descriptor, point.level, kLoopRadius_px, 0.0});
-  }
-  const auto matches =
-      match_by_projection(candidates, here, {}, camera_, placed->pose, {kHighDistanceThreshold, 0.9, false});
-  std::vector<Observation> all;
-  for (const ProjectionMatch& match : matches) {
-    all.push_back(corner_of(here.features[static_cast<std::size_t>(match.feature)],
-                            candidates[static_cast<std::size_t>(match.candidate)].position_m));
-  }
-  const PoseOnly refined = adjust_pose(all, camera_, placed->pose);
-  if (refined.inliers < kMinInliers) return std::nullopt;
-  Loop loop{here.id, candidate, refined.pose, {}};
-  for (std::size_t k = 0; k < matches.size(); ++k) {
-    if (refined.inlier[k]) {
-      loop.seen.emplace_back(matches[k].feature, candidates[static_cast<std::size_t>(matches[k].candidate)].point);
-    }
-  }
-  return loop;
+  const PlaceFit refined = fit_place(map_, here, placed->pose, candidate, camera_);
+  if (refined.pose.inliers < kMinInliers) return std::nullopt;
+  return Loop{here.id, candidate, refined.pose.pose, in_target_axes(refined.pose.pose, refined.pose.covariance),
+              refined.seen};
 }
 
 void LoopCloser::move_side(const Loop& loop, const std::vector<KeyframeId>& side) {

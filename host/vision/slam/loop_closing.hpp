@@ -6,6 +6,7 @@
 
 #include "host/vision/slam/bundle.hpp"
 #include "host/vision/slam/keyframe_database.hpp"
+#include "host/vision/slam/loop_counts.hpp"
 #include "host/vision/slam/map.hpp"
 #include "host/vision/slam/pose_graph.hpp"
 
@@ -15,7 +16,8 @@ namespace pharos::slam {
 struct Loop {
   KeyframeId here = kNone;
   KeyframeId there = kNone;
-  CameraFromTarget corrected;  ///< pose of `here` if that of `there` is right
+  CameraFromTarget corrected;            ///< pose of `here` if that of `there` is right
+  Matrix6 covariance = Matrix6::Zero();  ///< of `corrected`, as a covariance of zeta (place_gate.hpp)
   /// Features of `here` and the matching points of `there`'s side.
   std::vector<std::pair<int, PointId>> seen;
 };
@@ -28,15 +30,19 @@ class LoopCloser {
       : camera_(camera), map_(map), keyframe_database_(keyframe_database) {}
 
   /// Candidates by visual words that share points neither with the keyframe nor with its neighbours, three at most;
-  /// each is checked by robust_pose, then with all points of its neighbourhood: 40 inliers close a loop.
+  /// each is checked by robust_pose, then with all points of its neighbourhood: 40 inliers close a loop, where the pose
+  /// agrees with the trajectory (place_gate.hpp), the points are not on one plane, neighbours of the keyframe find the
+  /// place too (loop_evidence.hpp), and no other candidate asks for another pose.
   std::optional<Loop> find(KeyframeId keyframe);
   /// Moves the keyframe and its neighbours to the corrected poses, fuses duplicate points, and distributes the
   /// remaining error over all others by the essential graph (spanning tree, strong covisibility, loops).
   void correct(const Loop& loop);
   int refused() const { return refused_; }
+  const LoopCounts& counts() const { return counts_; }
 
  private:
   std::optional<Loop> check(const Keyframe& here, KeyframeId candidate);
+  std::optional<Loop> fit(const Keyframe& here, KeyframeId candidate) const;
   std::vector<PoseEdge> essential_edges(const std::map<KeyframeId, CameraFromTarget>& before) const;
   void move_side(const Loop& loop, const std::vector<KeyframeId>& side);
 
@@ -45,6 +51,7 @@ class LoopCloser {
   const KeyframeDatabase& keyframe_database_;
   KeyframeId closed_at_ = kNone;
   int refused_ = 0;
+  LoopCounts counts_;
 };
 
 /// Writes the solution of a global problem into a map that grew meanwhile: later keyframes move with their parents,

@@ -27,7 +27,10 @@ class RunFigures {
   void add_keyframe() { ++counts_.keyframes_made; }
   void add_mapping(double took_ms);
   void add_loop(double took_ms);
-  void set_loops_refused(int count) { counts_.loops_refused = count; }
+  void set_loops_refused(int count, const LoopCounts& candidates) {
+    counts_.loops_refused = count;
+    counts_.loop_candidates = candidates;
+  }
 
   int frames() const { return counts_.frames; }
   /// Without the figures of the map.

@@ -10,6 +10,7 @@
 
 #include "host/cameras/rig_file.hpp"
 #include "host/vision/slam/feature.hpp"
+#include "host/vision/slam/loop_counts.hpp"
 #include "host/vision/slam/slam_settings.hpp"
 #include "host/vision/slam/tracked_frame.hpp"
 #include "pharos/base/image_view.hpp"
@@ -20,7 +21,8 @@ struct SlamReport {
   int frames = 0, tracked = 0, lost = 0, relocalised = 0, repeated = 0;
   int dark = 0, saturated = 0;  ///< frames too dark or too bright for any feature
   int keyframes = 0, keyframes_made = 0, points = 0;
-  int loops = 0, loops_refused = 0;
+  int loops = 0, loops_refused = 0;  ///< refused: keyframes of which no candidate closed a loop
+  LoopCounts loop_candidates;
   double features_median = 0.0, inliers_median = 0.0;
   double tracking_median_ms = 0.0, tracking_p95_ms = 0.0;
   double mapping_median_ms = 0.0, loop_max_ms = 0.0;  ///< of one keyframe, of one closed loop

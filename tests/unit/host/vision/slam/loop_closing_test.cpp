@@ -28,13 +28,18 @@ struct Landmark {
 
 class LoopOfATurn : public ::testing::Test {
  protected:
-  LoopOfATurn() : landmarks_(ball()), keyframe_database_(words()), closer_(kCamera, map_, keyframe_database_) {}
+  explicit LoopOfATurn(bool two_alike_halves = false)
+      : landmarks_(ball(two_alike_halves)), keyframe_database_(words()), closer_(kCamera, map_, keyframe_database_) {}
 
-  std::vector<Landmark> ball() {
+  std::vector<Landmark> ball(bool two_alike_halves) {
     std::vector<Landmark> out;
     while (out.size() < kLandmarks) {
       const Vector3 place = random_vector(random_, 1.0);
-      if (place.norm() > 0.3 && place.norm() < 1.0) out.push_back({place.normalized(), descriptor_of(random_)});
+      if (!(place.norm() > 0.3 && place.norm() < 1.0)) continue;
+      out.push_back({place.normalized(), descriptor_of(random_)});
+      if (!two_alike_halves) continue;
+      const Matrix3 half_a_turn = truth(kAround / 2).R.transpose() * truth(0).R;
+      out.push_back({half_a_turn * out.back().place, out.back().descriptor});
     }
     return out;
   }
@@ -168,6 +173,35 @@ TEST_F(LoopOfATurn, NoLoopFollowsAnotherAtOnce) {
   EXPECT_FALSE(closer_.find(add_keyframe(kAround + kSeenAgain - 1)));
 }
 
+class LoopOfTwoAlikeHalves : public LoopOfATurn {
+ protected:
+  LoopOfTwoAlikeHalves() : LoopOfATurn(true) {}
+};
+
+// After half a turn the views of the start return, on the other side of the body: geometry cannot tell them apart, the
+// trajectory can.
+TEST_F(LoopOfTwoAlikeHalves, TheOtherHalfIsNoLoopAndTheFullTurnIsOne) {
+  std::optional<Loop> loop;
+  for (int k = 0; k < kAround + kSeenAgain && !loop; ++k) loop = closer_.find(add_keyframe(k));
+  EXPECT_GT(closer_.counts().trajectory, 0);
+  ASSERT_TRUE(loop);
+  const auto T_there_here = truth(static_cast<int>(loop->there)) * truth(static_cast<int>(loop->here)).inverse();
+  const auto measured = map_.keyframes.at(loop->there).pose * loop->corrected.inverse();
+  EXPECT_LT(rotation_angle_between(measured.R, T_there_here.R), 0.004);
+}
+
+// After one turn and a half the views of a turn before fit, and those of the start, on the other side. Where the
+// trajectory cannot tell, neither is a loop.
+TEST_F(LoopOfTwoAlikeHalves, WithAnUncertainTrajectoryNeitherPlaceIsALoop) {
+  constexpr int kLast = 3 * kAround / 2 + 2;
+  for (int k = 0; k < kLast; ++k) add_keyframe(k);
+  const KeyframeId here = add_keyframe(kLast);
+  map_.keyframes.at(here).covariance = 10.0 * Matrix6::Identity();
+  EXPECT_FALSE(closer_.find(here));
+  EXPECT_EQ(closer_.counts().rival, 1);
+  EXPECT_EQ(closer_.counts().trajectory, 0);
+}
+
 // Words of known views at positions that fit no rigid motion: similarity alone closes no loop.
 TEST_F(LoopOfATurn, ASimilarFrameWithOtherGeometryIsRefused) {
   for (int k = 0; k < kAround; ++k) add_keyframe(k);
@@ -185,6 +219,7 @@ TEST_F(LoopOfATurn, ASimilarFrameWithOtherGeometryIsRefused) {
   keyframe_database_.add(map_.keyframes.at(id));
   EXPECT_FALSE(closer_.find(id));
   EXPECT_EQ(closer_.refused(), 1);
+  EXPECT_EQ(closer_.counts().geometry, closer_.counts().candidates);
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace pharos::slam {
+
+/// What became of the candidates that visual words proposed.
+struct LoopCounts {
+  int candidates = 0;
+  int geometry = 0;     ///< refused: too few points fit one pose
+  int trajectory = 0;   ///< refused: the pose contradicts the trajectory and its covariance
+  int one_surface = 0;  ///< refused: the points are on one plane, whose texture may repeat
+  int neighbours = 0;   ///< refused: the keyframe's neighbours do not show the place
+  int rival = 0;        ///< refused: another candidate asks for another pose
+};
+
+}  // namespace pharos::slam

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "host/vision/slam/map.hpp"
+#include "host/vision/slam/pose_only.hpp"
+
+namespace pharos::slam {
+
+inline constexpr double kLoopRadius_px = 5.0;  ///< of the search for points of the other side of a loop
+
+/// A feature's observation of a point with whose patch it was not aligned: it counts as a corner.
+Observation corner_of(const Feature& feature, const Vector3& point_m);
+
+/// Points of a keyframe and of the ten that share most points with it.
+std::set<PointId> points_around(const Map& map, KeyframeId keyframe);
+
+/// A keyframe's pose from the points around another one.
+struct PlaceFit {
+  PoseOnly pose;
+  std::vector<std::pair<int, PointId>> seen;  ///< the inliers: features of the keyframe and points
+};
+PlaceFit fit_place(const Map& map, const Keyframe& keyframe, const CameraFromTarget& start, KeyframeId there,
+                   const StereoCamera& camera);
+
+/// Whether the points of `seen` are on one plane within three sigma of stereo depth, but for fewer than a quarter of
+/// the inliers that a loop needs: cells of a wing repeat, and a shift by one of them fits as well.
+bool on_one_plane(const Map& map, const std::vector<std::pair<int, PointId>>& seen, const Keyframe& keyframe,
+                  const StereoCamera& camera);
+
+/// Whether most of the three keyframes that share most points with `here` also show the points around `there`, at the
+/// poses that they have where `here` is at `corrected`. True where it has no neighbours.
+bool neighbours_agree(const Map& map, const Keyframe& here, const CameraFromTarget& corrected, KeyframeId there,
+                      const StereoCamera& camera);
+
+}  // namespace pharos::slam
