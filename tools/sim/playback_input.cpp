@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/support/input_error.hpp"
+#include "tools/sim/body_frame.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -50,8 +51,9 @@ PlaybackInput open_playback_input(const std::string& path, std::uint64_t seed) {
 PlayTruth truth_of(const PlaybackInput& input, const std::string& file) {
   LighthouseSimulator* simulator = input.simulator.get();
   if (simulator == nullptr) throw host::InputError("--truth: a recording has none; leave it out, or play a scenario");
-  const auto at = [simulator](std::size_t station, double time_s) {
-    return simulator->truth(station, simulator->clock().counter_time(time_s));
+  const auto T_built_nominal = body_frame_of(simulator->nominal_target(), simulator->true_target());
+  const auto at = [simulator, T_built_nominal](std::size_t station, double time_s) {
+    return simulator->truth(station, simulator->clock().counter_time(time_s)) * T_built_nominal;
   };
   return {at, simulator->stations().size(), simulator->scenario().duration_s, file};
 }

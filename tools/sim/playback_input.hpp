@@ -24,7 +24,8 @@ struct PlaybackInput {
 
 /// Throws host::InputError where the file is neither or holds no pulses.
 PlaybackInput open_playback_input(const std::string& path, std::uint64_t seed);
-/// Its truth, to be written to `file`. Throws host::InputError for a recording, which has none.
+/// Its truth, to be written to `file`, in the body frame of the nominal sensor positions: where sensors have errors,
+/// the true ones lie on those by least squares. Throws host::InputError for a recording, which has none.
 PlayTruth truth_of(const PlaybackInput& input, const std::string& file);
 
 }  // namespace pharos::sim

@@ -5,8 +5,8 @@
 
 #include "pharos/base/units.hpp"
 #include "pharos/lighthouse/decoder.hpp"
-#include "tools/evaluation/reproduce/lighthouse/body_frame.hpp"
 #include "tools/evaluation/reproduce/lighthouse/paper_target.hpp"
+#include "tools/sim/body_frame.hpp"
 
 namespace pharos::tools {
 
@@ -40,12 +40,12 @@ void SimulatedRun::track(
 
 RunAssumptions SimulatedRun::as_announced() const {
   const Target& nominal = simulator_.nominal_target();
-  return {nominal, calibration_, body_frame_of(nominal, simulator_.true_target()), motion::kUncalibratedErrors};
+  return {nominal, calibration_, sim::body_frame_of(nominal, simulator_.true_target()), motion::kUncalibratedErrors};
 }
 
 RunAssumptions SimulatedRun::with_assumptions(const Target& target,
                                               const lighthouse::StationCalibration& station) const {
-  return {target, station, body_frame_of(target, simulator_.true_target()), motion::kCalibratedErrors};
+  return {target, station, sim::body_frame_of(target, simulator_.true_target()), motion::kCalibratedErrors};
 }
 
 sim::LighthouseScenario paper_scenario(double duration_s) {

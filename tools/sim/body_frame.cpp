@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/evaluation/reproduce/lighthouse/body_frame.hpp"
+#include "tools/sim/body_frame.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-namespace pharos::tools {
+namespace pharos::sim {
 
 Pose<frame::Body, frame::Body> body_frame_of(const Target& assumed, const Target& built) {
   const auto n = static_cast<Eigen::Index>(built.size());
@@ -17,4 +17,4 @@ Pose<frame::Body, frame::Body> body_frame_of(const Target& assumed, const Target
   return {T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()};
 }
 
-}  // namespace pharos::tools
+}  // namespace pharos::sim
