@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -21,9 +22,12 @@ double root_mean(double sum, std::int64_t count) {
 
 std::string error_text(const char* what, const ErrorSums& error) {
   if (error.count == 0) return "";
-  return fmt::format("  {} ({} poses): {:.3f} deg RMS, {:.3f} deg largest; {:.2f} mm RMS, {:.2f} mm largest\n", what,
-                     error.count, error.rms_rotation_rad() * kDegPerRad, error.max_rotation_rad * kDegPerRad,
-                     error.rms_position_m() * kMmPerM, error.max_position_m * kMmPerM);
+  std::string text =
+      fmt::format("  {} ({} poses): {:.3f} deg RMS, {:.3f} deg largest; {:.2f} mm RMS, {:.2f} mm largest", what,
+                  error.count, error.rms_rotation_rad() * kDegPerRad, error.max_rotation_rad * kDegPerRad,
+                  error.rms_position_m() * kMmPerM, error.max_position_m * kMmPerM);
+  if (error.with_nees > 0) text += fmt::format("; NEES {:.2f} (1: as stated)", error.mean_nees());
+  return text + '\n';
 }
 
 }  // namespace
@@ -36,12 +40,23 @@ PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBod
   return {std::atan2(z.cross(true_z).norm(), z.dot(true_z)), delta.tail<3>().norm()};
 }
 
+std::optional<double> pose_nees(const LighthouseFromBody& measured, const LighthouseFromBody& truth,
+                                const Matrix6& covariance) {
+  const Eigen::LLT<Matrix6> factor(covariance);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Vector6 delta = pose_difference(truth, measured);
+  return delta.dot(factor.solve(delta)) / static_cast<double>(delta.size());
+}
+
 void ErrorSums::add(const PoseError& error) {
   ++count;
   squared_rotation_rad2 += error.rotation_rad * error.rotation_rad;
   squared_position_m2 += error.position_m * error.position_m;
   max_rotation_rad = std::max(max_rotation_rad, error.rotation_rad);
   max_position_m = std::max(max_position_m, error.position_m);
+  if (!error.nees) return;
+  ++with_nees;
+  nees += *error.nees;
 }
 
 double ErrorSums::rms_rotation_rad() const { return root_mean(squared_rotation_rad2, count); }

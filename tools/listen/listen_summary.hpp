@@ -13,17 +13,20 @@
 
 namespace pharos::tools {
 
-/// Errors compared with the truth, as root mean square and largest.
+/// Errors compared with the truth, as root mean square and largest, and with their covariances, as mean NEES.
 struct ErrorSums {
   std::int64_t count = 0;
   double squared_rotation_rad2 = 0.0;
   double squared_position_m2 = 0.0;
   double max_rotation_rad = 0.0;
   double max_position_m = 0.0;
+  std::int64_t with_nees = 0;
+  double nees = 0.0;
 
   void add(const PoseError& error);
   double rms_rotation_rad() const;
   double rms_position_m() const;
+  double mean_nees() const { return with_nees == 0 ? 0.0 : nees / static_cast<double>(with_nees); }
 };
 
 /// Statistics of one station on one target, as one source tells them.

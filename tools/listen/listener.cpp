@@ -44,6 +44,7 @@ ReceivedPose received(const std::string& channel, const pose_t& message, std::in
   pose.has_turn = pose.flags.find("no_connector") == std::string::npos;
   pose.sigma_rot_rad = message.sigma_rot_rad;
   pose.sigma_pos_m = message.sigma_pos_m;
+  pose.covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance);
   pose.age_s = static_cast<double>(utc_ns) * 1e-9 - static_cast<double>(message.utime) * 1e-6;
   if (message.valid == 0) return pose;
   const Quaternion q(message.orientation_wxyz[0], message.orientation_wxyz[1], message.orientation_wxyz[2],
@@ -108,6 +109,7 @@ bool Listener::compare(ReceivedPose& pose) {
   const auto truth = truth_->at(pose.station, pose.utime_us);
   if (!truth) return false;
   pose.error = pose_error(*pose.pose, *truth, pose.has_turn);
+  if (pose.has_turn) pose.error->nees = pose_nees(*pose.pose, *truth, pose.covariance);
   summary_.add_error(pose, *pose.error);
   return true;
 }

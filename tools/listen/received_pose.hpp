@@ -14,9 +14,16 @@ namespace pharos::tools {
 struct PoseError {
   double rotation_rad = 0.0;
   double position_m = 0.0;
+  std::optional<double> nees =
+      std::nullopt;  // normalised error squared per degree of freedom; empty where no covariance holds
 };
 
 PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBody& truth, bool has_turn = true);
+
+/// Normalised estimation error squared of a pose, per degree of freedom: 1 on average where the covariance (rotation
+/// before translation) is right. Empty for a covariance that is not positive.
+std::optional<double> pose_nees(const LighthouseFromBody& measured, const LighthouseFromBody& truth,
+                                const Matrix6& covariance);
 
 /// A received pose_t.
 struct ReceivedPose {
@@ -30,6 +37,7 @@ struct ReceivedPose {
   std::string status;
   std::string flags;
   std::optional<LighthouseFromBody> pose;  // empty when the cycle was refused
+  Matrix6 covariance = Matrix6::Zero();
   double sigma_rot_rad = 0.0;
   double sigma_pos_m = 0.0;
   bool of_camera = false;  // T_camera_target, T_rig_target of a docking ring: printed as the angles of paper 000

@@ -99,6 +99,22 @@ TEST(PoseError, IsTheAngleBetweenAndTheDistance) {
   EXPECT_NEAR(pose_error(measured, truth).position_m, 0.005, 1e-12);
 }
 
+TEST(PoseNees, IsOneForAnErrorOfOneSigmaInEachDegreeOfFreedom) {
+  Matrix6 covariance = Matrix6::Zero();
+  Vector6 sigma;
+  sigma << 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3;
+  covariance.diagonal() = sigma.cwiseAbs2();
+  const LighthouseFromBody truth{rotation_exp(Vector3(0.1, 0.2, 0.3)), Vector3(1, 2, 3)};
+  const auto nees = pose_nees(truth.moved_by(sigma), truth, covariance);
+  ASSERT_TRUE(nees.has_value());
+  EXPECT_NEAR(*nees, 1.0, 1e-9);
+  EXPECT_FALSE(pose_nees(truth, truth, Matrix6::Zero()).has_value());
+  ListenSummary summary;
+  summary.add(pose(0), 0);
+  summary.add_error(pose(0), {1e-3, 1e-3, nees});
+  EXPECT_THAT(summary_text(summary.sources()), HasSubstr("NEES 1.00"));
+}
+
 TEST(PoseError, OfAPoseWithoutTurnIsItsTilt) {
   const LighthouseFromBody truth{rotation_exp(Vector3(3.0, 0.1, 0)), Vector3(0, 0, 4)};
   const Matrix3 turned = rotation_exp(Vector3(0, 0.02, 0)) * truth.R * rotation_exp(Vector3(0, 0, 1.3));
