@@ -153,4 +153,18 @@ Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points) {
   return fit;
 }
 
+ImageLine with_end_errors(const LineFit& fit, double sigma_px) {
+  const Vector2 span = fit.end_px - fit.begin_px;
+  const double length = span.norm();
+  const Vector2 along = span / length;
+  // Offset d1 at the begin and d2 at the end: (a, b) turns towards `along` by (d2 - d1) / length, c follows.
+  Eigen::Matrix<double, 3, 2> J;
+  J.topRows<2>() << -along / length, along / length;
+  const double begin = along.dot(fit.begin_px) / length;
+  J.row(2) << 1.0 + begin, -begin;
+  ImageLine line = fit.line;
+  line.covariance += sigma_px * sigma_px * J * J.transpose();
+  return line;
+}
+
 }  // namespace pharos::pointing

@@ -55,4 +55,10 @@ struct LineFit {
 /// that of the points' scatter about the line and of its correlation along it.
 Result<LineFit, LineFailure> fit_line(std::span<const EdgePoint> points);
 
+/// The fit's line with the covariance widened by what scatter does not show: an error of `sigma_px` (1 sigma, across
+/// the line) at either end, independent of each other, that bends the line as a whole. A strip of another brightness
+/// beside the edge that is narrower than the blur, or the panel's thickness, shifts all points of a stretch alike.
+/// Precondition: begin_px and end_px differ.
+ImageLine with_end_errors(const LineFit& fit, double sigma_px);
+
 }  // namespace pharos::pointing

@@ -57,6 +57,22 @@ TEST(FitLine, NeighboursThatErrAlikeMakeTheCovarianceLarger) {
   EXPECT_NEAR(held->variance_inflation, 5.0, 1.5);
 }
 
+TEST(FitLine, ErrorsOfTheEndsWidenTheOffsetsThere) {
+  std::mt19937_64 random(4);
+  const auto fit = fit_line(straight(random, 0.01));
+  ASSERT_TRUE(fit.ok());
+  constexpr double kEnd_px = 0.05;
+  const ImageLine line = with_end_errors(*fit, kEnd_px);
+  const auto added = [&](const Vector2& place) {
+    const Vector3 p = place.homogeneous();
+    return p.dot((line.covariance - fit->line.covariance) * p);
+  };
+  const Vector2 middle = 0.5 * (fit->begin_px + fit->end_px);
+  EXPECT_NEAR(added(fit->begin_px), kEnd_px * kEnd_px, 1e-9);
+  EXPECT_NEAR(added(fit->end_px), kEnd_px * kEnd_px, 1e-9);
+  EXPECT_NEAR(added(middle), 0.5 * kEnd_px * kEnd_px, 1e-9);
+}
+
 TEST(FitLine, LeavesOutliersOut) {
   std::mt19937_64 random(3);
   std::vector<EdgePoint> points = straight(random, 0.05);

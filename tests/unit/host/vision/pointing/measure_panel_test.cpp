@@ -40,7 +40,8 @@ TEST(MeasurePanel, FindsTheAxisOfAPaintedPanelAndItsErrorIsWhatIsStated) {
     EXPECT_LT(0.5 * kPi - *answer.square_rad, 4.0 * answer.sigma_square_rad + 0.2 * kRadPerDeg) << k;
     EXPECT_EQ(answer.flags & kFlagNotSquare, 0) << k;
   }
-  EXPECT_NEAR(std::sqrt(normalised), 1.0, 0.4);
+  // No grid and no thickness beside these edges: the stated error holds those as well.
+  EXPECT_LT(std::sqrt(normalised), 1.4);
 }
 
 TEST(MeasurePanel, FromFarAwayOnlyThePlaneIsObservable) {
