@@ -16,9 +16,10 @@ using pointing::LineFit;
 constexpr double kOneLineChi2 = 18.0;  // of two edges as one line, two degrees of freedom: 99.99 %
 constexpr double kSureSigma_rad = 5.0 * kRadPerDeg;
 
-// What all points of a stretch share: grid lines beside the edge and the panel's thickness, both narrower than the blur.
-// Of 38 random satellites seen from near (`pharos reproduce integrity --kind line`) nine are beyond 5 stated sigmas
-// without it, up to 20; none, and the errors are 1.3 of them (RMS). Edges that are painted without such strips are better than stated.
+// What all points of a stretch share: grid lines beside the edge and the panel's thickness, both narrower than the
+// blur. Of 38 random satellites seen from near (`pharos reproduce integrity --kind line`) nine are beyond 5 stated
+// sigmas without it, up to 20, and none with it; the errors are then 1.3 sigmas (RMS). Edges that are painted without
+// such strips are better than stated.
 constexpr double kEndSigma_px = 0.03;
 
 double squares(const LineFit& fit) { return fit.rms_px * fit.rms_px * static_cast<double>(fit.points); }

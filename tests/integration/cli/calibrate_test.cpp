@@ -111,7 +111,7 @@ TEST_F(CliCalibrate, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal("--length 4,4,0.1,0.001"), HasSubstr("two different"));
   EXPECT_THAT(refusal("--length 4,20,0.1,0.001"), HasSubstr("no sensor 20"));
   EXPECT_THAT(refusal("--length " + length(4, 8, 0.003)), HasSubstr("contradicts"));
-  EXPECT_THAT(refusal("--residuals " + file("no.toml")), HasSubstr("two outputs"));
+  EXPECT_THAT(refusal("--residuals " + file("no.toml")), HasSubstr("is the same file or folder as --residuals"));
   const Outcome flown = pharos("calibrate lighthouse " + file("flight/edges.csv.gz") + " --target " +
                                file("flight/target.csv") + " --output " + file("no.toml"));
   EXPECT_EQ(flown.exit_code, 2);

@@ -143,7 +143,8 @@ TEST(FaultyTarget, ShiftedHitsNowAndThenGiveNoAnswerThatIsFarOff) {
   }
 }
 
-// Of a target that is wrong all the time few answers leave, and fewer that are far off: common/pharos/motion/README.md has how many.
+// Of a target that is wrong all the time few answers leave, and fewer that are far off: common/pharos/motion/README.md
+// has how many.
 TEST(FaultyTarget, ShiftedHitsOftenAreSuspected) {
   for (const Fault fault : {Fault::kShiftedSweeps, Fault::kShiftedHits, Fault::kSteadyOffset}) {
     const Count count = score_of(fault, 0.1);
