@@ -90,7 +90,7 @@ void LighthouseFeed::reconfigure() {
 
 void LighthouseFeed::attend() {
   bytes_->attend(context_.clock.monotonic_ns());
-  if (pipeline_->sight_changed(bytes_->monotonic_now())) context_.on_state_change();
+  if (pipeline_->state_changed(bytes_->monotonic_now())) context_.on_state_change();
 }
 
 std::vector<SourceHealth> LighthouseFeed::health() {

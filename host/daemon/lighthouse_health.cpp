@@ -45,7 +45,9 @@ void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const
     health.state = SourceState::kError;
     health.message = identity_fault_;
   } else if (rate_.pose_within(kSilence_ns, now_ns)) {
-    health.state = SourceState::kOk;
+    const DeliveryMonitor::Assessment delivery = delivery_.assess(now_ns);
+    health.state = delivery.state;
+    health.message = delivery.message;
   } else if (last_bytes_ns_ < 0) {
     health.message = "nothing came from the target yet: is it powered, is this its port?";
   } else if (!within(last_bytes_ns_, now_ns)) {

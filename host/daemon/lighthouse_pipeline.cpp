@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
 
 // The attend timer runs ten times a second, and half a second after its last pose an absence is told.
-constexpr std::int64_t kOutOfSight_ns = 300'000'000;
+constexpr std::int64_t kOutOfSight_ns = DeliveryMonitor::kOutOfSight_ns;
 constexpr const char* kWrongTarget = "wrong_target";
 constexpr const char* kNotIntroduced = "the board has not said yet who it is, and a certain one is expected";
 
@@ -119,6 +119,7 @@ void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival
     // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
     if (byte == wire::kFrameDelimiter) frame_bytes_ = 0;
   }
+  delivery_.on_link(link_.counters(), arrival.monotonic_ns);
   log_foreign_version();
 }
 
@@ -152,6 +153,7 @@ void LighthousePipeline::restart(const char* why) {
   ++counters_.target_restarts;
   clock_.restart();
   tracker_.restart();
+  delivery_.restart();
   board_counters_ = {};
   any_ticks_ = false;
 }
@@ -174,6 +176,25 @@ void LighthousePipeline::check_relative_pose() {
               arrival_.monotonic_ns);
   }
   relative_pose_rejected_ = refused;
+}
+
+bool LighthousePipeline::state_changed(std::int64_t monotonic_ns) {
+  const bool sight = sight_changed(monotonic_ns);
+  return delivery_changed(monotonic_ns) || sight;
+}
+
+// While no pose comes the state is another one, and LOST was told.
+bool LighthousePipeline::delivery_changed(std::int64_t monotonic_ns) {
+  if (!in_sight_) return false;
+  const DeliveryMonitor::Assessment now = delivery_.assess(monotonic_ns);
+  if (now.state == last_logged_delivery_) return false;
+  last_logged_delivery_ = now.state;
+  if (now.state == SourceState::kOk) {
+    log_.info("delivery", "OK: what is expected comes again", monotonic_ns);
+  } else {
+    log_.warn("delivery", (now.state == SourceState::kError ? "ERROR: " : "DEGRADED: ") + now.message, monotonic_ns);
+  }
+  return true;
 }
 
 bool LighthousePipeline::sight_changed(std::int64_t monotonic_ns) {
@@ -200,6 +221,7 @@ void LighthousePipeline::take(const lighthouse::Sweep& sweep) {
     return;
   }
   last_sweep_ns_ = arrival_.monotonic_ns;
+  delivery_.on_sweep(sweep.flash, arrival_.monotonic_ns);
   if (const auto result = tracker_.push(sweep)) answer(*result);
   check_relative_pose();
 }
@@ -318,6 +340,7 @@ void LighthousePipeline::answer(const track::EpochResult& result) {
   } else {
     count_answer(result.pose);
   }
+  delivery_.on_answer(report.answered(), arrival_.monotonic_ns);
   if (!stamp(report, result.station, result.time_ticks)) return;
   if (report.answered()) calibrate::widen_by_scale(report.pose, config_.scale_sigma);
   if (!gate_.passes(report)) return;

@@ -12,6 +12,7 @@
 #include "host/daemon/arrival.hpp"
 #include "host/daemon/calibration_memory.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
+#include "host/daemon/delivery_monitor.hpp"
 #include "host/daemon/lighthouse_counters.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
@@ -51,8 +52,9 @@ class LighthousePipeline {
   SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_error,
                       std::int64_t monotonic_ns);
 
-  /// Whether the target came into sight or went out of it since the last call; the log tells it.
-  bool sight_changed(std::int64_t monotonic_ns);
+  /// Whether the target came into sight or went out of it since the last call, or the part that came of what was
+  /// expected passed a limit (DeliveryMonitor); the log tells it.
+  bool state_changed(std::int64_t monotonic_ns);
 
   /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
   std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
@@ -92,6 +94,8 @@ class LighthousePipeline {
   void publish_bearings(const CycleReport& report, const track::EpochResult& result);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
   void log_foreign_version();
+  bool sight_changed(std::int64_t monotonic_ns);
+  bool delivery_changed(std::int64_t monotonic_ns);
   static std::string unsupported_version_text(std::uint8_t version);
   void assess(SourceHealth& health, std::int64_t monotonic_ns) const;
   NamedCounts named_counts() const;
@@ -130,6 +134,8 @@ class LighthousePipeline {
   RateMonitor rate_;
   std::string last_refusal_;
   bool in_sight_ = false;
+  DeliveryMonitor delivery_;
+  SourceState last_logged_delivery_ = SourceState::kOk;
   bool relative_pose_rejected_ = false;
   std::optional<std::uint8_t> last_logged_version_;
 };

@@ -17,10 +17,11 @@ using NamedCounts = std::vector<NamedCount>;
 /// State of a source of data.
 enum class SourceState : std::uint8_t {
   kOk,
-  kWaiting,  // no data yet
-  kStale,    // data stopped
-  kGone,     // device unplugged or not there
-  kError,    // an error that needs the user
+  kDegraded,  // data and poses come, but fewer than expected
+  kWaiting,   // no data yet
+  kStale,     // data stopped
+  kGone,      // device unplugged or not there
+  kError,     // an error that needs the user
 };
 const char* name_of(SourceState state);
 

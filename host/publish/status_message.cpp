@@ -57,6 +57,8 @@ const char* name_of(SourceState state) {
   switch (state) {
     case SourceState::kOk:
       return "ok";
+    case SourceState::kDegraded:
+      return "degraded";
     case SourceState::kWaiting:
       return "waiting";
     case SourceState::kStale:

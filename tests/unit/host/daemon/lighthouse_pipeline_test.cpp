@@ -277,15 +277,15 @@ TEST_F(TargetPipelineTest, WhatThePortSaysGoesBeforeWhatThePipelineSays) {
 }
 
 TEST_F(TargetPipelineTest, ATargetOutOfSightIsToldWithinHalfASecond) {
-  EXPECT_FALSE(pipeline_.sight_changed(now_ns())) << "nothing was seen yet";
+  EXPECT_FALSE(pipeline_.state_changed(now_ns())) << "nothing was seen yet";
   push_cycles(40);
   ASSERT_TRUE(poses().back().valid);
-  EXPECT_TRUE(pipeline_.sight_changed(now_ns()));
-  EXPECT_FALSE(pipeline_.sight_changed(now_ns()));
-  EXPECT_FALSE(pipeline_.sight_changed(now_ns() + 200 * kMillisecond_ns));
-  EXPECT_TRUE(pipeline_.sight_changed(now_ns() + 400 * kMillisecond_ns));
+  EXPECT_TRUE(pipeline_.state_changed(now_ns()));
+  EXPECT_FALSE(pipeline_.state_changed(now_ns()));
+  EXPECT_FALSE(pipeline_.state_changed(now_ns() + 200 * kMillisecond_ns));
+  EXPECT_TRUE(pipeline_.state_changed(now_ns() + 400 * kMillisecond_ns));
   push_cycles(2);
-  EXPECT_TRUE(pipeline_.sight_changed(now_ns()));
+  EXPECT_TRUE(pipeline_.state_changed(now_ns()));
 }
 
 // Another body on this port would be measured with this one's table and told by its name.

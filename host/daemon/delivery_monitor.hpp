@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/publish/health.hpp"
+#include "host/support/time_units.hpp"
+#include "pharos/lighthouse/sweep.hpp"
+#include "pharos/wire/link_counters.hpp"
+
+namespace pharos::host {
+
+/// What came of what a lighthouse target should have sent in the last ten seconds: frames by their sequence numbers,
+/// sweeps by the turns of the rotors, poses by the answers. Times are monotonic; the state is of fixed size.
+class DeliveryMonitor {
+ public:
+  static constexpr std::int64_t kWindow_s = 10;
+  /// Below these fractions of what was expected a source is degraded, and in error.
+  static constexpr double kDegradedBelow = 0.9;
+  static constexpr double kErrorBelow = 0.5;
+  /// A station that is not seen for longer is out of sight: that is told apart (LOST), and nothing is expected of it.
+  static constexpr std::int64_t kOutOfSight_ns = 300'000'000;
+
+  /// The counters of the line, after each read.
+  void on_link(const wire::LinkCounters& link, std::int64_t now_ns);
+  void on_sweep(const lighthouse::Flash& flash, std::int64_t now_ns);
+  void on_answer(bool pose, std::int64_t now_ns);
+  /// The target began anew: its clock and its stations are others.
+  void restart();
+
+  struct Assessment {
+    SourceState state = SourceState::kOk;
+    std::string message;  // the least part that came of what was expected; empty when ok
+  };
+  /// kOk, kDegraded or kError. kOk until ten seconds were seen: poses begin only when clock and stations are known.
+  Assessment assess(std::int64_t now_ns) const;
+
+ private:
+  static constexpr std::size_t kStreams = 4;  // two stations, two rotors
+
+  struct Count {
+    std::int64_t came = 0;
+    std::int64_t expected = 0;
+  };
+  struct Stream {
+    std::int64_t sweeps = 0;
+    std::int64_t turns = 0;      // of the rotor, between those sweeps
+    std::int64_t min_turns = 0;  // shortest gap: two where stations take turns
+  };
+  struct Second {
+    std::int64_t index = -1;
+    Count frames;
+    Count answers;
+    std::array<Stream, kStreams> streams;
+  };
+
+  Second& second_at(std::int64_t now_ns);
+  template <class Visitor>
+  void for_each_second(std::int64_t now_ns, Visitor&& visit) const;
+  Count sweeps(std::int64_t now_ns) const;
+
+  std::array<Second, kWindow_s> seconds_;
+  std::array<std::optional<std::int64_t>, kStreams> last_flash_ticks_;
+  std::optional<std::int64_t> first_ns_;
+  std::int64_t link_frames_ = 0;
+  std::int64_t link_lost_ = 0;
+};
+
+}  // namespace pharos::host
