@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <climits>
 #include <csignal>
 #include <cstdio>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double kShortest_s = 1e-3;
 constexpr double kLongest_s = 1e9;
+constexpr std::chrono::milliseconds kTick{100};
 
 struct ListenOptions {
   std::string channel = "PHAROS_LIGHTHOUSE_POSE";
@@ -64,6 +66,12 @@ void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals
     timer.start(
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(options.duration_s)));
   }
+  host::Timer tick;
+  tick.start_every(kTick);
+  loop.watch(tick.fd(), [&] {
+    tick.take_expiries();
+    listener.tick(host::utc_now_ns(), host::monotonic_now_ns());
+  });
   loop.watch(signals.fd(), [&] { loop.stop(); });
   loop.watch(timer.fd(), [&] { loop.stop(); });
   loop.watch(lcm.getFileno(), [&] {

@@ -90,8 +90,20 @@ void Listener::take_pose(const std::string& channel, const pose_t& message, std:
                          std::int64_t monotonic_ns) {
   ReceivedPose pose = received(channel, message, utc_ns);
   pose.rate_hz = summary_.add(pose, monotonic_ns);
+  print_row(sight_.add(pose, monotonic_ns));
   waiting_.push_back({std::move(pose), monotonic_ns});
   print_those_known(monotonic_ns);
+}
+
+void Listener::tick(std::int64_t utc_ns, std::int64_t monotonic_ns) {
+  print_those_known(monotonic_ns);
+  for (const std::string& row : sight_.lost(utc_ns, monotonic_ns)) print_row(row);
+}
+
+void Listener::print_row(const std::string& row) {
+  if (format_ != ListenFormat::kLines || row.empty()) return;
+  std::puts(row.c_str());
+  std::fflush(stdout);
 }
 
 void Listener::print_those_known(std::int64_t monotonic_ns) {

@@ -11,6 +11,7 @@
 
 #include "host/table/row_writer.hpp"
 #include "tools/listen/listen_summary.hpp"
+#include "tools/listen/sight_monitor.hpp"
 #include "tools/listen/truth_file.hpp"
 
 namespace lcm {
@@ -34,6 +35,8 @@ class Listener {
   /// Any message of a channel listened to: pose_t, pointing_t, spin_t and status_t are printed (the last three not as
   /// CSV, whose columns they do not have), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
+  /// Several times a second: prints a row LOST for each source whose poses have stopped (lines only).
+  void tick(std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Prints the poses still held for their truth, and compares those that were printed before it was written.
   void finish();
 
@@ -51,6 +54,7 @@ class Listener {
   /// False: its truth is not available (yet).
   bool compare(ReceivedPose& pose);
   void print(const ReceivedPose& pose);
+  void print_row(const std::string& row);
 
   ListenFormat format_;
   std::optional<TruthFile> truth_;
@@ -62,6 +66,7 @@ class Listener {
   std::vector<ReceivedPose> not_compared_;  // printed without an error
   std::unique_ptr<host::RowWriter> rows_;   // of CSV and JSON
   ListenSummary summary_;
+  SightMonitor sight_;
   std::int64_t other_types_ = 0;
   std::int64_t other_messages_ = 0;
 };

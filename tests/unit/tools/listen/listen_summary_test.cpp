@@ -200,6 +200,27 @@ TEST_F(ListenerWithTruth, APoseWhoseTruthNeverComesHoldsUpNobodyForLong) {
   EXPECT_EQ(compared_, 1);
 }
 
+TEST(Listener, ShowsARowWherePosesStopAndWhereTheyComeAgain) {
+  constexpr std::int64_t kMs = 1'000'000;
+  Listener listener(ListenFormat::kLines, std::nullopt);
+  const auto bytes = message_at(500);
+  const auto take = [&](std::int64_t ms) {
+    listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, ms * kMs);
+  };
+  const auto rows = [&](auto&& action) {
+    ::testing::internal::CaptureStdout();
+    action();
+    return ::testing::internal::GetCapturedStdout();
+  };
+  rows([&] {
+    for (std::int64_t ms = 0; ms <= 100; ms += 10) take(ms);
+  });
+  EXPECT_EQ(rows([&] { listener.tick(0, 400 * kMs); }), "");
+  EXPECT_THAT(rows([&] { listener.tick(0, 460 * kMs); }), HasSubstr("-------- LOST  no pose for 0.4 s\n"));
+  EXPECT_EQ(rows([&] { listener.tick(0, 900 * kMs); }), "") << "once";
+  EXPECT_THAT(rows([&] { take(2'100); }), HasSubstr("FOUND  after 2.0 s\n"));
+}
+
 TEST(Listener, ShowsWhereAPanelPoints) {
   pointing_t message{};
   message.utime = 61'000'000;
