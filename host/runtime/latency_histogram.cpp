@@ -20,6 +20,7 @@ std::int64_t LatencyHistogram::quantile_ns(double q) const {
   for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
     seen += bins_[bin];
     if (seen == 0 || seen < rank) continue;
+    if (bin == bins_.size() - 1) return max_ns_;
     const double edge_ns = kSmallest_ns * std::exp2(static_cast<double>(bin) / kBinsPerOctave);
     return std::min(static_cast<std::int64_t>(std::ceil(edge_ns)), max_ns_);
   }

@@ -6,22 +6,23 @@
 
 namespace pharos::host {
 
-/// Durations counted in logarithmic bins: quantiles of any number of them in 2 KiB.
+/// Durations counted in logarithmic bins: quantiles of any number of them in 5 KiB.
 ///
-/// Sixteen bins an octave from 1 us to 16.8 s, so a quantile read back is right to 4.4 % (its bin's upper edge: never
-/// too small).
+/// Sixteen bins an octave from 1 us to 12.7 days, so a quantile read back is right to 4.4 % (its bin's upper edge:
+/// never too small). What is longer counts as the longest of all.
 class LatencyHistogram {
  public:
   void add(std::int64_t duration_ns);
   std::uint64_t count() const { return count_; }
   std::int64_t max_ns() const { return max_ns_; }
-  /// Upper edge of the bin that holds quantile `q` (0..1), ns, at most max_ns(); 0 while empty.
+  /// Upper edge of the bin that holds quantile `q` (0..1), ns, at most max_ns(), which is the last bin's; 0 while
+  /// empty.
   std::int64_t quantile_ns(double q) const;
   void clear() { *this = LatencyHistogram(); }
 
  private:
   static constexpr int kBinsPerOctave = 16;
-  static constexpr int kOctaves = 24;
+  static constexpr int kOctaves = 40;
   static constexpr std::int64_t kSmallest_ns = 1000;
 
   std::array<std::uint64_t, kBinsPerOctave * kOctaves + 1> bins_{};

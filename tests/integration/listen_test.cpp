@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <vector>
 
 #include "host/cameras/rig_file.hpp"
 #include "integration/daemon_under_test.hpp"
+#include "pharos/pose_t.hpp"
 #include "support/painted_ring_pair.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pharos::host {
 namespace {
@@ -109,6 +112,29 @@ TEST(Listen, ListenersStartedAtOnceAllHear) {
   StationaryTarget target(some_pose());
   EXPECT_TRUE(daemon.play(target, line, all_ended, 20.0));
   for (const auto& listener : listeners) EXPECT_EQ(listener->wait_exit(0.0), 0) << listener->text();
+}
+
+TEST(Listen, ARecordedFileEndsWhereItEndsAndTellsOldAges) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path("poses.lcm");
+  {
+    lcm::LogFile log(file, "w");
+    for (int i = 0; i < 5; ++i) {
+      pose_t pose{};
+      pose.utime = 1'000'000 + i;  // 1970
+      pose.sequence = i;
+      pose.valid = 1;
+      pose.orientation_wxyz[0] = 1.0;
+      std::vector<char> bytes(static_cast<std::size_t>(pose.getEncodedSize()));
+      pose.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+      lcm::LogEvent event{i, pose.utime, "PHAROS_LIGHTHOUSE_POSE", static_cast<int>(bytes.size()), bytes.data()};
+      ASSERT_EQ(log.writeEvent(&event), 0);
+    }
+  }
+  ChildProcess listen({PHAROS, "listen", "--url", "file://" + file + "?mode=r", "--summary"});
+  EXPECT_EQ(listen.wait_exit(20.0), 0) << listen.text();
+  EXPECT_THAT(listen.text(), HasSubstr(": 5 poses in"));
+  EXPECT_THAT(listen.text(), ::testing::ContainsRegex("age on arrival: [0-9]{13,}"));
 }
 
 TEST(Listen, EndsWith2WithoutLcmOrTruthFile) {

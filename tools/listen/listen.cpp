@@ -75,7 +75,7 @@ void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals
   loop.watch(signals.fd(), [&] { loop.stop(); });
   loop.watch(timer.fd(), [&] { loop.stop(); });
   loop.watch(lcm.getFileno(), [&] {
-    lcm.handle();
+    if (lcm.handle() != 0) return loop.stop();  // the end of a file
     if (options.count > 0 && listener.summary().poses() >= options.count) loop.stop();
   });
   loop.run();
