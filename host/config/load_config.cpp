@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/config/load_config.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "host/config/config_errors.hpp"
 #include "host/config/config_parts.hpp"
 #include "host/config/lcm_url.hpp"
 #include "host/config/load_pointing.hpp"
@@ -68,48 +68,62 @@ LogConfig read_log(const TomlTable& table, const fs::path& folder) {
   return log;
 }
 
-track::TrackOptions read_solve(const TomlTable& table) {
+track::TrackOptions read_solve(const TomlTable& table, ConfigErrors& errors) {
   track::TrackOptions options;
-  options.solve.sigma_rad =
-      table.number_or("sigma_arcsec", options.solve.sigma_rad * kArcsecPerRad, {0.1, 3600.0}) * kRadPerArcsec;
-  options.solve.rho = table.number_or("rho", options.solve.rho, {0.0, 0.999});
-  options.form =
-      table.integer_or("model_form", 1, 1, 2) == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
-  options.smooth_flashes = table.boolean_or("smooth_flashes", options.smooth_flashes);
-  options.prior_max_age_s = table.number_or("prior_max_age_s", options.prior_max_age_s, {0.0, 60.0});
+  errors.attempt([&] {
+    options.solve.sigma_rad =
+        table.number_or("sigma_arcsec", options.solve.sigma_rad * kArcsecPerRad, {0.1, 3600.0}) * kRadPerArcsec;
+  });
+  errors.attempt([&] { options.solve.rho = table.number_or("rho", options.solve.rho, {0.0, 0.999}); });
+  errors.attempt([&] {
+    options.form =
+        table.integer_or("model_form", 1, 1, 2) == 1 ? lighthouse::ModelForm::kForm1 : lighthouse::ModelForm::kForm2;
+  });
+  errors.attempt([&] { options.smooth_flashes = table.boolean_or("smooth_flashes", options.smooth_flashes); });
+  errors.attempt([&] {
+    options.prior_max_age_s = table.number_or("prior_max_age_s", options.prior_max_age_s, {0.0, 60.0});
+  });
   return options;
 }
 
-motion::UncertaintyLimits read_limits(const TomlTable& table) {
+motion::UncertaintyLimits read_limits(const TomlTable& table, ConfigErrors& errors) {
   motion::UncertaintyLimits limits;
-  limits.rotation_rad =
-      table.number_or("largest_sigma_deg", limits.rotation_rad * kDegPerRad, {0.001, 180.0}) * kRadPerDeg;
-  limits.position_m = table.number_or("largest_sigma_mm", limits.position_m * kMmPerM, {0.01, 1e4}) / kMmPerM;
+  errors.attempt([&] {
+    limits.rotation_rad =
+        table.number_or("largest_sigma_deg", limits.rotation_rad * kDegPerRad, {0.001, 180.0}) * kRadPerDeg;
+  });
+  errors.attempt([&] {
+    limits.position_m = table.number_or("largest_sigma_mm", limits.position_m * kMmPerM, {0.01, 1e4}) / kMmPerM;
+  });
   return limits;
 }
 
-ExpectedIdentity read_identity(const TomlTable& table) {
+std::uint32_t read_serial(const TomlTable& table) {
+  constexpr std::size_t kDigits = 8;
+  const std::string serial = table.text("serial");
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(serial.data(), serial.data() + serial.size(), value, 16);
+  if (serial.size() != kDigits || error != std::errc{} || end != serial.data() + kDigits || value == 0) {
+    table.fail("serial", "must be the board's number as eight hex digits, as `pharos listen PHAROS_STATUS` shows it");
+  }
+  return value;
+}
+
+ExpectedIdentity read_identity(const TomlTable& table, ConfigErrors& errors) {
   ExpectedIdentity identity;
-  if (table.has("serial")) {
-    constexpr std::size_t kDigits = 8;
-    const std::string serial = table.text("serial");
-    std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(serial.data(), serial.data() + serial.size(), value, 16);
-    if (serial.size() != kDigits || error != std::errc{} || end != serial.data() + kDigits || value == 0) {
-      table.fail("serial", "must be the board's number as eight hex digits, as `pharos listen PHAROS_STATUS` shows it");
-    }
-    identity.serial = value;
-  }
-  if (table.has("sensors")) {
+  errors.attempt([&] {
+    if (table.has("serial")) identity.serial = read_serial(table);
+  });
+  errors.attempt([&] {
+    if (!table.has("sensors")) return;
     identity.sensors = static_cast<int>(table.integer_or("sensors", 0, 1, static_cast<std::int64_t>(kMaxSensors)));
-  }
+  });
   return identity;
 }
 
 // Sensor positions and stations as calibrated.
 void read_calibration(const TomlTable& table, const fs::path& folder, const Environment& environment,
                       TargetConfig& target) {
-  if (!table.has("calibration_file")) return;
   target.calibration_file = read_path(table, "calibration_file", folder);
   try {
     const calibrate::CalibrationFile file = environment.read_calibration(target.calibration_file.string());
@@ -130,30 +144,24 @@ void read_calibration(const TomlTable& table, const fs::path& folder, const Envi
   }
 }
 
-TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Environment& environment) {
-  TargetConfig target;
-  target.name = read_name(table, "name", table.text("name"));
+void read_port(const TomlTable& table, const fs::path& folder, const Environment& environment, TargetConfig& target) {
   target.port = table.text("port");
   if (target.port.empty() || target.port.find('\0') != std::string::npos) {
     table.fail("port", "must be a terminal device (/dev/…) or replay:FILE");
   }
-  if (target.is_replay()) {
-    if (target.replay_file().is_relative())
-      target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
-    try {
-      environment.check_recording(target.replay_file());
-    } catch (const InputError& error) {
-      table.fail("port", error.what());
-    }
+  if (!target.is_replay()) return;
+  if (target.replay_file().is_relative()) {
+    target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
   }
-  target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000));
-  target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations);
-  target.method =
-      table.choice_or("method", "motion", {"motion", "epoch"}) == "motion" ? TrackMethod::kMotion : TrackMethod::kEpoch;
-  const TomlTable solve = table.table_or_empty("solve");
-  target.track = read_solve(solve);
-  target.limits = read_limits(solve);
-  target.identity = read_identity(table.table_or_empty("identity"));
+  try {
+    environment.check_recording(target.replay_file());
+  } catch (const InputError& error) {
+    table.fail("port", error.what());
+  }
+}
+
+void read_target_file(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                      TargetConfig& target) {
   target.target_file = read_path(table, "target_file", folder);
   try {
     const TargetFile file = environment.read_target(target.target_file.string());
@@ -162,59 +170,65 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   } catch (const InputError& error) {
     table.fail("target_file", error.what());
   }
-  read_calibration(table, folder, environment, target);
+}
+
+TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                               ConfigErrors& errors) {
+  TargetConfig target;
+  const std::size_t before = errors.count();
+  errors.attempt([&] { target.name = read_name(table, "name", table.text("name")); });
+  errors.attempt([&] { read_port(table, folder, environment, target); });
+  // Any rate: the port sets what it is asked for (BOTHER), and opening it tells where the device does not.
+  errors.attempt([&] { target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000)); });
+  errors.attempt(
+      [&] { target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations); });
+  errors.attempt([&] {
+    const std::string method = table.choice_or("method", "motion", {"motion", "epoch"});
+    target.method = method == "motion" ? TrackMethod::kMotion : TrackMethod::kEpoch;
+  });
+  const std::size_t before_solve = errors.count();
+  errors.attempt([&] { target.track = read_solve(table.table_or_empty("solve"), errors); });
+  const bool knows_form = errors.count() == before_solve;
+  errors.attempt([&] { target.limits = read_limits(table.table_or_empty("solve"), errors); });
+  errors.attempt([&] { target.identity = read_identity(table.table_or_empty("identity"), errors); });
+  const bool knows_target = errors.attempt([&] { read_target_file(table, folder, environment, target); });
+  // A calibration is judged against target and model form.
+  if (table.has("calibration_file") && knows_target && knows_form) {
+    errors.attempt([&] { read_calibration(table, folder, environment, target); });
+  }
+  errors.reject_unknown(table, before);
   return target;
 }
 
-// Tells what is wrong with each part of a configuration, not only with the first.
-class Errors {
- public:
-  // Reads one part; what it throws is kept.
-  template <class Read>
-  void attempt(Read&& read) {
-    try {
-      read();
-    } catch (const InputError& error) {
-      if (std::find(lines_.begin(), lines_.end(), error.what()) == lines_.end()) lines_.emplace_back(error.what());
-    }
-  }
-  bool any() const { return !lines_.empty(); }
-  void throw_all() const {
-    std::string text;
-    for (const std::string& line : lines_) text += (text.empty() ? "" : "\n") + line;
-    if (any()) throw InputError(text);
-  }
-
- private:
-  std::vector<std::string> lines_;
-};
-
 std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& folder, const Environment& environment,
-                                       Errors& errors) {
+                                       ConfigErrors& errors) {
   std::vector<TargetConfig> targets;
   std::set<std::string> names;
   std::map<std::string, std::string> ports;  // identity -> spelling
-  const auto read = [&](const TomlTable& table) {
-    targets.push_back(read_target_table(table, folder, environment));
-    const TargetConfig& target = targets.back();
-    if (!names.insert(target.name).second) table.fail("name", "\"" + target.name + "\" is taken by another target");
+  const auto require_free = [&](const TomlTable& table, const TargetConfig& target) {
+    errors.attempt([&] {
+      if (target.name.empty() || names.insert(target.name).second) return;
+      table.fail("name", "\"" + target.name + "\" is taken by another target");
+    });
     const std::string path = target.is_replay() ? target.replay_file().string() : target.port;
+    if (path.empty()) return;
     const auto [taken, is_free] = ports.emplace(environment.identity(path), target.port);
-    if (!is_free) {
+    if (is_free) return;
+    errors.attempt([&, other = taken->second] {
       table.fail("port", "\"" + target.port + "\" is taken by another target" +
-                             (taken->second == target.port ? "" : ", as \"" + taken->second + "\""));
-    }
-    table.reject_unknown();
+                             (other == target.port ? "" : ", as \"" + other + "\""));
+    });
   };
   for (const TomlTable& table : root.tables("target")) {
-    errors.attempt([&] { read(table); });
+    targets.push_back(read_target_table(table, folder, environment, errors));
+    require_free(table, targets.back());
   }
   return targets;
 }
 
 DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   DaemonConfig config;
-  Errors errors;
+  ConfigErrors errors;
   errors.attempt([&] { config.source = read_name(root, "source", root.text_or("source", config.source)); });
   errors.attempt([&] {
     if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
@@ -226,11 +240,10 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   });
   errors.attempt([&] { config.log = read_log(root.table_or_empty("log"), folder); });
   errors.attempt([&] { config.targets = read_targets(root, folder, environment, errors); });
-  errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment); });
-  errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment); });
-  errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras); });
-  // A part that was not read to its end has keys that nobody asked for.
-  errors.attempt([&] { errors.any() ? root.reject_unknown_here() : root.reject_unknown(); });
+  errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment, errors); });
+  errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment, errors); });
+  errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras, errors); });
+  errors.reject_unknown(root, 0);
   errors.throw_all();
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",

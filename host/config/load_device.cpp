@@ -3,7 +3,10 @@
 
 #include <arpa/inet.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "host/config/config_parts.hpp"
 
@@ -36,9 +39,11 @@ void read_which_camera(const TomlTable& table, const char* instead, CameraSettin
   }
 }
 
-void read_transport(const TomlTable& table, CameraSettings& device) {
-  device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kMinPacket, kMaxPacket));
-  device.ptp = table.boolean_or("ptp", device.ptp);
+void read_transport(const TomlTable& table, CameraSettings& device, ConfigErrors& errors) {
+  errors.attempt([&] {
+    device.packet_size = static_cast<int>(table.integer_or("packet_size", device.packet_size, kMinPacket, kMaxPacket));
+  });
+  errors.attempt([&] { device.ptp = table.boolean_or("ptp", device.ptp); });
 }
 
 void read_frame_rate(const TomlTable& table, CameraSettings& device) {
@@ -46,9 +51,10 @@ void read_frame_rate(const TomlTable& table, CameraSettings& device) {
 }
 
 void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    if (table.has(key)) table.fail(key, "is of a camera on the network; remove it, or remove frames");
-  }
+  // All are asked for before one is refused: none of them is an unknown key.
+  std::vector<const char*> given;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](const char* key) { return table.has(key); });
+  if (!given.empty()) table.fail(given.front(), "is of a camera on the network; remove it, or remove frames");
 }
 
 }  // namespace pharos::host

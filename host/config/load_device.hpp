@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <initializer_list>
 
+#include "host/config/config_errors.hpp"
 #include "host/device/camera_settings.hpp"
 #include "host/toml/strict_toml.hpp"
 
@@ -13,8 +14,8 @@ namespace pharos::host {
 
 /// serial and address: of which at least one must be there; `instead` says what to give where there is neither.
 void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device);
-/// packet_size and ptp.
-void read_transport(const TomlTable& table, CameraSettings& device);
+/// packet_size and ptp; what is wrong with them goes to `errors`.
+void read_transport(const TomlTable& table, CameraSettings& device, ConfigErrors& errors);
 /// frame_rate_hz; without it the camera's own.
 void read_frame_rate(const TomlTable& table, CameraSettings& device);
 /// Recorded frames stand in for a camera: none of `keys` may be there.

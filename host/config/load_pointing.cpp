@@ -19,42 +19,57 @@ std::optional<pointing::AttitudeLaw> read_law(const TomlTable& table) {
   return std::nullopt;
 }
 
-PointingConfig read_telescope(const TomlTable& table, const fs::path& folder, const Environment& environment) {
-  PointingConfig telescope;
-  telescope.name = read_name(table, "name", table.text("name"));
-  telescope.target = read_name(table, "target", table.text("target"));
-  telescope.camera_file = read_path(table, "camera_file", folder);
+PinholeCamera read_lens(const TomlTable& table, const fs::path& file, const Environment& environment) {
   try {
-    telescope.camera = environment.read_camera(telescope.camera_file.string()).camera.intrinsics;
+    return environment.read_camera(file.string()).camera.intrinsics;
   } catch (const InputError& error) {
     table.fail("camera_file", error.what());
   }
-  telescope.directory = read_path(table, "directory", folder);
-  telescope.track_file =
-      table.has("track_file") ? read_path(table, "track_file", telescope.directory) : telescope.directory / "track.csv";
-  telescope.station.latitude_rad = table.number("latitude_deg", {-90.0, 90.0}) * kRadPerDeg;
-  telescope.station.longitude_rad = table.number("longitude_deg", {-180.0, 360.0}) * kRadPerDeg;
-  telescope.station.height_m = table.number_or("height_m", 0.0, {-500.0, 9000.0});
-  telescope.law = read_law(table);
-  telescope.pass_gap_s = table.number_or("pass_gap_s", telescope.pass_gap_s, {0.1, 3600.0});
+}
+
+PointingConfig read_telescope(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                              ConfigErrors& errors) {
+  PointingConfig telescope;
+  const std::size_t before = errors.count();
+  pointing::Geodetic& station = telescope.station;
+  errors.attempt([&] { telescope.name = read_name(table, "name", table.text("name")); });
+  errors.attempt([&] { telescope.target = read_name(table, "target", table.text("target")); });
+  errors.attempt([&] {
+    telescope.camera_file = read_path(table, "camera_file", folder);
+    telescope.camera = read_lens(table, telescope.camera_file, environment);
+  });
+  errors.attempt([&] { telescope.directory = read_path(table, "directory", folder); });
+  errors.attempt([&] {
+    telescope.track_file = table.has("track_file") ? read_path(table, "track_file", telescope.directory)
+                                                   : telescope.directory / "track.csv";
+  });
+  errors.attempt([&] { station.latitude_rad = table.number("latitude_deg", {-90.0, 90.0}) * kRadPerDeg; });
+  errors.attempt([&] { station.longitude_rad = table.number("longitude_deg", {-180.0, 360.0}) * kRadPerDeg; });
+  errors.attempt([&] { station.height_m = table.number_or("height_m", 0.0, {-500.0, 9000.0}); });
+  errors.attempt([&] { telescope.law = read_law(table); });
+  errors.attempt([&] { telescope.pass_gap_s = table.number_or("pass_gap_s", telescope.pass_gap_s, {0.1, 3600.0}); });
+  errors.reject_unknown(table, before);
   return telescope;
 }
 
 }  // namespace
 
-std::vector<PointingConfig> read_pointing(const TomlTable& root, const fs::path& folder,
-                                          const Environment& environment) {
+std::vector<PointingConfig> read_pointing(const TomlTable& root, const fs::path& folder, const Environment& environment,
+                                          ConfigErrors& errors) {
   std::vector<PointingConfig> telescopes;
   std::set<std::string> names, directories;
   for (const TomlTable& table : root.tables("telescope")) {
-    telescopes.push_back(read_telescope(table, folder, environment));
+    telescopes.push_back(read_telescope(table, folder, environment, errors));
     const PointingConfig& telescope = telescopes.back();
-    if (!names.insert(telescope.name).second) {
+    errors.attempt([&] {
+      if (telescope.name.empty() || names.insert(telescope.name).second) return;
       table.fail("name", "\"" + telescope.name + "\" is taken by another telescope");
-    }
-    if (!directories.insert(environment.identity(telescope.directory.string())).second) {
-      table.fail("directory", "\"" + telescope.directory.string() + "\" is watched for another telescope");
-    }
+    });
+    errors.attempt([&] {
+      const std::string directory = telescope.directory.string();
+      if (directory.empty() || directories.insert(environment.identity(directory)).second) return;
+      table.fail("directory", "\"" + directory + "\" is watched for another telescope");
+    });
   }
   return telescopes;
 }

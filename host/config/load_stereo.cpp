@@ -91,41 +91,52 @@ void read_window(const TomlTable& table, StereoConfig& stereo) {
   }
 }
 
-void read_devices(const TomlTable& table, StereoConfig& stereo) {
-  const std::string format = table.choice_or("pixel_format", "Mono8", {"Mono8", "Mono16"});
+void read_devices(const TomlTable& table, StereoConfig& stereo, ConfigErrors& errors) {
+  std::string format = "Mono8";
+  errors.attempt([&] { format = table.choice_or("pixel_format", format, {"Mono8", "Mono16"}); });
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     CameraSettings& device = stereo.devices[side];
-    read_which_camera(table.table_or_empty(kSides[side]), "frames = \"DIRECTORY\" for the rig", device);
+    errors.attempt(
+        [&] { read_which_camera(table.table_or_empty(kSides[side]), "frames = \"DIRECTORY\" for the rig", device); });
     device.format = format == "Mono8" ? CameraFormat::kMono8 : CameraFormat::kMono16;
-    read_transport(table, device);
+    read_transport(table, device, errors);
   }
 }
 
-StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const Environment& environment) {
-  StereoConfig stereo;
-  stereo.name = read_name(table, "name", table.text("name"));
-  stereo.target = read_name(table, "target", table.text("target"));
-  read_systems(table, stereo);
-  if (!stereo.slam && table.has("slam")) table.fail("slam", "is of a system that systems does not name; add it there");
-  if (stereo.slam) {
-    const TomlTable slam = table.table_or_empty("slam");
-    read_slam(slam, folder, *stereo.slam);
-    check_vocabulary(slam, environment, *stereo.slam);
+void read_slam_of(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                  StereoConfig& stereo) {
+  if (!stereo.slam) {
+    if (table.has("slam")) table.fail("slam", "is of a system that systems does not name; add it there");
+    return;
   }
-  read_rig(table, folder, environment, stereo);
-  if (table.has("frames")) {
-    read_frames(table, folder, environment, stereo);
-  } else {
-    read_devices(table, stereo);
+  const TomlTable slam = table.table_or_empty("slam");
+  read_slam(slam, folder, *stereo.slam);
+  check_vocabulary(slam, environment, *stereo.slam);
+}
+
+StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                         ConfigErrors& errors) {
+  StereoConfig stereo;
+  const std::size_t before = errors.count();
+  errors.attempt([&] { stereo.name = read_name(table, "name", table.text("name")); });
+  errors.attempt([&] { stereo.target = read_name(table, "target", table.text("target")); });
+  const bool knows_systems = errors.attempt([&] { read_systems(table, stereo); });
+  if (knows_systems) errors.attempt([&] { read_slam_of(table, folder, environment, stereo); });
+  const bool knows_rig = errors.attempt([&] { read_rig(table, folder, environment, stereo); });
+  if (!table.has("frames")) {
+    read_devices(table, stereo, errors);
+  } else if (knows_rig) {  // pairs must have its size
+    errors.attempt([&] { read_frames(table, folder, environment, stereo); });
   }
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     CameraSettings& device = stereo.devices[side];
     const PinholeCamera& intrinsics = side == 0 ? stereo.rig.left.intrinsics : stereo.rig.right.intrinsics;
-    read_frame_rate(table, device);
+    errors.attempt([&] { read_frame_rate(table, device); });
     device.width_px = intrinsics.width_px;
     device.height_px = intrinsics.height_px;
   }
-  if (!stereo.is_recorded()) read_window(table, stereo);
+  if (!table.has("frames")) errors.attempt([&] { read_window(table, stereo); });
+  if (errors.count() == before) errors.reject_unknown(table, before);
   return stereo;
 }
 
@@ -140,22 +151,27 @@ std::vector<std::string> marks_of(const CameraSettings& device) {
 }  // namespace
 
 std::vector<StereoConfig> read_stereos(const TomlTable& root, const fs::path& folder, const Environment& environment,
-                                       const std::vector<TofConfig>& cameras) {
+                                       const std::vector<TofConfig>& cameras, ConfigErrors& errors) {
   std::vector<StereoConfig> stereos;
   std::set<std::string> names, taken;
   for (const TofConfig& camera : cameras) {
     for (const std::string& mark : marks_of(camera.device)) taken.insert(mark);
   }
   for (const TomlTable& table : root.tables("stereo")) {
-    stereos.push_back(read_stereo(table, folder, environment));
+    stereos.push_back(read_stereo(table, folder, environment, errors));
     const StereoConfig& stereo = stereos.back();
-    if (!names.insert(stereo.name).second) table.fail("name", "\"" + stereo.name + "\" is taken by another rig");
+    errors.attempt([&] {
+      if (stereo.name.empty() || names.insert(stereo.name).second) return;
+      table.fail("name", "\"" + stereo.name + "\" is taken by another rig");
+    });
     for (std::size_t side = 0; side < kSides.size(); ++side) {
       for (const std::string& mark : marks_of(stereo.devices[side])) {
         if (taken.insert(mark).second) continue;
         const std::size_t blank = mark.find(' ');
-        table.table_or_empty(kSides[side])
-            .fail(mark.substr(0, blank), "\"" + mark.substr(blank + 1) + "\" is taken by another camera");
+        errors.attempt([&] {
+          table.table_or_empty(kSides[side])
+              .fail(mark.substr(0, blank), "\"" + mark.substr(blank + 1) + "\" is taken by another camera");
+        });
       }
     }
   }

@@ -40,13 +40,15 @@ void read_frames(const TomlTable& table, const fs::path& folder, const Environme
   }
 }
 
-void read_device(const TomlTable& table, CameraSettings& device) {
-  read_which_camera(table, "frames = \"DIRECTORY\"", device);
-  device.mode = table.text_or("mode", "");
-  if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
-    table.fail("mode", "must be a word of the camera's Scan3dOperatingMode, as Distance5000mmMultiFreq");
-  }
-  read_transport(table, device);
+void read_device(const TomlTable& table, CameraSettings& device, ConfigErrors& errors) {
+  errors.attempt([&] { read_which_camera(table, "frames = \"DIRECTORY\"", device); });
+  errors.attempt([&] {
+    device.mode = table.text_or("mode", "");
+    if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
+      table.fail("mode", "must be a word of the camera's Scan3dOperatingMode, as Distance5000mmMultiFreq");
+    }
+  });
+  read_transport(table, device, errors);
 }
 
 tof::RingSettings read_ring(const TomlTable& table) {
@@ -61,40 +63,51 @@ tof::RingSettings read_ring(const TomlTable& table) {
   return ring;
 }
 
-TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Environment& environment) {
+TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
+                            ConfigErrors& errors) {
   TofConfig camera;
-  camera.name = read_name(table, "name", table.text("name"));
-  camera.target = read_name(table, "target", table.text("target"));
-  camera.camera_file = read_path(table, "camera_file", folder);
-  camera.camera = read_camera_of(table, camera.camera_file, environment);
+  const std::size_t before = errors.count();
+  errors.attempt([&] { camera.name = read_name(table, "name", table.text("name")); });
+  errors.attempt([&] { camera.target = read_name(table, "target", table.text("target")); });
+  errors.attempt([&] {
+    camera.camera_file = read_path(table, "camera_file", folder);
+    camera.camera = read_camera_of(table, camera.camera_file, environment);
+  });
   if (table.has("frames")) {
-    read_frames(table, folder, environment, camera);
+    errors.attempt([&] { read_frames(table, folder, environment, camera); });
   } else {
-    read_device(table, camera.device);
+    read_device(table, camera.device, errors);
   }
-  read_frame_rate(table, camera.device);
+  errors.attempt([&] { read_frame_rate(table, camera.device); });
   camera.device.width_px = camera.camera.intrinsics.width_px;
   camera.device.height_px = camera.camera.intrinsics.height_px;
-  camera.average_frames = static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
-  camera.tof.ring = read_ring(table.table_or_empty("ring"));
+  errors.attempt([&] {
+    camera.average_frames =
+        static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
+  });
+  errors.attempt([&] { camera.tof.ring = read_ring(table.table_or_empty("ring")); });
+  errors.reject_unknown(table, before);
   return camera;
 }
 
 }  // namespace
 
-std::vector<TofConfig> read_tof_cameras(const TomlTable& root, const fs::path& folder, const Environment& environment) {
+std::vector<TofConfig> read_tof_cameras(const TomlTable& root, const fs::path& folder, const Environment& environment,
+                                        ConfigErrors& errors) {
   std::vector<TofConfig> cameras;
   std::set<std::string> names;
   std::set<std::string> devices;
   for (const TomlTable& table : root.tables("camera")) {
-    cameras.push_back(read_camera_table(table, folder, environment));
+    cameras.push_back(read_camera_table(table, folder, environment, errors));
     const TofConfig& camera = cameras.back();
-    if (!names.insert(camera.name).second) table.fail("name", "\"" + camera.name + "\" is taken by another camera");
+    errors.attempt([&] {
+      if (camera.name.empty() || names.insert(camera.name).second) return;
+      table.fail("name", "\"" + camera.name + "\" is taken by another camera");
+    });
     for (const char* key : {"serial", "address"}) {
       const std::string& device = key[0] == 's' ? camera.device.serial : camera.device.address;
-      if (!device.empty() && !devices.insert(key + device).second) {
-        table.fail(key, "\"" + device + "\" is taken by another camera");
-      }
+      if (device.empty() || devices.insert(key + device).second) continue;
+      errors.attempt([&] { table.fail(key, "\"" + device + "\" is taken by another camera"); });
     }
   }
   return cameras;

@@ -174,6 +174,43 @@ TEST(DaemonConfig, ReportsWhatIsWrongWithEachPartInOneRun) {
   EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 6);
 }
 
+// Each line of `starts` begins one line of the message, and there are no others.
+void expect_lines(const std::string& text, const std::vector<std::string>& starts) {
+  const std::string error = error_of(text);
+  for (const std::string& start : starts) EXPECT_THAT('\n' + error, HasSubstr("\n" + start));
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n') + 1, static_cast<std::ptrdiff_t>(starts.size())) << error;
+}
+
+TEST(DaemonConfig, ReportsEveryWrongKeyOfOneTarget) {
+  expect_lines(
+      "[[target]]\nname = 'a b'\nport = ''\ntarget_file = 'a.csv'\nbaud = 1\nbauds = 2\nmethod = 'x'\n"
+      "[target.solve]\nrho = 2\nsigma_arcsec = 0\n[target.identity]\nserial = 'x'\nsensors = 0\n",
+      {"p.toml:2: target[0].name: ", "p.toml:3: target[0].port: ", "p.toml:5: target[0].baud: ",
+       "p.toml:6: target[0].bauds: unknown",
+       "p.toml:7: target[0].method: ", "p.toml:9: target[0].solve.rho: ", "p.toml:10: target[0].solve.sigma_arcsec: ",
+       "p.toml:12: target[0].identity.serial: ", "p.toml:13: target[0].identity.sensors: "});
+}
+
+TEST(DaemonConfig, ReportsEveryWrongTableOfEachKind) {
+  expect_lines(
+      "[[camera]]\nname = 'a'\ntarget = 't'\ncamera_file = 'gone'\npacket_size = 1\nserial = 'S'\n"
+      "[[camera]]\nname = 'a'\ntarget = 't'\ncamera_file = 'c'\nframes = 'f'\nptp = true\n",
+      {"p.toml:4: camera[0].camera_file: ", "p.toml:5: camera[0].packet_size: ", "p.toml:12: camera[1].ptp: ",
+       "p.toml:8: camera[1].name: "});
+  expect_lines(
+      "[[telescope]]\nname = 'a'\ntarget = 't'\ncamera_file = 'gone'\ndirectory = 'd'\nlatitude_deg = 91\n"
+      "longitude_deg = 0\n[[telescope]]\nname = 'b'\ntarget = 't'\ncamera_file = 'c'\ndirectory = 'd'\n"
+      "latitude_deg = 0\nlongitude_deg = 0\nlaw = 'x'\n",
+      {"p.toml:4: telescope[0].camera_file: ", "p.toml:6: telescope[0].latitude_deg: ", "p.toml:15: telescope[1].law: ",
+       "p.toml:12: telescope[1].directory: "});
+  expect_lines(
+      "[[stereo]]\nname = 'a'\ntarget = 't'\nrig_file = 'gone'\nsystems = ['x']\npixel_format = 'RGB'\n"
+      "left.serial = 'L'\nright.address = 'x'\n[[stereo]]\nname = 'b'\ntarget = 't'\nrig_file = 'r'\n"
+      "systems = ['ring2']\nframes = 'f'\npixel_format = 'Mono8'\n",
+      {"p.toml:4: stereo[0].rig_file: ", "p.toml:5: stereo[0].systems: ", "p.toml:6: stereo[0].pixel_format: ",
+       "p.toml:8: stereo[0].right.address: ", "p.toml:15: stereo[1].pixel_format: "});
+}
+
 struct BadConfig {
   const char* name;
   const char* text;      // before the target

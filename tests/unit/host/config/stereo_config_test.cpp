@@ -119,8 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "p.toml:6: stereo[0].pixel_format: "},
         BadStereo{"FramesAndCameras", rig("systems = ['ring2']\nframes = 'here'\n"),
                   "p.toml:7: stereo[0].left: is of a camera on the network"},
-        BadStereo{"RigGone", "[[stereo]]\nname = 'b'\ntarget = 'c'\nrig_file = 'gone'\nsystems = ['ring2']\n",
-                  "p.toml:4: stereo[0].rig_file: /etc/pharos/gone: cannot be opened"},
+        BadStereo{
+            "RigGone",
+            std::string("[[stereo]]\nname = 'b'\ntarget = 'c'\nrig_file = 'gone'\nsystems = ['ring2']\n") + kCameras,
+            "p.toml:4: stereo[0].rig_file: /etc/pharos/gone: cannot be opened"},
         BadStereo{"SameName", rig() + rig("systems = ['ring2']\n", "frames = 'x'\n"),
                   "p.toml:11: stereo[1].name: \"bow\" is taken by another rig"}),
     [](const auto& test) { return test.param.name; });
@@ -144,7 +146,8 @@ TEST(StereoConfig, PassesOnWhatARigAVocabularyOrPairsAreNoGoodFor) {
   EXPECT_EQ(refusal(rig()), "no error") << "slam was not asked for";
   EXPECT_EQ(refusal(rig("systems = ['slam']\n")), "p.toml:4: stereo[0].rig_file: /etc/pharos/rig.toml: no baseline");
   EXPECT_EQ(refusal(rig("systems = ['slam']\n[stereo.slam]\nvocabulary = 'v'\n")),
-            "p.toml:7: stereo[0].slam.vocabulary: /etc/pharos/v: cut short");
+            "p.toml:7: stereo[0].slam.vocabulary: /etc/pharos/v: cut short\n"
+            "p.toml:4: stereo[0].rig_file: /etc/pharos/rig.toml: no baseline");
   EXPECT_EQ(refusal(rig("systems = ['ring2']\nframes = 'd'\n", "")),
             "p.toml:6: stereo[0].frames: 0000_left.png: has 2 x 2");
 }
