@@ -116,7 +116,9 @@ int main(int argc, char** argv) {
   app.add_flag("--check", options.check,
                "Only check the configuration and what it names, and print what was understood");
   app.add_option("--replay", options.replay, "Play a recorded serial stream instead of listening to its target's port");
-  app.add_flag("--fast", options.fast, "Play recordings as fast as they can be worked on, not at real speed");
+  app.add_flag("--fast", options.fast,
+               "Play recordings as fast as they can be worked on, not at real speed; a subscriber on the network does "
+               "not keep up and misses messages: keep them all with [lcm] url = \"file:///FILE?mode=w\"");
   app.footer(
       "Example: pharosd --check /etc/pharos/pharosd.toml\nEnds with 0 when stopped by a signal, with 1 when LCM "
       "cannot be set up, with 2 for a configuration that cannot be worked with.");
