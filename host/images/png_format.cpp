@@ -26,6 +26,8 @@ constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '
 constexpr std::size_t kMaxDeflation = 1100;
 // Colour profiles and comments, which are ignored: enough for any profile, too little for a decompression bomb.
 constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 24;
+constexpr const char* kWrongChunkSize = "the size of a chunk is wrong";
+constexpr const char* kEndsTooSoon = "the file ends too soon";
 
 struct Free {
   void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -49,20 +51,25 @@ Layout layout_of(const spng_ihdr& header) {
   return layout;
 }
 
-// Whether the chunks (length, type, data, check) are complete to the last one: libspng does not require it.
-bool has_its_end(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kAround = 12;
+enum class Chunks : std::uint8_t { kComplete, kCut, kWrongSize };
+
+// Whether the sizes lead from chunk to chunk (length, type of four letters, data, check) to the last one: libspng does
+// not require it.
+Chunks chunks_of(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kHead = 8, kAround = 12;
+  const auto is_letter = [](std::uint8_t c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
   std::size_t at = kSignature.size();
-  while (bytes.size() - at >= kAround) {
-    if (std::equal(bytes.begin() + static_cast<std::ptrdiff_t>(at + 4),
-                   bytes.begin() + static_cast<std::ptrdiff_t>(at + 8), "IEND"))
-      return true;
+  while (bytes.size() - at >= kHead) {
+    const auto type = bytes.subspan(at + 4, 4);
+    if (!std::all_of(type.begin(), type.end(), is_letter)) return Chunks::kWrongSize;
+    if (bytes.size() - at < kAround) return Chunks::kCut;
+    if (std::equal(type.begin(), type.end(), "IEND")) return Chunks::kComplete;
     std::size_t length = 0;
     for (std::size_t k = 0; k < 4; ++k) length = length << 8 | bytes[at + k];
-    if (length > bytes.size() - at - kAround) return false;
+    if (length > bytes.size() - at - kAround) return Chunks::kCut;
     at += length + kAround;
   }
-  return false;
+  return Chunks::kCut;
 }
 
 class PngReader {
@@ -92,13 +99,22 @@ class PngReader {
     } else {
       read_values(picture);
     }
-    if (!has_its_end(bytes_)) refuse_damaged(name_, "PNG", "the file ends too soon");
+    require_chunks();
     return picture;
   }
 
  private:
+  // libspng finds a chunk of a wrong size by the check that it then reads at the wrong place.
   void require(int code) const {
-    if (code != 0) refuse_damaged(name_, "PNG", spng_strerror(code));
+    if (code == 0) return;
+    if (code == SPNG_ECHUNK_CRC) require_chunks();
+    refuse_damaged(name_, "PNG", spng_strerror(code));
+  }
+
+  void require_chunks() const {
+    const Chunks chunks = chunks_of(bytes_);
+    if (chunks == Chunks::kComplete) return;
+    refuse_damaged(name_, "PNG", chunks == Chunks::kCut ? kEndsTooSoon : kWrongChunkSize);
   }
 
   void require_enough_bytes(std::size_t pixels) const {

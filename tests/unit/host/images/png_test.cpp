@@ -68,6 +68,19 @@ TEST(Png, AColourForTransparencyDoesHarmOnlyWhereAPixelHasIt) {
               HasSubstr("transparency"));
 }
 
+TEST(Png, AWrongChunkSizeIsNoWrongCheck) {
+  const Bytes good = encoded(SPNG_COLOR_TYPE_GRAYSCALE, 8, {7, 9});
+  constexpr std::size_t kImageData = 8 + 25;  // after the signature and the header's chunk
+  for (const int more : {-1, 1, 2}) {
+    Bytes bytes = good;
+    bytes[kImageData + 3] = static_cast<std::uint8_t>(bytes[kImageData + 3] + more);
+    EXPECT_THAT(error_message_of(bytes), HasSubstr("size of a chunk is wrong")) << more;
+  }
+  Bytes bytes = good;
+  bytes[kImageData + 8] ^= 0x55;
+  EXPECT_THAT(error_message_of(bytes), testing::Not(HasSubstr("size of a chunk")));
+}
+
 TEST(Png, AGreyPaletteIsGrey) {
   spng_plte palette{};
   palette.n_entries = 2;
