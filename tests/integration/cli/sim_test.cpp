@@ -26,6 +26,14 @@ TEST(CliSim, TakesTheScenarioFromStandardInput) {
   EXPECT_NE(content_of(folder.path("b/edges.csv.gz")), "");
 }
 
+TEST(CliSim, ACameraThatCannotBeServedIsNotAnnounced) {
+  const Outcome run =
+      pharos("sim camera " PHAROS_SCENARIOS "/tof_still.toml --frames 1 --duration 1 --address 192.0.2.1");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("192.0.2.1"));
+}
+
 TEST(CliSim, NamesStandardInputAndLineOfABadScenario) {
   const Folder folder;
   const Outcome run = pharos("sim lighthouse - --output " + folder.path("out"), "duration_s = 1\nduratoin_s = \"x");

@@ -33,12 +33,14 @@ bool dead(const CameraPlay& play, double time_s) {
 
 }  // namespace
 
-CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play) {
+CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play,
+                               const std::function<void()>& ready) {
   std::optional<TruthRows> truth;
   if (!play.truth_file.empty()) truth.emplace(play.truth_file);
   const std::int64_t began_ns = host::monotonic_now_ns();
   std::optional<FakeHelios> camera;
   CameraPlaySummary summary;
+  bool told_ready = false;
   do {
     summary.played_s = static_cast<double>(host::monotonic_now_ns() - began_ns) / kNsPerSecond;
     if (play.duration_s > 0.0 && summary.played_s >= play.duration_s) break;
@@ -49,6 +51,8 @@ CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& 
     } else if (!camera && !is_dead) {
       camera.emplace(sequence, play, truth ? &*truth : nullptr, began_ns);
     }
+    if (!told_ready) ready();
+    told_ready = true;
   } while (!told_to_stop());
   if (camera) summary.frames += camera->frames();
   return summary;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,8 @@ struct CameraPlaySummary {
 };
 
 /// Serves `reel` until the end. Throws host::InputError where no camera can be had at that address. SIGINT and SIGTERM
-/// must be blocked in every thread.
-CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play);
+/// must be blocked in every thread. `ready` is called once the camera is there (or would be but for a death at 0 s).
+CameraPlaySummary serve_camera(const FrameSequence& sequence, const CameraPlay& play,
+                               const std::function<void()>& ready);
 
 }  // namespace pharos::sim

@@ -82,8 +82,8 @@ int serve(CameraOptions options) {
   block_stop_signals();
   // There before the camera is, so that whoever waits for it finds both.
   if (!options.play.truth_file.empty()) std::ofstream(options.play.truth_file).flush();
-  std::cout << options.play.address << std::endl;
-  const sim::CameraPlaySummary summary = sim::serve_camera(reel, options.play);
+  const auto ready = [&options] { std::cout << options.play.address << std::endl; };
+  const sim::CameraPlaySummary summary = sim::serve_camera(reel, options.play, ready);
   std::cerr << "served " << summary.frames << " frames in " << summary.played_s << " s\n";
   return 0;
 }
@@ -141,7 +141,7 @@ void add_sim_camera(CLI::App& sim, int& exit_code) {
       ->check(number_from(0.1, 1e9));
   add_behaviour(*command, *options);
   command->footer(
-      "Prints its address once the frames are made; ends on SIGINT or SIGTERM. One camera an address.\n\n"
+      "Prints its address once the camera can be found there; ends on SIGINT or SIGTERM. One camera an address.\n\n"
       "Example: pharos sim camera tools/sim/scenarios/tof_approach.toml --truth /tmp/truth.csv --camera-file "
       "/tmp/camera.toml\n         pharos sim camera /tmp/pairs --view left --address 127.0.0.2 --serial L1 --rate 10");
   command->callback([options, &exit_code] { exit_code = serve(*options); });
