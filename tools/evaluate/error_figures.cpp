@@ -33,9 +33,13 @@ double spread_of(const std::vector<Vector3>& errors) {
 
 std::optional<Consistency> consistency_of(const Half& half) {
   if (half.sigmas.size() != half.errors.size()) return std::nullopt;
+  const auto exact = std::count(half.sigmas.begin(), half.sigmas.end(), 0.0);
+  const auto judged = static_cast<std::ptrdiff_t>(half.sigmas.size()) - exact;
+  if (judged == 0) return std::nullopt;
   Consistency consistency;
-  const double each = 1.0 / static_cast<double>(half.errors.size());
+  const double each = 1.0 / static_cast<double>(judged);
   for (std::size_t i = 0; i < half.errors.size(); ++i) {
+    if (half.sigmas[i] == 0.0) continue;  // exact by definition, as slam's first pose
     const double ratio = half.errors[i].norm() / half.sigmas[i];
     consistency.normalised_square += each * squared(ratio);
     for (std::size_t k = 0; k < consistency.within.size(); ++k) {

@@ -42,7 +42,7 @@ struct Consistency {
 struct Figures {
   Distribution error;                      // (25)
   double spread = 0.0;                     // (23): rms of errors about their mean, independent of a constant offset
-  std::optional<Consistency> consistency;  // where every compared pose states a sigma
+  std::optional<Consistency> consistency;  // where every compared pose states a sigma; 0 is not judged
   std::optional<double> relative;          // RPE: rms error of the motion over a time
 };
 

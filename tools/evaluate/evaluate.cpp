@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos evaluate: poses compared with an external truth (002, section 4.3).
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
+#include "host/files/atomic_file.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/evaluate/comparison.hpp"
 #include "tools/evaluate/error_plot.hpp"
+#include "tools/evaluate/figure_table.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/standard_input.hpp"
 
 namespace pharos::tools {
@@ -43,6 +48,7 @@ struct Options {
   int station = -1;
   evaluate::TrajectoryChoice choice;
   std::string plot;
+  bool table = false;
   OutputOptions output;
 };
 
@@ -172,6 +178,22 @@ void write_row(host::RowWriter& rows, const Options& options, const evaluate::Tr
   }
 }
 
+// A row for programs, a table for people: asked for, or on a terminal.
+void write(const Options& options, const evaluate::TrajectoryFile<evaluate::EstimatePose>& e,
+           const evaluate::Comparison& c) {
+  const bool terminal = options.output.path == "-" && !options.output.json && ::isatty(STDOUT_FILENO) == 1;
+  if (options.table || terminal) {
+    const std::size_t compared = c.refused.empty() ? c.pairs.pairs.size() : 0;
+    const evaluate::RowCounts counts{e.rows,    compared,        e.refused,     e.ambiguous,
+                                     e.flagged, c.pairs.outside, c.pairs.in_gap};
+    host::write_file(options.output.path, figure_table(c, counts, options.relative_s));
+    return;
+  }
+  Output output(options.output, kColumns);
+  write_row(output.rows(), options, e, c);
+  output.finish();
+}
+
 evaluate::ComparisonOptions comparison_options(const Options& options) {
   evaluate::ComparisonOptions result;
   result.mode = options.mode;
@@ -200,9 +222,7 @@ int run(const Options& options) {
   const auto estimate = evaluate::read_trajectory<evaluate::EstimatePose>(options.estimate, choice);
   const auto truth = evaluate::read_trajectory<evaluate::TruthPose>(options.truth, choice);
   const evaluate::Comparison comparison = evaluate::compare(estimate, truth, comparison_options(options));
-  Output output(options.output, kColumns);
-  write_row(output.rows(), options, estimate, comparison);
-  output.finish();
+  write(options, estimate, comparison);
   remark(options, comparison);
   if (!comparison.refused.empty()) return kExitNoAnswer;
   if (!options.plot.empty()) {
@@ -224,7 +244,7 @@ CLI::Validator auto_or_seconds() {
 }  // namespace
 
 void add_evaluate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("evaluate", "Poses against an outside truth: errors, one row");
+  CLI::App* command = app.add_subcommand("evaluate", "Poses against an outside truth: errors, one row or a table");
   const auto options = std::make_shared<Options>();
   command
       ->add_option(
@@ -236,7 +256,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   const std::map<std::string, AlignMode> modes = {
       {"none", AlignMode::kNone}, {"se3", AlignMode::kSe3}, {"hand-eye", AlignMode::kHandEye}};
   command->add_option("--align", options->mode, "none, se3 (worlds) or hand-eye (worlds and bodies)")
-      ->transform(CLI::CheckedTransformer(modes));
+      ->transform(CLI::CheckedTransformer(modes).description("{hand-eye,none,se3}"));
   command
       ->add_option("--time-offset", options->time_offset,
                    "Seconds to add to ESTIMATE's times, or auto: found from the motion")
@@ -254,8 +274,13 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   command->add_flag("--ambiguous", options->choice.keep_ambiguous, "Count ambiguous poses among the answers");
   command->add_option("--without", options->choice.without_flags, "Leave out rows with this word in flags; repeatable");
   command->add_option("--plot", options->plot, "File for a picture (SVG) of the errors over time")
-      ->check(output_place());
+      ->check(output_place())
+      ->check(picture_kind(".svg"));
   add_output_options(*command, options->output);
+  command
+      ->add_flag("--table", options->table,
+                 "A table for people instead of the row; so on a terminal, where no -o is given")
+      ->excludes("--json");
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -65,8 +65,8 @@ class Collector {
       fail(line, "its time is not later than that of the pose before; sort the rows and keep one a time");
     }
     Sample<WorldFromBody> sample{row.time_s, {row.q.normalized().toRotationMatrix(), row.t}, {}, {}};
-    if (row.sigma_rot_deg && *row.sigma_rot_deg > 0.0) sample.sigma_rotation_rad = *row.sigma_rot_deg * kRadPerDeg;
-    if (row.sigma_pos_mm && *row.sigma_pos_mm > 0.0) sample.sigma_position_m = *row.sigma_pos_mm / kMmPerM;
+    if (row.sigma_rot_deg && *row.sigma_rot_deg >= 0.0) sample.sigma_rotation_rad = *row.sigma_rot_deg * kRadPerDeg;
+    if (row.sigma_pos_mm && *row.sigma_pos_mm >= 0.0) sample.sigma_position_m = *row.sigma_pos_mm / kMmPerM;
     file_.samples.push_back(sample);
   }
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {

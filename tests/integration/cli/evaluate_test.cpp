@@ -92,6 +92,23 @@ TEST(CliEvaluate, CountsEveryRowOnce) {
   EXPECT_EQ(rows_of(content_of(e.poses)).size(), number(row, "rows"));
 }
 
+TEST(CliEvaluate, ATableForPeopleTellsTheSameFigures) {
+  const Experiment& e = Experiment::get();
+  const std::string command = "evaluate " + e.poses + " " + e.truth;
+  const Row row = rows_of(pharos(command).out).at(0);
+  const Outcome run = pharos(command + " --table");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string& text :
+       {row.at("compared") + " of " + row.at("rows") + " rows compared", row.at("pos_max_mm").substr(0, 3),
+        std::string("root mean square"), std::string(" mm\n"), std::string("within 2 stated sigma")}) {
+    EXPECT_THAT(run.out, HasSubstr(text));
+  }
+  const Outcome none = pharos("evaluate " + e.poses + " " + e.capture + " --table");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.out, HasSubstr("no result: refused_no_overlap"));
+  EXPECT_EQ(pharos(command + " --table --json").exit_code, 2);
+}
+
 TEST(CliEvaluate, EndsWith1AndARowWhereTimesDoNotMeet) {
   const Experiment& e = Experiment::get();
   const Outcome run = pharos("evaluate " + e.poses + " " + e.capture);
