@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/slam/pair_files.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "host/cameras/pair_order.hpp"
+#include "host/files/same_file.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/support/output.hpp"
 
@@ -52,6 +55,9 @@ void note_gap(const std::vector<host::PairName>& pairs) {
 }  // namespace
 
 std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& figures) {
+  if (host::same_file(choice.left, choice.right)) {
+    throw host::InputError(choice.left + " and " + choice.right + ": " + host::text_of(host::PairFault::kEqual));
+  }
   std::vector<std::string> alone;
   std::vector<host::PairName> pairs = host::pair_names(choice.left, choice.right, choice.rate_hz, &alone);
   for (const std::string& image : alone) note(image + ": has no partner; left out");
@@ -71,6 +77,15 @@ void require_size(const host::PairName& pair, const PairImages& images, const ho
     throw host::InputError(*path + ": has " + std::to_string(image->width_px) + " x " +
                            std::to_string(image->height_px) + " pixels; the rig's cameras have " +
                            std::to_string(intrinsics.width_px) + " x " + std::to_string(intrinsics.height_px));
+  }
+}
+
+void require_two_views(const host::PairName& pair, const PairImages& images) {
+  const auto [least, most] = std::minmax_element(images.left.pixels.begin(), images.left.pixels.end());
+  if (least == most || *least == *most) return;  // of one value: a dark room, not a picture
+  const host::PairFault fault = host::pair_fault({images.left.view(), images.right.view()});
+  if (fault != host::PairFault::kNone) {
+    throw host::InputError(pair.left + " and " + pair.right + ": " + host::text_of(fault));
   }
 }
 

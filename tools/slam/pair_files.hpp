@@ -32,4 +32,7 @@ PairImages read_pair(const host::PairName& pair);
 /// Throws InputError for other sizes than the rig's.
 void require_size(const host::PairName& pair, const PairImages& images, const host::RigFile& rig);
 
+/// Throws InputError where both images are the same picture of something: the left camera's twice.
+void require_two_views(const host::PairName& pair, const PairImages& images);
+
 }  // namespace pharos::tools

@@ -10,6 +10,7 @@
 #include "host/vision/enhance/eight_bits.hpp"
 #include "host/vision/slam/slam_system.hpp"
 #include "tools/slam/pair_files.hpp"
+#include "tools/slam/pose_files.hpp"
 #include "tools/slam/slam_files.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/image_input.hpp"
@@ -25,7 +26,8 @@ constexpr const char* kExample =
     "  pharos slam left right --rig rig.toml --report report.json --map map.ply > poses.tum\n"
     "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
     "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
-    "row. --scene static: nothing is masked, the camera moves; --output camera tells its path.\n"
+    "row, in a table (--format csv, --json) no pose: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,\n"
+    "status. --scene static: nothing is masked, the camera moves; --output camera tells its path.\n"
     "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits (of which the upper 8 count, unless enhanced), JPEG or BMP; of "
     "colour\n"
     "the luma. One without partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
@@ -34,7 +36,8 @@ constexpr const char* kExample =
 struct Options {
   PairChoice names;
   std::string rig;
-  std::string scene = "target", output = "target";
+  std::string scene = "target", output = "target", format = "tum";
+  OutputOptions poses;
   std::string report, map, overlay;
   bool no_loops = false, threads = false;
   std::string enhance;  // empty, or the denoiser
@@ -84,6 +87,7 @@ class Feeder {
       PairImages images = read_pair(pair);
       read = true;
       require_size(pair, images, rig_);
+      require_two_views(pair, images);
       input_.count_read(images.left.from_colour ? pair.left : images.right.from_colour ? pair.right : "");
       any_ = true;
       return images;
@@ -106,7 +110,7 @@ int run(Options options) {
   options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
   options.settings.close_loops = !options.no_loops;
   options.settings.threads = options.threads;
-  for (const std::string& file : {options.report, options.map}) {
+  for (const std::string& file : {options.report, options.map, options.poses.path}) {
     if (!file.empty()) require_writable(file);
   }
   RunFigures figures;
@@ -122,7 +126,8 @@ int run(Options options) {
   }
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
-  const int rows = write_tum(trajectory, options.output == "camera");
+  const bool table = options.poses.json || options.format == "csv";
+  const int rows = write_poses({options.poses, table, options.output == "camera"}, trajectory);
   if (!options.map.empty()) write_map_ply(options.map, system->points());
   if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
   if (rows == 0 && !feeder.input().nothing_read()) {
@@ -149,6 +154,12 @@ void add_slam(CLI::App& app, int& exit_code) {
       ->add_option("--output", options->output,
                    "Poses of the target in the camera (default), or of the camera in the scene")
       ->check(CLI::IsMember({"target", "camera"}));
+  command->add_option("-o", options->poses.path, "File for the poses instead of standard output (-)")
+      ->type_name("FILE")
+      ->check(output_place());
+  command->add_option("--format", options->format, "tum (default), or csv: a table with sigmas and a status")
+      ->check(CLI::IsMember({"tum", "csv"}));
+  command->add_flag("--json", options->poses.json, "One JSON object a line with the names of --format csv");
   command->add_option("--rate", options->names.rate_hz, "Pairs a second where names tell no time (default 20)")
       ->check(CLI::Range(0.001, 10'000.0));
   command

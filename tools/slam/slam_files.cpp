@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,7 +12,6 @@
 #include "host/images/canvas.hpp"
 #include "host/runtime/process_usage.hpp"
 #include "host/support/exact_number.hpp"
-#include "host/support/fixed_number.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/spin.hpp"
 
@@ -70,26 +68,6 @@ std::vector<std::uint8_t> eight_bits(const host::GreyImage& image) {
   out.reserve(image.pixels.size());
   for (const std::uint16_t value : image.pixels) out.push_back(static_cast<std::uint8_t>(value >> 8U));
   return out;
-}
-
-int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera) {
-  int rows = 0;
-  std::string text;
-  for (const slam::TrackedFrame& frame : trajectory) {
-    if (!frame.placed) continue;
-    const auto& pose = frame.placed->pose;
-    const Vector3 t = of_camera ? pose.inverse().t : pose.t;
-    const Quaternion q = canonical_quaternion(of_camera ? Matrix3(pose.R.transpose()) : pose.R);
-    text += host::fixed_number(frame.time_s);
-    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-      text += ' ' + host::exact_number(value);
-    text += '\n';
-    ++rows;
-  }
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw host::InputError("standard output cannot be written");
-  }
-  return rows;
 }
 
 void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points) {

@@ -13,10 +13,6 @@ namespace pharos::tools {
 /// The upper 8 of 16 bits a pixel: the input of ORB.
 std::vector<std::uint8_t> eight_bits(const host::GreyImage& image);
 
-/// Rows of tracked frames on standard output: timestamp tx ty tz qx qy qz qw; `of_camera`: the inverse poses. Returns
-/// how many.
-int write_tum(const std::vector<slam::TrackedFrame>& trajectory, bool of_camera);
-
 /// The map's points as a PLY file of ASCII vertices: x y z in metres, observers.
 void write_map_ply(const std::string& path, const std::vector<slam::SlamPoint>& points);
 

@@ -144,6 +144,23 @@ TEST_F(CliSlam, ColourIsSaidOnce) {
   EXPECT_EQ(count_lines(run.err), 2U) << run.err;
 }
 
+TEST_F(CliSlam, TheLeftPicturesTwiceAreRefused) {
+  const std::string same = "left and right image are the same picture";
+  expect_refused(pharos("slam " + folder_.path("left") + " " + folder_.path("left/../left") + " --rig " + rig_), same);
+  std::string picture = "P5\n64 48\n255\n" + std::string(64 * 48 - 1, '\0') + "x";
+  for (const char* side : {"left", "right"}) folder_.write(side + std::string("/0.pgm"), picture);
+  expect_refused(slam(), same);
+}
+
+TEST_F(CliSlam, ATableNamesFramesWithoutAPose) {
+  const Outcome run = slam(" --json");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(count_lines(run.out), 3U);
+  EXPECT_THAT(first_line(run.out), HasSubstr("\"sigma_pos_mm\":null,\"status\":\"refused_lost\""));
+  EXPECT_EQ(slam(" -o " + folder_.path("none.tum")).exit_code, 1);
+  EXPECT_EQ(content_of(folder_.path("none.tum")), "");
+}
+
 TEST_F(CliSlam, ImagesWithoutPartnersOnBothSidesAreNoPairs) {
   for (const char* name : {"0", "1"}) std::filesystem::remove(folder_.path(std::string("left/") + name + ".pgm"));
   expect_refused(slam(), "has no partner");
@@ -231,6 +248,19 @@ TEST(CliSlamFiles, ATumblingTargetToPosesMapAndPictures) {
   EXPECT_EQ(figure(evaluated, "compared"), 7.0);
   EXPECT_LT(figure(evaluated, "rot_max_deg"), 0.1);
   EXPECT_LT(figure(evaluated, "pos_max_mm"), 10.0);
+
+  const std::string table = folder.path("turn.csv");
+  const Outcome csv = pharos(slam + " --format csv -o " + table);
+  ASSERT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_EQ(csv.out, "");
+  const auto cells = rows_of(content_of(table));
+  ASSERT_EQ(cells.size(), 7U);
+  EXPECT_EQ(std::stod(cells[6].at("tx_m")), rows[6][1]);
+  EXPECT_EQ(std::stod(cells[6].at("qw")), rows[6][7]);
+  EXPECT_EQ(std::stod(cells[0].at("sigma_pos_mm")), 0.0) << "the first frame defines the target's";
+  const Outcome consistent = pharos("evaluate " + table + against);
+  EXPECT_GT(figure(consistent, "pos_normalised_square"), 0.0);
+  EXPECT_LT(figure(consistent, "pos_normalised_square"), 10.0);
 
   const auto camera = numbers_of(pharos(slam + " --output camera --rate 10").out);
   ASSERT_EQ(camera.size(), rows.size());
