@@ -73,6 +73,23 @@ void write_sigmas(const Ring2Estimate& e, const Observable& told, host::RowWrite
   rows.number(when(told.ring && told.nozzle, sigma_mm(ring2::kDistance)));
 }
 
+// Without their side, where they have one.
+constexpr std::pair<const char*, const char*> kRefusals[] = {
+    {"no_ellipse", "no ellipse was found; look with `pharos ellipses --overlay`"},
+    {"black", "is black; take it with light and without the lens cover"},
+    {"saturated", "is saturated; expose it shorter"},
+    {"even", "has no contrast; is the target before the camera?"},
+    {"no_common_circle",
+     "no two ellipses are one circle seen by both cameras; are both images of the target at one time, "
+     "and is the rig theirs?"},
+    {"too_few_ellipses", "fewer than two ellipses; give ring or nozzle of both views"},
+    {"bad_ellipse", "an ellipse with impossible axes, or where the lens has no pixels; correct the table"},
+    {"inconsistent", "no two parallel circles before this rig give these ellipses; is the rig that of these images?"},
+    {"undetermined", "the ellipses do not determine the circles; give more of them"},
+    {"left_right_exchanged", "left and right seem to be exchanged; exchange them"},
+    {"cameras_coincide", "the rig's cameras stand at one place; correct the rig file"},
+};
+
 }  // namespace
 
 std::vector<std::string> ring2_columns(bool with_problem) {
@@ -122,6 +139,16 @@ void write_ring2(const Ring2Estimate& e, bool by_paper, std::uint8_t one_edge, h
   }
   write_vector(e.second ? e.second->ring_centre_m : Vector3::Zero().eval(), e.second.has_value() && told.ring, rows);
   rows.end_row();
+}
+
+std::string refusal_text(const std::string& reason) {
+  for (const auto& [word, text] : kRefusals) {
+    if (reason == word) return text;
+    for (const char* side : {"left", "right"}) {
+      if (reason == std::string(side) + '_' + word) return std::string(side) + " image: " + text;
+    }
+  }
+  return "no answer: " + reason;
 }
 
 void write_refusal(const std::string& reason, host::RowWriter& rows) {

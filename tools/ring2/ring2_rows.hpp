@@ -19,6 +19,9 @@ void write_ring2(const ring2::Ring2Estimate& estimate, bool by_paper, std::uint8
 /// A refusal's row: everything empty but the status, refused_<reason>.
 void write_refusal(const std::string& reason, host::RowWriter& rows);
 
+/// The reason of a refusal in words for people: what it is and what to do.
+std::string refusal_text(const std::string& reason);
+
 /// What the ellipses could not tell, as words joined by |.
 std::string unobservable_words(std::uint8_t unobservable);
 

@@ -63,6 +63,7 @@ TEST(CliRing2, RefusedRowsKeepTheirPlaceWithEmptyFields) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].at("status"), "refused_too_few_ellipses");
   EXPECT_EQ(rows[0].at("theta_deg"), "");
+  EXPECT_THAT(run.err, HasSubstr("fewer than two ellipses")) << "and not in silence";
 }
 
 TEST(CliRing2, LeftAndRightExchangedIsTheReasonOfEveryRow) {
@@ -91,6 +92,7 @@ TEST(CliRing2, AnImageOfNothingIsNamedWithItsSide) {
     EXPECT_EQ(run.exit_code, 1);
     ASSERT_EQ(rows_of(run.out).size(), 1U) << run.err;
     EXPECT_EQ(rows_of(run.out)[0].at("status"), status);
+    EXPECT_THAT(run.err, HasSubstr("left image: is ")) << "and not in silence";
   }
 }
 
