@@ -36,7 +36,7 @@ double BoardFigure::largest_error_sigmas() const {
   return largest;
 }
 
-BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed) {
+BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed, const std::function<void()>& tick) {
   sim::BoardSheet sheet;
   sheet.dots = dots;
   calibrate::CalibrationChoices choices;
@@ -49,6 +49,7 @@ BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t see
     const host::GreyImage image =
         renderer.render(sheet, T_camera_board, dots ? kRetroReflective : kPrinted, noise_seed);
     found.push_back({std::to_string(found.size()), calibrate::find_board(image.view(), choices.board)});
+    tick();
   }
   const calibrate::CameraCalibration result =
       calibrate::calibrate_camera(std::move(found), sim::kPaperLens.width_px, sim::kPaperLens.height_px, choices);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct BoardFigure {
 
 /// Renders `images` poses of the paper's board (12 x 8, 20 mm; dots of 5 mm) through the paper's lens and calibrates.
 /// The noise is that of one camera, 280 counts of 65535; retro-reflective dots return 28000 counts of contrast, a
-/// printed chessboard a tenth of that. About half a second an image. Throws host::InputError where OpenCV's module is
-/// not there.
-BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed);
+/// printed chessboard a tenth of that. About half a second an image; `tick` is called after each. Throws
+/// host::InputError where OpenCV's module is not there.
+BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed, const std::function<void()>& tick);
 
 }  // namespace pharos::tools

@@ -19,6 +19,7 @@
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/recording.hpp"
 #include "tools/support/stations.hpp"
@@ -163,7 +164,9 @@ void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code) {
       ->capture_default_str();
   command->add_option("--residuals", options->residuals, "File for each sensor's and rotor's rms before and after")
       ->check(output_place());
-  command->add_option("--picture", options->picture, "File for the same as a picture (SVG)")->check(output_place());
+  command->add_option("--picture", options->picture, "File for the same as a picture (SVG)")
+      ->check(output_place())
+      ->check(picture_kind(".svg"));
   command->add_flag("--json", options->json, "Tables as one JSON object a line instead of CSV");
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

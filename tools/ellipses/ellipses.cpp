@@ -14,6 +14,7 @@
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stopwatch.hpp"
 
@@ -146,7 +147,8 @@ void add_ellipses(CLI::App& app, int& exit_code) {
   command->add_option("--time", options->repeats, "Detect so many times more; median ms an image on standard error")
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--overlay", options->overlay, "Draw edges, arcs and ellipses into this PNG")
-      ->check(output_place());
+      ->check(output_place())
+      ->check(picture_kind(".png"));
   add_output_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

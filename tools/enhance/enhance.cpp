@@ -16,6 +16,7 @@
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -208,10 +209,11 @@ void add_settings(CLI::App& command, Options& options) {
   command
       .add_option("--strategy", settings.strategy,
                   "Weights of (4): I (none), II (by the gradient), III (by a window, (6); default)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, WeightStrategy>{
-              {"I", WeightStrategy::kUniform}, {"II", WeightStrategy::kGradient}, {"III", WeightStrategy::kWindow}},
-          CLI::ignore_case));
+      ->transform(CLI::CheckedTransformer(std::map<std::string, WeightStrategy>{{"I", WeightStrategy::kUniform},
+                                                                                {"II", WeightStrategy::kGradient},
+                                                                                {"III", WeightStrategy::kWindow}},
+                                          CLI::ignore_case)
+                      .description("{I,II,III}"));
   command.add_option("--alpha", settings.alpha, "Weight of smoothness in (4)")
       ->capture_default_str()
       ->check(number_from(0.0, 100.0));
@@ -243,7 +245,10 @@ void add_enhance(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("enhance", "Dark images to bright ones, step by step");
   const auto options = std::make_shared<Options>();
   command->add_option("IN", options->in, "Image, folder of images, or - (standard input)")->required();
-  command->add_option("OUT", options->out, "PNG, folder, or - (standard output)")->check(output_place())->required();
+  command->add_option("OUT", options->out, "PNG, folder, or - (standard output)")
+      ->check(output_place())
+      ->check(picture_kind(".png"))
+      ->required();
   command->add_option("--max-rgb", options->steps.start, "Write the illumination's start (2)")->check(output_place());
   command->add_option("--refined", options->steps.refined, "Write the solution of (5)")->check(output_place());
   command->add_option("--illumination", options->steps.illumination, "Write the illumination L, after (7)")

@@ -16,6 +16,7 @@
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/seed_option.hpp"
 #include "tools/support/standard_input.hpp"
@@ -252,7 +253,9 @@ void add_options(CLI::App& command, Options& options) {
       ->check(number_from(1, 100))
       ->capture_default_str();
   add_seed_option(command, options.seed, "Of the starts but the first");
-  command.add_option("--plot", options.plot, "File for a picture (SVG) of layout and precision")->check(output_place());
+  command.add_option("--plot", options.plot, "File for a picture (SVG) of layout and precision")
+      ->check(output_place())
+      ->check(picture_kind(".svg"));
   command.add_flag("--json", options.json, "The gain as one JSON object instead of CSV");
 }
 

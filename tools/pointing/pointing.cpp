@@ -18,6 +18,7 @@
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -229,7 +230,8 @@ void add_pointing(CLI::App& app, int& exit_code) {
       ->add_option("--most-spin-deg-s", options->max_spin_deg_s, "Fastest turn that --law spin looks for (default 5)")
       ->check(number_from(0.001, 180.0));
   command->add_option("--overlay", options->overlay, "A picture of what was found; for a pass a folder of them")
-      ->check(output_place());
+      ->check(output_place())
+      ->check(picture_kind(".png"));
   command->add_option("--time", options->time, "Repeat so often and print the median time on standard error")
       ->check(CLI::Range(1, 100'000));
   add_output_options(*command, options->output);

@@ -16,6 +16,7 @@
 #include "tools/support/image_input.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/output_place.hpp"
+#include "tools/support/picture_kind.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {
@@ -86,11 +87,19 @@ bool from_table(const ring2::Rig& rig, const Options& options) {
   Output output(options.output, ring2_columns(table.has_problems));
   const bool by_paper = options.method == "paper";
   bool answered = false;
+  std::string refusal;  // the last one
   for (const EllipseProblem& problem : table.problems) {
     if (table.has_problems) output.rows().text(problem.name);
-    answered = write(solved(rig, problem.contours, by_paper), by_paper, output.rows()) || answered;
+    const Solved estimate = solved(rig, problem.contours, by_paper);
+    if (!estimate) refusal = name_of(estimate.error());
+    answered = write(estimate, by_paper, output.rows()) || answered;
   }
   output.finish();
+  if (!answered) {
+    const std::size_t count = table.problems.size();
+    note(options.ellipses + ": " +
+         (count > 1 ? "none of " + std::to_string(count) + " has an answer; the last: " : "") + refusal_text(refusal));
+  }
   print_time("all problems", options, [&] {
     for (const EllipseProblem& problem : table.problems) static_cast<void>(solved(rig, problem.contours, by_paper));
   });
@@ -127,6 +136,9 @@ bool from_images(const ring2::Rig& rig, const Options& options) {
     const Solved estimate = solved(rig, circles.contours, true);
     circles.estimate = estimate ? std::optional(*estimate) : std::nullopt;
     if (!estimate) circles.refusal = name_of(estimate.error());
+  }
+  if (!circles.estimate && fault == host::PairFault::kNone) {
+    note(options.images[0] + ", " + options.images[1] + ": " + refusal_text(circles.refusal));
   }
   if (circles.estimate) {
     write_ring2(*circles.estimate, by_paper, circles.one_edge, output.rows());
@@ -168,7 +180,9 @@ void add_ring2(CLI::App& app, int& exit_code) {
   command->add_option("--method", options->method, "exact, or paper: as published")
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();
-  command->add_option("--overlay", options->overlay, "Draw what was found into this PNG")->check(output_place());
+  command->add_option("--overlay", options->overlay, "Draw what was found into this PNG")
+      ->check(output_place())
+      ->check(picture_kind(".png"));
   command->add_option("--time", options->repeats, "Solve so many times more; median ms on standard error")
       ->check(CLI::Range(1, 1'000'000));
   add_output_options(*command, options->output);

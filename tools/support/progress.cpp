@@ -10,7 +10,8 @@ namespace pharos::tools {
 namespace {
 
 constexpr std::chrono::milliseconds kRenewal{500};
-// Reading the clock costs more than processing a pulse; once in so many steps suffices when the total is unknown.
+// Reading the clock costs more than processing a pulse; once in so many steps suffices when the total is unknown and
+// more than so many were done: fewer may take long each.
 constexpr std::size_t kStepsPerLook = 4096;
 
 }  // namespace
@@ -29,7 +30,7 @@ Progress::~Progress() {
 void Progress::step(std::size_t count) {
   done_ += count;
   if (!terminal_) return;
-  if (total_ == 0 && done_ - looked_at_clock_ < kStepsPerLook) return;
+  if (total_ == 0 && done_ > kStepsPerLook && done_ - looked_at_clock_ < kStepsPerLook) return;
   looked_at_clock_ = done_;
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;

@@ -88,6 +88,26 @@ TEST(CliUsage, RefusesToWriteOntoWhatItReads) {
   EXPECT_EQ(content_of(folder.path("images/one.png")), "mine");
 }
 
+TEST(CliUsage, APictureOfAKindThatIsNotWrittenIsRefused) {
+  for (const auto& [arguments, kind] :
+       {std::pair<std::string, std::string>{"evaluate e.csv t.csv --plot a.png", ".svg"},
+        {"layout --body b.off --sensors 4 --poses p.csv -o t.csv --plot a.PNG", ".svg"},
+        {"ellipses a.png --overlay b.svg", ".png"},
+        {"enhance a.png b.jpg", ".png"}}) {
+    const Outcome run = pharos(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr("pictures are written as " + kind + " only")) << arguments;
+  }
+}
+
+TEST(CliUsage, HelpNamesTheWordsOfAChoiceAndNotTheirNumbers) {
+  EXPECT_THAT(pharos("evaluate --help").out, HasSubstr("{hand-eye,none,se3}"));
+  EXPECT_THAT(pharos("enhance --help").out, HasSubstr("{I,II,III}"));
+  for (const char* command : {"evaluate", "enhance"}) {
+    EXPECT_THAT(pharos(std::string(command) + " --help").out, testing::Not(HasSubstr("->")));
+  }
+}
+
 TEST(CliUsage, TwoOutputsInOneFileAreRefused) {
   const Folder folder;
   const Outcome run =

@@ -3,6 +3,7 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/calibrate/board_figure.hpp"
+#include "tools/support/progress.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -26,9 +27,11 @@ void add_board(std::vector<ComparisonRow>& rows, const std::string& board, const
 }  // namespace
 
 std::vector<ComparisonRow> reproduce_board_table(int images, std::uint64_t seed) {
+  Progress progress("paper 000's boards", "images", 2 * static_cast<std::size_t>(images));
+  const auto tick = [&progress] { progress.step(); };
   std::vector<ComparisonRow> rows;
-  add_board(rows, "dots", "0.008", reproduce_board_calibration(true, images, seed));
-  add_board(rows, "chessboard", "0.094", reproduce_board_calibration(false, images, seed));
+  add_board(rows, "dots", "0.008", reproduce_board_calibration(true, images, seed, tick));
+  add_board(rows, "chessboard", "0.094", reproduce_board_calibration(false, images, seed, tick));
   return rows;
 }
 

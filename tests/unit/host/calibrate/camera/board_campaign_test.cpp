@@ -15,7 +15,7 @@ void run(bool dots, double max_rms_px) {
   constexpr int kImages = 20;
   double squares = 0.0, count = 0.0;
   for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
-    const BoardFigure figure = reproduce_board_calibration(dots, kImages, seed);
+    const BoardFigure figure = reproduce_board_calibration(dots, kImages, seed, [] {});
     ASSERT_EQ(figure.refusal, "");
     std::printf("%s set %d: %d images, rms %.4f px, largest error %.2f sigma\n", dots ? "dots" : "chessboard",
                 static_cast<int>(seed), figure.images, figure.rms_px, figure.largest_error_sigmas());
