@@ -93,6 +93,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["frames"] = report.frames;
   json["tracked"] = report.tracked;
   json["lost"] = report.lost;
+  json["ambiguous_place"] = report.ambiguous_place;
   json["relocalised"] = report.relocalised;
   json["repeated"] = report.repeated;
   json["dark"] = report.dark;

@@ -68,6 +68,9 @@ PairResult SlamEstimator::measure(const StereoPair& pair) {
       answer.flags =
           joined_flags((map_started_ ? 0 : kMapStart) | (frame.relocalised ? kRelocalised : 0), kSlamFlagWords);
       map_started_ = true;
+    } else if (frame.ambiguous_place) {
+      answer.refusal = "ambiguous_place";
+      answer.advice = "a known view that the motion rules out, or that two parts of the target share";
     } else if (frame.lost) {
       answer.refusal = "lost";
       answer.advice = "tracking is lost; looking for known views";

@@ -110,8 +110,10 @@ TrackedPose Engine::pose_of(const Tracked& tracked) const {
 }
 
 TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, KeyframeId& made) {
-  TrackedFrame out{
-      frame.number, frame.time_s, std::nullopt, false, false, false, static_cast<int>(frame.features.size()), 0};
+  TrackedFrame out;
+  out.number = frame.number;
+  out.time_s = frame.time_s;
+  out.features = static_cast<int>(frame.features.size());
   const std::lock_guard lock(mutex_);
   Matrix6 own = Matrix6::Zero();
   if (map_.keyframes.empty()) {
@@ -127,6 +129,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
     out.inliers = tracked.inliers;
     out.relocalised = tracked.relocalised;
     out.lost = tracked.state == TrackState::kLost;
+    out.ambiguous_place = tracked.ambiguous_place;
     if (!out.lost) {
       out.placed = pose_of(tracked);
       own = tracked.covariance;

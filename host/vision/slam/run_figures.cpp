@@ -28,6 +28,7 @@ void RunFigures::add_frame(const TrackedFrame& frame, const StereoFrontend::Resu
   ++counts_.frames;
   counts_.tracked += frame.placed ? 1 : 0;
   counts_.lost += frame.lost ? 1 : 0;
+  counts_.ambiguous_place += frame.ambiguous_place ? 1 : 0;
   counts_.relocalised += frame.relocalised ? 1 : 0;
   counts_.repeated += seen.repeated ? 1 : 0;
   counts_.dark += seen.dark ? 1 : 0;

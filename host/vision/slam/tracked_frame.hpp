@@ -23,6 +23,7 @@ struct TrackedFrame {
   double time_s = 0.0;
   std::optional<TrackedPose> placed;  ///< empty before the first map and while lost
   bool lost = false;
+  bool ambiguous_place = false;  ///< lost, though a place was recognised: it contradicts the motion, or another one
   bool keyframe = false;
   bool relocalised = false;
   int features = 0;

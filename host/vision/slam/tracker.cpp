@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/vision/slam/local_map.hpp"
 #include "host/vision/slam/patch_alignment.hpp"
+#include "host/vision/slam/place_gate.hpp"
 #include "host/vision/slam/rigid_fit.hpp"
 
 namespace pharos::slam {
@@ -109,13 +111,54 @@ std::optional<PoseOnly> Tracker::match_reference_keyframe(Frame& frame, Keyframe
   return placed;
 }
 
-std::optional<PoseOnly> Tracker::relocalise(Frame& frame) {
-  if (keyframe_database_ == nullptr) return match_reference_keyframe(frame, reference_, kMinPlaced);
-  const auto candidates = keyframe_database_->detect_candidates(keyframe_database_->words_of(frame.features), map_, {});
-  for (std::size_t k = 0; k < std::min(candidates.size(), kMaxCandidates); ++k) {
-    if (auto placed = match_reference_keyframe(frame, candidates[k].keyframe, kMinPlaced)) return placed;
+bool Tracker::same_place(const Place& a, const Place& b) const {
+  const Matrix6 covariance = in_target_axes(a.placed.pose, a.placed.covariance) +
+                             in_target_axes(b.placed.pose, b.placed.covariance) +
+                             drift_between(map_, a.nearest, b.nearest, camera_);
+  return !contradicts(place_offset(a.placed.pose, b.placed.pose), covariance);
+}
+
+// One for each pose: of places that agree, the one whose keyframe is most similar.
+std::vector<Tracker::Place> Tracker::recognised_places(const Frame& frame) {
+  std::vector<KeyframeId> candidates;
+  if (keyframe_database_ == nullptr) {
+    candidates.push_back(reference_);
+  } else {
+    for (const auto& like :
+         keyframe_database_->detect_candidates(keyframe_database_->words_of(frame.features), map_, {})) {
+      if (candidates.size() < kMaxCandidates) candidates.push_back(like.keyframe);
+    }
   }
-  return std::nullopt;
+  std::vector<Place> places;
+  for (const KeyframeId id : candidates) {
+    Place place{frame, {}, id};
+    const auto start = match_reference_keyframe(place.frame, id, kMinPlaced);
+    if (!start) continue;
+    const auto placed = track_local_map(place.frame, *start, true);
+    if (!placed) continue;
+    place.placed = *placed;
+    place.nearest = nearest_;
+    const bool known =
+        std::any_of(places.begin(), places.end(), [&](const Place& at) { return same_place(at, place); });
+    if (!known) places.push_back(std::move(place));
+  }
+  return places;
+}
+
+std::optional<PoseOnly> Tracker::relocalise(Frame& frame, bool& ambiguous) {
+  std::vector<Place> places = recognised_places(frame);
+  ambiguous = !places.empty();
+  if (motion_) {
+    motion_->last = last_pose();  // corrections of the map move it
+    std::erase_if(places, [&](const Place& place) {
+      return !can_have_come_to(*motion_, place.placed.pose, frame.time_s - last_.time_s);
+    });
+  }
+  if (places.size() != 1) return std::nullopt;
+  ambiguous = false;
+  frame = std::move(places.front().frame);
+  nearest_ = places.front().nearest;
+  return places.front().placed;
 }
 
 std::optional<PoseOnly> Tracker::track_local_map(Frame& frame, const PoseOnly& start, bool wide) {
@@ -154,10 +197,26 @@ void Tracker::remember(const Frame& frame, const PoseOnly& placed) {
   if (has_step_) {
     step_ = placed.pose * before.inverse();
     step_s_ = elapsed;
+    learn_motion(before, placed.pose);
   }
   last_ = frame;
   T_last_reference_ = placed.pose * map_.pose_of(reference_).inverse();
   state_ = TrackState::kTracking;
+}
+
+void Tracker::learn_motion(const CameraFromTarget& before, const CameraFromTarget& now) {
+  Vector3 centre = Vector3::Zero();
+  double count = 0.0;
+  for (const PointId id : last_.points) {
+    const MapPoint* point = map_.find_point(id);
+    if (point == nullptr) continue;
+    centre += point->position_m;
+    count += 1.0;
+  }
+  if (!(count > 0.0)) return;
+  centre /= count;
+  motion_ = MotionPrior{now, centre, rotation_angle_between(now.R, before.R) / step_s_,
+                        (now * centre - before * centre).norm() / step_s_};
 }
 
 Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<PyramidLevel>& pyramid) {
@@ -172,8 +231,7 @@ Tracked Tracker::track(Frame& frame, bool mapping_idle, const std::vector<Pyrami
     if (placed) placed = track_local_map(frame, *placed, false);
   }
   if (!placed) {
-    placed = relocalise(frame);
-    if (placed) placed = track_local_map(frame, *placed, true);
+    placed = relocalise(frame, out.ambiguous_place);
     out.relocalised = placed.has_value();
     if (placed) last_relocalised_ = frame.number;
   }

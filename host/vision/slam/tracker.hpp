@@ -6,6 +6,7 @@
 
 #include "host/vision/slam/keyframe_database.hpp"
 #include "host/vision/slam/map.hpp"
+#include "host/vision/slam/motion_prior.hpp"
 #include "host/vision/slam/pose_only.hpp"
 #include "host/vision/slam/projection_match.hpp"
 
@@ -21,6 +22,7 @@ struct Tracked {
   double rms_px = 0.0;
   int inliers = 0;
   bool relocalised = false;
+  bool ambiguous_place = false;  ///< lost: places were recognised, but the motion rules them out, or they contradict
   bool wants_keyframe = false;
 };
 
@@ -49,7 +51,16 @@ class Tracker {
  private:
   std::optional<PoseOnly> track_motion_model(Frame& frame);
   std::optional<PoseOnly> match_reference_keyframe(Frame& frame, KeyframeId keyframe, int min_inliers);
-  std::optional<PoseOnly> relocalise(Frame& frame);
+  /// The frame at a place that was recognised.
+  struct Place {
+    Frame frame;
+    PoseOnly placed;
+    KeyframeId nearest = kNone;
+  };
+  std::optional<PoseOnly> relocalise(Frame& frame, bool& ambiguous);
+  std::vector<Place> recognised_places(const Frame& frame);
+  bool same_place(const Place& a, const Place& b) const;
+  void learn_motion(const CameraFromTarget& before, const CameraFromTarget& now);
   std::optional<PoseOnly> track_local_map(Frame& frame, const PoseOnly& start, bool wide);
   PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
   bool needs_new_keyframe(const Frame& frame, int inliers, bool mapping_idle) const;
@@ -65,8 +76,9 @@ class Tracker {
   Pose<frame::Camera, frame::Camera> T_last_reference_, step_;
   bool has_step_ = false;
   double step_s_ = 0.0;
-  KeyframeId reference_ = kNone;  // to which the last frame's pose is relative
-  KeyframeId nearest_ = kNone;    // that shares most points with the present frame
+  std::optional<MotionPrior> motion_;  // empty until two frames in a row were placed
+  KeyframeId reference_ = kNone;       // to which the last frame's pose is relative
+  KeyframeId nearest_ = kNone;         // that shares most points with the present frame
   std::int64_t last_keyframe_frame_ = 0, last_relocalised_ = -1000;
 };
 

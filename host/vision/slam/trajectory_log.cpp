@@ -44,7 +44,7 @@ std::vector<TrackedFrame> TrajectoryLog::frames(const Map& map, const Matrix3& R
   std::vector<TrackedFrame> out;
   out.reserve(entries_.size());
   for (const Entry& entry : entries_) {
-    out.push_back({entry.number, entry.time_s, std::nullopt, entry.lost, entry.keyframe, entry.relocalised,
+    out.push_back({entry.number, entry.time_s, std::nullopt, entry.lost, false, entry.keyframe, entry.relocalised,
                    entry.features, entry.inliers});
     if (!entry.placed) continue;
     const CameraFromTarget pose = entry.T_frame_reference * map.pose_of(entry.reference);

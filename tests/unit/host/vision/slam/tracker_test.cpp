@@ -87,5 +87,40 @@ TEST_F(TrackerRules, FoundAgainItWaitsWithKeyframes) {
   EXPECT_TRUE(track(23, 100).wants_keyframe);
 }
 
+// Two alike sides: lost while it turns slowly, the body is shown as if it had turned by half a turn within a pair.
+TEST_F(TrackerRules, AKnownViewThatTheMotionRulesOutIsNoPlace) {
+  for (std::int64_t number = 1; number < 6; ++number)
+    ASSERT_EQ(track(number, kPointsSeen).state, TrackState::kTracking);
+  ASSERT_EQ(track(6, 0).state, TrackState::kLost);
+  const auto shown_at = [&](std::int64_t number, double turn_rad) {
+    Frame frame = frame_of(points_, descriptors_, turned_pose(turn_rad), 0.2, random_);
+    frame.number = number;
+    frame.time_s = 0.05 * static_cast<double>(number);
+    return frame;
+  };
+  Frame other_side = shown_at(7, 3.1);
+  const Tracked refused = tracker_.track(other_side, true, {});
+  EXPECT_EQ(refused.state, TrackState::kLost);
+  EXPECT_TRUE(refused.ambiguous_place);
+  EXPECT_FALSE(refused.relocalised);
+  Frame same_side = shown_at(8, 0.016);
+  const Tracked found = tracker_.track(same_side, true, {});
+  EXPECT_EQ(found.state, TrackState::kTracking);
+  EXPECT_TRUE(found.relocalised);
+  EXPECT_FALSE(found.ambiguous_place);
+}
+
+TEST(MotionPrior, AllowsTwiceTheRateAndAHalfOfAViewingAngle) {
+  const MotionPrior prior{turned_pose(0.0), Vector3::Zero(), 0.7, 0.0};  // 40 deg/s
+  const auto turned = [](double degrees) { return turned_pose(degrees * 3.14159265 / 180.0); };
+  EXPECT_TRUE(can_have_come_to(prior, turned(0.0), 0.0));
+  EXPECT_TRUE(can_have_come_to(prior, turned(50.0), 0.3));
+  EXPECT_FALSE(can_have_come_to(prior, turned(180.0), 0.3));
+  EXPECT_FALSE(can_have_come_to(prior, turned(60.0), 0.05));
+  CameraFromTarget aside = turned(0.0);
+  aside.t.x() += 4.0;
+  EXPECT_FALSE(can_have_come_to(prior, aside, 0.05));
+}
+
 }  // namespace
 }  // namespace pharos::slam
