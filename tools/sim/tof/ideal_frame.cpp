@@ -18,6 +18,7 @@ constexpr float kDepthStep = 0.006F;
 struct Light {
   double amplitude = 0.0;
   double amplitude_range = 0.0;
+  double amplitude_range2 = 0.0;
 };
 
 class Picture {
@@ -32,6 +33,7 @@ class Picture {
     const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     amplitude_.resize(count);
     moment_.resize(count);
+    second_.resize(count);
     depth_.resize(count);
     surface_.resize(count);
   }
@@ -50,10 +52,13 @@ class Picture {
     const Kernel kernel = gaussian_at_pixels(imaging_.blur_px);
     convolve(amplitude_, width_, height_, kernel);
     convolve(moment_, width_, height_, kernel);
+    convolve(second_, width_, height_, kernel);
     for (std::size_t i = 0; i < moment_.size(); ++i) {
       moment_[i] = amplitude_[i] > 0.0F ? moment_[i] / amplitude_[i] : 0.0F;
+      const float variance = amplitude_[i] > 0.0F ? second_[i] / amplitude_[i] - moment_[i] * moment_[i] : 0.0F;
+      second_[i] = std::sqrt(std::max(0.0F, variance));
     }
-    return {std::move(amplitude_), std::move(moment_)};
+    return {std::move(amplitude_), std::move(moment_), std::move(second_)};
   }
 
  private:
@@ -89,7 +94,8 @@ class Picture {
     const double range = hit.depth_m * range_per_depth;
     const double near = kNominalRange_m / range;
     const double amplitude = imaging_.nominal_counts * near * near * hit.reflectance / kNominalReflectance;
-    return {amplitude, amplitude * (range + imaging_.multipath * hit.multipath_m)};
+    const double seen = range + imaging_.multipath * hit.multipath_m;
+    return {amplitude, amplitude * seen, amplitude * seen * seen};
   }
 
   void cast_centre(int u, int v) {
@@ -99,6 +105,7 @@ class Picture {
     const std::size_t i = index(u, v);
     amplitude_[i] = static_cast<float>(light.amplitude);
     moment_[i] = static_cast<float>(light.amplitude_range);
+    second_[i] = static_cast<float>(light.amplitude_range2);
     depth_[i] = static_cast<float>(hit.depth_m);
     surface_[i] = static_cast<std::uint8_t>(hit.surface);
   }
@@ -112,11 +119,13 @@ class Picture {
       const Light light = light_of(scene_.trace(ray, parts(u, v)), std::sqrt(1.0 + ray.squaredNorm()));
       sum.amplitude += light.amplitude;
       sum.amplitude_range += light.amplitude_range;
+      sum.amplitude_range2 += light.amplitude_range2;
     }
     const std::size_t i = index(u, v);
     constexpr auto kCount = static_cast<double>(kHammersleySubpixels.size());
     amplitude_[i] = static_cast<float>(sum.amplitude / kCount);
     moment_[i] = static_cast<float>(sum.amplitude_range / kCount);
+    second_[i] = static_cast<float>(sum.amplitude_range2 / kCount);
   }
 
   bool on_edge(int u, int v) const {
@@ -138,6 +147,7 @@ class Picture {
   std::vector<Scene::Parts> parts_;
   std::vector<float> amplitude_;
   std::vector<float> moment_;  // amplitude times range
+  std::vector<float> second_;  // amplitude times range squared
   std::vector<float> depth_;
   std::vector<std::uint8_t> surface_;
 };

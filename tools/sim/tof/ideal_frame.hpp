@@ -11,7 +11,8 @@ namespace pharos::sim {
 /// Light on the sensor before noise, row by row.
 struct IdealFrame {
   std::vector<float> amplitude_counts;
-  std::vector<float> range_m;  // along the ray, mean over what the pixel sees weighted by amplitude
+  std::vector<float> range_m;     // along the ray, mean over what the pixel sees weighted by amplitude
+  std::vector<float> spread_m{};  // standard deviation of the ranges that the pixel sees; empty: not known
 };
 
 /// How bright and how sharp the picture is.

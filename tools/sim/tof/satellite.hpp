@@ -29,13 +29,15 @@ struct Nozzle {
   double albedo = 0.3;
 };
 
-/// A box on the body's face, square to the direction from the ring's centre.
+/// A box on the body's face: a connector, or a cover, rail or antenna beside one.
 struct Connector {
   double distance_m = 0.66;
   double direction_deg = 0.0;  // from X' towards Y'
   double side_m = 0.12;
   double height_m = 0.066;  // above the face
   double albedo = 0.45;
+  double across_m = 0.0;  // its other side; 0: square
+  double turn_deg = 0.0;  // of side_m from the direction from the ring's centre
 };
 
 /// A circle painted on the foil.

@@ -17,6 +17,10 @@ int number_of(SurfaceKind kind) { return static_cast<int>(kind); }
 
 double multipath_path(double distance_m) { return distance_m * std::exp(-distance_m / kMultipathDecay_m); }
 
+double across_of(const Connector& connector) {
+  return connector.across_m > 0.0 ? connector.across_m : connector.side_m;
+}
+
 double power_of_two(double base, int squarings) {
   for (int i = 0; i < squarings; ++i) base *= base;
   return base;
@@ -48,10 +52,13 @@ Scene::Scene(const Satellite& satellite, const FoilTexture& foil, const CameraFr
     const double angle = c.direction_deg * kRadPerDeg;
     Eigen::Matrix2d axes;
     axes << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-    connector_axes_.push_back(axes);
     const Vector2 centre = axes.transpose() * Vector2(c.distance_m, 0.0);
+    const double own = angle + c.turn_deg * kRadPerDeg;
+    axes << std::cos(own), std::sin(own), -std::sin(own), std::cos(own);
+    connector_axes_.push_back(axes);
+    connector_centres_.push_back(centre);
     const Vector3 middle_T(centre.x(), centre.y(), satellite.face_z_m + 0.5 * c.height_m);
-    balls_.push_back({T_camera_target * middle_T, 0.5 * std::hypot(c.side_m * std::sqrt(2.0), c.height_m)});
+    balls_.push_back({T_camera_target * middle_T, 0.5 * std::hypot(c.side_m, across_of(c), c.height_m)});
   }
   if (satellite.occluder && satellite.ring) place_boom(*satellite.occluder);
 }
@@ -214,11 +221,11 @@ void Scene::trace_connector(const Ray& ray, std::size_t number, Hit& hit) const 
   const Eigen::Matrix2d& axes = connector_axes_[number];
   Vector3 o = camera_T_;
   Vector3 d = ray.direction;
-  o.head<2>() = axes * camera_T_.head<2>() - Vector2(connector.distance_m, 0.0);
+  o.head<2>() = axes * (camera_T_.head<2>() - connector_centres_[number]);
   d.head<2>() = axes * ray.direction.head<2>();
-  const double half = 0.5 * connector.side_m;
+  const double half = 0.5 * connector.side_m, other = 0.5 * across_of(connector);
   const BoxEntry entry =
-      enter_box(o, d, {-half, -half, satellite_.face_z_m}, {half, half, satellite_.face_z_m + connector.height_m});
+      enter_box(o, d, {-half, -other, satellite_.face_z_m}, {half, other, satellite_.face_z_m + connector.height_m});
   if (entry.at >= hit.depth_m) return;
   hit = {entry.at, connector.albedo * std::abs(d[entry.axis]) / d.norm(), 0.0,
          number_of(SurfaceKind::kConnector) + static_cast<int>(number) * kFacesOfConnector + entry.axis};

@@ -79,6 +79,7 @@ class Scene {
   double hole_radius_m_ = 0;  // of the face where the nozzle goes through it
   std::vector<Ball> balls_;   // ring and nozzle, then connectors
   std::vector<Eigen::Matrix2d> connector_axes_;
+  std::vector<Vector2> connector_centres_;
   Boom boom_;
 };
 

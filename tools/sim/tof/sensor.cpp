@@ -64,7 +64,6 @@ TofPixels expose(const IdealFrame& ideal, const PixelRays& rays, const SensorMod
   const std::vector<float> depth_noise = correlated_noise(rays.lens(), sensor.correlation_px, random);
   std::vector<float> light_noise(count);
   fill_normal(light_noise, random);
-  const double sigma_counts_m = sensor.sigma_nominal_m * nominal_counts;
   for (int v = 0; v < pixels.height_px; ++v) {
     for (int u = 0; u < pixels.width_px; ++u) {
       const std::size_t i =
@@ -77,9 +76,13 @@ TofPixels expose(const IdealFrame& ideal, const PixelRays& rays, const SensorMod
       const bool saturated = counts >= sensor.full_counts;
       pixels.intensity[i] = saturated ? std::uint16_t{65535} : static_cast<std::uint16_t>(counts + 0.5);
       double depth_counts = 0.0;  // invalid
-      if (!saturated && counts >= sensor.min_counts) {
-        const double sigma_m = sigma_counts_m / std::max(ideal_counts, sensor.min_counts);
+      const bool mixed = !ideal.spread_m.empty() && static_cast<double>(ideal.spread_m[i]) > sensor.max_spread_m;
+      if (!saturated && !mixed && counts >= sensor.min_counts) {
+        const double dimmer = nominal_counts / std::max(ideal_counts, sensor.min_counts);
+        const double sigma_m =
+            sensor.sigma_nominal_m * (sensor.noise_exponent == 1.0 ? dimmer : std::pow(dimmer, sensor.noise_exponent));
         double range = static_cast<double>(ideal.range_m[i]) + common_m + sigma_m * static_cast<double>(depth_noise[i]);
+        if (sensor.stray_rate > 0.0 && random.uniform() < sensor.stray_rate) range += random.uniform(-1.0, 1.0);
         if (range >= sensor.range_limit_m) range = std::fmod(range, sensor.range_limit_m);
         const double z = range / rays.range_per_depth(u, v) - scale.origin_z_m;
         depth_counts = z / scale.scale_m + 0.5;  // cut off below: rounded

@@ -19,6 +19,12 @@ struct SensorModel {
   double read_noise_counts = 15.0;
   double min_counts = 400.0;     // weaker pixels have no depth
   double full_counts = 60000.0;  // stronger ones are saturated: no depth, intensity 65535
+  // The depth noise goes with the amplitude to this negative power: 1 is read noise, 0.5 shot noise.
+  double noise_exponent = 1.0;
+  // Pixels whose light comes from ranges with a larger deviation have no depth.
+  double max_spread_m = std::numeric_limits<double>::infinity();
+  // Fraction of the pixels whose depth is anything within 1 m.
+  double stray_rate = 0.0;
   double range_limit_m = std::numeric_limits<double>::infinity();  // where range begins again at 0
 };
 
