@@ -5,18 +5,16 @@
 // calibration with a motion-capture system would find it; the station's frame is given.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cstdio>
 
 #include "host/calibrate/calibration_file.hpp"
 #include "pharos/track/epoch_tracker.hpp"
 #include "tests/unit/motion/flight.hpp"
+#include "tools/sim/body_frame.hpp"
 #include "unit/host/calibrate/simulated_session.hpp"
 
 namespace pharos::motion {
 namespace {
-
-using BodyFromBody = Pose<frame::Body, frame::Body>;
 
 // Results from here on: after a start from one cycle the rates are unknown.
 constexpr double kSettled_s = 1.5;  // the counter starts at one second
@@ -40,18 +38,6 @@ lighthouse::StationCalibration station_of(const std::array<sim::SheetErrors, 2>&
                         errors[k].gibbous_magnitude_rad};
   }
   return station;
-}
-
-// T_true_assumed by least squares over the sensors.
-BodyFromBody frame_of(const Target& assumed, const Target& built) {
-  const auto n = static_cast<Eigen::Index>(built.size());
-  Eigen::Matrix3Xd from(3, n), to(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    from.col(i) = assumed[static_cast<std::size_t>(i)].position_m;
-    to.col(i) = built[static_cast<std::size_t>(i)].position_m;
-  }
-  const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
-  return {T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()};
 }
 
 class Flight {
@@ -86,7 +72,7 @@ class Flight {
   template <class Tracker>
   void track(Tracker& tracker, bool calibrated, double from_s, test::FlightScore& all,
              test::FlightScore& seen_well) const {
-    const BodyFromBody T_true_assumed = frame_of(assumptions(calibrated).target, simulator_.true_target());
+    const auto T_true_assumed = sim::body_frame_of(assumptions(calibrated).target, simulator_.true_target());
     tracker.set_calibration(0, assumptions(calibrated).station);
     for (const lighthouse::Sweep& sweep : sweeps_) {
       auto result = tracker.push(sweep);
