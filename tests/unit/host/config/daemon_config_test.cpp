@@ -22,7 +22,7 @@ using ::testing::StartsWith;
 
 constexpr const char* kOneTarget = "[[target]]\nname = 'dock'\nport = '/dev/ttyUSB0'\ntarget_file = 'dock.csv'\n";
 
-// One sensor, calibrated to stand elsewhere, and one station.
+// One sensor with a calibrated position other than that of the table, and one station.
 calibrate::CalibrationFile calibrated(const std::string& path) {
   calibrate::CalibrationFile file;
   file.name = path;
@@ -108,14 +108,14 @@ TEST(DaemonConfig, DefaultsSufficeForOneTarget) {
   EXPECT_EQ(config.targets[0].baud, 460'800);
   EXPECT_EQ(config.targets[0].target_file, "/etc/pharos/dock.csv");
   EXPECT_EQ(config.targets[0].shape.sensors, 12u);
-  EXPECT_THAT(config.lcm.url, EndsWith("ttl=0"));  // stays on this computer unless told otherwise
+  EXPECT_THAT(config.lcm.url, EndsWith("ttl=0"));  // stays on this computer unless configured otherwise
   EXPECT_FALSE(config.recording.has_value());
   EXPECT_DOUBLE_EQ(config.publish.max_age_s, 0.2);
   EXPECT_DOUBLE_EQ(config.targets[0].track.solve.sigma_rad, kPaperSigma_rad);
 }
 
 TEST(DaemonConfig, UnderstandsEveryKeyOfTheShippedExample) {
-  // The example shows each key with its default behind a comment sign: with the signs gone it must still be read.
+  // The example holds each key with its default, commented out: without the comment signs it must still be valid.
   std::ifstream in(PHAROS_EXAMPLE_CONFIG);
   std::string text;
   for (std::string line; std::getline(in, line);) {
@@ -174,7 +174,7 @@ TEST(DaemonConfig, ReportsWhatIsWrongWithEachPartInOneRun) {
   EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 6);
 }
 
-// Each line of `starts` begins one line of the message, and there are no others.
+// The message has one line for each of `starts`, which begins with it; the order is free.
 void expect_lines(const std::string& text, const std::vector<std::string>& starts) {
   const std::string error = error_of(text);
   for (const std::string& start : starts) EXPECT_THAT('\n' + error, HasSubstr("\n" + start));

@@ -81,7 +81,7 @@ TEST_F(EnvironmentTest, ARecordingIsOpenedAndItsHeadRead) {
 }
 
 TEST_F(EnvironmentTest, APipeOrAFolderIsRefusedAtOnce) {
-  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);  // to open it would wait for a writer
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);  // opening it would wait for a writer
   EXPECT_THAT(error_of_recording("pipe"), HasSubstr("is not a file"));
   fs::create_directory(path("folder"));
   EXPECT_THAT(error_of_recording("folder"), HasSubstr("is not a file"));

@@ -16,7 +16,7 @@ inline TargetFile any_target(const std::string&) {
   return file;
 }
 
-/// 640 x 480 pixels; cannot be opened where the name holds "gone".
+/// A rig of 640 x 480 pixels; cannot be opened if the name contains "gone".
 inline RigFile a_rig(const std::string& path) {
   if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
   RigFile rig;
@@ -27,8 +27,8 @@ inline RigFile a_rig(const std::string& path) {
   return rig;
 }
 
-/// No disk: what is called gone is not there, all other files are; /dev/left and /dev/right are one device. A camera
-/// file is of 640 x 480 pixels, of 1280 x 480 where its name holds "large".
+/// An environment without a disk. Names that contain "gone" do not exist, all others do; /dev/left and /dev/right are
+/// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large".
 inline Environment made_up() {
   return {any_target,
           [](const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest source that is none of pharosd's own: what host/daemon/README.md says under "How to add a source", done.
+// The smallest source that is not part of pharosd: an example for "How to add a source" in host/daemon/README.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "unit/host/daemon/manual_clock.hpp"
 #include "unit/host/publish/message_list.hpp"
 
-// The source's own room: report, source, opening.
+// The source's own room: report, source class and the function that opens sources.
 namespace pharos::host::beacon {
 
 using BeaconPose = PoseEstimate<frame::Camera, frame::Target>;
@@ -30,7 +30,7 @@ pose_t message_of(const BeaconReport& report) {
   return message;
 }
 
-/// Tells its distance once: right, as no number, too late, not at all and right again.
+/// Publishes five reports: valid, not a number, stale, refused, and valid again.
 class BeaconSource final : public Source {
  public:
   explicit BeaconSource(const SourceContext& context)
@@ -101,7 +101,7 @@ std::int64_t value_of(const std::vector<counter_t>& counters, const std::string&
 
 class AddedSource : public ::testing::Test {
  protected:
-  // One registration is all that the daemon needs. It ends with the source, as with any that was a recording.
+  // The daemon needs only the registration. It ends when the source has finished, as with any recording.
   void run() {
     SourceKinds kinds = source_kinds();
     kinds.push_back({"beacon", beacon::open_beacons});

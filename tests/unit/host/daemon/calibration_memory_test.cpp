@@ -30,7 +30,7 @@ class CalibrationMemoryTest : public ::testing::Test {
       fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name() / "state";
 };
 
-// Values that no short decimal hits, of real size.
+// Values of realistic size that have no short decimal representation.
 StationCalibration station(std::uint32_t id, double scale = 1.0) {
   StationCalibration calibration;
   calibration.id = id;
@@ -122,14 +122,14 @@ TEST_F(CalibrationMemoryTest, AFileOfMoreStationsGivesTheNewest) {
 
 TEST_F(CalibrationMemoryTest, NothingThereIsAnEmptyMemory) { EXPECT_TRUE(reread().empty()); }
 
-// What a power cut leaves where the file system had made the name and not the content.
+// What a power cut leaves if the file system had written the directory entry but not the content.
 TEST_F(CalibrationMemoryTest, AnEmptyFileIsAnEmptyMemory) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "stations.toml") << "";
   EXPECT_TRUE(reread().empty());
 }
 
-// Each of the keys and arrays would overflow the stack of a reader that descends once a level.
+// Each of the deep keys and arrays would overflow the stack of a recursive parser.
 TEST_F(CalibrationMemoryTest, ADamagedFileIsSetAsideCountedAndThenReplaced) {
   std::string deep_key, deep_array = "a = ";
   for (int i = 0; i < 50'000; ++i) {
@@ -163,7 +163,7 @@ TEST_F(CalibrationMemoryTest, WhatIsNoFileIsSetAsideWithoutWaitingForIt) {
   EXPECT_FALSE(fs::exists(folder_ / "stations.toml"));
 }
 
-// Anybody who may write into the folder could lead the writer elsewhere.
+// Whoever may write into the folder could otherwise redirect the write to another file by a symbolic link.
 TEST_F(CalibrationMemoryTest, WritesThroughNoLink) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "other") << "mine";

@@ -11,7 +11,7 @@
 
 namespace pharos::host::test {
 
-/// Takes what is logged while it lives; the former log is back afterwards.
+/// Captures the log during its lifetime; its destructor restores the previous logger.
 class CapturedLog {
  public:
   CapturedLog() : before_(spdlog::default_logger()) {
@@ -23,7 +23,7 @@ class CapturedLog {
   CapturedLog& operator=(const CapturedLog&) = delete;
   ~CapturedLog() { spdlog::set_default_logger(before_); }
 
-  /// The lines that hold `words`.
+  /// The lines that contain `words`.
   std::vector<std::string> lines(const std::string& words) const {
     std::vector<std::string> lines;
     std::istringstream text(text_.str());

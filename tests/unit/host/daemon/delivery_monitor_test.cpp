@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 constexpr int kCyclesPerSecond = 60;
 
-/// A sweep of each rotor every `turns` turns for `seconds`; of `of` sweeps, `kept` come.
+/// For `seconds`: a sweep of each rotor every `turns` turns, of which `kept` of every `of` are received.
 std::int64_t sweep(DeliveryMonitor& monitor, int turns, int seconds, int kept, int of) {
   constexpr std::int64_t kTurn_ns = 20 * std::int64_t{lighthouse::kTurn_ticks};
   std::int64_t now_ns = 0;
@@ -23,7 +23,7 @@ std::int64_t sweep(DeliveryMonitor& monitor, int turns, int seconds, int kept, i
     lighthouse::Flash flash;
     flash.start_ticks = std::int64_t{i} * turns * lighthouse::kTurn_ticks;
     now_ns = std::int64_t{i} * turns * kTurn_ns;
-    // Spread as chance does it, so that sweeps in a row are among those that come.
+    // Losses are scattered, so that some consecutive sweeps are received.
     if (i * 7 % of < kept) monitor.on_sweep(flash, now_ns);
   }
   return now_ns;
@@ -50,7 +50,7 @@ TEST(DeliveryMonitor, ForgetsWhatIsOlderThanItsWindow) {
 
 class DeliveryOfATarget : public TargetPipelineTest {
  protected:
-  /// A second of cycles whose sweeps are frames of their own; of each `of` frames the last `lost` are lost.
+  /// One second of cycles with one sweep per frame; `lost` of every `of` frames are lost.
   void push_second(int lost, int of) {
     for (int i = 0; i < kCyclesPerSecond; ++i) {
       ticks_ += kCycle_ticks;

@@ -11,7 +11,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kPeriod = kSecond / 30;
 constexpr std::int64_t kUtcZero = 1'700'000'000 * kSecond;
 
-/// A camera whose frames arrive `latency` after they were taken. Times count from the first frame.
+/// A camera whose frames arrive `latency` after their exposure. Times count from the first frame.
 class FakeCamera {
  public:
   DepthFrame frame(std::int64_t at_ns, std::int64_t latency_ns = 5 * kMs) const {
@@ -40,7 +40,7 @@ TEST(FrameClock, MapsACameraThatDriftsByTheArrivalOfItsFrames) {
     time = clock.time_of(camera.frame(at_ns, (5 + i * 7 % 11) * kMs));  // 5 to 15 ms late
   }
   ASSERT_TRUE(time);
-  // The least latency is what cannot be seen from one side.
+  // The minimum latency cannot be observed from arrivals alone.
   EXPECT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns - kPeriod)), 5.0 * kMs, 0.2 * kMs);
   EXPECT_NEAR(clock.map().drift_ppm(), 80.0, 5.0);
   EXPECT_FALSE(clock.by_ptp());
@@ -77,7 +77,7 @@ TEST(FrameClock, AcceptsPtpButForWholeSeconds) {
     EXPECT_TRUE(clock.by_ptp());
     EXPECT_NEAR(static_cast<double>(time->utc_ns - (kUtcZero + at_ns - kPeriod)), 0.0, 1e3);
     EXPECT_EQ(time->sigma_ns, FrameClock::kPtpSigma_ns);
-    // Ages count the latency that arrivals cannot tell.
+    // Ages include the latency that arrivals do not show.
     EXPECT_NEAR(static_cast<double>(time->monotonic_ns - (50 * kSecond + at_ns - kPeriod)), 0.0, 1e3);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A target or a computer that misbehaves: what becomes of poses, status and log.
+// Faults of the target or of this computer, and their effect on poses, status and log.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 class TargetPipelineFaults : public TargetPipelineTest {
  protected:
   std::vector<std::string> log_lines(const std::string& words) const { return log_.lines(words); }
-  // Nothing comes for `seconds`.
+  // Nothing is received for `seconds`.
   void pause(std::int64_t seconds) { ticks_ += seconds * kTicksPerSecond; }
   void calibrate() {
     for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
@@ -45,7 +45,8 @@ TEST_F(TargetPipelineFaults, ACalibrationOutlivesADarknessShorterThan240SecondsA
   EXPECT_EQ(poses().back().flags, "");
 }
 
-// The daemon may start long after the board: its first sweep ends no darkness, and what was heard before it is not old.
+// The daemon may start long after the board: its first sweep does not end a dark interval, and OOTX frames received
+// before that sweep remain valid.
 TEST_F(TargetPipelineFaults, WhatWasHeardBeforeTheFirstSweepHoldsHoweverLongTheBoardHasRun) {
   pause(3600);
   for (int i = 0; i < 2; ++i) push(target_.ootx(ticks_, 0xBEC08E38), ticks_);
@@ -83,7 +84,7 @@ TEST_F(TargetPipelineFaults, TheComputersClockSetBackIsReportedOnceAndStandsInTh
   EXPECT_EQ(list_.all<pose_t>("PHAROS_LIGHTHOUSE_POSE").size(),
             list_.all<bearings_t>("PHAROS_LIGHTHOUSE_BEARINGS").size());
 
-  // No pose is earlier than one before it without the flag, and numbers go on.
+  // A pose that is earlier than its predecessor has the flag; sequence numbers continue.
   for (std::size_t i = 1; i < poses().size(); ++i) {
     EXPECT_EQ(poses()[i].sequence, poses()[i - 1].sequence + 1);
     if (poses()[i].utime <= poses()[i - 1].utime) {

@@ -19,12 +19,12 @@ namespace pharos::host {
 inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 inline constexpr std::int64_t kCycle_ticks = StationaryTarget::kTurn_ticks;
 
-/// A target at rest whose bytes go straight into a LighthousePipeline, on clocks that the test moves.
+/// A stationary target whose bytes are given directly to a LighthousePipeline; the test advances the clocks.
 class TargetPipelineTest : public ::testing::Test {
  protected:
   static LighthouseFromBody pose_ahead() { return {rotation_exp(Vector3(0.2, -0.3, 0.5)), Vector3(0.3, -0.2, 2.0)}; }
 
-  // An answer a cycle, so that what goes in and what comes out can be counted against each other.
+  // One result per cycle, so that the test can compare the counts of inputs and outputs.
   static TargetConfig config(TrackMethod method = TrackMethod::kEpoch) {
     TargetConfig config;
     config.name = "dock";
@@ -40,7 +40,7 @@ class TargetPipelineTest : public ::testing::Test {
   std::int64_t now_ns() const { return arrival_at(ticks_).monotonic_ns; }
   SourceHealth health() { return pipeline_.health("", SourceState::kOk, "", now_ns()); }
 
-  // Bytes that are read `delay_ns` after the target's clock showed `ticks`.
+  // Bytes that are read `delay_ns` after the target's clock was at `ticks`.
   void push(const StationaryTarget::Bytes& bytes, std::int64_t ticks, std::int64_t delay_ns = kMillisecond_ns) {
     pipeline_.push(bytes, arrival_at(ticks, delay_ns));
   }
@@ -67,7 +67,7 @@ class TargetPipelineTest : public ::testing::Test {
   StationaryTarget target_{pose_ahead()};
   std::int64_t ticks_ = 10 * kTicksPerSecond;
   std::int64_t utc_minus_monotonic_ns_ = 1'700'000'000'000'000'000;
-  std::int64_t start_ns_ = 40'000 * kMillisecond_ns;  // monotonic time at which the target's clock showed 0
+  std::int64_t start_ns_ = 40'000 * kMillisecond_ns;  // monotonic time at which the target's clock was 0
 };
 
 }  // namespace pharos::host

@@ -9,7 +9,7 @@
 namespace pharos::host {
 namespace {
 
-/// The same target, tracked with its motion.
+/// The same target with the tracking method `motion`.
 class MotionPipelineTest : public TargetPipelineTest {
  protected:
   void move_on(int cycles) {
@@ -34,16 +34,16 @@ TEST(TargetConfigMethod, MotionUnlessConfiguredOtherwise) { EXPECT_EQ(TargetConf
 TEST_F(MotionPipelineTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
   move_on(60);
   const auto all = poses();
-  ASSERT_GE(all.size(), 90u);  // two a turn, but for the 0.2 s that map the clock
+  ASSERT_GE(all.size(), 90u);  // two per turn, except during the first 0.2 s, which map the clock
   for (std::size_t i = 2; i < all.size(); ++i) {
     EXPECT_EQ(all[i].status, "ok");
     EXPECT_EQ(all[i].sequence, all[i - 1].sequence + 1);
-    // The same sensor of the same rotor is the last one, a turn later.
+    // One turn later the last hit is on the same sensor by the same rotor.
     EXPECT_NEAR(static_cast<double>(all[i].utime - all[i - 2].utime), 16'667.0, 100.0);
     EXPECT_LT(error_of(all[i]).head<3>().norm(), 0.1 * kRadPerDeg);
     EXPECT_LT(error_of(all[i]).tail<3>().norm(), 1e-3);
   }
-  // Last hit of the last sweep: within half a turn of the line's newest instant.
+  // The last hit of the last sweep is at most half a turn older than the newest data.
   const double age_us =
       static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3 - static_cast<double>(all.back().utime);
   EXPECT_GT(age_us, -2000.0);
@@ -52,7 +52,7 @@ TEST_F(MotionPipelineTest, EverySweepBecomesAPoseWithItsTimeAndCovariance) {
   for (int k = 0; k < 6; ++k) EXPECT_GT(all.back().covariance[7 * k], 0.0);
 }
 
-// A sweep that comes over the line at once is a pose at once: it does not wait for the other rotor's.
+// A sweep that is received is published as a pose at once, without waiting for the other rotor's sweep.
 TEST_F(MotionPipelineTest, APoseIsOneSweepOldAtTheMost) {
   constexpr std::int64_t kSweep_us = StationaryTarget::kHalfTurn_ticks / 50;
   constexpr std::int64_t kLine_us = kMillisecond_ns / 1000;
@@ -73,12 +73,12 @@ TEST_F(MotionPipelineTest, APoseIsOneSweepOldAtTheMost) {
   }
 }
 
-// Four sensors of one plane, nearly square on and far away: the tilt may as well be the other way.
+// Four coplanar sensors, nearly perpendicular to the line of sight and far away: the sign of the tilt is ambiguous.
 TEST_F(MotionPipelineTest, TheSecondSolutionGoesWithThePose) {
   constexpr std::uint8_t kPlate = 4;
   TargetConfig flat = config(TrackMethod::kMotion);
   flat.target = StationaryTarget::target(kPlate);
-  // One of unknown calibration would be too uncertain at these ranges.
+  // With an uncalibrated station the poses would be too uncertain at these ranges.
   flat.calibrated_stations = {{std::nullopt, std::uint8_t{0}, lighthouse::StationCalibration{}}};
   const auto rotation_of = [](const double* wxyz) { return Quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]); };
   int ambiguous = 0, sure = 0;
@@ -132,7 +132,7 @@ TEST_F(MotionPipelineTest, WhatIsKnownTooBadlyIsNoPose) {
   EXPECT_GT(uncertain, 30);
 }
 
-// One second of darkness: nothing is told meanwhile, and what is told afterwards is right from its first word.
+// One second of darkness: nothing is published in that time, and poses are correct from the first one afterwards.
 TEST_F(MotionPipelineTest, ComesBackAfterDarknessWithoutAWrongPose) {
   move_on(60);
   const std::size_t before = poses().size();

@@ -30,7 +30,7 @@ TEST_F(TargetPipelineTest, BytesBecomeThePoseThatMadeThem) {
 
 TEST_F(TargetPipelineTest, UtimeIsWhenTheLightWasMeasured) {
   push_cycles(60);
-  // Mean of hits of a cycle that ends at ticks_: between its first flash and its end.
+  // The mean time of the hits of a cycle that ends at ticks_ lies between its first flash and its end.
   const double end_us = static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3;
   const double before_end_us = end_us - static_cast<double>(poses().back().utime);
   EXPECT_GT(before_end_us, -2000.0);
@@ -48,7 +48,7 @@ TEST_F(TargetPipelineTest, ADroppedFrameDoesNotMoveUtc) {
     return poses().back().utime - arrival_at(ticks_, 0).utc_ns / 1000;
   };
   const std::int64_t before_us = push_into(300);
-  // As long as a frame may be: 11 ms on the wire, had it arrived together with the next one.
+  // A frame of the maximum length takes 11 ms on the wire; here it arrives together with the next one.
   StationaryTarget::Bytes garbage(500, 0x55);
   garbage.push_back(0);
   pipeline.push(garbage, arrival_at(ticks_, 5 * kMillisecond_ns));
@@ -63,7 +63,7 @@ TEST_F(TargetPipelineTest, AHelloOfAnotherStartDropsTheStateOfTheOldOne) {
   push_cycles(2);
   ASSERT_FALSE(poses().empty());
   ASSERT_EQ(poses().back().flags, "");
-  push(target_.hello("bench", ticks_, 1), ticks_);  // the same start greets again: nothing is lost
+  push(target_.hello("bench", ticks_, 1), ticks_);  // a repeated hello of the same start: no state is lost
   push_cycles(2);
   EXPECT_EQ(poses().back().flags, "");
   push(target_.hello("bench", ticks_, 2), ticks_);
@@ -153,7 +153,7 @@ TEST_F(TargetPipelineTest, ATargetThatStartsAnewIsFollowedOnItsNewClock) {
   target_ = StationaryTarget(pose_ahead());
   push_cycles(60);
   EXPECT_EQ(counter("target_restarts"), 1);
-  EXPECT_GT(poses().size(), before + 40);  // but for the 0.2 s that map the new clock
+  EXPECT_GT(poses().size(), before + 40);  // except during the 0.2 s that map the new clock
   const double age_us =
       static_cast<double>(arrival_at(ticks_, 0).utc_ns) * 1e-3 - static_cast<double>(poses().back().utime);
   EXPECT_LT(std::abs(age_us), 20'000.0) << "mapped with the new clock, not the old one";
@@ -170,7 +170,7 @@ TEST_F(TargetPipelineTest, ACalibrationIsUsedFromItsSecondArrivalAndRemembered) 
   EXPECT_EQ(poses().back().station_or_camera, "BEC08E38");
   ASSERT_EQ(memory_.stations().size(), 1u);
 
-  // After a restart of the daemon its first arrival is enough.
+  // After a restart of the daemon one reception is enough.
   LighthousePipeline again(config(), PublishConfig{}, "lighthouse/test", publisher_, clock_, memory_, 0);
   StationaryTarget board(pose_ahead());
   again.push(board.ootx(ticks_, 0xBEC08E38), arrival_at(ticks_));
@@ -202,7 +202,7 @@ TEST_F(TargetPipelineTest, ACalibrationFileGoesBeforeWhatTheStationSends) {
   const pose_t after = poses().back();
   EXPECT_EQ(after.flags, "");
   EXPECT_NEAR(std::abs(after.position_m[0] - before.position_m[0]), kPhase_rad * 2.0, 0.2 * kPhase_rad * 2.0);
-  // What is not known of the target's size widens the range from the first pose on.
+  // The uncertainty of the target's size is in the range's variance from the first pose on.
   EXPECT_GT(std::sqrt(before.covariance[6 * 5 + 5]), 0.005 * 2.0);
 }
 
@@ -232,7 +232,7 @@ TEST_F(TargetPipelineTest, ACalibrationReadAgainHoldsAtOnceAndTheSameOneDisturbs
 TEST_F(TargetPipelineTest, LimitsOfPublishingChangeWhileRunning) {
   push_cycles(20);
   PublishConfig strict;
-  strict.max_age_s = 0.5e-3;  // less than the bytes' own delay
+  strict.max_age_s = 0.5e-3;  // less than the delay of the bytes
   pipeline_.set_publish(strict);
   const std::size_t count = poses().size();
   push_cycles(5);
@@ -288,7 +288,7 @@ TEST_F(TargetPipelineTest, ATargetOutOfSightIsToldWithinHalfASecond) {
   EXPECT_TRUE(pipeline_.state_changed(now_ns()));
 }
 
-// Another body on this port would be measured with this one's table and told by its name.
+// Otherwise another target on this port would be measured with this target's sensor positions and reported by its name.
 TEST_F(TargetPipelineTest, ABoardThatIsNotTheExpectedOneIsRefusedAndTold) {
   TargetConfig certain = config();
   certain.identity.sensors = 5;  // the test's board has StationaryTarget::kSensors
@@ -323,7 +323,7 @@ TEST_F(TargetPipelineTest, TheExpectedBoardIsAnsweredOnceItHasSaidWhoItIs) {
   }
   ASSERT_FALSE(poses().empty());
   EXPECT_EQ(poses().back().status, "ok");
-  pipeline.line_lost();  // who is there now, nobody knows
+  pipeline.line_lost();  // the board's identity is unknown now
   for (int i = 0; i < 3; ++i) {
     ticks_ += kCycle_ticks;
     pipeline.push(target_.cycle(ticks_), arrival_at(ticks_));

@@ -21,7 +21,7 @@ constexpr std::int64_t kWindow = 5 * kMillisecond_ns;
 
 class PairMatcherTest : public ::testing::Test {
  protected:
-  /// Left and right time of the pair that this frame completes, ms.
+  /// Times of the left and right frame of the pair that this frame completes, ms.
   std::optional<std::pair<std::int64_t, std::int64_t>> push(std::size_t side, std::int64_t ms) {
     return push_ns(side, ms * kMillisecond_ns);
   }
@@ -80,7 +80,7 @@ TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
   std::array<std::int64_t, 2> now{};
   std::int64_t pushed = 0, paired = 0, last = -1;
   for (int k = 0; k < 20'000; ++k) {
-    // The camera that is behind, mostly: the two never part for good.
+    // Mostly the camera that lags behind, so that the two stay together on average.
     const std::size_t behind = now[0] <= now[1] ? 0 : 1;
     const std::size_t side = random() % 4 == 0 ? 1 - behind : behind;
     now[side] += static_cast<std::int64_t>(random() % 8'000'000);
@@ -98,7 +98,7 @@ TEST_F(PairMatcherTest, NeitherLosesNorMakesUpFramesWhateverTheTimes) {
   EXPECT_GT(paired, 1000);
 }
 
-/// A camera of a test: frames that it is given, on this computer's clock.
+/// A test camera that returns the frames it was given, with times of this computer's clock.
 class HandCamera : public FrameSource {
  public:
   int fd() const override { return ready.fd(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images that arrive in a directory, as pharosd's loop sees them.
+// Images that arrive in a directory, processed in pharosd's event loop.
 #include "host/daemon/pointing_feed.hpp"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST_F(PointingFeedTest, AwaitsTheRestOfAFileAndTheRowOfAnImage) {
   out.write(bytes.data() + bytes.size() / 2, static_cast<std::streamsize>(bytes.size() - bytes.size() / 2));
   out.close();
   wait_for(1);
-  fs::rename(whole, folder / "b.png");  // whole at once, before its row
+  fs::rename(whole, folder / "b.png");  // complete at once, before its row of the track file
   until([&] { return health().message.find("wait") != std::string::npos; });
   add_row("b.png", 6.0);
   wait_for(2);

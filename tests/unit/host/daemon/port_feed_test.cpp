@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 class PortFeedTest : public ::testing::Test {
  protected:
-  // Plugs a line in, lets the daemon open it, pulls it out.
+  // Connects a serial device, lets the daemon open it, and disconnects it.
   void flap() {
     test::Pty pty;
     fs::create_symlink(pty.path, name_);
@@ -59,7 +59,7 @@ TEST_F(PortFeedTest, AFlappingPortDoesNotFillTheLog) {
   EXPECT_EQ(lost_, kTimes);
   EXPECT_EQ(count("port.lost"), kTimes) << "every one is counted";
   const std::size_t told = log_.lines("dock: ").size();
-  EXPECT_LE(told, 30u);  // of 80: attend()'s clock goes 20 s, two and a bit periods
+  EXPECT_LE(told, 30u);  // of 80: attend()'s clock advances by 20 s, a little over two periods
   EXPECT_EQ(count("port.log_lines_held_back"), 2 * kTimes - static_cast<std::int64_t>(told));
 }
 

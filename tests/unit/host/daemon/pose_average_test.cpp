@@ -20,7 +20,7 @@ Matrix6 covariance() {
   return result;
 }
 
-/// Frames about a pose, scattered as the covariance says times `widen`.
+/// Frames scattered about a pose with the stated standard deviations times `widen`.
 class Frames {
  public:
   explicit Frames(unsigned seed) : random_(seed) {}
@@ -55,7 +55,7 @@ TEST(PoseAverage, ReportsTheMeanAndItsCovarianceOnceTheWindowIsFull) {
   EXPECT_FALSE(average.push(frames.next())) << "no frame is in two means";
 }
 
-// Normalised squared errors of 200 means have the mean 6 of a chi-squared of six degrees, to three of its sigmas.
+// The mean of the normalised squared errors of 200 averages is 6 (chi-squared, six degrees of freedom) within 3 sigma.
 TEST(PoseAverage, IsAsGoodAsItSays) {
   Frames frames(2);
   PoseAverage average(20);

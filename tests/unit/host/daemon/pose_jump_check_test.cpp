@@ -36,7 +36,7 @@ TEST_F(PoseJumpCheckTest, NoiseOfTheStatedSizePasses) {
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(next(at(i % 2 == 0 ? 0.2 : 0.0, 0.0, 0.05)));
 }
 
-// What six frames of another sender did: a pose 398 mm off at a stated sigma of 0.47 mm.
+// Six frames of another sender once gave a pose with an error of 398 mm at a stated sigma of 0.47 mm.
 TEST_F(PoseJumpCheckTest, SixFramesOfAnotherSenderGiveNoPose) {
   settle();
   for (int i = 0; i < 6; ++i) EXPECT_FALSE(next(at(0.398, 0.0, 0.00047)));

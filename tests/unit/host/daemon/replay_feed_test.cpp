@@ -15,7 +15,7 @@ constexpr std::int64_t kDay_ns = 86'400 * std::int64_t{1'000'000'000};
 
 class ReplayFeedTest : public ::testing::Test {
  protected:
-  // One byte at each of these monotonic times.
+  // A recording with one byte at each of these monotonic times.
   std::string recording(const std::vector<std::int64_t>& times_ns) const {
     pharos::test::Bytes bytes = stream_format::encode_head({"dock", 460'800, kUtc, 0});
     const std::uint8_t byte = 0;

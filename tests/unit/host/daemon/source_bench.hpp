@@ -10,11 +10,11 @@
 
 namespace pharos::host::test {
 
-/// What the daemon lends to its sources, in a test's hands: a loop that it turns, a clock that it moves, a list in the
-/// place of LCM.
+/// The daemon's side of a source, controlled by a test: an event loop, a manual clock, and a list of messages instead
+/// of LCM.
 struct SourceBench {
-  /// Turns the loop until something is so; the daemon's attend timer is played. Work in threads ends when it ends: the
-  /// test program's own time limit is the only one.
+  /// Runs the loop until `what` holds, and calls attend() as the daemon's timer does. There is no time limit for work
+  /// in threads other than that of the test program.
   void run_until(Source& source, const std::function<bool()>& what) {
     while (!what()) {
       loop.turn(20);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStep_s = 0.05;
 
-// A target that turns at `rate`, its attitudes off by `sigma_rad` a component.
+// A target that rotates at `rate`; attitude noise of `sigma_rad` per component.
 class Turning {
  public:
   explicit Turning(const Vector3& rate_rad_s, double sigma_rad = 1e-4) : rate_(rate_rad_s), sigma_(sigma_rad) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recorded pairs in pharosd's loop: docking ring and nozzle, painted, with their truth.
+// Recorded pairs in pharosd's event loop: simulated images of docking ring and nozzle with known truth.
 #include "host/daemon/stereo/stereo_feed.hpp"
 
 #include <gmock/gmock.h>
@@ -124,7 +124,7 @@ TEST_F(StereoFeedTest, CountsRefusalsByTheirReasonAndPassesOverWhatIsNoPair) {
 
 TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) { EXPECT_THROW(StereoFeed(bench.context, config), InputError); }
 
-/// Answers when it is let.
+/// Returns a result only after release().
 class SlowEstimator : public PairEstimator {
  public:
   PairResult measure(const StereoPair& pair) override {
@@ -176,7 +176,7 @@ TEST(PairWorker, WorksOnOneAndKeepsTheNewestOfTheRest) {
   estimator.release(1);
 }
 
-/// Throws at the first two pairs.
+/// Throws for the first two pairs.
 class FaultyEstimator : public PairEstimator {
  public:
   PairResult measure(const StereoPair& pair) override {

@@ -29,7 +29,7 @@ TofResult good_answer() {
   return answer;
 }
 
-/// A pipeline whose estimator answers as told, and a camera with a clock of its own that sends frames now.
+/// A pipeline with a scripted estimator, and a camera with its own clock whose frames are taken now.
 class TofPipelineTest : public ::testing::Test {
  protected:
   TofPipelineTest() { make(camera_config()); }
@@ -130,7 +130,7 @@ TEST_F(TofPipelineTest, NeitherMeasuresNorSendsWhatIsStale) {
   EXPECT_EQ(counter("frames_stale"), 1);
 }
 
-// What takes too long is stale when it is answered, however fresh it came.
+// A result that took too long is stale, even if its frame was fresh on arrival.
 TEST_F(TofPipelineTest, SendsNothingThatBecameStaleWhileItWasMeasured) {
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   for (const std::int64_t work_ms : {150, 250}) {
@@ -162,7 +162,7 @@ TEST_F(TofPipelineTest, CountsFramesOfAnotherSize) {
   EXPECT_EQ(counter("frames_wrong_size"), 1);
 }
 
-// Nothing is lost silently: the counters of the pipeline add up to the frames that it was given.
+// No frame is lost without being counted: the pipeline's counters add up to the number of frames that it was given.
 TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
   constexpr int kFrames = 40;
   for (int i = 0; i < kFrames; ++i) {

@@ -44,7 +44,7 @@ TEST_F(FrameDirectoryTest, ReadsFramesInTheOrderOfTheirNumbers) {
   write_raw("0010_abcy16.raw", 3);
   write_raw("0002_abcy16.raw", 1);
   write_raw("truth.csv", 0);
-  write_raw("x_abcy16.raw", 9);  // no number: not ours
+  write_raw("x_abcy16.raw", 9);  // no frame number: ignored
   const FrameDirectory frames(folder_.string());
   ASSERT_EQ(frames.frames(), 2u);
   EXPECT_EQ(frames.name(0), "0002");

@@ -114,7 +114,7 @@ TEST_F(PairNames, ImagesWithoutPartnerAreLeftOutWhereTheyMayAndKeepTheirTime) {
   EXPECT_DOUBLE_EQ(found[1].time_s, 0.15);
 }
 
-// Cameras whose stamps differ by a little, and one frame that one of them lost.
+// Cameras whose time stamps differ slightly; one camera lost one frame.
 TEST_F(PairNames, StampsWithoutPartnerAreLeftOutWhereTheyMay) {
   for (const int ms : {100, 150, 200, 250}) add("left", "1403715273" + std::to_string(ms) + "000000.png");
   for (const int ms : {100, 200, 250}) add("right", "1403715273" + std::to_string(ms) + "300000.png");
@@ -134,7 +134,7 @@ TEST_F(PairNames, FoldersThatShareHardlyAnyNameAreRefusedAllTheSame) {
   EXPECT_TRUE(alone.empty());
 }
 
-// Without names in common, numbers alone can tell.
+// Without common names, only the numbers of images can be compared.
 TEST_F(PairNames, DifferentNumbersOfImagesAreNamed) {
   for (const char* name : {"l1.png", "l2.png", "l3.png"}) add("left", name);
   for (const char* name : {"r1.png", "r3.png"}) add("right", name);

@@ -40,7 +40,7 @@ TEST(PixelFormat, SizesOfPayloadsFollowTheFormat) {
   EXPECT_EQ(payload_bytes(kMono16, 640, 480), 640u * 480u * 2u);
 }
 
-// What the simulated camera sends is what is read, in the scale that it tells.
+// A frame of the simulated camera is read back unchanged, in the scale that the camera states.
 TEST(PixelFormat, ReadsWhatTheSimulatedCameraSends) {
   sim::FrameSequence sequence{2, 1, 0.00025, {{0.1f, -0.2f}, {0.3f, 0.4f}}, {}};
   sequence.frames.push_back({{100, 200}, {12'000, 0}, std::nullopt});

@@ -6,7 +6,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr double kBinWidth = 1.0443;  // 2^(1/16): what a quantile may be too large by
+constexpr double kBinWidth = 1.0443;  // 2^(1/16): the largest factor by which a quantile is overestimated
 
 TEST(LatencyHistogram, ReadsBackQuantilesToOneBin) {
   LatencyHistogram histogram;
@@ -35,12 +35,12 @@ TEST(LatencyHistogram, KeepsWhatIsBeyondItsEnds) {
   EXPECT_EQ(histogram.max_ns(), 60'000'000'000);
 }
 
-// A recording that is played days later: the ages of its poses.
+// Ages of poses of a recording that is replayed days later.
 TEST(LatencyHistogram, DaysAndMoreAreNotCappedAtAnEdge) {
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
   LatencyHistogram histogram;
   for (int i = 0; i < 10; ++i) histogram.add(kHour_ns);
-  histogram.add(10'000 * kHour_ns);  // over a year: beyond the last edge
+  histogram.add(10'000 * kHour_ns);  // over a year: beyond the last bin edge
   EXPECT_GE(histogram.quantile_ns(0.5), kHour_ns);
   EXPECT_LE(static_cast<double>(histogram.quantile_ns(0.5)), static_cast<double>(kHour_ns) * kBinWidth);
   EXPECT_EQ(histogram.quantile_ns(1.0), 10'000 * kHour_ns);

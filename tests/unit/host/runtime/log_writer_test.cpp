@@ -17,7 +17,7 @@ using std::chrono::seconds;
 
 LogWriter::Line note(std::uint64_t dropped) { return {0, std::to_string(dropped) + " dropped"}; }
 
-// A place for lines that takes none until it is opened.
+// A log destination that blocks at the first line until it is opened.
 struct Place {
   std::promise<void> open;
   std::shared_future<void> opened = open.get_future().share();
@@ -57,7 +57,7 @@ TEST(LogWriter, DropsTheOldestLinesOfAPlaceThatHangsAndSaysHowMany) {
   const auto place = std::make_shared<Place>();
   const auto writer = writer_to(place);
   writer->push({0, "first"});
-  place->reached.get_future().wait();  // it hangs in that line
+  place->reached.get_future().wait();  // the writer's thread is blocked in that line
   constexpr std::size_t kTooMany = 7;
   for (std::size_t i = 0; i < LogWriter::kMaxLines + kTooMany; ++i) writer->push({0, std::to_string(i)});
   EXPECT_EQ(writer->dropped(), kTooMany);
@@ -76,7 +76,7 @@ TEST(LogWriter, LeavesAPlaceThatHangsBehind) {
   writer->finish(milliseconds(1));
   writer->push({0, "too late"});
   EXPECT_EQ(writer->dropped(), 1u);
-  writer.reset();  // and its thread goes on
+  writer.reset();  // its thread continues
   place->open.set_value();
 }
 

@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Far beyond what a stack holds; without the limits each of these ends the program.
+// Nesting that would overflow the stack: without the limits each of these inputs crashes the program.
 constexpr std::size_t kTooDeep = 50'000;
 
 std::string repeated(const std::string& part, std::size_t count) {
@@ -53,7 +53,7 @@ TEST(TomlLimits, CountNothingInStringsAndComments) {
   }
 }
 
-// A quote that is not closed, or one that belongs to a string, must not hide what follows.
+// An unclosed quote, or a quote inside a string, must not hide the text that follows.
 TEST(TomlLimits, AreNotLedAstrayByQuotes) {
   const std::string deep = repeated("a.", kTooDeep) + "a = 1\n";
   for (const std::string start : {"b = ''\n", "b = \"\"\n", "b = ''''''\n", "b = \"\"\"\"\"\"\n", "b = '''''''\n",
