@@ -16,18 +16,19 @@ using wire::ByteReader;
 using wire::ByteWriter;
 
 constexpr std::uint32_t kMagic = 0x4D434850;  // "PHCM"
-// Of another version is whatever an update put beside a daemon that still runs: refused, and both say so.
+// An update may install pharos-camera in another version than the running daemon's: both refuse such messages and
+// report it.
 constexpr std::uint16_t kVersion = 1;
 constexpr std::size_t kHead_bytes = 12;
 
 enum class Kind : std::uint16_t { kOrder = 1, kFrame = 2, kReport = 3, kLastWords = 4 };
 
-// Times are ns since boot, since 1970 or since the camera's start, and never as much as 146 years: no difference of two
-// can overflow.
+// Times are ns since boot, since 1970 or since the camera's start. They are limited to 146 years, so that no difference
+// of two can overflow.
 constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 62;
-// From a frame's first packet to its last.
+// Maximum time from a frame's first packet to its last.
 constexpr std::int64_t kMaxTransport_ns = 60'000'000'000;
-// A count of depth is micrometres to millimetres, and offsets some thousand counts.
+// One count of depth is micrometres to millimetres; offsets are some thousand counts.
 constexpr double kMaxScale_m = 1.0;
 constexpr double kMaxOffset_m = 1e5;
 constexpr std::int32_t kMaxPacket_bytes = 65'535;
@@ -38,7 +39,7 @@ constexpr std::uint8_t kFrameFlags = kHasDepth | kInTurns | kFollowsPtp | kHasSc
 
 bool printable(char character) { return character >= ' ' && character <= '~'; }
 
-// Vendor and model are the camera's words: what is no printable ASCII is shown as '?'.
+// Vendor and model are text from the camera: characters other than printable ASCII are shown as '?'.
 void put_text(ByteWriter& writer, std::string text) {
   text.resize(std::min(text.size(), kMaxCameraText_bytes));
   std::replace_if(
@@ -205,7 +206,7 @@ std::vector<std::uint8_t> encode(const CameraMessage& message) {
   head.put(kMagic);
   head.put(kVersion);
   head.put(static_cast<std::uint16_t>(kind_of(message)));
-  // The kind is told by the CRC too.
+  // The CRC covers the kind too.
   head.put(
       wire::crc32(std::span(buffer).subspan(kHead_bytes, body.size()), static_cast<std::uint32_t>(kind_of(message))));
   return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(kHead_bytes + body.size())};

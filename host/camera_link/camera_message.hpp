@@ -14,26 +14,25 @@
 
 namespace pharos::host {
 
-/// Bytes of a message at the most: a status with both texts at their longest, some 2.2 kB, and room.
+/// Maximum size of a message. The largest is a report with both texts of maximum length, about 2.2 kB.
 inline constexpr std::size_t kMaxCameraMessage_bytes = 4096;
-/// Of each text in a message; what is longer is cut.
+/// Maximum length of each text in a message; longer texts are truncated.
 inline constexpr std::size_t kMaxCameraText_bytes = 1024;
 
-/// pharosd to the camera's process, once, at its start.
+/// From pharosd to the camera's process, once, at its start.
 struct CameraOrder {
-  std::int32_t parent_pid = 0;  // whoever dies takes the camera's process along
+  std::int32_t parent_pid = 0;  // the camera's process ends with this one
   CameraSettings settings;
 };
 
-/// A whole frame lies in the shared memory. The pixels stay there: `about` holds everything else (its images are
-/// empty).
+/// A complete frame is in the shared memory. `about` holds everything but the pixels (its images are empty).
 struct FrameNotice {
   std::uint64_t sequence = 0;  // 1, 2, 3... of this process; decides the slot
-  bool has_depth = false;      // a grey camera's frame has intensity alone
+  bool has_depth = false;      // frames of a grey camera have intensity only
   DepthFrame about;
 };
 
-/// How the camera fares: at every change, and ten times a second while counters change.
+/// State of the camera: sent at every change, and ten times a second while counters change.
 struct CameraReport {
   CameraState state = CameraState::kGone;
   std::uint32_t session = 0;
@@ -42,7 +41,7 @@ struct CameraReport {
   std::string error;
 };
 
-/// What a library of the camera's process said before it gave up.
+/// The last message of a library that aborted the camera's process.
 struct LastWords {
   std::string text;
 };
@@ -54,12 +53,12 @@ using CameraMessage = std::variant<CameraOrder, FrameNotice, CameraReport, LastW
 ///   magic u32 "PHCM", version u16, kind u16, CRC-32 of what follows u32, then the fields of that kind
 std::vector<std::uint8_t> encode(const CameraMessage& message);
 
-/// Any bytes to a message, or nothing: wrong magic, version, length or CRC, a state, size, time or scale that cannot
-/// be, a text with other than printable ASCII. A CameraOrder's sizes and a FrameNotice's are positive and at most
-/// kMaxFrameSide_px; whether they are the camera's, the caller knows.
+/// Decodes any bytes. Empty for a wrong magic, version, length or CRC, an impossible state, size, time or scale, or a
+/// text with characters other than printable ASCII. Sizes in a CameraOrder and a FrameNotice are positive and at most
+/// kMaxFrameSide_px; the caller checks that they are the camera's.
 std::optional<CameraMessage> decode_camera_message(std::span<const std::uint8_t> bytes);
 
-/// Of an image: what GigE Vision cameras have, and width * height * 8 bytes stay below 2^31.
+/// Maximum width and height: no GigE Vision camera has more, and width * height * 8 bytes stay below 2^31.
 inline constexpr std::int32_t kMaxFrameSide_px = 16'384;
 
 }  // namespace pharos::host

@@ -27,14 +27,14 @@ void require(int error, const char* what) {
   if (error != 0) throw std::system_error(error, std::generic_category(), what);
 }
 
-/// Above every number that the process is to find something at, so that none is overwritten before it is copied.
+/// A duplicate above all descriptor numbers that the child uses, so that none is overwritten before it is copied.
 UniqueFd moved_up(int fd) {
   UniqueFd moved(::fcntl(fd, F_DUPFD_CLOEXEC, kCameraMemoryFd + 1));
   require(moved.valid() ? 0 : errno, "fcntl F_DUPFD_CLOEXEC");
   return moved;
 }
 
-/// posix_spawn's two lists, given back.
+/// Owner of posix_spawn's file actions and attributes.
 struct SpawnPlan {
   posix_spawn_file_actions_t actions{};
   posix_spawnattr_t attributes{};
@@ -56,12 +56,12 @@ void plan_files(posix_spawn_file_actions_t& actions, int socket, int memory) {
   require(::posix_spawn_file_actions_adddup2(&actions, STDIN_FILENO, STDERR_FILENO), "adddup2");
   require(::posix_spawn_file_actions_adddup2(&actions, socket, kCameraSocketFd), "adddup2");
   require(::posix_spawn_file_actions_adddup2(&actions, memory, kCameraMemoryFd), "adddup2");
-  // Serial ports, recordings and other cameras' memory are none of its business.
+  // The child must not inherit serial ports, recordings and other cameras' memory.
   require(::posix_spawn_file_actions_addclosefrom_np(&actions, kCameraMemoryFd + 1), "addclosefrom");
 }
 
-// A group of its own: Ctrl-C is the daemon's, which then ends it in order. Signals that the daemon blocks are not
-// blocked there.
+// The child has its own process group, so that Ctrl-C goes to the daemon only, which then ends the child in order. The
+// daemon's signal mask is not inherited.
 void plan_signals(posix_spawnattr_t& attributes) {
   sigset_t none;
   sigset_t all;
@@ -121,7 +121,7 @@ bool CameraProcess::send(std::span<const std::uint8_t> bytes) const {
 }
 
 std::optional<std::vector<std::uint8_t>> CameraProcess::receive(bool& ended) const {
-  std::array<std::uint8_t, kMaxCameraMessage_bytes + 1> buffer{};  // one more: what is longer is seen to be
+  std::array<std::uint8_t, kMaxCameraMessage_bytes + 1> buffer{};  // one byte more, to detect longer messages
   const ssize_t count = ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (count > 0) return std::vector<std::uint8_t>(buffer.begin(), buffer.begin() + count);
   ended = count == 0 || (errno != EAGAIN && errno != EINTR);
@@ -140,7 +140,7 @@ bool CameraProcess::reaped(milliseconds patience) {
 }
 
 std::string CameraProcess::kill_and_describe() {
-  constexpr milliseconds kUsualEnd{20};  // from closing its socket to its end: then its own exit code is told
+  constexpr milliseconds kUsualEnd{20};  // time to exit after its socket closed, so that its own exit code is reported
   if (!reaped(kUsualEnd)) ::kill(pid_, SIGKILL);
   if (!reaped(kPatience)) return "no signal reaches it";
   if (WIFEXITED(wait_status_)) return "exit code " + std::to_string(WEXITSTATUS(wait_status_));

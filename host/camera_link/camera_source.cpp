@@ -14,7 +14,8 @@
 namespace pharos::host {
 namespace {
 
-// A camera's process that says more than this in one turn of the loop is not read to its end: others wait too.
+// Messages read from a camera's process in one iteration of the event loop; the rest waits for the next one, so that
+// other sources are not delayed.
 constexpr int kMaxMessagesATurn = 64;
 
 void watch(int epoll, int fd) {
@@ -115,7 +116,8 @@ void CameraSource::on_notice(FrameNotice& notice) {
   const SlotLayout layout = SlotLayout::of(settings_);
   const bool agreed = notice.about.width_px == layout.width_px && notice.about.height_px == layout.height_px &&
                       notice.has_depth == layout.has_depth;
-  // Of another process or made up: a frame's sequence grows, and time does not run backwards or ahead.
+  // Sequences must increase and times must not be in the future; otherwise the notice is from another process or
+  // forged.
   if (!agreed || notice.sequence <= last_sequence_ || notice.about.complete_monotonic_ns > monotonic_now_ns()) {
     ++status_.counters.messages_refused;
     return;
@@ -133,7 +135,7 @@ void CameraSource::on_report(const CameraReport& report) {
   status_.error = report.error;
   status_.identity = report.identity;
   of_process_ = report.counters;
-  // A new process begins anew; here sessions only grow.
+  // A new process counts its sessions from the start; this counter only increases.
   if (report.session != std::exchange(process_session_, report.session) && report.session != 0) ++status_.session;
 }
 
@@ -151,7 +153,7 @@ DepthFramePtr CameraSource::frame_of(const FrameNotice& notice) {
   frame->session = status_.session;
   if (slots_.copy(notice.sequence, *frame)) return frame;
   recycle(std::move(frame));
-  ++status_.counters.frames_dropped;  // newer ones came to lie there
+  ++status_.counters.frames_dropped;  // newer frames have overwritten it
   return nullptr;
 }
 

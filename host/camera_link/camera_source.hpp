@@ -18,24 +18,24 @@
 
 namespace pharos::host {
 
-/// A GigE Vision camera that a process of its own holds, because its packets are parsed by foreign code on an open
-/// port.
+/// A GigE Vision camera that is operated by a process of its own, because its packets are parsed by third-party code on
+/// an open port.
 ///
-/// Starts pharos-camera, copies whole frames out of the memory that both share, starts it again when it dies. What the
-/// process says is taken as outside bytes: decoded by decode_camera_message, sizes held against the settings. One
-/// thread, the loop's, and the one that made it must live as long as it does.
+/// Starts pharos-camera, copies complete frames out of the shared memory and restarts the process when it dies.
+/// Messages of the process are untrusted input: decode_camera_message decodes them, and sizes are compared with the
+/// settings. To be used from one thread, the event loop's; the thread that constructs it must live as long as it does.
 class CameraSource final : public FrameSource {
  public:
-  /// `program`: of camera_program(). Throws std::system_error where this computer gives no memory or descriptor; a
-  /// program that cannot be started is tried again, and told.
+  /// `program`: from camera_program(). Throws std::system_error if memory or a descriptor cannot be had. A program that
+  /// cannot be started is reported in status() and tried again.
   CameraSource(const CameraSettings& settings, std::string program);
   ~CameraSource() override;
 
-  /// Frames that may wait: one is worked on while the next comes. The newest win: a longer queue would only make poses
-  /// older.
+  /// Maximum number of waiting frames: one is processed while the next arrives. The oldest is dropped, because a longer
+  /// queue would only make poses older.
   static constexpr std::size_t kMaxWaiting = 2;
-  /// Before a process that died is started again: doubled at each death from the first to the last, and back to the
-  /// first after one that lived for kGoodLife.
+  /// Delay before a process that died is restarted. Each death doubles it, up to kLastBackOff; it is kFirstBackOff
+  /// again after a process that ran for kGoodLife.
   static constexpr std::chrono::milliseconds kFirstBackOff{200};
   static constexpr std::chrono::milliseconds kLastBackOff{5000};
   static constexpr std::chrono::seconds kGoodLife{10};
@@ -46,7 +46,7 @@ class CameraSource final : public FrameSource {
   FrameSourceStatus status() const override;
   std::string device() const override;
 
-  /// Of the process that runs now, for tests; -1 where none does.
+  /// Process id of the running process, for tests; -1 if none is running.
   int process_id() const { return process_ ? process_->pid() : -1; }
 
  private:
@@ -62,7 +62,7 @@ class CameraSource final : public FrameSource {
   CameraSettings settings_;
   std::string program_;
   FrameSlotReader slots_;
-  UniqueFd epoll_;  // of the socket, the timer and what waits: the one descriptor that the loop watches
+  UniqueFd epoll_;  // polls the socket, the timer and waiting frames: the one descriptor for the event loop
   Timer restart_;
   ReadyEvent ready_;
   std::unique_ptr<CameraProcess> process_;
@@ -72,14 +72,14 @@ class CameraSource final : public FrameSource {
   std::deque<FrameNotice> waiting_;
   std::vector<DepthFramePtr> free_frames_;
   FrameSourceStatus status_;
-  FrameSourceCounters of_dead_;     // what former processes had counted
-  FrameSourceCounters of_process_;  // what the present one says
+  FrameSourceCounters of_dead_;     // counts of previous processes
+  FrameSourceCounters of_process_;  // counts of the current one
   std::uint32_t process_session_ = 0;
   std::uint64_t last_sequence_ = 0;
   std::string last_words_;
 };
 
-/// That camera, with the program that is installed. Throws InputError where it is missing.
+/// A CameraSource with the installed program. Throws InputError if the program is missing.
 std::unique_ptr<FrameSource> open_camera(const CameraSettings& settings);
 
 }  // namespace pharos::host

@@ -26,7 +26,7 @@ UniqueFd sealed_memory(std::size_t bytes) {
   return fd;
 }
 
-/// The descriptor, where it holds as much as is asked for.
+/// The descriptor, if its memory has at least `bytes`.
 int checked(int fd, std::size_t bytes) {
   struct stat about {};
   if (::fstat(fd, &about) != 0) fail("shared memory for frames");
@@ -59,7 +59,7 @@ FrameSlotWriter::FrameSlotWriter(int fd, const SlotLayout& layout)
 FrameImages FrameSlotWriter::begin() {
   std::byte* const slot = memory_.at((sequence_ + 1) % SlotLayout::kSlots * layout_.slot_bytes());
   sequence_at(slot).store(0, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);  // no pixel before that
+  std::atomic_thread_fence(std::memory_order_release);  // pixels are written after the sequence is cleared
   auto* const pixels = reinterpret_cast<std::uint16_t*>(slot + kPage_bytes);
   const std::size_t depth_pixels = layout_.has_depth ? layout_.pixels() : 0;
   return {{pixels, depth_pixels}, {pixels + depth_pixels, layout_.pixels()}};
@@ -90,7 +90,7 @@ bool FrameSlotReader::copy(std::uint64_t sequence, DepthFrame& frame) const {
     if (bytes > 0) std::memcpy(image->data(), pixels, bytes);
     pixels += bytes;
   }
-  std::atomic_thread_fence(std::memory_order_acquire);  // no pixel after that
+  std::atomic_thread_fence(std::memory_order_acquire);  // pixels are read before the sequence is checked again
   return holds.load(std::memory_order_relaxed) == sequence;
 }
 

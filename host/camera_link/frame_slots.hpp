@@ -11,12 +11,13 @@
 
 namespace pharos::host {
 
-/// Where frames lie in the memory that pharosd and a camera's process share: both work it out from the settings.
+/// Layout of the memory that pharosd and a camera's process share; both compute it from the settings.
 ///
-/// Each slot: a page whose first 8 bytes are the sequence of the frame that it holds, 0 while one is being written;
-/// then depth (not of a grey camera) and intensity, 16 bits a pixel. Frame n lies in slot n mod kSlots.
+/// Each slot begins with a page whose first 8 bytes are the sequence number of the frame in the slot, 0 while it is
+/// being written. Depth (not for a grey camera) and intensity follow, 16 bits per pixel. Frame n is in slot n mod
+/// kSlots.
 struct SlotLayout {
-  /// Two may wait, one is copied, one is written.
+  /// Two frames may wait, one is copied, one is written.
   static constexpr std::uint64_t kSlots = 4;
 
   std::int32_t width_px = 0;
@@ -31,7 +32,7 @@ struct SlotLayout {
   std::size_t bytes() const { return kSlots * slot_bytes(); }
 };
 
-/// An area of memory mapped from a descriptor, for as long as this lives.
+/// Memory mapped from a descriptor for the lifetime of this object.
 class SharedMapping {
  public:
   /// Throws std::system_error.
@@ -52,14 +53,14 @@ struct FrameImages {
   std::span<std::uint16_t> intensity;
 };
 
-/// The camera's process' end: frames go round the slots, whether or not anybody reads them.
+/// Writer in the camera's process: uses the slots in turn and does not wait for the reader.
 class FrameSlotWriter {
  public:
-  /// Throws std::system_error, also where the memory is smaller than the layout.
+  /// Throws std::system_error, also if the memory is smaller than the layout.
   FrameSlotWriter(int fd, const SlotLayout& layout);
-  /// Where the next frame is to be written; from here on its slot holds none.
+  /// Memory for the next frame. The slot's previous frame becomes invalid.
   FrameImages begin();
-  /// The frame is whole. Its sequence.
+  /// Marks the frame as complete and returns its sequence number.
   std::uint64_t publish();
 
  private:
@@ -68,16 +69,16 @@ class FrameSlotWriter {
   std::uint64_t sequence_ = 0;
 };
 
-/// pharosd's end. The memory is sealed: whoever holds its descriptor can neither shrink nor grow it, so that no read of
-/// pharosd's can fault.
+/// Reader in pharosd. The memory is sealed: nobody with its descriptor can shrink or grow it, so that reads in pharosd
+/// cannot fault.
 class FrameSlotReader {
  public:
-  /// Makes the memory. Throws std::system_error.
+  /// Creates the memory. Throws std::system_error.
   explicit FrameSlotReader(const SlotLayout& layout);
-  /// To hand to the camera's process.
+  /// Descriptor for the camera's process.
   int fd() const { return fd_.get(); }
-  /// Copies the images of frame `sequence` into `frame`. False where another frame lies there by now, or came to lie
-  /// there meanwhile. 0.1 ms for 640 x 480.
+  /// Copies the images of frame `sequence` into `frame`. False if another frame is in its slot already, or was written
+  /// there during the copy. 0.1 ms for 640 x 480.
   bool copy(std::uint64_t sequence, DepthFrame& frame) const;
 
  private:
