@@ -16,14 +16,16 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kRetry{250};
 constexpr milliseconds kWait{50};
-// A wait that ends much sooner without a frame (the camera's socket is gone) must not turn the process into a spinner.
+// Minimum time of a wait that ends early without a frame (as when the camera's socket is closed): no busy loop.
 constexpr milliseconds kBreath{20};
-// Frames come every 33 ms, in turns every 0.3 s: as long without any is a camera that was lost.
+// Frames come every 33 ms, or every 0.3 s if formats alternate: a camera without frames for this time is lost.
 constexpr std::int64_t kSilence_ns = 1'000'000'000;
-// PTP's state changes within seconds, and clocks run apart by microseconds; asking costs the camera four packets.
+// PTP's state changes within seconds and clocks drift by microseconds in this time; a query costs the camera four
+// packets.
 constexpr std::int64_t kAsk_ns = 1'000'000'000;
-// So many whole frames within a second that the camera cannot have sent after the others: two senders, and which of
-// them is the camera cannot be told. On another port the other one has to find it again.
+// More complete frames than this within a second that the camera cannot have sent after the others mean two senders,
+// and the camera cannot be distinguished from the other. The stream is opened anew on another port, which the other
+// sender does not know.
 constexpr std::size_t kMaxForeignFrames = 5;
 constexpr std::int64_t kForeignWindow_ns = 1'000'000'000;
 constexpr std::int64_t kReportPeriod_ns = 100'000'000;
@@ -38,7 +40,7 @@ CameraServer::CameraServer(const CameraSettings& settings, int socket, int memor
       has_depth_(settings.format == CameraFormat::kDepth),
       slots_(memory, SlotLayout::of(settings)) {}
 
-/// True unless pharosd has closed its end, or is gone. It sends nothing after the order.
+/// True unless pharosd has closed its end or has ended. pharosd sends nothing after the order.
 bool CameraServer::pause(milliseconds duration) {
   pollfd other_end{socket_, POLLIN, 0};
   stopped_ = stopped_ || ::poll(&other_end, 1, static_cast<int>(duration.count())) > 0;
@@ -74,8 +76,8 @@ void CameraServer::run() {
 
 void CameraServer::look_for_camera() {
   CameraSettings settings = settings_;
-  // A camera comes back where it was, and is found there without asking the whole network; if not, the network is
-  // asked.
+  // A camera usually comes back at its last address, where it is found without a search of the network; if it is not
+  // there, the next attempt searches the network.
   if (settings.address.empty()) settings.address = std::exchange(last_address_, "");
   try {
     GigeCamera camera(settings, believe_source_port_);
@@ -88,7 +90,7 @@ void CameraServer::look_for_camera() {
     discarded_before_ = report_.counters.datagrams_discarded;
   } catch (const CameraError& error) {
     set_state(error.state(), error.what());
-  } catch (const std::exception& error) {  // a fault of ours: tried again
+  } catch (const std::exception& error) {  // a defect of this program: tried again
     set_state(CameraState::kWrong, std::string("internal error: ") + error.what());
   }
 }
@@ -107,7 +109,8 @@ void CameraServer::stream(GigeCamera& camera) {
     any = any || outcome != FrameOutcome::kNone;
     if (outcome != FrameOutcome::kNone) ask(camera, now_ns);
     if (outcome != FrameOutcome::kNone && !foreign) last_ns = now_ns;
-    // Aravis itself drops a frame whose number was passed: with another sender ahead, those are the camera's own.
+    // Aravis drops frames whose number is below the current one. If another sender's numbers are ahead, these are the
+    // camera's own frames.
     const std::int64_t passed_over = camera.frames_passed_over();
     const bool overtaken = passed_over > std::exchange(passed_over_, passed_over);
     if ((foreign || overtaken) && two_senders(now_ns)) break;
@@ -116,7 +119,7 @@ void CameraServer::stream(GigeCamera& camera) {
     report_.counters.datagrams_discarded = discarded_before_ + camera.discarded_datagrams();
     report_if_due();
   }
-  // A port that the camera tells and does not send from would keep all of its packets out.
+  // If the camera reports a source port and sends from another one, the filter drops all of its packets.
   believe_source_port_ = any;
   if (stopped_) {
     camera.restore_heartbeat();
@@ -142,8 +145,8 @@ FrameOutcome CameraServer::take_frame(GigeCamera& camera) {
   return outcome;
 }
 
-// Between frames, so that none waits for the camera's answers. Not where nothing comes: an answer that does not come
-// either takes 2.5 s.
+// Called after a frame, so that no frame waits for the camera's responses. Not called while no frames come: a query
+// without a response takes 2.5 s.
 void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
   camera.beat_if_due();
   if (now_ns - asked_ns_ <= kAsk_ns) return;
@@ -152,7 +155,7 @@ void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
   camera.read_clock();
 }
 
-/// A frame that is not the camera's, or makes it doubtful that the others were.
+/// Called for each frame that does not fit the others. Whether there are so many that there must be two senders.
 bool CameraServer::two_senders(std::int64_t now_ns) {
   foreign_ns_.push_back(now_ns);
   while (now_ns - foreign_ns_.front() > kForeignWindow_ns) foreign_ns_.pop_front();
@@ -176,7 +179,7 @@ void CameraServer::hand_over(FrameNotice& notice) {
   frame.session = report_.session;
   notice.has_depth = has_depth_;
   notice.sequence = slots_.publish();
-  // Nobody reads any more: pharosd is held up, and newer frames will be what it wants.
+  // The socket is full because pharosd is delayed; this frame is dropped, as pharosd will need newer ones.
   if (!send(notice)) ++report_.counters.frames_dropped;
 }
 

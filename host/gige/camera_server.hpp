@@ -12,14 +12,14 @@
 
 namespace pharos::host {
 
-/// A GigE Vision camera that may be missing, taken or lost at any time and is tried again until it comes: the work of
-/// pharos-camera. Opens it (which waits for the network), unpacks its frames into the memory shared with pharosd and
-/// tells of them over the socket.
+/// The work of pharos-camera: operates one GigE Vision camera, which may be missing, in use by another program or lost
+/// at any time, and is then tried again. Opens the camera (which waits for the network), unpacks its frames into the
+/// memory shared with pharosd and sends notices of them over the socket.
 class CameraServer {
  public:
-  /// Throws std::system_error where the memory is none or too small.
+  /// Throws std::system_error if the memory is missing or too small.
   CameraServer(const CameraSettings& settings, int socket, int memory);
-  /// Until the other end of the socket is closed.
+  /// Returns when the other end of the socket is closed.
   void run();
 
  private:
@@ -41,13 +41,13 @@ class CameraServer {
   bool has_depth_;
   FrameSlotWriter slots_;
   bool stopped_ = false;
-  std::string last_address_;  // where a camera known by its serial number was last
+  std::string last_address_;  // last address of a camera that is configured by its serial number
   bool believe_source_port_ = true;
-  std::int64_t discarded_before_ = 0;  // datagrams, of former sessions
+  std::int64_t discarded_before_ = 0;  // datagrams in previous sessions
   std::int64_t asked_ns_ = 0;
-  std::deque<std::int64_t> foreign_ns_;  // when frames came that cannot be the camera's
+  std::deque<std::int64_t> foreign_ns_;  // times of frames that cannot be the camera's
   bool follows_ptp_ = false;
-  std::int64_t passed_over_ = 0;  // frames whose number had been passed, of this session
+  std::int64_t passed_over_ = 0;  // frames of this session that Aravis dropped for their number
   CameraReport report_;
   std::int64_t reported_ns_ = 0;
 };

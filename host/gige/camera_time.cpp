@@ -16,7 +16,7 @@ bool has(ArvDevice* device, const char* node) {
 
 }  // namespace
 
-// The names of today's standard, in ns; and those of its first version, in ticks.
+// Node names of the current standard, in ns, and of its first version, in ticks.
 CameraTime::CameraTime(ArvDevice* device) : device_(device) {
   if (has(device, "TimestampLatch") && has(device, "TimestampLatchValue")) {
     latch_ = "TimestampLatch";

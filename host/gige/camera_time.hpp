@@ -8,29 +8,28 @@
 
 namespace pharos::host {
 
-/// The camera's clock as the camera itself tells it over the control channel: what its frames' times are held against.
+/// The camera's clock, read over the control channel, with which the times of its frames are compared.
 class CameraTime {
  public:
-  /// A frame may be told of this long after or before the clock was read: what a frame may need until it is whole, and
-  /// a camera's clock that PTP leads may have been set.
+  /// Maximum difference: covers the time until a frame is complete, and steps of a clock that PTP disciplines.
   static constexpr std::int64_t kTolerance_ns = 1'000'000'000;
 
   /// `device` must outlive this.
   explicit CameraTime(ArvDevice* device);
-  /// Reads the clock: three packets and their answers. Nothing where the camera has no such nodes.
+  /// Reads the clock: three packets and their responses. Does nothing if the camera has no such nodes.
   void read();
-  /// Whether a frame that arrived then can have that time. True where the clock is not known, and from the
-  /// kForeignFrames-th frame on where none had a time of this clock: that camera's frames are stamped by another.
+  /// Whether a frame that arrived at that time can have that time stamp. True if the clock is unknown, and from the
+  /// kForeignFrames-th frame on if no frame agreed before: then the camera stamps its frames by another clock.
   bool agrees(std::int64_t camera_ns, std::int64_t arrival_monotonic_ns);
   static constexpr int kForeignFrames = 3;
 
  private:
   ArvDevice* device_;
-  const char* latch_ = nullptr;  // names of the nodes; none: not there
+  const char* latch_ = nullptr;  // node names; null if the camera has none
   const char* value_ = nullptr;
   double ns_per_tick_ = 1.0;
   bool known_ = false;
-  bool agreed_ = false;  // once in this session
+  bool agreed_ = false;  // a frame has agreed in this session
   int foreign_ = 0;
   std::int64_t camera_ns_ = 0;
   std::int64_t read_ns_ = 0;

@@ -20,7 +20,7 @@ GObjectPtr<ArvCamera> open(const std::string& name) {
                                             "; is it powered, and is this computer on its network?");
 }
 
-// Asks the whole network; the list of what answered goes into the message.
+// Searches the network; the message of a failure lists the cameras that responded.
 std::string address_of_serial(const std::string& serial) {
   arv_disable_interface("USB3Vision");
   arv_update_device_list();
@@ -59,7 +59,7 @@ GObjectPtr<ArvCamera> find_camera(const CameraSettings& settings) {
   if (arv_camera_is_gv_device(camera.get()) == 0) {
     throw CameraError(CameraState::kWrong, "what answers is no GigE Vision camera");
   }
-  // For three seconds after another client's death the camera opens without a complaint and sends nothing.
+  // Until three seconds after another client's death the camera opens without an error but sends nothing.
   if (arv_gv_device_is_controller(ARV_GV_DEVICE(arv_camera_get_device(camera.get()))) == 0) {
     throw CameraError(CameraState::kTaken, "another program controls the camera at " + address_of(camera.get()) +
                                                "; end it (it is released 3 s after a program's death)");

@@ -6,18 +6,18 @@
 
 namespace pharos::host {
 
-/// Follows the block numbers of GigE Vision: 16 bits from 1 to 65535 and round again (0 is none), or 64 bits without
-/// end where the camera uses extended numbers.
+/// Follows the block numbers of GigE Vision: 16 bits that wrap from 65535 to 1 (0 is no number), or 64 bits that do not
+/// wrap if the camera uses extended block numbers.
 class FrameNumbers {
  public:
-  /// Numbers that a camera may count in a second: twice the frames that the configuration takes at the most.
+  /// Maximum rate of block numbers: twice the highest frame rate that the configuration accepts.
   static constexpr double kMaxRate_hz = 200.0;
-  /// And some, for frames that waited together.
+  /// Tolerance for frames that waited and arrive together.
   static constexpr double kMargin = 8.0;
 
-  /// How many numbers lie between the last frame and this one, which arrived at `arrival_ns`: frames of which no packet
-  /// came. Empty, and nothing changes, where a camera cannot have counted so: a number that was there before, or one
-  /// that lies further ahead than frames can have been taken meanwhile.
+  /// The count of numbers between the last frame and this one, which arrived at `arrival_ns`: frames of which no packet
+  /// was received. Empty, and the state is unchanged, for a number that the camera cannot have sent: one that was
+  /// received before, or one further ahead than the elapsed time allows.
   std::optional<std::int64_t> missing_before(std::uint64_t number, std::int64_t arrival_ns) {
     constexpr std::uint64_t kNumbers16 = 65'535;
     if (!last_) {

@@ -18,17 +18,17 @@
 namespace pharos::host {
 namespace {
 
-// Of the kernel; net.core.rmem_max may make it less.
+// Requested receive buffer of the kernel; net.core.rmem_max limits it.
 constexpr int kSocketBytes = 8 << 20;
-// In turns: how long the other format's frame may take, through a stop and a start of the camera.
+// If formats alternate: maximum time for the other format's frame, including a stop and a start of the camera.
 constexpr std::chrono::milliseconds kOtherFormatTimeout{1000};
-// Beside the pixels a frame may hold chunks of what the camera has to say of it.
+// A frame may contain chunk data (metadata of the camera) in addition to the pixels.
 constexpr std::size_t kMaxChunks_bytes = 65'536;
 constexpr std::chrono::milliseconds kTakeWhileLearning{1};
 
 [[noreturn]] void refuse(const std::string& message) { throw CameraError(CameraState::kWrong, message); }
 
-/// A name -> value list of the camera's own words, for messages.
+/// A comma-separated list of the camera's names, for messages.
 std::string list_of(const char* const* words, guint count) {
   std::string list;
   for (guint i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + std::string(words[i]);
@@ -140,7 +140,7 @@ void GigeCamera::Parts::set_format() {
 
 void GigeCamera::Parts::set_packets() {
   ArvError error;
-  // Otherwise the start of the stream would try sizes of its own, and end at 1400.
+  // Otherwise Aravis negotiates the size when the stream starts, and ends at 1400.
   arv_camera_gv_set_packet_size_adjustment(camera.get(), ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
   arv_camera_gv_set_packet_size(camera.get(), settings.packet_size, error.out());
   if (error)
@@ -187,13 +187,13 @@ void GigeCamera::Parts::read_scale() {
 void GigeCamera::Parts::start_ptp() {
   has_ptp = settings.ptp && has("PtpEnable") && has("PtpStatus");
   if (!has_ptp) return;
-  ArvError ignored;  // a camera that does not let it be switched may follow all the same
+  ArvError ignored;  // a camera that refuses this setting may still follow PTP
   arv_camera_set_boolean(camera.get(), "PtpEnable", TRUE, ignored.out());
 }
 
 void GigeCamera::Parts::start_stream() {
   ArvError error;
-  // A packet socket needs CAP_NET_RAW, which the service has not: one way for all.
+  // A packet socket needs CAP_NET_RAW, which the service does not have. Without it, all users run the same code.
   arv_camera_gv_set_stream_options(camera.get(), ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
   stream.reset(arv_camera_create_stream(camera.get(), nullptr, nullptr, error.out()));
   if (!stream) throw CameraError(CameraState::kGone, "the camera gives no stream: " + error.text());
@@ -205,7 +205,7 @@ void GigeCamera::Parts::start_stream() {
   start();
 }
 
-/// Of a frame, as the camera says; checked, since memory is taken for it.
+/// Size of a frame as the camera reports it; checked, as memory is allocated for it.
 std::size_t GigeCamera::Parts::payload() const {
   ArvError error;
   const std::size_t bytes = arv_camera_get_payload(camera.get(), error.out());
@@ -256,12 +256,12 @@ GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port)
   parts.camera = find_camera(settings);
   guard_control_sockets(ip_of(parts.camera.get()));
   parts.address = address_of(parts.camera.get());
-  parts.stop();  // a client that died may have left it running
+  parts.stop();  // a client that died may have left the stream running
   parts.set_mode();
   parts.set_format();
   parts.set_packets();
   parts.check_size();
-  parts.read_scale();  // the mode and the format decide it
+  parts.read_scale();  // depends on mode and format
   parts.start_ptp();
   parts.describe();
   parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()));
@@ -275,7 +275,8 @@ GigeCamera::~GigeCamera() {
 
 std::int64_t GigeCamera::frames_passed_over() const {
   ArvStream* const stream = parts_->stream.get();
-  if (arv_stream_get_info_uint64_by_name(stream, "n_underruns") > 0) return 0;  // then there was no room
+  if (arv_stream_get_info_uint64_by_name(stream, "n_underruns") > 0)
+    return 0;  // then packets were ignored for lack of buffers
   const std::uint64_t packets = arv_stream_get_info_uint64_by_name(stream, "n_ignored_packets");
   return static_cast<std::int64_t>(packets / parts_->packets_per_frame);
 }
@@ -323,7 +324,8 @@ bool GigeCamera::Parts::unpack(ArvBuffer* buffer, std::uint32_t format, const Fr
 
 FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format, DepthFrame& about,
                                         const FrameImages& images, std::int64_t& missing) {
-  // Where depth and intensity take turns, frames are given up at every change: their numbers tell nothing.
+  // If depth and intensity alternate, frames are discarded at every change of the format: gaps in their numbers mean
+  // nothing.
   const std::int64_t now_ns = monotonic_now_ns();
   const auto gap = in_turns ? 0 : numbers.missing_before(arv_buffer_get_frame_id(buffer), now_ns);
   missing += gap.value_or(0);
@@ -344,7 +346,7 @@ FrameOutcome GigeCamera::Parts::outcome(ArvBuffer* buffer, std::uint32_t format,
   return FrameOutcome::kFrame;
 }
 
-// The depth is there: the same view's intensity, from the frame that follows in the other format.
+// After a depth frame: the intensity of the same view, from the next frame in the other format.
 FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& about, const FrameImages& images) {
   stop();
   set_word("PixelFormat", "Mono16", "the pixel format");
@@ -369,12 +371,12 @@ FrameOutcome GigeCamera::Parts::intensity_of(DepthFrame& about, const FrameImage
 
 FrameOutcome GigeCamera::next(DepthFrame& about, const FrameImages& images, std::chrono::milliseconds timeout,
                               std::int64_t& missing) {
-  // Until the port is known the time is spent with looking for it, and frames are taken in between.
+  // Until the source port is known, the timeout is used to learn it; frames are still taken from the stream.
   const bool learning = parts_->guard.is_on() && !parts_->guard.knows_port();
   if (learning) parts_->guard.learn(timeout);
   GObjectPtr<ArvBuffer> buffer = parts_->pop(learning ? kTakeWhileLearning : timeout);
   if (!buffer) return FrameOutcome::kNone;
-  if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the camera changed
+  if (parts_->in_turns && format_of(buffer.get()) == kMono16) {  // sent before the change of the format
     parts_->recycle(std::move(buffer));
     return FrameOutcome::kNone;
   }

@@ -14,7 +14,7 @@
 
 namespace pharos::host {
 
-/// Why a camera cannot be had now; the message says what to do.
+/// Why a camera cannot be used now; the message says what to do.
 class CameraError : public std::runtime_error {
  public:
   CameraError(CameraState state, const std::string& message) : std::runtime_error(message), state_(state) {}
@@ -24,54 +24,54 @@ class CameraError : public std::runtime_error {
   CameraState state_;
 };
 
-/// What a wait for a frame ended with.
+/// Outcome of a wait for a frame.
 enum class FrameOutcome : std::uint8_t {
   kNone,        // no frame in time
   kFrame,       // the frame was filled in
   kIncomplete,  // packets are missing
-  kWrongSize,   // another size or format than agreed
+  kWrongSize,   // another size or format than configured
   kUnpaired,    // depth without intensity, or the reverse
-  kOutOfOrder,  // whole, with a number that cannot follow the last one's
-  kWrongTime,   // whole, with a time that is not of the camera's clock
+  kOutOfOrder,  // complete, with a number that cannot follow the last one
+  kWrongTime,   // complete, with a time stamp that disagrees with the camera's clock
 };
 
-/// One GigE Vision camera, held and streaming. Everything of Aravis and GLib is in its .cpp file. One thread only.
+/// One GigE Vision camera, under our control and streaming. Aravis and GLib appear in its .cpp file only. To be used
+/// from one thread.
 class GigeCamera {
  public:
-  /// A tenth of a second of frames that may arrive while this process is not scheduled, and those being filled.
+  /// Frames of a tenth of a second, in which this process may not be scheduled, and those being filled.
   static constexpr int kBuffers = 8;
 
-  /// Finds, takes, sets and starts the camera: mode, format (Coord3D_ABCY16, else Coord3D_C16 and Mono16 in turns; of a
-  /// grey camera as asked), packets; then reads scale and offset. Throws CameraError. Takes up to 3.5 s where no camera
-  /// answers.
-  /// `believe_source_port`: what GevSCSP says of the port that its stream comes from holds; else that is learnt.
+  /// Finds the camera, takes control, sets mode, format (Coord3D_ABCY16, or Coord3D_C16 and Mono16 alternating; for a
+  /// grey camera as configured) and packet size, reads scale and offset, and starts it. Throws CameraError. Takes up to
+  /// 3.5 s if no camera responds.
+  /// `believe_source_port`: the stream comes from the port in GevSCSP; otherwise the port is learnt from packets.
   explicit GigeCamera(const CameraSettings& settings, bool believe_source_port = true);
   ~GigeCamera();
 
-  /// Waits for the next frame. `images` are of the settings'
-  /// size; the rest of the frame goes into `about`. `missing` grows by the frames that the camera numbered and of which
-  /// nothing came.
+  /// Waits for the next frame. `images` have the size in the settings; everything else of the frame is stored in
+  /// `about`. `missing` is increased by the number of frames of which no packet was received.
   FrameOutcome next(DepthFrame& about, const FrameImages& images, std::chrono::milliseconds timeout,
                     std::int64_t& missing);
 
-  /// False once the camera heeds another program, or none.
+  /// False when another program or nobody controls the camera.
   bool is_controller() const;
-  /// Whether its clock is led by PTP now; asks the camera.
+  /// Whether the camera's clock is disciplined by PTP now; queries the camera.
   bool follows_ptp() const;
-  /// Datagrams to the stream's port that the kernel dropped: not the camera's, or without room.
+  /// Datagrams to the stream's port that the kernel dropped: by the filter, or for a full buffer.
   std::int64_t discarded_datagrams() const;
-  /// Frames' worth of packets so far whose number Aravis had passed already, while it had room: it drops them by
-  /// itself.
+  /// Packets that Aravis dropped because their frame number was below the current one, counted in whole frames; 0 if
+  /// packets were also dropped for lack of buffers.
   std::int64_t frames_passed_over() const;
-  /// Tells the camera that its master lives, four times a second; asks it, so not while a frame waits.
+  /// Sends the heartbeat, four times a second. It queries the camera, so do not call it while a frame waits.
   void beat_if_due();
-  /// Reads the camera's clock, which its frames' times are held against; not while a frame waits either.
+  /// Reads the camera's clock, with which the times of frames are compared; not while a frame waits either.
   void read_clock();
-  /// Before a camera that is well is given back: its heartbeat timeout as it was found.
+  /// Restores the camera's own heartbeat timeout, before a working camera is released.
   void restore_heartbeat();
   /// Vendor, model, serial number, mode, format, packets.
   const std::string& identity() const;
-  /// Where it was found, for a quicker way back to it.
+  /// Address at which it was found, to find it faster next time.
   const std::string& address() const;
 
  private:

@@ -18,18 +18,18 @@ struct FreeMemory {
 /// Sole owner of a reference to a GObject.
 template <class Object>
 using GObjectPtr = std::unique_ptr<Object, UnrefObject>;
-/// Sole owner of memory that GLib gave.
+/// Sole owner of memory that GLib allocated.
 template <class Type>
 using GMemory = std::unique_ptr<Type, FreeMemory>;
 
-/// Where a call into Aravis puts its error.
+/// Receives the error of a call into Aravis.
 class ArvError {
  public:
   ArvError() = default;
   ArvError(const ArvError&) = delete;
   ArvError& operator=(const ArvError&) = delete;
   ~ArvError() { g_clear_error(&error_); }
-  /// To hand to a call; forgets the last one's.
+  /// Argument for a call; clears the previous error.
   GError** out() {
     g_clear_error(&error_);
     return &error_;

@@ -7,11 +7,11 @@
 namespace pharos::host {
 namespace {
 
-// Of every GigE Vision device.
+// Bootstrap registers of every GigE Vision device.
 constexpr std::uint64_t kHeartbeatTimeoutRegister = 0x0938;
 constexpr std::uint64_t kControlPrivilegeRegister = 0x0A00;
 constexpr std::uint32_t kTimeout_ms = 1000;
-// Three may be lost or late before the camera believes its master dead.
+// Three in a row may be lost or late before the camera drops its controller.
 constexpr std::int64_t kPeriod_ns = 250'000'000;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pharos-camera: one GigE Vision camera for pharosd, which starts it. Whatever a camera's packets do to the library
-// that parses them, they do it here.
+// pharos-camera: operates one GigE Vision camera for pharosd, which starts it. Faults that packets cause in the library
+// that parses them stay in this process.
 #include <glib.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -22,7 +22,7 @@ namespace host = pharos::host;
 
 constexpr int kExitFailure = 1;
 constexpr int kExitUsage = 2;
-// It was sent before this program began.
+// pharosd sends the order before this program starts.
 constexpr int kOrderTimeout_ms = 1000;
 
 std::optional<host::CameraOrder> receive_order() {
@@ -36,7 +36,7 @@ std::optional<host::CameraOrder> receive_order() {
   return std::get<host::CameraOrder>(*message);
 }
 
-// What GLib says before it ends the process, as when memory runs out: pharosd tells it in its log.
+// GLib's last message before it aborts the process, as when memory runs out; pharosd logs it.
 void tell_last_words(const char*, GLogLevelFlags level, const char* text, void*) {
   if ((level & (G_LOG_LEVEL_ERROR | G_LOG_FLAG_FATAL)) == 0 || text == nullptr) return;
   const std::vector<std::uint8_t> bytes = host::encode(host::LastWords{text});

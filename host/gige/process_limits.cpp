@@ -15,8 +15,8 @@
 namespace pharos::host {
 namespace {
 
-// Twice and more of what the simulated camera's takes (VmPeak 98 MiB, of them 24 MiB frames). Each thread has 8 MiB of
-// addresses for its stack, and while the network is searched there is one for each of its interfaces.
+// More than twice the use with the simulated camera (VmPeak 98 MiB, 24 MiB of them frames). Each thread has 8 MiB of
+// address space for its stack, and a search of the network runs one thread per network interface.
 constexpr std::size_t kWithoutFrames_bytes = std::size_t{256} << 20;
 
 }  // namespace
@@ -26,7 +26,7 @@ void bind_to_parent() {
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE}) ::signal(signal, SIG_IGN);
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
-  ::mallopt(M_ARENA_MAX, 1);  // each further one takes 64 MiB of addresses
+  ::mallopt(M_ARENA_MAX, 1);  // each further arena takes 64 MiB of address space
 }
 
 bool is_child_of(pid_t parent) { return ::getppid() == parent; }

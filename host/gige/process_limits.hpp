@@ -10,16 +10,16 @@
 
 namespace pharos::host {
 
-/// First thing in the process: ends with its parent, leaves signals of the terminal and of systemd to it, leaves no
-/// core files behind.
+/// To be called first: the process will end with its parent, ignores signals of the terminal and of systemd (the parent
+/// handles them) and writes no core files.
 void bind_to_parent();
-/// False where `parent` is no longer who started this process.
+/// Whether `parent` is still this process' parent.
 bool is_child_of(pid_t parent);
 
-/// Address space that a camera's process may take: what libraries and threads take with no frame at all, twice the
-/// frames that Aravis fills, and the shared memory.
+/// Limit of a camera process' address space, bytes: libraries and threads without frames, twice the frames that Aravis
+/// fills, and the shared memory.
 std::size_t address_space_limit(const CameraSettings& settings);
-/// Sets it. Nothing where the build has the address sanitizer, which takes terabytes of addresses.
+/// Sets the limit. Does nothing in builds with the address sanitizer, which reserves terabytes of address space.
 void limit_address_space(std::size_t bytes);
 
 }  // namespace pharos::host

@@ -13,8 +13,8 @@ constexpr std::uint32_t kUdp_bytes = 8;
 constexpr std::uint32_t kIp_bytes = 20;
 constexpr auto kSourceAddressAt = static_cast<std::uint32_t>(SKF_NET_OFF) + 12;
 constexpr std::uint32_t kSourcePortAt = 0;
-// GVSP: status u16, block u16, extended-id bit and content type u8, packet u24; extended: block u64 and packet u32
-// more.
+// GVSP header: status u16, block u16, extended-id bit and content type u8, packet u24; with extended ids also block u64
+// and packet u32.
 constexpr std::uint32_t kStatusAt = kUdp_bytes;
 constexpr std::uint32_t kBlockAt = kUdp_bytes + 2;
 constexpr std::uint32_t kTypeAt = kUdp_bytes + 4;
@@ -30,12 +30,12 @@ constexpr std::uint32_t kLeader_bytes = 36;  // of an image
 constexpr std::uint32_t kPayloadTypeInLeaderAt = 2;
 constexpr std::uint32_t kImage = 1;
 constexpr std::uint32_t kResent = 0x0100;
-constexpr std::uint32_t kRefusal = 0x8000;  // of a resend: 0x800C and its neighbours
+constexpr std::uint32_t kRefusal = 0x8000;  // of a resend: 0x800C and similar codes
 constexpr std::uint32_t kRefusalMask = 0xFFE0;
 constexpr std::uint16_t kControlPort = 3956;
 constexpr std::uint32_t kMaxControl_bytes = 1024;  // Aravis' buffer
 
-/// Classic BPF, instruction by instruction; a condition that does not hold jumps to the end, which drops.
+/// Builds a classic BPF program; a condition that does not hold jumps to the end, which drops the datagram.
 class Filter {
  public:
   void load_word(std::uint32_t at) { add(BPF_LD | BPF_W | BPF_ABS, at); }
@@ -52,7 +52,8 @@ class Filter {
   void require_bits(std::uint32_t bits, bool set) {
     add(BPF_JMP | BPF_JSET | BPF_K, bits, set ? 0 : kDrop, set ? kDrop : 0);
   }
-  /// Where the number is `value` what `then` adds, which must end in accept(); else on.
+  /// If the loaded number is `value`, runs the instructions that `then` adds, which must end in accept(); otherwise
+  /// continues after them.
   template <class Then>
   void if_equal(std::uint32_t value, Then then) {
     conditional(BPF_JEQ, value, then);
@@ -91,7 +92,7 @@ class Filter {
   std::vector<sock_filter> code_;
 };
 
-/// Checks of one kind of header; `load_packet` loads the packet's number.
+/// Checks for one kind of header; `load_packet` loads the packet's number.
 template <class LoadPacket>
 void check_packets(Filter& filter, const StreamRule& rule, std::uint32_t head_bytes, LoadPacket load_packet) {
   const auto block_bytes = static_cast<std::uint32_t>(rule.packet_size) - kIp_bytes - kUdp_bytes - head_bytes;

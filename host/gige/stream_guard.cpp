@@ -15,7 +15,7 @@ StreamGuard::StreamGuard(std::uint16_t port, const StreamRule& rule) : rule_(rul
 
 void StreamGuard::learn(std::chrono::milliseconds timeout) {
   if (!is_on() || knows_port()) return;
-  // Aravis' thread takes them away at the same time: some are seen, of a frame's many.
+  // Aravis' thread reads from the socket at the same time: of a frame's many packets only some are seen here.
   const std::int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(timeout).count();
   while (agreeing_ < kAgreeing) {
     const std::int64_t rest_ns = until_ns - monotonic_now_ns();

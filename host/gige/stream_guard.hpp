@@ -9,24 +9,25 @@
 
 namespace pharos::host {
 
-/// Keeps from a stream's socket what is not the camera's, and learns the port that the camera sends from.
+/// Filters datagrams that are not the camera's from the stream's socket, and learns the port that the camera sends
+/// from.
 class StreamGuard {
  public:
   StreamGuard() = default;
-  /// For the socket of this process that is bound to `port`. A source port in `rule` is that of GevSCSP and holds; else
-  /// it is learnt. is_on() is false where there is no such socket or the kernel takes no filter.
+  /// For the socket of this process that is bound to `port`. The source port in `rule` (from GevSCSP) is used if set;
+  /// otherwise it is learnt. is_on() is false if there is no such socket or the kernel refuses the filter.
   StreamGuard(std::uint16_t port, const StreamRule& rule);
 
   bool is_on() const { return socket_ >= 0; }
-  /// Waits at most `timeout` for datagrams and looks where they come from; kAgreeing in a row from one port fix it.
-  /// Returns at once where the port is known.
+  /// Waits at most `timeout` for datagrams and reads their source ports; kAgreeing in a row from one port determine it.
+  /// Returns at once if the port is known.
   void learn(std::chrono::milliseconds timeout);
   bool knows_port() const { return rule_.source_port.has_value(); }
   /// Datagrams that the kernel dropped so far.
   std::int64_t discarded() const;
 
-  /// Only packets of whole structure from the camera's address are waiting by then: another sender's would have to come
-  /// first this often.
+  /// The filter accepts only well-formed packets from the camera's address: another sender's would have to be this many
+  /// of the first ones in a row.
   static constexpr int kAgreeing = 4;
 
  private:
