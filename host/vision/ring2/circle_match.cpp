@@ -21,7 +21,7 @@ constexpr double kMaxSizeRatio = 1.25;
 // degree.
 constexpr double kMaxTilt = 6.0 * kRadPerDeg;
 constexpr double kMaxOffAxisPerRadius = 0.05;
-// A nozzle is narrower than its ring by this factor, and its distance from it is at most so many radii.
+// Maximum radius of a nozzle and maximum distance from its ring, both as factors of the ring's radius.
 constexpr double kMaxNozzlePerRing = 0.75;
 constexpr double kMaxDistancePerRing = 3.0;
 // Edges of one rim: circles nearer along the axis than this fraction of the ring's radius are in one plane.
@@ -33,7 +33,7 @@ std::optional<Vector3> ray_of(const ring2::RigView& view, const Contour& contour
   return (view.T_rig_camera.R * Vector3(ray->x(), ray->y(), 1.0)).eval();
 }
 
-// Depths along both rays at their closest points; empty where that is behind a camera or they do not intersect.
+// Depths along both rays at their closest points; empty if these are behind a camera or the rays do not intersect.
 std::optional<std::array<double, 2>> meeting_of(const Vector3& left, const Vector3& right, const Vector3& baseline) {
   // left s - right t = baseline, least squares.
   const double a = left.dot(left), b = left.dot(right), c = right.dot(right);
@@ -75,13 +75,13 @@ std::optional<double> distance_along(const MatchedCircle& ring, const MatchedCir
   const Vector3 between = nozzle.centre_m - ring.centre_m;
   const double along = between.dot(ring.normal);
   const double off = (between - along * ring.normal).norm();
-  // A degree of the ring's own tilt moves its axis by a fiftieth of the distance.
+  // An error of one degree in the ring's tilt moves its axis by a fiftieth of the distance.
   if (off > kMaxOffAxisPerRadius * (ring.radius_m + std::abs(along))) return std::nullopt;
   if (std::abs(along) > kMaxDistancePerRing * ring.radius_m) return std::nullopt;
   return along;
 }
 
-// The nozzle of a ring: the circle nearest to the cameras, and of the edges of one rim the widest.
+// The nozzle of a ring: the circle nearest to the cameras; among the edges of one rim the widest.
 const MatchedCircle* nozzle_of(const MatchedCircle& ring, std::span<const MatchedCircle> circles) {
   const MatchedCircle* best = nullptr;
   double best_along = 0.0;

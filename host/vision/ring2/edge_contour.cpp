@@ -18,32 +18,33 @@ using ring2::Contour;
 using ring2::Matrix5;
 using ring2::Vector5;
 
-// Points of the circle whose image gives the expected ellipse.
+// Number of points of the circle that are projected to compute the expected ellipse.
 constexpr int kCirclePoints = 48;
-// Profiles stand so far apart: nearer ones share pixels.
+// Distance between profiles; nearer ones would share pixels.
 constexpr double kSpacing_px = 1.5;
 constexpr int kMinProfiles = 48, kMaxProfiles = 720;
-// Along a profile: steps, and the derivative of a Gaussian in units of them. It widens the blur of optics and pixel by
-// about its own size, which noise pays for.
+// Sampling step along a profile, and the derivative-of-Gaussian kernel in units of that step. The kernel adds about its
+// own width to the blur of optics and pixel, and reduces noise in return.
 constexpr double kStep_px = 0.5;
 constexpr int kHalfKernel = 5;
 constexpr double kKernelSigma_px = 0.8;
-// Slopes below this are not edges: one count of eight bits a pixel, which dark noise and rounding stay below.
+// Minimum slope of an edge: one count of eight bits per pixel, which is above dark noise and rounding.
 constexpr double kMinSlope = 257.0;
-// An edge that is there is found at so many of the places; shadow, gloss and what stands before it take the others.
+// Fraction of the profiles at which a true contour has its edge; shadow, gloss and occlusion hide it at the others.
 constexpr double kFoundFraction = 0.7;
-// Of an edge point beside the ellipse at least: pixel and interpolation.
+// Minimum scatter of edge points about the ellipse: pixels and interpolation.
 constexpr double kMinScatter_px = 0.05;
-// Neighbouring profiles are looked at for correlation up to this distance.
+// Maximum lag, in profiles, at which the correlation of residuals is computed.
 constexpr int kMaxLag = 40;
-// Of the expected parameters, in relative and pixel terms, where there are no edges: keeps the matrix regular.
+// Regularisation towards the expected parameters, relative to their information: keeps the matrix regular without
+// edges.
 constexpr double kRidge = 1e-6;
 
 struct Profile {
   Vector2 place = Vector2::Zero();
   Vector5 slope = Vector5::Zero();  // of the contour's displacement with its parameters
   EdgePeaks peaks;
-  double offset_px = 0.0;  // of the edge that is taken
+  double offset_px = 0.0;  // of the chosen edge
   double weight = 0.0;
 };
 
@@ -55,7 +56,7 @@ std::array<double, 2 * kHalfKernel + 1> make_kernel() {
     kernel[static_cast<std::size_t>(i + kHalfKernel)] = x * std::exp(-0.5 * x * x);
     gain += kernel[static_cast<std::size_t>(i + kHalfKernel)] * i * kStep_px;
   }
-  for (double& value : kernel) value /= gain;  // a slope of 1 a pixel gives 1
+  for (double& value : kernel) value /= gain;  // a slope of 1 per pixel gives 1
   return kernel;
 }
 
@@ -69,7 +70,7 @@ std::optional<double> grey_at(ImageView<const std::uint16_t> image, double u, do
   return (1.0 - b) * ((1.0 - a) * upper[0] + a * upper[1]) + b * ((1.0 - a) * lower[0] + a * lower[1]);
 }
 
-// Empty where the profile leaves the image.
+// Empty if the profile leaves the image.
 std::optional<EdgePeaks> peaks_across(ImageView<const std::uint16_t> image, const Vector2& place, const Vector2& normal,
                                       double reach_px) {
   static const auto kernel = make_kernel();
@@ -121,7 +122,7 @@ double weight_of(double offset_px, double scale_px) {
   return inverse * inverse;
 }
 
-// Of a profile's edges the one that is near and steep.
+// Chooses the profile's edge with the largest product of slope and distance weight.
 void take_edge(Profile& profile, double scale_px) {
   double best = 0.0;
   for (std::size_t i = 0; i < profile.peaks.count; ++i) {
@@ -133,7 +134,7 @@ void take_edge(Profile& profile, double scale_px) {
   }
 }
 
-// Profiles evenly along the contour; those that leave the image are left out.
+// Profiles at equal distances along the contour, without those that leave the image.
 std::vector<Profile> profiles_along(ImageView<const std::uint16_t> image, const Contour& contour,
                                     const EdgeSearch& search) {
   const double perimeter = ellipse::perimeter_px(contour.ellipse);
@@ -166,7 +167,8 @@ Contour contour_with(const Vector2& centre, const Matrix2& shape) {
   return contour;
 }
 
-// Residuals of one contour about its own ellipse: their scatter, and how many neighbours err alike.
+// Residuals of one contour about its own ellipse: their standard deviation, and by their autocorrelation the number of
+// neighbouring profiles that share one error.
 struct Scatter {
   double sigma_px = 0.0;
   double alike = 1.0;
@@ -194,16 +196,16 @@ Scatter scatter_of(const std::vector<Profile>& profiles, const Vector5& moved) {
   return scatter;
 }
 
-// An edge's place is off by a part of its blur where light saturates, a lip is narrower than the blur, or its two sides
-// differ in more than one step: all along the contour alike. Size is told less well by this than place and shape are.
+// Saturation, lips narrower than the blur, and sides that differ by more than one step shift an edge by a part of its
+// blur, equally along the whole contour. This makes sizes less accurate than positions and shapes.
 constexpr double kGrowthSigma_px = 0.3;
-// Neighbouring profiles that share pixels of image and kernel.
-// Scatter about the circle of an edge that nothing disturbs.
+// Scatter of an undisturbed edge about the circle.
 constexpr double kCleanScatter_px = 0.25;
 constexpr double kMinClean = 0.1;
+// Neighbouring profiles that share pixels of image and kernel.
 constexpr double kAlike = 3.5 / kSpacing_px;
 
-// Information without what an equal shift of the whole contour outwards, of that deviation, takes away.
+// The information that remains if the whole contour may be shifted outwards by a common error of kGrowthSigma_px.
 Matrix5 without_growth(const Matrix5& information, const ellipse::Ellipse& e) {
   const double c = std::cos(e.theta_rad), s = std::sin(e.theta_rad), a = 2.0 * e.a_px, b = 2.0 * e.b_px;
   const Vector5 growth(0.0, 0.0, a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c);
@@ -212,7 +214,8 @@ Matrix5 without_growth(const Matrix5& information, const ellipse::Ellipse& e) {
   return information - (variance / (1.0 + variance * growth.dot(pulled))) * pulled * pulled.transpose();
 }
 
-// Log-likelihood ratio of the profiles' edges, circle against chance: chance has them anywhere within reach.
+// Log-likelihood ratio of the profiles' edges, circle against chance; by chance, edges are uniform within the search
+// range.
 struct Evidence {
   double sum = 0.0;
   double limit = 0.0;
@@ -249,7 +252,7 @@ std::vector<ContourPeaks> contour_peaks(const ring2::RigView& view, ImageView<co
   const Contour outside = ring2::contour_of(*outer, 1.0, 1.0), inside = ring2::contour_of(*inner, 1.0, 1.0);
   std::vector<ContourPeaks> peaks;
   for (const Profile& profile : profiles_along(image, contour, {reach_px, 1.0})) {
-    // Perspective moves the middle of a wider circle's image: not the same share of the radius all around.
+    // Perspective shifts the centre of a wider circle's image: the distance differs around the contour.
     const double to_outer = -outside.offset_of(profile.place).distance_px;
     const double to_inner = -inside.offset_of(profile.place).distance_px;
     peaks.push_back({profile.peaks, 0.5 * (to_outer - to_inner) / max_width,
@@ -272,7 +275,7 @@ std::optional<EdgeContour> edge_contour(const ring2::RigView& view, ImageView<co
     add_outer<5>(information, profile.slope, profile.weight);
     pull += profile.weight * profile.offset_px * profile.slope;
     weights += profile.weight;
-    seen += profile.weight > 0.25 ? 1.0 : 0.0;  // within one scale
+    seen += profile.weight > 0.25 ? 1.0 : 0.0;  // within one scale_px
   }
   Matrix5 regular = information;
   for (int i = 0; i < 5; ++i) regular(i, i) += kRidge * (before.information(i, i) + information(i, i));
@@ -291,8 +294,8 @@ std::optional<EdgeContour> edge_contour(const ring2::RigView& view, ImageView<co
   const double variance = scatter.sigma_px * scatter.sigma_px * scatter.alike;
   result.edges = static_cast<int>(seen);
   const Evidence evidence = evidence_of(profiles, scatter_of(profiles, Vector5::Zero()).sigma_px, search.reach_px);
-  // Systematic errors, as if the whole had one edge point. What disturbs edges moves those that are left, too:
-  // as if there were fewer of these single points.
+  // The systematic error is common to all edge points, so that their number does not reduce it. It is larger for
+  // disturbed contours, because a disturbance also shifts the edges that remain.
   const double disturbed_px = systematic_px / std::sqrt(std::clamp(evidence.sum / evidence.limit, kMinClean, 1.0));
   const double floor = disturbed_px * disturbed_px * weights;
   result.contour.information = without_growth(information / (variance + floor), result.contour.ellipse);

@@ -15,9 +15,9 @@ constexpr double kMinContrast = 0.02;
 constexpr double kSaturatedFraction = 0.5;
 // Fraction of the pixels that must reach a level, so that a few hot pixels do not count.
 constexpr double kBrightFraction = 0.001;
-// Only every so many rows are counted: fractions of some thousand pixels suffice.
+// Only every n-th row is counted: some thousand pixels suffice to estimate a fraction.
 constexpr std::int32_t kRowStep = 4;
-// Neighbours mostly have the same grey value: counting both in one bin would serialise the additions.
+// Neighbouring pixels mostly have the same grey value: counting them in one histogram would serialise the additions.
 constexpr std::size_t kLanes = 4;
 
 constexpr std::size_t kGreys = 256;

@@ -9,13 +9,13 @@ namespace pharos::host {
 
 enum class ImageDefect : std::uint8_t {
   kNone,
-  kBlack,      // almost no grey value above the lowest: lens cover, no light
-  kSaturated,  // most of it at the highest value
+  kBlack,      // almost all pixels at the lowest grey values: lens cover, no light
+  kSaturated,  // most pixels at the highest value
   kEven,       // bright, but without contrast
 };
 const char* name_of(ImageDefect fault);
 
-/// Whether an image can be used, by its grey values alone.
+/// Whether an image can be used, judged by its grey values.
 ImageDefect fault_of(ImageView<const std::uint16_t> image);
 
 }  // namespace pharos::host

@@ -13,16 +13,16 @@ using ring2::Contour;
 using ring2::Feature;
 using ring2::Ring2Estimate;
 
-// Of a rim's radius: how wide its face may be, and the deviation where nothing else is known. Docking rings have 4 to
-// 10 %, the stiffening rims of nozzles up to 15 %.
+// Fractions of a rim's radius: maximum width of its face, and the standard deviation if nothing else is known. Docking
+// rings have 4 to 10 %, the stiffening rims of nozzles up to 15 %.
 constexpr double kMaxWidth = 0.2;
 constexpr double kWidthSigma = 0.1;
-// Nearer circles are one edge, found twice.
+// Circles nearer than this fraction are one edge that was found twice.
 constexpr double kMinWidth = 0.015;
 // Largest deviation of an ellipse of the rim from a concentric circle in the rim's plane.
 constexpr double kMaxOff_px = 0.7;
 constexpr int kPlaces = 16;
-constexpr double kStep = 1e-6;  // of the numeric derivative, rad and m
+constexpr double kStep = 1e-6;  // step of the numeric derivative, rad and m
 
 struct Plane {
   Vector3 normal, centre_m;
@@ -77,7 +77,7 @@ struct WiderEdge {
   InPlane seen;
 };
 
-// The edges of a rim other than that of the estimate.
+// A rim's edges other than the one in the estimate.
 struct OtherEdges {
   bool narrower = false;
   std::optional<WiderEdge> wider;
@@ -100,8 +100,8 @@ OtherEdges other_edges(const ring2::Rig& rig, const std::array<std::vector<Conto
   return edges;
 }
 
-// The radius becomes that of the wider edge. Its variance is from that of plane and centre and from the contour itself,
-// whose error in size is as large as in shape where edge points of shadow or body were included, whatever their number.
+// Replaces the radius by that of the wider edge. Its variance has three parts: plane and centre, the contour's noise,
+// and the contour's deviation from a circle: edge points of shadow or body distort its size as much as its shape.
 void take(const ring2::Rig& rig, Feature feature, int unknown, const WiderEdge& edge, Ring2Estimate& estimate) {
   const ring2::RigView& view = rig.views[edge.view];
   ring2::Vector8 slope = ring2::Vector8::Zero();

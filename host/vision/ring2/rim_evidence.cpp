@@ -11,13 +11,13 @@ namespace {
 
 // Docking rings have faces of 4 to 13 % of their radius.
 constexpr double kMaxFace = 0.2;
-// Nearer edges are one in the image: filter and blur.
+// Edges nearer than this merge in the image, by filter and blur.
 constexpr double kMinFace_px = 2.2;
 constexpr double kMaxFaceReach_px = 26.0;
-// Of the second edge about its circle: blur, and what the first circle is off.
+// Scatter of the second edge about its circle: blur, and the error of the first circle.
 constexpr double kFaceScatter_px = 0.5;
 constexpr double kFaceFound = 0.6;
-// As neighbours share pixels, see edge_contour.
+// Neighbouring profiles that share pixels, see edge_contour.
 constexpr double kSharing = 2.3;
 constexpr int kWidthSteps = 160;
 
@@ -61,7 +61,7 @@ double rim_evidence(const ring2::Rig& rig, const Ring2Images& images, const Expe
     if (std::abs(width) < min_width) continue;
     double sum = 0.0;
     for (std::size_t v = 0; v < ring2::kViews; ++v) {
-      // An edge that one image does not show is hidden there, or has no contrast.
+      // An edge that is missing in one image is no evidence against it: it may be hidden or without contrast there.
       if (!profiles[v].empty()) sum += std::max(0.0, face_evidence_at(profiles[v], density[v], width));
     }
     best = std::max(best, sum);

@@ -5,9 +5,9 @@
 
 namespace pharos::host {
 
-/// Log of the likelihood ratio that a circle has a second one in its plane about its centre, both images together: the
-/// other edge of a rim, up to a fifth of the radius wider or narrower. A docking ring has it; the edge of a round body,
-/// the foot of a wall and a shadow have not.
+/// Log-likelihood ratio, over both images, for a second concentric circle in the plane of a circle: the other edge of a
+/// rim, up to a fifth of the radius wider or narrower. A docking ring has one; the edge of a round body, the foot of a
+/// wall and a shadow do not.
 double rim_evidence(const ring2::Rig& rig, const Ring2Images& images, const ExpectedCircle& circle);
 
 }  // namespace pharos::host

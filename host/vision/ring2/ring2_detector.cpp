@@ -20,9 +20,10 @@ using ring2::Contour;
 using ring2::Feature;
 
 constexpr std::array<const char*, ring2::kViews> kViewNames{"left", "right"};
-// Largest ellipses looked at of each image: a satellite shows ring and nozzle with two edges each and a few more.
+// Number of ellipses used of each image, the largest first: a satellite has two for the ring, two for the nozzle and a
+// few more.
 constexpr std::size_t kMaxEllipses = 24;
-// A lone ellipse that is to be the fourth must not make the worst contour worse than this.
+// Maximum residual of the fit with an ellipse that only one image has.
 constexpr double kMaxRms_px = 0.5;
 
 std::vector<DetectedEllipse> detected(ImageView<const std::uint16_t> image, const ellipse::EllipseSettings& settings,
@@ -35,7 +36,7 @@ std::vector<DetectedEllipse> detected(ImageView<const std::uint16_t> image, cons
   return ellipses;
 }
 
-// A contour that one image has and the other has not: the best fit among those that make a whole.
+// Adds the nozzle's contour if only one image has it: of the contours with a plausible nozzle, the one that fits best.
 void add_lone(const ring2::Rig& rig, const std::array<std::vector<Contour>, ring2::kViews>& contours,
               ring2::ContourSet& chosen) {
   for (std::size_t v = 0; v < ring2::kViews; ++v) {
@@ -112,12 +113,12 @@ Ring2Detection ring2_among(const ring2::Rig& rig, const Ring2Settings& settings,
 
 namespace {
 
-// Contours of images disagree by what light and rims do to edges, which no edge point knows of: their own scatter
-// tells, where there are enough of them.
+// Light and rims shift whole contours, which the scatter of edge points does not show. If there are enough contours,
+// their disagreement shows it: the covariance is scaled by chi2 per degree of freedom.
 ring2::Ring2Estimate with_scatter(ring2::Ring2Estimate estimate) {
   constexpr int kMinFreedom = 4;
   const double per_freedom = estimate.chi2 / std::max(1, estimate.degrees_of_freedom);
-  // Beyond this the estimator has widened it itself.
+  // Above this value the estimator has already scaled it.
   if (estimate.degrees_of_freedom >= kMinFreedom && per_freedom > 1.0 && per_freedom <= ring2::kChancePerFreedom) {
     estimate.covariance *= per_freedom;
   }
@@ -129,7 +130,7 @@ std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Setti
   std::vector<RingHypothesis> near;
   const bool is_size_told = settings.sizes.outer_radius || settings.sizes.inner_radius;
   for (RingHypothesis& hypothesis : hypotheses) {
-    if (!hypothesis.has_nozzle && !is_size_told) continue;  // it may as well be the nozzle
+    if (!hypothesis.has_nozzle && !is_size_told) continue;  // it may be the nozzle instead
     if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kFirst, hypothesis)) continue;
     const auto is_known = [&](const RingHypothesis& other) { return is_same(other, hypothesis); };
     if (std::none_of(near.begin(), near.end(), is_known)) near.push_back(std::move(hypothesis));
@@ -156,7 +157,7 @@ void take(const RingDecision& decision, Ring2Detection& answer) {
   }
 }
 
-// The answer by the images' edges; where there is none, the reason by the ellipses.
+// The result of the images' edges; if there is none, the refusal by the ellipses.
 Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settings, const Ring2Images& images,
                               std::array<std::vector<DetectedEllipse>, ring2::kViews> found) {
   const auto contours = contours_of(found, settings.systematic_px);
@@ -182,7 +183,7 @@ Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settin
 
 }  // namespace
 
-// One image's search, with memory that lasts: making and clearing it would cost a tenth of the search.
+// The search in one image. It keeps its memory: allocating and clearing it each time would cost a tenth of the search.
 class Ring2Detector::View {
  public:
   explicit View(const PinholeCamera& intrinsics)

@@ -10,7 +10,7 @@ namespace {
 using Matrix65 = Eigen::Matrix<double, 6, 5>;
 
 constexpr double kAnyTurn_rad2 = std::numbers::pi * std::numbers::pi / 3.0;
-// Beyond that the rig's x axis does not determine a direction across the normal.
+// Above this value the rig's x axis is too nearly parallel to the normal to define a direction across it.
 constexpr double kMaxAlongX = 0.99;
 
 Pose<frame::Rig, frame::Target> pose_of(const Vector3& normal, const Vector3& centre_m) {

@@ -11,30 +11,30 @@
 namespace pharos::host {
 namespace {
 
-// Of a circle's edges against chance: a factor of 160,000, some hundred times the places at which a circle of that size
-// could be found.
+// Minimum log-likelihood ratio of a circle's edges against chance: a factor of 160,000, some hundred times the number
+// of positions at which a circle of that size could be found.
 constexpr double kMinEvidence = 12.0;
-// Of a contour, mean of both views. A contour that changes over between the edges of rim, wall and shadow finds about
-// half of its places on one of them; of a true one a third may be hidden or dark.
+// Minimum fraction of a contour that has an edge, mean of both views. A contour that switches between the edges of rim,
+// wall and shadow has about half of its points on one of them; of a true contour a third may be hidden or dark.
 constexpr double kMinSeenOnAverage = 0.6;
 constexpr double kMinSeenInOneView = 0.4;
-// Of the evidence that undisturbed edges would give. A ring's contour is long and its rim is a face in the light; a
-// nozzle's lip is thin, and half of it stands before darkness.
+// Minimum evidence, as a fraction of that of undisturbed edges. A ring's contour is long and its rim is a lit face; a
+// nozzle's lip is thin, and half of it is in front of a dark background.
 constexpr double kMinCleanRing = 0.35, kMinCleanNozzle = 0.1;
-// Two answers are one where a reader would not tell them apart.
+// Two hypotheses closer than this are the same answer.
 constexpr double kSameNormal_rad = 0.5 * kRadPerDeg;
 constexpr double kSameCentre_m = 0.005;
-// Two circles whose images are nearer than this, of the larger one's radius, share their edges.
+// Two circles whose images are closer than this fraction of the larger radius share their edges.
 constexpr double kOverPerRadius = 0.2;
-// A docking ring stands before the body. Of circles about one axis the foremost is the ring, and what is behind is its
-// foot, a groove or the body's own edge: where its edges are plain, measured by those of the other one. Where they are
-// fainter nobody knows; noise has less than the least of it.
+// A docking ring is in front of the body: of circles on one axis the foremost is the ring, and those behind it are its
+// foot, a groove or the body's edge. Fractions of the other circle's evidence: from kPlainRing on the foremost is the
+// ring, from kFaintRing on it is ambiguous; below that it is noise.
 constexpr double kPlainRing = 0.3, kFaintRing = 0.1;
-// Circles about one axis, as far as their centres tell.
+// Maximum distance of the centres across the axis for circles on one axis, as a fraction of the radius.
 constexpr double kAsidePerRadius = 0.01;
-// Sizes that are told: beyond so many deviations it is another circle.
+// A circle that differs from a known size by more than this number of sigmas is another one.
 constexpr double kMaxSizeSigmas = 5.0;
-// The two edges of a nozzle's lip are this far apart; nobody knows which one is told.
+// Distance between the two edges of a nozzle's lip, as a fraction of its radius: a known size may be that of either.
 constexpr double kLipPerRadius = 0.15;
 
 double mean_seen(const RingHypothesis& h, std::size_t feature) {
@@ -45,7 +45,8 @@ bool is_shown(const RingHypothesis& h, std::size_t feature, double evidence, dou
   return evidence > kMinEvidence && evidence > min_clean * h.evidence_limit[feature] &&
          mean_seen(h, feature) > kMinSeenOnAverage;
 }
-// A ring that one view does not show is placed by its nozzle and the other view; half shown, its edges are others'.
+// A ring may be absent in one view: its nozzle and the other view determine it. A contour that is present in part only
+// follows other edges.
 bool is_half_shown(double seen) { return seen > 0.0 && seen < kMinSeenInOneView; }
 bool has_ring(const RingHypothesis& h) {
   return is_shown(h, 0, h.evidence - h.nozzle_evidence, kMinCleanRing) && !is_half_shown(h.seen[0][0]) &&
@@ -58,7 +59,7 @@ bool agrees(double found_m, double sigma_m, const KnownLength& told, double slac
   return off < kMaxSizeSigmas * std::hypot(sigma_m, told.sigma_m);
 }
 
-// Whether the sizes that are told are this hypothesis' sizes.
+// Whether the known sizes agree with this hypothesis.
 bool agrees(const FollowedHypothesis& f, const RingSizes& sizes) {
   const ring2::Ring2Estimate& e = f.estimate;
   const auto sigma = [&](int unknown) { return std::sqrt(e.covariance(unknown, unknown)); };
@@ -93,7 +94,7 @@ bool is_same_answer(const FollowedHypothesis& a, const FollowedHypothesis& b) {
              std::max(kSameCentre_m, 3.0 * std::sqrt(variance));
 }
 
-// Whether two circles' images lie over each other in one view.
+// Whether the images of two circles coincide in one view.
 bool is_over(const Vector3& from, const Vector3& a, double radius_a, const Vector3& b, double radius_b) {
   const double range_a = (a - from).norm(), range_b = (b - from).norm();
   const double size_a = radius_a / range_a, size_b = radius_b / range_b;
@@ -101,8 +102,7 @@ bool is_over(const Vector3& from, const Vector3& a, double radius_a, const Vecto
   return apart < kOverPerRadius * larger && std::abs(size_a - size_b) < kOverPerRadius * larger;
 }
 
-// Whether ring or nozzle of one lie where ring or nozzle of the other lie, in either image: explanations of the same
-// edges.
+// Whether a circle of one hypothesis coincides with a circle of the other in either image: both explain the same edges.
 bool shares_edges(const ring2::Rig& rig, const ring2::Ring2Estimate& a, const ring2::Ring2Estimate& b) {
   return std::any_of(rig.views.begin(), rig.views.end(), [&](const ring2::RigView& view) {
     const Vector3& from = view.T_rig_camera.t;
@@ -113,7 +113,7 @@ bool shares_edges(const ring2::Rig& rig, const ring2::Ring2Estimate& a, const ri
   });
 }
 
-// Whether both rings stand about one axis, one behind the other: the edge of a round body behind its docking ring.
+// Whether both rings are on one axis, one behind the other: the edge of a round body behind its docking ring.
 bool is_nested(const ring2::Ring2Estimate& a, const ring2::Ring2Estimate& b) {
   const double sigma_rad = 3.0 * std::hypot(a.sigma_normal_rad(), b.sigma_normal_rad());
   const Vector3 between = b.ring_centre_m - a.ring_centre_m;
@@ -124,16 +124,16 @@ bool is_nested(const ring2::Ring2Estimate& a, const ring2::Ring2Estimate& b) {
 
 double ring_evidence(const FollowedHypothesis& f) { return f.hypothesis.evidence - f.hypothesis.nozzle_evidence; }
 
-// How far one ring stands before the other on their axis.
+// Distance by which one ring is in front of the other on their axis.
 double ahead_m(const FollowedHypothesis& f, const FollowedHypothesis& of) {
   return (f.estimate.ring_centre_m - of.estimate.ring_centre_m).dot(of.estimate.normal);
 }
 
-// How much less likely than the best another one is that gives another answer.
+// Twice the log-likelihood ratio of the best hypothesis against one with another answer.
 double delta_chi2(const ring2::Rig& rig, const FollowedHypothesis& best, const FollowedHypothesis& other) {
   const double by_edges = 2.0 * (best.hypothesis.evidence - other.hypothesis.evidence);
   if (is_nested(best.estimate, other.estimate)) {
-    // Both circles may be there. Of a ring that stands ahead a part may be hidden or dark; what is behind is not it.
+    // Both circles may exist. A ring in front may be partly hidden or dark; a circle behind is not the ring.
     const bool may_be_ring = ahead_m(other, best) > 0.0 && ring_evidence(other) > kFaintRing * ring_evidence(best);
     return may_be_ring ? 0.0 : std::numeric_limits<double>::infinity();
   }

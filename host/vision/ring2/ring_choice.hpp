@@ -8,34 +8,34 @@
 
 namespace pharos::host {
 
-/// A length that is known beforehand.
+/// A known length.
 struct KnownLength {
   double value_m = 0.0;
   double sigma_m = 0.0;
 };
 
-/// What may be told of the target; what is not told is found.
+/// Known sizes of the target; sizes that are not given are estimated.
 struct RingSizes {
   std::optional<KnownLength> outer_radius, inner_radius, exit_radius, distance;
 };
 
-/// A hypothesis whose circles were moved to the images' edges, and what the estimator makes of them.
+/// A hypothesis that was refined on the images' edges, and its estimate.
 struct FollowedHypothesis {
   RingHypothesis hypothesis;
   ring2::Ring2Estimate estimate;
-  double rim_evidence = 0.0;  ///< that its ring has a face between two edges
+  double rim_evidence = 0.0;  ///< log-likelihood ratio for a face between two edges
 };
 
-/// Which of them the pair's answer is; and the best other one, where it cannot be told from it.
+/// The chosen hypothesis, and the most likely one with another answer if the two cannot be distinguished.
 struct RingDecision {
-  const FollowedHypothesis* best = nullptr;  ///< none: no hypothesis is a ring
+  const FollowedHypothesis* best = nullptr;  ///< null: no hypothesis is a ring
   const FollowedHypothesis* rival = nullptr;
-  double delta_chi2 = 0.0;  ///< twice the logarithm of their likelihoods' ratio
+  double delta_chi2 = 0.0;  ///< twice their log-likelihood ratio
 };
 
-/// The most likely hypothesis. One must have a ring, with a face, and a nozzle that the images show beyond chance, or a
-/// ring of the size that is told. Other hypotheses of the same edges compete by their evidence; circles elsewhere that
-/// could be ring and nozzle as well are no less likely, unless sizes tell.
+/// The most likely hypothesis. It must have a ring with a face and a nozzle whose edges are beyond chance, or a ring of
+/// the known size. Hypotheses of the same edges are compared by their evidence. Circles elsewhere that could also be
+/// ring and nozzle are as likely, unless known sizes exclude them.
 RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> followed, const RingSizes& sizes);
 
 }  // namespace pharos::host

@@ -17,26 +17,25 @@ using ring2::Contour;
 using ring2::ContourSet;
 using ring2::Feature;
 
-// What an ellipse may be off as a whole where part of its edge points are another edge's: the width of a rim whose two
-// edges were mixed.
+// Error of a whole ellipse if some of its edge points belong to another edge: the width of a rim whose two edges were
+// mixed.
 constexpr double kLooseSystematic_px = 1.5;
-// As circle_match has them for single pairs, for ellipses so far off: half a degree becomes ten.
+// Tolerances as in circle_match, but for ellipses with such errors: half a degree becomes ten.
 constexpr double kLooseTilt = 12.0 * kRadPerDeg;
 constexpr double kLooseOffAxisPerRadius = 0.15;
 constexpr double kLooseNozzlePerRing = 0.75;
 constexpr double kLooseDistancePerRing = 3.0;
-// In front of the ring by more than the width of a rim: throat and grooves are not a nozzle's exit.
+// Minimum distance in front of the ring, more than the width of a rim: throat and grooves are not a nozzle's exit.
 constexpr double kMinDistancePerRing = 0.08;
 constexpr std::size_t kMaxHypotheses = 24;
-// Two hypotheses whose circles' images are less than a pixel apart will end at the same edges: a hundredth of a ring of
-// 100 px.
+// Hypotheses whose images are less than a pixel apart (a hundredth of a ring of 100 px) converge to the same edges.
 constexpr double kSamePerRadius = 0.008, kSameTilt_rad = 0.012;
 
-// From the ellipses' errors to an edge's own.
+// Search range and scale by round, from the errors of ellipses down to those of edges.
 constexpr std::array<EdgeSearch, 6> kRounds = {
     {{7.0, 3.0}, {6.0, 2.0}, {5.0, 1.3}, {4.0, 0.9}, {4.0, 0.7}, {4.0, 0.7}}};
 constexpr std::size_t kFirstRounds = 3;
-// A contour of which less is seen says nothing.
+// Contours with a smaller visible fraction are not used.
 constexpr double kMinSeen = 0.15;
 
 CircleProblem problem_of(const ring2::Rig& rig, const ContourSet& contours, bool nozzle) {
@@ -66,7 +65,7 @@ std::optional<RingHypothesis> hypothesis_of(const ring2::Rig& rig, const Contour
   hypothesis.has_nozzle = (fit->unobservable & ring2::kUnobservableNozzle) == 0;
   hypothesis.model = {fit->normal, fit->ring_centre_m, fit->ring_radius_m, fit->distance_m, fit->nozzle_radius_m};
   if (hypothesis.has_nozzle && !(fit->distance_m > kMinDistancePerRing * fit->ring_radius_m)) return std::nullopt;
-  hypothesis.evidence = -0.5 * fit->chi2;  // for the order alone
+  hypothesis.evidence = -0.5 * fit->chi2;  // for sorting only
   return hypothesis;
 }
 
@@ -120,7 +119,7 @@ std::vector<RingHypothesis> three_ellipse_hypotheses(const ring2::Rig& rig,
   for (const MatchedCircle& circle : matched_circles(rig, loose)) {
     for (std::size_t v = 0; v < ring2::kViews; ++v) {
       for (const Contour& lone : loose[v]) {
-        // The pair is the ring and the lone one its nozzle, or the other way round.
+        // The pair is the ring and the single ellipse its nozzle, or vice versa.
         const bool nozzle = lone.ellipse.a_px < kLooseNozzlePerRing * loose[v][circle.index[v]].ellipse.a_px;
         const bool ring = loose[v][circle.index[v]].ellipse.a_px < kLooseNozzlePerRing * lone.ellipse.a_px;
         if (!nozzle && !ring) continue;

@@ -12,36 +12,36 @@ namespace pharos::host {
 
 using Ring2Images = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
 
-/// One way to name circles of a pair: this is the ring, that its nozzle.
+/// An assignment of circles in a pair of images to ring and nozzle.
 struct RingHypothesis {
   ring2::ContourSet contours;
-  ring2::CircleModel model;  ///< both circles; the second one's radius is 0 where there is no nozzle
+  ring2::CircleModel model;  ///< both circles; the second radius is 0 if there is no nozzle
   bool has_nozzle = false;
-  double evidence = 0.0;         ///< of all contours together: log-likelihood ratio against chance
-  double nozzle_evidence = 0.0;  ///< of the nozzle's alone
-  /// What ring's and nozzle's evidence would be if nothing hid or disturbed their edges.
+  double evidence = 0.0;         ///< log-likelihood ratio of all contours against chance
+  double nozzle_evidence = 0.0;  ///< that of the nozzle's contours only
+  /// Evidence of ring and nozzle if nothing hid or disturbed their edges.
   std::array<double, ring2::kFeatures> evidence_limit{};
   int edges = 0;                                                           ///< edge points of all contours
-  std::array<std::array<double, ring2::kFeatures>, ring2::kViews> seen{};  ///< fraction of each contour
+  std::array<std::array<double, ring2::kFeatures>, ring2::kViews> seen{};  ///< visible fraction of each contour
 };
 
-/// Every ring with every nozzle that ellipses of both images allow, those that fit best first. Ellipses may be some
-/// pixels off: shadows and what stands before a rim lend them points.
+/// Every combination of ring and nozzle that the ellipses of both images allow, best fit first. Ellipses may have
+/// errors of some pixels, if edge points of shadows and of objects in front of a rim were included.
 std::vector<RingHypothesis> ring_hypotheses(const ring2::Rig& rig,
                                             const std::array<std::vector<ring2::Contour>, ring2::kViews>& contours);
 
-/// The same where one view has no ellipse of the ring, or none of the nozzle: three ellipses.
+/// The same from three ellipses: one view has no ellipse of the ring, or none of the nozzle.
 std::vector<RingHypothesis> three_ellipse_hypotheses(
     const ring2::Rig& rig, const std::array<std::vector<ring2::Contour>, ring2::kViews>& contours);
 
-/// Moves a hypothesis' circles to the images' edges, all views together: contours are measured about where the model
-/// puts them, the model is fitted to all of them, in rounds of smaller and smaller reach: the first ones bring it
-/// there, the last ones measure. False where it does not hold together.
+/// Refines a hypothesis on the edges of both images. In each round contours are measured where the model predicts them,
+/// and the model is fitted to all of them; the search range decreases. The first rounds converge, the last ones
+/// measure. False if a fit fails.
 enum class FollowRounds : std::uint8_t { kFirst, kLast };
 bool follow_edges(const ring2::Rig& rig, const Ring2Images& images, double systematic_px, FollowRounds rounds,
                   RingHypothesis& hypothesis);
 
-/// Whether two hypotheses have come to the same circles.
+/// Whether two hypotheses have converged to the same circles.
 bool is_same(const RingHypothesis& a, const RingHypothesis& b);
 
 }  // namespace pharos::host
