@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Warnings, sanitizers and the two kinds of library that Pharos builds.
+# Warnings, sanitizers, precompiled headers and the kinds of library that Pharos builds.
 
 add_library(pharos_warnings INTERFACE)
 target_compile_options(pharos_warnings INTERFACE
@@ -8,13 +8,13 @@ target_compile_options(pharos_warnings INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(pharos_warnings INTERFACE
     -Wduplicated-cond -Wlogical-op
-    # GCC 12 sees null pointers and overruns inside Eigen's and libstdc++'s inlined code that are not there.
+    # False positives of GCC 12 in inlined code of Eigen and libstdc++.
     -Wno-null-dereference -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-restrict
-    # In a unity build every source is included: what is in a namespace without a name looks as if from a header.
+    # In a unity build every source is included, so that an unnamed namespace looks as if it were in a header.
     $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endif()
 
-# The build type of the sanitizer presets: assertions on, quick enough for Eigen, line numbers in reports.
+# The build type of the sanitizer presets: assertions on, enough optimisation for Eigen, line numbers in reports.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 if(PHAROS_SANITIZE)
   add_compile_options(-fsanitize=${PHAROS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -29,7 +29,7 @@ if(PHAROS_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-# A compiler cache is used where it is installed, told what it must know of precompiled headers; nothing needs it.
+# ccache is used if it is installed, with the options that precompiled headers need. The build does not depend on it.
 option(PHAROS_CCACHE "Use ccache where it is installed" ON)
 find_program(PHAROS_CCACHE_PROGRAM ccache)
 set(PHAROS_GIVEN_LAUNCHER "${CMAKE_CXX_COMPILER_LAUNCHER}")
@@ -39,9 +39,9 @@ if(PHAROS_CCACHE AND PHAROS_CCACHE_PROGRAM AND NOT PHAROS_GIVEN_LAUNCHER AND CMA
   add_compile_options(-fpch-preprocess)
 endif()
 
-# Reading Eigen or GoogleTest is two thirds of what compiling a small file costs: read once for all that have the same
-# flags. Not where a launcher of the user's own or clang-tidy look at the command line: neither makes sense of it, and so
-# they see, as the soft core's build does, what a file forgot to include.
+# Parsing Eigen or GoogleTest is two thirds of the cost of compiling a small file, so these headers are precompiled once
+# per set of flags. Not with a launcher given by the user or with clang-tidy, which do not understand such command lines.
+# These builds and the soft core's therefore detect missing includes.
 if(PHAROS_GIVEN_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
   set(PHAROS_PRECOMPILE OFF)
 else()
@@ -49,8 +49,9 @@ else()
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
 endif()
 
-# pharos_headers(KIND HEADERS headers... LIBS libraries... OPTIONS options...): what all targets of one KIND read
-# precompiled; they have these options and no others that touch the code (what was read with -O3 is compiled with -O3).
+# pharos_headers(KIND HEADERS headers... LIBS libraries... OPTIONS options...): precompiled headers for all targets of one
+# KIND. These targets must have the same options and no others that affect code: a header precompiled with -O3 makes its
+# users compile with -O3.
 function(pharos_headers kind)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBS;OPTIONS" ${ARGN})
   if(PHAROS_PRECOMPILE)
@@ -61,18 +62,18 @@ function(pharos_headers kind)
   endif()
 endfunction()
 
-# pharos_reads_headers(TARGET KIND)
+# pharos_reads_headers(TARGET KIND): TARGET uses the precompiled headers of KIND.
 function(pharos_reads_headers target kind)
   if(PHAROS_PRECOMPILE)
     set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM pharos_${kind}_headers)
   endif()
 endfunction()
 
-# pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; same floating-point results
-# on every machine (no fused multiply-add where the source has none). For the soft core NAME_12 too, the same sources for
-# a board of 12 inputs (base/capacity.hpp), built where an image asks for it; an image links rooms of one kind only.
-# After NAME the word VECTORS: for loops over images. Roots need no errno, and comparisons no exceptions: the same values,
-# in vectors and without calls.
+# pharos_core_library(NAME SOURCES...): a room of the portable core. No exceptions, no RTTI; the same floating-point
+# results on every machine (no fused multiply-add that is not in the source). For the soft core there is also NAME_12, the
+# same sources for a board of 12 inputs (base/capacity.hpp), built if an image links it; an image must not mix both.
+# VECTORS after NAME is for loops over images: square roots do not set errno and comparisons do not trap, so that the
+# compiler can vectorise them. Results do not change.
 set(PHAROS_CORE_OPTIONS -fno-exceptions -fno-rtti -ffp-contract=off)
 set(PHAROS_VECTORS_OPTIONS ${PHAROS_CORE_OPTIONS} -fno-math-errno -fno-trapping-math)
 pharos_headers(core HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_CORE_OPTIONS})
@@ -90,7 +91,7 @@ function(pharos_core_library name)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
     add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARG_UNPARSED_ARGUMENTS})
     target_compile_definitions(${name}_12 PUBLIC PHAROS_MAX_SENSORS=12 PHAROS_HOT_ON_CHIP)
-    target_compile_options(${name}_12 PRIVATE -O2)  # its code is in external memory, where there is room
+    target_compile_options(${name}_12 PRIVATE -O2)  # its code is in external memory, where size matters less
     list(APPEND libraries ${name}_12)
   endif()
   foreach(library IN LISTS libraries)
@@ -102,8 +103,9 @@ function(pharos_core_library name)
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 
-# pharos_module(NAME SOURCES...): what would cost every start of a program too much (README.md: which and why), loaded
-# when it is asked for (host/support/module_function.hpp); beside the programs in the build tree, installed in lib/pharos.
+# pharos_module(NAME SOURCES...): a plug-in for code whose libraries would slow down every start of a program (README.md:
+# which and why), loaded on demand (host/support/module_function.hpp). It is beside the programs in the build tree and is
+# installed in lib/pharos.
 function(pharos_module name)
   add_library(${name} MODULE ${ARGN})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -121,8 +123,8 @@ function(pharos_host_library name)
   pharos_reads_headers(${name} host)
 endfunction()
 
-# pharos_command_library(NAME SOURCES...): a subcommand's options and the order of its work. CLI11's templates cost more to
-# optimise than ever to run; what computes lives in the rooms it calls.
+# pharos_command_library(NAME SOURCES...): a subcommand's options and the sequence of its steps. Compiled with -O1, because
+# optimising CLI11's templates takes longer than running them; computations are in the rooms that it calls.
 set(PHAROS_COMMAND_OPTIONS $<$<CONFIG:Release>:-O1>)
 if(PHAROS_BUILD_HOST)
   pharos_headers(command HEADERS <CLI/CLI.hpp> ${PHAROS_HOST_HEADERS} LIBS Eigen3::Eigen OPTIONS ${PHAROS_COMMAND_OPTIONS})
@@ -133,9 +135,9 @@ function(pharos_command_library name)
   pharos_reads_headers(${name} command)
 endfunction()
 
-# pharos_guarded(TARGET...): rooms that decode bytes from outside or hand them on. Stack protector and fortified functions
-# cost nothing that is measurable there; rooms that compute in Eigen's loops on checked values are left as they are. What a
-# kind of target reads precompiled was compiled without these options.
+# pharos_guarded(TARGET...): stack protector and fortified functions for rooms that decode or forward untrusted bytes,
+# where their cost is not measurable. Rooms that compute on checked values do not have them. Precompiled headers are off
+# here, as they were compiled without these options.
 function(pharos_guarded)
   foreach(target IN LISTS ARGN)
     target_compile_options(${target} PRIVATE
@@ -144,7 +146,7 @@ function(pharos_guarded)
   endforeach()
 endfunction()
 
-# pharos_installed_program(TARGET): position independent, every symbol resolved before main and read-only afterwards.
+# pharos_installed_program(TARGET): position independent; all symbols are resolved before main and read-only afterwards.
 function(pharos_installed_program target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_options(${target} PRIVATE -pie -Wl,-z,relro,-z,now,-z,noexecstack)

@@ -4,7 +4,7 @@
 # pharos_firmware_image(NAME BOARD board LAYOUT chip|external STACK bytes [CHIP_BYTES bytes] SOURCES files… LIBS libraries…)
 #   -> bin/NAME.elf, NAME.bin (its bytes) and NAME.map, part of the target firmware_images. Layouts are firmware/board/<board>/memory_<layout>.ld.
 #   CHIP_BYTES: more memory for variables than the board has, for test programs under QEMU.
-#   What becomes of a fault is a library: pharos_<board>_test (says it and ends the emulator).
+#   The handling of faults is a library: pharos_<board>_test reports the fault and ends the emulator.
 #
 # A test program: pharos_firmware_image(my_test BOARD qemu_virt LAYOUT external STACK 65536 CHIP_BYTES 1048576
 #   SOURCES my_test.cpp LIBS pharos_qemu_virt_test pharos_wire), run by tests/firmware/run_in_qemu.sh.
@@ -29,7 +29,7 @@ function(pharos_firmware_image name)
 endfunction()
 
 # pharos_firmware_tree(): in the host's tree, the target `firmware` builds every image into <build>/firmware/bin. Sets
-# PHAROS_FIRMWARE_SKIPPED to the reason where it cannot.
+# PHAROS_FIRMWARE_SKIPPED to the reason if it cannot.
 function(pharos_firmware_tree)
   include(ExternalProject)
   find_program(PHAROS_RV32_COMPILER riscv64-unknown-elf-gcc)
@@ -56,7 +56,7 @@ function(pharos_firmware_tree)
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
     USES_TERMINAL_BUILD ON)
-  # The decoder for the emulator alone, without the test programs: what tools/demo needs.
+  # Only the decoder for the emulator, without the test programs, for tools/demo.
   add_custom_target(firmware_decoder
     COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
       -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}

@@ -6,16 +6,16 @@ add_custom_target(long_tests)
 set(PHAROS_TEST_PREFIX "" CACHE STRING "Put before every test's name, so that the tests of two build trees can run as one")
 set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in `tools/test --full`")
 
-# A test's own code runs once and is compiled each time: optimising it fully costs more than it saves. What is tested
-# keeps its flags.
+# Test code runs once per build, so that full optimisation would cost more time than it saves. The tested code keeps its
+# flags.
 set(PHAROS_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 pharos_headers(test HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Geometry>
   LIBS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${PHAROS_TEST_OPTIONS})
 
 # pharos_test(NAME [LABEL label] [TIMEOUT seconds] SOURCES files... [PROPERTY files...] [FAULT files...] LIBS libraries...):
-# one GoogleTest program a room, each suite known to ctest as NAME.Suite (discover_tests.py). LABEL, of the SOURCES, is unit
-# (default), property, integration, fault, data or long; PROPERTY and FAULT are further files with those labels. `long` is
-# built by the target long_tests and runs only in `tools/test --full`, and there in the release tree alone.
+# one GoogleTest program per room; each suite is a ctest entry NAME.Suite (discover_tests.py). LABEL is that of SOURCES:
+# unit (default), property, integration, fault, data or long; PROPERTY and FAULT are further files with those labels.
+# `long` is built by the target long_tests and runs only in `tools/test --full`, in the release tree only.
 function(pharos_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;PROPERTY;FAULT;LIBS" ${ARGN})
   if(NOT ARG_LABEL)
@@ -26,7 +26,8 @@ function(pharos_test name)
   endif()
   set(environment)
   if(PHAROS_SANITIZE)
-    # Five times as slow, and a campaign's thousands of problems take the same lines as the ordinary tests' few.
+    # Sanitizers are five times slower. Campaigns are left out: their thousands of problems execute the same lines as the
+    # few of the ordinary tests.
     if(ARG_LABEL STREQUAL "long")
       return()
     endif()
@@ -46,7 +47,7 @@ function(pharos_test name)
     add_dependencies(long_tests ${name})
   endif()
   if(PHAROS_FUZZ)
-    return()  # that tree builds and runs its fuzzers alone: a test that is not built would be one that fails
+    return()  # that tree builds and runs fuzzers only; a registered test that is not built would fail
   endif()
   set(labels)
   foreach(label PROPERTY FAULT)
@@ -64,7 +65,7 @@ function(pharos_test name)
       --name ${prefixed} --root ${PROJECT_SOURCE_DIR} --label ${ARG_LABEL} ${labels} --property TIMEOUT=${ARG_TIMEOUT}
       ${environment}
     COMMENT "" VERBATIM)
-  # A program that was not built is a test that fails.
+  # A program that was not built counts as a failed test.
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}_include.cmake @ONLY CONTENT [[
 if(EXISTS "@entries@")
   include("@entries@")
@@ -79,9 +80,9 @@ endif()
   endif()
 endfunction()
 
-# pharos_fuzz(NAME SOURCE file LIBS libraries...): always an ordinary test that replays tests/fuzz/corpus/NAME through
-# LLVMFuzzerTestOneInput, all targets in one program, fuzz_replay. When PHAROS_FUZZ is on, NAME is a libFuzzer program
-# (all of them: target `fuzzers`), and a test with the label long lets it search for PHAROS_FUZZ_SECONDS from that corpus.
+# pharos_fuzz(NAME SOURCE file LIBS libraries...): an ordinary test that replays tests/fuzz/corpus/NAME through
+# LLVMFuzzerTestOneInput; all targets are in one program, fuzz_replay. If PHAROS_FUZZ is on, NAME is a libFuzzer program
+# (all of them: target `fuzzers`), and a test with the label long searches from that corpus for PHAROS_FUZZ_SECONDS.
 function(pharos_fuzz name)
   cmake_parse_arguments(ARG "" "SOURCE" "LIBS" ${ARGN})
   set(corpus ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
@@ -95,7 +96,7 @@ function(pharos_fuzz name)
     endif()
     add_dependencies(fuzzers ${name})
     add_test(NAME ${replay} COMMAND ${name} -runs=0 ${corpus})
-    # New inputs go to the build tree; a crash leaves its input there too.
+    # New inputs and inputs that crash are stored in the build tree.
     set(found ${CMAKE_BINARY_DIR}/fuzz/${name})
     file(MAKE_DIRECTORY ${found})
     math(EXPR search_timeout "${PHAROS_FUZZ_SECONDS} + 120")
@@ -103,7 +104,7 @@ function(pharos_fuzz name)
       COMMAND ${name} -max_total_time=${PHAROS_FUZZ_SECONDS} -artifact_prefix=${found}/ -print_final_stats=1 ${found} ${corpus})
     set_tests_properties(${PHAROS_TEST_PREFIX}search.${name} PROPERTIES LABELS long TIMEOUT ${search_timeout})
   else()
-    # Objects with an entry of their own name: one program links them all.
+    # Object libraries with differently named entry functions, so that one program can link all of them.
     add_library(${name} OBJECT ${ARG_SOURCE})
     target_compile_definitions(${name} PRIVATE LLVMFuzzerTestOneInput=${name}_one_input)
     pharos_reads_headers(${name} host)
@@ -115,7 +116,7 @@ function(pharos_fuzz name)
   set_tests_properties(${replay} PROPERTIES LABELS fuzz TIMEOUT 120)
 endfunction()
 
-# pharos_fuzz_replay(): the program that replays the corpus of every target told so far.
+# pharos_fuzz_replay(): the program that replays the corpus of every target declared so far.
 function(pharos_fuzz_replay)
   if(PHAROS_FUZZ)
     return()
