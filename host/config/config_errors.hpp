@@ -10,10 +10,10 @@
 
 namespace pharos::host {
 
-/// Everything that is wrong with a configuration, not only the first.
+/// Collects all errors of a configuration, so that one run reports them all.
 class ConfigErrors {
  public:
-  /// Reads one part and keeps what it throws. False where it threw; the part then has its default.
+  /// Reads one part and stores the message of an InputError. False after an error; the part then has its default.
   template <class Read>
   bool attempt(Read&& read) {
     try {
@@ -24,14 +24,14 @@ class ConfigErrors {
       return false;
     }
   }
-  /// Refuses keys that nobody asked for. A part that was not read to its end has some: with errors since `before` only
-  /// the table's own keys are looked at, all of which must have been asked for.
+  /// Refuses unknown keys. After an error, nested tables may not have been read to their end, and their keys would look
+  /// unknown: with errors since `before` only the table's own keys are checked.
   void reject_unknown(const TomlTable& table, std::size_t before) {
     const bool whole = count() == before;
     attempt([&] { whole ? table.reject_unknown() : table.reject_unknown_here(); });
   }
   std::size_t count() const { return lines_.size(); }
-  /// Throws all of them as one InputError, a line each; nothing where there is none.
+  /// Throws all errors as one InputError, one line each; does nothing if there are none.
   void throw_all() const {
     std::string text;
     for (const std::string& line : lines_) text += (text.empty() ? "" : "\n") + line;

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxName = 32;  // so that a name fits log lines and file names
+constexpr std::size_t kMaxName = 32;  // short enough for log lines and file names
 
 }  // namespace
 

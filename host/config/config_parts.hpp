@@ -9,15 +9,16 @@
 
 namespace pharos::host {
 
-// What several tables of the daemon's configuration are made of. Each throws InputError with file, line and key.
+// Parts that several tables of the daemon's configuration have in common. Each function throws InputError with file,
+// line and key.
 
-/// Letters, digits and what is in `punctuation`, nothing else.
+/// Whether the text has only letters, digits and characters of `punctuation`.
 bool all_of_set(const std::string& text, const char* punctuation);
 
-/// `name`, the value of `key`, if it may be told in messages, log lines and file names.
+/// `name`, the value of `key`, if it is valid in messages, log lines and file names.
 std::string read_name(const TomlTable& table, std::string_view key, const std::string& name);
 
-/// A path, which starts at `folder` where it is relative.
+/// A path; relative paths start at `folder`.
 std::filesystem::path read_path(const TomlTable& table, std::string_view key, const std::filesystem::path& folder);
 
 }  // namespace pharos::host

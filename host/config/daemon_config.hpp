@@ -24,7 +24,7 @@ namespace pharos::host {
 
 using TrackMethod = tracking::Method;
 
-/// Whom a target's capture board must tell itself to be, by what its greeting holds; empty: anybody.
+/// The identity that a target's capture board must have in its hello message; empty: any.
 struct ExpectedIdentity {
   std::optional<std::uint32_t> serial;  // unique id of the board
   std::optional<int> sensors;           // inputs of the board
@@ -32,23 +32,23 @@ struct ExpectedIdentity {
   bool any() const { return serial.has_value() || sensors.has_value(); }
 };
 
-/// One cooperative target: the port that its capture board hangs on and how its pose is found.
+/// One cooperative target: the port of its capture board and how its pose is computed.
 struct TargetConfig {
-  /// Told in every message: letters, digits, `-` and `_`; no two targets share one.
+  /// Part of every message: letters, digits, `-` and `_`; unique among the targets.
   std::string name;
   /// A terminal device, or `replay:FILE` for a recorded serial stream.
   std::string port;
   int baud = 460'800;
   ExpectedIdentity identity;
   std::filesystem::path target_file;
-  Target target;  // as calibrated, where a calibration is named
+  Target target;  // with calibrated positions if there is a calibration file
   TargetShape shape;
-  /// Of `pharos calibrate lighthouse`; empty: the target's table and what stations send hold.
+  /// Of `pharos calibrate lighthouse`; empty: the target's table and the stations' OOTX data are used.
   std::filesystem::path calibration_file;
   std::vector<tracking::KnownStation> calibrated_stations;  // all by id
   std::optional<tracking::CalibratedPair> calibrated_pair;  // of two stations
   double scale_sigma = 0.0;                                 // relative, of the target's size
-  /// What nobody knows of sensors and rotors: of the calibration, or without one.
+  /// Systematic errors of sensors and rotors: from the calibration, or those without one.
   motion::SystematicErrors systematic = motion::kUncalibratedErrors;
   TrackMethod method = TrackMethod::kMotion;
   track::TrackOptions track;
@@ -61,11 +61,11 @@ struct TargetConfig {
   static constexpr const char* kReplayPrefix = "replay:";
 };
 
-/// One depth camera and the docking ring before it.
+/// One depth camera and the docking ring in front of it.
 struct TofConfig {
-  /// Told in every message, as `tof/NAME`: letters, digits, `-` and `_`; no two cameras share one.
+  /// Part of every message, as `tof/NAME`: letters, digits, `-` and `_`; unique among the cameras.
   std::string name;
-  /// Of what it looks at; told in every message.
+  /// Name of the observed target; part of every message.
   std::string target;
   std::filesystem::path camera_file;
   DepthCamera camera;
@@ -74,35 +74,35 @@ struct TofConfig {
   /// Recorded frames (a directory as `pharos sim tof` writes it) in place of a camera on the network; empty: none.
   std::filesystem::path frames;
   tof::TofSettings tof;
-  /// A message tells the mean of this many frames; 1: every frame's pose.
+  /// A message has the mean pose of this number of frames; 1: every frame's pose.
   int average_frames = 1;
 
   bool is_recorded() const { return !frames.empty(); }
 };
 
-/// One telescope whose images arrive as files, and the panels before it.
+/// One telescope whose images arrive as files, and the panels that it observes.
 struct PointingConfig {
-  /// Told in every message, as `line/NAME`: letters, digits, `-` and `_`; no two telescopes share one.
+  /// Part of every message, as `line/NAME`: letters, digits, `-` and `_`; unique among the telescopes.
   std::string name;
-  /// Of what it looks at; told in every message.
+  /// Name of the observed target; part of every message.
   std::string target;
   std::filesystem::path camera_file;
   PinholeCamera camera;
-  /// Where images arrive.
+  /// Directory in which images arrive.
   std::filesystem::path directory;
-  /// Grows by a row an image: image,time_s,azimuth_deg,elevation_deg[,range_m]; time_s is UTC since 1970.
+  /// Gets one row per image: image,time_s,azimuth_deg,elevation_deg[,range_m]; time_s is UTC since 1970.
   std::filesystem::path track_file;
   pointing::Geodetic station;
-  /// How the target holds its panels during a pass; none: no pass is told, only its images.
+  /// How the target holds its panels during a pass; none: only images are reported, no passes.
   std::optional<pointing::AttitudeLaw> law;
-  /// So long without an image ends a pass.
+  /// Time without an image after which a pass ends.
   double pass_gap_s = 60.0;
 };
 
-/// What is done to images in low light before anything is looked for: nothing, or enhancement with a denoiser.
+/// Processing of low-light images before detection: none, or enhancement with a denoiser.
 enum class LowLight : std::uint8_t { kOff, kBm3d, kFast, kNotDenoised };
 
-/// How a target without a model is followed.
+/// Settings for tracking a target without a model.
 struct SlamConfig {
   SlamConfig() {
     settings.threads = true;
@@ -112,18 +112,18 @@ struct SlamConfig {
   LowLight enhance = LowLight::kOff;
 };
 
-/// One rig of two cameras, and what is measured with it.
+/// One rig of two cameras, and the systems that use it.
 struct StereoConfig {
-  /// Told in every message, as `ring2/NAME` and `slam/NAME`: letters, digits, `-` and `_`; no two rigs share one.
+  /// Part of every message, as `ring2/NAME` and `slam/NAME`: letters, digits, `-` and `_`; unique among the rigs.
   std::string name;
-  /// Of what it looks at; told in every message.
+  /// Name of the observed target; part of every message.
   std::string target;
   std::filesystem::path rig_file;
   RigFile rig;
   /// Left and right camera on the network; their sizes are those of the rig file.
   std::array<CameraSettings, 2> devices;
-  /// Two frames whose times differ by no more are a pair. Times told from arrivals differ by a millisecond or two
-  /// between cameras; a target that turns 10 deg/s turns 0.05 deg meanwhile.
+  /// Maximum time difference of the frames of a pair. Times derived from arrivals differ by one or two milliseconds
+  /// between cameras; a target that rotates at 10 deg/s rotates by 0.05 deg in 5 ms.
   double pairing_window_s = 5e-3;
   /// Recorded pairs (a directory as `pharos sim stereo` writes it) in place of cameras on the network; empty: none.
   std::filesystem::path frames;
@@ -149,7 +149,7 @@ struct PublishConfig {
   bool bearings = true;
 };
 
-/// Raw serial streams, one file series a target.
+/// Recording of raw serial streams, one series of files per target.
 struct RecordingConfig {
   std::filesystem::path directory;
   /// A new file begins at whichever comes first.
@@ -166,7 +166,7 @@ struct LogConfig {
   std::filesystem::path file;  // of LogSink::kFile
 };
 
-/// What pharosd measures with: a list for each kind of source.
+/// The sources of pharosd: a list for each kind.
 struct SourceConfigs {
   std::vector<TargetConfig> targets;
   std::vector<TofConfig> cameras;
@@ -174,11 +174,11 @@ struct SourceConfigs {
   std::vector<StereoConfig> stereos;
 };
 
-/// Everything that `pharosd` was told.
+/// The complete configuration of `pharosd`.
 struct DaemonConfig : SourceConfigs {
-  /// Told as the source in every message: which of several daemons.
+  /// Part of every message; identifies one of several daemons.
   std::string source = "pharosd";
-  /// Where accepted calibrations live across restarts; empty: nowhere.
+  /// Directory that stores accepted calibrations across restarts; empty: they are not stored.
   std::filesystem::path state_directory;
   LcmConfig lcm;
   PublishConfig publish;

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A pipe would hang whoever opens it, a folder or a device is no recording either.
+// Opening a pipe would block, and a folder or a device is not a recording.
 void check_recording(const fs::path& file) {
   std::error_code error;
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
@@ -35,7 +35,7 @@ void check_recording(const fs::path& file) {
   const StreamReader reads_the_head{ByteSource(file.string())};
 }
 
-// The whole optics is looked at, not only what the file's reader can see.
+// Checks the complete optics; the reader of the file checks single values only.
 void check_ring2(const RigFile& rig) { static_cast<void>(Ring2Detector(ring2_rig(rig), {})); }
 
 void check_slam(const RigFile& rig, const std::string& name) { static_cast<void>(slam::rectify(rig, name)); }
@@ -51,7 +51,7 @@ void require_size(const std::string& file, const GreyImage& image, const Pinhole
                    std::to_string(intrinsics.height_px) + "; name the rig file of these cameras");
 }
 
-// Of the first pair that can be read: one that cannot costs that pair alone.
+// Checks the first pair that can be read: unreadable pairs are skipped during the replay.
 void check_pairs(const fs::path& directory, const RigFile& rig) {
   std::optional<InputError> first_error;
   for (const PairName& pair : pair_names_in(directory.string(), 1.0)) {
@@ -81,11 +81,12 @@ std::string identity(const std::string& path) {
   return error ? path : real.string();
 }
 
-// 0, or the errno that a new file in `folder` would meet. The file tried has no name and is gone when it is closed.
+// 0, or the errno of creating a file in `folder`. The test file has no name and is removed when it is closed.
 int why_not_writable(const fs::path& folder) {
   const UniqueFd unnamed(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
   if (unnamed.valid()) return 0;
-  if (errno != EOPNOTSUPP && errno != EISDIR) return errno;  // those two: a file system that knows no unnamed files
+  if (errno != EOPNOTSUPP && errno != EISDIR)
+    return errno;  // these two: the file system does not support unnamed files
   return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
 
@@ -114,7 +115,7 @@ void add_log_error(std::vector<std::string>& errors, const fs::path& file) {
   if (!writable) errors.push_back("log.file: " + file.string() + ": cannot be written; name another");
 }
 
-// A port may be plugged in later; what stands in its place must not be something else.
+// A port may be connected later, but its path must not be something other than a terminal device.
 void add_port_error(std::vector<std::string>& errors, const TargetConfig& target) {
   if (target.is_replay()) return;
   const fs::path port = target.port;
@@ -124,7 +125,7 @@ void add_port_error(std::vector<std::string>& errors, const TargetConfig& target
     if (!fs::is_character_file(port, error)) errors.push_back(key + ": is no terminal device; name one (/dev/...)");
     return;
   }
-  const bool may_come = port.string().rfind("/dev/", 0) == 0;  // udev makes folders as devices come
+  const bool may_come = port.string().rfind("/dev/", 0) == 0;  // udev creates folders when devices are connected
   if (!may_come && !fs::is_directory(port.parent_path(), error)) {
     errors.push_back(key + ": its folder does not exist; check the path");
   }

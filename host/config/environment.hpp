@@ -14,31 +14,32 @@
 
 namespace pharos::host {
 
-/// What a configuration names outside of itself. Handed in, so that tests and the fuzzer touch no disk.
+/// Access to files and devices that a configuration names. Passed as an argument, so that tests and the fuzz target do
+/// not use the disk.
 struct Environment {
-  /// How a target file becomes a target; throws InputError.
+  /// Reads a target file; throws InputError.
   std::function<TargetFile(const std::string& path)> read_target;
-  /// Throws InputError unless the file is a recorded serial stream that can be read.
+  /// Throws InputError unless the file is a readable recording of a serial stream.
   std::function<void(const std::filesystem::path& file)> check_recording;
-  /// The same text for every spelling of one port or file: symbolic links, `..`, two device nodes.
+  /// An identity that is the same for all paths of one port or file: symbolic links, `..`, two device nodes.
   std::function<std::string(const std::string& path)> identity;
-  /// How a calibration file becomes a calibration; throws InputError. Unless given, there is none.
+  /// Reads a calibration file; throws InputError. If not set, there is none.
   std::function<calibrate::CalibrationFile(const std::string& path)> read_calibration = no_calibration;
 
-  /// How a camera file becomes a camera; throws InputError. Unless given, there is none.
+  /// Reads a camera file; throws InputError. If not set, there is none.
   std::function<CameraFile(const std::string& path)> read_camera = no_camera;
-  /// Throws InputError unless there are recorded frames in the directory. Unless given, there are.
+  /// Throws InputError unless there are recorded frames in the directory. If not set, there are.
   std::function<void(const std::filesystem::path& directory)> check_frames = [](const std::filesystem::path&) {};
 
-  /// How a rig file becomes a rig; throws InputError. Unless given, there is none.
+  /// Reads a rig file; throws InputError. If not set, there is none.
   std::function<RigFile(const std::string& path)> read_rig = no_rig;
-  /// Each throws InputError for what its system cannot work with. Unless given, all is well.
+  /// Each throws InputError for values that its system cannot use. If not set, all values are valid.
   std::function<void(const RigFile& rig)> check_ring2 = [](const RigFile&) {};
   std::function<void(const RigFile& rig, const std::string& name)> check_slam = [](const RigFile&, const std::string&) {
   };
-  /// `path` empty: the vocabulary that ships.
+  /// `path` empty: the installed vocabulary.
   std::function<void(const std::string& path)> check_vocabulary = [](const std::string&) {};
-  /// Throws InputError unless there are recorded pairs of this rig in the directory: the first one is read.
+  /// Throws InputError unless there are recorded pairs of this rig in the directory; reads the first one.
   std::function<void(const std::filesystem::path& directory, const RigFile& rig)> check_pairs =
       [](const std::filesystem::path&, const RigFile&) {};
 
@@ -47,12 +48,11 @@ struct Environment {
   static CameraFile no_camera(const std::string& path);
 };
 
-/// This computer's files and devices.
+/// The environment of this computer.
 Environment host_environment();
 
-/// Folders, a log file and ports that cannot be what the configuration says, one line each for a person. Nothing is
-/// made on the disk, not even the directories where they are missing: then the folder that they would be made in is
-/// asked.
+/// Folders, log file and ports that cannot be used as configured, one readable line each. Creates nothing on the disk:
+/// for a missing directory the folder in which it would be created is checked.
 std::vector<std::string> directory_errors(const DaemonConfig& config);
 
 }  // namespace pharos::host

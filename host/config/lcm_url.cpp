@@ -18,7 +18,7 @@ struct Option {
   std::string_view value;
 };
 
-/// Takes what stands before `mark` off `text`; all of it where there is none.
+/// Removes and returns the part of `text` before `mark`; all of it if there is no mark.
 std::string_view cut(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
   const std::string_view head = text.substr(0, at);

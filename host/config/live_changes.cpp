@@ -30,7 +30,7 @@ bool same_pair(const std::optional<tracking::CalibratedPair>& a, const std::opti
          a->covariance == b->covariance;
 }
 
-// Lines of describe(), each indented one after the line that it belongs to.
+// Lines of describe(); an indented line is appended to the line that it belongs to.
 std::vector<std::string> settings(const DaemonConfig& config) {
   std::vector<std::string> lines;
   std::istringstream text(describe(config));

@@ -8,13 +8,13 @@
 
 namespace pharos::host {
 
-/// Whether two configurations of one target know the same of its sensors and stations.
+/// Whether two configurations of one target have the same calibration of sensors and stations.
 bool same_calibration(const TargetConfig& a, const TargetConfig& b);
-/// Sensor positions, stations and systematic errors of `from`, with the file that told them.
+/// Copies sensor positions, stations and systematic errors of `from`, with the name of their file.
 void take_calibration(const TargetConfig& from, TargetConfig& to);
 
-/// Takes over from `fresh` what a running daemon can change: the log's level, [publish], the calibrations of its
-/// targets. Returns what else differs, one line of describe() each: that needs a restart.
+/// Takes over from `fresh` what can change in a running daemon: the log's level, [publish], the calibrations of its
+/// targets. Returns all other differences, which need a restart, one line of describe() each.
 std::vector<std::string> take_live_changes(const DaemonConfig& fresh, DaemonConfig& config);
 
 }  // namespace pharos::host

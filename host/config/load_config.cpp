@@ -121,7 +121,7 @@ ExpectedIdentity read_identity(const TomlTable& table, ConfigErrors& errors) {
   return identity;
 }
 
-// Sensor positions and stations as calibrated.
+// Calibrated sensor positions and stations.
 void read_calibration(const TomlTable& table, const fs::path& folder, const Environment& environment,
                       TargetConfig& target) {
   target.calibration_file = read_path(table, "calibration_file", folder);
@@ -178,7 +178,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   const std::size_t before = errors.count();
   errors.attempt([&] { target.name = read_name(table, "name", table.text("name")); });
   errors.attempt([&] { read_port(table, folder, environment, target); });
-  // Any rate: the port sets what it is asked for (BOTHER), and opening it tells where the device does not.
+  // Any rate is accepted: the port sets arbitrary rates (BOTHER), and opening it fails if the device does not.
   errors.attempt([&] { target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000)); });
   errors.attempt(
       [&] { target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations); });
@@ -192,7 +192,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   errors.attempt([&] { target.limits = read_limits(table.table_or_empty("solve"), errors); });
   errors.attempt([&] { target.identity = read_identity(table.table_or_empty("identity"), errors); });
   const bool knows_target = errors.attempt([&] { read_target_file(table, folder, environment, target); });
-  // A calibration is judged against target and model form.
+  // A calibration is checked against target and model form.
   if (table.has("calibration_file") && knows_target && knows_form) {
     errors.attempt([&] { read_calibration(table, folder, environment, target); });
   }

@@ -13,7 +13,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::int64_t kMinPacket = 576;  // what every IPv4 network passes
+constexpr std::int64_t kMinPacket = 576;  // every IPv4 network passes this size
 constexpr std::int64_t kMaxPacket = 65'000;
 constexpr std::size_t kMaxSerial = 16;  // of GigE Vision
 
@@ -51,7 +51,7 @@ void read_frame_rate(const TomlTable& table, CameraSettings& device) {
 }
 
 void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys) {
-  // All are asked for before one is refused: none of them is an unknown key.
+  // All keys are read before one is refused, so that none is reported as unknown.
   std::vector<const char*> given;
   std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](const char* key) { return table.has(key); });
   if (!given.empty()) table.fail(given.front(), "is of a camera on the network; remove it, or remove frames");

@@ -10,15 +10,15 @@
 
 namespace pharos::host {
 
-// What every table about a GigE Vision camera holds. Each throws InputError with file, line and key.
+// The keys that every table about a GigE Vision camera has. Each function throws InputError with file, line and key.
 
-/// serial and address: of which at least one must be there; `instead` says what to give where there is neither.
+/// serial and address: at least one is required; `instead` is the advice if there is neither.
 void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device);
-/// packet_size and ptp; what is wrong with them goes to `errors`.
+/// packet_size and ptp; their errors are added to `errors`.
 void read_transport(const TomlTable& table, CameraSettings& device, ConfigErrors& errors);
 /// frame_rate_hz; without it the camera's own.
 void read_frame_rate(const TomlTable& table, CameraSettings& device);
-/// Recorded frames stand in for a camera: none of `keys` may be there.
+/// With recorded frames instead of a camera none of `keys` is allowed.
 void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys);
 
 }  // namespace pharos::host

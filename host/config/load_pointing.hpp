@@ -11,7 +11,7 @@
 namespace pharos::host {
 
 /// Every [[telescope]] of the daemon's configuration. Throws InputError with file, line and key.
-/// What is wrong with them goes to `errors`.
+/// Their errors are added to `errors`.
 std::vector<PointingConfig> read_pointing(const TomlTable& root, const std::filesystem::path& folder,
                                           const Environment& environment, ConfigErrors& errors);
 

@@ -140,7 +140,7 @@ StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const E
   return stereo;
 }
 
-// The keys and values of a camera's `serial` and `address`, where given.
+// The keys and values of a camera's `serial` and `address`, if given.
 std::vector<std::string> marks_of(const CameraSettings& device) {
   std::vector<std::string> marks;
   if (!device.serial.empty()) marks.push_back("serial " + device.serial);

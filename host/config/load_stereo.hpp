@@ -13,7 +13,7 @@ namespace pharos::host {
 
 /// Every [[stereo]] of the configuration, with its rig file; `cameras` are those of the [[camera]] tables, which no rig
 /// may share. Throws InputError naming file, line and key.
-/// What is wrong with them goes to `errors`.
+/// Their errors are added to `errors`.
 std::vector<StereoConfig> read_stereos(const TomlTable& root, const std::filesystem::path& folder,
                                        const Environment& environment, const std::vector<TofConfig>& cameras,
                                        ConfigErrors& errors);

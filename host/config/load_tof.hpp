@@ -12,7 +12,7 @@
 namespace pharos::host {
 
 /// Every [[camera]] of the configuration, with its camera file. Throws InputError naming file, line and key.
-/// What is wrong with them goes to `errors`.
+/// Their errors are added to `errors`.
 std::vector<TofConfig> read_tof_cameras(const TomlTable& root, const std::filesystem::path& folder,
                                         const Environment& environment, ConfigErrors& errors);
 

@@ -7,8 +7,9 @@
 
 namespace pharos::host {
 
-/// The two clocks of this computer, handed to whatever judges ages and time-outs: a test hands in one that it moves.
-/// Read by the loop's thread alone. Time that work takes (histograms of stages) is measured on the computer's own.
+/// The two clocks of this computer, passed to everything that depends on ages and time-outs; tests pass one that they
+/// advance. Read only by the event loop's thread. Durations of work (histograms of stages) use the computer's own
+/// clock.
 class Clock {
  public:
   virtual ~Clock() = default;

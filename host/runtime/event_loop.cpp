@@ -11,7 +11,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr int kEventsPerTurn = 16;  // far above the descriptors of a daemon; more only wait for the next turn
+constexpr int kEventsPerTurn = 16;  // more than a daemon has descriptors; further events wait for the next turn
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -41,8 +41,8 @@ int EventLoop::turn(int timeout_ms) {
   int handled = 0;
   for (int i = 0; i < count; ++i) {
     const auto found = handlers_.find(events[static_cast<std::size_t>(i)].data.fd);
-    if (found == handlers_.end()) continue;                  // an earlier handler of this turn forgot it
-    const std::shared_ptr<Handler> handler = found->second;  // keeps it alive while it forgets itself
+    if (found == handlers_.end()) continue;                  // an earlier handler of this turn removed it
+    const std::shared_ptr<Handler> handler = found->second;  // keeps it alive while it removes itself
     (*handler)();
     ++handled;
   }

@@ -10,7 +10,7 @@
 
 namespace pharos::host {
 
-/// The daemon's one poll loop: descriptors in, handlers called, one thread.
+/// The daemon's event loop: calls handlers of ready descriptors in one thread.
 ///
 /// Level-triggered: a handler that leaves bytes unread is called again. A handler may watch or forget any descriptor,
 /// its own included. The loop owns no descriptor but its own; forget one before closing it.
@@ -18,7 +18,7 @@ class EventLoop {
  public:
   using Handler = std::function<void()>;
 
-  /// Throws std::system_error where the kernel gives no epoll descriptor.
+  /// Throws std::system_error if no epoll descriptor can be created.
   EventLoop();
 
   /// Calls `handler` whenever `fd` is readable, hung up or in error. Throws std::system_error for a descriptor that
@@ -26,9 +26,9 @@ class EventLoop {
   void watch(int fd, Handler handler);
   void forget(int fd);
 
-  /// Waits at most `timeout_ms` (-1: for ever) and handles what came. Returns how many handlers ran.
+  /// Waits at most `timeout_ms` (-1: without limit) and calls the handlers of ready descriptors. Returns their number.
   int turn(int timeout_ms);
-  /// Turns until stop().
+  /// Runs until stop().
   void run();
   void stop() { running_ = false; }
 

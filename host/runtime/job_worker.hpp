@@ -18,24 +18,24 @@
 
 namespace pharos::host {
 
-/// The refusal of what a job threw at; its exception's words say more.
+/// The refusal for a job that threw an exception; the exception's text has the details.
 inline constexpr const char* kInternalError = "internal_error";
 
-/// Does jobs in a thread of its own, one after the other: what costs tens of milliseconds, for which the loop's
-/// lighthouse cycles must not wait. Only whole values pass between the threads.
+/// Runs jobs in a thread of its own, one after the other, for work of tens of milliseconds for which lighthouse cycles
+/// in the event loop must not wait. The threads exchange complete values only.
 template <class Job, class JobResult>
 class JobWorker {
  public:
   struct Done {
     Job job;
     JobResult answer;
-    std::int64_t waited_ns = 0;  // for the thread, from when it was posted
+    std::int64_t waited_ns = 0;  // from post() until the thread began it
     std::int64_t took_ns = 0;
   };
 
-  /// `max_waiting`: jobs beside the one in work. `work` is called in the thread; of what it throws `failed` makes the
-  /// answer, from the exception's words: one bad job must not end the daemon. Throws std::system_error where the kernel
-  /// gives no descriptor.
+  /// `max_waiting`: maximum number of waiting jobs, without the one in progress. `work` is called in the thread. If it
+  /// throws, `failed` makes the result from the exception's text, so that one bad job does not end the daemon. Throws
+  /// std::system_error if no descriptor can be created.
   JobWorker(std::size_t max_waiting, std::function<JobResult(const Job&)> work,
             std::function<JobResult(const Job&, const std::string& error)> failed)
       : max_waiting_(max_waiting), work_(std::move(work)), failed_(std::move(failed)), thread_([this] { run(); }) {}
@@ -50,7 +50,7 @@ class JobWorker {
   JobWorker(const JobWorker&) = delete;
   JobWorker& operator=(const JobWorker&) = delete;
 
-  /// The oldest that waits gives way where too many do: it comes back, and never will be done.
+  /// If too many jobs wait, the oldest is removed from the queue and returned; it will not be run.
   std::optional<Job> post(Job job) {
     std::optional<Job> discarded;
     {
@@ -65,7 +65,7 @@ class JobWorker {
     changed_.notify_one();
     return discarded;
   }
-  /// Readable when there is something to take().
+  /// Readable when a result can be taken.
   int fd() const { return ready_.fd(); }
   std::optional<Done> take() {
     const std::lock_guard lock(mutex_);
@@ -78,7 +78,7 @@ class JobWorker {
     --unfinished_;
     return done;
   }
-  /// No job is posted and not yet taken or given back.
+  /// True if every posted job was taken or returned.
   bool idle() const { return unfinished_ == 0; }
 
  private:
@@ -118,13 +118,13 @@ class JobWorker {
   std::function<JobResult(const Job&)> work_;
   std::function<JobResult(const Job&, const std::string&)> failed_;
   ReadyEvent ready_;
-  int unfinished_ = 0;  // of the loop alone
+  int unfinished_ = 0;  // used by the event loop's thread only
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> waiting_;
   std::deque<Done> done_;
   bool stop_ = false;
-  std::thread thread_;  // the last: it uses all the others
+  std::thread thread_;  // last member, as it uses all the others
 };
 
 }  // namespace pharos::host

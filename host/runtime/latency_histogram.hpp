@@ -6,16 +6,16 @@
 
 namespace pharos::host {
 
-/// Durations counted in logarithmic bins: quantiles of any number of them in 5 KiB.
+/// A histogram of durations with logarithmic bins: quantiles of any number of durations in 5 KiB.
 ///
-/// Sixteen bins an octave from 1 us to 12.7 days, so a quantile read back is right to 4.4 % (its bin's upper edge:
-/// never too small). What is longer counts as the longest of all.
+/// Sixteen bins per octave from 1 us to 12.7 days. A quantile is its bin's upper edge: never too small, and at most 4.4
+/// % too large. Longer durations are counted in the last bin.
 class LatencyHistogram {
  public:
   void add(std::int64_t duration_ns);
   std::uint64_t count() const { return count_; }
   std::int64_t max_ns() const { return max_ns_; }
-  /// Upper edge of the bin that holds quantile `q` (0..1), ns, at most max_ns(), which is the last bin's; 0 while
+  /// Upper edge of the bin with quantile `q` (0..1), ns, at most max_ns(), which is also the last bin's edge; 0 while
   /// empty.
   std::int64_t quantile_ns(double q) const;
   void clear() { *this = LatencyHistogram(); }

@@ -15,7 +15,7 @@ struct LogWriter::State {
   std::condition_variable lines_came;
   std::condition_variable all_written;
   std::deque<Line> lines;
-  std::shared_ptr<const Write> write;  // kept by the thread while it is in use
+  std::shared_ptr<const Write> write;  // the thread holds a copy while it uses it
   Note note;
   std::uint64_t dropped = 0;
   std::uint64_t dropped_unreported = 0;
@@ -31,7 +31,7 @@ struct LogWriter::State {
 LogWriter::LogWriter(Write write, Note note) : state_(std::make_shared<State>()) {
   state_->write = std::make_shared<const Write>(std::move(write));
   state_->note = std::move(note);
-  // Signals are for the loop: a thread takes over what its maker blocks.
+  // Signals are handled by the event loop: a thread inherits the signal mask of its creator.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -78,7 +78,7 @@ void LogWriter::run(const std::shared_ptr<State>& state) {
   std::unique_lock lock(state->mutex);
   while (true) {
     state->lines_came.wait(lock, [&] { return state->finished || !state->lines.empty(); });
-    if (state->finished) return;  // what is left did not go out in time
+    if (state->finished) return;  // the remaining lines were not written in time
     const std::uint64_t unreported = std::exchange(state->dropped_unreported, 0);
     Line line = std::move(state->lines.front());
     state->lines.pop_front();

@@ -6,7 +6,7 @@
 
 namespace pharos::host {
 
-/// UTC of this computer, ns since the epoch of 1970. May step when somebody sets the clock.
+/// UTC of this computer, ns since the epoch of 1970. May step when the clock is set.
 inline std::int64_t utc_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
       .count();

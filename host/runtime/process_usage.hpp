@@ -5,11 +5,11 @@
 
 namespace pharos::host {
 
-/// What this process takes of the computer.
+/// Processor time and memory of this process.
 struct ProcessUsage {
   std::int64_t cpu_us = 0;             // user and system time since start
   std::int64_t resident_kib = 0;       // memory in use now
-  std::int64_t peak_resident_kib = 0;  // the most there was
+  std::int64_t peak_resident_kib = 0;  // maximum so far
 };
 
 ProcessUsage process_usage();

@@ -8,13 +8,14 @@
 
 namespace pharos::host {
 
-/// Signals as a descriptor (signalfd) for the poll loop: while this lives they interrupt nothing and wait in line.
+/// Signals as a descriptor (signalfd) for the event loop: during the lifetime of this object they are queued and
+/// interrupt nothing.
 class Signals {
  public:
   /// Blocks `signals` for the calling thread and those it starts later. Throws std::system_error.
   explicit Signals(std::initializer_list<int> signals);
   int fd() const { return fd_.get(); }
-  /// The next signal that came, if any.
+  /// The next pending signal, if any.
   std::optional<int> take();
 
  private:

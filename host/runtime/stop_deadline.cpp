@@ -14,7 +14,7 @@
 namespace pharos::host {
 namespace {
 
-// Waits for any of the descriptors; -1: for ever. False when the time is over.
+// Waits for any of the descriptors; -1: without limit. False after the time-out.
 template <std::size_t N>
 bool wait_for_any(std::array<pollfd, N>& fds, int timeout_ms) {
   int ready = 0;

@@ -11,23 +11,23 @@
 
 namespace pharos::host {
 
-/// Ends the process a limited time after it was told to stop, whatever hangs: the loop in a disk that does not answer,
-/// a thread that is in the middle of its work.
+/// Ends the process a limited time after a request to stop, even if something hangs: the event loop on a disk that does
+/// not respond, or a thread in the middle of its work.
 ///
-/// It looks for the signals itself and takes none from the loop's Signals, which has to call begin() for one that it
-/// takes: a signal is seen by one of the two.
+/// It waits for the signals itself but does not consume those of the loop's Signals. The loop calls begin() for a
+/// signal that it has consumed, so that each signal is noticed by one of the two.
 class StopDeadline {
  public:
   /// `signals` must be blocked already (Signals does so). Throws std::system_error.
   StopDeadline(std::initializer_list<int> signals, std::chrono::milliseconds limit);
   StopDeadline(const StopDeadline&) = delete;
   StopDeadline& operator=(const StopDeadline&) = delete;
-  /// The process goes on: nothing is ended any more.
+  /// Cancels the deadline: the process is not ended.
   ~StopDeadline();
 
-  /// The time runs from the first call on.
+  /// Starts the time; further calls do nothing.
   void begin() { begun_.set(); }
-  /// With which the process is ended: 1 until told otherwise.
+  /// Exit code with which the process is ended; 1 if not set.
   void set_exit_code(int code) { exit_code_ = code; }
 
  private:

@@ -8,17 +8,17 @@
 
 namespace pharos::host {
 
-/// A timer as a descriptor (timerfd, monotonic clock) for the poll loop.
+/// A timer as a descriptor (timerfd, monotonic clock) for the event loop.
 class Timer {
  public:
-  /// Throws std::system_error where the kernel gives none.
+  /// Throws std::system_error if no timer can be created.
   Timer();
   int fd() const { return fd_.get(); }
   /// First expiry after `first`, then every `period` (zero: once). A zero `first` expires at once.
   void start(std::chrono::nanoseconds first, std::chrono::nanoseconds period = {});
   void start_every(std::chrono::nanoseconds period) { start(period, period); }
   void stop();
-  /// Expiries since the last call; call it in the handler, or the loop turns for ever.
+  /// Number of expiries since the last call. Must be called in the handler; otherwise the descriptor stays readable.
   std::uint64_t take_expiries();
 
  private:

@@ -19,7 +19,7 @@ namespace pharos::host {
 
 struct TomlTable::State {
   std::shared_ptr<const toml::table> root;  // keeps the nodes alive
-  const toml::table* table = nullptr;       // null: an absent table
+  const toml::table* table = nullptr;       // null: the table is absent
   std::string file;
   std::string path;  // "station[1].rotor_x.", empty at top level
   std::uint32_t line = 0;
@@ -80,7 +80,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// Half of the word's letters wrong is no typing error any more.
+// A word with half of its letters wrong is not a typing error.
 std::string resembling(std::string_view key, const std::set<std::string, std::less<>>& known) {
   std::string best;
   std::size_t best_distance = key.size() / 2 + 1;
@@ -94,7 +94,7 @@ std::string resembling(std::string_view key, const std::set<std::string, std::le
   return best;
 }
 
-/// The parser quotes what it did not expect, line breaks too.
+/// The parser's messages quote unexpected text, including line breaks.
 std::string on_one_line(std::string_view text) {
   std::string line(text);
   std::replace_if(
@@ -124,7 +124,7 @@ TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) 
 
 namespace {
 
-// Enough to see that it is too much.
+// One byte more than the limit is enough to detect an excess.
 std::string read_some(std::istream& in) {
   std::string content(kMaxTomlBytes + 1, '\0');
   in.read(content.data(), static_cast<std::streamsize>(content.size()));

@@ -24,11 +24,11 @@ struct Range {
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::infinity()};
 inline constexpr Range kFraction{0.0, 1.0};
 
-/// A table of a TOML file that is read strictly: wrong types, values out of range and keys that nobody asked for are
-/// errors (host::InputError) that name file, line and key.
+/// A table of a TOML file that is read strictly: wrong types, values out of range and unknown keys are errors
+/// (host::InputError) that name file, line and key.
 ///
 /// Reading a key marks it as known. After everything was read, `reject_unknown` on the root checks the whole file.
-/// Copies refer to the same table; the file's content lives as long as any of them.
+/// Copies refer to the same table; the file's content exists as long as any of them.
 class TomlTable {
  public:
   /// The file's top level (`-`: of standard input). Throws InputError when it cannot be read or is not TOML.
@@ -38,8 +38,8 @@ class TomlTable {
 
   bool has(std::string_view key) const;
 
-  // Without a fallback the key must be there. Integers are taken where a number is wanted, never the reverse; infinite
-  // and not-a-number values are refused.
+  // Without a fallback the key is required. Integers are accepted as real numbers but not vice versa; infinite and
+  // not-a-number values are refused.
   double number(std::string_view key, Range range = {}) const;
   double number_or(std::string_view key, double fallback, Range range = {}) const;
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high) const;
@@ -52,7 +52,7 @@ class TomlTable {
   std::string choice_or(std::string_view key, const std::string& fallback,
                         std::initializer_list<std::string_view> words) const;
 
-  /// An array of numbers; empty where the key is absent.
+  /// An array of numbers; empty if the key is absent.
   std::vector<double> numbers(std::string_view key, Range range = {}) const;
   /// An array of exactly N numbers.
   template <std::size_t N>
@@ -63,28 +63,28 @@ class TomlTable {
   std::array<double, N> vector_or(std::string_view key, const std::array<double, N>& fallback, Range range = {}) const {
     return has(key) ? vector<N>(key, range) : fallback;
   }
-  /// An array of arrays of numbers, each `columns` long; empty where the key is absent.
+  /// An array of arrays of numbers, each `columns` long; empty if the key is absent.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns, Range range = {}) const;
-  /// An array of integers; empty where the key is absent.
+  /// An array of integers; empty if the key is absent.
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t low, std::int64_t high) const;
-  /// An array of strings; empty where the key is absent.
+  /// An array of strings; empty if the key is absent.
   std::vector<std::string> texts(std::string_view key) const;
 
-  /// [key], which must be there.
+  /// [key], which is required.
   TomlTable table(std::string_view key) const;
-  /// [key], or an empty table (every key absent) where the file has none.
+  /// [key], or an empty table (every key absent) if the file has none.
   TomlTable table_or_empty(std::string_view key) const;
-  /// Every [[key]] in order; a single [key] counts as one; empty where absent.
+  /// Every [[key]] in order; a single [key] counts as one; empty if absent.
   std::vector<TomlTable> tables(std::string_view key) const;
 
-  /// Throws for the first key, in this table or any table read from it, that nobody asked for; says which known key it
+  /// Throws for the first unknown key in this table or in any table read from it; names the known key that it
   /// resembles.
   void reject_unknown() const;
-  /// The same for the keys of this table alone.
+  /// The same for the keys of this table only.
   void reject_unknown_here() const;
-  /// Throws "file:line: key: message" for a value that was read but cannot be worked with.
+  /// Throws "file:line: key: message" for a value that was read but cannot be used.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  /// Line of the key in the file, or of the table itself where the key is absent.
+  /// Line of the key in the file, or of the table itself if the key is absent.
   std::uint32_t line_of(std::string_view key) const;
   /// Every key that is in this table, in alphabetical order.
   std::vector<std::string> keys() const;

@@ -22,7 +22,7 @@ class Scan {
   }
 
  private:
-  // Dots are counted in values as well: no number, date or word has so many.
+  // Dots in values are counted too: no number, date or word has as many.
   void take(char c) {
     if (c == '#') return skip_comment();
     if (c == '"' || c == '\'') return skip_string(c);
@@ -46,7 +46,7 @@ class Scan {
     at_ = end == std::string_view::npos ? text_.size() : end;
   }
 
-  // A string of one line ends with that line: the parser stops there.
+  // A single-line string ends with its line at the latest, where the parser stops.
   void skip_string(char quote) {
     const std::string triple(3, quote);
     const bool many_lines = text_.substr(at_, 3) == triple;
