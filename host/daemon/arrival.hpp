@@ -5,7 +5,7 @@
 
 namespace pharos::host {
 
-/// When bytes arrived, on both clocks of this computer (of a replay: as they were when it was recorded).
+/// Arrival time of bytes, on both clocks of this computer (in a replay: the recorded times).
 struct Arrival {
   std::int64_t utc_ns = 0;
   std::int64_t monotonic_ns = 0;

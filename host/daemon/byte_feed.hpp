@@ -11,27 +11,27 @@
 
 namespace pharos::host {
 
-/// What a feed tells whoever works on its bytes.
+/// Callbacks of a feed.
 struct ByteFeedEvents {
   std::function<void(std::span<const std::uint8_t>, const Arrival&)> bytes;
-  std::function<void()> lost;      // unplugged: the next bytes are not the rest of these
-  std::function<void()> finished;  // a replay has come to its end
+  std::function<void()> lost;      // disconnected: the next bytes do not continue these
+  std::function<void()> finished;  // a replay has ended
 };
 
-/// Where a target's bytes come from: a port, or a recording.
+/// Source of a target's bytes: a port or a recording.
 class ByteFeed {
  public:
   virtual ~ByteFeed() = default;
-  /// Called several times a second by the loop's timer: opens what is not open.
+  /// Called several times a second by the loop's timer: opens the port if it is not open.
   virtual void attend(std::int64_t monotonic_ns) = 0;
-  /// kOk, or what keeps bytes from coming and what to do.
+  /// kOk, or the reason why no bytes can come; error() has the details.
   virtual SourceState state() const = 0;
   virtual std::string error() const = 0;
   virtual std::string device() const = 0;
-  /// Speed of the wire that they came over, 8N1.
+  /// Speed of the serial line, 8N1.
   virtual int baud() const = 0;
   virtual bool finished() const { return false; }
-  /// The clock that its arrivals are on, now.
+  /// Current time on the clock of the arrivals.
   virtual std::int64_t monotonic_now() const = 0;
   virtual NamedCounts counters() const { return {}; }
 };

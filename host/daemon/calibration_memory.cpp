@@ -37,7 +37,7 @@ void CalibrationMemory::load() {
 
 void CalibrationMemory::read() {
   std::error_code error;
-  // Opening a pipe would wait for whoever writes into it.
+  // Opening a pipe would wait for a writer.
   if (!std::filesystem::is_regular_file(file_, error)) throw InputError(file_.string() + ": is no file");
   for (const StationEntry& entry : read_station_file(file_)) {
     if (!entry.id) throw InputError(file_.string() + ": a [[station]] without id was not written by pharosd");
@@ -46,7 +46,7 @@ void CalibrationMemory::read() {
   while (stations_.size() > kMaxStations) drop_oldest();
 }
 
-// Kept for whoever wants to know what happened to it; an older damaged one makes room.
+// Kept for diagnosis; replaces an older damaged file.
 std::string CalibrationMemory::set_aside() const {
   const std::filesystem::path aside = file_.string() + ".damaged";
   std::error_code error;
@@ -61,7 +61,7 @@ void CalibrationMemory::drop_oldest() {
 
 void CalibrationMemory::keep(const StationCalibration& calibration) {
   if (!stations_.empty() && stations_.back() == calibration) return;
-  if (!is_plausible(calibration)) {  // one such entry, and the next start could read none
+  if (!is_plausible(calibration)) {  // with such an entry the next start would refuse the whole file
     ++counters_.dropped;
     return;
   }
@@ -84,7 +84,7 @@ void CalibrationMemory::save_at_last() {
 void CalibrationMemory::write() {
   std::string text = kHeading;
   for (const StationCalibration& station : stations_) text += "\n" + station_text(station);
-  std::error_code ignored;  // if the folder cannot be made, opening says why
+  std::error_code ignored;  // if the folder cannot be created, opening the file reports why
   std::filesystem::create_directories(file_.parent_path(), ignored);
   try {
     write_file(file_.string(), text);

@@ -11,43 +11,42 @@
 
 namespace pharos::host {
 
-/// How often the file could not be written, how many calibrations made room for others or were none of any station, and
-/// how many files were damaged.
+/// Counts: failed writes of the file, calibrations that were dropped for newer ones or were implausible, damaged files.
 struct MemoryCounters {
   std::int64_t write_failures = 0;
   std::int64_t dropped = 0;
   std::int64_t damaged_files = 0;
 };
 
-/// Station calibrations that were accepted once, by station id, kept in `stations.toml` across restarts.
+/// Accepted station calibrations by station id, stored in `stations.toml` across restarts.
 ///
-/// The file has the form that `pharos track --calibration FILE` takes. It is replaced whole
-/// (AtomicFile), so a reader and a program that dies see the old one or the new one. It is not synced: see README.md.
+/// The file has the format of `pharos track --calibration FILE`. It is replaced atomically (AtomicFile), so that a
+/// reader, or the next start after a crash, finds the old or the new file. It is not synced: see README.md.
 class CalibrationMemory {
  public:
-  /// More stations than a site has, and each target's own store takes only the newest eight; ids are what a target says
-  /// they are, so there must be an end. The file stays below 32 KiB.
+  /// More stations than a site has; each target's own store takes only the newest eight. A limit is needed because a
+  /// faulty target may send any id. The file stays below 32 KiB.
   static constexpr std::size_t kMaxStations = 64;
-  /// After a failure the file is tried again so much later.
+  /// Delay after a failed write until the next attempt.
   static constexpr std::int64_t kRetry_ns = 10'000'000'000;
 
-  /// An empty `directory` keeps nothing.
+  /// With an empty `directory` nothing is stored.
   explicit CalibrationMemory(const std::filesystem::path& directory);
 
-  /// Reads the file; none there is an empty memory. One that cannot be read or is not what pharosd wrote
-  /// is renamed to stations.toml.damaged and counted, and an InputError says so; the memory is empty then.
+  /// Reads the file; without a file the memory is empty. A file that cannot be read or was not written by pharosd is
+  /// renamed to stations.toml.damaged and counted, and InputError is thrown; the memory is empty then.
   void load();
   /// Oldest acceptance first.
   const std::vector<lighthouse::StationCalibration>& stations() const { return stations_; }
-  /// Puts `calibration` last, in the place of the one of the same id; the first makes room where there is none. Writes
-  /// nothing: cheap between two cycles.
+  /// Appends `calibration` and removes the previous one with the same id; if the memory is full, the oldest is dropped.
+  /// Does not write the file, so it is cheap enough between two cycles.
   void keep(const lighthouse::StationCalibration& calibration);
-  /// Writes the file where it does not hold what was kept; after a failure only once kRetry_ns have passed.
+  /// Writes the file if the memory has changed; after a failure not before kRetry_ns have passed.
   void save(std::int64_t monotonic_ns);
-  /// The same without waiting: there is no later time.
+  /// The same at the end of the program, without regard to kRetry_ns.
   void save_at_last();
 
-  /// Why the file does not hold what was kept, one line for a person; empty when all is well.
+  /// Why the memory could not be stored, as one readable line; empty without an error.
   const std::string& error() const { return error_; }
   const MemoryCounters& counters() const { return counters_; }
   const std::filesystem::path& file() const { return file_; }

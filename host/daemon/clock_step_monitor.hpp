@@ -8,12 +8,12 @@
 
 namespace pharos::host {
 
-/// Remembers for a minute that somebody set this computer's clock, as a ClockMap saw it.
+/// Reports for a minute that this computer's clock was set, as detected by a ClockMap.
 class ClockStepMonitor {
  public:
-  /// True when the map counted a jump that was not seen before.
+  /// True when the map has counted a new jump.
   bool update(const ClockMap& map, std::int64_t monotonic_ns);
-  /// What happened, for people; empty a minute later.
+  /// Readable description of the step; empty after a minute.
   std::string notice(std::int64_t monotonic_ns) const;
 
  private:

@@ -18,7 +18,7 @@
 namespace pharos::host {
 namespace {
 
-// Ports are tried again at their own pace, twice a second.
+// Ports limit their own attempts to two per second.
 constexpr std::chrono::milliseconds kAttendPeriod{100};
 constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
 constexpr std::int64_t kNsPerMs = 1'000'000;
@@ -58,7 +58,7 @@ void Daemon::stop_when_all_finished() {
   }
 }
 
-// The first kind even where there is none of it, the others by name.
+// The first kind is always named, even with a count of 0; the others in alphabetical order if there are any.
 std::string Daemon::sources_text() const {
   auto counts = counts_;
   if (counts.empty()) return "no source";
@@ -119,7 +119,7 @@ void Daemon::on_signal() {
   }
 }
 
-// What the file says wrong changes nothing: the daemon goes on as it is.
+// After an error in the file the daemon continues with its current configuration.
 void Daemon::reread_config() try {
   const std::optional<DaemonConfig> fresh = control_.reread();
   if (!fresh) return;
@@ -135,7 +135,7 @@ void Daemon::reread_config() try {
   spdlog::error("configuration not read again: {}", error.what());
 }
 
-// What is wrong beside the sources' own health, the first thing first; empty when nothing is.
+// The most important error that is not part of a source's health; empty if there is none.
 std::string Daemon::error() const {
   if (!message_.empty()) return message_;
   for (const auto& source : sources_) {

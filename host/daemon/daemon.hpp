@@ -19,28 +19,27 @@
 
 namespace pharos::host {
 
-/// What the daemon asks of the program around it. Unless given, there is nothing to ask for.
+/// Callbacks into the program that runs the daemon. By default they do nothing.
 struct DaemonControl {
-  /// The signal to stop was taken.
+  /// A signal to stop was received.
   std::function<void()> on_stop = [] {};
-  /// The configuration as its file says now. Throws InputError.
+  /// Reads the configuration file again. Throws InputError.
   std::function<std::optional<DaemonConfig>()> reread = [] { return std::nullopt; };
-  /// Takes over the log's level and opens its file anew. Throws InputError.
+  /// Sets the log's level and reopens its file. Throws InputError.
   std::function<void(const LogConfig&)> renew_log = [](const LogConfig&) {};
-  /// Lines that the log did not take.
+  /// Number of dropped log lines.
   std::function<std::int64_t()> log_lines_dropped = [] { return 0; };
 };
 
-/// All sources of a configuration in one poll loop, and the status beside them.
+/// All sources of a configuration in one event loop, and the status messages.
 class Daemon {
  public:
-  /// Opens every source of every kind. Throws InputError for one that cannot be what the configuration says. `sink`,
-  /// `signals` and `clock` must outlive this. Of `signals` SIGHUP makes the
-  /// configuration be read anew; any other ends run().
+  /// Opens every source of every kind. Throws InputError for a source that cannot be opened as configured. `sink`,
+  /// `signals` and `clock` must outlive this. At SIGHUP the configuration is read again; all other `signals` end run().
   Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed, const Clock& clock,
          const SourceKinds& kinds = source_kinds(), DaemonControl control = {});
 
-  /// Until a signal comes, or every source was a recording and has come to its end.
+  /// Runs until a signal to stop, or until all sources are recordings that have ended.
   void run();
 
  private:

@@ -105,7 +105,7 @@ DeliveryMonitor::Assessment DeliveryMonitor::assess(std::int64_t now_ns) const {
     answers.expected += second.answers.expected;
   });
   const Count seen = sweeps(now_ns);
-  // From the wire upwards: what is lost below is missing above as well, so the first of those that are low is the
+  // In the order of processing: losses in one stage are missing in all later ones, so the first low fraction is the
   // cause.
   const struct {
     const char* what;

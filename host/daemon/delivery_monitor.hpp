@@ -14,29 +14,32 @@
 
 namespace pharos::host {
 
-/// What came of what a lighthouse target should have sent in the last ten seconds: frames by their sequence numbers,
-/// sweeps by the turns of the rotors, poses by the answers. Times are monotonic; the state is of fixed size.
+/// Compares what was received from a lighthouse target in the last ten seconds with what was expected: frames by their
+/// sequence numbers, sweeps by the rotors' turns, poses by the number of cycles. Times are monotonic; the state has a
+/// fixed size.
 class DeliveryMonitor {
  public:
   static constexpr std::int64_t kWindow_s = 10;
-  /// Below these fractions of what was expected a source is degraded, and in error.
+  /// Below these fractions of the expected number a source is degraded, or in error.
   static constexpr double kDegradedBelow = 0.9;
   static constexpr double kErrorBelow = 0.5;
-  /// A station that is not seen for longer is out of sight: that is told apart (LOST), and nothing is expected of it.
+  /// A station without sweeps for longer is out of sight: this is reported separately (LOST), and nothing is expected
+  /// of it.
   static constexpr std::int64_t kOutOfSight_ns = 300'000'000;
 
-  /// The counters of the line, after each read.
+  /// Takes the line's counters after each read.
   void on_link(const wire::LinkCounters& link, std::int64_t now_ns);
   void on_sweep(const lighthouse::Flash& flash, std::int64_t now_ns);
   void on_answer(bool pose, std::int64_t now_ns);
-  /// The target began anew: its clock and its stations are others.
+  /// The target restarted: its clock and its stations may be others.
   void restart();
 
   struct Assessment {
     SourceState state = SourceState::kOk;
-    std::string message;  // the least part that came of what was expected; empty when ok
+    std::string message;  // names the stage with losses; empty when ok
   };
-  /// kOk, kDegraded or kError. kOk until ten seconds were seen: poses begin only when clock and stations are known.
+  /// kOk, kDegraded or kError. kOk during the first ten seconds, as there are no poses before clock and stations are
+  /// known.
   Assessment assess(std::int64_t now_ns) const;
 
  private:
@@ -48,8 +51,8 @@ class DeliveryMonitor {
   };
   struct Stream {
     std::int64_t sweeps = 0;
-    std::int64_t turns = 0;      // of the rotor, between those sweeps
-    std::int64_t min_turns = 0;  // shortest gap: two where stations take turns
+    std::int64_t turns = 0;      // of the rotor between these sweeps
+    std::int64_t min_turns = 0;  // smallest distance of two sweeps: two turns if stations alternate
   };
   struct Second {
     std::int64_t index = -1;

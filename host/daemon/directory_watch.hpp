@@ -9,26 +9,26 @@
 
 namespace pharos::host {
 
-/// Tells of files that have become whole in a directory: closed after writing, or moved there (inotify).
+/// Reports files that are complete in a directory: closed after writing, or moved there (inotify).
 ///
-/// Hidden files (".name": AtomicFile, rsync and others write under such names) and what was there before are not
-/// reported. A directory that is not there (yet, or any more) is looked for by attend().
+/// Hidden files (".name": AtomicFile, rsync and others write under such names) and files that existed before are not
+/// reported. attend() looks for a directory that does not exist (yet, or any more).
 class DirectoryWatch {
  public:
-  /// Throws std::system_error where the kernel gives no inotify descriptor.
+  /// Throws std::system_error if no inotify descriptor can be created.
   explicit DirectoryWatch(std::filesystem::path directory);
 
-  /// Readable when there is something to take().
+  /// Readable when take() has names.
   int fd() const { return inotify_.get(); }
-  /// Watches the directory if it is not watched; call now and then.
+  /// Starts watching if the directory is not watched; to be called regularly.
   void attend();
-  /// Names of the files that are whole now.
+  /// Names of the files that have become complete.
   std::vector<std::string> take();
 
   bool watching() const { return watch_ >= 0; }
-  /// Why it is not watched, for a person; empty when it is.
+  /// Readable reason why the directory is not watched; empty when it is.
   const std::string& error() const { return error_; }
-  /// How often the kernel's queue overflowed: names were lost.
+  /// Number of overflows of the kernel's queue, at which names were lost.
   int overflows() const { return overflows_; }
 
  private:

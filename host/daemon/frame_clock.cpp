@@ -26,7 +26,7 @@ std::optional<MappedTime> FrameClock::time_of(const DepthFrame& frame) {
   std::optional<MappedTime> mapped = map_.map(ticks);
   if (!mapped || frame.clock != CameraClock::kPtp) return mapped;
   const std::int64_t ahead_ns = frame.camera_ns - mapped->utc_ns;
-  const std::int64_t early_ns = ahead_ns - nearest_second_ns(ahead_ns);  // negative: before what the arrival says
+  const std::int64_t early_ns = ahead_ns - nearest_second_ns(ahead_ns);  // negative: before the arrival
   if (std::abs(early_ns) > kMaxPtpDisagreement_ns) {
     ++ptp_rejected_;
     return mapped;

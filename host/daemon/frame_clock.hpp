@@ -9,14 +9,15 @@
 
 namespace pharos::host {
 
-/// When a depth camera's frames were taken, in this computer's clocks.
+/// Converts the exposure times of a depth camera's frames to this computer's clocks.
 ///
-/// By the arrival of each frame's first packet: ClockMap, with the camera's nanoseconds as ticks of 20 ns; what the
-/// camera needs before it sends cannot be seen that way. Where the camera follows PTP its own time serves, as long as
-/// it agrees with the arrivals but for whole seconds (TAI is 37 s ahead of UTC) and kMaxPtpDisagreement_ns.
+/// The conversion uses the arrival of each frame's first packet: ClockMap, with the camera's nanoseconds as ticks of
+/// 20 ns. The camera's delay before it sends is not observable in this way. If the camera follows PTP its own time is
+/// used, as long as it agrees with the arrivals within kMaxPtpDisagreement_ns, apart from whole seconds (TAI is 37 s
+/// ahead of UTC).
 class FrameClock {
  public:
-  /// Takes the frame into account. Empty while the mapping is not known, or where the frame contradicts it.
+  /// Updates the mapping with the frame. Empty while the mapping is unknown, or if the frame contradicts it.
   std::optional<MappedTime> time_of(const DepthFrame& frame);
 
   bool by_ptp() const { return by_ptp_; }
@@ -24,9 +25,9 @@ class FrameClock {
   std::int64_t ptp_doubted() const { return ptp_rejected_; }
   const ClockMap& map() const { return map_; }
 
-  /// What a frame may need from its middle to its first packet, and a busy computer until it sees that.
+  /// Maximum time from the middle of the exposure until a busy computer has received the first packet.
   static constexpr std::int64_t kMaxPtpDisagreement_ns = 300'000'000;
-  /// Of PTP over switches that know nothing of it.
+  /// Accuracy of PTP over switches without PTP support.
   static constexpr std::int64_t kPtpSigma_ns = 100'000;
 
  private:

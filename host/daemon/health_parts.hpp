@@ -11,12 +11,12 @@
 
 namespace pharos::host {
 
-// What the health of several pipelines tells alike.
+// Parts of the health that several pipelines have in common.
 
-/// A source without data for so long is silent.
+/// A source without data for this time is silent.
 inline constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
-/// What a camera's state makes of the health of what is measured with it.
+/// The state of a source by the state of its camera.
 SourceState state_of(CameraState camera);
 
 /// STAGE_p50_us, STAGE_p99_us and STAGE_max_us.

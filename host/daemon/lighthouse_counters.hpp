@@ -8,7 +8,7 @@
 
 namespace pharos::host {
 
-// What a target's line counts of its own, once by name. X(name, what it counts)
+// The counters of a target's pipeline. X(name, what it counts)
 #define PHAROS_TARGET_COUNTERS(X)                                                        \
   X(sweeps, "sweeps received")                                                           \
   X(sweeps_bad_station, "sweeps dropped: a slot position that there is not")             \

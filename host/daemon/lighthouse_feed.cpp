@@ -12,12 +12,13 @@
 namespace pharos::host {
 namespace {
 
-/// The calibrations that all targets share: read at the start, written when no bytes are in hand. Measures nothing.
+/// The calibrations that all targets share: read at the start, written at the attend timer. A source without
+/// measurements.
 class CalibrationKeeper final : public Source {
  public:
   explicit CalibrationKeeper(const SourceContext& context)
       : clock_(context.clock), memory_(context.config.state_directory) {
-    // What cannot be read is worth a word, not a stop: stations tell it all again within seconds.
+    // An unreadable file is only logged: stations send their calibrations again within seconds.
     try {
       memory_.load();
     } catch (const InputError& error) {
@@ -75,7 +76,7 @@ std::unique_ptr<ByteFeed> LighthouseFeed::open(const TargetConfig& config) {
                                     std::move(events));
 }
 
-// Poses first: they are what somebody waits for.
+// Poses are published before the bytes are recorded, for the lowest latency.
 void LighthouseFeed::on_bytes(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
   pipeline_->push(bytes, arrival);
   if (recorder_) recorder_->append(bytes, arrival.utc_ns, arrival.monotonic_ns);

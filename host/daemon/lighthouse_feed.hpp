@@ -13,11 +13,11 @@
 
 namespace pharos::host {
 
-/// One target of the configuration: the bytes of its port or recording go to its pipeline, and to a file where that is
-/// asked for.
+/// One target of the configuration: passes the bytes of its port or recording to its pipeline, and to a recording if
+/// configured.
 class LighthouseFeed final : public Source {
  public:
-  /// `memory` is shared by all targets. Throws InputError for a replay that is no recording.
+  /// `memory` is shared by all targets. Throws InputError if the file to replay is not a recording.
   LighthouseFeed(const SourceContext& context, const TargetConfig& config, CalibrationMemory& memory);
 
   const std::string& name() const override { return name_; }
@@ -39,7 +39,7 @@ class LighthouseFeed final : public Source {
   std::optional<LighthousePipeline> pipeline_;
 };
 
-/// Every [[target]], and what they remember together across restarts.
+/// Opens every [[target]], and the calibrations that they share across restarts.
 std::size_t open_target_feeds(const SourceContext& context, SourceList& sources);
 
 }  // namespace pharos::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of LighthousePipeline that tells how it fares.
+// The health of LighthousePipeline.
 #include "host/daemon/health_parts.hpp"
 #include "host/daemon/lighthouse_pipeline.hpp"
 #include "host/support/time_units.hpp"
@@ -8,7 +8,7 @@
 namespace pharos::host {
 namespace {
 
-// Counters, hellos and times come at least once a second: twice that is silence.
+// Counters, hellos and times come at least once a second; twice that time without data is silence.
 
 bool within(std::int64_t event_ns, std::int64_t now_ns) { return event_ns >= 0 && now_ns - event_ns < kSilence_ns; }
 
@@ -38,7 +38,7 @@ SourceHealth LighthousePipeline::health(const std::string& device, SourceState p
   return health;
 }
 
-// From the wire upwards: the lowest thing that is wrong is the one to tell.
+// In the order of processing: reports the error of the earliest stage.
 void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const {
   health.state = SourceState::kWaiting;
   if (!identity_fault_.empty() && rate_.data_within(kSilence_ns, now_ns)) {

@@ -14,10 +14,10 @@
 namespace pharos::host {
 namespace {
 
-// A target's clock that goes back by more than any reordering on the line was started anew.
+// A target whose clock goes back by more than any reordering on the line has restarted.
 constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
 
-// The attend timer runs ten times a second, and half a second after its last pose an absence is told.
+// LOST must be reported within half a second of the last pose; the attend timer runs ten times a second.
 constexpr std::int64_t kOutOfSight_ns = DeliveryMonitor::kOutOfSight_ns;
 constexpr const char* kWrongTarget = "wrong_target";
 constexpr const char* kNotIntroduced = "the board has not said yet who it is, and a certain one is expected";
@@ -40,7 +40,7 @@ ReportedBearing reported(const track::TrackedBearing& bearing, std::int64_t cycl
   return report;
 }
 
-// What the tracker or the board says, as a report without its time.
+// The result of the tracker or the board as a report without its time.
 template <class Report, class JobResult>
 Report report_of(const JobResult& answer) {
   Report report;
@@ -102,7 +102,7 @@ void LighthousePipeline::set_publish(const PublishConfig& publish) {
 }
 
 void LighthousePipeline::recalibrate(const TargetConfig& config) {
-  if (same_calibration(config, config_)) return;  // the body need not be looked for anew
+  if (same_calibration(config, config_)) return;  // the tracker need not start again
   take_calibration(config, config_);
   survey_ = survey_of(config_);
   tracker_.rebuild(config_.target, options_of(config_));
@@ -116,7 +116,7 @@ void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival
   for (const std::uint8_t byte : bytes) {
     ++frame_bytes_;
     if (const auto event = link_.push(byte)) handle(*event);
-    // Dropped frames count too: only a frame's own bytes were certainly on the wire since it began.
+    // Reset at dropped frames too: only the frame's own bytes have certainly been on the line since it began.
     if (byte == wire::kFrameDelimiter) frame_bytes_ = 0;
   }
   delivery_.on_link(link_.counters(), arrival.monotonic_ns);
@@ -132,7 +132,7 @@ void LighthousePipeline::handle(const report::LinkEvent& event) {
 void LighthousePipeline::check_clock(const report::LinkEvent& event) {
   const auto ticks = report::newest_ticks(event);
   if (!ticks) return;
-  // One false time is no restart: it takes two in a row.
+  // A single wrong time is not a restart; two in a row are required.
   const bool back = any_ticks_ && *ticks < newest_ticks_ - kRestart_ticks;
   if (back && time_went_back_) restart("its clock went back");
   time_went_back_ = back && any_ticks_;
@@ -147,7 +147,7 @@ void LighthousePipeline::check_clock(const report::LinkEvent& event) {
   }
 }
 
-// What the old time base and the old slot numbers told means nothing any more.
+// Everything based on the old clock and the old slot numbers is invalid.
 void LighthousePipeline::restart(const char* why) {
   log_.info("restart", std::string("target started anew (") + why + ')', arrival_.monotonic_ns);
   ++counters_.target_restarts;
@@ -165,7 +165,7 @@ void LighthousePipeline::line_lost() {
   if (config_.identity.any()) identity_fault_ = kNotIntroduced;
 }
 
-// ReportedCounters once: a station that was knocked, or a calibration of how they stood before.
+// Counted and logged once: a station was moved, or the calibration is older than the stations' position.
 void LighthousePipeline::check_relative_pose() {
   const bool refused = tracker_.tracker().relative_pose_rejected();
   if (refused && !relative_pose_rejected_) {
@@ -183,7 +183,7 @@ bool LighthousePipeline::state_changed(std::int64_t monotonic_ns) {
   return delivery_changed(monotonic_ns) || sight;
 }
 
-// While no pose comes the state is another one, and LOST was told.
+// Without poses the state is another one and LOST was reported.
 bool LighthousePipeline::delivery_changed(std::int64_t monotonic_ns) {
   if (!in_sight_) return false;
   const DeliveryMonitor::Assessment now = delivery_.assess(monotonic_ns);
@@ -262,7 +262,7 @@ void LighthousePipeline::take(const report::EdgesReport& edges) {
   counters_.raw_edges += static_cast<std::int64_t>(edges.edges.size());
 }
 
-void LighthousePipeline::take(const wire::Time&) {}  // its time was taken by check_clock
+void LighthousePipeline::take(const wire::Time&) {}  // check_clock has used its time
 
 void LighthousePipeline::take(const wire::Hello& hello) {
   const std::pair start{hello.unique_id, hello.start_count};
@@ -279,7 +279,7 @@ void LighthousePipeline::take(const wire::Hello& hello) {
   log_.info("identity", identity_ + " speaks", arrival_.monotonic_ns);
 }
 
-// Another body on this port would be measured with this one's table, under its name.
+// Otherwise another target on this port would be measured with this one's sensor positions and reported by its name.
 void LighthousePipeline::check_identity(const wire::Hello& hello) {
   const ExpectedIdentity& expected = config_.identity;
   std::string fault;
@@ -314,7 +314,7 @@ void LighthousePipeline::count_answer(const Result<LighthousePoseEstimate, pose:
   }
 }
 
-// Time, names and flags of a cycle's report; false, and counted, while UTC is not known.
+// Sets time, names and flags of a cycle's report; false, and counted, while UTC is unknown.
 bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks) {
   const auto time = clock_.map(time_ticks);
   if (!time) {

@@ -26,45 +26,45 @@
 
 namespace pharos::host {
 
-/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> gate. Knows no port and no file.
+/// One target's bytes to poses on LCM: link -> sweeps -> poses -> UTC -> gate. Independent of ports and files.
 class LighthousePipeline {
  public:
-  /// `publisher`, `clock` and `memory` must outlive this. `source` is told in every message.
-  /// `line_baud`: speed of the wire, for the time that a frame certainly spends on it; 0 where bytes arrive at once.
+  /// `publisher`, `clock` and `memory` must outlive this. `source` is part of every message.
+  /// `line_baud`: speed of the serial line, for the minimum transmission time of a frame; 0 if bytes arrive at once.
   LighthousePipeline(const TargetConfig& config, const PublishConfig& publish, const std::string& source,
                      Publisher& publisher, const Clock& clock, CalibrationMemory& memory, int line_baud);
 
-  /// Bytes just read. Every cycle that they complete is published before this returns.
+  /// Takes bytes that were just read. Every cycle that they complete is published before this returns.
   void push(std::span<const std::uint8_t> bytes, const Arrival& arrival);
-  /// The port was lost: what was cut in the middle is dropped, the target may come back with another clock.
+  /// The port was lost: an incomplete frame is dropped, and the target may come back with another clock.
   void line_lost();
   /// End of a recording: publishes the cycle still held back.
   void end_of_input();
 
-  /// The limits of what is published, from now on.
+  /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish);
-  /// Takes over sensor positions, stations and systematic errors of another calibration of the same target. The body is
-  /// looked for anew.
+  /// Takes over sensor positions, stations and systematic errors of another calibration of the same target, and
+  /// restarts the tracker.
   void recalibrate(const TargetConfig& config);
 
-  /// Everything that this line knows of its health; `port_error` is what its port says (empty: open). Ages are taken
-  /// from `monotonic_ns`, on the clock of the arrivals.
+  /// The health of this pipeline; `port_error` is the error of its port (empty: open). Ages are relative to
+  /// `monotonic_ns`, on the clock of the arrivals.
   SourceHealth health(const std::string& device, SourceState port_state, const std::string& port_error,
                       std::int64_t monotonic_ns);
 
-  /// Whether the target came into sight or went out of it since the last call, or the part that came of what was
-  /// expected passed a limit (DeliveryMonitor); the log tells it.
+  /// Whether since the last call the target was found or lost, or the state by DeliveryMonitor changed; changes are
+  /// logged.
   bool state_changed(std::int64_t monotonic_ns);
 
-  /// While poses carry the flag `clock_set`: who set this computer's clock by how much, in words; else empty.
+  /// While poses have the flag `clock_set`: by how much this computer's clock was set, as text; otherwise empty.
   std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
 
   const TargetCounters& counters() const { return counters_; }
-  /// From the last byte of a cycle read to its pose on LCM.
+  /// From reading the last byte of a cycle to its pose on LCM.
   const LatencyHistogram& latency() const { return latency_; }
 
  private:
-  // Of the target's present start.
+  // Counters since the target's last start.
   struct BoardCounters {
     UnwrappedCounters decoder;
     UnwrappedCounters device;
@@ -116,7 +116,7 @@ class LighthousePipeline {
   std::size_t frame_bytes_ = 0;     // since the last good frame
   std::int64_t newest_ticks_ = 0;
   bool any_ticks_ = false;
-  bool time_went_back_ = false;  // the last time told lay far before newest_ticks_
+  bool time_went_back_ = false;  // the last time received was far before newest_ticks_
   std::optional<std::pair<std::uint32_t, std::uint16_t>> known_start_;  // unique id and start count of the last Hello
 
   ClockStepMonitor clock_step_;
@@ -127,9 +127,9 @@ class LighthousePipeline {
   BoardCounters board_counters_;
   RateLimitedLog log_;
   std::string identity_;
-  std::string identity_fault_;  // why the board is not the expected one; empty where it is
+  std::string identity_fault_;  // why the board is not the expected one; empty if it is
   LatencyHistogram latency_;
-  std::int64_t last_bytes_ns_ = -1;  // monotonic, as the rest
+  std::int64_t last_bytes_ns_ = -1;  // monotonic, like the others
   std::int64_t last_sweep_ns_ = -1;
   RateMonitor rate_;
   std::string last_refusal_;

@@ -24,9 +24,9 @@ namespace pharos::host {
 namespace {
 
 constexpr const char* kName = "pharosd";
-// Leaves two thirds of the second that a stop may take to everything else.
+// Time for the last lines; leaves two thirds of a stop's second to everything else.
 constexpr std::chrono::milliseconds kLastLines{300};
-constexpr mode_t kFilePermissions = 0666;  // what umask leaves of it
+constexpr mode_t kFilePermissions = 0666;  // reduced by umask
 
 int priority_of(spdlog::level::level_enum level) {
   switch (level) {
@@ -49,7 +49,7 @@ bool write_line(int fd, const std::string& text) {
     const ssize_t written = ::write(fd, text.data() + done, text.size() - done);
     if (written >= 0) {
       done += static_cast<std::size_t>(written);
-    } else if (errno == EAGAIN) {  // somebody else made it so
+    } else if (errno == EAGAIN) {  // another process made it non-blocking
       pollfd writable{fd, POLLOUT, 0};
       ::poll(&writable, 1, -1);
     } else if (errno != EINTR) {
@@ -69,7 +69,7 @@ LogWriter::Write writer_of(const LogConfig& config) {
       return true;
     };
   }
-  // A pipe without a reader refuses at once, instead of holding up the start.
+  // O_NONBLOCK: opening a pipe without a reader fails at once instead of blocking the start.
   constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK;
   const auto file = std::make_shared<UniqueFd>(::open(config.file.c_str(), kFlags, kFilePermissions));
   if (!file->valid()) {

@@ -8,20 +8,20 @@
 
 namespace pharos::host {
 
-/// spdlog's default logger as the configuration asks for it, while this lives. Whoever logs never waits: see LogWriter.
+/// Sets spdlog's default logger as configured, during the lifetime of this object. Logging never blocks: see LogWriter.
 class DaemonLog {
  public:
   /// Throws InputError when the log file cannot be opened.
   explicit DaemonLog(const LogConfig& config);
   DaemonLog(const DaemonLog&) = delete;
   DaemonLog& operator=(const DaemonLog&) = delete;
-  /// What is logged may take a third of a second to leave; the rest is lost.
+  /// Writes the remaining lines for at most a third of a second; the rest is lost.
   ~DaemonLog();
 
   static void set_level(const LogConfig& config);
-  /// Opens the log file anew, which may have been moved away. Throws InputError; the old one holds then.
+  /// Reopens the log file, which may have been moved away. Throws InputError, and keeps the old file then.
   void reopen();
-  /// Lines that nobody took.
+  /// Number of lines that could not be written.
   std::int64_t lines_dropped() const;
 
  private:

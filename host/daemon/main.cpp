@@ -27,7 +27,7 @@ namespace host = pharos::host;
 
 constexpr int kExitFailure = 1;
 constexpr int kExitUsage = 2;
-// Of the second that a stop may take; the rest is the kernel's, to take the process apart.
+// A stop may take one second; the rest of it is for the kernel to remove the process.
 constexpr std::chrono::milliseconds kStopLimit{800};
 
 struct Options {
@@ -37,8 +37,8 @@ struct Options {
   bool fast = false;
 };
 
-// Signals that would end the program for no reason; those of a full disk, of a limit on file sizes and of a closed pipe
-// then fail the write.
+// Ignores signals that would end the program without need. A write beyond a limit on file sizes or into a closed pipe
+// then fails with an error.
 void ignore_signals() {
   for (const int signal : {SIGXFSZ, SIGPIPE, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR}) {
     std::signal(signal, SIG_IGN);
@@ -81,7 +81,7 @@ host::DaemonControl control_of(const Options& options, host::DaemonLog& log, hos
     try {
       log.reopen();
     } catch (const host::InputError& error) {
-      spdlog::warn("{}", error.what());  // the old file goes on
+      spdlog::warn("{}", error.what());  // the old file stays in use
     }
   };
   control.log_lines_dropped = [&log] { return log.lines_dropped(); };
@@ -94,7 +94,7 @@ int run(const Options& options) {
   host::Signals signals{SIGTERM, SIGINT, SIGHUP};
   host::StopDeadline deadline({SIGTERM, SIGINT}, kStopLimit);
   host::DaemonLog log(config.log);
-  // Poses need neither directory: a disk that is read-only today is told, not a reason to stay down.
+  // Poses need neither directory: a read-only disk is reported but does not prevent the start.
   for (const std::string& error : host::directory_errors(config)) spdlog::warn("{}", error);
   host::LcmSink lcm(config.lcm.url);
   host::TracedSink sink(lcm);
@@ -102,7 +102,7 @@ int run(const Options& options) {
   const auto speed = options.fast ? host::ReplaySpeed::kFastest : host::ReplaySpeed::kReal;
   host::Daemon daemon(config, sink, signals, speed, clock, host::source_kinds(), control_of(options, log, deadline));
   daemon.run();
-  deadline.set_exit_code(0);  // nothing is lost any more
+  deadline.set_exit_code(0);  // everything was published and stored
   return 0;
 }
 

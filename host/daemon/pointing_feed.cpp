@@ -32,7 +32,7 @@ std::optional<PointingFeed::TrackState> PointingFeed::track_state() const {
   return error ? std::nullopt : std::optional(state);
 }
 
-// Images wait for their rows; a file that did not change since it was last read has no new ones.
+// Images wait for their rows of the track file; a file that has not changed has no new rows.
 void PointingFeed::match(bool always) {
   if (!pipeline_.is_waiting()) return;
   const auto state = track_state();

@@ -20,12 +20,12 @@ class PointingFeed final : public Source {
   ~PointingFeed() override;
 
   const std::string& name() const override { return config_.name; }
-  /// A directory that was missing, rows that came after their images, a pass that is over.
+  /// Handles a directory that was missing, rows that came after their images, and the end of a pass.
   void attend() override;
   std::vector<SourceHealth> health() override;
 
  private:
-  // What tells that the track file has changed.
+  // State of the track file, to detect changes.
   struct TrackState {
     std::filesystem::file_time_type written;
     std::uintmax_t size = 0;
@@ -48,7 +48,7 @@ class PointingFeed final : public Source {
   std::string last_logged_;
 };
 
-/// Every [[telescope]].
+/// Opens every [[telescope]].
 std::size_t open_pointing_feeds(const SourceContext& context, SourceList& sources);
 
 }  // namespace pharos::host

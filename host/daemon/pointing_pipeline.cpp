@@ -11,8 +11,8 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::size_t kMaxPending = 1024;  // images without a row; then the oldest is given up
-// What a 64-bit count of nanoseconds holds.
+constexpr std::size_t kMaxPending = 1024;  // images without a row; beyond this the oldest is dropped
+// Range of a 64-bit count of nanoseconds.
 constexpr double kMaxTime_s = 9.2e9;
 
 bool is_image(const std::string& name) { return !name.empty() && name[0] != '.' && has_image_ending(name); }
@@ -42,7 +42,8 @@ void PointingPipeline::arrived(const std::string& name) {
 
 std::vector<ImageJob> PointingPipeline::match(const pointing::TrackFile& track, std::int64_t monotonic_ns) {
   std::vector<ImageJob> jobs;
-  // The newest row of a name counts. Jobs go in the track's order: that of time.
+  // Of several rows of one image the first in the file is used. Jobs are in the order of the track, which is that of
+  // time.
   for (std::size_t i = 0; i < track.rows.size(); ++i) {
     const pointing::TrackRow& row = track.rows[i];
     const auto waiting = std::find(pending_.begin(), pending_.end(), row.image);
@@ -117,7 +118,7 @@ void PointingPipeline::keep_for_pass(const ImageResult& result) {
       !pass_.empty() && std::abs(result.observation.time_s - pass_.back().observation.time_s) > config_.pass_gap_s;
   if (late) over_.swap(pass_);
   if (late) pass_.clear();
-  // An image that came late by file, not by time, has its place before.
+  // An image whose file arrived late is inserted at its time.
   const auto place = std::upper_bound(
       pass_.begin(), pass_.end(), result.observation.time_s,
       [](double time_s, const pointing::PassImage& image) { return time_s < image.observation.time_s; });
@@ -163,7 +164,7 @@ SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
   health.source = "line/" + config_.name;
   health.target = config_.target;
   rate_.report(health, monotonic_ns);
-  // A telescope between passes is well: silence is no fault of it.
+  // No images between passes is normal for a telescope, and not an error.
   health.state = rate_.any_pose() && last_error_.empty() ? SourceState::kOk : SourceState::kWaiting;
   health.message = last_error_;
   if (last_error_.empty() && !rate_.any_pose()) health.message = "no image came yet";

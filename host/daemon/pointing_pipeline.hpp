@@ -19,41 +19,42 @@
 
 namespace pharos::host {
 
-/// What becomes of a telescope's files: each image is counted once.
+/// Outcomes of a telescope's files: each image is counted once.
 struct PointingCounters {
   std::int64_t files_arrived = 0;
   std::int64_t files_no_image = 0;  ///< of another kind, or hidden
   std::int64_t images_ok = 0;
   std::int64_t images_refused = 0;        ///< refused.REASON says why
-  std::int64_t images_without_track = 0;  ///< given up: no row came
-  std::int64_t images_dropped = 0;        ///< more came than can be measured
+  std::int64_t images_without_track = 0;  ///< dropped without a row of the track file
+  std::int64_t images_dropped = 0;        ///< more arrived than can be measured
   std::int64_t passes_ok = 0;
   std::int64_t passes_refused = 0;
-  std::int64_t passes_dropped = 0;        ///< as images
-  std::int64_t track_errors = 0;          ///< the track file could not be read
-  std::int64_t pointings_not_finite = 0;  ///< images and passes answered, not sent: not finite (a bug of ours)
+  std::int64_t passes_dropped = 0;  ///< as for images
+  std::int64_t track_errors = 0;    ///< the track file could not be read
+  std::int64_t pointings_not_finite =
+      0;  ///< results of images and passes that were not finite (a defect of this program) and not sent
   std::map<std::string, std::int64_t> refused;
 };
 
 /// One telescope's images to pointings on LCM: file and row of the track -> job -> result -> gate, and passes.
-/// Knows no directory and no thread.
+/// Independent of directories and threads.
 class PointingPipeline {
  public:
   /// `publisher` and `clock` must outlive this.
   PointingPipeline(const PointingConfig& config, Publisher& publisher, const Clock& clock);
 
-  /// A file of this name has become whole in the directory.
+  /// A file with this name is complete in the directory.
   void arrived(const std::string& name);
-  /// Images that wait for their row.
+  /// Whether images wait for their row.
   bool is_waiting() const { return !pending_.empty(); }
-  /// The track as it is now: the jobs of the images whose rows it has.
+  /// Jobs for the waiting images that have a row in the current track.
   std::vector<ImageJob> match(const pointing::TrackFile& track, std::int64_t monotonic_ns);
   void track_failed(const std::string& error, std::int64_t monotonic_ns);
-  /// A job that gave way to newer ones.
+  /// Counts a job that was dropped for newer ones.
   void dropped(const PointingJob& job);
 
   void done(const ImageResult& result, std::int64_t monotonic_ns);
-  /// The pass that is over: no image for pass_gap_s, or the next one's time is that much later.
+  /// A pass that has ended: no image for pass_gap_s, or the next image is later by more than that.
   std::optional<PassJob> take_finished_pass(std::int64_t monotonic_ns);
   void done(const PassResult& result, std::int64_t monotonic_ns);
 
@@ -76,7 +77,7 @@ class PointingPipeline {
   PublishGate gate_;
   RateMonitor rate_;
   std::int64_t last_result_ns_ = -1;
-  std::string last_error_;  // of the last image
+  std::string last_error_;  // error of the last image
   bool remarked_ = false;
 };
 

@@ -11,7 +11,7 @@
 namespace pharos::host {
 namespace {
 
-constexpr std::size_t kMaxWaitingImages = 512;  // a night's burst; then the oldest gives way
+constexpr std::size_t kMaxWaitingImages = 512;  // a burst of many images at once; beyond this the oldest is dropped
 
 ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
   ImageResult result;

@@ -17,10 +17,10 @@ struct ImageJob {
   std::filesystem::path file;
   pointing::Observation observation;
 };
-/// What became of it; the advice names the file.
+/// Result of an image; the advice names the file.
 struct ImageResult : MeasurementOutcome {
   pointing::Observation observation;
-  std::string remark;  ///< what was made of the image; mostly empty
+  std::string remark;  ///< how the image was converted; mostly empty
   pointing::AxisEstimate axis;
   pointing::AxisPlanes planes_station;
 };
@@ -30,7 +30,7 @@ struct PassJob {
   std::vector<pointing::PassImage> images;
   pointing::PassOptions options;
 };
-/// What became of it; advice only of a fault of ours. Of a refused one the estimate still tells images and time.
+/// Result of a pass; it has advice only after an internal error. If refused, the estimate still has images and time.
 struct PassResult : MeasurementOutcome {
   pointing::PassEstimate estimate;
 };
@@ -39,7 +39,7 @@ using PointingJob = std::variant<ImageJob, PassJob>;
 using PointingResult = std::variant<ImageResult, PassResult>;
 using PointingWorker = JobWorker<PointingJob, PointingResult>;
 
-/// Images that `camera` took, and passes, each in its turn.
+/// Measures images of `camera` and solves passes, in the order in which they were posted.
 PointingWorker pointing_worker(const PinholeCamera& camera);
 
 }  // namespace pharos::host

@@ -12,7 +12,7 @@
 
 namespace pharos::host {
 
-/// Bytes of a serial port that may be missing, busy or unplugged at any time and is tried again until it comes.
+/// Bytes of a serial port, which may be missing, busy or disconnected at any time and is then tried again.
 class PortFeed : public ByteFeed {
  public:
   /// `loop` and `clock` must outlive this. `name` is the target's, for the log.

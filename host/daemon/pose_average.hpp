@@ -10,7 +10,7 @@
 
 namespace pharos::host {
 
-/// One frame's answer, as a mean takes it.
+/// One frame's result as input of a mean.
 struct AveragedFrame {
   TofPoseEstimate estimate;
   std::int64_t utc_ns = 0;
@@ -18,30 +18,30 @@ struct AveragedFrame {
   std::string flags;
 };
 
-/// The mean of a window of frames, and how far to believe it.
+/// The mean of a window of frames, with its covariance.
 struct WindowMean {
   TofPoseEstimate estimate;
-  std::int64_t utc_ns = 0;  // mean of the frames'
+  std::int64_t utc_ns = 0;  // mean of the frames' times
   int observations = 0;
   std::string flags;
   bool moving = false;  // the frames scatter more than their covariances say: the target moved
 };
 
-/// Means of N frames in a row (paper 000 takes 100 of a target at rest), one after another, no frame in two of them.
+/// Means over consecutive, non-overlapping windows of N frames (paper 000 averages 100 frames of a stationary target).
 ///
-/// The mean and its covariance are those of mean_of_poses. Frames of different flags (without a connector one angle is
-/// missing) are not mixed, and a window is not continued over a gap: it begins anew.
+/// Mean and covariance are those of mean_of_poses. Frames with different flags (without a connector one angle is
+/// missing) are not mixed; a change of flags or a gap in time starts a new window.
 class PoseAverage {
  public:
   explicit PoseAverage(int frames) : frames_(static_cast<std::size_t>(frames)) {}
 
   /// The mean, when this frame fills the window.
   std::optional<WindowMean> push(const AveragedFrame& frame);
-  /// Frames that were in a window that was given up.
+  /// Number of frames in discarded windows.
   std::int64_t discarded() const { return discarded_; }
 
   static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
-  /// Reduced chi-squared: with 100 frames chance reaches 1.2.
+  /// Limit for the reduced chi-squared; for 100 frames of a stationary target it is at most about 1.2.
   static constexpr double kMovingChi2 = 4.0;
 
  private:

@@ -8,28 +8,28 @@
 
 namespace pharos::host {
 
-/// Whether a pose can follow the last ones of the same target: a frame that somebody else put among a camera's is
-/// measured as well as any other, and differs by where the target is.
+/// Checks whether a pose can follow the previous ones of the same target. A frame that another sender inserted among a
+/// camera's is measured like any other; it differs only by the position of its target.
 ///
-/// Two poses fit each other where no point of the docking ring moved faster than kMaxSpeed_m_s between them, beside
-/// kSigmas of both. One that does not fit is refused. A target that has really moved (it was hidden, or lost) is taken
-/// when kConfirmations poses that fit each other say so for kConfirmation_ns with none between them that fits the last
-/// one taken: frames of two senders in turns never confirm each other.
+/// Two poses are consistent if no point of the docking ring moved faster than kMaxSpeed_m_s between them, apart from
+/// kSigmas of both. An inconsistent pose is refused. A target that has really moved (while hidden or lost) is accepted
+/// after kConfirmations poses during kConfirmation_ns that are consistent with each other, with none between them that
+/// is consistent with the last accepted one. Alternating frames of two senders therefore never confirm a jump.
 class PoseJumpCheck {
  public:
-  /// Faster than this a ring cannot be measured: a depth frame is made of exposures over some 30 ms, during which its
-  /// edges would move by 30 mm.
+  /// A faster ring cannot be measured: the exposures of a depth frame take some 30 ms, in which its edges would move by
+  /// 30 mm.
   static constexpr double kMaxSpeed_m_s = 1.0;
-  /// Three frames' time. Over a longer gap no more than this counts: who keeps the camera's frames away makes the gap,
-  /// and that nothing was seen does not mean that the target moved.
+  /// The time of three frames. Longer gaps count as this: an attacker could cause a gap, and a gap does not mean that
+  /// the target moved.
   static constexpr std::int64_t kMaxGap_ns = 100'000'000;
-  /// From the ring's middle to its edge; of what the configuration takes as a ring by default, the middle.
+  /// Outer radius of the ring: the middle of the configuration's default range.
   static constexpr double kRadius_m = 0.5;
   static constexpr double kSigmas = 5.0;
   static constexpr int kConfirmations = 5;
   static constexpr std::int64_t kConfirmation_ns = 500'000'000;
 
-  /// True where the pose may be reported. Poses come in the order of their times; an ambiguous one is not for here.
+  /// True if the pose may be reported. Poses must be in the order of their times; ambiguous poses must not be passed.
   template <class Parent, class Child>
   bool passes(const PoseEstimate<Parent, Child>& estimate, std::int64_t time_ns) {
     return passes(Sample{estimate.pose.R.col(2), estimate.pose.t, variance_of(estimate), time_ns});
@@ -37,7 +37,7 @@ class PoseJumpCheck {
 
  private:
   struct Sample {
-    Vector3 axis;  // of the ring; the turn about it is not always measured
+    Vector3 axis;  // of the ring; the rotation about it is not always measured
     Vector3 centre_m;
     double variance_m2 = 0.0;  // of a point on the ring's edge
     std::int64_t time_ns = 0;
@@ -58,7 +58,7 @@ class PoseJumpCheck {
   int confirmations_ = 0;
 };
 
-/// The refusal of such a pose, and its text.
+/// The refusal of an inconsistent pose, and its advice.
 inline constexpr const char* kJumpRefusal = "jump";
 inline constexpr const char* kJumpAdvice =
     "the pose differs from the last ones by more than the target can have moved; frames of another sender, or a target "

@@ -8,8 +8,7 @@
 
 namespace pharos::host {
 
-/// When a pipeline's data and poses came, and how fast: what the health of every pipeline begins with. Times are
-/// monotonic.
+/// Times and rates of a pipeline's data and poses, for the health of every pipeline. Times are monotonic.
 class RateMonitor {
  public:
   void on_data(std::int64_t now_ns) { last_data_ns_ = now_ns; }
@@ -27,7 +26,7 @@ class RateMonitor {
     return any_pose() && now_ns - last_pose_ns_ < span_ns;
   }
 
-  /// Both ages, and the poses a second since this was called before.
+  /// Sets both ages, and the poses per second since the last call.
   void report(SourceHealth& health, std::int64_t now_ns) {
     health.data_age_ns = any_data() ? now_ns - last_data_ns_ : -1;
     health.pose_age_ns = any_pose() ? now_ns - last_pose_ns_ : -1;

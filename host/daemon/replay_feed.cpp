@@ -13,9 +13,9 @@ namespace pharos::host {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
-// At full speed: so many chunks, then the loop looks at signals and status again.
+// At full speed: number of chunks before the event loop handles signals and status again.
 constexpr int kChunksPerTurn = 64;
-// A silence of the recording lasts no longer at real speed: nobody waits a week for a replay.
+// At real speed longer silences of the recording are cut to this.
 constexpr std::int64_t kLongestWait_ns = 10'000'000'000;
 
 }  // namespace

@@ -17,11 +17,11 @@
 
 namespace pharos::host {
 
-/// Bytes of a recorded serial stream, with the times of their recording: everything behind sees what it saw then. At
-/// real speed a silence lasts ten seconds at the most.
+/// Bytes of a recorded serial stream with their recorded arrival times, so that all later stages compute the same as
+/// then. At real speed a silence lasts at most ten seconds.
 class ReplayFeed : public ByteFeed {
  public:
-  /// Throws InputError when the file is no recording. `loop` and `clock` must outlive this.
+  /// Throws InputError if the file is not a recording. `loop` and `clock` must outlive this.
   ReplayFeed(EventLoop& loop, const Clock& clock, std::string name, const std::string& file, ReplaySpeed speed,
              ByteFeedEvents events);
   ~ReplayFeed() override;
@@ -54,8 +54,8 @@ class ReplayFeed : public ByteFeed {
   bool started_ = false;
   bool finished_ = false;
   std::int64_t silences_cut_ = 0;
-  std::int64_t shift_ns_ = 0;   // recorded monotonic time to this computer's
-  std::int64_t played_ns_ = 0;  // recorded monotonic time of the last chunk played
+  std::int64_t shift_ns_ = 0;   // from recorded to this computer's monotonic time
+  std::int64_t played_ns_ = 0;  // recorded monotonic time of the last chunk that was played
 };
 
 }  // namespace pharos::host

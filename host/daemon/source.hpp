@@ -17,40 +17,41 @@
 
 namespace pharos::host {
 
-/// Something in a source's care that cannot be written to the disk.
+/// An error of a source that cannot write its data to the disk.
 struct StorageError {
-  const char* what = "";  // which of the daemon's log limits it falls under
-  std::string text;       // one line for a person; empty when all is well
+  const char* what = "";  // kind of message for the daemon's log limit
+  std::string text;       // one readable line; empty without an error
 };
 
-/// One sensor of the configuration in the daemon's loop. It watches its own descriptors, sends what it measures through
-/// a PublishGate, and tells the daemon how it fares. All calls come from the loop's thread.
+/// One sensor of the configuration in the daemon's event loop. It watches its own descriptors, publishes its
+/// measurements through a PublishGate, and reports its health to the daemon. All calls come from the loop's thread.
 class Source {
  public:
   virtual ~Source() = default;
-  /// As in the configuration.
+  /// Its name in the configuration.
   virtual const std::string& name() const = 0;
-  /// Called ten times a second: opens what is not open, writes what is to be kept, logs what has changed.
+  /// Called ten times a second: opens what is not open, writes data to be stored, logs changes.
   virtual void attend() = 0;
-  /// SourceContext::config was read anew: takes over what can change while running (publish, calibrations of targets).
+  /// SourceContext::config was read again: takes over the settings that can change while running (publish, calibrations
+  /// of targets).
   virtual void reconfigure() {}
-  /// Called once after the loop's end: writes what is still to be kept.
+  /// Called once after the loop's end: writes remaining data.
   virtual void stop() {}
-  /// One for every system that measures with this sensor.
+  /// The health of every system that measures with this sensor.
   virtual std::vector<SourceHealth> health() = 0;
-  /// A recording that has come to its end and was answered to the last. The daemon stops when every source has; a
-  /// source that becomes so calls SourceContext::on_finished.
+  /// True for a recording that has ended and is processed completely. The source then calls SourceContext::on_finished;
+  /// the daemon stops when all sources have finished.
   virtual bool finished() const { return false; }
-  /// That this computer's clock was set a moment ago, as this source saw it, for people; empty when it was not.
+  /// Readable notice that this computer's clock was recently set, as detected by this source; empty otherwise.
   virtual std::string clock_notice() const { return {}; }
   virtual StorageError storage_error() const { return {}; }
-  /// Counters of the daemon as a whole beside those in health().
+  /// Counters for the daemon as a whole, in addition to those in health().
   virtual NamedCounts daemon_counters() const { return {}; }
 };
 
 using SourceList = std::vector<std::unique_ptr<Source>>;
 
-/// What the daemon lends to its sources; all of it outlives them.
+/// The daemon's services for its sources; they outlive all sources.
 struct SourceContext {
   EventLoop& loop;
   const Clock& clock;
@@ -58,21 +59,21 @@ struct SourceContext {
   const DaemonConfig& config;
   ReplaySpeed replay_speed = ReplaySpeed::kReal;
   std::function<void()> on_finished = [] {};
-  /// A source calls it when something changed that nobody should wait a second for: the status goes out at once.
+  /// To be called for a change that must be reported without delay: publishes the status at once.
   std::function<void()> on_state_change = [] {};
 };
 
-/// A kind of source, as the daemon knows it.
+/// A kind of source.
 struct SourceKind {
-  /// One of them, in the log.
+  /// Its name in the log, singular.
   const char* noun = "";
-  /// Appends the sources of this kind that the configuration names, and returns how many these are. Throws InputError.
+  /// Appends the configured sources of this kind and returns their number. Throws InputError.
   std::function<std::size_t(const SourceContext&, SourceList&)> open;
 };
 
 using SourceKinds = std::vector<SourceKind>;
 
-/// Every kind that pharosd has: the registration table.
+/// The registration table: all kinds of source of pharosd.
 const SourceKinds& source_kinds();
 
 }  // namespace pharos::host

@@ -7,7 +7,7 @@
 
 namespace pharos::host {
 
-// In the order in which PHAROS_STATUS tells them. The first is told in the log even where there is none of it.
+// In the order of PHAROS_STATUS. The log names the first kind even if there is no source of it.
 const SourceKinds& source_kinds() {
   static const SourceKinds kinds{{"target", open_target_feeds},
                                  {"camera", open_tof_feeds},

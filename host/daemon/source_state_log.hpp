@@ -9,10 +9,10 @@
 
 namespace pharos::host {
 
-/// The log of what changes at a source: every opening, every error when it begins, and its remark, once.
+/// Logs changes of a source: every opening, every new error, and its remark once.
 class SourceStateLog {
  public:
-  /// `name`: of the line in the configuration.
+  /// `name`: of the source in the configuration.
   explicit SourceStateLog(const std::string& name) : log_(name) {}
 
   void update(const std::string& device, const SourceStatus& status, std::int64_t monotonic_ns) {

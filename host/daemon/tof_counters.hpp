@@ -7,7 +7,7 @@
 
 namespace pharos::host {
 
-// What becomes of the frames that a camera's line is given: each is counted once. X(name, what it counts)
+// Outcomes of the frames given to a camera's pipeline: each is counted once. X(name, what it counts)
 #define PHAROS_TOF_COUNTERS(X)                                                          \
   X(frames_ok, "frames with a pose")                                                    \
   X(frames_ambiguous, "frames with two poses that fit nearly as well")                  \

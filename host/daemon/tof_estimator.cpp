@@ -8,7 +8,7 @@
 namespace pharos::host {
 namespace {
 
-// From one stage's end to the next one's.
+// Measures the time between the ends of consecutive stages.
 class StageClock final : public tof::TofStageListener {
  public:
   explicit StageClock(std::array<std::int64_t, tof::kTofStages>& stage_ns) : stage_ns_(stage_ns) {}
@@ -57,7 +57,7 @@ TofResult TofEstimator::measure(const DepthFrame& frame) {
   answer.estimate.pose = pose->target.pose;
   answer.estimate.covariance = pose->target.covariance;
   answer.estimate.observations = answer.observations;
-  // Two connectors that are equally near: neither fits the frame worse.
+  // Two connectors are equally near, and neither fits the frame worse.
   if (pose->second) answer.estimate.second = {pose->second->pose, pose->delta_chi2};
   return answer;
 }

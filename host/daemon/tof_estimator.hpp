@@ -17,20 +17,20 @@ struct TofWorkspace;
 
 namespace pharos::host {
 
-/// What became of one frame: a refusal is a tof::name_of(TofFailure); observations are depth pixels and edge points.
+/// Result of one frame: a refusal is a tof::name_of(TofFailure); observations are depth pixels and edge points.
 struct TofResult : MeasurementOutcome {
   TofPoseEstimate estimate;
-  /// What each stage took, by TofStage; 0 where the frame did not come to it.
+  /// Duration of each stage, by TofStage; 0 for stages that the frame did not reach.
   std::array<std::int64_t, tof::kTofStages> stage_ns{};
 };
 
-/// A frame to a pose: the core's measure_tof_pose with a workspace of its own.
+/// Computes a pose from a frame: the core's measure_tof_pose with its own workspace.
 class TofEstimator {
  public:
   TofEstimator(const DepthCamera& camera, const tof::TofSettings& settings);
   ~TofEstimator();
 
-  /// Scale and offset of the frame go before those of the camera file.
+  /// Scale and offset of the frame take precedence over those of the camera file.
   TofResult measure(const DepthFrame& frame);
 
  private:
@@ -39,7 +39,7 @@ class TofEstimator {
   std::unique_ptr<tof::TofWorkspace> workspace_;
 };
 
-/// The camera as it counts in this frame.
+/// The camera with the scale of this frame.
 DepthCamera camera_of(const DepthFrame& frame, const DepthCamera& by_file);
 
 }  // namespace pharos::host

@@ -9,7 +9,7 @@
 namespace pharos::host {
 namespace {
 
-// Of the camera that `pharos sim tof` simulates, and the Helios' own greatest.
+// Frame rate of the camera that `pharos sim tof` simulates, which is the Helios' highest.
 constexpr double kUsualRate_hz = 30.0;
 
 std::unique_ptr<FrameSource> frames_of(const TofConfig& config, ReplaySpeed speed) {
@@ -35,7 +35,7 @@ TofFeed::TofFeed(const SourceContext& context, const TofConfig& config)
 
 TofFeed::~TofFeed() { context_.loop.forget(frames_->fd()); }
 
-// One frame, then whoever else waits in the loop: the lighthouse's cycles must not wait for two.
+// One frame per iteration of the event loop, so that lighthouse cycles never wait for two.
 void TofFeed::on_readable() {
   if (DepthFramePtr frame = frames_->take()) {
     pipeline_.take(*frame);

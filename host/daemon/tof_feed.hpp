@@ -12,10 +12,10 @@
 
 namespace pharos::host {
 
-/// One depth camera of the configuration: its frames go to its pipeline as they come, its errors to the log.
+/// One depth camera of the configuration: passes its frames to its pipeline and logs its errors.
 class TofFeed final : public Source {
  public:
-  /// Throws InputError where recorded frames are no good after all.
+  /// Throws InputError if recorded frames cannot be used.
   TofFeed(const SourceContext& context, const TofConfig& config);
   ~TofFeed() override;
 
@@ -38,7 +38,7 @@ class TofFeed final : public Source {
   bool finished_ = false;
 };
 
-/// Every [[camera]].
+/// Opens every [[camera]].
 std::size_t open_tof_feeds(const SourceContext& context, SourceList& sources);
 
 }  // namespace pharos::host

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of TofPipeline that tells how it fares.
+// The health of TofPipeline.
 #include "host/daemon/health_parts.hpp"
 #include "host/daemon/tof_pipeline.hpp"
 
 namespace pharos::host {
-namespace {
-
-// Thirty times a second, or three in turns: as long without any is silence.
-
-}  // namespace
-
 SourceHealth TofPipeline::health(const std::string& device, const FrameSourceStatus& camera,
                                  std::int64_t monotonic_ns) {
   SourceHealth health;
@@ -27,7 +21,7 @@ SourceHealth TofPipeline::health(const std::string& device, const FrameSourceSta
   return health;
 }
 
-// From the camera upwards: the lowest thing that is wrong is the one to tell.
+// In the order of processing: reports the error of the earliest stage.
 void TofPipeline::assess(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t now_ns) const {
   const std::int64_t pose_wait_ns = kSilence_ns + config_.average_frames * kSilence_ns / 10;
   health.state = state_of(camera.state);

@@ -18,7 +18,7 @@ TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, 
       gate_(publisher, counters_.frames_not_finite,
             PublishGate::AgeLimit{publish.max_age_ns(), counters_.frames_stale}) {}
 
-/// When the frame was taken; empty, and counted, where it cannot be used.
+/// Exposure time of the frame; empty, and counted, if the frame cannot be used.
 std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
   const std::uint64_t ignored = clock_.map().counters().pairs_ignored;
   const std::optional<MappedTime> time = clock_.time_of(frame);
@@ -50,7 +50,7 @@ void TofPipeline::take(const DepthFrame& frame) {
   }
   const std::optional<MappedTime> time = time_of(frame);
   if (!time) return;
-  if (!gate_.fresh(began_ns - time->monotonic_ns)) return;  // waited too long: the estimator has newer ones to work on
+  if (!gate_.fresh(began_ns - time->monotonic_ns)) return;  // waited too long: the estimator should process newer ones
   TofResult answered = measure_(frame);
   estimator_.add(host_clock_.monotonic_ns() - began_ns);
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
@@ -84,9 +84,9 @@ TofReport TofPipeline::report_of(const TofResult& answer, const MappedTime& time
   return report;
 }
 
-// Puts the mean of a window in the place of its last frame; false where no window is full.
+// Replaces the last frame of a window by the window's mean; false if the window is not full.
 bool TofPipeline::average(TofReport& report) {
-  if (report.ambiguous) return false;  // which of the two would go into the mean?
+  if (report.ambiguous) return false;  // it is unknown which of the two poses belongs into the mean
   const auto mean = average_.push({report.pose, report.utc_ns, report.observations, report.flags});
   if (!mean) return false;
   report.utc_ns = mean->utc_ns;
@@ -98,7 +98,7 @@ bool TofPipeline::average(TofReport& report) {
   return true;
 }
 
-// Recorded frames are whoever's they are, and may be of different views.
+// Recorded frames are not checked: they cannot be from another sender, and may be of different views.
 void TofPipeline::refuse_jump(TofReport& report, const MappedTime& time) {
   if (config_.is_recorded() || !report.answered() || report.ambiguous) return;
   if (jump_check_.passes(report.pose, time.monotonic_ns)) return;

@@ -22,25 +22,25 @@
 
 namespace pharos::host {
 
-/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> gate. Knows no camera and no file.
+/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> gate. Independent of cameras and files.
 class TofPipeline {
  public:
   using Measure = std::function<TofResult(const DepthFrame&)>;
 
-  /// `publisher` and `clock` must outlive this. `source` is told in every message. `measure`: TofEstimator::measure, or
-  /// a test's.
+  /// `publisher` and `clock` must outlive this. `source` is part of every message. `measure`: TofEstimator::measure, or
+  /// a function of a test.
   TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
               const Clock& clock, Measure measure);
 
-  /// A whole frame, just taken. What it gives is published before this returns.
+  /// Takes a complete new frame. Its result is published before this returns.
   void take(const DepthFrame& frame);
 
-  /// The limits of what is published, from now on.
+  /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) { gate_.set_max_age(publish.max_age_ns()); }
 
   SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
   const TofCounters& counters() const { return counters_; }
-  /// That this computer's clock was set a moment ago, for people; empty when it was not.
+  /// Readable notice that this computer's clock was recently set; empty otherwise.
   std::string clock_notice(std::int64_t monotonic_ns) const { return clock_step_.notice(monotonic_ns); }
 
  private:
@@ -64,11 +64,11 @@ class TofPipeline {
   PoseAverage average_;
   TofCounters counters_;
   PublishGate gate_;
-  std::string last_refusal_;  // with what to do
+  std::string last_refusal_;  // with advice
   std::int64_t last_utc_ns_ = 0;
   ClockStepMonitor clock_step_;
   RateMonitor rate_;
-  // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
+  // Durations of a frame: first packet to last, waiting for the loop, estimator; and in total from first packet to LCM.
   LatencyHistogram transport_;
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;

@@ -11,7 +11,7 @@
 
 namespace pharos::host {
 
-/// Tells every message in the log at level trace.
+/// Logs every message at level trace.
 class TracedSink final : public MessageSink {
  public:
   /// `sink` must outlive this.

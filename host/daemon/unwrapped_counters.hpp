@@ -7,13 +7,13 @@
 
 namespace pharos::host {
 
-/// A target's 32-bit counters as counts that do not wrap (10,000 edges a second fill 32 bits in five days).
+/// Extends a target's 32-bit counters to counts that do not wrap (10,000 edges per second wrap after five days).
 ///
-/// A value that is lower than the last one has wrapped when it went up by less than half of the range modulo 2^32;
-/// otherwise it was lowered on purpose (a gauge, or a target that began anew) and is taken as it is.
+/// A value lower than the last one has wrapped if the increase modulo 2^32 is less than half of the range; otherwise it
+/// was really lowered (a gauge, or a target that restarted) and is used as it is.
 class UnwrappedCounters {
  public:
-  /// The counters as they came, once a second.
+  /// Takes the received counters, once a second.
   template <class Counters>
   void take(const Counters& counters) {
     std::size_t at = 0;
@@ -28,7 +28,7 @@ class UnwrappedCounters {
                      [&](const char* name, std::uint32_t, const char* text) { visit(name, counts_[at++], text); });
   }
   bool empty() const { return counts_.empty(); }
-  /// The target began anew.
+  /// The target restarted.
   void clear() { counts_.clear(); }
 
  private:

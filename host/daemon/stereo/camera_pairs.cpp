@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::array<const char*, 2> kSides{"left", "right"};
 
-// Two seconds of two cameras at 4 frames/s, half a second at 16: no chance, but shutters that are not together.
+// Frames without a partner in a row that mean unsynchronised shutters: two seconds of two cameras at 4 frames/s, half a
+// second at 16.
 constexpr std::int64_t kManyAlone = 16;
 
-// The later, the worse.
+// Severity of a state; later in the list is worse.
 int rank(CameraState state) {
   constexpr std::array kWorse{CameraState::kOpen, CameraState::kSilent, CameraState::kGone, CameraState::kTaken,
                               CameraState::kWrong};
@@ -56,7 +57,7 @@ StereoPairPtr CameraPairs::paired(std::size_t side, DepthFramePtr frame) {
   transport_[side].add(frame->complete_monotonic_ns - frame->arrival_monotonic_ns);
   const std::optional<MappedTime> time = clocks_[side].time_of(*frame);
   if (clock_steps_[side].update(clocks_[side].map(), frame->complete_monotonic_ns)) {
-    matcher_.clear();  // what waits is timed by the clock as it was
+    matcher_.clear();  // the times of waiting frames are of the old clock
     last_utc_ns_ = 0;
   }
   if (!time) {

@@ -13,8 +13,8 @@
 
 namespace pharos::host {
 
-/// Pairs of two cameras, each with a clock of its own: frames are timed in this computer's clocks and matched there.
-/// Either camera may be missing, lost and back at any time; frames without a partner are counted.
+/// Pairs of two cameras with clocks of their own: the frames' times are converted to this computer's clocks and matched
+/// there. Each camera may be missing, get lost and come back at any time; frames without a partner are counted.
 class CameraPairs : public PairSource {
  public:
   /// Left and right.
@@ -40,11 +40,11 @@ class CameraPairs : public PairSource {
   std::int64_t last_utc_ns_ = 0;
   std::int64_t last_steady_ns_ = 0;
   std::int64_t pairs_ = 0;
-  std::int64_t unpaired_at_last_pair_ = 0;  // frames without a partner until then
+  std::int64_t unpaired_at_last_pair_ = 0;  // number of frames without a partner at the last pair
   std::int64_t pairs_time_back_ = 0;
   std::int64_t frames_no_clock_ = 0;
   std::array<LatencyHistogram, 2> transport_;  // first packet to last
-  LatencyHistogram offsets_;                   // between the two times of a pair
+  LatencyHistogram offsets_;                   // time difference of the frames of a pair
 };
 
 }  // namespace pharos::host

@@ -12,27 +12,27 @@
 
 namespace pharos::host {
 
-/// What a stage of an estimator took.
+/// Duration of a stage of an estimator.
 struct StageTime {
   const char* stage = "";
   std::int64_t ns = 0;
 };
 
-/// What became of one pair.
+/// Result of one pair.
 struct PairResult : MeasurementOutcome {
   Ring2Pose pose;
-  std::optional<SpinResult> spin;  // where one is due
+  std::optional<SpinResult> spin;  // if one is due
   std::vector<StageTime> stages;
-  NamedCounts figures;  // of the estimator so far; empty where it tells none
+  NamedCounts figures;  // of the estimator so far; empty if it has none
 };
 
-/// Pairs to poses, in a thread of its own; pairs come in the order of their times.
+/// Computes poses from pairs, in a thread of its own; pairs come in the order of their times.
 class PairEstimator {
  public:
   virtual ~PairEstimator() = default;
-  /// Throws for nothing that a pair may hold; must be fit for the next pair if it does throw.
+  /// Must not throw for any content of a pair. If it throws, the next pair must still work.
   virtual PairResult measure(const StereoPair& pair) = 0;
-  /// A pose of this system's type, for answers without one: the type is what tells on which channel they go.
+  /// A pose of this system's type, for results without a pose: the type determines their channel.
   virtual Ring2Pose no_pose() const = 0;
 };
 

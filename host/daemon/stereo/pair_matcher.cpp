@@ -22,7 +22,7 @@ std::optional<std::array<TimedFrame, 2>> PairMatcher::push(std::size_t side, Tim
   std::deque<TimedFrame>& own = waiting_[side];
   std::deque<TimedFrame>& others = waiting_[1 - side];
   const std::int64_t utc_ns = frame.time.utc_ns;
-  // Later frames of this side are later still.
+  // Later frames of this side have later times, so that these frames cannot get a partner.
   while (!others.empty() && others.front().time.utc_ns < utc_ns - window_ns_) drop_oldest(1 - side);
   const auto gap_ns = [utc_ns](const TimedFrame& other) { return std::abs(other.time.utc_ns - utc_ns); };
   const auto nearest = std::min_element(others.begin(), others.end(),
@@ -32,7 +32,7 @@ std::optional<std::array<TimedFrame, 2>> PairMatcher::push(std::size_t side, Tim
     if (own.size() > kMaxWaiting) drop_oldest(side);
     return std::nullopt;
   }
-  // Pairs do not cross: what is older than this one, on either side, is without a partner for good.
+  // Pairs are in the order of time on both sides: older frames on either side cannot get a partner any more.
   for (auto older = nearest - others.begin(); older > 0; --older) drop_oldest(1 - side);
   while (!own.empty()) drop_oldest(side);
   std::array<TimedFrame, 2> pair;

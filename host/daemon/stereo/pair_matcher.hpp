@@ -13,29 +13,29 @@
 
 namespace pharos::host {
 
-/// A frame and when it was taken.
+/// A frame and its exposure time.
 struct TimedFrame {
   DepthFramePtr frame;
   MappedTime time;
 };
 
-/// Frames of two cameras to pairs by their times: the nearest within a window. Each camera's come in the order of their
-/// times; how far one camera's lag behind the other's in arriving does not matter, up to kMaxWaiting frames.
+/// Matches frames of two cameras to pairs: the nearest in time within a window. The frames of each camera come in the
+/// order of their times; one camera's may arrive later than the other's by up to kMaxWaiting frames.
 class PairMatcher {
  public:
-  /// A frame waits for its partner as long as so many newer ones of its camera do not: 0.2 s at 20 frames/s.
+  /// Maximum number of waiting frames of a camera, 0.2 s at 20 frames/s; the oldest is given up for a newer one.
   static constexpr std::size_t kMaxWaiting = 4;
 
-  /// `give_up` gets every frame that remains without a partner: side 0 (left) or 1.
+  /// `give_up` is called for every frame that remains without a partner, with its side: 0 (left) or 1.
   PairMatcher(std::int64_t window_ns, std::function<void(std::size_t side, DepthFramePtr frame)> on_unpaired)
       : window_ns_(window_ns), on_unpaired_(std::move(on_unpaired)) {}
 
-  /// The pair (left, right) that this frame completes.
+  /// The pair (left, right) that this frame completes, if any.
   std::optional<std::array<TimedFrame, 2>> push(std::size_t side, TimedFrame frame);
-  /// Gives up all that wait: times begin anew.
+  /// Gives up all waiting frames, as the time base has changed.
   void clear();
 
-  /// Frames given up so far.
+  /// Number of frames given up so far.
   std::int64_t unpaired(std::size_t side) const { return unpaired_[side]; }
 
  private:

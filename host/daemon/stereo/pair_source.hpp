@@ -11,27 +11,27 @@
 
 namespace pharos::host {
 
-/// Of both cameras together.
+/// Status of both cameras together.
 struct PairSourceStatus : SourceStatus {
   NamedCounts counters;
   double clock_sigma_ns = 0.0;
   double clock_drift_ppm = 0.0;
 };
 
-/// Where pairs come from: two cameras on the network, or recorded ones. One thread, the loop's.
+/// A source of pairs: two cameras on the network, or recorded pairs. To be used from the event loop's thread.
 class PairSource {
  public:
   virtual ~PairSource() = default;
-  /// Readable while there may be something to take.
+  /// Readable while there may be a pair to take.
   virtual std::vector<int> fds() const = 0;
   /// The next pair, or null.
   virtual StereoPairPtr take() = 0;
-  /// A pair that nobody looks at any more: its buffers go round, and a recording at full speed goes on.
+  /// Returns a pair that is no longer used: its buffers are reused, and a recording at full speed continues.
   virtual void recycle(StereoPairPtr pair) = 0;
   virtual PairSourceStatus status() const = 0;
-  /// What it reads from, for people.
+  /// Readable name of its device.
   virtual std::string device() const = 0;
-  /// That this computer's clock was set a moment ago, for people; empty when it was not.
+  /// Readable notice that this computer's clock was recently set; empty otherwise.
   virtual std::string clock_notice(std::int64_t monotonic_ns) const = 0;
 };
 

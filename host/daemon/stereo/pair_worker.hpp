@@ -8,11 +8,11 @@
 
 namespace pharos::host {
 
-/// An estimator's thread: one pair is worked on, one may wait, and the newest wins, for a queue would only make poses
-/// older.
+/// An estimator's thread: one pair is processed and one may wait, which a newer one replaces. A queue would only make
+/// poses older.
 using PairWorker = JobWorker<StereoPairPtr, PairResult>;
 
-/// Pairs that the estimator throws at are refused, `internal_error`.
+/// Pairs for which the estimator throws are refused, `internal_error`.
 inline PairWorker pair_worker(const std::shared_ptr<PairEstimator>& estimator) {
   return PairWorker(
       1, [estimator](const StereoPairPtr& pair) { return estimator->measure(*pair); },

@@ -26,7 +26,7 @@ std::int64_t RecordedPairs::time_ns(std::size_t index) const {
   return began_utc_ns_ + std::llround((pair.time_s - pairs_.front().time_s) * static_cast<double>(kNsPerSecond));
 }
 
-// For the pair next_, or for the end behind the last one.
+// Sets the timer for the pair next_, or for the end after the last one.
 void RecordedPairs::arm() {
   if (next_ < pairs_.size() && next_ > 0 && !options_.fastest) {
     due_monotonic_ns_ += std::min(time_ns(next_) - time_ns(next_ - 1), kLongestSilence_ns);

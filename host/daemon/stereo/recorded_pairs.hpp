@@ -11,18 +11,18 @@
 
 namespace pharos::host {
 
-/// Recorded pairs in their order, at the pace of their times; then they have come to their end. A pair whose name is a
-/// time (ns since 1970) has that time; others have that of the start and go on from there. A file that cannot be read,
-/// or is of another size than the rig's camera, is counted and passed over.
+/// Recorded pairs in their order, at the rate of their times, once. A pair whose name is a time (ns since 1970) has
+/// that time; otherwise times begin at the start of the replay. A pair with a file that cannot be read, or that has
+/// another size than the rig's camera, is counted and skipped.
 class RecordedPairs : public PairSource {
  public:
   struct Options {
-    double rate_hz = 20.0;  ///< where names tell no time
-    /// The next pair once the one before was worked on, without waiting.
+    double rate_hz = 20.0;  ///< if names are not times
+    /// Gives the next pair as soon as the one before was processed, without waiting.
     bool fastest = false;
     std::array<std::array<std::int32_t, 2>, 2> sizes_px{};  ///< width, height of left and right
   };
-  /// `clock` must outlive this. Throws InputError where there are no pairs.
+  /// `clock` must outlive this. Throws InputError if there are no pairs.
   RecordedPairs(const Clock& clock, const std::string& directory, const Options& options);
 
   std::vector<int> fds() const override { return {timer_.fd()}; }
@@ -32,7 +32,7 @@ class RecordedPairs : public PairSource {
   std::string device() const override { return path_; }
   std::string clock_notice(std::int64_t) const override { return {}; }
 
-  /// A longer silence of the recording is cut to this.
+  /// Longer silences of the recording are cut to this.
   static constexpr std::int64_t kLongestSilence_ns = 10'000'000'000;
 
  private:

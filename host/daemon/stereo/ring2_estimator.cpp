@@ -11,12 +11,12 @@ namespace pharos::host {
 namespace {
 
 enum Ring2Flag : std::uint8_t {
-  kNoConnector = 1,  // as of tof: the turn about Z' is not told; two circles on one axis never tell it
-  kNoNozzle = 2,     // the ring alone
+  kNoConnector = 1,  // as for tof: the rotation about Z' is unknown; two circles on one axis never determine it
+  kNoNozzle = 2,     // the ring only
 };
 constexpr std::array<FlagWord, 2> kRing2FlagWords{{{kNoConnector, "no_connector"}, {kNoNozzle, "no_nozzle"}}};
 
-// What a person can do about a refusal of host/vision/ring2 or common/ring2.
+// Advice for a refusal of host/vision/ring2 or common/ring2.
 const char* advice_of(const std::string& refusal) {
   const auto ends = [&refusal](const char* end) { return refusal.ends_with(end); };
   if (ends("_black")) return "the image shows nothing: light, lens cap, exposure?";

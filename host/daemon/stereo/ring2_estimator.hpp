@@ -7,10 +7,10 @@
 
 namespace pharos::host {
 
-/// Docking ring and nozzle of each pair by itself (host/vision/ring2).
+/// Detects docking ring and nozzle in each pair separately (host/vision/ring2).
 class Ring2Estimator : public PairEstimator {
  public:
-  /// Throws InputError for a rig that cannot measure.
+  /// Throws InputError for an invalid rig.
   explicit Ring2Estimator(const RigFile& rig);
   PairResult measure(const StereoPair& pair) override;
   Ring2Pose no_pose() const override { return Ring2PoseEstimate{}; }

@@ -12,12 +12,12 @@ namespace pharos::host {
 namespace {
 
 enum SlamFlag : std::uint8_t {
-  kMapStart = 1,     // poses count from this pair on
-  kRelocalised = 2,  // found again after it was lost
+  kMapStart = 1,     // poses are relative to this pair's
+  kRelocalised = 2,  // relocalised after it was lost
 };
 constexpr std::array<FlagWord, 2> kSlamFlagWords{{{kMapStart, "map_start"}, {kRelocalised, "relocalised"}}};
 
-constexpr std::int64_t kFiguresEvery_ns = 1'000'000'000;  // they cost a lock and a sort
+constexpr std::int64_t kFiguresEvery_ns = 1'000'000'000;  // computing them needs a lock and a sort
 
 std::optional<enhance::EnhanceSettings> settings_of(LowLight light) {
   if (light == LowLight::kOff) return std::nullopt;
@@ -83,7 +83,7 @@ PairResult SlamEstimator::measure(const StereoPair& pair) {
     answer.advice = error.what();
     begin();
   } catch (...) {
-    begin();  // what it holds may be half changed
+    begin();  // the map may be inconsistent
     throw;
   }
   answer.stages = {{"light", lit_ns - start_ns}, {"tracking", monotonic_now_ns() - lit_ns}};

@@ -11,11 +11,11 @@
 
 namespace pharos::host {
 
-/// A target without a model, followed from pair to pair (host/vision/slam), its images enhanced first where that is
-/// asked for. While tracking is lost there is no pose; known views bring it back.
+/// Tracks a target without a model from pair to pair (host/vision/slam), with enhanced images if configured. While
+/// tracking is lost there is no pose; it relocalises at known views.
 class SlamEstimator : public PairEstimator {
  public:
-  /// Of a rig whose `slam` is set. Throws InputError for a rig or a vocabulary that is no good.
+  /// For a rig whose `slam` is set. Throws InputError for an invalid rig or vocabulary.
   explicit SlamEstimator(const StereoConfig& config);
   PairResult measure(const StereoPair& pair) override;
   Ring2Pose no_pose() const override { return SlamPoseEstimate{}; }
@@ -31,7 +31,7 @@ class SlamEstimator : public PairEstimator {
   enhance::EightBitPairs eight_bits_;
   std::unique_ptr<slam::SlamSystem> system_;
   SpinWindow spin_;
-  std::optional<std::int64_t> began_ns_;  // of the pairs' steady time
+  std::optional<std::int64_t> began_ns_;  // in the pairs' steady time
   bool map_started_ = false;
   std::int64_t maps_ = 0;
   std::int64_t last_figures_ns_ = 0;

@@ -10,7 +10,7 @@ namespace pharos::host {
 namespace {
 
 constexpr double kWindow_s = 20.0;
-constexpr std::size_t kMaxAttitudes = 400;  // 20 s at 20 pairs a second
+constexpr std::size_t kMaxAttitudes = 400;  // 20 s at 20 pairs/s
 constexpr double kEvery_s = 1.0;
 constexpr double kSigmasFromRest = 3.0;
 

@@ -10,18 +10,18 @@
 
 namespace pharos::host {
 
-/// What is to be told of a target's turning: a spin, or why there is none.
+/// A target's spin, or the reason why there is none.
 struct SpinResult {
-  std::string refusal;  // the word after refused_; empty where there is a spin
+  std::string refusal;  // the word after refused_; empty if there is a spin
   SpinEstimate spin;
 };
 
-/// Attitudes of the last seconds to a spin, told once a second of the pairs' time (a fit takes some 4 ms).
+/// Fits a spin to the attitudes of the last seconds, once per second of the pairs' time (a fit takes some 4 ms).
 class SpinWindow {
  public:
-  /// The next pair's frame, with or without a pose. Empty where nothing is due.
+  /// Takes the next pair's result, with or without a pose. Empty if no spin is due.
   std::optional<SpinResult> push(const slam::TrackedFrame& frame);
-  /// A new map has other attitudes.
+  /// To be called for a new map, in which attitudes are relative to another pair.
   void clear();
 
  private:

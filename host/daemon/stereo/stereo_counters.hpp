@@ -7,7 +7,7 @@
 
 namespace pharos::host {
 
-// What becomes of the pairs that a system's line is given: each is counted once. X(name, what it counts)
+// Outcomes of the pairs given to a system's pipeline: each is counted once. X(name, what it counts)
 #define PHAROS_STEREO_COUNTERS(X)                                                                 \
   X(pairs_ok, "pairs with a pose")                                                                \
   X(pairs_ambiguous, "pairs with two poses that fit nearly as well")                              \

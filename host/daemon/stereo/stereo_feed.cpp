@@ -74,7 +74,8 @@ void StereoFeed::on_results(System& system) {
   finish_when_all_answered();
 }
 
-// Pairs are held by the loop's thread and by workers that give them back to it: the last holder is always here.
+// Pairs are shared by the event loop's thread and by workers that return them to it, so that the last reference is
+// always released here.
 void StereoFeed::release(StereoPairPtr pair) {
   if (pair.use_count() == 1) pairs_->recycle(std::move(pair));
 }

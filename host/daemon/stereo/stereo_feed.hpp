@@ -13,11 +13,11 @@
 
 namespace pharos::host {
 
-/// One rig of the configuration: its pairs go to a worker for each system, what comes back to that system's pipeline,
-/// errors to the log.
+/// One rig of the configuration: passes its pairs to a worker for each system and the results to that system's
+/// pipeline, and logs errors.
 class StereoFeed final : public Source {
  public:
-  /// Throws InputError where recorded pairs, rig or vocabulary are no good after all.
+  /// Throws InputError if recorded pairs, rig or vocabulary cannot be used.
   StereoFeed(const SourceContext& context, const StereoConfig& config);
   ~StereoFeed() override;
 
@@ -50,7 +50,7 @@ class StereoFeed final : public Source {
   bool finished_ = false;
 };
 
-/// Every [[stereo]].
+/// Opens every [[stereo]].
 std::size_t open_stereo_feeds(const SourceContext& context, SourceList& sources);
 
 }  // namespace pharos::host

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of StereoPipeline that tells how it fares.
+// The health of StereoPipeline.
 #include "host/daemon/health_parts.hpp"
 #include "host/daemon/stereo/stereo_pipeline.hpp"
 
 namespace pharos::host {
-namespace {
-
-// A pair a second is the slowest rig that is not silent.
-
-}  // namespace
-
 SourceHealth StereoPipeline::health(const std::string& device, const PairSourceStatus& pairs,
                                     std::int64_t monotonic_ns) {
   SourceHealth health;
@@ -25,7 +19,7 @@ SourceHealth StereoPipeline::health(const std::string& device, const PairSourceS
   return health;
 }
 
-// From the cameras upwards: the lowest thing that is wrong is the one to tell.
+// In the order of processing: reports the error of the earliest stage.
 void StereoPipeline::assess(SourceHealth& health, const PairSourceStatus& pairs, std::int64_t now_ns) const {
   health.state = state_of(pairs.state);
   health.message = pairs.error;

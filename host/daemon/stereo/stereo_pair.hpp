@@ -10,17 +10,17 @@
 
 namespace pharos::host {
 
-/// Two frames of one instant.
+/// Two frames with the same exposure time.
 struct StereoPair {
   std::array<DepthFramePtr, 2> frames;  // left, right; never null
-  MappedTime time;                      // the middle of both, in this computer's clocks
-  /// The same on a clock that nobody sets, for what moves between pairs. Of a recording: its own.
+  MappedTime time;                      // the mean of both times, in this computer's clocks
+  /// The same on a clock without steps, for motion between pairs. In a replay: the recorded time.
   std::int64_t steady_ns = 0;
-  std::int64_t offset_ns = 0;  // of the right frame after the left one
+  std::int64_t offset_ns = 0;  // right frame's time minus the left frame's
   std::int64_t complete_monotonic_ns = 0;
 };
 
-/// Several estimators may look at one pair.
+/// Several estimators may share a pair.
 using StereoPairPtr = std::shared_ptr<StereoPair>;
 
 }  // namespace pharos::host

@@ -24,7 +24,7 @@ bool StereoPipeline::take(const StereoPair& pair) {
   return gate_.fresh(now_ns - pair.time.monotonic_ns);
 }
 
-// A refusal that differs from the last one, and that it is over, goes to the log; what repeats does not.
+// Logs a refusal that differs from the last one, and the first pose after it; repetitions are not logged.
 void StereoPipeline::count(const StereoReport& report, std::int64_t monotonic_ns) {
   if (report.answered()) {
     ++(report.ambiguous ? counters_.pairs_ambiguous : counters_.pairs_ok);
@@ -51,7 +51,7 @@ StereoReport StereoPipeline::report_of(const StereoPair& pair, const PairResult&
   return report;
 }
 
-// Of a ring; slam has its own idea of how far its target can have moved. Recorded pairs may be of different views.
+// Ring2 only: slam has its own limit on motion. Recorded pairs are not checked, as they may be of different views.
 void StereoPipeline::refuse_jump(StereoReport& report, std::int64_t time_ns) {
   const auto* const pose = std::get_if<Ring2PoseEstimate>(&report.pose);
   if (is_recorded_ || pose == nullptr || !report.answered() || report.ambiguous) return;

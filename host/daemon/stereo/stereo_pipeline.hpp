@@ -20,21 +20,22 @@
 
 namespace pharos::host {
 
-/// One system of one rig: pairs to poses on LCM. Knows no camera, no file and no thread.
+/// One system of one rig: pairs to poses on LCM. Independent of cameras, files and threads.
 class StereoPipeline {
  public:
-  /// `publisher` and `clock` must outlive this. `source` is told in every message.
+  /// `publisher` and `clock` must outlive this. `source` is part of every message.
   StereoPipeline(const StereoConfig& config, const PublishConfig& publish, const std::string& source,
                  Publisher& publisher, const Clock& clock);
 
-  /// A pair that came: whether it is young enough to be measured.
+  /// Takes a new pair; true if it is recent enough to be measured.
   bool take(const StereoPair& pair);
-  /// A pair that was to be measured and gave way to a newer one.
+  /// Counts a pair that was dropped for a newer one before it was measured.
   void dropped() { ++counters_.pairs_dropped; }
-  /// What became of a pair; published before this returns. `clock_was_set`: this computer's, a moment ago.
+  /// Takes the result of a pair, which is published before this returns. `clock_was_set`: this computer's clock,
+  /// recently.
   void done(const PairWorker::Done& done, bool clock_was_set);
 
-  /// The limits of what is published, from now on.
+  /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) {
     gate_.set_max_age(publish.max_age_ns());
     spin_gate_.set_max_age(publish.max_age_ns());
@@ -61,10 +62,10 @@ class StereoPipeline {
   StereoCounters counters_;
   PublishGate gate_;
   PublishGate spin_gate_;
-  std::string last_refusal_;  // with what to do; of the last pair, empty where that has a pose
+  std::string last_refusal_;  // with advice; of the last pair, empty if it has a pose
   NamedCounts figures_;       // of the estimator
   RateMonitor rate_;
-  // Stages of a pair: waiting for its estimator, that and its parts; and from the light to LCM.
+  // Durations of a pair: waiting for its estimator, the estimator and its stages; and in total from exposure to LCM.
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;
   std::map<std::string, LatencyHistogram> stages_;
