@@ -20,7 +20,7 @@ namespace pharos::app {
 /// FIFO of the capture block bridges tens of milliseconds (firmware/rtl/README.md), so there is no ring after it.
 class Program {
  public:
-  /// `desk`: takes sweeps and provides poses, where the build solves them; else null.
+  /// `solver`: takes sweeps and provides poses, in builds that solve them; otherwise null.
   Program(const hal::Board& board, PoseSolver* solver);
 
   /// True when there was anything to do.

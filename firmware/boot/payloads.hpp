@@ -13,7 +13,7 @@
 namespace pharos::boot {
 
 // The payloads that the loader reads and writes, as they lie in a frame (proto/README.md). wire's codec would take half
-// of the loader's 4 KiB; boot_payloads_test compares each of these with that codec.
+// of the loader's 4 KiB; the tests of this room compare each of these with that codec.
 
 struct [[gnu::packed, gnu::aligned(4)]] HelloPayload {
   wire::Role role;

@@ -21,8 +21,8 @@ struct DotFit {
 /// Fits an ellipse with a Gaussian edge, its brightness and that brightness' gradient over it, on a uniform background,
 /// to every pixel within `reach` times the dot's axes. Only the edge determines the centre, as in the noise bound:
 /// sigma^2 = 2 sqrt(pi) noise^2 blur / (pi radius contrast^2). The bias of the edge by blur is the same all round, and
-/// perspective and lens move the centre of the ellipse as they move that of its area (DotModel). Empty where the grey
-/// values are no such dot.
+/// perspective and lens move the centre of the ellipse as they move that of its area. Empty if the grey values are not
+/// such a dot.
 std::optional<DotFit> fit_dot(GreyView image, const Blob& blob, double reach);
 
 }  // namespace pharos::calibrate

@@ -25,7 +25,7 @@ std::vector<char> simulated_light(int sensors);
 std::vector<char> simulated_words(int sensors, int cycles);
 
 /// Pose problems in the format of measure_pose, with a prior of a cycle's motion and the host's result. The last
-/// `from_nothing` are also solved without the prior. `host_us`: medians of the host's time a solve.
+/// `from_nothing` are also solved without the prior. `host_..._us`: medians of the host's time per solve.
 struct PoseInput {
   std::vector<char> bytes;
   double host_warm_us = 0.0, host_nothing_us = 0.0;
