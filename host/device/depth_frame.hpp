@@ -11,38 +11,38 @@
 
 namespace pharos::host {
 
-/// How counts of X, Y, Z become metres, as the camera itself says: m = count * scale + offset.
+/// Conversion of counts of X, Y, Z to metres, as stated by the camera: m = count * scale + offset.
 struct CoordinateScale {
   std::array<double, 3> scale_m{};
   std::array<double, 3> offset_m{};
 };
 
-/// What a frame's time counts from.
+/// Epoch of a frame's time.
 enum class CameraClock : std::uint8_t {
-  kOwn,   // whatever the camera's clock began at
-  kPtp,   // the epoch of 1970, UTC or TAI, as the network's PTP clock has it
+  kOwn,   // the camera's own, arbitrary
+  kPtp,   // the epoch of 1970, UTC or TAI, as of the network's PTP clock
   kHost,  // the epoch of 1970, UTC of this computer
 };
 
-/// One frame of a depth camera: intensity and Cartesian Z of every pixel, and when it was taken. Of a grey camera: the
-/// intensity alone.
+/// One frame of a depth camera: intensity and Cartesian Z of every pixel, and its time. Of a grey camera: intensity
+/// only.
 struct DepthFrame {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
   std::vector<std::uint16_t> intensity;  // row by row
   std::vector<std::uint16_t> depth;      // counts; 0 and 65535: none
-  /// How often the camera had been opened when it sent this; its clock and its numbers begin anew with every opening.
+  /// Number of times the camera had been opened; its clock and its frame numbers restart at every opening.
   std::uint32_t session = 0;
-  /// When it was taken, ns on this clock.
+  /// Time of exposure, ns on this clock.
   std::int64_t camera_ns = 0;
   CameraClock clock = CameraClock::kOwn;
-  /// Depth and intensity were taken one after the other (formats that hold one of them): camera_ns is of the depth.
+  /// Depth and intensity are from consecutive frames (alternating formats): camera_ns is that of the depth.
   bool taken_in_turns = false;
-  /// First packet's arrival on this computer's clocks, and the whole frame's.
+  /// Arrival of the first packet, and of the complete frame, on this computer's clocks.
   std::int64_t arrival_utc_ns = 0;
   std::int64_t arrival_monotonic_ns = 0;
   std::int64_t complete_monotonic_ns = 0;
-  /// Of the camera's nodes; empty where it has none (then the camera file holds).
+  /// From the camera's nodes; empty if it has none (the camera file's is used then).
   std::optional<CoordinateScale> scale;
 
   void resize(std::int32_t width, std::int32_t height) {

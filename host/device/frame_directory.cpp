@@ -52,7 +52,7 @@ GreyImage read_image(const fs::path& path, std::int32_t width_px, std::int32_t h
   return image;
 }
 
-// Depths are counts: neither 8 bits stretched to 16 nor the luma of a colour is one.
+// Depths are counts: 8 bits scaled to 16, or the luma of a colour image, are not accepted.
 std::vector<std::uint16_t> depths_of(GreyImage&& image, const fs::path& path) {
   if (image.bits != 16 || image.from_colour) {
     throw InputError(path.string() + ": is " + (image.from_colour ? "in colour" : "of 8 bits") +
@@ -61,7 +61,7 @@ std::vector<std::uint16_t> depths_of(GreyImage&& image, const fs::path& path) {
   return std::move(image.pixels);
 }
 
-// One file for each half of a frame.
+// One file each for intensity and depth of a frame.
 void take(std::string& place, const std::string& file) {
   if (!place.empty()) throw InputError(file + " and " + place + " are one frame's; remove one");
   place = file;

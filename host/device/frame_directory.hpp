@@ -13,18 +13,18 @@
 namespace pharos::host {
 
 /// A directory of recorded frames, as `pharos sim tof` writes it: NNNN_intensity.png and NNNN_depth.png (16 bits), or
-/// NNNN_abcy16.raw, in the order of their numbers. Any image that read_grey_image takes will do: intensities of 8 or 16
+/// NNNN_abcy16.raw, in the order of their numbers. All formats of read_grey_image are accepted: intensities of 8 or 16
 /// bits, grey or colour (luma); depths grey and of 16 bits.
 class FrameDirectory {
  public:
-  /// Throws InputError where there is no frame, or a half of one.
+  /// Throws InputError if there is no frame, or one without its intensity or depth.
   explicit FrameDirectory(const std::string& path);
 
   std::size_t frames() const { return entries_.size(); }
-  /// The name before `_`, as the file has it.
+  /// The part of the file's name before `_`.
   const std::string& name(std::size_t index) const { return entries_[index].name; }
   /// Reads sizes and pixels of one frame. `width`, `height`: those of the camera; throws InputError for files of
-  /// another size, and for files that cannot be read. Returns the intensity's file where its luma was taken.
+  /// another size, and for files that cannot be read. Returns the intensity's file if its luma was used.
   std::string read(std::size_t index, std::int32_t width_px, std::int32_t height_px, DepthFrame& frame) const;
 
  private:
@@ -38,7 +38,7 @@ class FrameDirectory {
 
   std::filesystem::path folder_;
   std::vector<Entry> entries_;                 // by number
-  std::map<std::string, std::size_t> places_;  // while the directory is read
+  std::map<std::string, std::size_t> places_;  // used while the directory is read
 };
 
 }  // namespace pharos::host

@@ -9,7 +9,7 @@
 
 namespace pharos::host {
 
-// What a source counts, once by name. X(name, what it counts)
+// The counters of a source. X(name, what it counts)
 #define PHAROS_FRAME_SOURCE_COUNTERS(X)                                                               \
   X(frames_received, "whole frames of the right size and format")                                     \
   X(frames_incomplete, "frames with packets missing")                                                 \
@@ -33,7 +33,7 @@ struct FrameSourceCounters {
 #undef PHAROS_X
 };
 
-/// Calls visit(name, value) for every counter; the value may be changed where the counters may.
+/// Calls visit(name, value) for every counter; the value can be changed if the counters are not const.
 template <class Counters, class Visitor>
 requires std::is_same_v<std::remove_const_t<Counters>, FrameSourceCounters>
 void for_each_counter(Counters& counters, Visitor&& visit) {
@@ -43,28 +43,28 @@ void for_each_counter(Counters& counters, Visitor&& visit) {
 }
 
 enum class CameraState : std::uint8_t {
-  kOpen,    // frames come, or may be expected to
+  kOpen,    // frames come or are expected
   kSilent,  // open, but no frame comes
-  kGone,    // not there
-  kTaken,   // another program holds it
-  kWrong,   // it is not what the configuration says
+  kGone,    // not found
+  kTaken,   // in use by another program
+  kWrong,   // not as configured
 };
 
-/// How a source of frames or of pairs fares.
+/// Status of a source of frames or of pairs.
 struct SourceStatus {
   CameraState state = CameraState::kGone;
   std::string error;          // what is wrong and what to do; empty when open
-  std::string remark;         // to be said once: what was made of a recording's images
+  std::string remark;         // to be logged once: how a recording's images were converted
   std::string identity;       // of each camera: vendor, model, serial number, mode, format, packets
-  std::uint32_t session = 0;  // grows with every opening of a camera
-  bool finished = false;      // a recording has come to its end
+  std::uint32_t session = 0;  // increases with every opening of a camera
+  bool finished = false;      // a recording has ended
 };
 
 struct FrameSourceStatus : SourceStatus {
   FrameSourceCounters counters;
 };
 
-/// Where depth frames come from: a camera on the network, or recorded frames.
+/// A source of depth frames: a camera on the network, or recorded frames.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -73,7 +73,7 @@ class FrameSource {
   virtual DepthFramePtr take() = 0;
   virtual void recycle(DepthFramePtr frame) = 0;
   virtual FrameSourceStatus status() const = 0;
-  /// What it reads from, for people.
+  /// Readable name of its device.
   virtual std::string device() const = 0;
 };
 

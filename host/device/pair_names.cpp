@@ -29,7 +29,7 @@ std::vector<fs::path> images_in(const std::string& folder) {
   return images;
 }
 
-// Of a name that ends in _left or _right, what stands before that.
+// The name without a final _left or _right.
 std::string name_of_pair(const fs::path& path) {
   const std::string stem = path.stem().string();
   for (const std::string_view side : {"_left", "_right"}) {
@@ -38,7 +38,7 @@ std::string name_of_pair(const fs::path& path) {
   return stem;
 }
 
-// Names that both sides share pair the images; who has no namesake then is alone.
+// If both sides have names in common, images are paired by name, and an image without a partner is an error.
 void refuse_lone(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights) {
   const auto [a, b] = std::mismatch(lefts.begin(), lefts.end(), rights.begin(), rights.end(),
                                     [](const auto& l, const auto& r) { return name_of_pair(l) == name_of_pair(r); });
@@ -77,14 +77,14 @@ double half_step_ns(const std::vector<fs::path>& images) {
   return 0.5 * steps[steps.size() / 2];
 }
 
-// Images of two sides that belong together, in order, and where among all of both sides each pair lies.
+// Paired images of both sides, in order, and each pair's position among all images of both sides.
 struct Matched {
   std::vector<fs::path> lefts, rights;
   std::vector<std::size_t> places;
 };
 
-// Leaves out, and names, who has no partner. `order` is below 0 where the left image comes before the right one, 0
-// where they are a pair.
+// Leaves out images without a partner and appends their names to `alone`. `order` is below 0 if the left image is
+// before the right one, 0 if they are a pair.
 template <class Order>
 Matched match(const std::vector<fs::path>& lefts, const std::vector<fs::path>& rights, Order&& order,
               std::vector<std::string>& alone) {
@@ -166,7 +166,7 @@ std::vector<PairName> pair_names(const std::string& left, const std::string& rig
       return paired(matched.lefts, matched.rights, rate_hz, matched.places);
     }
   }
-  // Stamps of two cameras may differ by a little: those are held to half a frame below.
+  // Time stamps of two cameras may differ slightly: paired() below allows half a frame.
   if (!stamp_ns(lefts.front()) && share_a_name(lefts, rights)) refuse_lone(lefts, rights);
   if (lefts.size() != rights.size()) {
     throw InputError(left + " holds " + std::to_string(lefts.size()) + " images and " + right + " " +

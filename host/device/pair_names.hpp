@@ -13,22 +13,23 @@ struct PairName {
   std::string left;
   std::string right;
   double time_s = 0.0;
-  std::optional<std::int64_t> stamp_ns;  ///< where the pair's name tells its time
+  std::optional<std::int64_t> stamp_ns;  ///< if the pair's name is its time
   std::string stem;                      ///< of the left file, for pictures
 };
 
-/// Pairs of the images of two folders (by their endings, see has_image_ending) by sorted name. Time: the name where it
-/// is a number of 16 to 19 digits (ns), else index / rate. Throws InputError for a folder without images, for different
-/// numbers of images, for an image without a namesake where other names are those of both sides (stamps excepted), and
-/// for times that do not grow or of which left and right differ by more than half a frame.
+/// Pairs of the images in two folders (by their endings, see has_image_ending) by sorted name. Time: the name if it is
+/// a number of 16 to 19 digits (ns), otherwise index / rate. Throws InputError for a folder without images, for
+/// different numbers of images, for an image without a partner if the sides have other names in common (time stamps
+/// excepted), and for times that do not increase, or whose left and right differ by more than half a frame.
 ///
-/// With `alone`, images without a partner are named there and left out instead: an index counts them, stamps are paired
-/// within half a frame. Refused where fewer pairs than lone images remain, and where names differ and numbers too.
+/// With `alone`, images without a partner are left out and appended there: they count for the index, and time stamps
+/// are paired within half a frame. It still throws if fewer pairs than such images remain, and if both the names and
+/// the numbers of images differ.
 std::vector<PairName> pair_names(const std::string& left, const std::string& right, double rate_hz,
                                  std::vector<std::string>* alone = nullptr);
 
-/// The same of one directory as `pharos sim stereo` writes it: left/ and right/ in it, or NAME_left.png beside
-/// NAME_right.png. Also throws for a left image without its right one, or the reverse.
+/// The same for one directory, as `pharos sim stereo` writes it: with left/ and right/, or with NAME_left.png and
+/// NAME_right.png. Also throws for an image of one side without that of the other.
 std::vector<PairName> pair_names_in(const std::string& directory, double rate_hz);
 
 }  // namespace pharos::host

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kBytesAbcy16 = 8;
 constexpr std::size_t kBytes16 = 2;
-constexpr std::size_t kZ = 2;  // of X, Y, Z, intensity
+constexpr std::size_t kZ = 2;  // index in X, Y, Z, intensity
 constexpr std::size_t kIntensityPlace = 3;
 
 std::uint16_t little_endian(const std::uint8_t* bytes) {

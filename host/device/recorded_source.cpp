@@ -23,7 +23,7 @@ RecordedSource::RecordedSource(const std::string& directory, std::int32_t width_
   arm();
 }
 
-// A beat of its own where there is a rate; else one frame after another.
+// A periodic timer if there is a frame rate; otherwise the next frame follows at once.
 void RecordedSource::arm() {
   using std::chrono::nanoseconds;
   if (frame_rate_hz_ <= 0.0) {

@@ -7,11 +7,10 @@
 
 namespace pharos::host {
 
-/// Recorded frames, shown as if a camera took them now, one after another; then it has come to its end. A file that
-/// cannot be read is counted and passed over.
+/// Recorded frames, once and in order, as if a camera took them now. A file that cannot be read is counted and skipped.
 class RecordedSource : public FrameSource {
  public:
-  /// `frame_rate_hz` 0: as fast as they are taken. Throws InputError where there are no frames.
+  /// `frame_rate_hz` 0: as fast as they are taken. Throws InputError if there are no frames.
   RecordedSource(const std::string& directory, std::int32_t width_px, std::int32_t height_px, double frame_rate_hz);
 
   int fd() const override { return timer_.fd(); }

@@ -16,34 +16,34 @@
 
 namespace pharos::tracking {
 
-/// Without any station's flash for longer than this, a station may come back under another's number (decoders
-/// extrapolate rotors for 300 s), so nothing that was known of a number holds any more.
+/// Maximum time without a flash of any station. After a longer time a station may come back with another slot number
+/// (decoders extrapolate rotors for 300 s), so that everything known about slot numbers becomes invalid.
 inline constexpr std::int64_t kMaxDarkness_ticks = 240 * kTicksPerSecond;
 
-/// Where a station's calibration comes from, and what becomes of a station that has none.
+/// Source of the stations' calibrations, and handling of a station without one.
 struct CalibrationPolicy {
-  /// What stations send of themselves holds where the survey does not know them.
+  /// Use calibrations that stations send, for stations that are not in the survey.
   bool use_sent = true;
-  /// Sweeps of a station without calibration are answered as the ideal station's (track::kEpochUncalibrated), or not at
-  /// all.
+  /// Sweeps of a station without calibration are used as those of an ideal station (track::kEpochUncalibrated), or
+  /// ignored.
   bool answer_uncalibrated = true;
-  /// What is known beforehand, and goes before what stations send; null: nothing. Must outlive the tracker.
+  /// Known calibrations, which take precedence over those that stations send; null: none. Must outlive the tracker.
   const StationSurvey* survey = nullptr;
 };
 
-/// Sweeps and OOTX payloads of one target in, answers out: a tracker that knows which station stands in which slot,
-/// whose calibration holds there, and when to forget it.
+/// Computes results from sweeps and OOTX payloads of one target: a tracker that also manages which station is in which
+/// slot, which calibration is in effect there, and when it becomes invalid.
 ///
-/// - A calibration that a station sends holds from its second equal payload, or from the first that equals one accepted
-///   before (lighthouse::CalibrationStore). One of the survey holds for its slot at once, for its id from the first
-///   payload that names it: nothing of that payload but the id is used.
-/// - The stations' relative pose holds while both slots' ids are known and the survey measured these two.
-/// - After kMaxDarkness_ticks without a flash, and after restart(), it is unknown which station is which. What was
-///   accepted is not forgotten: one payload brings it back.
+/// - A calibration that a station sends is used from its second equal payload on, or from the first one that equals a
+///   previously accepted one (lighthouse::CalibrationStore). A calibration of the survey by slot is used at once; one
+///   by id from the first payload with that id on, of which nothing but the id is used.
+/// - The stations' relative pose is used while the ids of both slots are known and the survey has this pair.
+/// - After kMaxDarkness_ticks without a flash, and after restart(), the stations of the slots are unknown. Accepted
+///   calibrations are kept: one payload puts them into effect again.
 ///
-/// Tracker: track::EpochTracker on the soft core, MethodTracker on a computer. Where it has no set_relative(), relative
-/// poses are left out. Costs nothing beside the tracker's push() but a look at each sweep's flash; state: the
-/// tracker's, and 1.1 KiB.
+/// Tracker: track::EpochTracker on the soft core, MethodTracker on a computer. Relative poses are not used if it has no
+/// set_relative(). The cost in addition to the tracker's push() is one comparison per sweep; state: the tracker's, and
+/// 1.1 KiB.
 template <class Tracker>
 class CalibratedTracker {
  public:
@@ -55,25 +55,25 @@ class CalibratedTracker {
   CalibratedTracker(const CalibratedTracker&) = delete;
   CalibratedTracker& operator=(const CalibratedTracker&) = delete;
 
-  /// What stations sent before: calibrations accepted, and who stands where, if that is known.
+  /// Restores the data that stations sent earlier: accepted calibrations, and the stations of the slots if known.
   void resume(const lighthouse::CalibrationStore& sent) {
     sent_ = sent;
     apply_calibrations();
   }
-  /// The target's clock or its decoder began anew: numbers and times of before mean nothing any more.
+  /// The target's clock or its decoder restarted: earlier slot numbers and times are invalid.
   void restart() {
     sent_.forget_stations();
     newest_flash_ticks_ = kNoFlash;
     restart_tracking();
   }
-  /// Sweeps may be missing from here on: the body is looked for anew. Stations stay who they are.
+  /// Restarts tracking because sweeps may be missing. The stations of the slots stay known.
   void restart_tracking() {
     tracker_.forget_stations();
     apply_calibrations();
   }
 
-  /// What is known of target or stations changed: the body is looked for anew, with a tracker of these arguments and
-  /// what the policy's survey says now. Stations stay who they are.
+  /// Restarts tracking after a change of the target or the survey, with a new tracker of these arguments and the
+  /// policy's current survey. The stations of the slots stay known.
   template <class... Arguments>
   void rebuild(Arguments&&... tracker) {
     tracker_ = Tracker(std::forward<Arguments>(tracker)...);
@@ -85,24 +85,24 @@ class CalibratedTracker {
     apply_calibrations();
     return verdict;
   }
-  /// The tracker's answer, if this sweep brings one. A sweep of no station (number kMaxStations and above) is ignored.
+  /// The tracker's result, if this sweep gives one. A sweep of an invalid station (number >= kMaxStations) is ignored.
   std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep) {
     if (sweep.flash.station >= kMaxStations) return std::nullopt;
     watch_darkness(sweep.flash.start_ticks);
     if (!policy_.answer_uncalibrated && effective_calibration(sweep.flash.station) == nullptr) return std::nullopt;
     return tracker_.push(sweep);
   }
-  /// End of the input: what is still held back (call until empty).
+  /// End of the input: a result that was still held back (call until empty).
   std::optional<track::EpochResult> flush() { return tracker_.flush(); }
 
-  /// The calibration that holds for a slot now; null for none.
+  /// The calibration in effect for a slot; null for none.
   const lighthouse::StationCalibration* effective_calibration(std::uint8_t station) const {
     if (policy_.survey != nullptr) {
       if (const auto* known = policy_.survey->find(station, sent_.named_id(station))) return known;
     }
     return policy_.use_sent ? sent_.in_use(station) : nullptr;
   }
-  /// What stations sent of themselves, used or not.
+  /// The calibrations that stations sent, used or not.
   const lighthouse::CalibrationStore& sent() const { return sent_; }
   const Tracker& tracker() const { return tracker_; }
 
@@ -115,13 +115,14 @@ class CalibratedTracker {
   };
   static constexpr std::int64_t kNoFlash = std::numeric_limits<std::int64_t>::min();
 
-  // Every flash is light, also that of a station that is not answered. The first one ends no darkness.
+  // Every flash ends a dark interval, also that of an ignored station. Before the first flash there is no dark
+  // interval.
   void watch_darkness(std::int64_t flash_ticks) {
     if (newest_flash_ticks_ != kNoFlash && flash_ticks - newest_flash_ticks_ > kMaxDarkness_ticks) restart();
     newest_flash_ticks_ = std::max(newest_flash_ticks_, flash_ticks);
   }
-  // Setting again what a tracker has changes nothing there. Not inlined into each of its callers: the soft core's
-  // image.
+  // Setting a calibration that the tracker already has changes nothing. Not inlined into its callers, for the size of
+  // the soft core's image.
   [[gnu::noinline]] void apply_calibrations() {
     for (std::uint8_t station = 0; station < kMaxStations; ++station) {
       if (const auto* calibration = effective_calibration(station)) {

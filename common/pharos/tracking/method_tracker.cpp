@@ -46,7 +46,8 @@ std::optional<track::EpochResult> MethodTracker::push(const lighthouse::Sweep& s
   return widened(std::visit([&](auto& tracker) { return tracker.push(sweep); }, tracker_));
 }
 
-// A cycle solved alone knows the noise of its bearings only; a station without calibration is off by far more.
+// The covariance of a single cycle includes only the noise of its bearings; the error of an uncalibrated station is
+// much larger and is added here.
 std::optional<track::EpochResult> MethodTracker::widened(std::optional<track::EpochResult> result) const {
   const auto* epoch = std::get_if<track::EpochTracker>(&tracker_);
   if (epoch == nullptr || !result || !result->pose || (result->flags & track::kEpochUncalibrated) == 0) return result;

@@ -11,18 +11,18 @@
 
 namespace pharos::tracking {
 
-/// How poses are found: every hit at its own instant, a pose a sweep (common/pharos/motion), or each cycle alone, a
-/// pose a cycle, as in paper 002 (common/pharos/track).
+/// How poses are computed: every hit at its own time, one pose per sweep (common/pharos/motion), or each cycle
+/// separately, one pose per cycle, as in paper 002 (common/pharos/track).
 enum class Method : std::uint8_t { kMotion, kEpoch };
 
 struct MethodOptions {
   Method method = Method::kMotion;
-  track::TrackOptions track;                                          // of both: noise, solver, station model
-  motion::SystematicErrors systematic = motion::kUncalibratedErrors;  // of motion
-  motion::UncertaintyLimits limits;                                   // of motion
+  track::TrackOptions track;                                          // both methods: noise, solver, station model
+  motion::SystematicErrors systematic = motion::kUncalibratedErrors;  // method motion
+  motion::UncertaintyLimits limits;                                   // method motion
 };
 
-/// The tracker of the chosen method; what each does is said there. Some 125 KiB.
+/// The tracker of the chosen method; see there. Some 125 KiB.
 class MethodTracker {
  public:
   MethodTracker(const Target& target, const MethodOptions& options);
@@ -30,14 +30,14 @@ class MethodTracker {
   void set_calibration(std::uint8_t station, const lighthouse::StationCalibration& calibration,
                        lighthouse::CalibrationSource source);
   void clear_calibration(std::uint8_t station);
-  /// Method epoch has no use for it.
+  /// Not used by method epoch.
   void set_relative(const std::optional<motion::StationRelative>& relative);
-  /// What both stations see contradicts how they stand by set_relative(), which is not used any more.
+  /// Whether measurements of both stations contradicted the pose of set_relative(), which is then no longer used.
   bool relative_pose_rejected() const;
   void forget_stations();
   std::optional<track::EpochResult> push(const lighthouse::Sweep& sweep);
   std::optional<track::EpochResult> flush();
-  /// The hits of the answer last given, those left out too.
+  /// Number of hits of the last result, including those left out.
   std::size_t bearing_count() const;
   track::TrackedBearing bearing(std::size_t index) const;
 

@@ -10,8 +10,8 @@
 
 namespace pharos::tracking {
 
-/// What the rotors' errors add to the covariance of the pose that a cycle's bearings gave by least squares; `cycle` is
-/// the tracker that solved it last. Empty where those that it used do not determine a pose.
+/// Covariance that the rotors' errors add to a pose that was computed by least squares from a cycle's bearings; `cycle`
+/// is the tracker that solved it last. Empty if the bearings that it used do not determine a pose.
 std::optional<Matrix6> rotor_covariance(const LighthouseFromBody& T_lighthouse_body, const track::EpochTracker& cycle,
                                         const Target& target, const motion::RotorSpread& spread);
 
