@@ -41,7 +41,7 @@ void CaptureFeed::advance(std::int64_t now_ticks) {
   given_until_ = now_ticks;
 }
 
-// Readings of the counter on the way to `tick`; of a very long dark only the last second.
+// Readings of the counter up to `tick`; in a very long dark interval only for the last second.
 void CaptureFeed::pass_time(std::int64_t tick) {
   if (tick - time_given_ > kLongestDark_ticks) put_time(tick - kTicksPerSecond);
   while (tick - time_given_ > kTimeEvery_ticks) put_time(time_given_ + kTimeEvery_ticks);

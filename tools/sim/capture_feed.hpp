@@ -12,23 +12,23 @@
 
 namespace pharos::sim {
 
-/// What a capture block on the photodiodes' pins would give its firmware: pulses in, the words of its registers out, as
-/// the emulated board reads them (firmware/board/qemu_virt/capture_replay.hpp). A FIFO that is always read in time: no
-/// gap but the first, no edge lost. The Verilated block itself is played by tests/rtl/edges_through_capture.
+/// Simulates a capture block on the photodiodes' pins: converts pulses to the words of its registers, as the emulated
+/// board reads them (firmware/board/qemu_virt/capture_replay.hpp). The FIFO is always read in time: no gap but the
+/// first, no lost edge. tests/rtl/edges_through_capture simulates the Verilated block itself.
 class CaptureFeed {
  public:
-  /// In any order, as long as those that begin before a time come before advance() to that time.
+  /// Pulses in any order, but those that begin before a time must be given before advance() to that time.
   void push(const lighthouse::RawPulse& pulse);
-  /// The counter stands here: everything earlier is in bytes() afterwards, and a reading of the counter at least every
-  /// millisecond of it. May not run backwards.
+  /// Advances the counter: everything earlier is in bytes() afterwards, with a reading of the counter at least every
+  /// millisecond. Must not go backwards.
   void advance(std::int64_t now_ticks);
-  /// The end: the emulator stops when it comes here.
+  /// Marks the end, at which the emulator stops.
   void end();
 
-  /// Words that wait to be handed over; take what you need and clear it.
+  /// Words produced so far; the caller takes and clears them.
   std::vector<std::uint8_t>& bytes() { return bytes_; }
-  /// Pulses that pins cannot show: of no length, begun before the one before them on that sensor ended, or stamped
-  /// long ago (devices that send old pulses at their start).
+  /// Number of pulses that cannot occur on pins: of zero length, begun before the end of the previous one on that
+  /// sensor, or with an old stamp (from devices that send old pulses at their start).
   std::uint64_t pulses_left_out() const { return left_out_; }
 
  private:

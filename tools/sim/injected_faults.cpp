@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LighthouseSimulator does to the light on request: every fault that recordings show.
+// The faults that LighthouseSimulator injects on request: all that occur in recordings.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ void LighthouseSimulator::draw_hands() {
   }
 }
 
-// What a device still had in its buffer from before: saturated pulses, far off the time of the rest.
+// Old pulses from a device's buffer: saturated, and at times far from those of the others.
 void LighthouseSimulator::queue_stale_pulses() {
   const std::int64_t first = clock_.stamp(0.0);
   for (int i = 0; i < scenario_.faults.stale_pulses; ++i) {
@@ -52,7 +52,8 @@ void LighthouseSimulator::note(double time_s, const char* kind, int station, int
   faults_.push_back({clock_.counter_time(time_s), kind, station, sensor, amount});
 }
 
-// Runs of missed flashes of geometrically distributed length; they begin so often that the given share is missed.
+// Runs of missed flashes with a geometric distribution of lengths; they begin at the rate that gives the given
+// fraction.
 bool LighthouseSimulator::misses_flash(std::size_t station) {
   const FaultScenario& faults = scenario_.faults;
   if (faults.missed_flash_rate <= 0.0) return false;
@@ -97,7 +98,7 @@ void LighthouseSimulator::queue_noise_pulses(const Slot& slot) {
   scatter(scenario_.faults.endless_per_s, "endless", 1e6, 1e7);
 }
 
-// Edges lost or doubled between photodiode and stamp, as they show in a recorder that pairs a rise with the next fall.
+// Edges lost or doubled between photodiode and stamp, as recorded by a device that pairs a rise with the next fall.
 std::optional<SimulatedPulse> LighthouseSimulator::with_edge_faults(SimulatedPulse pulse) {
   const FaultScenario& faults = scenario_.faults;
   if (faults.lost_edge_rate == 0.0 && faults.doubled_rate == 0.0) return pulse;

@@ -17,12 +17,12 @@ struct SheetErrors {
 /// The two published sets of signs of the sheet's errors.
 enum class SheetForm { kForm1 = 1, kForm2 = 2 };
 
-/// Which way a rotor turns: kX from the station's +x axis over straight ahead (z), about -y; kY from +y over z, about
-/// x.
+/// Direction of a rotor's rotation: kX from the station's +x axis over straight ahead (z), about -y; kY from +y over z,
+/// about x.
 enum class Rotor { kX = 0, kY = 1 };
 
-/// One rotor's laser sheet as a thing in space: a plane, tilted against the rotor's axis and bent along it, on a rotor
-/// whose turning is uneven once a turn. Station's frame L: x right, y down, z ahead.
+/// One rotor's laser sheet as a surface in space: a plane, tilted against the rotor's axis and bent along it, on a
+/// rotor whose speed varies once per turn. Station's frame L: x right, y down, z ahead.
 ///
 /// With a the distance of a point along the sheet's motion from the rotor's axis, o that along the axis, m the
 /// mechanical angle of the rotor and theta = 2 pi (time since the flash) / period:
@@ -35,11 +35,11 @@ class LaserSheet {
  public:
   LaserSheet(Rotor rotor, SheetForm form, const SheetErrors& errors);
 
-  /// Sine of the angle by which `point_L` still lies ahead of the sheet (0: hit; positive: to be hit later) when the
-  /// rotor has turned by `turn_rad` since its flash. The point must lie ahead of the station (z > 0).
+  /// Sine of the angle by which `point_L` is ahead of the sheet (0: hit; positive: hit later) when the rotor has turned
+  /// by `turn_rad` since its flash. The point must be in front of the station (z > 0).
   double lead(double turn_rad, const Vector3& point_L) const;
 
-  /// theta of a sheet without errors at that point: where the search for the hit starts.
+  /// theta of a sheet without errors at that point: start value of the search for the hit.
   double ideal_turn(const Vector3& point_L) const;
 
  private:

@@ -205,8 +205,8 @@ void LighthouseSimulator::queue_flashes(const Slot& slot) {
   }
 }
 
-// The instant at which the sheet meets the sensor where it then is: lead(turn(t), p(t)) = 0. The lead falls at the
-// rotor's rate but for the sensor's own motion (a per cent at most), so a step of lead / rate converges by two digits.
+// The time at which the sheet meets the moving sensor: lead(turn(t), p(t)) = 0. The lead decreases at the rotor's rate,
+// except for the sensor's own motion (at most one per cent), so that each step of lead / rate gains two digits.
 std::optional<double> LighthouseSimulator::hit_time(std::size_t station, const Slot& slot, std::size_t sensor) const {
   const StationSlot& timing = slot.station[station];
   const LaserSheet& sheet = sheets_[station][static_cast<std::size_t>(slot.rotor)];
@@ -255,7 +255,7 @@ void LighthouseSimulator::queue_hit(std::size_t station, const Slot& slot, std::
     return;
   }
   if (covered(sensor, centre_s)) {
-    // Light that comes through or around fingers: half of the hits vanish, half smear out to a flash's length.
+    // Light through or around fingers: half of the hits vanish, half become as long as a flash.
     if (fault_random_.chance(0.5)) return;
     const double smeared = fault_random_.uniform(3000.0, 7000.0);
     queue(sensor, centre_s - seconds(0.5 * smeared), centre_s + seconds(0.5 * smeared));

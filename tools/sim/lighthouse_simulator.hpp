@@ -32,18 +32,18 @@ struct InjectedFault {
   double amount = 0.0;  // of the kind's own unit, see README
 };
 
-/// A station as built and as it says of itself.
+/// A station's true and announced errors.
 struct SimulatedStation {
   RoomFromStation pose;
   StationAnnouncement announced;           // rotor values as half precision keeps them
   std::array<SheetErrors, 2> true_errors;  // announced plus the systematic errors
 };
 
-/// Lighthouse 1.0 stations and a target before them: pulses as the target's counter would stamp them, in the order of
-/// their ends (as recordings have them) but for injected disorder. Same scenario and seed: same pulses.
+/// Lighthouse 1.0 stations and a target in front of them: pulses with the stamps of the target's counter, in the order
+/// of their ends (as in recordings) except for injected reordering. The same scenario and seed give the same pulses.
 ///
-/// Every hit is the instant at which the laser sheet meets the sensor where it then is. About 300 times real time for
-/// 12 sensors. Counter time is unwrapped ticks x 20 ns throughout.
+/// Every hit is at the time at which the laser sheet meets the moving sensor. About 300 times real time for 12 sensors.
+/// Counter time is unwrapped ticks x 20 ns throughout.
 class LighthouseSimulator {
  public:
   LighthouseSimulator(LighthouseScenario scenario, std::uint64_t seed);
@@ -64,7 +64,7 @@ class LighthouseSimulator {
   const std::vector<SimulatedStation>& stations() const { return stations_; }
   const Target& nominal_target() const { return scenario_.target; }
   const Target& true_target() const { return true_target_; }
-  /// What was injected so far, in no strict order of time.
+  /// The faults injected so far, not strictly in the order of time.
   const std::vector<InjectedFault>& faults() const { return faults_; }
 
  private:

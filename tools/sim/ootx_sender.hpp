@@ -9,7 +9,7 @@
 
 namespace pharos::sim {
 
-/// What a station says of itself; magnitudes are what half precision keeps of them.
+/// The values that a station announces; magnitudes are rounded to half precision.
 struct StationAnnouncement {
   std::uint16_t firmware = 244;
   std::uint32_t id = 0;
@@ -21,18 +21,18 @@ struct StationAnnouncement {
   std::uint8_t faults = 0;
 };
 
-/// The nearest IEEE half-precision value (ties to even) and what it stands for.
+/// The nearest IEEE half-precision value (ties to even): its bits and its value.
 std::uint16_t to_half(double value);
 double from_half(std::uint16_t half);
 
-/// The errors as they come out of a transmission in half precision.
+/// The errors after a transmission in half precision.
 SheetErrors as_transmitted(const SheetErrors& errors);
 
 /// The 33 bytes of protocol 6.
 std::vector<std::uint8_t> announcement_bytes(const StationAnnouncement& announcement);
 
-/// One frame as it is flashed: preamble (17 zeros, a one), length, payload padded to even, CRC-32, a one after every 16
-/// bits.
+/// One frame as transmitted by flashes: preamble (17 zeros, a one), length, payload padded to even, CRC-32, a one after
+/// every 16 bits.
 std::vector<bool> ootx_frame_bits(const std::vector<std::uint8_t>& payload);
 
 /// CRC-32 (reflected, polynomial 0x04C11DB7) of the bytes.

@@ -15,7 +15,7 @@ namespace pharos::sim {
 /// Throws host::InputError: `path` cannot be written, for errno's reason.
 [[noreturn]] void refuse_output(const std::filesystem::path& path);
 
-/// Makes `folder` and those above it where they are missing. Throws host::InputError.
+/// Creates `folder` and its parents if they are missing. Throws host::InputError.
 void make_output_folder(const std::filesystem::path& folder);
 
 /// Writes a whole file. Throws host::InputError.
@@ -23,10 +23,10 @@ void write_output(const std::filesystem::path& path, std::string_view bytes);
 
 /// `index` with at least so many digits.
 std::string padded_number(std::size_t index, std::size_t digits);
-/// The number of a file of `count`: four digits, more where there are more; names sort as the files follow each other.
+/// The number of a file of `count` files: four digits, or more if needed, so that names sort in the order of the files.
 std::string file_number(std::size_t index, std::size_t count);
 
-/// A CSV file of a simulator's output that grows row by row. Throws host::InputError where it cannot be made.
+/// A CSV file of a simulator's output, written row by row. Throws host::InputError if it cannot be created.
 class TableFile {
  public:
   TableFile(const std::filesystem::path& path, std::vector<std::string> columns);

@@ -13,7 +13,7 @@
 
 namespace pharos::sim {
 
-/// What is played, a scenario (.toml) or a recording: where its pulses come from and what its clock says.
+/// The input of a playback, a scenario (.toml) or a recording: its pulses and its clock.
 struct PlaybackInput {
   std::unique_ptr<LighthouseSimulator> simulator;  // of a scenario
   std::unique_ptr<host::EdgesReader> edges;        // of a recording
@@ -22,10 +22,10 @@ struct PlaybackInput {
   std::uint32_t sensors = 0xFFFFFFFF;  // bit per sensor
 };
 
-/// Throws host::InputError where the file is neither or holds no pulses.
+/// Throws host::InputError if the file is neither, or has no pulses.
 PlaybackInput open_playback_input(const std::string& path, std::uint64_t seed);
-/// Its truth, to be written to `file`, in the body frame of the nominal sensor positions: where sensors have errors,
-/// the true ones lie on those by least squares. Throws host::InputError for a recording, which has none.
+/// Its truth, to be written to `file`, in the body frame of the nominal sensor positions, which the true positions fit
+/// by least squares if sensors have errors. Throws host::InputError for a recording, which has no truth.
 PlayTruth truth_of(const PlaybackInput& input, const std::string& file);
 
 }  // namespace pharos::sim

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-// No echo, no line editing, no translation, whatever the program on the other side sets up or not.
+// No echo, line editing or translation, independent of the settings of the program on the other side.
 void make_raw(const std::string& path) {
   const host::UniqueFd slave(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios settings{};
@@ -43,7 +43,7 @@ void PseudoTerminal::plug_in() {
     fail("pseudo-terminal");
   }
   path_ = name;
-  make_raw(path_);  // opened and closed once, the master can tell whether anybody is there
+  make_raw(path_);  // after it was opened and closed once, the master can detect whether the port is open
   if (link_.empty()) return;
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(link_, error))) fs::remove(link_, error);

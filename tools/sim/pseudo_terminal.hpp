@@ -11,13 +11,13 @@
 
 namespace pharos::sim {
 
-/// One end of a serial line whose other end programs open by path, as they would a real port.
+/// One end of a serial line whose other end programs open by path, like a real port.
 ///
-/// Nobody has to be there: bytes written while no program has the port open are lost, as on a real line. A symbolic
-/// link gives the port a name that stays the same when it is unplugged and comes back.
+/// Bytes written while no program has the port open are lost, as on a real line. A symbolic link gives the port a name
+/// that stays the same when it is disconnected and comes back.
 class PseudoTerminal {
  public:
-  /// `link` empty: no link. Throws host::InputError when the link's place is taken by something else.
+  /// `link` empty: no link. Throws host::InputError if something other than a link exists at its path.
   explicit PseudoTerminal(std::filesystem::path link);
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
@@ -27,12 +27,12 @@ class PseudoTerminal {
   const std::string& path() const { return path_; }
   /// Whether a program has the port open.
   bool opened() const;
-  /// Bytes taken, at most as many as the kernel's buffer holds; all of them, and lost, while nobody listens.
+  /// Number of bytes accepted, limited by the kernel's buffer; while the port is not open all are accepted and lost.
   std::size_t write(std::span<const std::uint8_t> bytes);
-  /// What the other side sent since the last call.
+  /// Bytes that the other side sent since the last call.
   std::vector<std::uint8_t> read();
 
-  /// The port vanishes, its link too.
+  /// Removes the port and its link.
   void unplug();
   void plug_in();
 

@@ -17,11 +17,11 @@ struct PlayClock {
   std::function<std::int64_t(double)> ticks_at;    // of a time since the start, s
 };
 
-/// Gives a recording's pulses with the moments at which they are to be played.
+/// Gives a recording's pulses with the times at which they are to be played.
 ///
-/// A pulse is due at its end. Stamps of their own kind (stale or future by seconds, as devices send at the start) are
-/// told by their 32 followers: when fewer than half lie within 2 s of a stamp, it is given out at once and moves
-/// nothing. A long dark gap is therefore waited for, a stale pulse is not.
+/// A pulse is due at its end. Outlying stamps (wrong by seconds, as devices send at the start) are detected by the 32
+/// following pulses: if fewer than half are within 2 s of a stamp, its pulse is given at once and does not affect the
+/// time. The feed therefore waits for a long dark gap, but not for a stale pulse.
 class PulseFeed {
  public:
   using Source = std::function<std::optional<lighthouse::RawPulse>()>;
@@ -30,12 +30,12 @@ class PulseFeed {
 
   struct Due {
     lighthouse::RawPulse pulse;
-    std::int64_t due_ticks = 0;  // never runs backwards
+    std::int64_t due_ticks = 0;  // never decreases
   };
   /// Next pulse; empty at the end.
   const Due* peek();
   void pop();
-  /// When the first pulse that can be trusted ends.
+  /// End of the first pulse that is not an outlier.
   std::optional<std::int64_t> first_ticks();
 
  private:

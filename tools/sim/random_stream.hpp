@@ -11,7 +11,7 @@ namespace pharos::sim {
 ///
 /// Each purpose draws from a stream of its own, so that switching on a fault does not change the noise. Generator:
 /// xoshiro256** (Blackman and Vigna 2018), seeded by splitmix64; the standard library's distributions are not used
-/// because their output is left open.
+/// because their output depends on the implementation.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view purpose);

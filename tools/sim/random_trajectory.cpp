@@ -32,7 +32,7 @@ struct Wander {
   }
 };
 
-// Body z towards the room's origin, body x as level as it goes.
+// Body z towards the room's origin, body x as level as possible.
 Matrix3 facing_origin(const Vector3& position) {
   const Vector3 z = -position.normalized();
   const Vector3 x = z.cross(Vector3::UnitY()).normalized();
@@ -59,7 +59,8 @@ class ManoeuvreTrajectory final : public Trajectory {
   }
 
   void scale_to_limits(double duration_s) {
-    // The greatest speed grows with the pace, but a faster flight also sees more of its path: a few rounds settle it.
+    // The maximum speed grows with the scale of time, but a faster flight also covers more of its path: a few
+    // iterations converge.
     for (int round = 0; round < 20; ++round) {
       const double top =
           greatest(duration_s, [](const RoomFromBody& a, const RoomFromBody& b) { return (b.t - a.t).norm(); });
@@ -90,7 +91,7 @@ class ManoeuvreTrajectory final : public Trajectory {
     return top;
   }
 
-  // Sideways the volume is cut by the field of view, smoothly so that no corner shows in the acceleration.
+  // The field of view limits the volume laterally, by a smooth function so that the acceleration is continuous.
   Vector3 position_at(double time) const {
     Vector3 p;
     p.z() = coordinate(2, position_[2].at(time), 1e9);

@@ -130,7 +130,7 @@ lighthouse::StationCalibration calibration(std::uint32_t id, const std::array<Sh
   return station;
 }
 
-// What the stations say of themselves.
+// The calibrations that the stations announce.
 void write_announced(const fs::path& path, const LighthouseSimulator& simulator) {
   std::string text = "# What the simulated stations say of themselves, for track --calibration.\n";
   for (const SimulatedStation& station : simulator.stations()) {
@@ -139,7 +139,7 @@ void write_announced(const fs::path& path, const LighthouseSimulator& simulator)
   host::write_file(path.string(), text);
 }
 
-// What is true of them; for track --calibration, too. Where they stand is for people: a comment.
+// Their true calibrations, also for track --calibration. Their poses are written as comments.
 void write_true(const fs::path& path, const LighthouseSimulator& simulator) {
   std::string text = "# The simulated stations as they are, for track --calibration FILE --form " +
                      std::to_string(static_cast<int>(simulator.scenario().form)) + ".\n";

@@ -18,7 +18,7 @@ namespace pharos::sim {
 // A scenario of the lighthouse simulator: what a TOML file says (read_scenario), or what a program fills in. Every
 // default is that of the file; README.md lists keys, units and where the numbers come from. Ticks are 20 ns.
 
-/// What a lone station or a pair does in the slot cycle: A cable slave or alone, B master, C optical slave.
+/// Role of a station in the slot cycle: A cable slave or single station, B master, C optical slave.
 enum class StationMode : std::uint8_t { kA = 0, kB = 1, kC = 2 };
 
 struct StationScenario {
@@ -92,7 +92,7 @@ struct FaultScenario {
   double stretched_flash_rate = 0.0;     // of a station's flashes, longer by 100 to 1500 ticks on every sensor
   double merged_flash_rate = 0.0;        // of slots of two stations: one pulse from first rise to second fall
   double hands_per_s = 0.0;              // mean number of times a hand is put over sensors
-  double hand_s = 0.5;                   // how long it stays
+  double hand_s = 0.5;                   // duration
   double hand_fraction = 0.3;            // of the sensors that it covers
   std::vector<ReflectionScenario> reflections;
   int stale_pulses = 0;  // first pulses off by stale_s (positive: ahead) and saturated in length
@@ -108,8 +108,7 @@ struct FaultScenario {
   std::vector<Interval> blackouts;
 };
 
-/// Face of a convex body that may stand between sensor and station: the body is where normal . p <= offset, p in the
-/// body frame.
+/// Face of a convex body that may occlude sensors: the body is where normal . p <= offset, p in the body frame.
 struct BodyFace {
   Vector3 normal = Vector3::UnitZ();
   double offset_m = 0.0;
@@ -141,8 +140,8 @@ struct LighthouseScenario {
   std::shared_ptr<const Trajectory> trajectory;
 };
 
-/// Reads and checks a scenario file. The seed decides what the file leaves to chance (poses, manoeuvres). Throws
-/// host::InputError naming file, line and key.
+/// Reads and checks a scenario file. The seed determines random poses and manoeuvres. Throws host::InputError with
+/// file, line and key.
 LighthouseScenario read_scenario(const std::filesystem::path& path, std::uint64_t seed);
 
 }  // namespace pharos::sim

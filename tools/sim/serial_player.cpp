@@ -9,10 +9,10 @@
 namespace pharos::sim {
 namespace {
 
-constexpr double kStep_s = 0.001;          // as often as the line is served
+constexpr double kStep_s = 0.001;          // period at which the line is served
 constexpr double kBitsPerByte = 10.0;      // start, eight, stop
 constexpr double kEndLinger_s = 0.3;       // for the reader to take the last bytes
-constexpr std::size_t kQueueBytes = 8192;  // of frames that wait for the line, before new ones are given up
+constexpr std::size_t kQueueBytes = 8192;  // size of the queue of frames; when it is full, new ones are dropped
 
 std::int64_t clock_ns(clockid_t id) {
   timespec now{};
@@ -104,7 +104,7 @@ void SerialPlayer::play_until(double time_s) {
   target_.receive(line_.read());
   if (truth_) truth_->write_until(time_s);
   if (options_.speed > 0.0) {
-    // What the line carries in the time that passed; it does not save up what it did not carry.
+    // Capacity of the line in the elapsed time; unused capacity is lost.
     const double per_step = options_.baud / kBitsPerByte * kStep_s * options_.speed;
     const double passed_steps = std::max((time_s - summary_.played_s) / (kStep_s * options_.speed), 0.0);
     byte_credit_ = std::min(byte_credit_ + per_step * passed_steps, per_step * std::max(passed_steps, 4.0));
@@ -177,7 +177,7 @@ void SerialPlayer::send(std::size_t budget_bytes) {
       if (sleep_or_signal(0.0005)) return;  // as fast as the reader reads
     }
   }
-  // Like a real target's send buffer: what is newest finds no room.
+  // As in a real target's send buffer, the newest frame is dropped.
   std::size_t waiting = 0;
   for (const auto& frame : frames) waiting += frame.size();
   while (waiting > kQueueBytes && options_.speed > 0.0) {

@@ -20,7 +20,7 @@ struct Unplug {
 };
 
 struct SerialOptions {
-  double speed = 1.0;         // times real speed; 0: as fast as the line takes it
+  double speed = 1.0;         // times real speed; 0: as fast as the line accepts it
   double baud = 460'800;      // of the line, at real speed; 10 bits a byte
   double corrupt_rate = 0.0;  // of bytes: one bit flipped
   double drop_rate = 0.0;     // of bytes: lost
@@ -29,12 +29,12 @@ struct SerialOptions {
   std::uint64_t seed = 1;
 };
 
-/// What was played.
+/// Statistics of a playback.
 struct SerialSummary {
   double played_s = 0.0;
   std::uint64_t pulses = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t bytes_unheard = 0;  // while nobody had the port open
+  std::uint64_t bytes_unheard = 0;  // sent while the port was not open
   std::uint64_t frames_skipped = 0;
   std::uint64_t bytes_corrupted = 0;
   std::uint64_t bytes_dropped = 0;
@@ -49,7 +49,7 @@ class SerialPlayer {
   SerialPlayer(PulseFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
                const SerialOptions& options, std::optional<PlayTruth> truth);
 
-  /// Runs until the recording ends, or SIGINT or SIGTERM comes (blocked for the process meanwhile).
+  /// Runs until the recording ends or SIGINT or SIGTERM arrives (which are blocked for the process in this time).
   SerialSummary play();
 
  private:
@@ -71,7 +71,7 @@ class SerialPlayer {
   std::optional<TruthLog> truth_;
   RandomStream random_;
   SerialSummary summary_;
-  std::vector<std::uint8_t> sending_;  // of the frame on the line: what the kernel has not taken yet
+  std::vector<std::uint8_t> sending_;  // rest of the current frame, which the kernel has not accepted yet
   double byte_credit_ = 0.0;
   bool had_reader_ = false;
   std::size_t unplugs_done_ = 0;

@@ -13,7 +13,7 @@
 
 namespace pharos::sim {
 
-/// What a simulated target says of itself.
+/// Identity of a simulated target.
 struct TargetIdentity {
   std::string name;           // Hello::target
   std::uint32_t sensors = 0;  // bit per sensor
@@ -21,26 +21,26 @@ struct TargetIdentity {
   std::uint8_t modes = wire::kModeSweeps;
 };
 
-/// A target's program without its board: pulses and the clock go in, bytes for the line come out, exactly as the
-/// portable core makes them. Hello at the start, on request and once a second, the clock ten times a second, counters
-/// once a second, sweeps and OOTX payloads as they come (or raw edges), answers to commands.
+/// A target's program without its board: converts pulses and clock to the bytes for the line, as encoded by the
+/// portable core. Hello at the start, on request and once a second, the clock ten times a second, counters once a
+/// second, sweeps and OOTX payloads as they occur (or raw edges), responses to commands.
 class SimulatedTarget {
  public:
   explicit SimulatedTarget(const TargetIdentity& identity);
 
   void push(const lighthouse::RawPulse& pulse);
-  /// The counter stands at `now_ticks`: what is due by now is said. Call it often; it may not run backwards.
+  /// Advances the counter to `now_ticks` and sends what is due. To be called often; must not go backwards.
   void advance(std::int64_t now_ticks);
-  /// Power comes back: the next advance says Hello first.
+  /// Power on: the next advance() sends Hello first.
   void restart_line();
   /// Bytes from the host.
   void receive(std::span<const std::uint8_t> bytes);
-  /// End of the recording: says what is still held back.
+  /// End of the recording: sends everything that is still held back.
   void finish();
 
   /// Whole frames that wait to be sent, oldest first.
   std::deque<std::vector<std::uint8_t>>& frames() { return frames_; }
-  /// A frame was given up because the line is too slow.
+  /// A frame was dropped because the line is too slow.
   void count_skipped() { ++device_.frames_skipped; }
 
   std::uint32_t sweeps() const { return sweeps_; }

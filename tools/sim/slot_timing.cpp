@@ -61,7 +61,7 @@ bool SlotTiming::is_off(std::size_t station, double time_s) const {
   return false;
 }
 
-// The first station gives the pace: when it restarts, the cycle begins anew at another phase.
+// The first station determines the cycle: when it restarts, the cycle begins again at another phase.
 void SlotTiming::restart_if_due() {
   while (!restarts_.empty() && undisturbed_s(slot_) >= restarts_.front().at_s) {
     const double back_s = restarts_.front().at_s + restarts_.front().off_s;
@@ -98,7 +98,7 @@ Slot SlotTiming::next() {
     station.period_s = rotor_time_s(i, slot.rotor, slot.start_s + period_s_) - zero_s;
     station.flash_s = station.zero_s + flash_jitter_s_ * random_.normal();
     station.on = !is_off(i, slot.start_s);
-    // A lone master or slave keeps the dark slots of its place in a pair.
+    // A single master or slave keeps the dark slots of the missing station.
     const bool second = i == 1 || (!pair && scenario_.stations[i].mode == StationMode::kC);
     const bool alone = !pair && scenario_.stations[i].mode == StationMode::kA;
     station.skip = !alone && (phase >= 2) == second;

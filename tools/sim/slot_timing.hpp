@@ -26,11 +26,11 @@ struct Slot {
   std::array<StationSlot, 2> station;
 };
 
-/// When stations flash and their rotors turn, slot after slot in order of time.
+/// Times of the stations' flashes and rotors, slot after slot in the order of time.
 ///
-/// The rotors of a station wander slowly and apart; a turn's jitter moves flash and laser together; flash jitter moves
-/// the flash alone and thereby every angle measured from it. Cycle of a pair: the other station sweeps in slots 0 (X)
-/// and 1 (Y), the first in 2 and 3; a lone station in mode A sweeps in every slot.
+/// The rotors of a station wander slowly and independently; the jitter of a turn shifts flash and laser together; flash
+/// jitter shifts only the flash and thereby every angle measured from it. Cycle of a pair: the other station sweeps in
+/// slots 0 (X) and 1 (Y), the first in 2 and 3; a single station in mode A sweeps in every slot.
 class SlotTiming {
  public:
   SlotTiming(const LighthouseScenario& scenario, std::uint64_t seed);
@@ -39,7 +39,7 @@ class SlotTiming {
   Slot next();
 
  private:
-  // A sum of sines of periods of 3 to 30 s: what remains of a rotor's control loop.
+  // A sum of sines with periods of 3 to 30 s: the residual error of a rotor's control loop.
   struct Wander {
     std::array<Sine, 3> sines;
     double at(double time_s) const;

@@ -17,7 +17,7 @@ class TargetClock {
   double elapsed_ticks(double time_s) const {
     return kTicksPerTrueSecond * (rate_ + 0.5 * drift_per_s_ * time_s) * time_s;
   }
-  /// What the counter reads at true time `time_s`, without wrap.
+  /// The counter at true time `time_s`, without wrap.
   std::int64_t stamp(double time_s) const { return start_ticks_ + std::llround(elapsed_ticks(time_s)); }
   /// Counter time in seconds (unwrapped ticks x 20 ns) at true time `time_s`.
   double counter_time(double time_s) const {

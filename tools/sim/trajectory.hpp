@@ -11,23 +11,23 @@
 
 namespace pharos::sim {
 
-/// W: the scenario's room, in which stations and trajectories are given. Where the first station's pose is left out it
-/// is that station's frame L.
+/// W: the scenario's room, in which stations and trajectories are given. If the first station's pose is omitted, it is
+/// that station's frame L.
 struct Room {};
 
 using RoomFromBody = Pose<Room, frame::Body>;
 using RoomFromStation = Pose<Room, frame::Lighthouse>;
 
-/// Where the target is at any (true) time.
+/// The target's pose at any (true) time.
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
   virtual RoomFromBody at(double time_s) const = 0;
-  /// False while no light reaches the target: between two poses at rest, when it is carried to the next place.
+  /// False while no light reaches the target: between two stationary poses, while it is moved.
   virtual bool lit(double time_s) const;
 };
 
-/// At rest in one pose after the other, `hold_s` each, the last `gap_s` of each without light.
+/// Stationary poses one after the other, `hold_s` each, the last `gap_s` of each without light.
 class StationaryTrajectory final : public Trajectory {
  public:
   StationaryTrajectory(std::vector<RoomFromBody> poses, double hold_s, double gap_s);
@@ -41,8 +41,8 @@ class StationaryTrajectory final : public Trajectory {
   double gap_s_;
 };
 
-/// At rest in one pose after the other, `hold_s` each, the last `move_s` of each carried to the next one in the light:
-/// straight, turning evenly, without a jerk at either end.
+/// Stationary poses one after the other, `hold_s` each; in the last `move_s` of each the target moves to the next one
+/// with light: straight, with an even rotation, and smooth at both ends.
 class CarriedTrajectory final : public Trajectory {
  public:
   CarriedTrajectory(std::vector<RoomFromBody> poses, double hold_s, double move_s);
@@ -96,7 +96,7 @@ class WaypointTrajectory final : public Trajectory {
   std::vector<Coordinates> curvatures_;
 };
 
-/// What a random manoeuvre may do.
+/// Limits of a random manoeuvre.
 struct ManoeuvreLimits {
   Vector3 low_m{-2.0, -1.0, 1.0};  // the volume, in the room; paper 002, section 4.3: 4 m x 4 m x 2 m,
   Vector3 high_m{2.0, 1.0, 5.0};   // starting about 1 m ahead of the station
@@ -111,7 +111,7 @@ struct ManoeuvreLimits {
 std::unique_ptr<Trajectory> make_random_manoeuvre(const ManoeuvreLimits& limits, double duration_s,
                                                   RandomStream random);
 
-/// Where random poses at rest may lie.
+/// Limits of random stationary poses.
 struct RandomStationaryPoses {
   int count = 1;
   double min_range_m = 1.0;
@@ -120,8 +120,8 @@ struct RandomStationaryPoses {
   int min_lit = 4;              // sensors whose incidence is below the limit
 };
 
-/// Random poses at rest: direction and range uniform, attitude uniform among those that show enough sensors. Throws
-/// host::InputError when no attitude in 10,000 shows as many.
+/// Random stationary poses: direction and range uniform, attitude uniform among those with enough lit sensors. Throws
+/// host::InputError if none of 10,000 attitudes has as many.
 std::vector<RoomFromBody> random_stationary_poses(const RandomStationaryPoses& limits, const Target& target,
                                                   double max_incidence_deg, RandomStream random);
 

@@ -10,7 +10,7 @@
 
 namespace pharos::sim {
 
-/// What is true at a time since the start, for the stations there are.
+/// True poses at a time since the start, for all stations.
 struct PlayTruth {
   std::function<LighthouseFromBody(std::size_t station, double time_s)> at;
   std::size_t stations = 0;
@@ -18,14 +18,14 @@ struct PlayTruth {
   std::filesystem::path file;
 };
 
-/// Writes true poses while a scenario is played: `utime,station,qw,…,tz_m`, utime in microseconds UTC, a row per 5 ms.
+/// Writes true poses during a playback: `utime,station,qw,…,tz_m`, utime in microseconds UTC, one row per 5 ms.
 class TruthLog {
  public:
   /// Throws host::InputError when the file cannot be written.
   explicit TruthLog(PlayTruth truth);
-  /// Play began at this UTC, at this many times real speed.
+  /// Start of the playback, UTC, and its speed as a factor of real time.
   void start(std::int64_t utc_us, double speed);
-  /// Play has come to `time_s`.
+  /// The playback has reached `time_s`.
   void write_until(double time_s);
 
  private:

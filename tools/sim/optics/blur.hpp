@@ -17,10 +17,11 @@ Kernel gaussian_over_pixels(double sigma_px);
 /// that shall be correlated by exp(-distance^2 / (4 sigma^2)). 0: no blur.
 Kernel gaussian_at_pixels(double sigma_px);
 
-/// What convolve() leaves of the variance of white noise.
+/// Factor by which convolve() reduces the variance of white noise.
 double variance_ratio(const Kernel& kernel);
 
-/// Convolves an image with the kernel, across and down, in place. Beyond its border the image goes on as it ends.
+/// Convolves an image with the kernel, horizontally and vertically, in place. The outermost pixels continue beyond the
+/// border.
 void convolve(std::vector<float>& pixels, int width_px, int height_px, const Kernel& kernel);
 
 /// Optics or seeing: gaussian_over_pixels.

@@ -11,16 +11,16 @@ namespace pharos::sim {
 struct ImageSensor {
   double full_well_e = 10000.0;
   double read_noise_e = 6.0;
-  /// Electrons that light 1 makes in one exposure: by default such light fills 80 % of the well. Where a scene's good
-  /// light peaks elsewhere, peak_light() says where: 0.8 * full_well_e / peak_light(good). A low light is the same
-  /// scene with its lights turned down and this value left alone.
+  /// Electrons for light 1 in one exposure: by default such light fills 80 % of the well. For a scene with another peak
+  /// in good light use 0.8 * full_well_e / peak_light(good). Low light is the same scene with weaker lights and the
+  /// same value.
   double electrons_per_light = 8000.0;
   int bits = 8;  ///< of the counts: 8 or 16; a full well is the largest
   bool shot_noise = true;
 };
 
-/// The light that all but the brightest thousandth of the pixels stay below, whatever glints; with `lit_only` of the
-/// pixels that have any. 0 where there are none.
+/// The 99.9 % quantile of the light, which glints do not affect; with `lit_only` only of pixels with light. 0 without
+/// pixels.
 double peak_light(const LinearImage& image, bool lit_only = false);
 
 /// One exposure: shot noise, a well that overflows, read noise, rounding to counts. The pixels are 16-bit values as

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMaxSteps = 20;
 constexpr double kConverged = 1e-13;  // before the last step, which is quadratic: then to rounding
-// Beyond the radius where the picture folds over (determinant 0) a ray exists but is not the one that light takes.
+// Beyond the radius where the distortion folds over (determinant 0) a solution exists but is not physical.
 constexpr double kMinDeterminant = 0.1;
 
 // Central differences of a polynomial of degree 7: exact to 1e-9 of the slope, enough for Newton's method.

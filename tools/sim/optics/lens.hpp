@@ -11,7 +11,7 @@ namespace pharos::sim {
 
 /// A simulated camera's lens, OpenCV's model: focal lengths and principal point in pixels, pixel (0, 0) being the
 /// centre of the first; distortion k1, k2, p1, p2, k3 (radial and decentring). Camera frame: x right, y down, z ahead;
-/// a ray is (x/z, y/z). Written apart from the core's camera, so that a mistake of one shows against the other.
+/// a ray is (x/z, y/z). Independent of the core's camera, so that tests detect an error in either.
 struct Lens {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -22,7 +22,7 @@ struct Lens {
   std::array<double, 5> distortion{};
 };
 
-/// What paper 000 prints in table 1.
+/// The values of paper 000, table 1.
 inline constexpr Lens kPaperLens{640, 480, 608.61, 605.04, 321.85, 238.94, {-0.1991, 0.0809, 0.0021, -0.0002, 0.0}};
 
 /// Without distortion, square pixels, principal point in the image's middle.
@@ -55,7 +55,7 @@ inline Vector2 pixel_of(const Lens& lens, const Vector3& point_camera_m) {
   return pixel_of(lens, Vector2(point_camera_m.head<2>() / point_camera_m.z()));
 }
 
-/// The same numbers as another type of camera has them (`Optics`: width, height, fx, fy, cx, cy, distortion in this
+/// Conversion to another type of camera (`Optics`: width, height, fx, fy, cx, cy, distortion in this
 /// order), for the files that the host writes.
 template <typename Optics>
 Optics optics_as(const Lens& lens) {

@@ -41,7 +41,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   if (!file.flush()) throw host::InputError(path.string() + ": cannot be written; is the disk full?");
 }
 
-// The environment with HOME moved, so that nobody's povray.ini has a say.
+// The environment with another HOME, so that no user's povray.ini is read.
 std::vector<std::string> environment_at(const std::filesystem::path& home) {
   std::vector<std::string> variables{"HOME=" + home.string()};
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -59,7 +59,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-// The program's exit code; what it says goes to `log`.
+// The program's exit code; its output is stored in `log`.
 int run_povray(const std::filesystem::path& directory, const std::filesystem::path& log) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -82,7 +82,7 @@ int run_povray(const std::filesystem::path& directory, const std::filesystem::pa
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// POV-Ray's complaint in what it said: from the line with "Error" on, or the last line.
+// The error in POV-Ray's output: from the line with "Error" on, or the last line.
 std::string error_in(const std::filesystem::path& log) {
   std::ifstream file(log);
   std::string line;

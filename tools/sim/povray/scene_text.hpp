@@ -15,7 +15,7 @@ std::string povray_vector(const Vector3& vector);
 /// t). Lens distortion is left out: POV-Ray has none. The principal point may lie anywhere.
 std::string povray_camera(const Lens& lens, const Matrix3& R_world_camera, const Vector3& t_world_camera_m);
 
-/// What a scene begins with: the language's version, linear light, and no light but the scene's own.
+/// The beginning of a scene: the language's version, linear light, and no light other than the scene's own.
 std::string povray_preamble();
 
 }  // namespace pharos::sim

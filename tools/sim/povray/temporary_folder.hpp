@@ -6,10 +6,10 @@
 
 namespace pharos::sim {
 
-/// A folder under $TMPDIR that goes with its owner, for files that pass between us and POV-Ray.
+/// A folder under $TMPDIR that is removed with its owner, for files exchanged with POV-Ray.
 class TemporaryFolder {
  public:
-  /// `name` is how it begins. Throws host::InputError where it cannot be made.
+  /// Its name begins with `name`. Throws host::InputError if it cannot be created.
   explicit TemporaryFolder(const std::string& name);
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Where rays meet surfaces. A ray is origin + s direction; s is in units of the direction's length, so that with
-// directions (x/z, y/z, 1) in a camera's frame it is the depth. Inline: some are called for every ray of every image.
+// Intersections of rays and surfaces. A ray is origin + s direction; s is in units of the direction's length, so that
+// with directions (x/z, y/z, 1) in a camera's frame it is the depth. Inline: some are called for every ray of every
+// image.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace pharos::sim {
 
-/// Where a ray that meets nothing does so.
+/// Depth of a ray without an intersection.
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A plane with coordinates of its own, corner + s edge_s + t edge_t, for rays that begin at the frame's origin.
@@ -65,8 +66,8 @@ inline std::array<double, 2> meet_cone(const Vector3& origin, const Vector3& dir
   return first < second ? std::array{first, second} : std::array{second, first};
 }
 
-/// Where a ray enters a box, and the axis that the face stands across; kNever where it misses, or begins inside or
-/// behind.
+/// Depth at which a ray enters a box, and the axis normal to that face; kNever if it misses the box, or begins inside
+/// or behind it.
 struct BoxEntry {
   double at = kNever;
   int axis = 0;

@@ -13,9 +13,9 @@ namespace pharos::sim {
 namespace {
 
 constexpr int kTile_px = 16;
-// A shadow's ray begins so far off the surface.
+// Distance from the surface at which a shadow ray begins.
 constexpr double kOffSurface_m = 1e-5;
-// Difference of light between neighbours that is worth more rays.
+// Difference of light between neighbouring pixels from which on more rays are cast.
 constexpr float kWorthRays = 0.01F;
 constexpr double kShininess = 40.0;
 

@@ -11,10 +11,10 @@
 
 namespace pharos::sim {
 
-/// How a surface sends light back.
+/// Reflection of light by a surface.
 struct Material {
   double albedo = 0.5;
-  double gloss = 0.0;  ///< light of a mirror-like highlight beside the albedo's
+  double gloss = 0.0;  ///< light of a specular highlight, in addition to the albedo's
   double bumps = 0.0;  ///< tilt of the normal by wrinkles, rad
   double bump_size_m = 0.1;
   /// Cells: brighter or darker lines around each, of a box's faces; 0: none.

@@ -7,7 +7,7 @@
 namespace pharos::tools {
 namespace {
 
-// Of the failures' seeds, so many are told.
+// Maximum number of failures' seeds that are reported.
 constexpr std::size_t kMaxToldSeeds = 12;
 
 bool beyond(const Deviation& d) { return d.error > kIntegritySigmas * d.sigma && d.error > d.tolerance; }

@@ -16,8 +16,8 @@ using ellipse::DetectedEllipse;
 using test::TrueEllipse;
 
 constexpr int kWidth_px = 400, kHeight_px = 300, kColumns = 4, kRows = 3;
-// What no stated sigma holds: a lens of 1 px instead of the 0.7 that the fit assumes moves the edge of a dot of 2.5 px
-// by 0.1 px, an edge 4 px away by another 0.1 px, pixels by 0.05 px.
+// Errors that the stated sigmas do not include: a blur of 1 px instead of the 0.7 that the fit assumes moves the edge
+// of a dot of 2.5 px by 0.1 px, an edge 4 px away by another 0.1 px, pixels by 0.05 px.
 constexpr double kTolerance_px = 0.25;
 // The same ellipse: more than half of the area of both together.
 constexpr double kSameOverlap = 0.5;
@@ -131,7 +131,7 @@ void deviate(const DetectedEllipse& found, const std::vector<TrueEllipse>& truth
     best = &t;
   }
   const auto& c = found.covariance;
-  // Where there is no ellipse the centre is off by the size of what is reported.
+  // If there is no true ellipse, the reported size counts as the error of the centre.
   const double centre = best == nullptr ? e.a_px : std::hypot(e.cx_px - best->cx_px, e.cy_px - best->cy_px);
   trial.deviations.push_back({"centre, px", centre, std::sqrt(c(0, 0) + c(1, 1)), kTolerance_px});
   if (best == nullptr) return;

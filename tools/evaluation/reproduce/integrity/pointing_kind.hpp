@@ -5,7 +5,7 @@
 
 namespace pharos::tools {
 
-/// Rendered satellites before a telescope through the whole of `pharos line`.
+/// Rendered satellites in front of a telescope, measured as by `pharos line`.
 IntegrityKind pointing_kind();
 
 }  // namespace pharos::tools

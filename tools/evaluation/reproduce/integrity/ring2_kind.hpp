@@ -5,7 +5,7 @@
 
 namespace pharos::tools {
 
-/// Rendered pairs of docking ring and nozzle through the whole of `pharos circles`.
+/// Rendered pairs of docking ring and nozzle, measured as by `pharos circles`.
 IntegrityKind ring2_kind();
 
 }  // namespace pharos::tools

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kTolerance_deg = 1.0;
 constexpr double kTolerance_mm = 10.0;
-// The nearest connector is nearer than the others by this: what is equal within it is ambiguous by right. Metres.
+// The nearest connector is nearer than the others by this, m; connectors equal within it are rightly ambiguous.
 constexpr double kNearer_m = 0.02;
 constexpr double kMinApart_m = 0.16;
 
 struct Body {
   sim::TofScenario scenario;
-  int connectors = 2;  // that the estimator is told
+  int connectors = 2;  // given to the estimator
 };
 
 // Place of a box' centre in T.

@@ -5,7 +5,7 @@
 
 namespace pharos::tools {
 
-/// Rendered satellites before a depth camera through the whole of `pharos tof`.
+/// Rendered satellites in front of a depth camera, measured as by `pharos tof`.
 IntegrityKind tof_kind();
 
 }  // namespace pharos::tools

@@ -18,10 +18,10 @@ struct Deviation {
   double tolerance = 0.0;  ///< an error below it is no integrity failure, whatever its sigma: 1 deg, 10 mm
 };
 
-/// Beyond so many of its own sigmas and beyond its tolerance an answer that is `ok` is an integrity failure.
+/// A result with the status `ok` is an integrity failure beyond this number of its own sigmas and beyond its tolerance.
 inline constexpr double kIntegritySigmas = 5.0;
 
-/// What one seed gave.
+/// Result of one seed.
 struct IntegrityTrial {
   bool answerable = true;             ///< by the kind's rule, from the geometry alone
   std::string status;                 ///< `ok`, `ambiguous` or `refused_<reason>`
@@ -35,9 +35,9 @@ struct IntegrityTrial {
 /// One estimator under test. A seed is a body, its light, its cameras and their noise.
 struct IntegrityKind {
   std::string name;
-  std::string rule;  ///< which trials the geometry lets be answered, in words
+  std::string rule;  ///< the rule of availability, as text
   std::function<IntegrityTrial(std::uint64_t seed)> trial;
-  /// Writes what the trial of that seed measures, for people to look at.
+  /// Writes the images of that seed's trial, for inspection.
   std::function<void(std::uint64_t seed, const std::filesystem::path& folder)> write;
 };
 
