@@ -43,19 +43,19 @@ class AttackedDaemon : public PharosdTofTest {
     const std::size_t wanted = daemon.valid_poses(kLighthouse) + count;
     return play_until([&] { return daemon.valid_poses(kLighthouse) >= wanted; });
   }
-  /// Plays until both measure and the status says so; what is lost is counted from here on.
+  /// Plays until both measure and the status reports it; losses are counted from here on.
   bool both_measure() {
     const bool come = camera_poses_come(3) && lighthouse_poses_come(60);
     unanswered_ = unanswered_sweeps();
     return come;
   }
-  /// Sweeps without a pose since then; as told by a status that is newer than every sweep played so far.
+  /// Sweeps without a pose since then, from a status that is newer than every sweep played so far.
   std::int64_t lighthouse_poses_lost() {
     const std::size_t poses = daemon.valid_poses(kLighthouse);
     play_until([&] { return daemon.counter("cycles_ok", kLighthouse) >= static_cast<std::int64_t>(poses); });
     return unanswered_sweeps() - unanswered_;
   }
-  /// Of pharosd's children the one that is pharos-camera; -1 where there is none.
+  /// Process id of pharosd's child pharos-camera; -1 if there is none.
   pid_t camera_process() {
     std::ifstream children("/proc/" + std::to_string(daemon.process().pid()) + "/task/" +
                            std::to_string(daemon.process().pid()) + "/children");

@@ -184,7 +184,7 @@ TEST_F(CameraSourceTest, OpensASilentCameraAnew) {
   play.stalls.push_back({0.0, 1e6});
   serve();
   CameraSource source(settings, camera_program());
-  // A camera whose heartbeat's second runs out in the same second as the wait for frames is lost instead.
+  // If its heartbeat times out in the same second as the wait for frames, the camera is reported as lost instead.
   ASSERT_TRUE(run(source, [&] {
     const FrameSourceCounters counters = source.status().counters;
     return counters.camera_silences + counters.camera_lost >= 1;

@@ -76,7 +76,7 @@ HostileSender::HostileSender(std::uint64_t seed)
       other_port_(bound_socket("127.0.0.1")),
       cameras_(socket_of_simulated_camera()) {}
 
-/// A packet as it should be, but for what chance changes.
+/// A valid packet with random changes.
 Datagram HostileSender::make_packet() {
   constexpr std::array<std::uint64_t, 6> kNumbers{0, 1, 270, 2000, 0xFFFFFF, 0xFFFFFFFF};
   const bool extended = number(2) == 0;

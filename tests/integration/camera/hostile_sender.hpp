@@ -10,7 +10,7 @@
 
 namespace pharos::host {
 
-/// Who sends to a camera's stream without being the camera.
+/// Source of hostile datagrams to a camera's stream.
 enum class Attacker : std::uint8_t {
   kOtherAddress,  // 127.0.0.3
   kOtherPort,     // the camera's address
@@ -21,14 +21,14 @@ inline constexpr std::array kAttackers{Attacker::kOtherAddress, Attacker::kOther
 /// Ports of this network's UDP sockets that are bound to 127.0.0.1 and are not of this process: those of the camera's
 /// process.
 std::vector<std::uint16_t> ports_of_others();
-/// The socket that the simulated camera of this process streams from; -1 where there is none.
+/// The socket from which the simulated camera of this process streams; -1 if there is none.
 int socket_of_simulated_camera();
 
 /// A UDP socket at that address of this computer.
 UniqueFd bound_socket(const char* address);
 
-/// Makes and sends datagrams that a parser may fall over: the one that makes Aravis take 68 GB, random bytes of random
-/// length, and GVSP packets of every kind with one or more fields beyond what may be.
+/// Generates and sends datagrams that may crash a parser: the one that makes Aravis allocate 68 GB, random bytes of
+/// random length, and GVSP packets of every kind with one or more invalid fields.
 class HostileSender {
  public:
   explicit HostileSender(std::uint64_t seed);

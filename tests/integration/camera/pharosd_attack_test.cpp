@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reaches a camera's port, or ends its process, costs that camera some frames and nobody else anything.
+// Hostile datagrams to a camera's port, or the end of its process, cost that camera some frames and do not affect
+// others.
 #include <sys/resource.h>
 
 #include <csignal>
@@ -76,7 +77,7 @@ TEST_F(AttackedDaemon, PharosdStopsInOrderAndGivesTheCameraBack) {
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_exit(), 0);
   EXPECT_FALSE(is_alive(process));
-  // Free at once: nobody has to wait for a heartbeat to run out.
+  // The camera is released at once, without waiting for a heartbeat timeout.
   start(kByAddress);
   EXPECT_TRUE(poses_come(1)) << daemon.process().text();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that another sender made: whole, and of a target some 17 cm beside the true one.
+// Frames of another sender: complete, with a target at some 17 cm from the true one.
 #include "integration/camera/attacked_daemon.hpp"
 #include "integration/camera/spoofed_frames.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int32_t kShift_px = 34;
 constexpr double kRate_hz = 20.0;            // so that a target may move by 5 cm from frame to frame
-constexpr std::size_t kPacket_bytes = 9000;  // as kByAddress says
+constexpr std::size_t kPacket_bytes = 9000;  // as in kByAddress
 constexpr int kFrames = 6;
 
 class SpoofedCamera : public AttackedDaemon {
@@ -84,8 +84,8 @@ TEST_F(SpoofedCamera, FramesWithTimesThatAreNotOfTheCamerasClockAreDiscarded) {
   expect_truth_goes_on();
 }
 
-// Address, port, number and time are the camera's: what is left is that a target does not jump. Seven ahead, so that no
-// frame is made of both senders' packets: that cannot be told (SECURITY).
+// Address, port, number and time are the camera's: only the check for jumps of the target remains. Numbers are seven
+// ahead, so that no frame has packets of both senders, which cannot be detected (SECURITY).
 TEST_F(SpoofedCamera, FramesThatAreRightInEverythingButTheTargetsPlaceGiveNoPose) {
   start_camera();
   for (int i = 0; i < kFrames; ++i) send(socket_of_simulated_camera(), next_head(7));

@@ -8,19 +8,19 @@
 
 namespace pharos::host {
 
-/// What a spoofed frame says of itself.
+/// Header values of a spoofed frame.
 struct SpoofedHead {
   std::uint16_t number = 1;
   std::int64_t camera_ns = 0;
 };
 
-/// A depth camera's frames as the simulated Helios would send them, the view shifted to the side by `shift_px`: whole
-/// and in every way right, but of a target that is elsewhere.
+/// A depth camera's frames as of the simulated Helios, with the view shifted to the side by `shift_px`: complete and
+/// valid, but with a target at another position.
 class SpoofedFrames {
  public:
   SpoofedFrames(const sim::FrameSequence& sequence, const sim::WireScale& scale, std::int32_t shift_px,
                 std::size_t packet_size);
-  /// All packets of one, from `socket` to `port` of 127.0.0.1.
+  /// Sends all packets of a frame from `socket` to `port` of 127.0.0.1.
   void send(int socket, std::uint16_t port, const SpoofedHead& head) const;
 
  private:

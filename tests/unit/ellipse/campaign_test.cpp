@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the room's README claims, over several hundred rendered frames.
+// The figures of the room's README, over several hundred rendered frames.
 #include <gtest/gtest.h>
 
 #include "tests/unit/ellipse/ring_frames.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kImages = 150;
 
-// As far as docking goes: 35 deg.
+// Tilts that occur during docking: up to 35 deg.
 TEST(EllipseCampaign, RingsInFullView) {
   test::RingSet set;
   set.max_tilt_deg = 35.0;

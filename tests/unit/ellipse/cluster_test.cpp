@@ -18,7 +18,7 @@ DetectedEllipse found(double a, double b, double score) {
   return e;
 }
 
-// The ring of 1.1 m at 4 m: 84 px, 6 px wide. The usual clustering takes the two for one.
+// The ring of 1.1 m at 4 m: 84 px, 6 px wide. The usual clustering merges the two.
 TEST(Cluster, ConcentricEllipsesAreSimilarAndStayTwo) {
   EXPECT_TRUE(similar(found(84.0, 80.0, 0.9).ellipse, found(78.0, 74.0, 0.9).ellipse));
   auto workspace = std::make_unique<EllipseWorkspace>(std::span<std::uint16_t>());

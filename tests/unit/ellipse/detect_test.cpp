@@ -162,7 +162,7 @@ TEST(DetectEllipses, FramesWithFoilDotsAndNozzle) {
   EXPECT_LT(middle_of(score.axis_errors_px), 0.05);
 }
 
-// Twice the same: nothing of one image is left in the next.
+// The same image twice gives the same result: no state remains from the previous image.
 TEST(DetectEllipses, TheWorkspaceCarriesNothingOver) {
   Bench used, fresh;
   const std::vector<std::uint16_t> pixels = picture(ring_scene());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dots, rings and arcs drawn straight into the image, and pictures that hold no ellipse.
+// Dots, rings and arcs drawn directly into the image, and images without an ellipse.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,8 +82,8 @@ TEST(DrawnEllipses, EveryDotFromTwoAndAHalfPixelsIsMeasured) {
   }
 }
 
-// Blur rounds a small dot's edge more than its curvature says and pushes its sides apart: without both terms a dot of
-// 2.5 px comes out 0.15 px too large, the long axis of a narrow one 0.4 px.
+// Blur changes a small dot's edge beyond the effect of its curvature and shifts its sides apart: without both terms a
+// dot of 2.5 px is measured 0.15 px too large, the long axis of a narrow one 0.4 px.
 TEST(DrawnEllipses, SmallDotsAreNotTooLargeOrTooSmall) {
   Random random(2);
   for (const double ratio : {1.0, 2.0}) {
@@ -101,7 +101,7 @@ TEST(DrawnEllipses, SmallDotsAreNotTooLargeOrTooSmall) {
     }
     ASSERT_GE(found.size(), 100U);
     const auto count = static_cast<double>(found.size());
-    // On circles a >= b divides the noise in two.
+    // For circles the condition a >= b separates the noise into two halves.
     EXPECT_NEAR(0.5 * (sum_a + sum_b) / count, 0.5 * (a + b), 0.10) << ratio;
     if (ratio > 1.0) {
       EXPECT_NEAR(sum_b / count, b, 0.10);
@@ -145,12 +145,13 @@ TEST(DrawnEllipses, RingsAFewPixelsWideShowBothEdges) {
     const RingScore score = score_of(finished(drawing, truth, 1.0, random), 4.0);
     EXPECT_EQ(score.matched, score.wanted) << width;
     EXPECT_EQ(score.wrong, 0) << width;
-    // A strip of 2 px is seen within 10 % of the least width that the blur lets be seen: noise counts three times.
+    // A strip of 2 px is within 10 % of the smallest width that the blur resolves: noise has three times the effect.
     EXPECT_LT(middle_of(score.axis_errors_px), width < 2.25 ? 0.25 : 0.10) << width;
   }
 }
 
-// The lens is not told: 0.5 or 1 px where the fit assumes 0.7 shows a ring narrower or wider, and the sigmas say so.
+// The blur is not known to the fit: with 0.5 or 1 px instead of the assumed 0.7 a ring appears narrower or wider, which
+// the sigmas must include.
 TEST(DrawnEllipses, ANarrowRingThroughAnotherLensStaysWithinItsSigmas) {
   Random random(9);
   for (const double blur_px : {0.5, 1.0}) {
@@ -169,7 +170,7 @@ TEST(DrawnEllipses, ANarrowRingThroughAnotherLensStaysWithinItsSigmas) {
   }
 }
 
-// Half of them outside the image: what is outside cannot be missed.
+// Half of them are outside the image, where no detection is expected.
 TEST(DrawnEllipses, HalfAnEllipseAtTheBorderIsMeasured) {
   Random random(4);
   for (int k = 0; k < 20; ++k) {
@@ -242,7 +243,7 @@ TEST(DrawnEllipses, PolygonsHoldNone) {
   EXPECT_TRUE(bench.detect(board.image(imaging_of(1.0), random.engine), kDrawnWidth, kDrawnHeight).empty());
 }
 
-// Three sheets' worth: none is left out for want of memory.
+// As many as on three sheets: none is left out for lack of memory.
 TEST(DrawnEllipses, ASheetOfHundredsIsReportedWhole) {
   test::SheetSet set;
   set.columns = 18;

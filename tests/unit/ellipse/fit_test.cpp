@@ -24,7 +24,7 @@ std::vector<PointF> points_of(const Ellipse& e, int count, double from = 0.0, do
   return points;
 }
 
-// Where edges of a blurred disc are seen: inside by sigma^2 / 2r. The refinement undoes it, so tests must do it.
+// Edges of a blurred disc appear inside by sigma^2 / 2r. The refinement corrects this, so that tests must apply it.
 std::vector<PointF> seen_points_of(const Ellipse& e, int count, double sigma, std::mt19937_64& random) {
   constexpr double kVariance_px2 = 1.0 + 1.0 / 3.0 + 1.0 / 12.0 + 0.49;
   std::normal_distribution<double> noise(0.0, sigma);
@@ -107,8 +107,7 @@ TEST(RefineFit, OutliersDoNotMoveIt) {
   expect_near(fit->ellipse, kTilted, 0.05);
 }
 
-// Normalised squared errors over many draws: 5 on average where the covariance is right. The robust weights give up 5
-// %.
+// Normalised squared errors over many draws: 5 on average if the covariance is right. The robust weights lose 5 %.
 TEST(RefineFit, StatesAConsistentCovariance) {
   std::mt19937_64 random(7);
   double sum = 0.0;
