@@ -15,6 +15,7 @@ inline constexpr int kExitUsage = 2;     // wrong usage or unreadable input
 // Every subcommand adds itself to `app` with its options, help and example; its callback writes the program's exit
 // code: kExitAnswered or kExitNoAnswer. Wrong usage and unreadable input are thrown as host::InputError (kExitUsage).
 void add_decode(CLI::App& app, int& exit_code);
+void add_convert(CLI::App& app, int& exit_code);
 void add_track(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_precision(CLI::App& app, int& exit_code);
@@ -36,6 +37,7 @@ void add_vocabulary(CLI::App& app, int& exit_code);  // tools/slam
 
 inline void add_commands(CLI::App& app, int& exit_code) {
   add_decode(app, exit_code);
+  add_convert(app, exit_code);
   add_track(app, exit_code);
   add_solve(app, exit_code);
   add_precision(app, exit_code);

@@ -20,5 +20,7 @@ struct Target {};
 struct Board {};
 /// V: chase vehicle.
 struct Vehicle {};
+/// W: the room that several base stations stand in; where its origin and axes are is said by the file of the stations.
+struct World {};
 
 }  // namespace pharos::frame
