@@ -13,7 +13,9 @@
 #include "pharos/base/units.hpp"
 #include "tools/evaluate/comparison.hpp"
 #include "tools/evaluate/error_plot.hpp"
+#include "tools/evaluate/evaluate_positions.hpp"
 #include "tools/evaluate/figure_table.hpp"
+#include "tools/evaluate/position_track.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 #include "tools/support/output.hpp"
@@ -36,7 +38,11 @@ constexpr const char* kExample =
     "TRUTH\n"
     "is of another body than ESTIMATE (EuRoC's is the IMU's, not the camera's), its ate_mm holds their lever arm.\n"
     "rot_* and pos_*: errors (25); spread_*: (23), errors about their mean; *_normalised_square is 1 where stated\n"
-    "sigmas are honest. Refused and ambiguous rows are counted and left out.";
+    "sigmas are honest. Refused and ambiguous rows are counted and left out.\n"
+    "  pharos evaluate poses.csv mocap.csv.gz --clock-marks 13.94,45.56 --epochs crossing_beam.csv --lever-arm "
+    "estimate\n"
+    "TRUTH of positions alone (time_s,x_m,y_m,z_m): rigid alignment, offset and rate of the clocks searched, figures\n"
+    "of the position and pos_nees_per_dof; ESTIMATE may be positions too.";
 
 struct Options {
   std::string estimate;
@@ -47,6 +53,7 @@ struct Options {
   double relative_s = 1.0;
   int station = -1;
   evaluate::TrajectoryChoice choice;
+  PositionChoices positions;
   std::string plot;
   bool table = false;
   OutputOptions output;
@@ -217,6 +224,9 @@ void remark(const Options& options, const evaluate::Comparison& c) {
 int run(const Options& options) {
   require_one_standard_input({{"ESTIMATE", options.estimate}, {"TRUTH", options.truth}});
   if (!options.plot.empty()) require_writable(options.plot);
+  if (options.truth != "-" && evaluate::is_position_table(options.truth)) {
+    return evaluate_positions(options.estimate, options.truth, options.positions, options.output);
+  }
   evaluate::TrajectoryChoice choice = options.choice;
   if (options.station >= 0) choice.station = options.station;
   const auto estimate = evaluate::read_trajectory<evaluate::EstimatePose>(options.estimate, choice);
@@ -276,6 +286,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   command->add_option("--plot", options->plot, "File for a picture (SVG) of the errors over time")
       ->check(output_place())
       ->check(picture_kind(".svg"));
+  add_position_options(*command, options->positions);
   add_output_options(*command, options->output);
   command
       ->add_flag("--table", options->table,
