@@ -73,6 +73,8 @@ struct TofConfig {
   CameraSettings device;
   /// Recorded frames (a directory as `pharos sim tof` writes it) in place of a camera on the network; empty: none.
   std::filesystem::path frames;
+  /// Description of ring and connectors, whose values are in `tof`; empty: none.
+  std::filesystem::path target_file;
   tof::TofSettings tof;
   /// A message has the mean pose of this number of frames; 1: every frame's pose.
   int average_frames = 1;

@@ -63,6 +63,18 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
       << " mm (1 sigma, method motion)\n  remembers calibrations: " << yes_no(target.remember_calibrations) << '\n';
 }
 
+// What is known of ring and connectors beforehand.
+void describe_ring(std::ostream& out, const TofConfig& camera) {
+  const tof::TofSettings& tof = camera.tof;
+  out << "\n  ring: outer radius " << tof.ring.min_outer_radius_m << " to " << tof.ring.max_outer_radius_m << " m, connectors: ";
+  if (tof.target.stated()) {
+    out << tof.target.connectors.size() << " described";
+  } else {
+    out << tof.connector.expected << ", the nearest gives the turn";
+  }
+  if (!camera.target_file.empty()) out << ", from " << camera.target_file.string();
+}
+
 void describe_camera(std::ostream& out, const TofConfig& camera) {
   const CameraSettings& device = camera.device;
   out << "camera " << camera.name << " (target " << camera.target << "):\n  ";
@@ -76,8 +88,9 @@ void describe_camera(std::ostream& out, const TofConfig& camera) {
   }
   if (device.frame_rate_hz > 0.0) out << ", " << device.frame_rate_hz << " frames/s";
   out << "\n  lens: " << camera.camera.intrinsics.width_px << " x " << camera.camera.intrinsics.height_px
-      << " pixels from " << camera.camera_file.string() << "\n  ring: outer radius "
-      << camera.tof.ring.min_outer_radius_m << " to " << camera.tof.ring.max_outer_radius_m << " m\n  poses: "
+      << " pixels from " << camera.camera_file.string();
+  describe_ring(out, camera);
+  out << "\n  poses: "
       << (camera.average_frames == 1 ? "of every frame"
                                      : "means of " + std::to_string(camera.average_frames) + " frames")
       << '\n';

@@ -136,7 +136,7 @@ void add_port_error(std::vector<std::string>& errors, const TargetConfig& target
 Environment host_environment() {
   return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
           read_camera_file, check_frames,     read_rig_file, check_ring2,
-          check_slam,       check_vocabulary, check_pairs};
+          check_slam,       check_vocabulary, check_pairs,   read_docking_target};
 }
 
 calibrate::CalibrationFile Environment::no_calibration(const std::string& path) {
@@ -148,6 +148,10 @@ RigFile Environment::no_rig(const std::string& path) {
 }
 
 CameraFile Environment::no_camera(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+DockingTarget Environment::no_docking_target(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 

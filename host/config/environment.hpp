@@ -8,6 +8,7 @@
 
 #include "host/calibrate/calibration_file.hpp"
 #include "host/cameras/camera_file.hpp"
+#include "host/cameras/docking_target.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/config/daemon_config.hpp"
 #include "host/table/target_file.hpp"
@@ -42,10 +43,13 @@ struct Environment {
   /// Throws InputError unless there are recorded pairs of this rig in the directory; reads the first one.
   std::function<void(const std::filesystem::path& directory, const RigFile& rig)> check_pairs =
       [](const std::filesystem::path&, const RigFile&) {};
+  /// How a description of ring and connectors becomes one; throws InputError. Unless given, there is none.
+  std::function<DockingTarget(const std::string& path)> read_docking_target = no_docking_target;
 
   static RigFile no_rig(const std::string& path);
   static calibrate::CalibrationFile no_calibration(const std::string& path);
   static CameraFile no_camera(const std::string& path);
+  static DockingTarget no_docking_target(const std::string& path);
 };
 
 /// The environment of this computer.

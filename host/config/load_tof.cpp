@@ -3,8 +3,10 @@
 
 #include <set>
 
+#include "host/cameras/tof_target.hpp"
 #include "host/config/config_parts.hpp"
 #include "host/config/load_device.hpp"
+#include "pharos/tof/connector_choice.hpp"
 #include "pharos/tof/tof_frame.hpp"
 
 namespace pharos::host {
@@ -63,6 +65,24 @@ tof::RingSettings read_ring(const TomlTable& table) {
   return ring;
 }
 
+// What is known of ring and connectors, in place of the limits of [camera.ring].
+void read_target_of(const TomlTable& table, const fs::path& folder, const Environment& environment, TofConfig& camera) {
+  camera.target_file = read_path(table, "target_file", folder);
+  DockingTarget target;
+  try {
+    target = environment.read_docking_target(camera.target_file.string());
+    apply_target(target, camera.target_file.string(), camera.tof);
+  } catch (const InputError& error) {
+    table.fail("target_file", error.what());
+  }
+  if (target.outer_radius && table.has("ring")) {
+    table.fail("ring", "is in " + camera.target_file.string() + " already; leave one of them out");
+  }
+  if (!target.connectors.empty() && table.has("connectors")) {
+    table.fail("connectors", "are in " + camera.target_file.string() + " already; leave one of them out");
+  }
+}
+
 TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
                             ConfigErrors& errors) {
   TofConfig camera;
@@ -86,6 +106,13 @@ TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, cons
         static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
   });
   errors.attempt([&] { camera.tof.ring = read_ring(table.table_or_empty("ring")); });
+  errors.attempt([&] {
+    auto& expected = camera.tof.connector.expected;
+    expected = static_cast<std::int32_t>(table.integer_or("connectors", expected, 1, tof::kMaxConnectors));
+  });
+  if (table.has("target_file")) {
+    errors.attempt([&] { read_target_of(table, folder, environment, camera); });
+  }
   errors.reject_unknown(table, before);
   return camera;
 }

@@ -5,7 +5,7 @@
 
 #include "host/cameras/camera_file.hpp"
 #include "host/cameras/rig_file.hpp"
-#include "host/cameras/target_file.hpp"
+#include "host/cameras/docking_target.hpp"
 #include "host/support/input_error.hpp"
 #include "support/require.hpp"
 
@@ -33,6 +33,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   check(text, parse_camera, camera_text);
   check(text, parse_rig, rig_text);
-  check(text, parse_target, target_text);
+  check(text, parse_docking_target, docking_target_text);
   return 0;
 }

@@ -5,7 +5,7 @@
 
 #include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
-#include "host/cameras/target_file.hpp"
+#include "host/cameras/docking_target.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"
@@ -51,7 +51,7 @@ struct Options {
 // What a target description says of ring and nozzle.
 host::RingSizes sizes_of(const std::string& path) {
   if (path.empty()) return {};
-  const host::TargetFile file = host::read_target_file(path);
+  const host::DockingTarget file = host::read_docking_target(path);
   const auto known = [](const std::optional<host::StatedLength>& length) {
     return length ? std::optional(host::KnownLength{length->value_m, length->sigma_m}) : std::nullopt;
   };

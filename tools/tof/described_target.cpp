@@ -4,14 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/support/input_error.hpp"
-
 namespace pharos::tools {
 namespace {
 
-// A ring's radii are measured to a thousandth; deviations that a description states come on top.
-constexpr double kRadiusMargin = 0.01;
-constexpr double kSigmas = 5.0;
 // Seen at places nearer than this, it is one connector. Metres.
 constexpr double kSamePlace_m = 0.03;
 // A mean of few frames is not better than foil and walls let a single one be. Metres.
@@ -34,33 +29,6 @@ double middle_of(std::vector<double> values) {
 }
 
 }  // namespace
-
-void apply_target(const host::TargetFile& file, const std::string& name, tof::TofSettings& settings) {
-  if (file.outer_radius) {
-    const double value = file.outer_radius->value_m;
-    const double within = kRadiusMargin * value + kSigmas * file.outer_radius->sigma_m;
-    settings.ring.min_outer_radius_m = value - within;
-    settings.ring.max_outer_radius_m = value + within;
-    if (file.inner_radius) {
-      const double ratio = file.inner_radius->value_m / value;
-      const double by = kRadiusMargin + kSigmas * (file.inner_radius->sigma_m + file.outer_radius->sigma_m) / value;
-      settings.ring.min_radius_ratio = ratio - by;
-      settings.ring.max_radius_ratio = std::min(0.99, ratio + by);
-    }
-  }
-  settings.target.connectors.clear();
-  for (const host::StatedConnector& one : file.connectors) {
-    const tof::DescribedConnector connector{{one.x.value_m, one.y.value_m},
-                                            one.height.value_m,
-                                            {one.size_m[0], one.size_m[1]},
-                                            std::hypot(one.x.sigma_m, one.y.sigma_m),
-                                            one.height.sigma_m};
-    if (!settings.target.connectors.push_back(connector)) {
-      throw host::InputError(name + ": more than " + std::to_string(tof::kMaxDescribed) +
-                             " connectors; leave out those farthest from the ring");
-    }
-  }
-}
 
 void TargetLearner::add(const tof::TofPose& pose) {
   if (!pose.has_turn() || pose.ambiguous()) return;
@@ -85,8 +53,8 @@ void TargetLearner::add(const tof::TofPose& pose) {
   }
 }
 
-host::TargetFile TargetLearner::learnt() const {
-  host::TargetFile file;
+host::DockingTarget TargetLearner::learnt() const {
+  host::DockingTarget file;
   if (frames_ == 0) return file;
   file.outer_radius = mean_of(outer_m_);
   file.inner_radius = mean_of(inner_m_);

@@ -3,14 +3,10 @@
 
 #include <vector>
 
-#include "host/cameras/target_file.hpp"
+#include "host/cameras/docking_target.hpp"
 #include "pharos/tof/tof_pose.hpp"
 
 namespace pharos::tools {
-
-/// Puts a target description into the settings: connectors, and limits of the ring's radii where they are stated, so
-/// that another ring is none. Throws InputError where it has more connectors than can be used.
-void apply_target(const host::TargetFile& file, const std::string& name, tof::TofSettings& settings);
 
 /// Collects a target description from frames with all six degrees of freedom: radii, and the connectors that are seen
 /// at one place in most frames, X' towards the nearest.
@@ -18,7 +14,7 @@ class TargetLearner {
  public:
   void add(const tof::TofPose& pose);
   std::size_t frames() const { return frames_; }
-  host::TargetFile learnt() const;
+  host::DockingTarget learnt() const;
 
  private:
   struct Seen {

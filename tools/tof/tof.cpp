@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "host/cameras/camera_file.hpp"
+#include "host/cameras/tof_target.hpp"
 #include "host/device/frame_directory.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/tof/tof_pose.hpp"
@@ -136,7 +137,7 @@ void write_learnt(const std::string& path, const TargetLearner& learner) {
     return;
   }
   std::ofstream out(path);
-  if (!(out << host::target_text(learner.learnt()) << std::flush)) {
+  if (!(out << host::docking_target_text(learner.learnt()) << std::flush)) {
     throw host::InputError(path + ": cannot be written; check the folder and the space left");
   }
   note("--learn: " + path + " from " + std::to_string(learner.frames()) + " frames");
@@ -146,7 +147,7 @@ int run(Options options) {
   if (options.min_diameter_mm > 0.0) options.settings.ring.min_outer_radius_m = 0.0005 * options.min_diameter_mm;
   if (options.max_diameter_mm > 0.0) options.settings.ring.max_outer_radius_m = 0.0005 * options.max_diameter_mm;
   if (!options.target.empty()) {
-    apply_target(host::read_target_file(options.target), options.target, options.settings);
+    host::apply_target(host::read_docking_target(options.target), options.target, options.settings);
   }
   if (!options.learn.empty()) require_writable(options.learn);
   TargetLearner learner;

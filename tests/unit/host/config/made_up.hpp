@@ -27,8 +27,21 @@ inline RigFile a_rig(const std::string& path) {
   return rig;
 }
 
+/// A ring of 0.56 m across and `connectors` of them; a file that is gone cannot be opened.
+inline DockingTarget a_docking_target(const std::string& path, std::size_t connectors) {
+  if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+  DockingTarget target;
+  target.outer_radius = {0.28, 0.001};
+  target.inner_radius = {0.265, 0.001};
+  for (std::size_t k = 0; k < connectors; ++k) {
+    target.connectors.push_back({{0.3 + 0.1 * static_cast<double>(k), 0.001}, {0.0, 0.001}, {0.06, 0.001}, {0.08, 0.08}});
+  }
+  return target;
+}
+
 /// An environment without a disk. Names that contain "gone" do not exist, all others do; /dev/left and /dev/right are
-/// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large".
+/// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large". A docking target has
+/// two connectors, or nine if its name contains "many".
 inline Environment made_up() {
   return {any_target,
           [](const std::filesystem::path& file) {
@@ -50,7 +63,14 @@ inline Environment made_up() {
           [](const std::filesystem::path& directory) {
             if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
           },
-          a_rig};
+          a_rig,
+          [](const RigFile&) {},
+          [](const RigFile&, const std::string&) {},
+          [](const std::string&) {},
+          [](const std::filesystem::path&, const RigFile&) {},
+          [](const std::string& path) {
+            return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2);
+          }};
 }
 
 inline DaemonConfig parse(const std::string& text) {

@@ -47,6 +47,25 @@ TEST(TofConfig, TakesEveryKey) {
   EXPECT_EQ(camera.tof.ring.max_outer_radius_m, 0.6);
 }
 
+TEST(TofConfig, TakesTheTargetsDescription) {
+  const DaemonConfig config = parse(std::string(kCamera) + "target_file = 'ring.toml'\n");
+  const TofConfig& camera = config.cameras.at(0);
+  EXPECT_EQ(camera.target_file, "/etc/pharos/ring.toml");
+  ASSERT_EQ(camera.tof.target.connectors.size(), 2u);
+  EXPECT_EQ(camera.tof.target.connectors[1].place_m, Vector2(0.4, 0.0));
+  // Another ring is none.
+  EXPECT_GT(camera.tof.ring.min_outer_radius_m, 0.27);
+  EXPECT_LT(camera.tof.ring.max_outer_radius_m, 0.29);
+  EXPECT_THAT(describe(config), HasSubstr("connectors: 2 described, from /etc/pharos/ring.toml"));
+}
+
+TEST(TofConfig, TakesTheNumberOfConnectors) {
+  EXPECT_EQ(parse(kCamera).cameras.at(0).tof.connector.expected, 2);
+  const DaemonConfig config = parse(std::string(kCamera) + "connectors = 1\n");
+  EXPECT_EQ(config.cameras.at(0).tof.connector.expected, 1);
+  EXPECT_THAT(describe(config), HasSubstr("connectors: 1, the nearest gives the turn"));
+}
+
 TEST(TofConfig, TakesRecordedFramesInPlaceOfACamera) {
   const TofConfig camera =
       parse("[[camera]]\nname = 'a'\ntarget = 'b'\ncamera_file = 'c.toml'\nframes = 'here'\n").cameras.at(0);
@@ -91,6 +110,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadCamera{"NoRate", "frame_rate_hz = 0\n", "p.toml:6: camera[0].frame_rate_hz: must"},
         BadCamera{"RingUpsideDown", "[camera.ring]\nleast_outer_radius_m = 0.9\nmost_outer_radius_m = 0.4\n",
                   "p.toml:8: camera[0].ring.most_outer_radius_m: the most must be more"},
+        BadCamera{"NoConnectors", "connectors = 0\n", "p.toml:6: camera[0].connectors: must lie in"},
+        BadCamera{"TargetFileGone", "target_file = 'gone.toml'\n",
+                  "p.toml:6: camera[0].target_file: /etc/pharos/gone.toml: cannot be opened"},
+        BadCamera{"TooManyConnectors", "target_file = 'many.toml'\n",
+                  "p.toml:6: camera[0].target_file: /etc/pharos/many.toml: more than 8 connectors"},
+        BadCamera{"RadiusTwice", "target_file = 'ring.toml'\n[camera.ring]\nleast_outer_radius_m = 0.2\n",
+                  "p.toml:7: camera[0].ring: is in /etc/pharos/ring.toml already"},
+        BadCamera{"ConnectorsTwice", "target_file = 'ring.toml'\nconnectors = 2\n",
+                  "p.toml:7: camera[0].connectors: are in /etc/pharos/ring.toml already"},
         BadCamera{"FramesAndSerial", "frames = 'here'\n", "p.toml:5: camera[0].serial: is of a camera on the network"},
         BadCamera{"SameName", "[[camera]]\nname = 'helios'\ntarget = 'x'\ncamera_file = 'h.toml'\nserial = '2'\n",
                   "p.toml:7: camera[1].name: \"helios\" is taken"},

@@ -22,7 +22,7 @@ struct StatedConnector {
 };
 
 /// Target description: what is known beforehand of ring, nozzle and connectors; what is absent is found.
-struct TargetFile {
+struct DockingTarget {
   std::optional<StatedLength> outer_radius, inner_radius, ring_height;
   std::optional<StatedLength> exit_radius, nozzle_distance;
   std::vector<StatedConnector> connectors;
@@ -35,12 +35,12 @@ inline constexpr double kStatedSigma_m = 0.001;
 ///   [ring] outer_radius_m, inner_radius_m, height_m   [nozzle] exit_radius_m, distance_m
 ///   [[connector]] x_m, y_m, height_m, size_m = [x, y]
 /// each length with an optional `sigma_...` of the same name. Throws InputError naming file, line and key.
-TargetFile read_target_file(const std::string& path);
+DockingTarget read_docking_target(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
-TargetFile parse_target(std::string_view text, const std::string& name);
+DockingTarget parse_docking_target(std::string_view text, const std::string& name);
 
-/// The file's text; parse_target reads the same values from it.
-std::string target_text(const TargetFile& file);
+/// The file's text; parse_docking_target reads the same values from it.
+std::string docking_target_text(const DockingTarget& file);
 
 }  // namespace pharos::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cameras/target_file.hpp"
+#include "host/cameras/docking_target.hpp"
 
 #include "host/support/exact_number.hpp"
 #include "host/toml/strict_toml.hpp"
@@ -21,8 +21,8 @@ std::optional<StatedLength> length_if_stated(const TomlTable& table, const std::
   return std::nullopt;
 }
 
-TargetFile read_target(const TomlTable& root) {
-  TargetFile file;
+DockingTarget read_target(const TomlTable& root) {
+  DockingTarget file;
   const TomlTable ring = root.table_or_empty("ring"), nozzle = root.table_or_empty("nozzle");
   file.outer_radius = length_if_stated(ring, "outer_radius_m");
   file.inner_radius = length_if_stated(ring, "inner_radius_m");
@@ -50,13 +50,13 @@ std::string length_line(const std::string& key, const std::optional<StatedLength
 
 }  // namespace
 
-TargetFile read_target_file(const std::string& path) { return read_target(TomlTable::parse_file(path)); }
+DockingTarget read_docking_target(const std::string& path) { return read_target(TomlTable::parse_file(path)); }
 
-TargetFile parse_target(std::string_view text, const std::string& name) {
+DockingTarget parse_docking_target(std::string_view text, const std::string& name) {
   return read_target(TomlTable::parse_text(text, name));
 }
 
-std::string target_text(const TargetFile& file) {
+std::string docking_target_text(const DockingTarget& file) {
   std::string out = "[ring]\n" + length_line("outer_radius_m", file.outer_radius) +
                     length_line("inner_radius_m", file.inner_radius) + length_line("height_m", file.ring_height);
   out +=
