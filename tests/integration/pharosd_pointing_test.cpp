@@ -54,7 +54,7 @@ class PharosdPointing : public ::testing::Test {
     const Vector3& truth = scene.axis_station;
     const double axis_rad = Vector3(message.axis_station).cross(truth).norm();
     EXPECT_LT(axis_rad, 4.0 * message.sigma_axis_rad);
-    EXPECT_LT(message.sigma_axis_rad, 0.02);  // 0.03 px at the ends of edges that are this near to each other
+    EXPECT_LT(message.sigma_axis_rad, 0.01);
     EXPECT_LT(std::abs(Vector3(message.plane_normal_station).dot(truth)), 4.0 * message.sigma_plane_rad);
     EXPECT_LT(message.sigma_plane_rad, 1e-3);
     const Matrix3 R_earth_station = pointing::station_to_earth({34.27 * kRadPerDeg, 108.95 * kRadPerDeg, 0.0});

@@ -19,6 +19,7 @@ struct PaintedPanel {
   Vector3 axis_station = Vector3::UnitX();
   double length_m = 10.0, width_m = 2.0;
   Vector2 shift_m = Vector2::Zero();  ///< to the right and down from the line of sight
+  double rim_m = 0.0, rim_light = 1.0;    ///< a strip along its border, of another brightness
   double sky = 600.0, light = 24000.0, noise = 200.0, blur_px = 1.2;
 
   /// In the image plane turned by `turn_rad`, then out of it.
@@ -29,33 +30,50 @@ struct PaintedPanel {
   }
 
   host::GreyImage image(unsigned seed = 1) const {
-    const Matrix3 R = pointing::camera_to_station(sight);
-    const Vector3 axis = R.transpose() * axis_station, side = axis.cross(Vector3(Vector3::UnitZ())).normalized();
-    const Vector3 middle(shift_m.x(), shift_m.y(), range_m);
-    std::array<Vector2, 4> corners;
-    const std::array<Vector2, 4> places{Vector2(-1, -1), Vector2(1, -1), Vector2(1, 1), Vector2(-1, 1)};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Vector3 p = middle + 0.5 * length_m * places[k].x() * axis + 0.5 * width_m * places[k].y() * side;
-      corners[k] = {camera.fx_px * p.x() / p.z() + camera.cx_px, camera.fy_px * p.y() / p.z() + camera.cy_px};
-    }
-    const Vector2 centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    const Corners outer = corners(0.0), inner = corners(rim_m);
     host::GreyImage picture{camera.width_px, camera.height_px, 16, {}};
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal(0.0, noise);
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
-        double fraction = 1.0;
-        for (std::size_t k = 0; k < 4; ++k) {
-          const Vector2 along = (corners[(k + 1) % 4] - corners[k]).normalized(), across(-along.y(), along.x());
-          const double inward = across.dot(centre - corners[k]) > 0.0 ? 1.0 : -1.0;
-          const double off = inward * across.dot(Vector2(u, v) - corners[k]);
-          fraction *= 0.5 * std::erfc(-off / (blur_px * std::sqrt(2.0)));
-        }
+        double fraction = rim_light * covered(outer, Vector2(u, v));
+        if (rim_light != 1.0) fraction += (1.0 - rim_light) * covered(inner, Vector2(u, v));
         const double value = sky + light * fraction + normal(random);
         picture.pixels.push_back(static_cast<std::uint16_t>(std::clamp(value, 0.0, 65535.0)));
       }
     }
     return picture;
+  }
+
+ private:
+  using Corners = std::array<Vector2, 4>;
+
+  // In the image, `inset_m` inside of the border.
+  Corners corners(double inset_m) const {
+    const Matrix3 R = pointing::camera_to_station(sight);
+    const Vector3 axis = R.transpose() * axis_station, side = axis.cross(Vector3(Vector3::UnitZ())).normalized();
+    const Vector3 middle(shift_m.x(), shift_m.y(), range_m);
+    const std::array<Vector2, 4> places{Vector2(-1, -1), Vector2(1, -1), Vector2(1, 1), Vector2(-1, 1)};
+    Corners corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector3 p = middle + (0.5 * length_m - inset_m) * places[k].x() * axis +
+                        (0.5 * width_m - inset_m) * places[k].y() * side;
+      corners[k] = {camera.fx_px * p.x() / p.z() + camera.cx_px, camera.fy_px * p.y() / p.z() + camera.cy_px};
+    }
+    return corners;
+  }
+
+  // Blurred.
+  double covered(const Corners& corners, const Vector2& pixel) const {
+    const Vector2 centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    double fraction = 1.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector2 along = (corners[(k + 1) % 4] - corners[k]).normalized(), across(-along.y(), along.x());
+      const double inward = across.dot(centre - corners[k]) > 0.0 ? 1.0 : -1.0;
+      const double off = inward * across.dot(pixel - corners[k]);
+      fraction *= 0.5 * std::erfc(-off / (blur_px * std::sqrt(2.0)));
+    }
+    return fraction;
   }
 };
 

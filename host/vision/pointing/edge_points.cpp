@@ -27,6 +27,8 @@ constexpr int kMaxMisses = 3;       // in a row: an edge ends there
 constexpr double kHalfNoise = 0.5;
 constexpr double kCornerSigmas = 3.0;
 constexpr double kBorder_px = 3.0;
+// 2 sqrt(pi): of a Gaussian rise of unit contrast, blur over the integral of the squared slope.
+constexpr double kShiftOfExcess = 3.5449077;
 constexpr int kSteps = 8;
 constexpr double kStill_px = 1e-4;
 constexpr double kSqrt2Pi = 2.5066282746310002;
@@ -120,6 +122,45 @@ std::optional<Rise> fit_rise(const Profile& profile, double blur, double start) 
   return rise;
 }
 
+// The mean of an edge's profiles about their own positions, less the rise that was fitted to each: what stands beside
+// the edge the same way all along it.
+class ProfileStack {
+ public:
+  void add(const Profile& profile, const Rise& rise, double blur) {
+    const double contrast = rise.bright - rise.dark;
+    for (std::size_t i = 0; i < profile.size; ++i) {
+      const double across = profile.position[i] - rise.place;
+      const double fitted = rise.dark + contrast * rise_table().integral(across / blur);
+      const auto bin = static_cast<std::size_t>(std::clamp((across + kHalf_px) / kBin_px, 0.0, kBins - 1.0));
+      const double residual = (profile.value[i] - fitted) / contrast;
+      sum_[bin] += residual;
+      squares_[bin] += residual * residual;
+      ++count_[bin];
+    }
+  }
+
+  /// Integral of the square of the mean residual beyond what the profiles' scatter explains, px of unit contrast.
+  double excess_px() const {
+    double sum = 0.0, noise = 0.0;
+    for (std::size_t i = 0; i < kBins; ++i) {
+      if (count_[i] < kMinInBin) continue;
+      const double n = count_[i], mean = sum_[i] / n;
+      const double variance = std::max(0.0, squares_[i] / n - mean * mean) / (n - 1.0);
+      sum += mean * mean - variance;
+      noise += 2.0 * variance * variance;  // of the square of a normal number
+    }
+    return kBin_px * std::max(0.0, sum - kNoiseSigmas * std::sqrt(noise));
+  }
+
+ private:
+  static constexpr std::size_t kBins = 128;
+  static constexpr double kHalf_px = 16.0, kBin_px = 0.25;
+  static constexpr int kMinInBin = 8;
+  static constexpr double kNoiseSigmas = 2.0;
+  std::array<double, kBins> sum_{}, squares_{};
+  std::array<int, kBins> count_{};
+};
+
 // Steps along the line by one row or column, whichever is closer to perpendicular.
 class EdgeScan {
  public:
@@ -181,6 +222,7 @@ struct Sample {
   double across = 0.0;
   double contrast = 0.0;
   double dark = 0.0;
+  Rise rise;
 };
 
 // Properties of a valid point of this edge.
@@ -203,7 +245,7 @@ std::optional<Sample> sample(const EdgeScan& scan, const TargetMask& target, int
   if (contrast < minimum || std::abs(rise->dark - target.sky) > kDarkness * contrast + 3.0 * target.noise) {
     return std::nullopt;
   }
-  return Sample{index, rise->place, contrast, rise->dark};
+  return Sample{index, rise->place, contrast, rise->dark, *rise};
 }
 
 double median(std::vector<double> values) {
@@ -324,13 +366,20 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
              near_border(image, edge.extent.end, kBorder_px + 1.5 * settings.reach_px);
   const double corner = kCornerSigmas * settings.blur + 1.0;
   std::vector<double> darks, contrasts;
+  std::array<ProfileStack, 2> halves;
   for (const Sample& one : samples_between(scan, target, first, last, settings)) {
     const Vector2 place = scan.place(one.index, one.across);
     if ((place - edge.extent.begin).norm() < corner || (place - edge.extent.end).norm() < corner) continue;
     edge.points.push_back({place, 1.0});
     darks.push_back(one.dark);
     contrasts.push_back(one.contrast);
+    const bool second = 2 * std::abs(one.index - first) > std::abs(last - first);
+    if (const auto profile = scan.profile(one.index, settings.reach_px)) {
+      halves[second ? 1 : 0].add(*profile, one.rise, settings.blur);
+    }
   }
+  const double excess_px = std::max(halves[0].excess_px(), halves[1].excess_px());
+  edge.structure_px = std::sqrt(kShiftOfExcess * settings.blur * excess_px);
   if (!darks.empty()) edge.backing = (median(darks) - target.sky - kHalfNoise * target.noise) / median(contrasts);
   return edge;
 }

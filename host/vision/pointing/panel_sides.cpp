@@ -56,6 +56,7 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   side.cut = edge.cut;
   side.blur_px = edge.blur_px;
   side.backing = edge.backing;
+  side.structure_px = edge.structure_px;
   side.extent = edge.extent;
   side.points = std::move(edge.points);
   if (!pointing::undo_distortion(side.points, camera)) return PointingRefusal::kOutsideLens;

@@ -18,7 +18,8 @@ struct Side {
   pointing::LineFit fit;
   Segment extent;  ///< in the image as it was taken
   double blur_px = 0.0;
-  double backing = 0.0;  ///< see MeasuredEdge
+  double backing = 0.0;       ///< see MeasuredEdge
+  double structure_px = 0.0;  ///< see MeasuredEdge
   bool cut = false;
 };
 
