@@ -25,6 +25,22 @@ bool is_good(const TargetPose& target) {
   return (target.covariance.diagonal().array() > 0.0).all();
 }
 
+std::uint8_t flag_of(ConnectorDoubt doubt) {
+  switch (doubt) {
+    case ConnectorDoubt::kMore:
+      return kFlagMoreConnectors;
+    case ConnectorDoubt::kUnlike:
+    case ConnectorDoubt::kUnclear:
+      return kFlagUnsureConnectors;
+    case ConnectorDoubt::kHidden:
+      return kFlagFewConnectors;
+    case ConnectorDoubt::kNone:
+    case ConnectorDoubt::kNoneSeen:
+      return 0;
+  }
+  return 0;
+}
+
 // By the description: any one of its connectors gives the turn.
 void add_described(const TofFrame& frame, const DepthCamera& camera, const TofSettings& settings,
                    const TofWorkspace& workspace, TofPose& result) {
@@ -58,7 +74,7 @@ void add_connector(const TofFrame& frame, const DepthCamera& camera, const TofSe
       choose_connector(frame, camera, workspace.rays, ring, settings.connector, workspace.raised);
   if (choice.doubt != ConnectorDoubt::kNone) {
     result.flags |= kFlagNoConnector;
-    if (choice.doubt == ConnectorDoubt::kHidden) result.flags |= kFlagFewConnectors;
+    result.flags |= flag_of(choice.doubt);
     result.target = target_pose_without_turn(ring);
     return;
   }

@@ -30,11 +30,17 @@ enum TofFlag : std::uint8_t {
   kFlagFewConnectors = 1U << 2U,
   /// The connector's edges were not found: its position is that of its region.
   kFlagCoarseConnector = 1U << 3U,
+  /// More connectors are seen than the target carries: which of them is none is not known. With kFlagNoConnector.
+  kFlagMoreConnectors = 1U << 4U,
+  /// The connectors seen are not of one kind, or something nearer may be one. With kFlagNoConnector.
+  kFlagUnsureConnectors = 1U << 5U,
 };
-inline constexpr std::array<FlagWord, 4> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},
+inline constexpr std::array<FlagWord, 6> kTofFlagWords = {{{kFlagNoConnector, "no_connector"},
                                                            {kFlagRingPartlyHidden, "ring_partly_hidden"},
                                                            {kFlagFewConnectors, "few_connectors"},
-                                                           {kFlagCoarseConnector, "coarse_connector"}}};
+                                                           {kFlagCoarseConnector, "coarse_connector"},
+                                                           {kFlagMoreConnectors, "more_connectors"},
+                                                           {kFlagUnsureConnectors, "unsure_connectors"}}};
 
 /// The measured pose of one frame, T_camera_target, and the measurements behind it.
 struct TofPose {

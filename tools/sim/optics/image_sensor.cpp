@@ -10,11 +10,20 @@ namespace pharos::sim {
 namespace {
 
 // Above so many electrons a Poisson number is a normal one to better than the read noise shows.
-constexpr double kManyElectrons = 50.0;
+constexpr double kManyElectrons = 20.0;
+// A pixel whose mean is so many deviations below the full well never fills it.
+constexpr double kFarFromFull = 6.0;
 
-double electrons_of(double mean_e, RandomStream& random) {
-  if (mean_e < kManyElectrons) return random.poisson(mean_e);
-  return mean_e + std::sqrt(mean_e) * random.normal();
+// Electrons read of a pixel: shot noise, full well, read noise.
+double read_electrons(double mean_e, const ImageSensor& sensor, RandomStream& random) {
+  if (!sensor.shot_noise) return std::min(mean_e, sensor.full_well_e) + sensor.read_noise_e * random.normal();
+  const double read_variance = sensor.read_noise_e * sensor.read_noise_e;
+  if (mean_e < kManyElectrons) return random.poisson(mean_e) + sensor.read_noise_e * random.normal();
+  if (mean_e + kFarFromFull * std::sqrt(mean_e) < sensor.full_well_e) {
+    return mean_e + std::sqrt(mean_e + read_variance) * random.normal();
+  }
+  const double light_e = mean_e + std::sqrt(mean_e) * random.normal();
+  return std::min(light_e, sensor.full_well_e) + sensor.read_noise_e * random.normal();
 }
 
 }  // namespace
@@ -34,8 +43,7 @@ host::GreyImage expose(const LinearImage& image, const ImageSensor& sensor, Rand
   host::GreyImage grey{image.width_px, image.height_px, sensor.bits, std::vector<std::uint16_t>(image.light.size())};
   for (std::size_t i = 0; i < image.light.size(); ++i) {
     const double mean_e = static_cast<double>(image.light[i]) * sensor.electrons_per_light;
-    const double light_e = sensor.shot_noise ? electrons_of(mean_e, random) : mean_e;
-    const double read_e = std::min(light_e, sensor.full_well_e) + sensor.read_noise_e * random.normal();
+    const double read_e = read_electrons(mean_e, sensor, random);
     const double count = std::clamp(std::round(read_e / sensor.full_well_e * largest), 0.0, largest);
     grey.pixels[i] = static_cast<std::uint16_t>(count * step);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "tools/sim/render/solid_shapes.hpp"
@@ -13,10 +14,12 @@ namespace pharos::sim {
 namespace {
 
 constexpr int kTile_px = 16;
-// Distance from the surface at which a shadow ray begins.
+// A shadow's ray begins so far off the surface.
 constexpr double kOffSurface_m = 1e-5;
-// Difference of light between neighbouring pixels from which on more rays are cast.
-constexpr float kWorthRays = 0.01F;
+// Difference of light between neighbours that is worth a few rays, and all of them. A slope within one surface is a
+// tenth of its step off where a few rays are evenly spread.
+constexpr float kWorthFew = 0.01F, kWorthAll = 0.06F;
+constexpr int kFewRays = 4;
 constexpr double kShininess = 40.0;
 
 double hashed(std::int64_t x, std::int64_t y) {
@@ -61,6 +64,7 @@ class Caster {
     for (const Solid& solid : scene.solids) {
       const Bounds bounds = bounds_of(solid);
       bounds_.push_back({solid.R * bounds.centre_m + solid.t_m, bounds.radius_m});
+      eyes_.push_back(solid.R.transpose() * (eye - solid.t_m));
     }
   }
 
@@ -73,7 +77,9 @@ class Caster {
     SolidHit nearest;
     int which = -1;
     for (const std::uint16_t k : candidates) {
-      const SolidHit hit = meet_solid(k, eye_, direction, 1e-9);
+      const Solid& solid = scene_.solids[k];
+      const Vector3 d = solid.R.transpose() * direction;
+      const SolidHit hit = std::visit([&](const auto& shape) { return meet(shape, eyes_[k], d, 1e-9); }, solid.shape);
       if (hit.depth >= nearest.depth) continue;
       nearest = hit;
       which = k;
@@ -123,6 +129,7 @@ class Caster {
 
   const SolidScene& scene_;
   Vector3 eye_;
+  std::vector<Vector3> eyes_;  // in each solid's frame
   std::vector<Bounds> bounds_;
 };
 
@@ -164,7 +171,57 @@ class Tiles {
   std::vector<std::vector<std::uint16_t>> lists_;
 };
 
+// Rays (x/z, y/z) of any place of the image: of a lens that distorts, linear between places 4 px apart, 0.001 px off.
+class LensRays {
+ public:
+  explicit LensRays(const Lens& lens) : lens_(lens), plain_(!has_distortion(lens)) {
+    if (plain_) return;
+    columns_ = lens.width_px / kStep_px + 3;
+    const int rows = lens.height_px / kStep_px + 3;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const Vector2 seen = seen_at((column - 1) * kStep_px, (row - 1) * kStep_px);
+        const auto ray = undistorted(lens, seen, column > 0 && rays_.back() ? *rays_.back() : seen);
+        rays_.push_back(ray);
+      }
+    }
+  }
+
+  std::optional<Vector2> at(double u, double v) const {
+    if (plain_) return seen_at(u, v);
+    const double x = u / kStep_px + 1.0, y = v / kStep_px + 1.0;
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const auto* above = &rays_[static_cast<std::size_t>(row * columns_ + column)];
+    const auto* below = above + columns_;
+    if (!above[0] || !above[1] || !below[0] || !below[1]) return std::nullopt;
+    const double a = x - column, b = y - row;
+    return Vector2((1 - b) * ((1 - a) * *above[0] + a * *above[1]) + b * ((1 - a) * *below[0] + a * *below[1]));
+  }
+
+ private:
+  static constexpr int kStep_px = 4;
+  Vector2 seen_at(double u, double v) const { return {(u - lens_.cx_px) / lens_.fx_px, (v - lens_.cy_px) / lens_.fy_px}; }
+
+  const Lens& lens_;
+  bool plain_;
+  int columns_ = 0;
+  std::vector<std::optional<Vector2>> rays_;
+};
+
 std::vector<Subpixel> even_subpixels(int count) { return blurred_subpixels(count, 0.0); }
+
+// Of a pixel's light to its eight neighbours'; to another solid it is as large as can be.
+float largest_step(const LinearImage& image, const std::vector<std::int16_t>& solids, int u, int v) {
+  const auto solid_at = [&](int x, int y) { return solids[static_cast<std::size_t>(y * image.width_px + x)]; };
+  float largest = 0.0F;
+  for (int y = std::max(0, v - 1); y <= std::min(image.height_px - 1, v + 1); ++y) {
+    for (int x = std::max(0, u - 1); x <= std::min(image.width_px - 1, u + 1); ++x) {
+      if (solid_at(x, y) != solid_at(u, v)) return std::numeric_limits<float>::infinity();
+      largest = std::max(largest, std::abs(image.at(x, y) - image.at(u, v)));
+    }
+  }
+  return largest;
+}
 
 }  // namespace
 
@@ -175,10 +232,9 @@ LinearImage solid_image(const SolidScene& scene, const Lens& lens, const Matrix3
   const auto pixels = static_cast<std::size_t>(lens.width_px) * static_cast<std::size_t>(lens.height_px);
   LinearImage image{lens.width_px, lens.height_px, std::vector<float>(pixels, 0.0F)};
   std::vector<std::int16_t> solids(pixels, -1);
-  const bool plain = !has_distortion(lens);
+  const LensRays rays_of(lens);
   const auto look = [&](double u, double v, const std::vector<std::uint16_t>& list) -> Caster::Seen {
-    const Vector2 seen((u - lens.cx_px) / lens.fx_px, (v - lens.cy_px) / lens.fy_px);
-    const auto ray = plain ? std::optional<Vector2>(seen) : undistorted(lens, seen, seen);
+    const auto ray = rays_of.at(u, v);
     if (!ray) return {};
     return caster.look(R_scene_camera * Vector3(ray->x(), ray->y(), 1.0), list);
   };
@@ -191,23 +247,15 @@ LinearImage solid_image(const SolidScene& scene, const Lens& lens, const Matrix3
       solids[static_cast<std::size_t>(v * lens.width_px + u)] = static_cast<std::int16_t>(seen.solid);
     }
   }
-  const std::vector<Subpixel> places = even_subpixels(rays);
+  const std::vector<Subpixel> all = even_subpixels(rays), few = even_subpixels(std::min(rays, kFewRays));
   const LinearImage once = image;
-  const auto differs = [&](int u, int v, int x, int y) {
-    if (x < 0 || y < 0 || x >= lens.width_px || y >= lens.height_px) return false;
-    return solids[static_cast<std::size_t>(v * lens.width_px + u)] !=
-               solids[static_cast<std::size_t>(y * lens.width_px + x)] ||
-           std::abs(once.at(u, v) - once.at(x, y)) > kWorthRays;
-  };
   for (int v = 0; v < lens.height_px; ++v) {
     for (int u = 0; u < lens.width_px; ++u) {
       const auto& list = tiles.at(u, v);
       if (list.empty()) continue;
-      bool worth = false;
-      for (int y = -1; y <= 1 && !worth; ++y) {
-        for (int x = -1; x <= 1 && !worth; ++x) worth = differs(u, v, u + x, v + y);
-      }
-      if (!worth) continue;
+      const float step = largest_step(once, solids, u, v);
+      if (!(step > kWorthFew)) continue;
+      const std::vector<Subpixel>& places = step > kWorthAll ? all : few;
       double sum = 0.0;
       for (const Subpixel& place : places) sum += look(u + place[0], v + place[1], list).light;
       image.at(u, v) = static_cast<float>(sum / static_cast<double>(places.size()));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace pharos::sim {
 namespace {
@@ -64,26 +65,34 @@ FoilTexture::FoilTexture(double height_m, RandomStream random) {
   }
   const double mean = sum / kCount;
   const double scale = height_m / std::sqrt(squares / kCount - mean * mean);
-  grid_.resize(kCount);
+  std::vector<Sample> grid(kCount);
   const auto level = [&](std::size_t column, std::size_t row) {
     return scale * (height[(row % kCells) * kCells + column % kCells] - mean);
   };
   constexpr double kTwoCells_m = 2.0 * kSide_m / kCells;
   for (std::size_t row = 0; row < kCells; ++row) {
     for (std::size_t column = 0; column < kCells; ++column) {
-      Sample& sample = grid_[row * kCells + column];
+      Sample& sample = grid[row * kCells + column];
       sample.height_m = static_cast<float>(level(column, row));
       sample.slope_x = static_cast<float>((level(column + 1, row) - level(column + kCells - 1, row)) / kTwoCells_m);
       sample.slope_y = static_cast<float>((level(column, row + 1) - level(column, row + kCells - 1)) / kTwoCells_m);
     }
   }
+  grid_ = std::make_shared<const std::vector<Sample>>(std::move(grid));
+}
+
+FoilTexture::FoilTexture(const FoilTexture& pattern, double times, double x_m, double y_m) : FoilTexture(pattern) {
+  times_ *= times;
+  x_m_ += x_m;
+  y_m_ += y_m;
 }
 
 FoilTexture::Wrinkle FoilTexture::at(double x_m, double y_m) const {
   constexpr double kPerMetre = kCells / kSide_m;
   constexpr int kMask = kCells - 1;
-  const double x = x_m * kPerMetre;
-  const double y = y_m * kPerMetre;
+  const double x = (x_m + x_m_) * kPerMetre;
+  const double y = (y_m + y_m_) * kPerMetre;
+  const std::vector<Sample>& grid = *grid_;
   const double left = std::floor(x);
   const double top = std::floor(y);
   const auto fx = static_cast<float>(x - left);
@@ -91,15 +100,15 @@ FoilTexture::Wrinkle FoilTexture::at(double x_m, double y_m) const {
   const int column = static_cast<int>(left);
   const int row = static_cast<int>(top);
   const auto cell = [&](int c, int r) -> const Sample& {
-    return grid_[static_cast<std::size_t>((r & kMask) * kCells + (c & kMask))];
+    return grid[static_cast<std::size_t>((r & kMask) * kCells + (c & kMask))];
   };
   const Sample& a = cell(column, row);
   const Sample& b = cell(column + 1, row);
   const Sample& c = cell(column, row + 1);
   const Sample& d = cell(column + 1, row + 1);
-  const auto mix = [fx, fy](float p, float q, float r, float s) {
+  const auto mix = [this, fx, fy](float p, float q, float r, float s) {
     const float upper = p + fx * (q - p);
-    return static_cast<double>(upper + fy * (r + fx * (s - r) - upper));
+    return times_ * static_cast<double>(upper + fy * (r + fx * (s - r) - upper));
   };
   return {mix(a.height_m, b.height_m, c.height_m, d.height_m), mix(a.slope_x, b.slope_x, c.slope_x, d.slope_x),
           mix(a.slope_y, b.slope_y, c.slope_y, d.slope_y)};

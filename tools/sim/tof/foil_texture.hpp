@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "tools/sim/random_stream.hpp"
@@ -20,6 +21,9 @@ class FoilTexture {
   /// `height_m`: standard deviation of the height.
   FoilTexture(double height_m, RandomStream random);
 
+  /// The same wrinkles `times` as high, moved by (x, y): shares their memory, where drawing new ones takes 30 ms.
+  FoilTexture(const FoilTexture& pattern, double times, double x_m, double y_m);
+
   /// Linear between the grid's points.
   Wrinkle at(double x_m, double y_m) const;
 
@@ -32,7 +36,8 @@ class FoilTexture {
     float slope_y = 0.0F;
   };
   static constexpr int kCells = 512;  // of 4 mm: finer than a pixel sees from 2.5 m
-  std::vector<Sample> grid_;
+  std::shared_ptr<const std::vector<Sample>> grid_;
+  double times_ = 1.0, x_m_ = 0.0, y_m_ = 0.0;
 };
 
 }  // namespace pharos::sim

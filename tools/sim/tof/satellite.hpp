@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pharos/geometry/pose.hpp"
+#include "tools/sim/render/solid_scene.hpp"
 
 namespace pharos::sim {
 
@@ -77,6 +78,8 @@ struct Satellite {
   std::vector<PaintedCircle> circles;
   Foil foil;
   std::optional<Occluder> occluder;
+  /// What else is there, in T: a second ring, covers, thrusters, a dish, a thin boom. Of a material the albedo counts.
+  std::vector<Solid> clutter;
 };
 
 /// A satellite whose every measure goes with its ring's outer diameter; two like connectors, the second one farther.

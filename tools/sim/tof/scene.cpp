@@ -6,12 +6,13 @@
 
 #include "pharos/base/units.hpp"
 #include "tools/sim/render/primitives.hpp"
+#include "tools/sim/render/solid_shapes.hpp"
 
 namespace pharos::sim {
 namespace {
 
 constexpr double kMultipathDecay_m = 0.08;  // how far from a corner the light that came round it still counts
-constexpr int kFacesOfConnector = 3;
+constexpr int kFacesOfConnector = 3;  // and of clutter: edges between faces are worth more rays
 
 int number_of(SurfaceKind kind) { return static_cast<int>(kind); }
 
@@ -59,6 +60,10 @@ Scene::Scene(const Satellite& satellite, const FoilTexture& foil, const CameraFr
     connector_centres_.push_back(centre);
     const Vector3 middle_T(centre.x(), centre.y(), satellite.face_z_m + 0.5 * c.height_m);
     balls_.push_back({T_camera_target * middle_T, 0.5 * std::hypot(c.side_m, across_of(c), c.height_m)});
+  }
+  for (const Solid& solid : satellite.clutter) {
+    const Bounds bounds = bounds_of(solid);
+    balls_.push_back({T_camera_target * (solid.R * bounds.centre_m + solid.t_m), bounds.radius_m});
   }
   if (satellite.occluder && satellite.ring) place_boom(*satellite.occluder);
 }
@@ -111,6 +116,10 @@ Hit Scene::trace(const Vector2& ray, Parts parts) const {
   }
   for (std::size_t i = 0; i < satellite_.connectors.size(); ++i) {
     if ((parts >> (i + 1) & 1u) != 0) trace_connector(in_T, i, hit);
+  }
+  const std::size_t before = 1 + satellite_.connectors.size();
+  for (std::size_t i = 0; i < satellite_.clutter.size(); ++i) {
+    if ((parts >> (before + i) & 1u) != 0) trace_clutter(in_T, i, hit);
   }
   if (hit.surface == number_of(SurfaceKind::kFace)) shade_face(in_T, hit);
   return hit;
@@ -229,6 +238,23 @@ void Scene::trace_connector(const Ray& ray, std::size_t number, Hit& hit) const 
   if (entry.at >= hit.depth_m) return;
   hit = {entry.at, connector.albedo * std::abs(d[entry.axis]) / d.norm(), 0.0,
          number_of(SurfaceKind::kConnector) + static_cast<int>(number) * kFacesOfConnector + entry.axis};
+}
+
+int Scene::top_of_connector(std::size_t number) {
+  return number_of(SurfaceKind::kConnector) + static_cast<int>(number) * kFacesOfConnector + 2;
+}
+
+void Scene::trace_clutter(const Ray& ray, std::size_t number, Hit& hit) const {
+  const Solid& solid = satellite_.clutter[number];
+  const Vector3 o = solid.R.transpose() * (camera_T_ - solid.t_m), d = solid.R.transpose() * ray.direction;
+  const SolidHit met = std::visit([&](const auto& shape) { return meet(shape, o, d, 0.0); }, solid.shape);
+  if (met.depth >= hit.depth_m) return;
+  int face = 0;
+  met.normal.cwiseAbs().maxCoeff(&face);
+  const std::size_t of_connectors = satellite_.connectors.size() + number;
+  hit = {met.depth, solid.material.albedo * std::abs(met.normal.dot(d)) / d.norm(), 0.0,
+         number_of(SurfaceKind::kConnector) + static_cast<int>(of_connectors) * kFacesOfConnector +
+             (std::holds_alternative<SolidBox>(solid.shape) ? face : 0)};
 }
 
 }  // namespace pharos::sim

@@ -24,7 +24,7 @@ enum class SurfaceKind : std::uint8_t {
   kThroat,
   kPaint,
   kOccluder,
-  kConnector,  // and one more for every further connector and face of it
+  kConnector,  // and one more for every further connector and face of it; then clutter, three numbers each
 };
 
 struct Hit {
@@ -46,7 +46,9 @@ class Scene {
   Parts parts_near(const Vector3& direction, double half_angle_rad) const;
 
   /// The first thing that the ray (x/z, y/z) from the camera meets.
-  Hit trace(const Vector2& ray, Parts parts) const;
+  Hit trace(const Vector2& ray, Parts parts = ~Parts{0}) const;
+  /// Number of the top of a connector of the satellite, as in Hit::surface.
+  static int top_of_connector(std::size_t number);
 
  private:
   struct Ball {
@@ -69,6 +71,7 @@ class Scene {
   void trace_ring(const Ray& ray, Hit& hit) const;
   void trace_nozzle(const Ray& ray, Hit& hit) const;
   void trace_connector(const Ray& ray, std::size_t number, Hit& hit) const;
+  void trace_clutter(const Ray& ray, std::size_t number, Hit& hit) const;
   void shade_face(const Ray& ray, Hit& hit) const;
   double glossy(const Vector3& normal, const Ray& ray) const;
 
@@ -77,7 +80,7 @@ class Scene {
   CameraFromTarget T_camera_target_;
   Vector3 camera_T_;          // where the camera is, in T
   double hole_radius_m_ = 0;  // of the face where the nozzle goes through it
-  std::vector<Ball> balls_;   // ring and nozzle, then connectors
+  std::vector<Ball> balls_;   // ring and nozzle, then connectors, then clutter
   std::vector<Eigen::Matrix2d> connector_axes_;
   std::vector<Vector2> connector_centres_;
   Boom boom_;

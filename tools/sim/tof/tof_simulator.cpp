@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace pharos::sim {
 namespace {
@@ -28,8 +29,12 @@ std::string purpose(const char* what, int frame) { return "tof " + std::string(w
 TofSimulator::TofSimulator(TofScenario scenario, std::uint64_t seed)
     : scenario_(std::move(scenario)),
       seed_(seed),
-      rays_(scenario_.lens),
+      rays_(std::make_shared<const PixelRays>(scenario_.lens)),
       foil_(scenario_.satellite.foil.height_m, RandomStream(seed, "tof foil")) {}
+
+TofSimulator::TofSimulator(TofScenario scenario, std::uint64_t seed, std::shared_ptr<const PixelRays> rays,
+                           FoilTexture foil)
+    : scenario_(std::move(scenario)), seed_(seed), rays_(std::move(rays)), foil_(std::move(foil)) {}
 
 TofTruth TofSimulator::truth(int frame) const {
   const CameraFromTarget& pose = scenario_.poses[static_cast<std::size_t>(frame)];
@@ -53,14 +58,14 @@ const IdealFrame& TofSimulator::ideal(int frame) {
   if (!same) {
     Satellite satellite = scenario_.satellite;
     satellite.occluder = occluder_of(frame);
-    ideal_ = render_ideal(Scene(satellite, foil_, pose(frame)), rays_, scenario_.imaging);
+    ideal_ = render_ideal(Scene(satellite, foil_, pose(frame)), *rays_, scenario_.imaging);
   }
   rendered_ = frame;
   return ideal_;
 }
 
 TofPixels TofSimulator::fresh_pixels(int frame) {
-  return expose(ideal(frame), rays_, scenario_.sensor, scenario_.imaging.nominal_counts, scenario_.depth,
+  return expose(ideal(frame), *rays_, scenario_.sensor, scenario_.imaging.nominal_counts, scenario_.depth,
                 RandomStream(seed_, purpose("noise", frame)));
 }
 

@@ -21,6 +21,16 @@ constexpr const char* kExample =
     "  pharos reproduce tof --frames 10\n"
     "  pharos reproduce tof --success 1000";
 
+// No camera comes out of fewer (pharos calibrate camera).
+constexpr int kMinBoards = 3;
+
+std::string check_boards(const std::string& text) {
+  int boards = 0;
+  if (!CLI::detail::lexical_cast(text, boards)) return "must be a whole number";
+  if (boards == 0 || (boards >= kMinBoards && boards <= 1000)) return "";
+  return "must be 0 (without), or from " + std::to_string(kMinBoards) + " to 1000: a camera needs as many images";
+}
+
 struct Options {
   int frames = 100;
   int boards = 20;
@@ -54,7 +64,7 @@ void add_reproduce_tof(CLI::App& reproduce, int& exit_code) {
       ->check(CLI::Range(2, 10'000))
       ->capture_default_str();
   command->add_option("--boards", options->boards, "Images of each calibration board of table 1; 0: without")
-      ->check(CLI::Range(0, 1000))
+      ->check(check_boards)
       ->capture_default_str();
   command
       ->add_option("--success", options->success,
