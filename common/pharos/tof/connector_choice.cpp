@@ -16,6 +16,12 @@ constexpr double kAlikeSides = 1.3;
 constexpr double kAlikeHeights = 1.5;
 // A place is the plate's where that is more likely than a connector by e^10.
 constexpr double kPlateCertain = -10.0;
+// And something stands there where that is more likely than the plate by e^15: places are some thousand.
+constexpr double kStands = 15.0;
+// Nozzles are no wider than this fraction of the ring.
+constexpr double kClearOfNozzle = 0.45;
+// Places so near to a box' centre, in half diagonals, show the box or its walls.
+constexpr double kBesideBox = 2.0;
 // Distances closer than this many deviations are equal.
 constexpr double kEqualSigmas = 4.0;
 // A connector does not overlap the ring by more than this fraction of its side.
@@ -66,7 +72,12 @@ class Chooser {
     for (const SeenConnector& other : seen) {
       if (!alike(seen[0], other)) return ConnectorDoubt::kUnlike;
     }
-    return count == settings_.expected || nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
+    if (count < settings_.expected) {
+      return nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
+    }
+    // One of them may be a look-alike, and a connector hidden or not found.
+    if (count == 1 && face_is_hidden()) return ConnectorDoubt::kHidden;
+    return something_stands_nearer() ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
   }
 
   bool alike(const SeenConnector& a, const SeenConnector& b) const {
@@ -85,8 +96,63 @@ class Chooser {
     return std::max(settings_.min_difference_m, kEqualSigmas * std::sqrt(variance(a) + variance(b)));
   }
 
+  // Whether something before the satellite hides as much of it as a connector takes.
+  bool face_is_hidden() const {
+    const ReliefGrid& grid = workspace_.grid;
+    const double nearest = kMinConnectorDistance * ring_.model.radius_m[0];
+    int cells = 0;
+    for (int row = 0; row < grid.side(); ++row) {
+      for (int column = 0; column < grid.side(); ++column) {
+        cells += grid.hidden(column, row) && grid.place_of(column, row).norm() > nearest ? 1 : 0;
+      }
+    }
+    return cells * grid.cell_m() * grid.cell_m() > result_.seen[0].face.rectangle.area_m2();
+  }
+
   // Whether no connector like the nearest one seen can stand nearer to the centre.
   bool nearer_places_are_plate() const {
+    return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
+  }
+  // Whether something as high and wide as the nearest one stands nearer, and is none of the boxes found.
+  bool something_stands_nearer() const {
+    // Clear of the nozzle and of its walls in sight.
+    const double half_m = std::sqrt(0.25 * result_.seen[0].face.rectangle.area_m2());
+    const double nearest_m = kClearOfNozzle * ring_.model.radius_m[0] + 2.0 * half_m;
+    return any_nearer_place(nearest_m, [&](const Vector2& place, double log_odds) {
+      if (log_odds < kStands || beside_wall(place.norm(), half_m) || beside_hidden(place, half_m)) return false;
+      return std::none_of(workspace_.boxes.begin(), workspace_.boxes.end(), [&](const RaisedBox& box) {
+        return (place - box.rectangle.centre_m).norm() < kBesideBox * box.rectangle.half_sides_m.norm();
+      });
+    });
+  }
+
+  // In the ring's plane its walls in sight lie beside it, as far as the plate is deep.
+  bool beside_wall(double distance_m, double half_m) const {
+    const double facing = std::clamp(-ring_.model.normal.dot(ring_.model.centre_m.normalized()), 0.1, 1.0);
+    const double wall_m = std::fabs(workspace_.base_m) * std::sqrt(1.0 - facing * facing) / facing;
+    const double clear_m = 1.5 * half_m + wall_m;
+    return distance_m > ring_.model.radius_m[1] - clear_m && distance_m < ring_.model.radius_m[0] + clear_m;
+  }
+
+  // At the rim of something before the satellite pixels are mixed with it.
+  bool beside_hidden(const Vector2& place, double half_m) const {
+    const ReliefGrid& grid = workspace_.grid;
+    const double reach_m = 2.0 * half_m;
+    const auto cell = [&](double along_m) {
+      return std::clamp(static_cast<int>(std::lround(grid.column_of(along_m))), 0, grid.side() - 1);
+    };
+    for (int row = cell(place.y() - reach_m); row <= cell(place.y() + reach_m); ++row) {
+      for (int column = cell(place.x() - reach_m); column <= cell(place.x() + reach_m); ++column) {
+        if (grid.hidden(column, row)) return true;
+      }
+    }
+    return false;
+  }
+
+  // Calls is(place, logarithm of the odds of a connector over the plate) for places nearer to the centre than the nearest
+  // one seen, until it is true.
+  template <class Is>
+  bool any_nearer_place(double nearest_m, Is is) const {
     const SeenConnector& nearest = result_.seen[0];
     const double half = std::sqrt(0.25 * nearest.face.rectangle.area_m2());
     const double step = nearest.face.height_m - workspace_.base_m;
@@ -98,14 +164,14 @@ class Chooser {
       for (int column = 0; column < grid.side(); ++column) {
         const Vector2 place = grid.place_of(column, row);
         const double distance = place.norm();
-        if (distance > limit || distance < kMinConnectorDistance * model.radius_m[0]) continue;
+        if (distance > limit || distance < nearest_m) continue;
         if (distance > model.radius_m[1] - clear && distance < model.radius_m[0] + clear) continue;
         // Those that overlap the one seen are itself.
         if ((place - nearest.face.rectangle.centre_m).norm() < 2.5 * half) continue;
-        if (log_likelihood_of_box(workspace_, model, column, row, half, step) > kPlateCertain) return false;
+        if (is(place, log_likelihood_of_box(workspace_, model, column, row, half, step))) return true;
       }
     }
-    return true;
+    return false;
   }
 
   const TofFrame& frame_;
