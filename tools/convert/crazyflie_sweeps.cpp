@@ -28,10 +28,11 @@ constexpr double kFollow = 0.05;
 using Key = std::array<std::uint8_t, 2>;  // sensor, plane
 using Angles = std::map<Key, double>;
 
-/// New angles of one station.
+/// Angles of one station after a turn.
 struct Block {
   double logged_s = 0.0;
-  Angles angles;
+  Angles logged;
+  Angles angles;         // those that are new: what a sensor did not see keeps its last value
   double begin_s = 0.0;  // of the turn, LH1: of the slot of plane 0
 };
 
@@ -42,7 +43,7 @@ bool begins_group(const LoggedAngle& before, const LoggedAngle& angle) {
   return angle.time_s - before.time_s > kGroup_s || key(angle) <= key(before);
 }
 
-/// Blocks that differ from the station's block before.
+/// Blocks that have an angle that the station's block before has not.
 Blocks new_blocks(const std::vector<LoggedAngle>& logged, std::size_t& repeated) {
   Blocks blocks;
   for (std::size_t i = 0; i < logged.size();) {
@@ -54,11 +55,15 @@ Blocks new_blocks(const std::vector<LoggedAngle>& logged, std::size_t& repeated)
     } while (i < logged.size() && !begins_group(logged[i - 1], logged[i]));
     for (const auto& [station, angles] : group) {
       std::vector<Block>& before = blocks[station];
-      if (!before.empty() && before.back().angles == angles) {
-        repeated += angles.size();
-      } else {
-        before.push_back({logged_s, angles, 0.0});
+      Block block{logged_s, angles, angles, 0.0};
+      if (!before.empty()) {
+        std::erase_if(block.angles, [&last = before.back().logged](const auto& angle) {
+          const auto found = last.find(angle.first);
+          return found != last.end() && found->second == angle.second;
+        });
       }
+      repeated += angles.size() - block.angles.size();
+      if (!block.angles.empty()) before.push_back(std::move(block));
     }
   }
   return blocks;
@@ -141,7 +146,7 @@ CrazyflieSweeps sweeps_of(const CrazyflieLog& log, int generation) {
   for (auto& [station, list] : blocks) {
     const double period_s = rotor_period_s(generation, station);
     for (Block& block : list) {
-      block.begin_s = block.logged_s - turns_until_logged(generation, block.angles) * period_s;
+      block.begin_s = block.logged_s - turns_until_logged(generation, block.logged) * period_s;
     }
     const double count = static_cast<double>(list.size());
     rates += count * clock_rate_of(list, period_s);
@@ -152,7 +157,7 @@ CrazyflieSweeps sweeps_of(const CrazyflieLog& log, int generation) {
     const double turn_s = rotor_period_s(generation, station) * out.clock_rate;
     const double delay_s = generation == 1 ? 0.0 : kLh2Delay_s;
     for (Block& block : list) {
-      block.begin_s = block.logged_s - delay_s - turns_until_logged(generation, block.angles) * turn_s;
+      block.begin_s = block.logged_s - delay_s - turns_until_logged(generation, block.logged) * turn_s;
     }
     take_out_delays(list, turn_s);
     for (const Block& block : list) {

@@ -21,6 +21,7 @@
 #include "tools/support/standard_input.hpp"
 #include "tools/support/target_notes.hpp"
 #include "tools/support/words.hpp"
+#include "tools/track/track_network.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -28,6 +29,7 @@ namespace {
 constexpr const char* kExample =
     "Example:\n"
     "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
+    "  pharos track --sweeps sweeps.csv --stations stations.toml --target target.csv > poses.csv\n"
     "Each row is T_lighthouse_body in the frame of the station in the column station.\n"
     "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated, both stations' hits in\n"
     "one estimate where both see it (flag fused); noise shared by all hits of a sweep is taken as 0.87 of a bearing's\n"
@@ -42,6 +44,7 @@ struct Options {
   std::string method = "motion";
   std::string calibration = "ootx";
   std::string sensors;
+  std::string sweeps, stations;  // of several stations, in place of edges
   int form = 1;
   bool raw_flashes = false;
   bool stats = false;
@@ -169,6 +172,13 @@ void check_files(const Options& options) {
 }
 
 int run(const Options& options) {
+  if (!options.sweeps.empty() || !options.stations.empty()) {
+    if (options.sweeps.empty() || options.stations.empty() || !options.edges.empty()) {
+      throw host::InputError("give --sweeps and --stations together, and no EDGES");
+    }
+    return track_network({options.sweeps, options.stations, options.target, options.stats}, options.output);
+  }
+  if (options.edges.empty()) throw host::InputError("give EDGES, or --sweeps and --stations");
   check_files(options);
   const host::TargetFile target = host::read_target(options.target);
   note_target_shape(options.target, target.shape);
@@ -195,11 +205,13 @@ int run(const Options& options) {
 void add_track(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("track", "A recording and a target to poses");
   const auto options = std::make_shared<Options>();
-  command
-      ->add_option(
-          "EDGES", options->edges,
-          "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
-      ->required();
+  command->add_option(
+      "EDGES", options->edges,
+      "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input");
+  command->add_option("--sweeps", options->sweeps,
+                      "In place of EDGES: hits of one to 16 stations, as `pharos convert` writes them; poses are "
+                      "T_world_body");
+  command->add_option("--stations", options->stations, "With --sweeps: stations.toml, where they stand");
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
   command
       ->add_option("--method", options->method,

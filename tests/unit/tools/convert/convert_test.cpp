@@ -124,6 +124,22 @@ TEST(CrazyflieSweeps, FindsWhenHitsWereInSpiteOfDelays) {
   EXPECT_NEAR(sweeps.hits[0].theta_rad, kPi / 2, 0.2);
 }
 
+TEST(CrazyflieSweeps, LeavesOutWhatASensorDidNotSeeAgain) {
+  CrazyflieLog log;
+  for (int k = 0; k < 10; ++k) {
+    for (std::uint8_t sensor = 0; sensor < 4; ++sensor) {
+      for (std::uint8_t plane = 0; plane < 2; ++plane) {
+        // Sensor 3 is in shadow from the third turn on.
+        const double angle_rad = 0.01 * (sensor == 3 ? std::min(k, 2) : k);
+        log.angles.push_back({1.0 + k / 60.0 + 1e-5 * (2 * sensor + plane), sensor, 0, plane, angle_rad});
+      }
+    }
+  }
+  const CrazyflieSweeps sweeps = sweeps_of(log, 1);
+  EXPECT_EQ(sweeps.hits.size(), 80U - 14U);
+  EXPECT_EQ(sweeps.repeated, 14U);
+}
+
 constexpr const char* kConfig =
     "calibs:\n  1:\n    sweeps:\n"
     "    - {curve: 0.1, gibmag: 0.001, gibphase: 2.5, ogeemag: -0.2, ogeephase: 1.0, phase: 0.0, tilt: -0.05}\n"

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/network/network_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+namespace pharos::network {
+namespace {
+
+// A station at `at` that looks at `to`; x right, y down, z ahead.
+WorldFromStation looking(const Vector3& at, const Vector3& to) {
+  const Vector3 ahead = (to - at).normalized();
+  const Vector3 right = ahead.cross(Vector3::UnitZ()).normalized();
+  Matrix3 R;
+  R << right, ahead.cross(right), ahead;
+  return {R, at};
+}
+
+Target deck() {
+  Target target;
+  std::uint8_t number = 0;
+  for (const double x : {-0.015, 0.015}) {
+    for (const double y : {0.0075, -0.0075}) target.push_back({number++, {x, y, 0.0}, Vector3::UnitZ()});
+  }
+  return target;
+}
+
+Stations two_stations(Generation generation) {
+  Stations stations;
+  for (std::uint8_t k = 0; k < 2; ++k) {
+    Station station;
+    station.number = k;
+    station.generation = generation;
+    station.T_world_station = looking(k == 0 ? Vector3(-2.5, 0, 3) : Vector3(0.4, -3.0, 3), Vector3(0, 0, 0.8));
+    station.sigmas = StationSigmas{0.002, 0.001, 0.0003};
+    stations.push_back(station);
+  }
+  return stations;
+}
+
+WorldFromBody body_at(double t) {
+  return {rotation_exp({0.2 * std::sin(0.8 * t), 0.2 * std::cos(0.7 * t), 0.5 * std::sin(0.3 * t)}),
+          Vector3(0.6 * std::sin(0.9 * t), 0.5 * std::cos(0.6 * t), 0.9 + 0.2 * std::sin(1.1 * t))};
+}
+
+// Both stations in turn, a plane every 8.3 ms, noise of 8 arcsec; the tracker knows `known`, light comes from `real`.
+void run(Generation generation, const Stations& real, const Stations& known) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 40e-6);
+  const Target target = deck();
+  const auto tracker = std::make_unique<NetworkTracker>(known, target, NetworkOptions{});
+  int ok = 0, wrong = 0, rows = 0;
+  double square = 0.0;
+  const auto take = [&](const std::optional<NetworkResult>& result) {
+    if (!result) return;
+    ++rows;
+    if (!result->pose.ok() || result->time_s < 1.0) return;
+    const Vector3 error = result->pose.value().t - body_at(result->time_s).t;
+    const double sigma = std::sqrt(result->covariance.bottomRightCorner<3, 3>().trace());
+    square += error.squaredNorm();
+    ++ok;
+    if (error.norm() > 0.01 && error.norm() > 5.0 * sigma) ++wrong;
+  };
+  for (int k = 0; k < 1200; ++k) {
+    const std::size_t plane = static_cast<std::size_t>(k % 2), station = static_cast<std::size_t>(k / 2 % 2);
+    for (const SensorPlacement& sensor : target) {
+      const double t = k / 120.0 + 0.002 + 1e-5 * sensor.sensor;
+      const Vector3 p = real[station].T_world_station->inverse() * (body_at(t) * sensor.position_m);
+      const double angle = raw_angle(real[station], plane, p) + noise(random);
+      take(tracker->push(static_cast<std::uint8_t>(station), plane, {t, sensor.sensor, angle}));
+    }
+  }
+  take(tracker->flush());
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(ok, 9 * rows / 10 - 130);
+  EXPECT_LT(std::sqrt(square / ok), 0.006) << static_cast<int>(generation);
+}
+
+TEST(NetworkTracker, FollowsASmallTargetUnderTwoStationsOfEitherGeneration) {
+  for (const Generation generation : {Generation::kLighthouse1, Generation::kLighthouse2}) {
+    run(generation, two_stations(generation), two_stations(generation));
+  }
+}
+
+TEST(NetworkTracker, LeavesOutHitsOfUnknownStationsAndSensors) {
+  const Stations stations = two_stations(Generation::kLighthouse2);
+  const auto tracker = std::make_unique<NetworkTracker>(stations, deck(), NetworkOptions{});
+  EXPECT_FALSE(tracker->push(9, 0, {1.0, 0, 0.1}));
+  EXPECT_FALSE(tracker->push(0, 0, {1.0, 0, NAN}));
+  EXPECT_EQ(tracker->counters().hits_unknown, 2U);
+  tracker->push(0, 0, {1.0, 30, 0.1});
+  const auto result = tracker->flush();
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->pose.ok());
+}
+
+}  // namespace
+}  // namespace pharos::network

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tools/support/output.hpp"
+
+namespace pharos::tools {
+
+/// Files of `pharos track --sweeps`.
+struct NetworkFiles {
+  std::string sweeps, stations, target;
+  bool stats = false;
+};
+
+/// Sweeps of several stations of known poses to T_world_body, a row a sweep; the exit code.
+int track_network(const NetworkFiles& files, const OutputOptions& output);
+
+}  // namespace pharos::tools
