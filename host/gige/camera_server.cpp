@@ -105,6 +105,7 @@ void CameraServer::stream(GigeCamera& camera) {
     const std::int64_t began_ns = monotonic_now_ns();
     const FrameOutcome outcome = take_frame(camera);
     const std::int64_t now_ns = monotonic_now_ns();
+    camera.beat_if_due();  // a silent one too, or it would be taken for lost
     const bool foreign = outcome == FrameOutcome::kOutOfOrder || outcome == FrameOutcome::kWrongTime;
     any = any || outcome != FrameOutcome::kNone;
     if (outcome != FrameOutcome::kNone) ask(camera, now_ns);
@@ -148,7 +149,6 @@ FrameOutcome CameraServer::take_frame(GigeCamera& camera) {
 // Called after a frame, so that no frame waits for the camera's responses. Not called while no frames come: a query
 // without a response takes 2.5 s.
 void CameraServer::ask(GigeCamera& camera, std::int64_t now_ns) {
-  camera.beat_if_due();
   if (now_ns - asked_ns_ <= kAsk_ns) return;
   asked_ns_ = now_ns;
   follows_ptp_ = camera.follows_ptp();

@@ -264,7 +264,7 @@ GigeCamera::GigeCamera(const CameraSettings& settings, bool believe_source_port)
   parts.read_scale();  // depends on mode and format
   parts.start_ptp();
   parts.describe();
-  parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()));
+  parts.heartbeat.emplace(arv_camera_get_device(parts.camera.get()), ip_of(parts.camera.get()));
   parts.time.emplace(arv_camera_get_device(parts.camera.get()));
   parts.start_stream();
 }

@@ -184,12 +184,9 @@ TEST_F(CameraSourceTest, OpensASilentCameraAnew) {
   play.stalls.push_back({0.0, 1e6});
   serve();
   CameraSource source(settings, camera_program());
-  // If its heartbeat times out in the same second as the wait for frames, the camera is reported as lost instead.
-  ASSERT_TRUE(run(source, [&] {
-    const FrameSourceCounters counters = source.status().counters;
-    return counters.camera_silences + counters.camera_lost >= 1;
-  }));
-  EXPECT_TRUE(run(source, [&] { return source.status().counters.camera_opened >= 2; }));
+  EXPECT_TRUE(run(source, [&] { return source.status().counters.camera_opened >= 3; }));
+  EXPECT_GE(source.status().counters.camera_silences, 2);
+  EXPECT_EQ(source.status().counters.camera_lost, 0);
   EXPECT_EQ(taken, 0);
 }
 
