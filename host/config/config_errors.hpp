@@ -20,15 +20,13 @@ class ConfigErrors {
       read();
       return true;
     } catch (const InputError& error) {
-      if (std::find(lines_.begin(), lines_.end(), error.what()) == lines_.end()) lines_.emplace_back(error.what());
+      add(error.what());
       return false;
     }
   }
-  /// Refuses unknown keys. After an error, nested tables may not have been read to their end, and their keys would look
-  /// unknown: with errors since `before` only the table's own keys are checked.
-  void reject_unknown(const TomlTable& table, std::size_t before) {
-    const bool whole = count() == before;
-    attempt([&] { whole ? table.reject_unknown() : table.reject_unknown_here(); });
+  /// Every key that nobody asked for. So all keys of a table must be asked for, whatever is wrong with some of them.
+  void add_unknown_keys(const TomlTable& table) {
+    for (const std::string& message : table.unknown_keys()) add(message);
   }
   std::size_t count() const { return lines_.size(); }
   /// Throws all errors as one InputError, one line each; does nothing if there are none.
@@ -39,6 +37,10 @@ class ConfigErrors {
   }
 
  private:
+  void add(const std::string& line) {
+    if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+  }
+
   std::vector<std::string> lines_;
 };
 

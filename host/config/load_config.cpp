@@ -24,47 +24,66 @@ constexpr std::size_t kMaxPrefix = 40;  // leaves 23 of LCM's 63 characters for 
 constexpr double kMebibyte = 1 << 20;
 constexpr double kSecondsPerMinute = 60.0;
 
-LcmConfig read_lcm(const TomlTable& table) {
+LcmConfig read_lcm(const TomlTable& table, ConfigErrors& errors) {
   LcmConfig lcm;
-  lcm.url = table.text_or("url", lcm.url);
-  if (const std::string error = lcm_url_error(lcm.url); !error.empty()) table.fail("url", error);
-  lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
-  if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
-    table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
-  }
+  errors.attempt([&] {
+    lcm.url = table.text_or("url", lcm.url);
+    if (const std::string error = lcm_url_error(lcm.url); !error.empty()) table.fail("url", error);
+  });
+  errors.attempt([&] {
+    lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
+    if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
+      table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
+    }
+  });
   return lcm;
 }
 
-PublishConfig read_publish(const TomlTable& table) {
+PublishConfig read_publish(const TomlTable& table, ConfigErrors& errors) {
   PublishConfig publish;
-  publish.max_age_s = table.number_or("max_age_s", publish.max_age_s, {0.005, 10.0});
-  publish.status_period_s = 1.0 / table.number_or("status_rate_hz", 1.0 / publish.status_period_s, {0.1, 10.0});
-  publish.bearings = table.boolean_or("bearings", publish.bearings);
+  errors.attempt([&] { publish.max_age_s = table.number_or("max_age_s", publish.max_age_s, {0.005, 10.0}); });
+  errors.attempt([&] {
+    publish.status_period_s = 1.0 / table.number_or("status_rate_hz", 1.0 / publish.status_period_s, {0.1, 10.0});
+  });
+  errors.attempt([&] { publish.bearings = table.boolean_or("bearings", publish.bearings); });
   return publish;
 }
 
-RecordingConfig read_recording(const TomlTable& table, const fs::path& folder) {
+RecordingConfig read_recording(const TomlTable& table, const fs::path& folder, ConfigErrors& errors) {
   RecordingConfig recording;
-  recording.directory = read_path(table, "directory", folder);
-  const double default_mib = static_cast<double>(recording.rotate_bytes) / kMebibyte;
-  recording.rotate_bytes =
-      static_cast<std::uint64_t>(table.number_or("rotate_mib", default_mib, {0.01, 65'536.0}) * kMebibyte);
-  recording.rotate_s =
-      table.number_or("rotate_minutes", recording.rotate_s / kSecondsPerMinute, {0.01, 10'080.0}) * kSecondsPerMinute;
+  errors.attempt([&] { recording.directory = read_path(table, "directory", folder); });
+  errors.attempt([&] {
+    const double default_mib = static_cast<double>(recording.rotate_bytes) / kMebibyte;
+    recording.rotate_bytes =
+        static_cast<std::uint64_t>(table.number_or("rotate_mib", default_mib, {0.01, 65'536.0}) * kMebibyte);
+  });
+  errors.attempt([&] {
+    recording.rotate_s =
+        table.number_or("rotate_minutes", recording.rotate_s / kSecondsPerMinute, {0.01, 10'080.0}) * kSecondsPerMinute;
+  });
   return recording;
 }
 
-LogConfig read_log(const TomlTable& table, const fs::path& folder) {
+LogConfig read_log(const TomlTable& table, const fs::path& folder, ConfigErrors& errors) {
   LogConfig log;
-  log.level = table.choice_or("level", log.level, {"trace", "debug", "info", "warning", "error", "critical", "off"});
-  const std::string sink = table.choice_or("sink", "stderr", {"stderr", "syslog", "file"});
-  if (sink == "syslog") log.sink = LogSink::kSyslog;
-  if (sink == "file") log.sink = LogSink::kFile;
-  if (log.sink == LogSink::kFile) {
-    log.file = read_path(table, "file", folder);
-  } else if (table.has("file")) {
-    table.fail("file", "is used only with sink = \"file\"; set that or remove this key");
-  }
+  errors.attempt([&] {
+    log.level =
+        table.choice_or("level", log.level, {"trace", "debug", "info", "warning", "error", "critical", "off"});
+  });
+  const bool has_file = table.has("file");
+  const bool knows_sink = errors.attempt([&] {
+    const std::string sink = table.choice_or("sink", "stderr", {"stderr", "syslog", "file"});
+    if (sink == "syslog") log.sink = LogSink::kSyslog;
+    if (sink == "file") log.sink = LogSink::kFile;
+  });
+  if (!knows_sink) return log;
+  errors.attempt([&] {
+    if (log.sink == LogSink::kFile) {
+      log.file = read_path(table, "file", folder);
+    } else if (has_file) {
+      table.fail("file", "is used only with sink = \"file\"; set that or remove this key");
+    }
+  });
   return log;
 }
 
@@ -175,7 +194,6 @@ void read_target_file(const TomlTable& table, const fs::path& folder, const Envi
 TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
                                ConfigErrors& errors) {
   TargetConfig target;
-  const std::size_t before = errors.count();
   errors.attempt([&] { target.name = read_name(table, "name", table.text("name")); });
   errors.attempt([&] { read_port(table, folder, environment, target); });
   // Any rate is accepted: the port sets arbitrary rates (BOTHER), and opening it fails if the device does not.
@@ -196,7 +214,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   if (table.has("calibration_file") && knows_target && knows_form) {
     errors.attempt([&] { read_calibration(table, folder, environment, target); });
   }
-  errors.reject_unknown(table, before);
+  errors.add_unknown_keys(table);
   return target;
 }
 
@@ -233,17 +251,17 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   errors.attempt([&] {
     if (root.has("state_directory")) config.state_directory = read_path(root, "state_directory", folder);
   });
-  errors.attempt([&] { config.lcm = read_lcm(root.table_or_empty("lcm")); });
-  errors.attempt([&] { config.publish = read_publish(root.table_or_empty("publish")); });
+  errors.attempt([&] { config.lcm = read_lcm(root.table_or_empty("lcm"), errors); });
+  errors.attempt([&] { config.publish = read_publish(root.table_or_empty("publish"), errors); });
   errors.attempt([&] {
-    if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder);
+    if (root.has("recording")) config.recording = read_recording(root.table("recording"), folder, errors);
   });
-  errors.attempt([&] { config.log = read_log(root.table_or_empty("log"), folder); });
+  errors.attempt([&] { config.log = read_log(root.table_or_empty("log"), folder, errors); });
   errors.attempt([&] { config.targets = read_targets(root, folder, environment, errors); });
   errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment, errors); });
   errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment, errors); });
   errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras, errors); });
-  errors.reject_unknown(root, 0);
+  errors.add_unknown_keys(root);
   errors.throw_all();
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",

@@ -3,10 +3,7 @@
 
 #include <arpa/inet.h>
 
-#include <algorithm>
-#include <iterator>
 #include <string>
-#include <vector>
 
 #include "host/config/config_parts.hpp"
 
@@ -24,19 +21,24 @@ bool is_address(const std::string& text) {
 
 }  // namespace
 
-void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device) {
-  device.serial = table.text_or("serial", "");
-  device.address = table.text_or("address", "");
-  if (table.has("serial") &&
-      (device.serial.size() > kMaxSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
-    table.fail("serial", "must be 1 to " + std::to_string(kMaxSerial) + " letters, digits, - or _");
-  }
-  if (table.has("address") && !is_address(device.address)) {
-    table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
-  }
-  if (device.serial.empty() && device.address.empty()) {
+void read_which_camera(const TomlTable& table, const char* instead, CameraSettings& device, ConfigErrors& errors) {
+  errors.attempt([&] {
+    device.serial = table.text_or("serial", "");
+    if (table.has("serial") &&
+        (device.serial.size() > kMaxSerial || !all_of_set(device.serial, "-_") || device.serial.empty())) {
+      table.fail("serial", "must be 1 to " + std::to_string(kMaxSerial) + " letters, digits, - or _");
+    }
+  });
+  errors.attempt([&] {
+    device.address = table.text_or("address", "");
+    if (table.has("address") && !is_address(device.address)) {
+      table.fail("address", "\"" + device.address + "\" is no IPv4 address, as 169.254.1.2");
+    }
+  });
+  errors.attempt([&] {
+    if (table.has("serial") || table.has("address")) return;
     table.fail("serial", "is missing; give serial or address of a camera, or " + std::string(instead));
-  }
+  });
 }
 
 void read_transport(const TomlTable& table, CameraSettings& device, ConfigErrors& errors) {
@@ -50,11 +52,12 @@ void read_frame_rate(const TomlTable& table, CameraSettings& device) {
   device.frame_rate_hz = table.number_or("frame_rate_hz", device.frame_rate_hz, {0.1, 100.0});
 }
 
-void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys) {
-  // All keys are read before one is refused, so that none is reported as unknown.
-  std::vector<const char*> given;
-  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](const char* key) { return table.has(key); });
-  if (!given.empty()) table.fail(given.front(), "is of a camera on the network; remove it, or remove frames");
+void refuse_beside_frames(const TomlTable& table, std::initializer_list<const char*> keys, ConfigErrors& errors) {
+  for (const char* key : keys) {
+    errors.attempt([&] {
+      if (table.has(key)) table.fail(key, "is of a camera on the network; remove it, or remove frames");
+    });
+  }
 }
 
 }  // namespace pharos::host

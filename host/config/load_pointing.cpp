@@ -30,7 +30,6 @@ PinholeCamera read_lens(const TomlTable& table, const fs::path& file, const Envi
 PointingConfig read_telescope(const TomlTable& table, const fs::path& folder, const Environment& environment,
                               ConfigErrors& errors) {
   PointingConfig telescope;
-  const std::size_t before = errors.count();
   pointing::Geodetic& station = telescope.station;
   errors.attempt([&] { telescope.name = read_name(table, "name", table.text("name")); });
   errors.attempt([&] { telescope.target = read_name(table, "target", table.text("target")); });
@@ -48,7 +47,7 @@ PointingConfig read_telescope(const TomlTable& table, const fs::path& folder, co
   errors.attempt([&] { station.height_m = table.number_or("height_m", 0.0, {-500.0, 9000.0}); });
   errors.attempt([&] { telescope.law = read_law(table); });
   errors.attempt([&] { telescope.pass_gap_s = table.number_or("pass_gap_s", telescope.pass_gap_s, {0.1, 3600.0}); });
-  errors.reject_unknown(table, before);
+  errors.add_unknown_keys(table);
   return telescope;
 }
 

@@ -39,16 +39,23 @@ LowLight read_enhance(const TomlTable& table) {
   return LowLight::kOff;
 }
 
-void read_slam(const TomlTable& table, const fs::path& folder, SlamConfig& slam) {
+void read_slam(const TomlTable& table, const fs::path& folder, SlamConfig& slam, ConfigErrors& errors) {
   slam::SlamSettings& settings = slam.settings;
-  const std::string scene = table.choice_or("scene", "target", {"target", "static"});
-  settings.scene = scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
-  settings.features = static_cast<int>(table.integer_or("features", settings.features, 100, 10'000));
-  settings.max_keyframes = static_cast<std::size_t>(
-      table.has("max_keyframes") ? table.integer("max_keyframes", 5, 100'000) : std::int64_t{0});
-  settings.close_loops = table.boolean_or("close_loops", settings.close_loops);
-  if (table.has("vocabulary")) settings.vocabulary = read_path(table, "vocabulary", folder).string();
-  slam.enhance = read_enhance(table);
+  errors.attempt([&] {
+    const std::string scene = table.choice_or("scene", "target", {"target", "static"});
+    settings.scene = scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
+  });
+  errors.attempt(
+      [&] { settings.features = static_cast<int>(table.integer_or("features", settings.features, 100, 10'000)); });
+  errors.attempt([&] {
+    settings.max_keyframes = static_cast<std::size_t>(
+        table.has("max_keyframes") ? table.integer("max_keyframes", 5, 100'000) : std::int64_t{0});
+  });
+  errors.attempt([&] { settings.close_loops = table.boolean_or("close_loops", settings.close_loops); });
+  errors.attempt([&] {
+    if (table.has("vocabulary")) settings.vocabulary = read_path(table, "vocabulary", folder).string();
+  });
+  errors.attempt([&] { slam.enhance = read_enhance(table); });
 }
 
 void read_rig(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo) {
@@ -71,7 +78,6 @@ void check_vocabulary(const TomlTable& table, const Environment& environment, co
 }
 
 void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo) {
-  refuse_beside_frames(table, {"left", "right", "pixel_format", "packet_size", "ptp", "pairing_window_ms"});
   stereo.frames = read_path(table, "frames", folder);
   try {
     environment.check_pairs(stereo.frames, stereo.rig);
@@ -96,37 +102,44 @@ void read_devices(const TomlTable& table, StereoConfig& stereo, ConfigErrors& er
   errors.attempt([&] { format = table.choice_or("pixel_format", format, {"Mono8", "Mono16"}); });
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     CameraSettings& device = stereo.devices[side];
-    errors.attempt(
-        [&] { read_which_camera(table.table_or_empty(kSides[side]), "frames = \"DIRECTORY\" for the rig", device); });
+    errors.attempt([&] {
+      read_which_camera(table.table_or_empty(kSides[side]), "frames = \"DIRECTORY\" for the rig", device, errors);
+    });
     device.format = format == "Mono8" ? CameraFormat::kMono8 : CameraFormat::kMono16;
     read_transport(table, device, errors);
   }
 }
 
-void read_slam_of(const TomlTable& table, const fs::path& folder, const Environment& environment,
-                  StereoConfig& stereo) {
+void read_slam_of(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo,
+                  ConfigErrors& errors) {
   if (!stereo.slam) {
     if (table.has("slam")) table.fail("slam", "is of a system that systems does not name; add it there");
     return;
   }
   const TomlTable slam = table.table_or_empty("slam");
-  read_slam(slam, folder, *stereo.slam);
+  read_slam(slam, folder, *stereo.slam, errors);
   check_vocabulary(slam, environment, *stereo.slam);
 }
 
 StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const Environment& environment,
                          ConfigErrors& errors) {
   StereoConfig stereo;
-  const std::size_t before = errors.count();
   errors.attempt([&] { stereo.name = read_name(table, "name", table.text("name")); });
   errors.attempt([&] { stereo.target = read_name(table, "target", table.text("target")); });
   const bool knows_systems = errors.attempt([&] { read_systems(table, stereo); });
-  if (knows_systems) errors.attempt([&] { read_slam_of(table, folder, environment, stereo); });
+  if (knows_systems) {
+    errors.attempt([&] { read_slam_of(table, folder, environment, stereo, errors); });
+  } else if (table.has("slam")) {
+    SlamConfig perhaps;
+    errors.attempt([&] { read_slam(table.table("slam"), folder, perhaps, errors); });
+  }
   const bool knows_rig = errors.attempt([&] { read_rig(table, folder, environment, stereo); });
   if (!table.has("frames")) {
     read_devices(table, stereo, errors);
-  } else if (knows_rig) {  // pairs must have its size
-    errors.attempt([&] { read_frames(table, folder, environment, stereo); });
+  } else {
+    refuse_beside_frames(table, {"left", "right", "pixel_format", "packet_size", "ptp", "pairing_window_ms"}, errors);
+    // Pairs must have its size.
+    if (knows_rig) errors.attempt([&] { read_frames(table, folder, environment, stereo); });
   }
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     CameraSettings& device = stereo.devices[side];
@@ -136,7 +149,7 @@ StereoConfig read_stereo(const TomlTable& table, const fs::path& folder, const E
     device.height_px = intrinsics.height_px;
   }
   if (!table.has("frames")) errors.attempt([&] { read_window(table, stereo); });
-  if (errors.count() == before) errors.reject_unknown(table, before);
+  errors.add_unknown_keys(table);
   return stereo;
 }
 

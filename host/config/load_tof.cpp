@@ -33,7 +33,6 @@ DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const E
 }
 
 void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, TofConfig& camera) {
-  refuse_beside_frames(table, {"serial", "address", "mode", "packet_size", "ptp"});
   camera.frames = read_path(table, "frames", folder);
   try {
     environment.check_frames(camera.frames);
@@ -43,7 +42,7 @@ void read_frames(const TomlTable& table, const fs::path& folder, const Environme
 }
 
 void read_device(const TomlTable& table, CameraSettings& device, ConfigErrors& errors) {
-  errors.attempt([&] { read_which_camera(table, "frames = \"DIRECTORY\"", device); });
+  read_which_camera(table, "frames = \"DIRECTORY\"", device, errors);
   errors.attempt([&] {
     device.mode = table.text_or("mode", "");
     if (table.has("mode") && (device.mode.empty() || !all_of_set(device.mode, "_"))) {
@@ -53,15 +52,21 @@ void read_device(const TomlTable& table, CameraSettings& device, ConfigErrors& e
   read_transport(table, device, errors);
 }
 
-tof::RingSettings read_ring(const TomlTable& table) {
+tof::RingSettings read_ring(const TomlTable& table, ConfigErrors& errors) {
   tof::RingSettings ring;
   constexpr Range kRadius_m{0.02, 10.0};
-  ring.min_outer_radius_m = table.number_or("least_outer_radius_m", ring.min_outer_radius_m, kRadius_m);
-  ring.max_outer_radius_m = table.number_or("most_outer_radius_m", ring.max_outer_radius_m, kRadius_m);
-  if (ring.max_outer_radius_m <= ring.min_outer_radius_m) {
+  const std::size_t before = errors.count();
+  errors.attempt([&] {
+    ring.min_outer_radius_m = table.number_or("least_outer_radius_m", ring.min_outer_radius_m, kRadius_m);
+  });
+  errors.attempt([&] {
+    ring.max_outer_radius_m = table.number_or("most_outer_radius_m", ring.max_outer_radius_m, kRadius_m);
+  });
+  if (errors.count() != before || ring.max_outer_radius_m > ring.min_outer_radius_m) return ring;
+  errors.attempt([&] {
     table.fail(table.has("most_outer_radius_m") ? "most_outer_radius_m" : "least_outer_radius_m",
                "the most must be more than the least");
-  }
+  });
   return ring;
 }
 
@@ -86,7 +91,6 @@ void read_target_of(const TomlTable& table, const fs::path& folder, const Enviro
 TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
                             ConfigErrors& errors) {
   TofConfig camera;
-  const std::size_t before = errors.count();
   errors.attempt([&] { camera.name = read_name(table, "name", table.text("name")); });
   errors.attempt([&] { camera.target = read_name(table, "target", table.text("target")); });
   errors.attempt([&] {
@@ -94,6 +98,7 @@ TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, cons
     camera.camera = read_camera_of(table, camera.camera_file, environment);
   });
   if (table.has("frames")) {
+    refuse_beside_frames(table, {"serial", "address", "mode", "packet_size", "ptp"}, errors);
     errors.attempt([&] { read_frames(table, folder, environment, camera); });
   } else {
     read_device(table, camera.device, errors);
@@ -105,15 +110,8 @@ TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, cons
     camera.average_frames =
         static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
   });
-  errors.attempt([&] { camera.tof.ring = read_ring(table.table_or_empty("ring")); });
-  errors.attempt([&] {
-    auto& expected = camera.tof.connector.expected;
-    expected = static_cast<std::int32_t>(table.integer_or("connectors", expected, 1, tof::kMaxConnectors));
-  });
-  if (table.has("target_file")) {
-    errors.attempt([&] { read_target_of(table, folder, environment, camera); });
-  }
-  errors.reject_unknown(table, before);
+  errors.attempt([&] { camera.tof.ring = read_ring(table.table_or_empty("ring"), errors); });
+  errors.add_unknown_keys(table);
   return camera;
 }
 

@@ -162,9 +162,13 @@ std::vector<std::string> TomlTable::keys() const {
   return result;
 }
 
+std::string TomlTable::message_of(std::string_view key, const std::string& message) const {
+  return state_->file + ":" + std::to_string(line_of(key)) + ": " +
+         on_one_line(state_->path + std::string(key) + ": " + message);
+}
+
 void TomlTable::fail(std::string_view key, const std::string& message) const {
-  throw InputError(state_->file + ":" + std::to_string(line_of(key)) + ": " +
-                   on_one_line(state_->path + std::string(key) + ": " + message));
+  throw InputError(message_of(key, message));
 }
 
 double TomlTable::number(std::string_view key, Range range) const {
@@ -347,19 +351,25 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   return result;
 }
 
-void TomlTable::reject_unknown_here() const {
-  if (state_->table != nullptr) {
-    for (const auto& [key, node] : *state_->table) {
-      if (state_->asked.contains(key.str())) continue;
-      const std::string like = resembling(key.str(), state_->asked);
-      fail(key.str(), "unknown key" + (like.empty() ? std::string() : "; did you mean \"" + like + "\"?"));
-    }
+std::vector<std::string> TomlTable::unknown_keys() const {
+  std::vector<std::string> messages;
+  const std::set<std::string, std::less<>> known = state_->asked;  // a line asked for is no key asked for
+  for (const std::string& key : keys()) {
+    if (known.contains(key)) continue;
+    const std::string like = resembling(key, known);
+    messages.push_back(message_of(key, "unknown key" + (like.empty() ? "" : "; did you mean \"" + like + "\"?")));
   }
+  for (const auto& [name, child] : state_->children) {
+    const std::vector<std::string> below = TomlTable(child).unknown_keys();
+    messages.insert(messages.end(), below.begin(), below.end());
+  }
+  state_->asked = known;
+  return messages;
 }
 
 void TomlTable::reject_unknown() const {
-  reject_unknown_here();
-  for (const auto& [name, child] : state_->children) TomlTable(child).reject_unknown();
+  const std::vector<std::string> messages = unknown_keys();
+  if (!messages.empty()) throw InputError(messages.front());
 }
 
 }  // namespace pharos::host

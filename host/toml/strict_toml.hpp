@@ -80,11 +80,13 @@ class TomlTable {
   /// Throws for the first unknown key in this table or in any table read from it; names the known key that it
   /// resembles.
   void reject_unknown() const;
-  /// The same for the keys of this table only.
-  void reject_unknown_here() const;
-  /// Throws "file:line: key: message" for a value that was read but cannot be used.
+  /// The message of every such key; empty where there is none.
+  std::vector<std::string> unknown_keys() const;
+  /// Throws "file:line: key: message" for a value that was read but cannot be worked with.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  /// Line of the key in the file, or of the table itself if the key is absent.
+  /// The message that fail() throws.
+  std::string message_of(std::string_view key, const std::string& message) const;
+  /// Line of the key in the file, or of the table itself where the key is absent.
   std::uint32_t line_of(std::string_view key) const;
   /// Every key that is in this table, in alphabetical order.
   std::vector<std::string> keys() const;

@@ -77,6 +77,12 @@ TEST(StereoConfig, IsReported) {
   EXPECT_THAT(describe(parse(rig())), Not(HasSubstr("SLAM")));
 }
 
+TEST(StereoConfig, RefusesEachCameraBesideFrames) {
+  const std::string error = error_of(rig("systems = ['ring2']\nframes = 'here'\n"));
+  EXPECT_THAT(error, StartsWith("p.toml:7: stereo[0].left: is of a camera on the network"));
+  EXPECT_THAT(error, HasSubstr("\np.toml:9: stereo[0].right: is of a camera on the network"));
+}
+
 struct BadStereo {
   const char* name;
   std::string text;
@@ -117,8 +123,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "p.toml:7: stereo[0].pairing_window_ms: must be below half"},
         BadStereo{"WrongFormat", rig("systems = ['ring2']\npixel_format = 'Mono12'\n"),
                   "p.toml:6: stereo[0].pixel_format: "},
-        BadStereo{"FramesAndCameras", rig("systems = ['ring2']\nframes = 'here'\n"),
-                  "p.toml:7: stereo[0].left: is of a camera on the network"},
         BadStereo{
             "RigGone",
             std::string("[[stereo]]\nname = 'b'\ntarget = 'c'\nrig_file = 'gone'\nsystems = ['ring2']\n") + kCameras,
