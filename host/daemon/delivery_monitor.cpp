@@ -2,20 +2,11 @@
 #include "host/daemon/delivery_monitor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/optical_timing.hpp"
 
 namespace pharos::host {
-namespace {
-
-double fraction(std::int64_t came, std::int64_t expected) {
-  return expected > 0 ? static_cast<double>(came) / static_cast<double>(expected) : 1.0;
-}
-
-}  // namespace
-
 DeliveryMonitor::Second& DeliveryMonitor::second_at(std::int64_t now_ns) {
   if (!first_ns_) first_ns_ = now_ns;
   const std::int64_t index = now_ns / kNsPerSecond;
@@ -39,7 +30,7 @@ void DeliveryMonitor::on_link(const wire::LinkCounters& link, std::int64_t now_n
   const auto frames = static_cast<std::int64_t>(link.frames);
   const auto lost = static_cast<std::int64_t>(link.frames_lost);
   if (frames > link_frames_ || lost > link_lost_) {
-    Count& count = second_at(now_ns).frames;
+    DeliveryCount& count = second_at(now_ns).frames;
     count.came += frames - link_frames_;
     count.expected += frames - link_frames_ + lost - link_lost_;
   }
@@ -70,12 +61,12 @@ void DeliveryMonitor::on_sweep(const lighthouse::Flash& flash, std::int64_t now_
 }
 
 void DeliveryMonitor::on_answer(bool pose, std::int64_t now_ns) {
-  Count& count = second_at(now_ns).answers;
+  DeliveryCount& count = second_at(now_ns).answers;
   count.came += pose ? 1 : 0;
   ++count.expected;
 }
 
-DeliveryMonitor::Count DeliveryMonitor::sweeps(std::int64_t now_ns) const {
+DeliveryCount DeliveryMonitor::sweeps(std::int64_t now_ns) const {
   std::array<Stream, kStreams> sums;
   for_each_second(now_ns, [&](const Second& second) {
     for (std::size_t i = 0; i < kStreams; ++i) {
@@ -87,7 +78,7 @@ DeliveryMonitor::Count DeliveryMonitor::sweeps(std::int64_t now_ns) const {
       sum.turns += stream.turns;
     }
   });
-  Count count;
+  DeliveryCount count;
   for (const Stream& sum : sums) {
     count.came += sum.sweeps;
     if (sum.sweeps > 0) count.expected += sum.turns / sum.min_turns;
@@ -95,40 +86,19 @@ DeliveryMonitor::Count DeliveryMonitor::sweeps(std::int64_t now_ns) const {
   return count;
 }
 
-DeliveryMonitor::Assessment DeliveryMonitor::assess(std::int64_t now_ns) const {
+DeliveryAssessment DeliveryMonitor::assess(std::int64_t now_ns) const {
   if (!first_ns_ || now_ns - *first_ns_ < kWindow_s * kNsPerSecond) return {};
-  Count frames, answers;
+  DeliveryCount frames, answers;
   for_each_second(now_ns, [&](const Second& second) {
     frames.came += second.frames.came;
     frames.expected += second.frames.expected;
     answers.came += second.answers.came;
     answers.expected += second.answers.expected;
   });
-  const Count seen = sweeps(now_ns);
-  // In the order of processing: losses in one stage are missing in all later ones, so the first low fraction is the
-  // cause.
-  const struct {
-    const char* what;
-    const char* where;
-    double fraction;
-  } parts[] = {
-      {"frames", "the serial line loses them: look at its cable, its baud rate and the load of this computer",
-       fraction(frames.came, frames.expected)},
-      {"sweeps", "flashes or lasers are not seen: look for occlusion, range and strong light",
-       fraction(seen.came, seen.expected)},
-      {"poses", "cycles are refused: the counters cycles_refused_... say why",
-       fraction(answers.came, answers.expected)},
-  };
-  Assessment assessment;
-  for (const auto& part : parts) {
-    if (part.fraction >= kDegradedBelow) continue;
-    if (part.fraction < kErrorBelow) assessment.state = SourceState::kError;
-    if (assessment.state == SourceState::kOk) assessment.state = SourceState::kDegraded;
-    if (!assessment.message.empty()) continue;
-    assessment.message = std::to_string(std::lround(100.0 * part.fraction)) + " % of the expected " + part.what +
-                         " came in the last " + std::to_string(kWindow_s) + " s; " + part.where;
-  }
-  return assessment;
+  return assess_delivery(
+      {{"frames", "the serial line loses them: look at its cable, its baud rate and the load of this computer", frames},
+       {"sweeps", "flashes or lasers are not seen: look for occlusion, range and strong light", sweeps(now_ns)},
+       {"poses", "cycles are refused: the counters cycles_refused_... say why", answers}});
 }
 
 }  // namespace pharos::host

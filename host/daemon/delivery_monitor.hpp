@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 
-#include "host/publish/health.hpp"
+#include "host/daemon/delivery_assessment.hpp"
+#include "host/daemon/rolling_count.hpp"
 #include "host/support/time_units.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/wire/link_counters.hpp"
@@ -19,12 +19,8 @@ namespace pharos::host {
 /// fixed size.
 class DeliveryMonitor {
  public:
-  static constexpr std::int64_t kWindow_s = 10;
-  /// Below these fractions of the expected number a source is degraded, or in error.
-  static constexpr double kDegradedBelow = 0.9;
-  static constexpr double kErrorBelow = 0.5;
-  /// A station without sweeps for longer is out of sight: this is reported separately (LOST), and nothing is expected
-  /// of it.
+  static constexpr std::int64_t kWindow_s = RollingCount::kWindow_s;
+  /// A station that is not seen for longer is out of sight: that is told apart (LOST), and nothing is expected of it.
   static constexpr std::int64_t kOutOfSight_ns = 300'000'000;
 
   /// Takes the line's counters after each read.
@@ -34,21 +30,12 @@ class DeliveryMonitor {
   /// The target restarted: its clock and its stations may be others.
   void restart();
 
-  struct Assessment {
-    SourceState state = SourceState::kOk;
-    std::string message;  // names the stage with losses; empty when ok
-  };
-  /// kOk, kDegraded or kError. kOk during the first ten seconds, as there are no poses before clock and stations are
-  /// known.
-  Assessment assess(std::int64_t now_ns) const;
+  /// kOk, kDegraded or kError. kOk until ten seconds were seen: poses begin only when clock and stations are known.
+  DeliveryAssessment assess(std::int64_t now_ns) const;
 
  private:
   static constexpr std::size_t kStreams = 4;  // two stations, two rotors
 
-  struct Count {
-    std::int64_t came = 0;
-    std::int64_t expected = 0;
-  };
   struct Stream {
     std::int64_t sweeps = 0;
     std::int64_t turns = 0;      // of the rotor between these sweeps
@@ -56,15 +43,15 @@ class DeliveryMonitor {
   };
   struct Second {
     std::int64_t index = -1;
-    Count frames;
-    Count answers;
+    DeliveryCount frames;
+    DeliveryCount answers;
     std::array<Stream, kStreams> streams;
   };
 
   Second& second_at(std::int64_t now_ns);
   template <class Visitor>
   void for_each_second(std::int64_t now_ns, Visitor&& visit) const;
-  Count sweeps(std::int64_t now_ns) const;
+  DeliveryCount sweeps(std::int64_t now_ns) const;
 
   std::array<Second, kWindow_s> seconds_;
   std::array<std::optional<std::int64_t>, kStreams> last_flash_ticks_;

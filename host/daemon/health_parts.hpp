@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/clock/clock_map.hpp"
+#include "host/daemon/rate_monitor.hpp"
 #include "host/device/frame_source.hpp"
 #include "host/publish/health.hpp"
 #include "host/runtime/latency_histogram.hpp"
@@ -13,10 +14,7 @@ namespace pharos::host {
 
 // Parts of the health that several pipelines have in common.
 
-/// A source without data for this time is silent.
-inline constexpr std::int64_t kSilence_ns = 2'000'000'000;
-
-/// The state of a source by the state of its camera.
+/// What a camera's state makes of the health of what is measured with it.
 SourceState state_of(CameraState camera);
 
 /// STAGE_p50_us, STAGE_p99_us and STAGE_max_us.

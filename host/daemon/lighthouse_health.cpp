@@ -44,8 +44,8 @@ void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const
   if (!identity_fault_.empty() && rate_.data_within(kSilence_ns, now_ns)) {
     health.state = SourceState::kError;
     health.message = identity_fault_;
-  } else if (rate_.pose_within(kSilence_ns, now_ns)) {
-    const DeliveryMonitor::Assessment delivery = delivery_.assess(now_ns);
+  } else if (changes_.in_sight(rate_, now_ns)) {
+    const DeliveryAssessment delivery = delivery_.assess(now_ns);
     health.state = delivery.state;
     health.message = delivery.message;
   } else if (last_bytes_ns_ < 0) {
@@ -59,7 +59,7 @@ void LighthousePipeline::assess(SourceHealth& health, std::int64_t now_ns) const
   } else if (!rate_.data_within(kSilence_ns, now_ns)) {
     health.state = SourceState::kError;
     health.message = "bytes come but no frame: is the baud rate that of the target?";
-  } else if (!within(last_sweep_ns_, now_ns)) {
+  } else if (last_sweep_ns_ < 0 || now_ns - last_sweep_ns_ > DeliveryMonitor::kOutOfSight_ns) {
     health.message = counters_.raw_edges > 0 ? "the target sends raw edges only: switch its diagnostic mode off"
                                              : "the target sees no station";
   } else {

@@ -17,8 +17,6 @@ namespace {
 // A target whose clock goes back by more than any reordering on the line has restarted.
 constexpr std::int64_t kRestart_ticks = kTicksPerSecond;
 
-// LOST must be reported within half a second of the last pose; the attend timer runs ten times a second.
-constexpr std::int64_t kOutOfSight_ns = DeliveryMonitor::kOutOfSight_ns;
 constexpr const char* kWrongTarget = "wrong_target";
 constexpr const char* kNotIntroduced = "the board has not said yet who it is, and a certain one is expected";
 
@@ -88,7 +86,8 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
       board_gate_(publisher, counters_.cycles_not_finite,
                   PublishGate::AgeLimit{publish.max_age_ns(), counters_.cycles_stale}),
       log_(config.name),
-      identity_fault_(config.identity.any() ? kNotIntroduced : "") {
+      identity_fault_(config.identity.any() ? kNotIntroduced : ""),
+      changes_(DeliveryMonitor::kOutOfSight_ns) {
   if (!config_.remember_calibrations) return;
   lighthouse::CalibrationStore accepted;
   for (const lighthouse::StationCalibration& station : memory_.stations()) accepted.remember(station);
@@ -179,35 +178,7 @@ void LighthousePipeline::check_relative_pose() {
 }
 
 bool LighthousePipeline::state_changed(std::int64_t monotonic_ns) {
-  const bool sight = sight_changed(monotonic_ns);
-  return delivery_changed(monotonic_ns) || sight;
-}
-
-// Without poses the state is another one and LOST was reported.
-bool LighthousePipeline::delivery_changed(std::int64_t monotonic_ns) {
-  if (!in_sight_) return false;
-  const DeliveryMonitor::Assessment now = delivery_.assess(monotonic_ns);
-  if (now.state == last_logged_delivery_) return false;
-  last_logged_delivery_ = now.state;
-  if (now.state == SourceState::kOk) {
-    log_.info("delivery", "OK: what is expected comes again", monotonic_ns);
-  } else {
-    log_.warn("delivery", (now.state == SourceState::kError ? "ERROR: " : "DEGRADED: ") + now.message, monotonic_ns);
-  }
-  return true;
-}
-
-bool LighthousePipeline::sight_changed(std::int64_t monotonic_ns) {
-  const bool in_sight = rate_.pose_within(kOutOfSight_ns, monotonic_ns);
-  if (in_sight == in_sight_) return false;
-  in_sight_ = in_sight;
-  const std::string why = last_refusal_.empty() ? "" : " (last refusal: " + last_refusal_ + ')';
-  if (in_sight) {
-    log_.info("found", "FOUND: poses come", monotonic_ns);
-  } else {
-    log_.warn("lost", "LOST: no pose for " + std::to_string(kOutOfSight_ns / 1'000'000) + " ms" + why, monotonic_ns);
-  }
-  return true;
+  return changes_.update(rate_, delivery_.assess(monotonic_ns), last_refusal_, log_, monotonic_ns);
 }
 
 void LighthousePipeline::end_of_input() {

@@ -16,6 +16,7 @@
 #include "host/daemon/lighthouse_counters.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/source_changes.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/publish_gate.hpp"
@@ -94,8 +95,6 @@ class LighthousePipeline {
   void publish_bearings(const CycleReport& report, const track::EpochResult& result);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
   void log_foreign_version();
-  bool sight_changed(std::int64_t monotonic_ns);
-  bool delivery_changed(std::int64_t monotonic_ns);
   static std::string unsupported_version_text(std::uint8_t version);
   void assess(SourceHealth& health, std::int64_t monotonic_ns) const;
   NamedCounts named_counts() const;
@@ -133,9 +132,8 @@ class LighthousePipeline {
   std::int64_t last_sweep_ns_ = -1;
   RateMonitor rate_;
   std::string last_refusal_;
-  bool in_sight_ = false;
   DeliveryMonitor delivery_;
-  SourceState last_logged_delivery_ = SourceState::kOk;
+  SourceChanges changes_;
   bool relative_pose_rejected_ = false;
   std::optional<std::uint8_t> last_logged_version_;
 };

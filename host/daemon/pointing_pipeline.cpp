@@ -24,7 +24,8 @@ PointingPipeline::PointingPipeline(const PointingConfig& config, Publisher& publ
       clock_(clock),
       log_(config.name),
       R_earth_station_(pointing::station_to_earth(config.station)),
-      gate_(publisher, counters_.pointings_not_finite) {}
+      gate_(publisher, counters_.pointings_not_finite),
+      delivery_("images", "their rows do not come, or more come than can be measured: see images_without_track, images_dropped") {}
 
 void PointingPipeline::arrived(const std::string& name) {
   ++counters_.files_arrived;
@@ -84,6 +85,7 @@ PointingReport PointingPipeline::report_of(const MeasurementOutcome& outcome, do
 
 void PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_ns) {
   ++counters_.images_refused;
+  delivery_.on_answer(false, monotonic_ns);
   ++counters_.refused[result.refusal];
   last_error_ = result.advice;
   log_.warn(result.refusal.c_str(), "refused_" + result.refusal + ": " + result.advice, monotonic_ns);
@@ -107,6 +109,7 @@ void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns
   report.sigma_plane_rad = result.axis.sigma_plane_rad;
   if (!gate_.passes(report)) return;
   ++counters_.images_ok;
+  delivery_.on_answer(true, monotonic_ns);
   last_error_.clear();
   rate_.on_pose(monotonic_ns);
   if (config_.law) keep_for_pass(result);
@@ -168,10 +171,15 @@ SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
   health.state = rate_.any_pose() && last_error_.empty() ? SourceState::kOk : SourceState::kWaiting;
   health.message = last_error_;
   if (last_error_.empty() && !rate_.any_pose()) health.message = "no image came yet";
+  const PointingCounters& c = counters_;
+  delivery_.on_frames({c.images_ok + c.images_refused, c.images_without_track + c.images_dropped}, monotonic_ns);
+  if (const DeliveryAssessment delivery = delivery_.assess(monotonic_ns); delivery.state != SourceState::kOk) {
+    health.state = delivery.state;
+    health.message = delivery.message;
+  }
   if (!pending_.empty()) {
     health.message = std::to_string(pending_.size()) + " images wait for their row in " + config_.track_file.string();
   }
-  const PointingCounters& c = counters_;
   health.counters = {{"files_arrived", c.files_arrived},
                      {"files_no_image", c.files_no_image},
                      {"images_ok", c.images_ok},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/frame_delivery.hpp"
 #include "host/daemon/pointing_worker.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
@@ -76,6 +77,7 @@ class PointingPipeline {
   PointingCounters counters_;
   PublishGate gate_;
   RateMonitor rate_;
+  FrameDelivery delivery_;
   std::int64_t last_result_ns_ = -1;
   std::string last_error_;  // error of the last image
   bool remarked_ = false;

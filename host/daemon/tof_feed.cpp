@@ -46,7 +46,12 @@ void TofFeed::on_readable() {
   }
 }
 
-void TofFeed::attend() { state_log_.update(frames_->device(), frames_->status(), context_.clock.monotonic_ns()); }
+void TofFeed::attend() {
+  const FrameSourceStatus status = frames_->status();
+  const std::int64_t now_ns = context_.clock.monotonic_ns();
+  state_log_.update(frames_->device(), status, now_ns);
+  if (pipeline_.state_changed(status, now_ns)) context_.on_state_change();
+}
 
 std::vector<SourceHealth> TofFeed::health() {
   return {pipeline_.health(frames_->device(), frames_->status(), context_.clock.monotonic_ns())};

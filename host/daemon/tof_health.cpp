@@ -4,6 +4,12 @@
 #include "host/daemon/tof_pipeline.hpp"
 
 namespace pharos::host {
+
+bool TofPipeline::state_changed(const FrameSourceStatus& camera, std::int64_t monotonic_ns) {
+  delivery_.on_frames(delivered(camera.counters), monotonic_ns);
+  return changes_.update(rate_, delivery_.assess(monotonic_ns), last_refusal_, log_, monotonic_ns);
+}
+
 SourceHealth TofPipeline::health(const std::string& device, const FrameSourceStatus& camera,
                                  std::int64_t monotonic_ns) {
   SourceHealth health;
@@ -23,14 +29,21 @@ SourceHealth TofPipeline::health(const std::string& device, const FrameSourceSta
 
 // In the order of processing: reports the error of the earliest stage.
 void TofPipeline::assess(SourceHealth& health, const FrameSourceStatus& camera, std::int64_t now_ns) const {
-  const std::int64_t pose_wait_ns = kSilence_ns + config_.average_frames * kSilence_ns / 10;
   health.state = state_of(camera.state);
   health.message = camera.error;
   if (health.state != SourceState::kOk) return;
-  if (rate_.pose_within(pose_wait_ns, now_ns)) return;
+  if (changes_.in_sight(rate_, now_ns)) {
+    const DeliveryAssessment delivery = delivery_.assess(now_ns);
+    health.state = delivery.state;
+    health.message = delivery.message;
+    return;
+  }
   health.state = SourceState::kWaiting;
   const FrameSourceCounters& counters = camera.counters;
-  if (!rate_.data_within(kSilence_ns, now_ns)) {
+  if (rate_.data_stopped(now_ns)) {
+    health.state = SourceState::kStale;
+    health.message = "no frame comes any more";
+  } else if (!rate_.any_data()) {
     health.message = counters.frames_incomplete > 0
                          ? "only incomplete frames come: is packet_size more than the network passes?"
                          : "no frame came yet";

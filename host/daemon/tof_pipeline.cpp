@@ -7,6 +7,15 @@
 #include "host/publish/words.hpp"
 
 namespace pharos::host {
+namespace {
+
+constexpr const char* kFramesLost = "the network or this computer loses them: see device.frames_...";
+
+// Until it is known how often poses come: a mean of many frames takes as long as these.
+std::int64_t first_wait_ns(const TofConfig& config) { return kSilence_ns + config.average_frames * kSilence_ns / 10; }
+
+}  // namespace
+
 TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source,
                          Publisher& publisher, const Clock& clock, Measure measure)
     : config_(config),
@@ -16,7 +25,9 @@ TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, 
       log_(config.name),
       average_(config.average_frames),
       gate_(publisher, counters_.frames_not_finite,
-            PublishGate::AgeLimit{publish.max_age_ns(), counters_.frames_stale}) {}
+            PublishGate::AgeLimit{publish.max_age_ns(), counters_.frames_stale}),
+      delivery_("frames", kFramesLost),
+      changes_(first_wait_ns(config)) {}
 
 /// Exposure time of the frame; empty, and counted, if the frame cannot be used.
 std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
@@ -50,7 +61,10 @@ void TofPipeline::take(const DepthFrame& frame) {
   }
   const std::optional<MappedTime> time = time_of(frame);
   if (!time) return;
-  if (!gate_.fresh(began_ns - time->monotonic_ns)) return;  // waited too long: the estimator should process newer ones
+  if (!gate_.fresh(began_ns - time->monotonic_ns)) {  // waited too long: the estimator has newer ones to work on
+    delivery_.on_answer(false, began_ns);
+    return;
+  }
   TofResult answered = measure_(frame);
   estimator_.add(host_clock_.monotonic_ns() - began_ns);
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
@@ -109,8 +123,10 @@ void TofPipeline::refuse_jump(TofReport& report, const MappedTime& time) {
 
 void TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
   TofReport report = report_of(answer, time);
-  if (!gate_.passes(report)) return;
-  refuse_jump(report, time);
+  const bool passes = gate_.passes(report);
+  if (passes) refuse_jump(report, time);
+  delivery_.on_answer(passes && report.answered(), host_clock_.monotonic_ns());
+  if (!passes) return;
   count(report);
   if (report.answered() && config_.average_frames > 1 && !average(report)) return;
   publish(report);

@@ -9,10 +9,12 @@
 #include "host/config/daemon_config.hpp"
 #include "host/daemon/clock_step_monitor.hpp"
 #include "host/daemon/frame_clock.hpp"
+#include "host/daemon/frame_delivery.hpp"
 #include "host/daemon/pose_average.hpp"
 #include "host/daemon/pose_jump_check.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/source_changes.hpp"
 #include "host/daemon/tof_counters.hpp"
 #include "host/daemon/tof_estimator.hpp"
 #include "host/device/frame_source.hpp"
@@ -37,6 +39,10 @@ class TofPipeline {
 
   /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) { gate_.set_max_age(publish.max_age_ns()); }
+
+  /// Whether poses stopped or came since the last call, or the part that came of what was expected passed a limit; the
+  /// log tells it.
+  bool state_changed(const FrameSourceStatus& camera, std::int64_t monotonic_ns);
 
   SourceHealth health(const std::string& device, const FrameSourceStatus& camera, std::int64_t monotonic_ns);
   const TofCounters& counters() const { return counters_; }
@@ -68,7 +74,9 @@ class TofPipeline {
   std::int64_t last_utc_ns_ = 0;
   ClockStepMonitor clock_step_;
   RateMonitor rate_;
-  // Durations of a frame: first packet to last, waiting for the loop, estimator; and in total from first packet to LCM.
+  FrameDelivery delivery_;
+  SourceChanges changes_;
+  // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
   LatencyHistogram transport_;
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;

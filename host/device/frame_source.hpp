@@ -42,6 +42,18 @@ void for_each_counter(Counters& counters, Visitor&& visit) {
 #undef PHAROS_X
 }
 
+/// Whole pictures since the start, and those of which something or all did not come. Another sender's are neither.
+struct DeliveredFrames {
+  std::int64_t came = 0;
+  std::int64_t lost = 0;
+};
+
+inline DeliveredFrames delivered(const FrameSourceCounters& counters) {
+  return {counters.frames_received - counters.frames_dropped,
+          counters.frames_incomplete + counters.frames_missing + counters.frames_wrong_size +
+              counters.frames_unpaired + counters.frames_dropped};
+}
+
 enum class CameraState : std::uint8_t {
   kOpen,    // frames come or are expected
   kSilent,  // open, but no frame comes

@@ -99,10 +99,13 @@ void CameraPairs::recycle(StereoPairPtr pair) {
 PairSourceStatus CameraPairs::status() const {
   const std::array<FrameSourceStatus, 2> cameras{cameras_[0]->status(), cameras_[1]->status()};
   PairSourceStatus status;
+  status.pairs.came = pairs_;
   status.state = rank(cameras[0].state) < rank(cameras[1].state) ? cameras[1].state : cameras[0].state;
   for (std::size_t side = 0; side < cameras.size(); ++side) {
     add(status.error, kSides[side], cameras[side].error);
     add(status.identity, kSides[side], cameras[side].identity);
+    // A frame lost on one side leaves one without a partner on the other: the worse side has lost the pairs.
+    status.pairs.lost = std::max(status.pairs.lost, delivered(cameras[side].counters).lost + matcher_.unpaired(side));
     status.session += cameras[side].session;
     const ClockMap& map = clocks_[side].map();
     if (map.synchronised()) {

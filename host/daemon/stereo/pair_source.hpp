@@ -14,6 +14,7 @@ namespace pharos::host {
 /// Status of both cameras together.
 struct PairSourceStatus : SourceStatus {
   NamedCounts counters;
+  DeliveredFrames pairs;
   double clock_sigma_ns = 0.0;
   double clock_drift_ppm = 0.0;
 };

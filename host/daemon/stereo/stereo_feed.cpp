@@ -86,7 +86,14 @@ void StereoFeed::finish_when_all_answered() {
   if (finished_) context_.on_finished();
 }
 
-void StereoFeed::attend() { state_log_.update(pairs_->device(), pairs_->status(), context_.clock.monotonic_ns()); }
+void StereoFeed::attend() {
+  const PairSourceStatus status = pairs_->status();
+  const std::int64_t now_ns = context_.clock.monotonic_ns();
+  state_log_.update(pairs_->device(), status, now_ns);
+  bool changed = false;
+  for (const auto& system : systems_) changed = system->pipeline.state_changed(status, now_ns) || changed;
+  if (changed) context_.on_state_change();
+}
 
 std::vector<SourceHealth> StereoFeed::health() {
   std::vector<SourceHealth> all;

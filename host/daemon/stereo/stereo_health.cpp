@@ -4,6 +4,12 @@
 #include "host/daemon/stereo/stereo_pipeline.hpp"
 
 namespace pharos::host {
+
+bool StereoPipeline::state_changed(const PairSourceStatus& pairs, std::int64_t monotonic_ns) {
+  delivery_.on_frames(pairs.pairs, monotonic_ns);
+  return changes_.update(rate_, delivery_.assess(monotonic_ns), last_refusal_, log_, monotonic_ns);
+}
+
 SourceHealth StereoPipeline::health(const std::string& device, const PairSourceStatus& pairs,
                                     std::int64_t monotonic_ns) {
   SourceHealth health;
@@ -24,10 +30,17 @@ void StereoPipeline::assess(SourceHealth& health, const PairSourceStatus& pairs,
   health.state = state_of(pairs.state);
   health.message = pairs.error;
   if (health.state != SourceState::kOk) return;
-  const bool pose = rate_.pose_within(kSilence_ns, now_ns);
+  const bool pose = changes_.in_sight(rate_, now_ns);
+  const DeliveryAssessment delivery = delivery_.assess(now_ns);
+  if (pose && delivery.state != SourceState::kOk) {
+    health.state = delivery.state;
+    health.message = delivery.message;
+    return;
+  }
   if (pose && last_refusal_.empty()) return;
   health.state = pose ? SourceState::kOk : SourceState::kWaiting;
-  if (!rate_.data_within(kSilence_ns, now_ns)) {
+  if (rate_.data_stopped(now_ns) || !rate_.any_data()) {
+    if (rate_.any_data() && !pose) health.state = SourceState::kStale;
     if (health.message.empty()) {
       health.message =
           rate_.any_data() ? "no pairs come any more: see frames_without_partner of each side" : "no pair came yet";

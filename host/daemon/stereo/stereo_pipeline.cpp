@@ -5,6 +5,12 @@
 #include "host/publish/words.hpp"
 
 namespace pharos::host {
+namespace {
+
+constexpr const char* kPairsLost =
+    "frames are lost on the network or have no partner: see frames_... and frames_without_partner of each side";
+
+}  // namespace
 
 StereoPipeline::StereoPipeline(const StereoConfig& config, const PublishConfig& publish, const std::string& source,
                                Publisher& publisher, const Clock& clock)
@@ -16,12 +22,16 @@ StereoPipeline::StereoPipeline(const StereoConfig& config, const PublishConfig& 
       log_(source),
       gate_(publisher, counters_.pairs_not_finite, PublishGate::AgeLimit{publish.max_age_ns(), counters_.pairs_stale}),
       spin_gate_(publisher, counters_.spins_not_finite,
-                 PublishGate::AgeLimit{publish.max_age_ns(), counters_.pairs_stale}) {}
+                 PublishGate::AgeLimit{publish.max_age_ns(), counters_.pairs_stale}),
+      delivery_("pairs", kPairsLost),
+      changes_(kSilence_ns) {}
 
 bool StereoPipeline::take(const StereoPair& pair) {
   const std::int64_t now_ns = clock_.monotonic_ns();
   rate_.on_data(now_ns);
-  return gate_.fresh(now_ns - pair.time.monotonic_ns);
+  const bool fresh = gate_.fresh(now_ns - pair.time.monotonic_ns);
+  if (!fresh) delivery_.on_answer(false, now_ns);
+  return fresh;
 }
 
 // Logs a refusal that differs from the last one, and the first pose after it; repetitions are not logged.
@@ -77,9 +87,11 @@ void StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
   for (const StageTime& time : answer.stages) stages_[time.stage].add(time.ns);
   if (!answer.figures.empty()) figures_ = answer.figures;
   StereoReport report = report_of(*done.job, answer);
-  if (!gate_.passes(report)) return;
-  refuse_jump(report, done.job->time.monotonic_ns);
   const std::int64_t now_ns = clock_.monotonic_ns();
+  const bool passes = gate_.passes(report);
+  if (passes) refuse_jump(report, done.job->time.monotonic_ns);
+  delivery_.on_answer(passes && report.answered(), now_ns);
+  if (!passes) return;
   count(report, now_ns);
   if (clock_was_set) add_flag_word(report.flags, kClockSetWord);
   if (answer.spin) publish_spin(report, *answer.spin);

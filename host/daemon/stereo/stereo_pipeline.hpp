@@ -6,9 +6,11 @@
 #include <string>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/frame_delivery.hpp"
 #include "host/daemon/pose_jump_check.hpp"
 #include "host/daemon/rate_limited_log.hpp"
 #include "host/daemon/rate_monitor.hpp"
+#include "host/daemon/source_changes.hpp"
 #include "host/daemon/stereo/pair_source.hpp"
 #include "host/daemon/stereo/pair_worker.hpp"
 #include "host/daemon/stereo/stereo_counters.hpp"
@@ -41,6 +43,10 @@ class StereoPipeline {
     spin_gate_.set_max_age(publish.max_age_ns());
   }
 
+  /// Whether poses stopped or came since the last call, or the part that came of what was expected passed a limit; the
+  /// log tells it.
+  bool state_changed(const PairSourceStatus& pairs, std::int64_t monotonic_ns);
+
   SourceHealth health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns);
   const StereoCounters& counters() const { return counters_; }
 
@@ -65,7 +71,9 @@ class StereoPipeline {
   std::string last_refusal_;  // with advice; of the last pair, empty if it has a pose
   NamedCounts figures_;       // of the estimator
   RateMonitor rate_;
-  // Durations of a pair: waiting for its estimator, the estimator and its stages; and in total from exposure to LCM.
+  FrameDelivery delivery_;
+  SourceChanges changes_;
+  // Stages of a pair: waiting for its estimator, that and its parts; and from the light to LCM.
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;
   std::map<std::string, LatencyHistogram> stages_;

@@ -245,6 +245,40 @@ TEST_F(TofPipelineTest, ReportsTheCamerasErrorBeforeItsOwn) {
   EXPECT_EQ(counter("device.camera_lost", camera), 3);
 }
 
+TEST_F(TofPipelineTest, AFifthOfTheFramesLostIsDegradedAndMostPosesRefusedAnError) {
+  FrameSourceStatus camera = open_camera();
+  constexpr int kFrames = 400;
+  const auto play = [&](std::int64_t& lost, int of, int refused) {
+    for (int i = 0; i < kFrames; ++i) {
+      next_answer = good_answer();
+      if (i % of < refused) next_answer.refusal = "no_ring_plane";
+      pipeline->take(frame_now());
+      ++camera.counters.frames_received;
+      lost += i % 4 == 0 ? 1 : 0;
+      pipeline->state_changed(camera, clock.monotonic_ns());
+    }
+    return pipeline->health("dev", camera, clock.monotonic_ns());
+  };
+  const SourceHealth degraded = play(camera.counters.frames_missing, 10, 0);
+  EXPECT_EQ(degraded.state, SourceState::kDegraded);
+  EXPECT_EQ(degraded.message.rfind("80 % of the expected frames came", 0), 0u) << degraded.message;
+  std::int64_t none = 0;
+  const SourceHealth error = play(none, 10, 6);
+  EXPECT_EQ(error.state, SourceState::kError);
+  EXPECT_EQ(error.message.rfind("40 % of the expected poses came", 0), 0u) << error.message;
+}
+
+TEST_F(TofPipelineTest, IsNotOkHalfASecondAfterTheLastFrame) {
+  for (int i = 0; i < 30; ++i) pipeline->take(frame_now());
+  EXPECT_TRUE(pipeline->state_changed(open_camera(), clock.monotonic_ns())) << "found";
+  EXPECT_EQ(pipeline->health("dev", open_camera(), clock.monotonic_ns()).state, SourceState::kOk);
+  clock.advance(400'000'000);
+  EXPECT_TRUE(pipeline->state_changed(open_camera(), clock.monotonic_ns())) << "lost";
+  const SourceHealth health = pipeline->health("dev", open_camera(), clock.monotonic_ns());
+  EXPECT_EQ(health.state, SourceState::kStale);
+  EXPECT_EQ(health.message, "no frame comes any more");
+}
+
 TEST(CameraOfFrame, TheCamerasOwnScaleGoesBeforeTheFiles) {
   DepthCamera by_file;
   by_file.depth_scale_m = 0.00025;
