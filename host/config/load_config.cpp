@@ -67,8 +67,7 @@ RecordingConfig read_recording(const TomlTable& table, const fs::path& folder, C
 LogConfig read_log(const TomlTable& table, const fs::path& folder, ConfigErrors& errors) {
   LogConfig log;
   errors.attempt([&] {
-    log.level =
-        table.choice_or("level", log.level, {"trace", "debug", "info", "warning", "error", "critical", "off"});
+    log.level = table.choice_or("level", log.level, {"trace", "debug", "info", "warning", "error", "critical", "off"});
   });
   const bool has_file = table.has("file");
   const bool knows_sink = errors.attempt([&] {

@@ -56,12 +56,10 @@ tof::RingSettings read_ring(const TomlTable& table, ConfigErrors& errors) {
   tof::RingSettings ring;
   constexpr Range kRadius_m{0.02, 10.0};
   const std::size_t before = errors.count();
-  errors.attempt([&] {
-    ring.min_outer_radius_m = table.number_or("least_outer_radius_m", ring.min_outer_radius_m, kRadius_m);
-  });
-  errors.attempt([&] {
-    ring.max_outer_radius_m = table.number_or("most_outer_radius_m", ring.max_outer_radius_m, kRadius_m);
-  });
+  errors.attempt(
+      [&] { ring.min_outer_radius_m = table.number_or("least_outer_radius_m", ring.min_outer_radius_m, kRadius_m); });
+  errors.attempt(
+      [&] { ring.max_outer_radius_m = table.number_or("most_outer_radius_m", ring.max_outer_radius_m, kRadius_m); });
   if (errors.count() != before || ring.max_outer_radius_m > ring.min_outer_radius_m) return ring;
   errors.attempt([&] {
     table.fail(table.has("most_outer_radius_m") ? "most_outer_radius_m" : "least_outer_radius_m",

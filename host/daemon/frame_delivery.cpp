@@ -18,8 +18,9 @@ void FrameDelivery::on_frames(const DeliveredFrames& total, std::int64_t now_ns)
 }
 
 DeliveryAssessment FrameDelivery::assess(std::int64_t now_ns) const {
-  return assess_delivery({{frames_word_, lost_where_, told(frames_, now_ns)},
-                          {"poses", "the others are refused: the counters refused... say why", told(answers_, now_ns)}});
+  return assess_delivery(
+      {{frames_word_, lost_where_, told(frames_, now_ns)},
+       {"poses", "the others are refused: the counters refused... say why", told(answers_, now_ns)}});
 }
 
 }  // namespace pharos::host

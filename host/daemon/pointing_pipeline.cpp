@@ -25,7 +25,9 @@ PointingPipeline::PointingPipeline(const PointingConfig& config, Publisher& publ
       log_(config.name),
       R_earth_station_(pointing::station_to_earth(config.station)),
       gate_(publisher, counters_.pointings_not_finite),
-      delivery_("images", "their rows do not come, or more come than can be measured: see images_without_track, images_dropped") {}
+      delivery_("images",
+                "their rows do not come, or more come than can be measured: see images_without_track, images_dropped") {
+}
 
 void PointingPipeline::arrived(const std::string& name) {
   ++counters_.files_arrived;

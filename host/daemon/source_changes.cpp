@@ -19,8 +19,8 @@ bool SourceChanges::sight_changed(const RateMonitor& rate, const std::string& re
   } else {
     constexpr std::int64_t kNsPerMs = 1'000'000;
     const std::string wait = std::to_string(rate.absent_after_ns(first_wait_ns_) / kNsPerMs);
-    log.warn("lost",
-             "LOST: no pose for " + wait + " ms" + (refusal.empty() ? "" : " (last refusal: " + refusal + ')'), now_ns);
+    log.warn("lost", "LOST: no pose for " + wait + " ms" + (refusal.empty() ? "" : " (last refusal: " + refusal + ')'),
+             now_ns);
   }
   return true;
 }

@@ -49,9 +49,9 @@ struct DeliveredFrames {
 };
 
 inline DeliveredFrames delivered(const FrameSourceCounters& counters) {
-  return {counters.frames_received - counters.frames_dropped,
-          counters.frames_incomplete + counters.frames_missing + counters.frames_wrong_size +
-              counters.frames_unpaired + counters.frames_dropped};
+  return {counters.frames_received - counters.frames_dropped, counters.frames_incomplete + counters.frames_missing +
+                                                                  counters.frames_wrong_size +
+                                                                  counters.frames_unpaired + counters.frames_dropped};
 }
 
 enum class CameraState : std::uint8_t {

@@ -217,14 +217,14 @@ TEST(DaemonConfig, ReportsEveryWrongKeyOfOneTable) {
                    kOneTarget,
                {"p.toml:2: lcm.url: ", "p.toml:3: lcm.channel_prefix: ", "p.toml:5: publish.max_age_s: ",
                 "p.toml:6: publish.status_rate_hz: ", "p.toml:8: log.level: ", "p.toml:9: log.file: ",
-                "p.toml:10: log.levels: unknown", "p.toml:11: recording.directory: ", "p.toml:12: recording.rotate_mib: ",
-                "p.toml:13: recording.rotate: unknown"});
+                "p.toml:10: log.levels: unknown", "p.toml:11: recording.directory: ",
+                "p.toml:12: recording.rotate_mib: ", "p.toml:13: recording.rotate: unknown"});
   expect_lines(
       "[[stereo]]\nname = 'a'\ntarget = 't'\nrig_file = 'r'\nsystems = ['slam']\nleft.serial = '?'\n"
       "left.address = 'x'\nright.serial = 'R'\nfeatures = 1\n[stereo.slam]\nscene = 'x'\nfeatures = 1\nloops = 1\n",
-      {"p.toml:6: stereo[0].left.serial: ", "p.toml:7: stereo[0].left.address: ", "p.toml:9: stereo[0].features: unknown",
-       "p.toml:11: stereo[0].slam.scene: ", "p.toml:12: stereo[0].slam.features: ",
-       "p.toml:13: stereo[0].slam.loops: unknown"});
+      {"p.toml:6: stereo[0].left.serial: ", "p.toml:7: stereo[0].left.address: ",
+       "p.toml:9: stereo[0].features: unknown", "p.toml:11: stereo[0].slam.scene: ",
+       "p.toml:12: stereo[0].slam.features: ", "p.toml:13: stereo[0].slam.loops: unknown"});
   expect_lines(
       "[[camera]]\nname = 'a'\ntarget = 't'\ncamera_file = 'c'\nframes = 'f'\nptp = true\nserial = 'S'\n"
       "[camera.ring]\nleast_outer_radius_m = 0\nmost_outer_radius_m = 99\n",
