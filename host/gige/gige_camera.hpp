@@ -63,9 +63,10 @@ class GigeCamera {
   /// Packets that Aravis dropped because their frame number was below the current one, counted in whole frames; 0 if
   /// packets were also dropped for lack of buffers.
   std::int64_t frames_passed_over() const;
-  /// Tells the camera that its master lives, four times a second; waits for nothing.
+  /// Sends the heartbeat, four times a second; does not wait for the answer.
   void beat_if_due();
-  /// Reads the camera's clock, which its frames' times are held against; asks the camera, so not while a frame waits.
+  /// Reads the camera's clock, with which the times of frames are compared. It queries the camera, so do not call it
+  /// while a frame waits.
   void read_clock();
   /// Restores the camera's own heartbeat timeout, before a working camera is released.
   void restore_heartbeat();
