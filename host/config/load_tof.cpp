@@ -109,6 +109,13 @@ TofConfig read_camera_table(const TomlTable& table, const fs::path& folder, cons
         static_cast<int>(table.integer_or("average_frames", camera.average_frames, 1, kMaxAveraged));
   });
   errors.attempt([&] { camera.tof.ring = read_ring(table.table_or_empty("ring"), errors); });
+  errors.attempt([&] {
+    auto& expected = camera.tof.connector.expected;
+    expected = static_cast<std::int32_t>(table.integer_or("connectors", expected, 1, tof::kMaxConnectors));
+  });
+  if (table.has("target_file")) {
+    errors.attempt([&] { read_target_of(table, folder, environment, camera); });
+  }
   errors.add_unknown_keys(table);
   return camera;
 }
