@@ -132,8 +132,8 @@ void describe_stereo(std::ostream& out, const StereoConfig& stereo) {
   if (stereo.ring2) out << "  ring2: docking ring and nozzle of every pair\n";
   if (!stereo.slam) return;
   const slam::SlamSettings& slam = stereo.slam->settings;
-  out << "  slam: scene " << (slam.scene == slam::Scene::kStatic ? "static" : "target") << ", " << slam.features
-      << " features, "
+  out << "  slam: scene " << name_of(slam.scene) << ", "
+      << (slam.features > 0 ? std::to_string(slam.features) + " features, " : "features by the images' size, ")
       << (slam.max_keyframes == 0 ? "keyframes without limit"
                                   : "at most " + std::to_string(slam.max_keyframes) + " keyframes")
       << ", closes loops: " << yes_no(slam.close_loops) << ", vocabulary "

@@ -42,8 +42,7 @@ LowLight read_enhance(const TomlTable& table) {
 void read_slam(const TomlTable& table, const fs::path& folder, SlamConfig& slam, ConfigErrors& errors) {
   slam::SlamSettings& settings = slam.settings;
   errors.attempt([&] {
-    const std::string scene = table.choice_or("scene", "target", {"target", "static"});
-    settings.scene = scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
+    settings.scene = slam::scene_named(table.choice_or("scene", "auto", {"auto", "target", "static"}));
   });
   errors.attempt(
       [&] { settings.features = static_cast<int>(table.integer_or("features", settings.features, 100, 10'000)); });

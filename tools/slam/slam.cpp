@@ -27,7 +27,8 @@ constexpr const char* kExample =
     "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
     "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
     "row, in a table (--format csv, --json) no pose: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,\n"
-    "status. --scene static: nothing is masked, the camera moves; --output camera tells its path.\n"
+    "status. --scene auto says on standard error which scene it is: target where the background is dark all around,\n"
+    "else static: nothing is masked, the camera moves; --output camera tells its path.\n"
     "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits (of which the upper 8 count, unless enhanced), JPEG or BMP; of "
     "colour\n"
     "the luma. One without partner, a pair that cannot be read or is of another size is told, counted and left out.\n"
@@ -36,7 +37,7 @@ constexpr const char* kExample =
 struct Options {
   PairChoice names;
   std::string rig;
-  std::string scene = "target", output = "target", format = "tum";
+  std::string scene = "auto", output = "target", format = "tum";
   OutputOptions poses;
   std::string report, map, overlay;
   bool no_loops = false, threads = false;
@@ -75,12 +76,20 @@ class Feeder {
     figures.to_pose_ms.push_back(ms());
     if (frame.lost && !lost_) note(pair.left + ": tracking is lost; looking for known views");
     lost_ = frame.lost;
+    if (frame.placed && !scene_told_) tell_scene();
     if (frame.relocalised) note(pair.left + ": found again");
     if (!options_.overlay.empty()) write_slam_overlay(options_.overlay, pair.stem, system_);
   }
   const ImageInput& input() const { return input_; }
 
  private:
+  void tell_scene() {
+    scene_told_ = true;
+    if (options_.settings.scene != slam::Scene::kAuto) return;
+    note(system_.report().scene == slam::Scene::kStatic
+             ? "scene: static (something is seen all around: nothing is masked)"
+             : "scene: target (the background is dark all around: it is masked)");
+  }
   std::optional<PairImages> fitting_pair(const host::PairName& pair) {
     bool read = false;
     try {
@@ -103,11 +112,11 @@ class Feeder {
   slam::SlamSystem& system_;
   enhance::EightBitPairs lit_;
   ImageInput input_{"pair"};
-  bool any_ = false, lost_ = false;
+  bool any_ = false, lost_ = false, scene_told_ = false;
 };
 
 int run(Options options) {
-  options.settings.scene = options.scene == "static" ? slam::Scene::kStatic : slam::Scene::kTarget;
+  options.settings.scene = slam::scene_named(options.scene);
   options.settings.close_loops = !options.no_loops;
   options.settings.threads = options.threads;
   for (const std::string& file : {options.report, options.map, options.poses.path}) {
@@ -147,9 +156,10 @@ void add_slam(CLI::App& app, int& exit_code) {
   command->add_option("RIGHT", options->names.right, "Folder of right images")->required();
   command->add_option("--rig", options->rig, "Rig file (TOML)")->required();
   command
-      ->add_option("--scene", options->scene,
-                   "target (default): a body before dark or stillness; static: all of the image")
-      ->check(CLI::IsMember({"target", "static"}));
+      ->add_option(
+          "--scene", options->scene,
+          "auto (default): as the pictures show; target: a body before dark or stillness; static: all of the image")
+      ->check(CLI::IsMember({"auto", "target", "static"}));
   command
       ->add_option("--output", options->output,
                    "Poses of the target in the camera (default), or of the camera in the scene")
@@ -177,7 +187,9 @@ void add_slam(CLI::App& app, int& exit_code) {
       ->expected(0, 1)
       ->default_str("bm3d")
       ->check(CLI::IsMember({"bm3d", "bm3d-video", "fast", "none"}));
-  command->add_option("--features", options->settings.features, "Features a frame (default 1000)")
+  command
+      ->add_option("--features", options->settings.features,
+                   "Features a frame (default: 1000 for 640 x 480, more for larger images)")
       ->check(CLI::Range(100, 10'000));
   command->add_option("--max-keyframes", options->settings.max_keyframes, "Limit of keyframes; the paper's is 20")
       ->check(CLI::Range(5, 100'000));

@@ -100,6 +100,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["saturated"] = report.saturated;
   json["unreadable"] = figures.unreadable;
   json["without_partner"] = figures.without_partner;
+  json["scene"] = name_of(report.scene);
   json["keyframes"] = report.keyframes;
   json["keyframes_made"] = report.keyframes_made;
   json["points"] = report.points;

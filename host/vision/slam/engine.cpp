@@ -120,6 +120,7 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
     if (seen.stats.matched >= kMinStart) {
       frame.points.assign(frame.features.size(), kNone);
       made = make_keyframe(frame);
+      frontend_.keep_scene();
       out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
     }
   } else {
@@ -262,6 +263,7 @@ SlamReport Engine::report() const {
   SlamReport out = figures_.report();
   out.keyframes = static_cast<int>(map_.keyframes.size());
   out.points = static_cast<int>(map_.points.size());
+  out.scene = frontend_.scene();
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/rigid_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -10,21 +11,34 @@ namespace pharos::slam {
 namespace {
 
 constexpr int kMaxTrials = 300;
+constexpr int kPolishSteps = 3;
 constexpr double kSure = 0.999;
 // Factor of the reprojection limits for RANSAC trials: depths of single features are coarse.
 constexpr double kLoose = 4.0;
 
-std::vector<bool> inliers_of(const std::vector<Observation>& observations, const StereoCamera& camera,
-                             const CameraFromTarget& pose, int& count) {
-  std::vector<bool> inlier(observations.size());
-  count = 0;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    const Observation& at = observations[k];
-    const bool ahead = (pose * at.point_m).z() > 1e-3;
-    inlier[k] = ahead && residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= kLoose * kStereoChi2;
-    count += inlier[k] ? 1 : 0;
+int inliers_of(const std::vector<Observation>& observations, const StereoCamera& camera, const CameraFromTarget& pose) {
+  return static_cast<int>(std::count_if(observations.begin(), observations.end(), [&](const Observation& at) {
+    return (pose * at.point_m).z() > kMinDepth_m &&
+           residual_of(at, camera, pose).squaredNorm() / at.variance_px2 <= kLoose * kStereoChi2;
+  }));
+}
+
+// Least squares of three observations: far points' depths are coarse, their directions are not.
+CameraFromTarget polished(const std::vector<Observation>& three, const StereoCamera& camera, CameraFromTarget pose) {
+  for (int step = 0; step < kPolishSteps; ++step) {
+    Matrix6 H = Matrix6::Zero();
+    Vector6 gradient = Vector6::Zero();
+    for (const Observation& at : three) {
+      if (!((pose * at.point_m).z() > kMinDepth_m)) return pose;
+      const auto J = residual_jacobian(at, camera, pose);
+      H += J.transpose() * J / at.variance_px2;
+      gradient += J.transpose() * residual_of(at, camera, pose) / at.variance_px2;
+    }
+    const Vector6 move = H.ldlt().solve(gradient);
+    if (!move.allFinite()) return pose;
+    pose = pose.moved_by(-move);
   }
-  return inlier;
+  return pose;
 }
 
 int trials_for(double fraction) {
@@ -65,34 +79,28 @@ std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations
     return camera.back_project(at.pixel, camera.depth_m(at.pixel.x() - at.right_u_px));
   };
   std::mt19937_64 random(seed);
-  std::vector<bool> best;
+  CameraFromTarget best;
   int maximum = 0, trials = kMaxTrials;
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<Vector3> points, seen;
+    std::vector<Observation> three;
     for (int k = 0; k < 3; ++k) {
       const Observation& at = observations[stereo[random() % stereo.size()]];
+      three.push_back(at);
       points.push_back(at.point_m);
       seen.push_back(seen_at(at));
     }
-    const auto pose = rigid_fit(points, seen);
-    if (!pose) continue;
-    int count = 0;
-    std::vector<bool> inlier = inliers_of(observations, camera, *pose, count);
+    const auto coarse = rigid_fit(points, seen);
+    if (!coarse) continue;
+    const CameraFromTarget pose = polished(three, camera, *coarse);
+    const int count = inliers_of(observations, camera, pose);
     if (count <= maximum) continue;
     maximum = count;
-    best = std::move(inlier);
+    best = pose;
     trials = std::min(trials, trials_for(static_cast<double>(count) / static_cast<double>(observations.size())));
   }
   if (maximum < std::max(3, min_inliers / 2)) return std::nullopt;
-  std::vector<Vector3> points, seen;
-  for (const std::size_t k : stereo) {
-    if (!best[k]) continue;
-    points.push_back(observations[k].point_m);
-    seen.push_back(seen_at(observations[k]));
-  }
-  const auto start = rigid_fit(points, seen);
-  if (!start) return std::nullopt;
-  PoseOnly refined = adjust_pose(observations, camera, *start);
+  PoseOnly refined = adjust_pose(observations, camera, best);
   if (refined.inliers < min_inliers) return std::nullopt;
   return refined;
 }

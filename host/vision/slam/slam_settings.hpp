@@ -7,13 +7,23 @@
 namespace pharos::slam {
 
 enum class Scene {
+  kAuto,    ///< decided from the pictures until the map begins: see scene_of()
   kTarget,  ///< a body that moves in front of a dark or static background, which is masked
   kStatic,  ///< nothing is masked: the camera moves
 };
 
+inline const char* name_of(Scene scene) {
+  return scene == Scene::kStatic ? "static" : scene == Scene::kTarget ? "target" : "auto";
+}
+/// That of the name; kAuto for any other.
+inline Scene scene_named(const std::string& name) {
+  return name == "static" ? Scene::kStatic : name == "target" ? Scene::kTarget : Scene::kAuto;
+}
+
 struct SlamSettings {
-  Scene scene = Scene::kTarget;
-  int features = 1000;
+  Scene scene = Scene::kAuto;
+  /// Of a frame; 0: by its size, 1000 for 640 x 480 pixels and more for larger images, so that they are as dense.
+  int features = 0;
   bool close_loops = true;
   /// Tracking, mapping and loop closing each in its own thread; else in sequence, with identical results for the same
   /// input.

@@ -21,6 +21,7 @@ struct SlamReport {
   int frames = 0, tracked = 0, lost = 0, relocalised = 0, repeated = 0;
   int ambiguous_place = 0;      ///< of the lost ones: a place was recognised and not believed
   int dark = 0, saturated = 0;  ///< frames too dark or too bright for any feature
+  Scene scene = Scene::kAuto;   ///< that of the map, or, before it, of the last pair
   int keyframes = 0, keyframes_made = 0, points = 0;
   int loops = 0, loops_refused = 0;  ///< refused: keyframes of which no candidate closed a loop
   LoopCounts loop_candidates;

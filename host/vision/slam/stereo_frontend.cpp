@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "host/vision/slam/exposure_ratio.hpp"
+#include "host/vision/slam/scene_choice.hpp"
 
 namespace pharos::slam {
 namespace {
@@ -15,6 +16,14 @@ namespace {
 // of its 99.9th and 0.1st percentiles has none.
 constexpr int kMinContrast = 8;
 constexpr std::uint8_t kBright = 250;
+
+constexpr double kFeatures = 1000.0, kOfPixels = 640.0 * 480.0;
+
+int features_of(const SlamSettings& settings, const StereoCamera& camera) {
+  if (settings.features > 0) return settings.features;
+  const double pixels = static_cast<double>(camera.width_px) * camera.height_px;
+  return static_cast<int>(kFeatures * std::max(1.0, pixels / kOfPixels));
+}
 
 cv::Mat mat_of(ImageView<const std::uint8_t> image) {
   return {image.height_px, image.width_px, CV_8U, const_cast<std::uint8_t*>(image.data),
@@ -85,7 +94,7 @@ StereoFrontend::StereoFrontend(Rectification rectification, const SlamSettings& 
     : rectification_(std::move(rectification)), settings_(settings) {
   cv::setNumThreads(1);
   OrbSettings orb;
-  orb.features = settings.features;
+  orb.features = features_of(settings, rectification_.camera);
   work_ = std::make_unique<Work>(orb);
   if (!rectification_.needed()) return;
   Work::prepare(work_->left, rectification_.maps[0], rectification_.camera);
@@ -109,6 +118,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   const Levels levels = levels_of(mat_of(left));
   result.saturated = levels.low >= kBright;
   result.dark = !result.saturated && levels.high - levels.low < kMinContrast;
+  if (settings_.scene == Scene::kAuto) seen_scene_ = scene_of(left);
   const double exposure = work.exposure.of(left, right);
   const auto do_right = [&] {
     Work::rectify(work.right, mat_of(right));
@@ -119,7 +129,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
   if (settings_.threads) other = std::async(std::launch::async, do_right);
   Work::rectify(work.left, mat_of(left));
   work.mask = {};
-  if (settings_.scene == Scene::kTarget) work.mask = work.foreground.of(view_of(work.left.image));
+  if (scene() == Scene::kTarget) work.mask = work.foreground.of(view_of(work.left.image));
   result.features = work.left.extractor.extract(view_of(work.left.image), work.mask);
   if (other.valid()) {
     other.get();
@@ -131,7 +141,7 @@ StereoFrontend::Result StereoFrontend::push(ImageView<const std::uint8_t> left, 
       match_stereo(result.features, right_features, work.left.extractor.pyramid(), work.right.extractor.pyramid(),
                    rectification_.camera, 3.0 * rectification_.camera.baseline_m, check_order);
   work.exposure.learn(exposure, result.features, work.left.extractor.pyramid(), work.right.extractor.pyramid());
-  if (settings_.scene == Scene::kTarget) work.still.remove_static(result.features);
+  if (scene() == Scene::kTarget) work.still.remove_static(result.features);
   return result;
 }
 

@@ -28,6 +28,11 @@ class StereoFrontend {
   /// `check_order`: see match_stereo().
   Result push(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, bool check_order);
 
+  /// The scene of the last pair: the one that was set, or (Scene::kAuto) the one that its left image shows.
+  Scene scene() const { return settings_.scene == Scene::kAuto ? seen_scene_ : settings_.scene; }
+  /// The scene is known: later pairs are of this one.
+  void keep_scene() { settings_.scene = scene(); }
+
   const StereoCamera& camera() const { return rectification_.camera; }
   const Matrix3& R_left_rectified() const { return rectification_.R_left_rectified; }
   ImageView<const std::uint8_t> image() const;
@@ -39,6 +44,7 @@ class StereoFrontend {
   struct Work;
   Rectification rectification_;
   SlamSettings settings_;
+  Scene seen_scene_ = Scene::kTarget;
   std::unique_ptr<Work> work_;
 };
 

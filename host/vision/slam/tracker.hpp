@@ -49,8 +49,18 @@ class Tracker {
   }
 
  private:
-  std::optional<PoseOnly> track_motion_model(Frame& frame);
-  std::optional<PoseOnly> match_reference_keyframe(Frame& frame, KeyframeId keyframe, int min_inliers);
+  /// What can be known again of a placed frame: features with a position.
+  struct Known {
+    std::vector<Feature> features;
+    std::vector<Candidate> candidates;
+  };
+  Known known_in(const Frame& seen, const CameraFromTarget& seen_from) const;
+  std::optional<PoseOnly> search_as_predicted(Frame& frame) const;
+  std::optional<PoseOnly> search_widely(Frame& frame, const Frame& seen, const CameraFromTarget& seen_from,
+                                        std::uint64_t seed) const;
+  std::optional<PoseOnly> search_by_keyframe(Frame& frame, KeyframeId keyframe) const;
+  std::optional<PoseOnly> follow(Frame& frame);
+  bool is_near(const CameraFromTarget& pose, double time_s);
   /// The frame at a place that was recognised.
   struct Place {
     Frame frame;
@@ -61,8 +71,9 @@ class Tracker {
   std::vector<Place> recognised_places(const Frame& frame);
   bool same_place(const Place& a, const Place& b) const;
   void learn_motion(const CameraFromTarget& before, const CameraFromTarget& now);
-  std::optional<PoseOnly> track_local_map(Frame& frame, const PoseOnly& start, bool wide);
+  std::optional<PoseOnly> track_local_map(Frame& frame, const PoseOnly& start, double widening, int min_inliers);
   PoseOnly adjust(Frame& frame, const CameraFromTarget& start) const;
+  bool lacks_points(const Frame& frame) const;
   bool needs_new_keyframe(const Frame& frame, int inliers, bool mapping_idle) const;
   CameraFromTarget last_pose() const { return T_last_reference_ * map_.pose_of(reference_); }
   void remember(const Frame& frame, const PoseOnly& placed);

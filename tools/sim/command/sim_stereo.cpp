@@ -25,7 +25,7 @@ struct StereoOptions {
 void add_sim_stereo(CLI::App& sim, int& exit_code) {
   auto options = std::make_shared<StereoOptions>();
   CLI::App* command = sim.add_subcommand(
-      "stereo", "Simulate two cameras: before docking ring and nozzle, a tumbling satellite, in a room");
+      "stereo", "Simulate two cameras: before docking ring and nozzle, a tumbling satellite, in a room or street");
   const auto write_scene = add_tumbling_options(*command);
   command
       ->add_option("SCENARIO", options->scenario,
@@ -39,16 +39,16 @@ void add_sim_stereo(CLI::App& sim, int& exit_code) {
       "SCENARIO: rig.toml, truth.csv, ellipses.csv (for pharos circles --ellipses) and, where it renders with "
       "POV-Ray,\n"
       "NNNN_left.png and NNNN_right.png.\n"
-      "--scene: left/ and right/ with images, rig.toml and, of tumbling and room, truth.tum: for tumbling the "
+      "--scene: left/ and right/ with images, rig.toml and, truth.tum (not of boards): for tumbling the "
       "satellite's\n"
-      "poses as pharos slam gives them, for room the left camera's as pharos slam --scene static --output camera "
+      "poses as pharos slam gives them, for room and street the left camera's as pharos slam --output camera "
       "does.\n\n"
       "Example: pharos sim stereo tools/sim/scenarios/stereo_pairs.toml --seed 7 --output pairs\n"
       "         pharos sim stereo --scene tumbling --turn-deg 30 --renderer rays --output turn\n"
       "         pharos slam turn/left turn/right --rig turn/rig.toml > turn.tum && pharos evaluate turn.tum "
       "turn/truth.tum\n"
       "         pharos sim stereo --scene room --path-m 3 --output room\n"
-      "         pharos slam room/left room/right --rig room/rig.toml --scene static --output camera > room.tum");
+      "         pharos slam room/left room/right --rig room/rig.toml --output camera > room.tum");
   command->callback([options, write_scene, &exit_code] {
     exit_code = 0;
     if (write_scene(options->seed, options->output)) return;

@@ -5,6 +5,7 @@
 
 #include "tools/sim/stereo_tumbling/board_pairs.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
+#include "tools/sim/stereo_tumbling/street_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 #include "tools/support/progress.hpp"
 
@@ -15,6 +16,7 @@ struct SceneArguments {
   std::string scene, renderer = "povray", light = "good";
   sim::TumblingScenario scenario;
   sim::RoomScenario room;
+  sim::StreetScenario street;
   int board_pairs = 15;
 };
 
@@ -23,6 +25,12 @@ bool write_scene(SceneArguments options, std::uint64_t seed, const std::string& 
   if (options.scene == "room") {
     Progress progress("rendered", "pairs", static_cast<std::size_t>(sim::RoomSequence(options.room, seed).frames()));
     sim::write_room(options.room, seed, directory, [&progress] { progress.step(); });
+    return true;
+  }
+  if (options.scene == "street") {
+    const auto pairs = static_cast<std::size_t>(sim::StreetSequence(options.street, seed).frames());
+    Progress progress("rendered", "pairs", pairs);
+    sim::write_street(options.street, seed, directory, [&progress] { progress.step(); });
     return true;
   }
   if (options.scene == "boards") {
@@ -46,10 +54,21 @@ std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI:
   command
       .add_option(
           "--scene", options->scene,
-          "tumbling: a satellite that turns (paper 004); boards: its rig's calibration; room: a walk with a raw rig")
-      ->check(CLI::IsMember({"tumbling", "boards", "room"}));
+          "tumbling: a satellite that turns (paper 004); boards: its rig's calibration; room: a walk with a raw rig; "
+          "street: a drive round a corner")
+      ->check(CLI::IsMember({"tumbling", "boards", "room", "street"}));
   command.add_option("--path-m", options->room.path_m, "room: length of the walk (default 60)")
       ->check(CLI::Range(0.0, 10'000.0));
+  command.add_option("--straight-m", options->street.straight_m, "street: before and after the corner (default 36)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command.add_option("--corner-deg", options->street.turn_deg, "street: to the left (default 90)")
+      ->check(CLI::Range(0.0, 150.0));
+  command.add_option("--step-m", options->street.step_m, "street: from pair to pair (default 1.2)")
+      ->check(CLI::Range(0.01, 10.0));
+  command
+      .add_option("--rig-yaw-deg", options->street.rig_yaw_deg,
+                  "street: the right camera is turned by this, which the rig file does not say (default 0)")
+      ->check(CLI::Range(-1.0, 1.0));
   command.add_option("--pairs", options->board_pairs, "boards: how many (default 15; dots, 12 x 8, 80 mm, radius 20)")
       ->check(CLI::Range(1, 1000));
   command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling: the whole turn (default 360)")
@@ -63,9 +82,8 @@ std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI:
   command.add_option("--ambient", options->scenario.ambient, "tumbling: ambient light (default 0.1)")
       ->check(CLI::Range(0.0, 1.0));
   command
-      .add_option(
-          "--renderer", options->renderer,
-          "tumbling: povray (default), or rays: without gloss, in a tenth of the time; boards and room are rays")
+      .add_option("--renderer", options->renderer,
+                  "tumbling: povray (default), or rays: without gloss, in a tenth of the time; all others are rays")
       ->check(CLI::IsMember({"povray", "rays"}));
   return [options](std::uint64_t seed, const std::string& directory) { return write_scene(*options, seed, directory); };
 }
