@@ -23,6 +23,8 @@ if(PHAROS_SANITIZE)
     # GCC 12's check of dynamic types evaluates `(object->*method)()` from a variable that one branch never sets: it
     # reports, or crashes in, every LCM handler that is a member function. Clang keeps the check (preset fuzz).
     add_compile_options(-fno-sanitize=vptr)
+    # A tenth of the compile time of these trees. The address sanitizer reports a null pointer that is used.
+    add_compile_options(-fno-sanitize=null)
   endif()
 endif()
 if(PHAROS_FUZZ)

@@ -10,10 +10,12 @@
 namespace pharos::motion {
 namespace {
 
-using Matrix18 = Eigen::Matrix<double, 18, 18>;
+// Dynamic sizes: products of fixed sizes like these are unrolled, which takes the compiler half a minute.
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-Matrix18 whole(const MovingState& s) {
-  Matrix18 P;
+MatrixXd whole(const MovingState& s) {
+  MatrixXd P(18, 18);
   P << s.pp, s.rp.transpose(), s.ap.transpose(), s.rp, s.rr, s.ar.transpose(), s.ap, s.ar, s.aa;
   return P;
 }
@@ -21,11 +23,11 @@ Matrix18 whole(const MovingState& s) {
 MovingState some_state(unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
-  Matrix18 root;
+  MatrixXd root(18, 18);
   for (int i = 0; i < 18; ++i) {
     for (int j = 0; j < 18; ++j) root(i, j) = 0.01 * normal(engine);
   }
-  const Matrix18 P = root * root.transpose();
+  const MatrixXd P = root * root.transpose();
   MovingState s;
   s.pose = {rotation_exp({0.3, -0.5, 0.9}), {0.2, -0.1, 2.0}};
   s.rate << 0.4, -0.3, 0.8, 0.1, 0.2, -0.3;
@@ -39,7 +41,7 @@ MovingState some_state(unsigned seed) {
   return s;
 }
 
-MovingState moved(const MovingState& s, const Eigen::Matrix<double, 18, 1>& error) {
+MovingState moved(const MovingState& s, const VectorXd& error) {
   MovingState other = s;
   other.pose = s.pose.moved_by(error.head<6>());
   other.rate += error.segment<6>(6);
@@ -52,9 +54,9 @@ TEST(MovingState, PredictsTheCovarianceThatItsMeanHasBySmallDifferences) {
   const MovingState s = some_state(1);
   MovingState end = s;
   end.predict_mean(kStep_s);
-  Matrix18 F;
+  MatrixXd F(18, 18);
   for (int k = 0; k < 18; ++k) {
-    Eigen::Matrix<double, 18, 1> error = Eigen::Matrix<double, 18, 1>::Zero();
+    VectorXd error = VectorXd::Zero(18);
     error[k] = kSmall;
     MovingState other = moved(s, error);
     other.predict_mean(kStep_s);
@@ -63,7 +65,7 @@ TEST(MovingState, PredictsTheCovarianceThatItsMeanHasBySmallDifferences) {
   F /= kSmall;
   MovingState predicted = s;
   predicted.predict(kStep_s, 0.0, 0.0);
-  const Matrix18 expected = F * whole(s) * F.transpose();
+  const MatrixXd expected = F * whole(s) * F.transpose();
   // The neglected term is half the rotation of one step (0.4 %) of the rate's part.
   EXPECT_LT((whole(predicted) - expected).norm(), 1e-3 * expected.norm());
   EXPECT_LT((predicted.pose.R - end.pose.R).norm(), 1e-12);
@@ -88,10 +90,10 @@ TEST(MovingState, ACorrectionIsKalmans) {
   std::mt19937_64 engine(7);
   std::normal_distribution<double> normal;
   InformationSums sums;
-  Eigen::Matrix<double, 7, 18> H = Eigen::Matrix<double, 7, 18>::Zero();
-  Eigen::Matrix<double, 7, 1> r;
+  MatrixXd H = MatrixXd::Zero(7, 18);
+  VectorXd r(7);
   constexpr double kOwn = 1e-4, kCommon = 9e-4;
-  Eigen::Matrix<double, 7, 7> R = Eigen::Matrix<double, 7, 7>::Constant(kCommon);
+  MatrixXd R = MatrixXd::Constant(7, 7, kCommon);
   for (int i = 0; i < 7; ++i) {
     for (int j = 0; j < 6; ++j) H(i, j) = normal(engine);
     r[i] = 0.01 * normal(engine);
@@ -99,11 +101,11 @@ TEST(MovingState, ACorrectionIsKalmans) {
     sums.add(H.row(i).head<6>().transpose(), r[i], 1.0 / kOwn);
   }
   const SweepInformation information = sums.close(kCommon);
-  const Matrix18 P = whole(s);
-  const Eigen::Matrix<double, 7, 7> S = H * P * H.transpose() + R;
-  const Eigen::Matrix<double, 18, 7> K = P * H.transpose() * S.inverse();
-  const Eigen::Matrix<double, 18, 1> shift = K * r;
-  const Matrix18 expected = P - K * H * P;
+  const MatrixXd P = whole(s);
+  const MatrixXd S = H * P * H.transpose() + R;
+  const MatrixXd K = P * H.transpose() * S.inverse();
+  const VectorXd shift = K * r;
+  const MatrixXd expected = P - K * H * P;
 
   const MovingState before = s;
   const Innovation innovation = innovation_of(information, s.pp, Vector6::Zero());
@@ -116,11 +118,8 @@ TEST(MovingState, ACorrectionIsKalmans) {
   EXPECT_NEAR(innovation.log_det, std::log(S.determinant() / R.determinant()), 1e-8);
 }
 
-using Matrix24 = Eigen::Matrix<double, 24, 24>;
-using Vector24 = Eigen::Matrix<double, 24, 1>;
-
-Matrix24 whole_with_second(const MovingState& s) {
-  Matrix24 P;
+MatrixXd whole_with_second(const MovingState& s) {
+  MatrixXd P(24, 24);
   P.topLeftCorner<18, 18>() = whole(s);
   P.bottomLeftCorner<6, 18>() << s.second.sp, s.second.sr, s.second.sa;
   P.topRightCorner<18, 6>() = P.bottomLeftCorner<6, 18>().transpose();
@@ -131,11 +130,11 @@ Matrix24 whole_with_second(const MovingState& s) {
 MovingState some_linked_state(unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
-  Matrix24 root;
+  MatrixXd root(24, 24);
   for (int i = 0; i < 24; ++i) {
     for (int j = 0; j < 24; ++j) root(i, j) = 0.01 * normal(engine);
   }
-  const Matrix24 P = root * root.transpose();
+  const MatrixXd P = root * root.transpose();
   MovingState s = some_state(seed);
   s.pp = P.block<6, 6>(0, 0);
   s.rp = P.block<6, 6>(6, 0);
@@ -172,9 +171,9 @@ TEST(SecondView, TimeCarriesItsShareOfTheCovariance) {
   const MovingState s = some_linked_state(4);
   MovingState end = s;
   end.predict_mean(kStep_s);
-  Matrix24 F = Matrix24::Identity();
+  MatrixXd F = MatrixXd::Identity(24, 24);
   for (int k = 0; k < 18; ++k) {
-    Eigen::Matrix<double, 18, 1> error = Eigen::Matrix<double, 18, 1>::Zero();
+    VectorXd error = VectorXd::Zero(18);
     error[k] = kSmall;
     MovingState other = moved(s, error);
     other.predict_mean(kStep_s);
@@ -185,7 +184,7 @@ TEST(SecondView, TimeCarriesItsShareOfTheCovariance) {
   MovingState predicted = s;
   predicted.predict_second(kStep_s);
   predicted.predict(kStep_s, 0.0, 0.0);
-  const Matrix24 expected = F * whole_with_second(s) * F.transpose();
+  const MatrixXd expected = F * whole_with_second(s) * F.transpose();
   EXPECT_LT((whole_with_second(predicted) - expected).norm(), 1e-3 * expected.norm());
 }
 
@@ -196,14 +195,14 @@ TEST(SecondView, ACorrectionOfEitherStationIsKalmans) {
     std::mt19937_64 engine(9);
     std::normal_distribution<double> normal;
     const SecondView view(s.pose, s.second.pose);
-    Eigen::Matrix<double, 6, 24> by_state = Eigen::Matrix<double, 6, 24>::Zero();
+    MatrixXd by_state = MatrixXd::Zero(6, 24);
     by_state.leftCols<6>() = second ? view.by_body : Matrix6(Matrix6::Identity());
     if (second) by_state.rightCols<6>() = view.by_second;
     InformationSums sums;
-    Eigen::Matrix<double, 7, 24> H;
-    Eigen::Matrix<double, 7, 1> r;
+    MatrixXd H(7, 24);
+    VectorXd r(7);
     constexpr double kOwn = 1e-4, kCommon = 9e-4;
-    Eigen::Matrix<double, 7, 7> R = Eigen::Matrix<double, 7, 7>::Constant(kCommon);
+    MatrixXd R = MatrixXd::Constant(7, 7, kCommon);
     for (int i = 0; i < 7; ++i) {
       Vector6 h;
       for (int j = 0; j < 6; ++j) h[j] = normal(engine);
@@ -213,9 +212,9 @@ TEST(SecondView, ACorrectionOfEitherStationIsKalmans) {
       sums.add(h, r[i], 1.0 / kOwn);
     }
     const SweepInformation information = sums.close(kCommon);
-    const Matrix24 P = whole_with_second(s);
-    const Eigen::Matrix<double, 24, 7> K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
-    const Vector24 shift = K * r;
+    const MatrixXd P = whole_with_second(s);
+    const MatrixXd K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
+    const VectorXd shift = K * r;
     const MovingState before = s;
     if (second) {
       const Matrix6 seen = seen_covariance(view, s.pp, s.second);

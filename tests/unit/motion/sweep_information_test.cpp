@@ -12,14 +12,15 @@
 namespace pharos::motion {
 namespace {
 
-using Rows = Eigen::Matrix<double, 8, 6>;
-using Column = Eigen::Matrix<double, 8, 1>;
-using Noise = Eigen::Matrix<double, 8, 8>;
+// Dynamic numbers of rows: products of these sizes, if fixed, are unrolled at some cost of compile time.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+using Column = Eigen::VectorXd;
+using Noise = Eigen::MatrixXd;
 
 struct Sweep {
-  Rows H;
-  Column r;
-  Noise R;
+  Rows H = Rows(8, 6);
+  Column r = Column(8);
+  Noise R = Noise(8, 8);
   double common = 0.0;
 };
 
