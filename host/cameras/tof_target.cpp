@@ -37,7 +37,7 @@ void apply_target(const DockingTarget& target, const std::string& name, tof::Tof
                                             one.height.sigma_m};
     if (!settings.target.connectors.push_back(connector)) {
       throw InputError(name + ": more than " + std::to_string(tof::kMaxDescribed) +
-                             " connectors; leave out those farthest from the ring");
+                       " connectors; leave out those farthest from the ring");
     }
   }
 }

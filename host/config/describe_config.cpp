@@ -66,7 +66,8 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
 // What is known of ring and connectors beforehand.
 void describe_ring(std::ostream& out, const TofConfig& camera) {
   const tof::TofSettings& tof = camera.tof;
-  out << "\n  ring: outer radius " << tof.ring.min_outer_radius_m << " to " << tof.ring.max_outer_radius_m << " m, connectors: ";
+  out << "\n  ring: outer radius " << tof.ring.min_outer_radius_m << " to " << tof.ring.max_outer_radius_m
+      << " m, connectors: ";
   if (tof.target.stated()) {
     out << tof.target.connectors.size() << " described";
   } else {

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "host/cameras/camera_file.hpp"
-#include "host/cameras/rig_file.hpp"
 #include "host/cameras/docking_target.hpp"
+#include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
 #include "support/require.hpp"
 

@@ -18,8 +18,8 @@ struct PaintedPanel {
   double range_m = 100.0;
   Vector3 axis_station = Vector3::UnitX();
   double length_m = 10.0, width_m = 2.0;
-  Vector2 shift_m = Vector2::Zero();  ///< to the right and down from the line of sight
-  double rim_m = 0.0, rim_light = 1.0;    ///< a strip along its border, of another brightness
+  Vector2 shift_m = Vector2::Zero();    ///< to the right and down from the line of sight
+  double rim_m = 0.0, rim_light = 1.0;  ///< a strip along its border, of another brightness
   double sky = 600.0, light = 24000.0, noise = 200.0, blur_px = 1.2;
 
   /// In the image plane turned by `turn_rad`, then out of it.
@@ -56,8 +56,8 @@ struct PaintedPanel {
     const std::array<Vector2, 4> places{Vector2(-1, -1), Vector2(1, -1), Vector2(1, 1), Vector2(-1, 1)};
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vector3 p = middle + (0.5 * length_m - inset_m) * places[k].x() * axis +
-                        (0.5 * width_m - inset_m) * places[k].y() * side;
+      const Vector3 p =
+          middle + (0.5 * length_m - inset_m) * places[k].x() * axis + (0.5 * width_m - inset_m) * places[k].y() * side;
       corners[k] = {camera.fx_px * p.x() / p.z() + camera.cx_px, camera.fy_px * p.y() / p.z() + camera.cy_px};
     }
     return corners;

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "host/cameras/docking_target.hpp"
 #include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
-#include "host/cameras/docking_target.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
 #include "pharos/ring2/paper_method.hpp"

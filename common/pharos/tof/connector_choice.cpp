@@ -111,7 +111,8 @@ class Chooser {
 
   // Whether no connector like the nearest one seen can stand nearer to the centre.
   bool nearer_places_are_plate() const {
-    return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
+    return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0],
+                             [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
   }
   // Whether something as high and wide as the nearest one stands nearer, and is none of the boxes found.
   bool something_stands_nearer() const {
@@ -149,8 +150,8 @@ class Chooser {
     return false;
   }
 
-  // Calls is(place, logarithm of the odds of a connector over the plate) for places nearer to the centre than the nearest
-  // one seen, until it is true.
+  // Calls is(place, logarithm of the odds of a connector over the plate) for places nearer to the centre than the
+  // nearest one seen, until it is true.
   template <class Is>
   bool any_nearer_place(double nearest_m, Is is) const {
     const SeenConnector& nearest = result_.seen[0];

@@ -16,8 +16,8 @@ struct MeasuredEdge {
   double blur_px = 0.0;                     ///< sigma of the rise
   /// How far the dark side is brighter than the sky, of the edge's contrast: another face in the dark, not the sky.
   double backing = 0.0;
-  /// How far what stands beside the edge all along it (cells, a wall, another part) could shift it: the shift that would
-  /// change a profile as much as the edge's mean profile differs from a Gaussian rise, px.
+  /// How far what stands beside the edge all along it (cells, a wall, another part) could shift it: the shift that
+  /// would change a profile as much as the edge's mean profile differs from a Gaussian rise, px.
   double structure_px = 0.0;
   bool cut = false;  ///< runs into the image's border
 };

@@ -200,7 +200,9 @@ class LensRays {
 
  private:
   static constexpr int kStep_px = 4;
-  Vector2 seen_at(double u, double v) const { return {(u - lens_.cx_px) / lens_.fx_px, (v - lens_.cy_px) / lens_.fy_px}; }
+  Vector2 seen_at(double u, double v) const {
+    return {(u - lens_.cx_px) / lens_.fx_px, (v - lens_.cy_px) / lens_.fy_px};
+  }
 
   const Lens& lens_;
   bool plain_;

@@ -143,9 +143,9 @@ void look(RandomTofBody& body) {
   const double radius = 0.5 * (satellite.ring->outer_radius_m + satellite.ring->inner_radius_m);
   for (int k = 0; k < kPlaces; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / kPlaces;
-    body.ring_seen += meets({radius * std::cos(angle), radius * std::sin(angle), 0.0},
-                            static_cast<int>(SurfaceKind::kRingFront)) /
-                      kPlaces;
+    body.ring_seen +=
+        meets({radius * std::cos(angle), radius * std::sin(angle), 0.0}, static_cast<int>(SurfaceKind::kRingFront)) /
+        kPlaces;
   }
   body.connectors_seen = 1.0;
   body.connector_px = 1e9;
@@ -161,13 +161,13 @@ void look(RandomTofBody& body) {
     double seen = 0.0;
     for (int i = 0; i < kAcross * kAcross; ++i) {
       const double along = (i % kAcross + 0.5) / kAcross - 0.5, across = (i / kAcross + 0.5) / kAcross - 0.5;
-      seen += meets(on_top(along, across), Scene::top_of_connector(static_cast<std::size_t>(number))) /
-              (kAcross * kAcross);
+      seen +=
+          meets(on_top(along, across), Scene::top_of_connector(static_cast<std::size_t>(number))) / (kAcross * kAcross);
     }
     body.connectors_seen = std::min(body.connectors_seen, seen);
     const auto pixel = [&](double along, double across) { return body.rays->project(pose * on_top(along, across)); };
-    body.connector_px = std::min({body.connector_px, (pixel(0.5, 0.0) - pixel(-0.5, 0.0)).norm(),
-                                  (pixel(0.0, 0.5) - pixel(0.0, -0.5)).norm()});
+    body.connector_px = std::min(
+        {body.connector_px, (pixel(0.5, 0.0) - pixel(-0.5, 0.0)).norm(), (pixel(0.0, 0.5) - pixel(0.0, -0.5)).norm()});
   }
 }
 

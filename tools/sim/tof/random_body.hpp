@@ -8,12 +8,12 @@
 
 namespace pharos::sim {
 
-/// A body of its own before a camera of its own, in one pose: ring, foil, nozzle, connectors, what looks like them, what
-/// stands before them, lens and noise are drawn at random.
+/// A body of its own before a camera of its own, in one pose: ring, foil, nozzle, connectors, what looks like them,
+/// what stands before them, lens and noise are drawn at random.
 struct RandomTofBody {
   TofScenario scenario;
   std::shared_ptr<const PixelRays> rays;  ///< of the scenario's lens
-  int connectors = 0;  ///< of one kind, the first the nearest to the ring's centre by 2 cm
+  int connectors = 0;                     ///< of one kind, the first the nearest to the ring's centre by 2 cm
   // What the rule of availability looks at.
   double ring_seen = 0.0;        ///< fraction of the ring's face that nothing hides
   double connectors_seen = 0.0;  ///< the same of the tops of the connectors, the least

@@ -142,8 +142,8 @@ bool is_free(const Satellite& satellite, const Vector2& place_m, double reach_m)
     const auto* tube = std::get_if<ConeShell>(&solid.shape);
     const auto* box = std::get_if<SolidBox>(&solid.shape);
     const auto* ring = std::get_if<FlatRing>(&solid.shape);
-    const double reach = tube  ? std::max(tube->first_m, tube->last_m)
-                         : box ? box->high.head<2>().norm()
+    const double reach = tube   ? std::max(tube->first_m, tube->last_m)
+                         : box  ? box->high.head<2>().norm()
                          : ring ? ring->outer_m
                                 : 0.0;
     const double apart = (place_m - solid.t_m.head<2>()).norm();

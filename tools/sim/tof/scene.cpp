@@ -12,7 +12,7 @@ namespace pharos::sim {
 namespace {
 
 constexpr double kMultipathDecay_m = 0.08;  // how far from a corner the light that came round it still counts
-constexpr int kFacesOfConnector = 3;  // and of clutter: edges between faces are worth more rays
+constexpr int kFacesOfConnector = 3;        // and of clutter: edges between faces are worth more rays
 
 int number_of(SurfaceKind kind) { return static_cast<int>(kind); }
 

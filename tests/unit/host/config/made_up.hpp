@@ -34,7 +34,8 @@ inline DockingTarget a_docking_target(const std::string& path, std::size_t conne
   target.outer_radius = {0.28, 0.001};
   target.inner_radius = {0.265, 0.001};
   for (std::size_t k = 0; k < connectors; ++k) {
-    target.connectors.push_back({{0.3 + 0.1 * static_cast<double>(k), 0.001}, {0.0, 0.001}, {0.06, 0.001}, {0.08, 0.08}});
+    target.connectors.push_back(
+        {{0.3 + 0.1 * static_cast<double>(k), 0.001}, {0.0, 0.001}, {0.06, 0.001}, {0.08, 0.08}});
   }
   return target;
 }
@@ -43,34 +44,33 @@ inline DockingTarget a_docking_target(const std::string& path, std::size_t conne
 /// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large". A docking target has
 /// two connectors, or nine if its name contains "many".
 inline Environment made_up() {
-  return {any_target,
-          [](const std::filesystem::path& file) {
-            if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
-          },
-          [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
-          [](const std::string& path) {
-            calibrate::CalibrationFile file;
-            file.name = path;
-            return file;
-          },
-          [](const std::string& path) {
-            if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
-            CameraFile file;
-            file.camera.intrinsics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
-            file.camera.intrinsics.height_px = 480;
-            return file;
-          },
-          [](const std::filesystem::path& directory) {
-            if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
-          },
-          a_rig,
-          [](const RigFile&) {},
-          [](const RigFile&, const std::string&) {},
-          [](const std::string&) {},
-          [](const std::filesystem::path&, const RigFile&) {},
-          [](const std::string& path) {
-            return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2);
-          }};
+  return {
+      any_target,
+      [](const std::filesystem::path& file) {
+        if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
+      },
+      [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
+      [](const std::string& path) {
+        calibrate::CalibrationFile file;
+        file.name = path;
+        return file;
+      },
+      [](const std::string& path) {
+        if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+        CameraFile file;
+        file.camera.intrinsics.width_px = path.find("large") != std::string::npos ? 1280 : 640;
+        file.camera.intrinsics.height_px = 480;
+        return file;
+      },
+      [](const std::filesystem::path& directory) {
+        if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
+      },
+      a_rig,
+      [](const RigFile&) {},
+      [](const RigFile&, const std::string&) {},
+      [](const std::string&) {},
+      [](const std::filesystem::path&, const RigFile&) {},
+      [](const std::string& path) { return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2); }};
 }
 
 inline DaemonConfig parse(const std::string& text) {

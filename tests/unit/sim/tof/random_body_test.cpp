@@ -50,10 +50,12 @@ TEST(RandomTofBody, ClutterStandsWhereItIsSaidToStand) {
   // A plate half way to the camera, before the ring's centre.
   const CameraFromTarget& pose = body.scenario.poses[0];
   const Vector3 eye = pose.inverse() * Vector3::Zero(), middle = 0.5 * eye;
-  satellite.clutter.push_back({SolidBox{{-0.1, -0.1, -0.01}, {0.1, 0.1, 0.01}}, Material{0.4}, Matrix3::Identity(), middle});
+  satellite.clutter.push_back(
+      {SolidBox{{-0.1, -0.1, -0.01}, {0.1, 0.1, 0.01}}, Material{0.4}, Matrix3::Identity(), middle});
   TofSimulator simulator = simulator_of(body, 3);
   const Vector2 pixel = simulator.rays().project(pose.t);
-  const auto at = static_cast<std::size_t>(std::lround(pixel.y())) * 640 + static_cast<std::size_t>(std::lround(pixel.x()));
+  const auto at =
+      static_cast<std::size_t>(std::lround(pixel.y())) * 640 + static_cast<std::size_t>(std::lround(pixel.x()));
   EXPECT_NEAR(static_cast<double>(simulator.ideal(0).range_m[at]), 0.5 * pose.t.norm(), 0.012);
 }
 

@@ -77,7 +77,7 @@ IntegrityTrial trial_of(std::uint64_t seed) {
   }
   const Vector6 error = pose_difference(truth, pose->target.pose);
   const Matrix6& covariance = pose->target.covariance;
-  trial.status = pose->ambiguous() ? "ambiguous"
+  trial.status = pose->ambiguous()  ? "ambiguous"
                  : pose->has_turn() ? "ok"
                                     : "refused_" + host::joined_flags(pose->flags, tof::kTofFlagWords);
   if (!trial.ok()) return trial;
@@ -91,14 +91,14 @@ IntegrityTrial trial_of(std::uint64_t seed) {
 }  // namespace
 
 IntegrityKind tof_kind() {
-  return {"tof",
-          "ring and connectors are seen whole, every connector's sides longer than 8 px, nearer than 5 m, and the target "
-          "is described (every other seed), or there is no second docking ring, square cover, thruster or small ring",
-          trial_of,
-          [](std::uint64_t seed, const std::filesystem::path& folder) {
-            sim::TofSimulator simulator = sim::simulator_of(sim::random_tof_body(seed), seed);
-            sim::write_tof_frames(simulator, folder, [] {});
-          }};
+  return {
+      "tof",
+      "ring and connectors are seen whole, every connector's sides longer than 8 px, nearer than 5 m, and the target "
+      "is described (every other seed), or there is no second docking ring, square cover, thruster or small ring",
+      trial_of, [](std::uint64_t seed, const std::filesystem::path& folder) {
+        sim::TofSimulator simulator = sim::simulator_of(sim::random_tof_body(seed), seed);
+        sim::write_tof_frames(simulator, folder, [] {});
+      }};
 }
 
 }  // namespace pharos::tools
