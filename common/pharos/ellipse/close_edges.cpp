@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "pharos/ellipse/contour_places.hpp"
 #include "pharos/ellipse/direct_fit.hpp"
 #include "pharos/ellipse/refine_fit.hpp"
 
 namespace pharos::ellipse {
 namespace {
 
-constexpr int kCloseEdgePlaces = 32;
+constexpr int kCloseEdgePlaces = 24;
 // Edges farther apart than this move by less than 0.02 px: 2 h exp(-2 h^2 / s^2).
 constexpr double kMaxStrip_px = 4.8;
 // Below the first a strip's width is noise; what is seen never is narrower than two sigmas.
@@ -21,10 +21,7 @@ constexpr double kMinSeenStrip = 1.03;
 // Of the two steps' ratio: more is no ring's.
 constexpr double kMaxStepRatio = 2.0;
 constexpr int kNewtonSteps = 6;
-
-double gap_px(const Ellipse& outer, const EllipseDistance& to_inner, int place) {
-  return to_inner.far_px(point_at(outer, 2.0 * std::numbers::pi * place / kCloseEdgePlaces));
-}
+constexpr double kConverged_px = 1e-4;
 
 // Whether `inner` lies in `outer`, their contours within reach of each other somewhere and never crossing.
 bool are_close(const Ellipse& outer, const Ellipse& inner) {
@@ -32,8 +29,9 @@ bool are_close(const Ellipse& outer, const Ellipse& inner) {
   if (std::abs(outer.cx_px - inner.cx_px) > kMaxStrip_px || std::abs(outer.cy_px - inner.cy_px) > kMaxStrip_px)
     return false;
   const EllipseDistance distance(inner);
+  ContourPlaces places(outer, kCloseEdgePlaces);
   double minimum = kMaxStrip_px;
-  for (int k = 0; k < kCloseEdgePlaces; ++k) minimum = std::min(minimum, gap_px(outer, distance, k));
+  for (int k = 0; k < kCloseEdgePlaces; ++k) minimum = std::min(minimum, distance.far_px(places.next().point));
   return minimum > 0.0 && minimum < kMaxStrip_px;
 }
 
@@ -43,18 +41,16 @@ std::optional<Ellipse> pushed_back(const Ellipse& contour, const Ellipse& other,
   const EllipseDistance distance(other);
   std::array<PointF, kCloseEdgePlaces> points;
   mean = {0.0, 0.0, 0.0};
-  for (int k = 0; k < kCloseEdgePlaces; ++k) {
-    const double t = 2.0 * std::numbers::pi * k / kCloseEdgePlaces;
-    const PointPx p = point_at(contour, t);
-    const double seen = 0.5 * std::abs(distance.far_px(p));
+  ContourPlaces places(contour, kCloseEdgePlaces);
+  for (PointF& point : points) {
+    const ContourPlaces::Place place = places.next();
+    const double seen = 0.5 * std::abs(distance.far_px(place.point));
     const StripWidth strip = strip_of(seen);
     mean.slope += strip.slope / kCloseEdgePlaces;
     mean.by_blur += strip.by_blur / kCloseEdgePlaces;
     const double push = (is_outer ? 1.0 : -1.0) * part * std::max(0.0, seen - strip.half_px);
-    const double c = std::cos(contour.theta_rad), s = std::sin(contour.theta_rad);
-    const double x = std::cos(t) / contour.a_px, y = std::sin(t) / contour.b_px, length = std::hypot(x, y);
-    points[static_cast<std::size_t>(k)] = {static_cast<float>(p.u - push * (c * x - s * y) / length),
-                                           static_cast<float>(p.v - push * (s * x + c * y) / length)};
+    point = {static_cast<float>(place.point.u - push * place.normal_u),
+             static_cast<float>(place.point.v - push * place.normal_v)};
   }
   return fit_direct(points);
 }
@@ -93,22 +89,28 @@ StripWidth strip_of(double seen_px) {
   for (int k = 0; k < kNewtonSteps; ++k) {
     bend = std::tanh(x * half / kFlankVariance_px2);
     falling = (1.0 - bend * bend) / kFlankVariance_px2;
-    half -= (half - x * bend) / (1.0 - x * x * falling);
+    const double step = (half - x * bend) / (1.0 - x * x * falling);
+    half -= step;
+    if (std::abs(step) < kConverged_px) break;
   }
   const double remaining = 1.0 - x * x * falling;
   return {half, (bend + x * half * falling) / remaining, -x * x * half * falling / (kFlankVariance_px2 * remaining)};
 }
 
-void separate_close_edges(EllipseWorkspace& workspace) {
+std::bitset<kMaxEllipses> separate_close_edges(EllipseWorkspace& workspace) {
+  std::bitset<kMaxEllipses> separated;
   auto& found = workspace.found;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t j = i + 1; j < found.size(); ++j) {
       if (found[i].bright_inside == found[j].bright_inside) continue;
       const bool first_is_outer = found[i].ellipse.a_px > found[j].ellipse.a_px;
       DetectedEllipse &outer = first_is_outer ? found[i] : found[j], &inner = first_is_outer ? found[j] : found[i];
-      if (are_close(outer.ellipse, inner.ellipse)) separate(outer, inner);
+      if (!are_close(outer.ellipse, inner.ellipse)) continue;
+      separate(outer, inner);
+      separated.set(i).set(j);
     }
   }
+  return separated;
 }
 
 }  // namespace pharos::ellipse

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bitset>
+
 #include "pharos/ellipse/workspace.hpp"
 
 namespace pharos::ellipse {
@@ -18,6 +20,7 @@ StripWidth strip_of(double seen_px);
 
 /// Moves the contours of concentric ellipses of opposite polarity, whose edges push each other apart in the blur, back
 /// to where they are, and widens their covariance: a ring 3 px wide is seen 0.6 px wider.
-void separate_close_edges(EllipseWorkspace& workspace);
+/// Returns which of the ellipses were moved.
+std::bitset<kMaxEllipses> separate_close_edges(EllipseWorkspace& workspace);
 
 }  // namespace pharos::ellipse

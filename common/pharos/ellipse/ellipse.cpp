@@ -48,9 +48,29 @@ double EllipseDistance::px(PointPx point) const {
 double EllipseDistance::far_px(PointPx point) const {
   const double a = ellipse_.a_px, b = ellipse_.b_px;
   const double u = point.u - ellipse_.cx_px, v = point.v - ellipse_.cy_px;
-  const double x = (cos_ * u + sin_ * v) / a, y = (cos_ * v - sin_ * u) / b;
-  const double size = std::hypot(x, y), slope = std::hypot(x / a, y / b);
-  return slope * b > 1e-9 ? size * (size - 1.0) / slope : -b;
+  const double x = std::abs(cos_ * u + sin_ * v), y = std::abs(cos_ * v - sin_ * u);
+  // The foot (a p, b q) in the first quadrant: the circle of curvature there meets the line from its centre to the
+  // point in the next foot.
+  constexpr int kSteps = 3;
+  const double evolute = a * a - b * b, per_a = 1.0 / a, per_b = 1.0 / b;
+  const auto length = [](double p, double q) { return std::sqrt(p * p + q * q); };
+  double p = x * per_a, q = y * per_b;
+  const double size = length(p, q);
+  if (!(size > 1e-9)) return -b;
+  p /= size;
+  q /= size;
+  for (int k = 0; k < kSteps; ++k) {
+    const double centre_x = evolute * p * p * p * per_a, centre_y = -evolute * q * q * q * per_b;
+    const double radius = length(a * p - centre_x, b * q - centre_y);
+    const double ratio = radius / std::max(length(x - centre_x, y - centre_y), 1e-9);
+    p = std::max(0.0, ((x - centre_x) * ratio + centre_x) * per_a);
+    q = std::max(1e-12, ((y - centre_y) * ratio + centre_y) * per_b);
+    const double per_length = 1.0 / length(p, q);
+    p *= per_length;
+    q *= per_length;
+  }
+  const double distance = length(x - a * p, y - b * q);
+  return size < 1.0 ? -distance : distance;
 }
 
 double distance_px(const Ellipse& e, PointPx point) { return EllipseDistance(e).px(point); }

@@ -34,7 +34,7 @@ class EllipseDistance {
  public:
   explicit EllipseDistance(const Ellipse& ellipse);
   double px(PointPx point) const;
-  /// Exact for a circle, and good where a point is as far away as the contour's radius of curvature.
+  /// To the nearest point of the contour, within a thousandth of the axes at any distance; slower.
   double far_px(PointPx point) const;
 
  private:

@@ -37,4 +37,9 @@ struct RefinedFit {
 /// noise of their pixels. Empty where the points leave some parameter undetermined.
 std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const PointF> points, double independent);
 
+/// Adds to the covariance what the points' noise does not explain of the scatter of eight fits, each without an octant
+/// of the contour (the jackknife with deleted groups): where the contour is no ellipse, errors of neighbouring points
+/// are alike. `points` are those of the fit.
+void add_jackknife(std::span<const PointF> points, RefinedFit& fit);
+
 }  // namespace pharos::ellipse

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "pharos/ellipse/sectors.hpp"
+
 namespace pharos::ellipse {
 namespace {
 
@@ -115,83 +117,6 @@ std::uint32_t for_points_on(const Contact& contact, const Arc& arc, const Ellips
   return count;
 }
 
-// The contour cut into sectors of equal steps around the diamond |x| + |y| = 1: no trigonometry, and so identical on
-// every machine.
-class Sectors {
- public:
-  Sectors(const Ellipse& e, std::int32_t width_px, std::int32_t height_px)
-      : e_(e), right_(width_px - 1.0 - kBorder_px), bottom_(height_px - 1.0 - kBorder_px) {
-    constexpr double kLength_px = 4.0;
-    quarter_ = std::clamp(static_cast<int>(perimeter_px(e) / (4.0 * kLength_px)), 2, kMaxSectors / 4);
-    cut_ = width_px > 0 && (e.cx_px - e.a_px < kBorder_px || e.cy_px - e.a_px < kBorder_px ||
-                            e.cx_px + e.a_px > right_ || e.cy_px + e.a_px > bottom_);
-  }
-
-  // A point in units of the axes.
-  void mark(PointF p) {
-    const float across = std::abs(p.u) + std::abs(p.v);
-    if (!(across > 0.0F)) return;
-    const bool odd = (p.u < 0.0F) != (p.v < 0.0F);  // the step runs from the x axis to the y axis, or back
-    const float fraction = (odd ? std::abs(p.u) : std::abs(p.v)) / across;
-    const int quadrant = p.v >= 0.0F ? (p.u >= 0.0F ? 0 : 1) : (p.u < 0.0F ? 2 : 3);
-    const int step = std::min(quarter_ - 1, static_cast<int>(fraction * static_cast<float>(quarter_)));
-    marked_ |= std::uint64_t{1} << (quadrant * quarter_ + step);
-  }
-
-  void fractions(Support& support) const {
-    // Of a quarter from the x axis to the y axis, then of one back: each comes twice.
-    std::array<double, kMaxSectors / 2> lengths, turns;
-    for (int k = 0; k < 2 * quarter_; ++k) {
-      const bool odd = k >= quarter_;
-      const double fraction = ((odd ? k - quarter_ : k) + 0.5) / quarter_;
-      const double x = odd ? fraction : 1.0 - fraction, y = 1.0 - x;  // on the diamond; |x + y| = 1 there
-      const double squared = x * x + y * y;
-      const double anomaly = 1.0 / squared;  // dt a step, but for a factor: dt = (x^2 + y^2)^-1 dshare
-      const double slant = (e_.a_px * e_.a_px * y * y + e_.b_px * e_.b_px * x * x) / squared;
-      lengths[static_cast<std::size_t>(k)] = std::sqrt(slant) * anomaly;
-      turns[static_cast<std::size_t>(k)] = anomaly / slant;
-    }
-    double length = 0.0, turn = 0.0, inside_length = 0.0, inside_turn = 0.0, all_length = 0.0, all_turn = 0.0;
-    const double c = std::cos(e_.theta_rad), s = std::sin(e_.theta_rad);
-    for (int k = 0; k < 4 * quarter_; ++k) {
-      const auto step = static_cast<std::size_t>(k < 2 * quarter_ ? k : k - 2 * quarter_);
-      all_length += lengths[step];
-      all_turn += turns[step];
-      const bool marked = (marked_ >> k & 1U) != 0;
-      if (!marked && cut_ && outside(k, c, s)) continue;
-      inside_length += lengths[step];
-      inside_turn += turns[step];
-      if (!marked) continue;
-      length += lengths[step];
-      turn += turns[step];
-    }
-    support.length_fraction = length / all_length;
-    support.turn_fraction = turn / all_turn;
-    support.inside_fraction = inside_length / all_length;
-    support.inside_turn = inside_turn / all_turn;
-  }
-
- private:
-  // Whether a sector's middle is outside the image.
-  bool outside(int sector, double cosine, double sine) const {
-    const int quadrant = sector / quarter_;
-    const double fraction = (sector % quarter_ + 0.5) / quarter_;
-    const bool odd = quadrant % 2 != 0;  // the step runs from the y axis to the x axis
-    const double x = odd ? fraction : 1.0 - fraction, y = 1.0 - x;
-    const double length = std::sqrt(x * x + y * y);
-    const double along = e_.a_px * (quadrant == 1 || quadrant == 2 ? -x : x) / length;
-    const double across = e_.b_px * (quadrant >= 2 ? -y : y) / length;
-    const double u = e_.cx_px + cosine * along - sine * across, v = e_.cy_px + sine * along + cosine * across;
-    return u < kBorder_px || v < kBorder_px || u > right_ || v > bottom_;
-  }
-
-  const Ellipse& e_;
-  double right_, bottom_;
-  bool cut_ = false;  // by the image's border
-  int quarter_;
-  std::uint64_t marked_ = 0;
-};
-
 }  // namespace
 
 void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px, const EllipseWorkspace& workspace,
@@ -207,21 +132,34 @@ void collect_support(const Ellipse& ellipse, bool bright_inside, double gate_px,
     possible += workspace.arcs[k].points();
   }
   support.stride = 1 + possible / static_cast<std::uint32_t>(kMaxFitPoints);
-  double squares = 0.0;
+  double squares = 0.0, fourth_powers = 0.0;
   for (const std::uint16_t k : touching) {
     const Arc& arc = workspace.arcs[k];
     const std::uint32_t count =
         for_points_on(contact, arc, workspace, [&](PointF place, float distance, float squared) {
           squares += static_cast<double>(squared);
+          fourth_powers += static_cast<double>(squared) * static_cast<double>(squared);
           support.distance_sum_px += std::abs(static_cast<double>(distance));
           if (support.count++ % support.stride != 0) return;
-          support.points.push_back(place);
-          sectors.mark(contact.scaled(place));
+          const PointF scaled = contact.scaled(place);
+          sectors.mark(scaled);
+          if (support.points.push_back(place)) {
+            support.sectors.push_back(static_cast<std::uint8_t>(sectors.sector_of(scaled)));
+          }
         });
     if (count > 0) ++support.arcs;
   }
-  if (support.count > 0) support.squared_gradient = squares / support.count;
-  sectors.fractions(support);
+  if (support.count > 0) {
+    support.squared_gradient = squares / support.count;
+    const double mean = support.squared_gradient, spread = fourth_powers / support.count - mean * mean;
+    support.gradient_variation = std::sqrt(std::max(0.0, spread)) / mean;
+  }
+  const ContourFractions fractions = sectors.fractions();
+  support.length_fraction = fractions.length;
+  support.turn_fraction = fractions.turn;
+  support.inside_fraction = fractions.inside_length;
+  support.inside_turn = fractions.inside_turn;
+  if (fractions.length < 1.0) support.beside_gaps = sectors.beside_gaps(sectors.count() < 24 ? 1 : 2);
 }
 
 std::uint32_t points_on(const Ellipse& ellipse, bool bright_inside, double gate_px, const Arc& arc,

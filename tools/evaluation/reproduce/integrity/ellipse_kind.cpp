@@ -85,7 +85,7 @@ class SceneMaker {
     const double width = uniform(2.0, 8.0);
     if (b - width > 2.5 && uniform(0.0, 1.0) < 0.4) {
       add(scene, {e.cx_px, e.cy_px, e.a_px - width, e.b_px - width, e.theta_rad},
-          ground + 0.3 * uniform(-1.0, 1.0) * std::abs(value - ground));
+          std::max(0.0, ground + 0.3 * uniform(-1.0, 1.0) * std::abs(value - ground)));
     }
   }
   // A step of at least a fifth of full scale.
