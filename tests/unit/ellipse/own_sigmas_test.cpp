@@ -38,7 +38,7 @@ class Picture {
   Bench bench_{static_cast<std::size_t>(kSide_px * kSide_px)};
 };
 
-test::Polygon polygon_at(double u, double v, double size_px, double turn, int corners) {
+test::Polygon regular_polygon_at(double u, double v, double size_px, double turn, int corners) {
   test::Polygon polygon;
   for (int k = 0; k < corners; ++k) {
     const double angle = turn + 2.0 * std::numbers::pi * k / corners;
@@ -84,8 +84,8 @@ TEST(OwnSigmas, APartlyHiddenContour) {
     const TrueEllipse e{50.0, 50.0, b * picture.uniform(1.0, 1.6), b, picture.uniform(-1.5, 1.5)};
     drawing.fill(e, 0.8);
     const double at = picture.uniform(0.0, 6.0), away = picture.uniform(0.7, 1.0) * b;
-    drawing.fill(polygon_at(50.0 + away * std::cos(at), 50.0 + away * std::sin(at), picture.uniform(10.0, 18.0),
-                            picture.uniform(0.0, 6.0), 4),
+    drawing.fill(regular_polygon_at(50.0 + away * std::cos(at), 50.0 + away * std::sin(at), picture.uniform(10.0, 18.0),
+                                    picture.uniform(0.0, 6.0), 4),
                  picture.uniform(0.05, 0.15));
     for (const DetectedEllipse& found : picture.detect(drawing, 1.0)) {
       if (found.ellipse.b_px < 0.7 * b) continue;  // the polygon's
@@ -105,8 +105,8 @@ TEST(OwnSigmas, ADotOfAFewPixelsThatIsCut) {
     const TrueEllipse e{50.0, 50.0, 1.5 * b, b, picture.uniform(-1.5, 1.5)};
     drawing.fill(e, 0.8);
     const double at = picture.uniform(0.0, 6.0), away = 20.0 + 0.7 * b;
-    drawing.fill(polygon_at(50.0 + away * std::cos(at), 50.0 + away * std::sin(at), 20.0 * std::sqrt(2.0),
-                            at + 0.25 * std::numbers::pi, 4),
+    drawing.fill(regular_polygon_at(50.0 + away * std::cos(at), 50.0 + away * std::sin(at), 20.0 * std::sqrt(2.0),
+                                    at + 0.25 * std::numbers::pi, 4),
                  0.1);
     for (const DetectedEllipse& found : picture.detect(drawing, 1.0)) expect_within_sigmas(found, e, seed);
   }
@@ -117,7 +117,9 @@ TEST(OwnSigmas, PolygonsInNoiseAreNone) {
   for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {
     Picture picture(seed);
     Drawing drawing(kSide_px, kSide_px, 0.75);
-    drawing.fill(polygon_at(50.0, 50.0, picture.uniform(8.0, 20.0), picture.uniform(0.0, 6.0), 3 + seed % 3), 0.9);
+    drawing.fill(regular_polygon_at(50.0, 50.0, picture.uniform(8.0, 20.0), picture.uniform(0.0, 6.0),
+                                    3 + static_cast<int>(seed % 3)),
+                 0.9);
     reported += static_cast<int>(picture.detect(drawing, 3.0).size());
   }
   EXPECT_EQ(reported, 0);
