@@ -107,7 +107,7 @@ std::bitset<kMaxEllipses> separate_close_edges(EllipseWorkspace& workspace) {
       DetectedEllipse &outer = first_is_outer ? found[i] : found[j], &inner = first_is_outer ? found[j] : found[i];
       if (!are_close(outer.ellipse, inner.ellipse)) continue;
       separate(outer, inner);
-      separated.set(i).set(j);
+      separated[i] = separated[j] = true;
     }
   }
   return separated;

@@ -260,8 +260,8 @@ class Combiner {
     return e.b_px < kMaxNoise_px && support_.squared_gradient < limit * limit;
   }
 
-  // A dot of a few pixels may be cut by something as bright as its surroundings: blur rounds what is left. What shows it
-  // is scatter beyond the noise and a step that changes along the contour; below the blur's width nothing does.
+  // A dot of a few pixels may be cut by something as bright as its surroundings: blur rounds what is left. What shows
+  // it is scatter beyond the noise and a step that changes along the contour; below the blur's width nothing does.
   void widen_dot(double rms_px, RefinedFit& fit) const {
     // Whole dots scatter by at most 0.035 px beyond noise, seven of ten; their squared gradients by less than 0.15 of
     // the mean. The factors: what cut dots of simulated images are off by.

@@ -121,8 +121,7 @@ std::optional<RefinedFit> refine_fit(const Ellipse& start, std::span<const Point
       Matrix5 inverse;
       for (int i = 0; i < 5; ++i) inverse.col(i) = solver.solve(Vector5::Unit(i));
       const double measurements = independent * static_cast<double>(points.size());
-      fit.covariance =
-          in_axes(freedom_of(measurements) * sigma * sigma / independent * inverse, fit.ellipse, contour);
+      fit.covariance = in_axes(freedom_of(measurements) * sigma * sigma / independent * inverse, fit.ellipse, contour);
     }
     fit.ellipse = *next;
     if (done) break;
@@ -143,7 +142,7 @@ void add_jackknife(std::span<const PointF> points, RefinedFit& fit) {
   const double axis_ratio = fit.ellipse.a_px / fit.ellipse.b_px;
   for_inliers(distances, points.size(), fit.sigma_px, [&](std::size_t k, double weight) {
     octants[octant_of(distances.x[k], distances.y[k], axis_ratio)].add(contour.slope(distances, k), weight,
-                                                                      distances.value[k]);
+                                                                       distances.value[k]);
   });
   Normal all;
   for (const Normal& octant : octants) {

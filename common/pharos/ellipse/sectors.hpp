@@ -29,7 +29,8 @@ class Sectors {
 
   int count() const { return 4 * quarter_; }
   int sector_of(PointF p) const;
-  /// A bit for each sector within `reach` sectors of a gap: two or more in succession, inside the image, without points.
+  /// A bit for each sector within `reach` sectors of a gap: two or more in succession, inside the image, without
+  /// points.
   std::uint64_t beside_gaps(int reach) const;
 
  private:

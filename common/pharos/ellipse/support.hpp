@@ -11,16 +11,16 @@ namespace pharos::ellipse {
 
 /// The points of the image's arcs that lie on one ellipse.
 struct Support {
-  StaticVector<PointF, kMaxFitPoints> points;  ///< evenly taken from all that lie on it
+  StaticVector<PointF, kMaxFitPoints> points;         ///< evenly taken from all that lie on it
   StaticVector<std::uint8_t, kMaxFitPoints> sectors;  ///< of the contour in which each of them lies
-  std::uint64_t beside_gaps = 0;  ///< a bit for each sector near one of those where the contour is hidden
-  std::uint32_t stride = 1;                    ///< one in so many was taken
-  std::uint32_t count = 0;                     ///< N of (3) and (4): all that lie on it
-  std::uint32_t arcs = 0;                      ///< j of (4): arcs with points on it
-  double distance_sum_px = 0.0;                ///< sum of L_i of (3)
-  double squared_gradient = 0.0;               ///< mean of the points'
-  double gradient_variation = 0.0;             ///< deviation of the squared gradients over their mean
-  double length_fraction = 0.0;                ///< of the contour's length, in sectors that have points
+  std::uint64_t beside_gaps = 0;    ///< a bit for each sector near one of those where the contour is hidden
+  std::uint32_t stride = 1;         ///< one in so many was taken
+  std::uint32_t count = 0;          ///< N of (3) and (4): all that lie on it
+  std::uint32_t arcs = 0;           ///< j of (4): arcs with points on it
+  double distance_sum_px = 0.0;     ///< sum of L_i of (3)
+  double squared_gradient = 0.0;    ///< mean of the points'
+  double gradient_variation = 0.0;  ///< deviation of the squared gradients over their mean
+  double length_fraction = 0.0;     ///< of the contour's length, in sectors that have points
   double turn_fraction =
       0.0;  ///< of the contour's full turn, in sectors that have points: sum of theta_i of (4) / 2 pi
   double inside_fraction = 1.0;  ///< of the contour's length, inside the image
