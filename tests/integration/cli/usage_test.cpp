@@ -125,9 +125,9 @@ TEST(CliUsage, NamesAnUnknownCommandAndThoseThatThereAre) {
     EXPECT_THAT(run.err, StartsWith(start));
     EXPECT_THAT(run.err, HasSubstr(words));
   };
-  expect("bogus", "pharos: unknown command 'bogus'; the commands are decode, track, solve", "`pharos --help`");
+  expect("bogus", "pharos: unknown command 'bogus'; the commands are decode, convert, track, solve", "`pharos --help`");
   expect("--bogus", "pharos: unknown option '--bogus'", "`pharos --help`");
-  expect("", "pharos: no command given", "decode, track, solve");
+  expect("", "pharos: no command given", "decode, convert, track, solve");
   expect("sim bogus", "pharos sim: unknown command 'bogus'", "lighthouse, tof, line, stereo, serial");
   expect("reproduce", "pharos reproduce: no command given", "lighthouse");
 }
