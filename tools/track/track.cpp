@@ -208,9 +208,10 @@ void add_track(CLI::App& app, int& exit_code) {
   command->add_option(
       "EDGES", options->edges,
       "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input");
-  command->add_option("--sweeps", options->sweeps,
-                      "In place of EDGES: hits of one to 16 stations, as `pharos convert` writes them; poses are "
-                      "T_world_body");
+  command->add_option(
+      "--sweeps", options->sweeps,
+      "In place of EDGES: hits of one to 16 stations, as `pharos convert` writes them; experimental (poses of a "
+      "quickly moved target can be off by more than their sigmas say); poses are T_world_body");
   command->add_option("--stations", options->stations, "With --sweeps: stations.toml, where they stand");
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
   command
