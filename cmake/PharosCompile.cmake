@@ -14,6 +14,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endif()
 
+# The release build of the host: stack protector and fortified functions. The soft core has neither library.
+if(NOT PHAROS_SANITIZE AND NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+  add_compile_options($<$<CONFIG:Release>:-fstack-protector-strong> $<$<CONFIG:Release>:-U_FORTIFY_SOURCE>
+    $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+endif()
+
 # The build type of the sanitizer presets: assertions on, enough optimisation for Eigen, line numbers in reports.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 if(PHAROS_SANITIZE)
@@ -43,8 +49,8 @@ endif()
 
 # Parsing Eigen or GoogleTest is two thirds of the cost of compiling a small file, so these headers are precompiled once
 # per set of flags. Not with a launcher given by the user or with clang-tidy, which do not understand such command lines.
-# These builds and the soft core's therefore detect missing includes.
-if(PHAROS_GIVEN_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+# These builds therefore detect missing includes, and `check.core_headers` those of the core's headers.
+if(PHAROS_GIVEN_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(PHAROS_PRECOMPILE OFF)
 else()
   set(PHAROS_PRECOMPILE ON)
@@ -77,9 +83,22 @@ endfunction()
 # VECTORS after NAME is for loops over images: square roots do not set errno and comparisons do not trap, so that the
 # compiler can vectorise them. Results do not change.
 set(PHAROS_CORE_OPTIONS -fno-exceptions -fno-rtti -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+  # GCC refuses a precompiled header unless the cost of a branch, which it derives from -O, is given. 1 is that of -Os, 3
+  # that of -O2.
+  set(PHAROS_12_OPTIONS ${PHAROS_CORE_OPTIONS} -O2 -mbranch-cost=3)
+  set(PHAROS_12_DEFINITIONS PHAROS_MAX_SENSORS=12 PHAROS_HOT_ON_CHIP)
+  list(APPEND PHAROS_CORE_OPTIONS -mbranch-cost=1)
+endif()
 set(PHAROS_VECTORS_OPTIONS ${PHAROS_CORE_OPTIONS} -fno-math-errno -fno-trapping-math)
 pharos_headers(core HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_CORE_OPTIONS})
 pharos_headers(vectors HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_VECTORS_OPTIONS})
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
+  pharos_headers(core_12 HEADERS <Eigen/Dense> LIBS Eigen3::Eigen OPTIONS ${PHAROS_12_OPTIONS})
+  if(PHAROS_PRECOMPILE)
+    target_compile_definitions(pharos_core_12_headers PRIVATE ${PHAROS_12_DEFINITIONS})
+  endif()
+endif()
 function(pharos_core_library name)
   cmake_parse_arguments(ARG "VECTORS" "" "" ${ARGN})
   set(kind core)
@@ -89,18 +108,19 @@ function(pharos_core_library name)
     set(options ${PHAROS_VECTORS_OPTIONS})
   endif()
   add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
+  target_compile_options(${name} PRIVATE ${options})
+  pharos_reads_headers(${name} ${kind})
   set(libraries ${name})
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
     add_library(${name}_12 STATIC EXCLUDE_FROM_ALL ${ARG_UNPARSED_ARGUMENTS})
-    target_compile_definitions(${name}_12 PUBLIC PHAROS_MAX_SENSORS=12 PHAROS_HOT_ON_CHIP)
-    target_compile_options(${name}_12 PRIVATE -O2)  # its code is in external memory, where size matters less
+    target_compile_definitions(${name}_12 PUBLIC ${PHAROS_12_DEFINITIONS})
+    target_compile_options(${name}_12 PRIVATE ${PHAROS_12_OPTIONS})  # its code is in external memory: size matters less
+    pharos_reads_headers(${name}_12 core_12)
     list(APPEND libraries ${name}_12)
   endif()
   foreach(library IN LISTS libraries)
     target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
     target_link_libraries(${library} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
-    target_compile_options(${library} PRIVATE ${options})
-    pharos_reads_headers(${library} ${kind})
   endforeach()
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
@@ -135,17 +155,6 @@ function(pharos_command_library name)
   pharos_host_library(${name} ${ARGN})
   target_compile_options(${name} PRIVATE ${PHAROS_COMMAND_OPTIONS})
   pharos_reads_headers(${name} command)
-endfunction()
-
-# pharos_guarded(TARGET...): stack protector and fortified functions for rooms that decode or forward untrusted bytes,
-# where their cost is not measurable. Rooms that compute on checked values do not have them. Precompiled headers are off
-# here, as they were compiled without these options.
-function(pharos_guarded)
-  foreach(target IN LISTS ARGN)
-    target_compile_options(${target} PRIVATE
-      $<$<CONFIG:Release>:-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
-    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-  endforeach()
 endfunction()
 
 # pharos_installed_program(TARGET): position independent; all symbols are resolved before main and read-only afterwards.

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: rv32_link.sh ROOT BUILD_DIR: compiles and links the whole portable core for the soft core's instruction set,
-# where neither heap nor C++ library exists, and shows that each planted violation breaks that link. 77 = skipped.
+# usage: rv32_link.sh ROOT BUILD_DIR [headers]: compiles and links the whole portable core for the soft core's instruction
+# set, where neither heap nor C++ library exists, and shows that each planted violation breaks that link. 77 = skipped.
+# headers: compiles every header by itself instead.
 # BUILD_DIR is a tree of the preset rv32im, created where there is none; the firmware's build tree may be used.
 set -u
 root=$1
@@ -15,6 +16,10 @@ fi
 cmake -S "$root" -B "$build" --preset rv32im >"$build/configure.log" 2>&1 || { cat "$build/configure.log"; exit 1; }
 link() { cmake --build "$build" --target "$1"; }
 
+if [ "${3-}" = headers ]; then
+  link pharos_core_header_units
+  exit
+fi
 link pharos_core_link || exit 1
 echo "largest stack frames, bytes:"
 find "$build/common" -name '*.su' -exec cat {} + | awk -F '\t' '{print $2 "\t" $1}' | sort -rn | head -5

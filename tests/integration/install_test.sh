@@ -55,7 +55,7 @@ if command -v apparmor_parser >/dev/null; then
 fi
 if grep -q '@PHAROS' "$root/usr/share/pharos/apparmor/pharosd"; then fail "the AppArmor profile has names that were not filled in"; fi
 
-# Position independent, everything resolved and read-only before main; what decodes outside bytes with guards.
+# Position independent, everything resolved and read-only before main; with guards.
 for program in bin/pharosd bin/pharos libexec/pharos/pharos-camera; do
   elf=$(readelf -hlWd -s "$root/usr/$program")
   has() { grep -Eq "$1" <<<"$elf"; }
