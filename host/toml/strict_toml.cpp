@@ -9,10 +9,10 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 
+#include "host/support/nearest_name.hpp"
 #include "host/toml/toml_limits.hpp"
 
 namespace pharos::host {
@@ -63,35 +63,6 @@ std::string type_name(const toml::node& node) {
     default:
       return "a date or time";
   }
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-// A word with half of its letters wrong is not a typing error.
-std::string resembling(std::string_view key, const std::set<std::string, std::less<>>& known) {
-  std::string best;
-  std::size_t best_distance = key.size() / 2 + 1;
-  for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(key, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 /// The parser's messages quote unexpected text, including line breaks.
@@ -356,7 +327,7 @@ std::vector<std::string> TomlTable::unknown_keys() const {
   const std::set<std::string, std::less<>> known = state_->asked;  // a line asked for is no key asked for
   for (const std::string& key : keys()) {
     if (known.contains(key)) continue;
-    const std::string like = resembling(key, known);
+    const std::string like = nearest_name(key, known);
     messages.push_back(message_of(key, "unknown key" + (like.empty() ? "" : "; did you mean \"" + like + "\"?")));
   }
   for (const auto& [name, child] : state_->children) {

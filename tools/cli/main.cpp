@@ -28,6 +28,10 @@ int main(int argc, char** argv) {
   refuse_lost_inputs(app);
   const NamedCommand named = named_command(app, {argv + std::min(argc, 1), argv + argc});
   set_message_prefix(named.name);
+  if (!named.unknown.empty() && !named.unknown.starts_with('-')) {  // also before --help, which would answer with 0
+    note(unknown_command_message(named));
+    return kExitUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
+#include <vector>
+
+#include "host/support/nearest_name.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -15,13 +18,13 @@ const CLI::App* subcommand(const CLI::App& command, std::string_view word) {
   return nullptr;
 }
 
-std::string subcommand_names(const CLI::App& command) {
-  std::string names;
-  for (const CLI::App* candidate : command.get_subcommands({})) {
-    names += (names.empty() ? "" : ", ") + candidate->get_name();
-  }
+std::vector<std::string> subcommand_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* candidate : command.get_subcommands({})) names.push_back(candidate->get_name());
   return names;
 }
+
+std::string help_of(const NamedCommand& named) { return "; `" + named.name + " --help` says how"; }
 
 }  // namespace
 
@@ -40,14 +43,20 @@ NamedCommand named_command(const CLI::App& app, std::span<const char* const> wor
   return named;
 }
 
+std::string unknown_command_message(const NamedCommand& named) {
+  const std::vector<std::string> names = subcommand_names(*named.command);
+  const bool option = named.unknown.starts_with('-');
+  const std::string meant = option ? "" : nearest_name(named.unknown, names);
+  return (option ? "unknown option '" : "unknown command '") + named.unknown + "'" +
+         (meant.empty() ? "" : ", did you mean '" + meant + "'?") + "; the commands are " +
+         CLI::detail::join(names, ", ") + help_of(named);
+}
+
 std::string usage_message(const NamedCommand& named, const CLI::ParseError& error) {
-  const std::string help = "; `" + named.name + " --help` says how";
-  if (!named.unknown.empty()) {
-    return (named.unknown.starts_with('-') ? "unknown option '" : "unknown command '") + named.unknown +
-           "'; the commands are " + subcommand_names(*named.command) + help;
-  }
+  if (!named.unknown.empty()) return unknown_command_message(named);
+  const std::string help = help_of(named);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !named.command->get_subcommands({}).empty()) {
-    return "no command given; the commands are " + subcommand_names(*named.command) + help;
+    return "no command given; the commands are " + CLI::detail::join(subcommand_names(*named.command), ", ") + help;
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     const std::string text = error.what();

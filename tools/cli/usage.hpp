@@ -16,6 +16,9 @@ struct NamedCommand {
 
 NamedCommand named_command(const CLI::App& app, std::span<const char* const> words);
 
+/// One line about `named.unknown`, with the name that was probably meant.
+std::string unknown_command_message(const NamedCommand& named);
+
 /// One line about an invalid command line: what, where, what to do (without the program's name).
 std::string usage_message(const NamedCommand& named, const CLI::ParseError& error);
 

@@ -126,6 +126,9 @@ TEST(CliUsage, NamesAnUnknownCommandAndThoseThatThereAre) {
     EXPECT_THAT(run.err, HasSubstr(words));
   };
   expect("bogus", "pharos: unknown command 'bogus'; the commands are decode, convert, track, solve", "`pharos --help`");
+  expect("trakc", "pharos: unknown command 'trakc', did you mean 'track'?", "decode, convert");
+  expect("trakc --help", "pharos: unknown command 'trakc', did you mean 'track'?", "decode, convert");
+  expect("sim lightouse --help", "pharos sim: unknown command 'lightouse', did you mean 'lighthouse'?", "tof, line");
   expect("--bogus", "pharos: unknown option '--bogus'", "`pharos --help`");
   expect("", "pharos: no command given", "decode, convert, track, solve");
   expect("sim bogus", "pharos sim: unknown command 'bogus'", "lighthouse, tof, line, stereo, serial");
