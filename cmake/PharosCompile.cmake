@@ -124,6 +124,9 @@ function(pharos_core_library name)
     target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR}/common)
     target_link_libraries(${library} PUBLIC Eigen3::Eigen PRIVATE pharos_warnings)
   endforeach()
+  if(PHAROS_TEST_ROOMS)  # a tree of some tests builds what they link
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   set_property(GLOBAL APPEND PROPERTY PHAROS_CORE_LIBRARIES ${name})
 endfunction()
 

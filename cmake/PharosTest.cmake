@@ -4,6 +4,7 @@ find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 add_custom_target(long_tests)
 
 set(PHAROS_TEST_PREFIX "" CACHE STRING "Put before every test's name, so that the tests of two build trees can run as one")
+set(PHAROS_TEST_ROOMS "" CACHE STRING "Folders of tests/unit to build; empty: all")
 set(PHAROS_FUZZ_SECONDS 180 CACHE STRING "How long each libFuzzer target runs in `tools/test --full`")
 
 # Test code runs once per build, so that full optimisation would cost more time than it saves. The tested code keeps its
