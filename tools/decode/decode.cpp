@@ -4,9 +4,11 @@
 #include <array>
 #include <bitset>
 
+#include "host/support/input_error.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/lighthouse/ootx_fields.hpp"
+#include "tools/decode/decode_lh2.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
 #include "tools/support/progress.hpp"
@@ -21,9 +23,14 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos decode hmd_static.edges.csv.gz --stats > bearings.csv\n"
     "  pharos decode hmd_static.edges.csv.gz --ootx\n"
+    "  pharos decode --lh2-light light.csv.gz > sweeps.csv\n"
     "theta_rad is the raw angle 2 pi (hit - flash) / turn, before the station's model; a quarter turn is straight\n"
     "ahead. station is 0 for the first flash of a slot (or a lone station), 1 for the second. flags: period_nominal,\n"
-    "flash_weak, lock_poor, several (the sensor was hit more than once in this sweep: reflections).";
+    "flash_weak, lock_poor, several (the sensor was hit more than once in this sweep: reflections).\n"
+    "--lh2-light: station is the channel, axis a or b the laser plane, theta_rad 0 straight ahead, growing to the\n"
+    "station's left; the rows are those of pharos track --sweeps. sync_s and offset_bits: the turn's sync, and the "
+    "light's\n"
+    "middle in bits of 6 Mbit/s after it. --bits: each burst alone, with its bits (x: unclear).";
 
 const std::vector<std::string> kBearingColumns = {"time_s", "station",   "station_id",  "axis",
                                                   "sensor", "theta_rad", "width_ticks", "flags"};
@@ -38,6 +45,8 @@ struct Options {
   bool ootx = false;
   bool stats = false;
   bool smooth = false;
+  bool lh2_light = false;
+  bool bits = false;
   OutputOptions output;
 };
 
@@ -103,7 +112,16 @@ void write_payload(const lighthouse::OotxPayload& payload, host::RowWriter& rows
   rows.end_row();
 }
 
+int run_lh2(const Options& options) {
+  if (options.smooth) throw host::InputError("--smooth is for the flashes of Lighthouse 1.0; leave it out");
+  if (options.ootx && options.bits) throw host::InputError("--ootx and --bits: choose one");
+  const Lh2Rows what = options.ootx ? Lh2Rows::kOotx : options.bits ? Lh2Rows::kBits : Lh2Rows::kHits;
+  return decode_lh2_light(options.edges, what, options.stats, options.output);
+}
+
 int run(const Options& options) {
+  if (options.lh2_light) return run_lh2(options);
+  if (options.bits) throw host::InputError("--bits needs --lh2-light");
   Stations stations = options.ootx ? Stations{} : read_ahead(options.edges);
   Recording recording(options.edges);
   Output output(options.output, options.ootx ? kOotxColumns : kBearingColumns);
@@ -139,6 +157,10 @@ void add_decode(CLI::App& app, int& exit_code) {
           "EDGES", options->edges,
           "Table sensor,rise_ticks,fall_ticks (20 ns ticks) or a recorded serial stream; .gz; - is standard input")
       ->required();
+  command->add_flag("--lh2-light", options->lh2_light,
+                    "EDGES is raw light of Lighthouse 2.0: sensor,time_ticks,data,envelope (20 ns ticks), or a logic\n"
+                    "analyser's table of one receiver: Time[s],DATA[,ENVELOPE]");
+  command->add_flag("--bits", options->bits, "With --lh2-light: each burst of light and its bits");
   command->add_flag("--ootx", options->ootx, "The OOTX payloads instead of bearings");
   command->add_flag("--stats", options->stats, "Every counter at the end, on standard error");
   command->add_flag("--smooth", options->smooth, "Smooth flash times with earlier flashes of the same rotor");
