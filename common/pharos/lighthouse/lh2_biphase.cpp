@@ -73,7 +73,8 @@ std::optional<Lh2Bits> biphase_bits(const Lh2Burst& burst) {
   }
   std::array<int, 2> changes{};
   for (std::size_t c = 0; c < cells; ++c) changes[c % 2] += changed[c] ? 1 : 0;
-  const std::size_t first = changes[1] > changes[0] ? 1 : 0;
+  std::size_t first = changes[1] > changes[0] ? 1 : 0;
+  while (first + 2 < cells && !changed[first]) first += 2;
 
   Lh2Bits bits;
   bits.sensor = burst.sensor;

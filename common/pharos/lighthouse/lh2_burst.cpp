@@ -42,6 +42,8 @@ std::optional<Lh2Burst> Lh2BurstCollector::push(const Lh2Edge& edge, Lh2Counters
 void Lh2BurstCollector::add(Receiver& receiver, const Lh2Edge& edge, Lh2Counters& counters) {
   Lh2Burst& burst = receiver.burst;
   if (!receiver.open) {
+    const bool light_ends = edge.data == receiver.data && !edge.light;
+    if (light_ends) return;
     burst = {};
     burst.start_ticks = edge.time_ticks;
     burst.sensor = edge.sensor;

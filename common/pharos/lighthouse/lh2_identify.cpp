@@ -7,8 +7,7 @@ namespace pharos::lighthouse {
 namespace {
 
 constexpr int kAgrees = 1, kDiffers = -3;
-constexpr int kGiveUp = 7;    // a stretch ends where the score fell this far below its best
-constexpr int kMinScore = 8;  // beyond the window
+constexpr int kGiveUp = 7;  // a stretch ends where the score fell this far below its best
 
 /// How far a sequence agrees on one side of a window.
 struct Reach {
@@ -102,9 +101,10 @@ Candidate best_of(const Lh2Bits& bits, std::uint32_t channels) {
 
 }  // namespace
 
-std::optional<Lh2Beam> identify(const Lh2Bits& bits, std::uint32_t channels, const Lh2Sequences& sequences) {
+std::optional<Lh2Beam> identify(const Lh2Bits& bits, std::uint32_t channels, const Lh2Sequences& sequences,
+                                int min_score) {
   const Candidate best = best_of(bits, channels);
-  if (best.score < kMinScore) return std::nullopt;
+  if (best.score < min_score) return std::nullopt;
   const auto place = sequences.place_of(best.window, best.sequence);
   if (!place) return std::nullopt;
   Lh2Beam beam;

@@ -24,7 +24,7 @@ void Lh2LightDecoder::take(const Lh2Burst& burst) {
     return;
   }
   // Stations that are known first: one that is new costs a search among all 32 sequences.
-  std::optional<Lh2Beam> beam = identify(*bits, sweeps_.channels(), sequences_);
+  std::optional<Lh2Beam> beam = identify(*bits, sweeps_.channels(), sequences_, kSureScore);
   if (!beam) beam = identify(*bits, kAllLh2Channels, sequences_);
   if (!beam) {
     ++sweeps_.counters().bursts_unknown;
