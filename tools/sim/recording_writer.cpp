@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/recording_writer.hpp"
 
-#include <unistd.h>
-#include <zlib.h>
-
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <string>
 
 #include "host/files/atomic_file.hpp"
@@ -16,6 +10,7 @@
 #include "host/support/input_error.hpp"
 #include "host/table/row_writer.hpp"
 #include "tools/sim/lighthouse_simulator.hpp"
+#include "tools/sim/recording_tables.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -23,80 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using host::InputError;
 
-[[noreturn]] void refuse(const fs::path& path) {
-  throw InputError(path.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --output");
-}
+std::int64_t stamp(std::int64_t ticks, bool wrap32) { return wrap32 ? ticks & 0xFFFFFFFF : ticks; }
 
 std::string shortest(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-// Pulses as a gzip table, gathered into large writes.
-class PulseTable {
- public:
-  PulseTable(const fs::path& path, bool wrap32)
-      : path_(path), wrap32_(wrap32), place_(path.string()), file_(gzdopen(::dup(::fileno(place_.stream())), "wb6")) {
-    if (file_ == nullptr) refuse(path);
-    buffer_ = "sensor,rise_ticks,fall_ticks\n";
-  }
-  PulseTable(const PulseTable&) = delete;
-  PulseTable& operator=(const PulseTable&) = delete;
-  ~PulseTable() {
-    if (file_ != nullptr) gzclose(file_);
-  }
-
-  void add(const SimulatedPulse& pulse) {
-    append(pulse.sensor, ',');
-    append(stamp(pulse.rise_ticks), ',');
-    append(stamp(pulse.fall_ticks), '\n');
-    if (buffer_.size() > kGather) flush();
-  }
-  void close() {
-    flush();
-    gzFile file = file_;
-    file_ = nullptr;
-    if (gzclose(file) != Z_OK) refuse(path_);
-    place_.commit();
-  }
-
- private:
-  static constexpr std::size_t kGather = 1 << 16;
-
-  std::int64_t stamp(std::int64_t ticks) const { return wrap32_ ? ticks & 0xFFFFFFFF : ticks; }
-  void append(std::int64_t value, char end) {
-    char text[24];
-    buffer_.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-    buffer_.push_back(end);
-  }
-  void flush() {
-    const auto size = static_cast<unsigned>(buffer_.size());
-    if (size != 0 && gzwrite(file_, buffer_.data(), size) != static_cast<int>(size)) refuse(path_);
-    buffer_.clear();
-  }
-
-  fs::path path_;
-  bool wrap32_;
-  host::AtomicFile place_;
-  gzFile file_;
-  std::string buffer_;
-};
-
-void write_target(const fs::path& path, const Target& target) {
-  host::AtomicFile file(path.string());
-  host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"sensor", "x_m", "y_m", "z_m", "nx", "ny", "nz"});
-  for (const SensorPlacement& sensor : target) {
-    rows.integer(sensor.sensor);
-    for (int i = 0; i < 3; ++i) rows.number(sensor.position_m[i]);
-    if (sensor.has_normal()) {
-      for (int i = 0; i < 3; ++i) rows.number(sensor.normal[i]);
-    } else {
-      rows.none(3);
-    }
-    rows.end_row();
-  }
-  rows.flush();
-  file.commit();
 }
 
 void write_truth(const fs::path& path, const LighthouseSimulator& simulator) {
@@ -154,20 +80,6 @@ void write_true(const fs::path& path, const LighthouseSimulator& simulator) {
   host::write_file(path.string(), text);
 }
 
-void write_faults(const fs::path& path, const std::vector<InjectedFault>& faults) {
-  host::AtomicFile file(path.string());
-  host::RowWriter rows(file.stream(), host::RowFormat::kCsv, {"time_s", "kind", "station", "sensor", "amount"});
-  for (const InjectedFault& fault : faults) {
-    rows.number(fault.time_s).text(fault.kind);
-    fault.station < 0 ? rows.none() : rows.integer(fault.station);
-    fault.sensor < 0 ? rows.none() : rows.integer(fault.sensor);
-    rows.number(fault.amount);
-    rows.end_row();
-  }
-  rows.flush();
-  file.commit();
-}
-
 }  // namespace
 
 RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64_t seed, const fs::path& directory) {
@@ -177,9 +89,10 @@ RecordingSummary write_recording(const LighthouseScenario& scenario, std::uint64
     throw InputError(directory.string() + ": cannot be made: " + error.message() + "; choose another --output");
   LighthouseSimulator simulator(scenario, seed);
   RecordingSummary summary;
-  PulseTable pulses(directory / "edges.csv.gz", scenario.clock.wrap32);
+  GzipTable pulses(directory / "edges.csv.gz", "sensor,rise_ticks,fall_ticks");
+  const bool wrap32 = scenario.clock.wrap32;
   while (const std::optional<SimulatedPulse> pulse = simulator.next()) {
-    pulses.add(*pulse);
+    pulses.row({pulse->sensor, stamp(pulse->rise_ticks, wrap32), stamp(pulse->fall_ticks, wrap32)});
     ++summary.pulses;
   }
   pulses.close();

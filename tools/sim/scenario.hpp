@@ -24,6 +24,7 @@ enum class StationMode : std::uint8_t { kA = 0, kB = 1, kC = 2 };
 struct StationScenario {
   std::uint32_t id = 0xBEC08E38u;
   StationMode mode = StationMode::kA;
+  int channel = 0;  // of Lighthouse 2.0
   RoomFromStation pose;
   /// Calibration before half precision; empty: typical values drawn from the seed.
   std::optional<std::array<SheetErrors, 2>> calibration = std::array<SheetErrors, 2>{};
@@ -52,6 +53,7 @@ struct NoiseScenario {
   double narrow_sigma_arcsec = 25.0;  // added for hits of 52 ticks and below, none from 104 ticks
   double flash_rise_ticks = 0.3;      // own noise of a sensor's flash edges
   double width_ticks = 2.0;           // own noise of a pulse's width
+  double bit_jitter_ns = 8.0;         // of each change of the data, Lighthouse 2.0
 };
 
 struct LightScenario {
@@ -101,6 +103,7 @@ struct FaultScenario {
   double reorder_us = 120.0;
   double doubled_rate = 0.0;       // of pulses sent twice
   double lost_edge_rate = 0.0;     // of edges
+  double cut_burst_rate = 0.0;     // of Lighthouse 2.0's bursts: a part of the light only
   double glitches_per_s = 0.0;     // pulses of 1 to 20 ticks on any sensor
   double endless_per_s = 0.0;      // pulses of 20 to 200 ms
   double ootx_corrupt_rate = 0.0;  // of frames, one bit wrong
@@ -126,6 +129,7 @@ struct ErrorScenario {
 };
 
 struct LighthouseScenario {
+  int generation = 1;  // of the stations
   double duration_s = 10.0;
   Target target;  // nominal
   std::vector<BodyFace> body;
@@ -135,7 +139,7 @@ struct LighthouseScenario {
   RotorScenario rotor;
   NoiseScenario noise;
   LightScenario light;
-  std::vector<StationScenario> stations;  // one or two; the first flashes first
+  std::vector<StationScenario> stations;  // one or two, of which the first flashes first; 16 of generation 2
   FaultScenario faults;
   std::shared_ptr<const Trajectory> trajectory;
 };

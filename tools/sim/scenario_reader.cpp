@@ -84,6 +84,35 @@ std::vector<StationScenario> read_stations(const TomlTable& root) {
   return stations;
 }
 
+// Stations of Lighthouse 2.0: known by their channels.
+std::vector<StationScenario> read_lh2_stations(const TomlTable& root) {
+  std::vector<StationScenario> stations;
+  for (const TomlTable& table : root.tables("station")) {
+    StationScenario station;
+    station.id = read_id(table, stations.size());
+    station.channel = static_cast<int>(table.integer("channel", 0, 15));
+    station.pose.R = read_attitude(table, "orientation_wxyz", {1.0, 0.0, 0.0, 0.0});
+    station.pose.t = to_vector(table.vector_or<3>("position_m", {0.0, 0.0, 0.0}, kMetres));
+    if (table.choice_or("calibration", "typical", {"ideal", "typical"}) == "typical") station.calibration.reset();
+    for (const StationScenario& other : stations) {
+      if (other.channel == station.channel) table.fail("channel", "another station has it");
+      if (other.id == station.id) table.fail("id", "must differ from the other stations'");
+    }
+    stations.push_back(station);
+  }
+  if (stations.empty()) root.fail("station", "generation 2 needs at least one [[station]] with its channel");
+  return stations;
+}
+
+// Faults that Lighthouse 2.0 cannot have: it has no flashes, and no pulses to come late or twice.
+void refuse_faults_of_pulses(const TomlTable& root) {
+  const TomlTable table = root.table_or_empty("faults");
+  for (const char* key : {"missed_flash_rate", "missed_flash_pulse_rate", "stretched_flash_rate", "merged_flash_rate",
+                          "stale_pulses", "reorder_rate", "doubled_rate", "endless_per_s", "restart"}) {
+    if (table.has(key)) table.fail(key, "is a fault of generation 1; leave it out");
+  }
+}
+
 ClockScenario read_clock(const TomlTable& table) {
   ClockScenario clock;
   clock.start_ticks = table.integer_or("start_ticks", clock.start_ticks, 0, std::int64_t{1} << 50);
@@ -111,6 +140,7 @@ NoiseScenario read_noise(const TomlTable& table) {
   noise.flash_fraction = table.number_or("flash_share", noise.flash_fraction, kFraction);
   noise.narrow_sigma_arcsec = table.number_or("narrow_sigma_arcsec", noise.narrow_sigma_arcsec, {0.0, 1000.0});
   noise.flash_rise_ticks = table.number_or("flash_rise_ticks", noise.flash_rise_ticks, {0.0, 100.0});
+  noise.bit_jitter_ns = table.number_or("bit_jitter_ns", noise.bit_jitter_ns, {0.0, 100.0});
   noise.width_ticks = table.number_or("width_ticks", noise.width_ticks, {0.0, 100.0});
   return noise;
 }
@@ -138,7 +168,10 @@ int read_station_number(const TomlTable& table, std::size_t stations) {
 ReflectionScenario read_reflection(const TomlTable& table, const LighthouseScenario& scenario) {
   ReflectionScenario reflection;
   reflection.station = read_station_number(table, scenario.stations.size());
-  reflection.rotor = table.choice_or("rotor", "x", {"x", "y"}) == "x" ? Rotor::kX : Rotor::kY;
+  const bool second = scenario.generation == 2;  // its planes are a and b
+  const std::string rotor =
+      second ? table.choice_or("rotor", "a", {"a", "b"}) : table.choice_or("rotor", "x", {"x", "y"});
+  reflection.rotor = rotor == "x" || rotor == "a" ? Rotor::kX : Rotor::kY;
   for (const std::int64_t sensor : table.integers("sensors", 0, 31)) {
     if (find_sensor(scenario.target, static_cast<std::uint8_t>(sensor)) == nullptr) {
       table.fail("sensors", "the target has no sensor " + std::to_string(sensor));
@@ -174,6 +207,7 @@ FaultScenario read_faults(const TomlTable& table, const LighthouseScenario& scen
   f.reorder_us = table.number_or("reorder_us", f.reorder_us, {0.0, 1e6});
   f.doubled_rate = table.number_or("doubled_rate", 0.0, kFraction);
   f.lost_edge_rate = table.number_or("lost_edge_rate", 0.0, kFraction);
+  f.cut_burst_rate = table.number_or("cut_burst_rate", 0.0, kFraction);
   f.glitches_per_s = table.number_or("glitches_per_s", 0.0, kPerSecond);
   f.endless_per_s = table.number_or("endless_per_s", 0.0, kPerSecond);
   f.ootx_corrupt_rate = table.number_or("ootx_corrupt_rate", 0.0, kFraction);
@@ -300,6 +334,7 @@ std::vector<BodyFace> read_body(const TomlTable& table) {
 LighthouseScenario read_scenario(const fs::path& path, std::uint64_t seed) {
   const TomlTable root = TomlTable::parse_file(path);
   LighthouseScenario scenario;
+  scenario.generation = static_cast<int>(root.integer_or("generation", 1, 1, 2));
   scenario.duration_s = root.number("duration_s", {0.05, 1e5});
   scenario.target = host::read_target(beside(root, root.text("target")).string()).target;
   scenario.form = root.integer_or("model_form", 1, 1, 2) == 1 ? SheetForm::kForm1 : SheetForm::kForm2;
@@ -309,7 +344,9 @@ LighthouseScenario read_scenario(const fs::path& path, std::uint64_t seed) {
   scenario.rotor = read_rotors(root.table_or_empty("rotor"));
   scenario.noise = read_noise(root.table_or_empty("noise"));
   scenario.light = read_light(root.table_or_empty("light"));
-  scenario.stations = read_stations(root);
+  const bool second = scenario.generation == 2;
+  scenario.stations = second ? read_lh2_stations(root) : read_stations(root);
+  if (second) refuse_faults_of_pulses(root);
   scenario.faults = read_faults(root.table_or_empty("faults"), scenario);
   scenario.trajectory = read_trajectory(root.table("trajectory"), scenario, seed);
   root.reject_unknown();

@@ -6,12 +6,15 @@ namespace {
 
 // Crystals of both ends: within 100 ppm each.
 constexpr std::int64_t kMaxRate_q30 = 214'748;  // 200 ppm
-// Two beams of one turn lead to one sync within 5 ns each (captures); 0.1 us allows reflections 30 m longer.
-constexpr std::int64_t kSameTurn_sixths = 30;
+// Two beams of one turn lead to one sync within 5 ns each (captures). Light of two stations at once may be read with the
+// phase of the other's clock, half a bit off: 0.25 us.
+constexpr std::int64_t kSameTurn_sixths = 75;
 // A rotor's turn departs from the one before by 0.1 to 0.3 us (captures), from nominal by crystals.
 constexpr std::int64_t kTurnJitter_sixths = 600;
 // Without a beam for this many turns (1 s) the rotor is lost.
 constexpr std::int64_t kMaxTurnsWithout = 50;
+// A rotor that was confirmed within this many turns is not given up for two beams that contradict it.
+constexpr std::int64_t kMinTurnsWithout = 3;
 // Beams that wait longer than this many turns are dropped.
 constexpr std::int64_t kMaxTurnsWaiting = 4;
 constexpr int kRateSamples = 16;
@@ -126,9 +129,13 @@ Lh2Rotor::Outcome Lh2Rotor::push(const Lh2Beam& beam) {
       take(beam, *outcome.placed);
       return outcome;
     }
-    if (beam.time_sixths - last_.sync_sixths > kMaxTurnsWithout * turn_sixths_) {
+    const std::int64_t without = beam.time_sixths - last_.sync_sixths;
+    if (without > kMaxTurnsWithout * turn_sixths_) {
       running_ = false;
       outcome.lost = true;
+    } else if (magnitude(without) < kMinTurnsWithout * turn_sixths_) {
+      ++outcome.dropped;
+      return outcome;
     }
   }
   find(beam, outcome);

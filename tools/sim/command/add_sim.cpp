@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "tools/sim/lh2/lh2_recording.hpp"
 #include "tools/sim/recording_writer.hpp"
 #include "tools/support/output_place.hpp"
 #include "tools/support/seed_option.hpp"
@@ -34,14 +35,22 @@ void add_sim_lighthouse(CLI::App& sim, int& exit_code) {
       ->required();
   command->footer(
       "Writes edges.csv.gz, truth.csv (T_lighthouse_body, a row per millisecond and station), target.csv,\n"
-      "target_true.csv, stations.toml (calibrations as announced), stations_true.toml and faults.csv.\n\n"
+      "target_true.csv, stations.toml (calibrations as announced), stations_true.toml and faults.csv.\n"
+      "A scenario of generation = 2 (Lighthouse 2.0): light.csv.gz for pharos decode --lh2-light in place of edges,\n"
+      "truth.csv of T_world_body, stations.toml with the stations' poses, passes.csv: each pass of a laser plane.\n\n"
       "Example: pharos sim lighthouse tools/sim/scenarios/demo.toml --seed 7 --output /tmp/demo");
   command->callback([options, &exit_code] {
     const sim::LighthouseScenario scenario = sim::read_scenario(options->scenario, options->seed);
+    exit_code = 0;
+    if (scenario.generation == 2) {
+      const auto light = sim::write_lh2_recording(scenario, options->seed, options->output);
+      std::cerr << options->output << ": " << light.passes << " passes, " << light.changes << " changes in "
+                << light.duration_s << " s, " << light.faults << " faults\n";
+      return;
+    }
     const sim::RecordingSummary summary = sim::write_recording(scenario, options->seed, options->output);
     std::cerr << options->output << ": " << summary.pulses << " pulses in " << summary.duration_s << " s, "
               << summary.faults << " faults\n";
-    exit_code = 0;
   });
 }
 
