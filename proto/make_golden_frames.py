@@ -58,6 +58,12 @@ POSE = struct.pack("<4d3d", 0.5, -0.5, 0.5, 0.5, 0.125, -0.25, 3.0)
 POSE2 = struct.pack("<4d3d", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.5)
 COVARIANCE = struct.pack("<21f", *[k / 64 for k in range(1, 22)])
 ANSWER = POSE + COVARIANCE + struct.pack("<3fB", 0.0009765625, 1234.5, 56.25, 4)
+def lh2_sweep(ticks, sixths, channel, plane, slow_bit, hits):
+    return struct.pack("<qBBB", ticks, sixths, channel | plane << 4 | slow_bit << 5, len(hits)) + b"".join(
+        struct.pack("<BHi", *hit) for hit in hits)
+
+
+LH2_OOTX = bytes.fromhex("8808ef9803fe0000559e46aadb29010f94359730007ffca63f7440e39c599c88003042d735412fbeb27c06")
 OOTX = bytes.fromhex("063d388ec0befb23e428e20c981802096297009781fd093ab508be5a1ce69d0100")
 
 FRAMES = [
@@ -86,6 +92,10 @@ FRAMES = [
     ("loader_start", 0x45, b""),
     ("ack", 0x46, struct.pack("<BHI", 0x43, 16, 768)),
     ("nak", 0x47, struct.pack("<BHBI", 0x43, 17, 3, 768)),
+    ("lh2_sweep", 0x14, lh2_sweep(4294967296, 5, 6, 1, 1, [(0, 405, 1894537), (31, 1, 0), (0, 5000, 5993750)])),
+    ("lh2_sweep_empty", 0x14, lh2_sweep(-7, 0, 15, 0, 0, [])),
+    ("lh2_sweep_full", 0x14, lh2_sweep(1 << 40, 3, 0, 0, 0, [(k // 2, 300 + k, 1900000 + 700 * k) for k in range(64)])),
+    ("lh2_ootx", 0x15, struct.pack("<qBB", 987654321, 8, len(LH2_OOTX)) + LH2_OOTX),
 ]
 
 print("# SPDX-License-Identifier: Apache-2.0")

@@ -15,6 +15,7 @@
 #include "host/vision/slam/slam_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/network/station.hpp"
 #include "pharos/pointing/pass.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/tracking/method_tracker.hpp"
@@ -43,6 +44,10 @@ struct TargetConfig {
   std::filesystem::path target_file;
   Target target;  // with calibrated positions if there is a calibration file
   TargetShape shape;
+  /// Of the stations: 1, or 2 with the room's stations from a file.
+  int generation = 1;
+  std::filesystem::path stations_file;
+  network::Stations stations;
   /// Of `pharos calibrate lighthouse`; empty: the target's table and the stations' OOTX data are used.
   std::filesystem::path calibration_file;
   std::vector<tracking::KnownStation> calibrated_stations;  // all by id

@@ -48,6 +48,11 @@ void describe_target(std::ostream& out, const TargetConfig& target) {
   if (target.identity.sensors) out << "\n  must be a board of " << *target.identity.sensors << " sensors";
   out << "\n  sensors: " << target.shape.sensors << " from " << target.target_file.string();
   if (target.shape.coplanar) out << " (all in one plane: single cycles may fit two poses)";
+  if (target.generation == 2) {
+    out << "\n  stations: " << target.stations.size() << " of Lighthouse 2.0, from " << target.stations_file.string()
+        << ", poses in the world\n";
+    return;
+  }
   if (!target.calibration_file.empty()) {
     out << "\n  calibrated: " << target.calibrated_stations.size() << " stations and the sensors, from "
         << target.calibration_file.string() << ", size known to " << 100.0 * target.scale_sigma << " %";

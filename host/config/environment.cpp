@@ -14,6 +14,7 @@
 #include "host/device/pair_names.hpp"
 #include "host/images/grey_image.hpp"
 #include "host/record/stream_reader.hpp"
+#include "host/stations/network_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/unique_fd.hpp"
 #include "host/vision/ring2/ring2_detector.hpp"
@@ -136,10 +137,15 @@ void add_port_error(std::vector<std::string>& errors, const TargetConfig& target
 Environment host_environment() {
   return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
           read_camera_file, check_frames,     read_rig_file, check_ring2,
-          check_slam,       check_vocabulary, check_pairs,   read_docking_target};
+          check_slam,       check_vocabulary, check_pairs,   read_docking_target,
+          read_network_file};
 }
 
 calibrate::CalibrationFile Environment::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+network::Stations Environment::no_stations(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 

@@ -46,6 +46,10 @@ struct Environment {
   /// How a description of ring and connectors becomes one; throws InputError. Unless given, there is none.
   std::function<DockingTarget(const std::string& path)> read_docking_target = no_docking_target;
 
+  /// Reads the stations of a room; throws InputError. Unless given, there are none.
+  std::function<network::Stations(const std::string& path)> read_stations = no_stations;
+
+  static network::Stations no_stations(const std::string& path);
   static RigFile no_rig(const std::string& path);
   static calibrate::CalibrationFile no_calibration(const std::string& path);
   static CameraFile no_camera(const std::string& path);

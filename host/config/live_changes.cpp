@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/config/load_config.hpp"
+#include "host/stations/network_file.hpp"
 
 namespace pharos::host {
 namespace {
@@ -46,7 +47,8 @@ std::vector<std::string> settings(const DaemonConfig& config) {
 }  // namespace
 
 bool same_calibration(const TargetConfig& a, const TargetConfig& b) {
-  return same_sensors(a.target, b.target) && same_stations(a.calibrated_stations, b.calibrated_stations) &&
+  return network_text(a.stations) == network_text(b.stations) && same_sensors(a.target, b.target) &&
+         same_stations(a.calibrated_stations, b.calibrated_stations) &&
          same_pair(a.calibrated_pair, b.calibrated_pair) && a.scale_sigma == b.scale_sigma &&
          a.systematic.sensor_position_m == b.systematic.sensor_position_m &&
          a.systematic.rotor_rad == b.systematic.rotor_rad;
@@ -57,6 +59,8 @@ void take_calibration(const TargetConfig& from, TargetConfig& to) {
   to.target = from.target;
   to.shape = from.shape;
   to.calibrated_stations = from.calibrated_stations;
+  to.stations_file = from.stations_file;
+  to.stations = from.stations;
   to.calibrated_pair = from.calibrated_pair;
   to.scale_sigma = from.scale_sigma;
   to.systematic = from.systematic;

@@ -190,6 +190,30 @@ void read_target_file(const TomlTable& table, const fs::path& folder, const Envi
   }
 }
 
+// Stations of Lighthouse 2.0: the room's, with their poses. What belongs to Lighthouse 1.0 alone is refused.
+void read_room(const TomlTable& table, const fs::path& folder, const Environment& environment, TargetConfig& target) {
+  target.generation = static_cast<int>(table.integer_or("generation", 1, 1, 2));
+  if (target.generation == 1) {
+    if (table.has("stations_file")) table.fail("stations_file", "is for generation = 2; leave it out or set that");
+    return;
+  }
+  for (const char* key : {"calibration_file", "method", "solve", "remember_calibrations"}) {
+    if (table.has(key)) table.fail(key, "is for generation 1; the stations of generation 2 are in stations_file");
+  }
+  target.stations_file = read_path(table, "stations_file", folder);
+  try {
+    target.stations = environment.read_stations(target.stations_file.string());
+    for (const network::Station& station : target.stations) {
+      const std::string name = target.stations_file.string() + ": station " + std::to_string(station.number);
+      if (station.generation != network::Generation::kLighthouse2) throw InputError(name + " is of generation 1");
+      if (!station.T_world_station) throw InputError(name + " has no position_m and rotation_wxyz; give or remove it");
+    }
+    if (target.stations.empty()) throw InputError(target.stations_file.string() + ": holds no [[station]]");
+  } catch (const InputError& error) {
+    table.fail("stations_file", error.what());
+  }
+}
+
 TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, const Environment& environment,
                                ConfigErrors& errors) {
   TargetConfig target;
@@ -199,6 +223,7 @@ TargetConfig read_target_table(const TomlTable& table, const fs::path& folder, c
   errors.attempt([&] { target.baud = static_cast<int>(table.integer_or("baud", target.baud, 1'200, 12'000'000)); });
   errors.attempt(
       [&] { target.remember_calibrations = table.boolean_or("remember_calibrations", target.remember_calibrations); });
+  errors.attempt([&] { read_room(table, folder, environment, target); });
   errors.attempt([&] {
     const std::string method = table.choice_or("method", "motion", {"motion", "epoch"});
     target.method = method == "motion" ? TrackMethod::kMotion : TrackMethod::kEpoch;

@@ -88,6 +88,7 @@ LighthousePipeline::LighthousePipeline(const TargetConfig& config, const Publish
       log_(config.name),
       identity_fault_(config.identity.any() ? kNotIntroduced : ""),
       changes_(DeliveryMonitor::kOutOfSight_ns) {
+  if (config_.generation == 2) world_.emplace(config_.stations, config_.target);
   if (!config_.remember_calibrations) return;
   lighthouse::CalibrationStore accepted;
   for (const lighthouse::StationCalibration& station : memory_.stations()) accepted.remember(station);
@@ -105,6 +106,7 @@ void LighthousePipeline::recalibrate(const TargetConfig& config) {
   take_calibration(config, config_);
   survey_ = survey_of(config_);
   tracker_.rebuild(config_.target, options_of(config_));
+  if (world_) world_.emplace(config_.stations, config_.target);
 }
 
 void LighthousePipeline::push(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
@@ -152,6 +154,7 @@ void LighthousePipeline::restart(const char* why) {
   ++counters_.target_restarts;
   clock_.restart();
   tracker_.restart();
+  if (world_) world_->restart();
   delivery_.restart();
   board_counters_ = {};
   any_ticks_ = false;
@@ -183,6 +186,9 @@ bool LighthousePipeline::state_changed(std::int64_t monotonic_ns) {
 
 void LighthousePipeline::end_of_input() {
   while (const auto result = tracker_.flush()) answer(*result);
+  if (!world_) return;
+  world_->flush();
+  answer_world();
 }
 
 void LighthousePipeline::take(const lighthouse::Sweep& sweep) {
@@ -285,8 +291,8 @@ void LighthousePipeline::count_answer(const Result<LighthousePoseEstimate, pose:
   }
 }
 
-// Sets time, names and flags of a cycle's report; false, and counted, while UTC is unknown.
-bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks) {
+// Sets time, names and flags of a report; false, and counted, while UTC is unknown.
+bool LighthousePipeline::stamp_time(MeasurementHeader& report, std::int64_t time_ticks) {
   const auto time = clock_.map(time_ticks);
   if (!time) {
     ++counters_.cycles_no_clock;
@@ -297,9 +303,14 @@ bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::i
   report.age_ns = arrival_.monotonic_ns - time->monotonic_ns + host_clock_.monotonic_ns() - push_began_ns_;
   report.source = source_;
   report.target = config_.name;
+  if (!clock_step_.notice(arrival_.monotonic_ns).empty()) add_flag_word(report.flags, kClockSetWord);
+  return true;
+}
+
+bool LighthousePipeline::stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks) {
+  if (!stamp_time(report, time_ticks)) return false;
   report.station = station;
   if (const auto* calibration = tracker_.sent().in_use(station)) report.sensor = station_id_text(calibration->id);
-  if (!clock_step_.notice(arrival_.monotonic_ns).empty()) add_flag_word(report.flags, kClockSetWord);
   return true;
 }
 

@@ -18,6 +18,7 @@
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/source_changes.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
+#include "host/daemon/world_estimator.hpp"
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/publish_gate.hpp"
 #include "host/runtime/clock.hpp"
@@ -74,6 +75,8 @@ class LighthousePipeline {
   void handle(const report::LinkEvent& event);
   void take(const lighthouse::Sweep& sweep);
   void take(const lighthouse::OotxPayload& payload);
+  void take(const lighthouse::Lh2Sweep& sweep);
+  void take(const report::Lh2OotxReport& report);
   void take(const report::PoseReport& pose);
   void take(const report::DecoderReport& report);
   void take(const report::DeviceReport& report);
@@ -91,6 +94,8 @@ class LighthousePipeline {
   void check_clock(const report::LinkEvent& event);
   void restart(const char* why);
   void answer(const track::EpochResult& result);
+  void answer_world();
+  bool stamp_time(MeasurementHeader& report, std::int64_t time_ticks);
   bool stamp(CycleReport& report, std::uint8_t station, std::int64_t time_ticks);
   void publish_bearings(const CycleReport& report, const track::EpochResult& result);
   void count_answer(const Result<LighthousePoseEstimate, pose::Refusal>& pose);
@@ -109,6 +114,7 @@ class LighthousePipeline {
   ClockMap clock_;
   tracking::StationSurvey survey_;  // of config_
   tracking::CalibratedTracker<tracking::MethodTracker> tracker_;
+  std::optional<WorldEstimator> world_;  // of generation 2
   int line_baud_ = 0;
   Arrival arrival_;
   std::int64_t push_began_ns_ = 0;  // this computer's monotonic time, also in a replay

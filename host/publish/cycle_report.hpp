@@ -20,6 +20,16 @@ struct CycleReport : MeasurementHeader {
   LighthousePoseEstimate pose;
 };
 
+using WorldPoseEstimate = PoseEstimate<frame::World, frame::Body>;
+
+/// One sweep of one of the stations of a room, with the pose in the world that all of them give: content of a pose_t on
+/// the channel of CycleReport. Its station is 0: the pose is not of one station.
+struct WorldPoseReport : MeasurementHeader {
+  WorldPoseReport() { frames = frames_of(pose); }
+
+  WorldPoseEstimate pose;
+};
+
 /// The same for a board pose.
 struct BoardPoseReport : CycleReport {};
 
@@ -43,9 +53,11 @@ struct BearingsReport : MeasurementHeader {
 };
 
 const char* channel_of(const CycleReport& report);
+const char* channel_of(const WorldPoseReport& report);
 const char* channel_of(const BoardPoseReport& report);
 const char* channel_of(const BearingsReport& report);
 bool is_finite(const CycleReport& report);
+bool is_finite(const WorldPoseReport& report);
 bool is_finite(const BearingsReport& report);
 
 }  // namespace pharos::host

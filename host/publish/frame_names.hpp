@@ -17,6 +17,8 @@ inline constexpr const char* kFrameName<frame::Lighthouse> = "lighthouse";
 template <>
 inline constexpr const char* kFrameName<frame::Body> = "body";
 template <>
+inline constexpr const char* kFrameName<frame::World> = "world";
+template <>
 inline constexpr const char* kFrameName<frame::Camera> = "camera";
 template <>
 inline constexpr const char* kFrameName<frame::Rig> = "rig";

@@ -19,6 +19,7 @@ namespace pharos::host {
 // numbers.
 
 pose_t message_of(const CycleReport& report);
+pose_t message_of(const WorldPoseReport& report);
 pose_t message_of(const TofReport& report);
 pose_t message_of(const StereoReport& report);
 pointing_t message_of(const PointingReport& report);

@@ -84,6 +84,14 @@ pose_t message_of(const CycleReport& report) {
   return message;
 }
 
+pose_t message_of(const WorldPoseReport& report) {
+  pose_t message = pose_message_of(report);
+  if (!report.answered()) return message;
+  fill_estimate(report.pose, message);
+  message.residual_rms_rad = report.pose.residual_rms;
+  return message;
+}
+
 pose_t message_of(const TofReport& report) {
   pose_t message = pose_message_of(report);
   if (report.answered()) fill_estimate(report.pose, message);  // residuals are metres: residual_rms_rad stays 0

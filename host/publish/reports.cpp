@@ -13,6 +13,7 @@
 namespace pharos::host {
 
 const char* channel_of(const CycleReport&) { return "LIGHTHOUSE_POSE"; }
+const char* channel_of(const WorldPoseReport&) { return "LIGHTHOUSE_POSE"; }
 const char* channel_of(const BoardPoseReport&) { return "LIGHTHOUSE_BOARD_POSE"; }
 const char* channel_of(const BearingsReport&) { return "LIGHTHOUSE_BEARINGS"; }
 const char* channel_of(const TofReport&) { return "TOF_POSE"; }
@@ -21,6 +22,8 @@ const char* channel_of(const SpinReport&) { return "SLAM_SPIN"; }
 const char* channel_of(const PointingReport&) { return "LINE_POINTING"; }
 
 bool is_finite(const CycleReport& report) { return is_finite(report.pose); }
+
+bool is_finite(const WorldPoseReport& report) { return is_finite(report.pose); }
 
 bool is_finite(const BearingsReport& report) {
   return std::all_of(report.bearings.begin(), report.bearings.end(), [](const ReportedBearing& bearing) {

@@ -11,7 +11,12 @@ namespace {
 
 PlaybackInput open_scenario(const std::string& path, std::uint64_t seed) {
   PlaybackInput input;
-  input.simulator = std::make_unique<LighthouseSimulator>(read_scenario(path, seed), seed);
+  LighthouseScenario scenario = read_scenario(path, seed);
+  if (scenario.generation != 1) {
+    throw host::InputError(path +
+                           ": a scenario of Lighthouse 2.0; pharos sim lighthouse and pharos sim serial play it");
+  }
+  input.simulator = std::make_unique<LighthouseSimulator>(std::move(scenario), seed);
   LighthouseSimulator* simulator = input.simulator.get();
   input.feed = std::make_unique<PulseFeed>([simulator]() -> std::optional<lighthouse::RawPulse> {
     const auto pulse = simulator->next();

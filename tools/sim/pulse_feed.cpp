@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tools/sim/simulated_target.hpp"
+
 namespace pharos::sim {
 namespace {
 
@@ -48,6 +50,17 @@ const PulseFeed::Due* PulseFeed::peek() {
   if (has_simultaneous(0)) now_ticks_ = std::max(*now_ticks_, pulse.fall_ticks);
   next_ = Due{pulse, now_ticks_.value_or(pulse.fall_ticks)};
   return &*next_;
+}
+
+std::optional<std::int64_t> PulseFeed::due_ticks() {
+  const Due* due = peek();
+  if (due == nullptr) return std::nullopt;
+  return due->due_ticks;
+}
+
+void PulseFeed::give(SimulatedTarget& target) {
+  target.push(peek()->pulse);
+  pop();
 }
 
 void PulseFeed::pop() {

@@ -17,12 +17,24 @@ struct PlayClock {
   std::function<std::int64_t(double)> ticks_at;    // of a time since the start, s
 };
 
+class SimulatedTarget;
+
+/// Light that a player gives to a target at its time.
+class LightFeed {
+ public:
+  virtual ~LightFeed() = default;
+  /// When the next piece of light is to be given; empty at the end.
+  virtual std::optional<std::int64_t> due_ticks() = 0;
+  /// Gives that piece.
+  virtual void give(SimulatedTarget& target) = 0;
+};
+
 /// Gives a recording's pulses with the times at which they are to be played.
 ///
 /// A pulse is due at its end. Outlying stamps (wrong by seconds, as devices send at the start) are detected by the 32
 /// following pulses: if fewer than half are within 2 s of a stamp, its pulse is given at once and does not affect the
 /// time. The feed therefore waits for a long dark gap, but not for a stale pulse.
-class PulseFeed {
+class PulseFeed final : public LightFeed {
  public:
   using Source = std::function<std::optional<lighthouse::RawPulse>()>;
 
@@ -32,6 +44,9 @@ class PulseFeed {
     lighthouse::RawPulse pulse;
     std::int64_t due_ticks = 0;  // never decreases
   };
+  std::optional<std::int64_t> due_ticks() override;
+  void give(SimulatedTarget& target) override;
+
   /// Next pulse; empty at the end.
   const Due* peek();
   void pop();

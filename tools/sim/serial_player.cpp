@@ -30,7 +30,7 @@ sigset_t stop_signals() {
 
 }  // namespace
 
-SerialPlayer::SerialPlayer(PulseFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
+SerialPlayer::SerialPlayer(LightFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
                            const SerialOptions& options, std::optional<PlayTruth> truth)
     : feed_(feed),
       clock_(clock),
@@ -71,7 +71,7 @@ SerialSummary SerialPlayer::play() {
     start_ns_ = clock_ns(CLOCK_MONOTONIC);
     if (truth_) truth_->start(clock_ns(CLOCK_REALTIME) / 1000, options_.speed > 0.0 ? options_.speed : 1.0);
     double time_s = 0.0;
-    while (feed_.peek() != nullptr && !summary_.stopped) {
+    while (feed_.due_ticks() && !summary_.stopped) {
       if (options_.speed > 0.0) {
         sleep_or_signal(kStep_s);
         time_s = elapsed_s();
@@ -94,11 +94,10 @@ SerialSummary SerialPlayer::play() {
 void SerialPlayer::play_until(double time_s) {
   unplug_or_plug_in(time_s);
   notice_reader();
-  while (const PulseFeed::Due* due = feed_.peek()) {
-    if (clock_.seconds_at(due->due_ticks) > time_s) break;
-    target_.push(due->pulse);
+  while (const auto due_ticks = feed_.due_ticks()) {
+    if (clock_.seconds_at(*due_ticks) > time_s) break;
+    feed_.give(target_);
     ++summary_.pulses;
-    feed_.pop();
   }
   target_.advance(clock_.ticks_at(time_s));
   target_.receive(line_.read());

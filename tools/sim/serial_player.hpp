@@ -43,10 +43,10 @@ struct SerialSummary {
   bool stopped = false;  // by a signal
 };
 
-/// Plays pulses through a simulated target into a pseudo-terminal, at real speed or another.
+/// Plays light through a simulated target into a pseudo-terminal, at real speed or another.
 class SerialPlayer {
  public:
-  SerialPlayer(PulseFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
+  SerialPlayer(LightFeed& feed, const PlayClock& clock, SimulatedTarget& target, PseudoTerminal& line,
                const SerialOptions& options, std::optional<PlayTruth> truth);
 
   /// Runs until the recording ends or SIGINT or SIGTERM arrives (which are blocked for the process in this time).
@@ -63,7 +63,7 @@ class SerialPlayer {
   bool sleep_or_signal(double seconds);
   double elapsed_s() const;
 
-  PulseFeed& feed_;
+  LightFeed& feed_;
   const PlayClock& clock_;
   SimulatedTarget& target_;
   PseudoTerminal& line_;

@@ -15,7 +15,9 @@ constexpr std::int64_t kEdgeHold_ticks = kTicksPerSecond / 1000;
 
 }  // namespace
 
-SimulatedTarget::SimulatedTarget(const TargetIdentity& identity) : identity_(identity) {}
+SimulatedTarget::SimulatedTarget(const TargetIdentity& identity) : identity_(identity) {
+  if (identity.generation == 2) lh2_ = std::make_unique<lighthouse::Lh2LightDecoder>();
+}
 
 void SimulatedTarget::queue(report::Reporter::Bytes bytes) {
   if (bytes.empty()) return;
@@ -32,9 +34,19 @@ void SimulatedTarget::push(const lighthouse::RawPulse& pulse) {
   take_decoded();
 }
 
+void SimulatedTarget::push(const lighthouse::Lh2Edge& edge) {
+  if (!lh2_) return;
+  lh2_->push(edge);
+  take_decoded();
+}
+
 void SimulatedTarget::advance(std::int64_t now_ticks) {
   now_ticks_ = now_ticks;
-  decoder_.advance(now_ticks);
+  if (lh2_) {
+    lh2_->advance(now_ticks);
+  } else {
+    decoder_.advance(now_ticks);
+  }
   take_decoded();
   if (!started_) {
     started_ = true;
@@ -54,6 +66,7 @@ void SimulatedTarget::restart_line() {
 }
 
 void SimulatedTarget::finish() {
+  if (lh2_) lh2_->flush();
   decoder_.flush();
   take_decoded();
   give_out_edges(INT64_MAX);
@@ -71,6 +84,18 @@ void SimulatedTarget::take_decoded() {
   while (const auto payload = decoder_.take_ootx()) {
     ++payloads_;
     if (sends) queue(reporter_.report(*payload));
+  }
+  if (lh2_) take_lh2(sends);
+}
+
+void SimulatedTarget::take_lh2(bool sends) {
+  while (const auto sweep = lh2_->take_sweep()) {
+    ++sweeps_;
+    if (sends) queue(reporter_.report(*sweep));
+  }
+  while (const auto payload = lh2_->take_ootx()) {
+    ++payloads_;
+    if (sends) queue(reporter_.report(report::Lh2OotxReport{*payload}));
   }
 }
 

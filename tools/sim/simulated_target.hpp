@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <queue>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "pharos/lighthouse/decoder.hpp"
+#include "pharos/lighthouse/lh2_light_decoder.hpp"
 #include "pharos/report/link_decoder.hpp"
 #include "pharos/report/reporter.hpp"
 
@@ -19,6 +21,7 @@ struct TargetIdentity {
   std::uint32_t sensors = 0;  // bit per sensor
   std::uint32_t unique_id = 0;
   std::uint8_t modes = wire::kModeSweeps;
+  int generation = 1;  // of the stations whose light it decodes
 };
 
 /// A target's program without its board: converts pulses and clock to the bytes for the line, as encoded by the
@@ -29,6 +32,8 @@ class SimulatedTarget {
   explicit SimulatedTarget(const TargetIdentity& identity);
 
   void push(const lighthouse::RawPulse& pulse);
+  /// Light of Lighthouse 2.0, for a target of generation 2.
+  void push(const lighthouse::Lh2Edge& edge);
   /// Advances the counter to `now_ticks` and sends what is due. To be called often; must not go backwards.
   void advance(std::int64_t now_ticks);
   /// Power on: the next advance() sends Hello first.
@@ -58,11 +63,13 @@ class SimulatedTarget {
   void send_hello();
   void send_periodic();
   void take_decoded();
+  void take_lh2(bool sends);
   void give_out_edges(std::int64_t until_ticks);
   void answer(const wire::Command& command, std::uint16_t sequence);
 
   TargetIdentity identity_;
   lighthouse::Decoder decoder_;
+  std::unique_ptr<lighthouse::Lh2LightDecoder> lh2_;  // of generation 2
   report::Reporter reporter_;
   wire::FrameDecoder from_host_;
   wire::DeviceCounters device_;

@@ -12,8 +12,8 @@ constexpr std::int64_t kStuckEnvelope_ticks = 500;
 constexpr std::int64_t kLongestBurst_ticks = 5000;
 // 17 bits have at least this many changes; noise of a receiver has 2 or 4.
 constexpr std::size_t kMinBurstEdges = 18;
-// Times beyond this (45 years) are no times: sums of a few of them stay within 64 bits, in sixths too.
-constexpr std::int64_t kLargestTime_ticks = std::int64_t{1} << 56;
+// So many changes in a row that are before the last one: the counter started anew.
+constexpr std::uint8_t kCounterWentBack = 32;
 
 }  // namespace
 
@@ -24,11 +24,18 @@ std::optional<Lh2Burst> Lh2BurstCollector::push(const Lh2Edge& edge, Lh2Counters
     return std::nullopt;
   }
   Receiver& receiver = receiver_[edge.sensor];
-  const bool possible = edge.time_ticks < kLargestTime_ticks && edge.time_ticks > -kLargestTime_ticks;
-  if (!possible || (receiver.seen && edge.time_ticks < receiver.last_ticks)) {
+  if (!is_possible_time(edge.time_ticks)) {
     ++counters.edges_off_time;
     return std::nullopt;
   }
+  if (receiver.seen && edge.time_ticks < receiver.last_ticks) {
+    ++counters.edges_off_time;
+    if (++receiver.early < kCounterWentBack) return std::nullopt;
+    const auto ended = receiver.open ? close(receiver, counters) : std::nullopt;
+    receiver = {};
+    return ended;
+  }
+  receiver.early = 0;
   std::optional<Lh2Burst> ended;
   if (receiver.open && has_ended(receiver, edge.time_ticks)) ended = close(receiver, counters);
   if (receiver.seen && (edge.data != receiver.data || edge.light != receiver.light)) add(receiver, edge, counters);

@@ -19,6 +19,12 @@ struct Lh2Edge {
   bool light = false;  // the receiver's envelope says that there is modulated light
 };
 
+/// Whether a time can be one (within 45 years): sums of a few of them, in sixths too, stay within 64 bits.
+constexpr bool is_possible_time(std::int64_t ticks) {
+  constexpr std::int64_t kLargest_ticks = std::int64_t{1} << 56;
+  return ticks < kLargest_ticks && ticks > -kLargest_ticks;
+}
+
 /// Changes of the data that a burst holds: 128 bits, a sheet that passes in 21 us.
 inline constexpr std::size_t kMaxBurstEdges = 192;
 
@@ -36,7 +42,8 @@ struct Lh2Burst {
 
 /// Gathers changes of all sensors into bursts: a burst ends when its sensor's outputs rest for 1.2 us without light.
 ///
-/// Changes come in order of time for each sensor. 13 KiB.
+/// Changes come in order of time for each sensor; what does not is dropped, until 32 in a row say that the counter
+/// itself went back. 13 KiB.
 class Lh2BurstCollector {
  public:
   /// Returns the burst of the same sensor that ended before this change.
@@ -50,6 +57,7 @@ class Lh2BurstCollector {
   struct Receiver {
     Lh2Burst burst;
     std::int64_t last_ticks = 0;
+    std::uint8_t early = 0;  // changes before last_ticks, in a row
     bool open = false;
     bool seen = false;
     bool data = false;

@@ -3,11 +3,27 @@
 
 namespace pharos::lighthouse {
 
+namespace {
+
+// How often the other sensors' bursts are looked at: 5 us.
+constexpr std::int64_t kLook_ticks = 250;
+
+}  // namespace
+
 void Lh2LightDecoder::push(const Lh2Edge& edge) {
+  if (is_possible_time(edge.time_ticks)) {
+    // Both ways: a time far ahead must not keep it from looking.
+    const std::int64_t since = edge.time_ticks - looked_ticks_;
+    if (since > kLook_ticks || since < -kLook_ticks) {
+      looked_ticks_ = edge.time_ticks;
+      while (const auto burst = collector_.advance(edge.time_ticks, sweeps_.counters())) take(*burst);
+    }
+  }
   if (const auto burst = collector_.push(edge, sweeps_.counters())) take(*burst);
 }
 
 void Lh2LightDecoder::advance(std::int64_t now_ticks) {
+  if (!is_possible_time(now_ticks)) return;
   while (const auto burst = collector_.advance(now_ticks, sweeps_.counters())) take(*burst);
   sweeps_.advance(now_ticks * kSixthsPerTick);
 }

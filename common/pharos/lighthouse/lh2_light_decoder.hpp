@@ -27,6 +27,7 @@ class Lh2LightDecoder {
  private:
   void take(const Lh2Burst& burst);
 
+  std::int64_t looked_ticks_ = 0;
   Lh2BurstCollector collector_;
   Lh2Sequences sequences_;
   Lh2SweepDecoder sweeps_;

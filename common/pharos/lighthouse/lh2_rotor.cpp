@@ -6,8 +6,8 @@ namespace {
 
 // Crystals of both ends: within 100 ppm each.
 constexpr std::int64_t kMaxRate_q30 = 214'748;  // 200 ppm
-// Two beams of one turn lead to one sync within 5 ns each (captures). Light of two stations at once may be read with the
-// phase of the other's clock, half a bit off: 0.25 us.
+// Two beams of one turn lead to one sync within 5 ns each (captures). Light of two stations at once may be read with
+// the phase of the other's clock, half a bit off: 0.25 us.
 constexpr std::int64_t kSameTurn_sixths = 75;
 // A rotor's turn departs from the one before by 0.1 to 0.3 us (captures), from nominal by crystals.
 constexpr std::int64_t kTurnJitter_sixths = 600;

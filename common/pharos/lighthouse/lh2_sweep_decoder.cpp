@@ -7,12 +7,22 @@ namespace {
 // 1 ms: a rotor turns by 18 deg. A wider target gives two sweeps of one pass.
 constexpr std::int64_t kSweepGap_sixths = 1000 * 50 * kSixthsPerTick;
 
+/// Middle of the light after the sync, by the station's clock.
+std::int64_t centre_of(const Lh2Beam& beam) {
+  return std::int64_t{beam.place} * kBit_sixths + (beam.centre_sixths - beam.time_sixths);
+}
+
+bool within_turn(const Lh2Beam& beam) {
+  return beam.channel < kLh2Channels && beam.place < kLh2SequenceLength && centre_of(beam) >= 0 &&
+         centre_of(beam) < lh2_turn_sixths(beam.channel);
+}
+
 }  // namespace
 
 void Lh2SweepDecoder::push(const Lh2Beam& beam) {
   ++counters_.beams;
   advance(beam.centre_sixths);
-  if (beam.channel >= kLh2Channels || beam.place >= static_cast<std::uint32_t>(kLh2Turn_bits[beam.channel])) {
+  if (!within_turn(beam)) {
     ++counters_.beams_beyond_turn;
     return;
   }
@@ -26,7 +36,7 @@ void Lh2SweepDecoder::push(const Lh2Beam& beam) {
 }
 
 void Lh2SweepDecoder::add_hit(Channel& channel, const Lh2Beam& beam, const Lh2Placed& placed) {
-  const std::int64_t centre = std::int64_t{beam.place} * kBit_sixths + (beam.centre_sixths - beam.time_sixths);
+  const std::int64_t centre = centre_of(beam);
   const std::uint8_t plane = lh2_plane_of(centre, beam.channel);
   if (!channel.sweep.hits.empty() && (placed.turn != channel.turn || plane != channel.sweep.plane)) close(channel);
   if (channel.sweep.hits.empty()) {

@@ -15,6 +15,9 @@ namespace pharos::report {
 namespace {
 
 static_assert(wire::Ootx::kMaxData == lighthouse::kMaxOotxPayload);
+static_assert(wire::Lh2Ootx::kMaxData == lighthouse::kMaxOotxPayload);
+static_assert(wire::kMaxLh2Channel + 1 == lighthouse::kLh2Channels);
+static_assert(wire::kMaxLh2Centre_sixths == lighthouse::lh2_turn_sixths(0));  // channel 0 has the longest turn
 static_assert(kNanosecondsPerTick == 20);
 // Everything that the decoder outputs fits the line's ranges.
 static_assert(wire::kMinPulse_ticks <= lighthouse::kShortestPulse_ticks);
@@ -151,6 +154,40 @@ wire::Ootx to_wire(const lighthouse::OotxPayload& payload) {
 lighthouse::OotxPayload from_wire(const wire::Ootx& message) {
   return {message.time_ticks, message.station, message.data};
 }
+
+wire::Lh2Sweep to_wire(const lighthouse::Lh2Sweep& sweep) {
+  wire::Lh2Sweep message;
+  // Rounded down, so that the sixths are not negative before time zero.
+  const std::int64_t sixths = sweep.sync_sixths % lighthouse::kSixthsPerTick;
+  const std::int64_t rest = sixths < 0 ? sixths + lighthouse::kSixthsPerTick : sixths;
+  message.sync_ticks = (sweep.sync_sixths - rest) / lighthouse::kSixthsPerTick;
+  message.sync_sixths = static_cast<std::uint8_t>(rest);
+  message.channel = sweep.channel;
+  message.plane = sweep.plane;
+  message.slow_bit = sweep.slow_bit;
+  for (const lighthouse::Lh2Hit& hit : sweep.hits) {
+    message.hits.push_back({hit.sensor, hit.width_ticks, hit.centre_sixths});
+  }
+  return message;
+}
+
+lighthouse::Lh2Sweep from_wire(const wire::Lh2Sweep& message) {
+  lighthouse::Lh2Sweep sweep;
+  sweep.sync_sixths = message.sync_ticks * lighthouse::kSixthsPerTick + message.sync_sixths;
+  sweep.channel = message.channel;
+  sweep.plane = message.plane;
+  sweep.slow_bit = message.slow_bit;
+  for (const wire::Lh2SweepHit& hit : message.hits) {
+    sweep.hits.push_back({hit.sensor, hit.width_ticks, hit.centre_sixths});
+  }
+  return sweep;
+}
+
+wire::Lh2Ootx to_wire(const Lh2OotxReport& report) {
+  return {report.payload.time_ticks, report.payload.station, report.payload.bytes};
+}
+
+Lh2OotxReport from_wire(const wire::Lh2Ootx& message) { return {{message.time_ticks, message.channel, message.data}}; }
 
 wire::Counters to_wire(const DecoderReport& report) {
   return counters_to_wire(wire::CounterGroup::kDecoder, report.time_ticks, report.counters);

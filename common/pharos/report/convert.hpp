@@ -3,10 +3,12 @@
 
 #include <optional>
 
+#include "pharos/lighthouse/lh2_sweep.hpp"
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/report/reports.hpp"
 #include "pharos/wire/counters_message.hpp"
+#include "pharos/wire/lh2_sweep_message.hpp"
 #include "pharos/wire/ootx_message.hpp"
 #include "pharos/wire/pose_message.hpp"
 #include "pharos/wire/raw_edges_message.hpp"
@@ -29,6 +31,11 @@ lighthouse::Sweep from_wire(const wire::Sweep& message);
 
 wire::Ootx to_wire(const lighthouse::OotxPayload& payload);
 lighthouse::OotxPayload from_wire(const wire::Ootx& message);
+
+wire::Lh2Sweep to_wire(const lighthouse::Lh2Sweep& sweep);
+lighthouse::Lh2Sweep from_wire(const wire::Lh2Sweep& message);
+wire::Lh2Ootx to_wire(const Lh2OotxReport& report);
+Lh2OotxReport from_wire(const wire::Lh2Ootx& message);
 
 wire::Counters to_wire(const DecoderReport& report);
 wire::Counters to_wire(const DeviceReport& report);

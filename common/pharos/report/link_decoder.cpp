@@ -55,6 +55,13 @@ struct NewestTicks {
     return sweep.flash.start_ticks + after_half_ticks / 2;
   }
   std::optional<std::int64_t> operator()(const lighthouse::OotxPayload& payload) const { return payload.time_ticks; }
+  std::optional<std::int64_t> operator()(const lighthouse::Lh2Sweep& sweep) const {
+    std::int64_t after_sixths = 0;
+    for (const lighthouse::Lh2Hit& hit : sweep.hits)
+      after_sixths = std::max(after_sixths, std::int64_t{hit.centre_sixths});
+    return (sweep.sync_sixths + after_sixths) / lighthouse::kSixthsPerTick;
+  }
+  std::optional<std::int64_t> operator()(const Lh2OotxReport& report) const { return report.payload.time_ticks; }
   std::optional<std::int64_t> operator()(const PoseReport& report) const { return report.time_ticks; }
   std::optional<std::int64_t> operator()(const DecoderReport& report) const { return report.time_ticks; }
   std::optional<std::int64_t> operator()(const DeviceReport& report) const { return report.time_ticks; }
@@ -78,6 +85,10 @@ std::optional<LinkEvent> decode_event(const wire::Frame& frame) {
       return converted<wire::Sweep>(frame);
     case MessageType::kOotx:
       return converted<wire::Ootx>(frame);
+    case MessageType::kLh2Sweep:
+      return converted<wire::Lh2Sweep>(frame);
+    case MessageType::kLh2Ootx:
+      return converted<wire::Lh2Ootx>(frame);
     case MessageType::kPose:
       return pose_event(frame);
     case MessageType::kCounters:

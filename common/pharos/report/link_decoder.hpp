@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "pharos/lighthouse/lh2_sweep.hpp"
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/report/reports.hpp"
@@ -16,10 +17,10 @@
 namespace pharos::report {
 
 /// Every possible content of one good frame.
-using LinkEvent =
-    std::variant<lighthouse::Sweep, lighthouse::OotxPayload, PoseReport, DecoderReport, DeviceReport, EdgesReport,
-                 wire::Time, wire::Hello, wire::Command, wire::Ack, wire::Nak, wire::LoaderQuery, wire::LoaderInfo,
-                 wire::LoaderBegin, wire::LoaderData, wire::LoaderVerify, wire::LoaderStart>;
+using LinkEvent = std::variant<lighthouse::Sweep, lighthouse::OotxPayload, lighthouse::Lh2Sweep, Lh2OotxReport,
+                               PoseReport, DecoderReport, DeviceReport, EdgesReport, wire::Time, wire::Hello,
+                               wire::Command, wire::Ack, wire::Nak, wire::LoaderQuery, wire::LoaderInfo,
+                               wire::LoaderBegin, wire::LoaderData, wire::LoaderVerify, wire::LoaderStart>;
 
 /// The values of `event`, for frames already found; empty for invalid payloads and for unknown counter groups.
 std::optional<LinkEvent> decode_event(const wire::Frame& frame);

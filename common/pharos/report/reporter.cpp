@@ -19,6 +19,8 @@ Reporter::Bytes Reporter::frame(wire::MessageType type, Bytes payload) {
 
 Reporter::Bytes Reporter::report(const lighthouse::Sweep& sweep) { return send(SweepInPlace{sweep}); }
 Reporter::Bytes Reporter::report(const lighthouse::OotxPayload& payload) { return send(to_wire(payload)); }
+Reporter::Bytes Reporter::report(const lighthouse::Lh2Sweep& sweep) { return send(to_wire(sweep)); }
+Reporter::Bytes Reporter::report(const Lh2OotxReport& payload) { return send(to_wire(payload)); }
 Reporter::Bytes Reporter::report(const PoseReport& pose) { return send(to_wire(pose)); }
 Reporter::Bytes Reporter::report(const DecoderReport& counters) { return send(to_wire(counters)); }
 Reporter::Bytes Reporter::report(const DeviceReport& counters) { return send(to_wire(counters)); }

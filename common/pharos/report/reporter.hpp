@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pharos/lighthouse/lh2_sweep.hpp"
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
 #include "pharos/report/reports.hpp"
@@ -24,6 +25,8 @@ class Reporter {
 
   Bytes report(const lighthouse::Sweep& sweep);
   Bytes report(const lighthouse::OotxPayload& payload);
+  Bytes report(const lighthouse::Lh2Sweep& sweep);
+  Bytes report(const Lh2OotxReport& payload);
   Bytes report(const PoseReport& pose);
   Bytes report(const DecoderReport& counters);
   Bytes report(const DeviceReport& counters);

@@ -7,6 +7,7 @@
 #include "pharos/base/static_vector.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/lighthouse/decoder_counters.hpp"
+#include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/pulse.hpp"
 #include "pharos/pose/solve.hpp"
 #include "pharos/wire/counters_message.hpp"
@@ -35,6 +36,11 @@ struct DecoderReport {
 struct DeviceReport {
   std::int64_t time_ticks = 0;
   wire::DeviceCounters counters;
+};
+
+/// OOTX of a Lighthouse 2.0 station; `payload.station` is its channel.
+struct Lh2OotxReport {
+  lighthouse::OotxPayload payload;
 };
 
 /// Diagnostic mode: edges in the order of capture.

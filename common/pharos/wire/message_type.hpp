@@ -20,6 +20,8 @@ inline constexpr std::uint8_t kProtocolVersion = 1;
   X(Ootx, 0x11)                 \
   X(Pose, 0x12)                 \
   X(RawEdges, 0x13)             \
+  X(Lh2Sweep, 0x14)             \
+  X(Lh2Ootx, 0x15)              \
   X(Command, 0x30)              \
   X(LoaderQuery, 0x40)          \
   X(LoaderInfo, 0x41)           \

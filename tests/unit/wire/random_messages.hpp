@@ -12,6 +12,7 @@
 #include "pharos/wire/counters_message.hpp"
 #include "pharos/wire/frame_encoder.hpp"
 #include "pharos/wire/hello_message.hpp"
+#include "pharos/wire/lh2_sweep_message.hpp"
 #include "pharos/wire/loader_messages.hpp"
 #include "pharos/wire/ootx_message.hpp"
 #include "pharos/wire/pose_message.hpp"
@@ -86,6 +87,24 @@ class RandomMessages {
     m.station = static_cast<std::uint8_t>(below(2));
     m.data.clear();
     for (std::size_t i = below(Ootx::kMaxData + 1); i > 0; --i) m.data.push_back(integer<std::uint8_t>());
+  }
+  void fill(Lh2Sweep& m) {
+    m.sync_ticks = ticks();
+    m.sync_sixths = static_cast<std::uint8_t>(below(6));
+    m.channel = static_cast<std::uint8_t>(below(16));
+    m.plane = static_cast<std::uint8_t>(below(2));
+    m.slow_bit = below(2) == 1;
+    m.hits.clear();
+    for (std::size_t i = below(kMaxHitsPerSweep + 1); i > 0; --i) {
+      m.hits.push_back({between<std::uint8_t>(0, kMaxSensors - 1), between<std::uint16_t>(1, kMaxLh2Width_ticks),
+                        between<std::int32_t>(0, kMaxLh2Centre_sixths)});
+    }
+  }
+  void fill(Lh2Ootx& m) {
+    m.time_ticks = ticks();
+    m.channel = static_cast<std::uint8_t>(below(16));
+    m.data.clear();
+    for (std::size_t i = below(Lh2Ootx::kMaxData + 1); i > 0; --i) m.data.push_back(integer<std::uint8_t>());
   }
   void fill(PoseFields& m) {
     for (double& value : m.orientation_wxyz) value = real();
@@ -179,7 +198,7 @@ struct MessageList {
 
 /// All message types.
 using AllMessages = MessageList<Hello, Counters, Time, Sweep, Ootx, Pose, RawEdges, Command, LoaderQuery, LoaderInfo,
-                                LoaderBegin, LoaderData, LoaderVerify, LoaderStart, Ack, Nak>;
+                                LoaderBegin, LoaderData, LoaderVerify, LoaderStart, Ack, Nak, Lh2Sweep, Lh2Ootx>;
 
 /// Calls visit(M{}) with the message struct of `type`; false for types that have none.
 template <class Visitor>

@@ -8,6 +8,7 @@
 
 #include "host/support/input_error.hpp"
 #include "tools/sim/command/add_sim.hpp"
+#include "tools/sim/lh2/lh2_feed.hpp"
 #include "tools/sim/playback_input.hpp"
 #include "tools/sim/serial_player.hpp"
 #include "tools/support/number_option.hpp"
@@ -43,13 +44,10 @@ sim::Unplug parse_unplug(const std::string& text) {
   return unplug;
 }
 
-int play(const SerialArguments& options) {
-  sim::PlaybackInput input = sim::open_playback_input(options.input, options.serial.seed);
-  std::optional<sim::PlayTruth> truth;
-  if (!options.truth.empty()) truth = sim::truth_of(input, options.truth);
-  sim::TargetIdentity identity;
+// Plays `feed` through a target of this identity into a pseudo-terminal.
+int play(const SerialArguments& options, sim::TargetIdentity identity, sim::LightFeed& feed,
+         const sim::PlayClock& clock, std::optional<sim::PlayTruth> truth) {
   identity.name = options.name;
-  identity.sensors = input.sensors;
   identity.unique_id = static_cast<std::uint32_t>(options.serial.seed);
   identity.modes = options.raw_edges ? wire::kModeRawEdges : wire::kModeSweeps;
   sim::SimulatedTarget target(identity);
@@ -61,13 +59,43 @@ int play(const SerialArguments& options) {
   if (!options.truth.empty()) std::ofstream(options.truth).flush();
   line.emplace(options.link);
   std::cout << line->path() << std::endl;
-  sim::SerialPlayer player(*input.feed, input.clock, target, *line, serial, std::move(truth));
+  sim::SerialPlayer player(feed, clock, target, *line, serial, std::move(truth));
   const sim::SerialSummary summary = player.play();
-  std::cerr << "played " << summary.played_s << " s: " << summary.pulses << " pulses, " << summary.sweeps << " sweeps, "
+  std::cerr << "played " << summary.played_s << " s: " << summary.pulses
+            << (identity.generation == 2 ? " changes, " : " pulses, ") << summary.sweeps << " sweeps, "
             << summary.payloads << " OOTX payloads, " << summary.bytes << " bytes (" << summary.bytes_unheard
             << " unheard, " << summary.bytes_corrupted << " corrupted, " << summary.bytes_dropped << " dropped), "
             << summary.frames_skipped << " frames given up" << (summary.stopped ? ", stopped" : "") << "\n";
   return summary.sweeps > 0 || summary.stopped ? 0 : 1;
+}
+
+int play_pulses(const SerialArguments& options) {
+  sim::PlaybackInput input = sim::open_playback_input(options.input, options.serial.seed);
+  std::optional<sim::PlayTruth> truth;
+  if (!options.truth.empty()) truth = sim::truth_of(input, options.truth);
+  sim::TargetIdentity identity;
+  identity.sensors = input.sensors;
+  return play(options, identity, *input.feed, input.clock, std::move(truth));
+}
+
+int play_lh2(const SerialArguments& options, sim::LighthouseScenario scenario) {
+  if (options.raw_edges) throw InputError("--raw-edges: a target of Lighthouse 2.0 sends sweeps only; leave it out");
+  sim::Lh2Simulator simulator(std::move(scenario), options.serial.seed);
+  sim::Lh2Feed feed(simulator);
+  std::optional<sim::PlayTruth> truth;
+  if (!options.truth.empty()) truth = sim::lh2_truth_of(simulator, options.truth);
+  sim::TargetIdentity identity;
+  identity.generation = 2;
+  for (const SensorPlacement& sensor : simulator.nominal_target()) identity.sensors |= 1U << sensor.sensor;
+  return play(options, identity, feed, sim::clock_of(simulator), std::move(truth));
+}
+
+int play_input(const SerialArguments& options) {
+  if (options.input.ends_with(".toml")) {
+    sim::LighthouseScenario scenario = sim::read_scenario(options.input, options.serial.seed);
+    if (scenario.generation == 2) return play_lh2(options, std::move(scenario));
+  }
+  return play_pulses(options);
 }
 
 }  // namespace
@@ -76,8 +104,9 @@ void add_sim_serial(CLI::App& sim, int& exit_code) {
   auto options = std::make_shared<SerialArguments>();
   CLI::App* command = sim.add_subcommand("serial", "Play a scenario or a recording as a target on a serial line");
   command
-      ->add_option("INPUT", options->input,
-                   "scenario (.toml), or edges (sensor,rise_ticks,fall_ticks; - is standard input)")
+      ->add_option(
+          "INPUT", options->input,
+          "scenario (.toml; of either generation), or edges (sensor,rise_ticks,fall_ticks; - is standard input)")
       ->required();
   command->add_option("--link", options->link, "symbolic link to the port, for a daemon's configuration");
   command->add_option("--speed", options->serial.speed, "times real speed; 0: as fast as the reader reads")
@@ -99,7 +128,7 @@ void add_sim_serial(CLI::App& sim, int& exit_code) {
   command->footer(
       "Prints the port's path and plays once a program opens it. Ends with the input, or on SIGINT or SIGTERM.\n\n"
       "Example: pharos sim serial tools/sim/scenarios/demo.toml --link /tmp/target --truth /tmp/truth.csv");
-  command->callback([options, &exit_code] { exit_code = play(*options); });
+  command->callback([options, &exit_code] { exit_code = play_input(*options); });
 }
 
 }  // namespace pharos::tools

@@ -137,7 +137,7 @@ void Lh2Simulator::simulate_turn(std::size_t s) {
     for (std::size_t i = 0; i < true_target_.size(); ++i) {
       const double own_s = sigma_s * std::sqrt(1.0 - noise.rho) * noise_.normal();
       const auto time_s = hit_time(s, plane, i, sync_s);
-      if (!time_s || blocked(i, *time_s)) continue;
+      if (!time_s || *time_s > scenario_.duration_s - kDataAfter_s || blocked(i, *time_s)) continue;
       const LighthouseFromBody T = stations_[s].pose.inverse() * scenario_.trajectory->at(*time_s);
       const Illumination seen = illuminate(T, true_target_[i], scenario_.light, scenario_.body);
       if (!seen.lit) continue;
