@@ -54,6 +54,10 @@ void write_stations(const fs::path& path, const Lh2Simulator& simulator, bool ac
     station.number = static_cast<std::uint8_t>(simulated.channel);
     station.id = simulated.id;
     station.generation = network::Generation::kLighthouse2;
+    // What the announced values are wrong by; poses are exact.
+    const ErrorScenario& errors = simulator.scenario().errors;
+    station.sigmas =
+        network::StationSigmas{1e-4, 1e-4, actual ? 2e-5 : std::hypot(2e-5, errors.phase_rad, errors.tilt_rad)};
     station.T_world_station = network::WorldFromStation{simulated.pose.R, simulated.pose.t};
     for (std::size_t k = 0; k < 2; ++k) {
       const PlaneErrors& e = actual ? simulated.actual[k] : simulated.announced[k];

@@ -48,6 +48,40 @@ TEST(DaemonConfig, TracksMotionUnlessConfiguredToTakeEachCycleAlone) {
   EXPECT_THROW(method("method = 'cycle'\n"), InputError);
 }
 
+TEST(DaemonConfig, TakesTheStationsOfLighthouse2) {
+  const auto read = [](const std::string& more, std::uint8_t generation, bool posed) {
+    Environment environment = made_up();
+    environment.read_stations = [generation, posed](const std::string&) {
+      network::Station station;
+      station.number = 6;
+      station.generation = static_cast<network::Generation>(generation);
+      if (posed) station.T_world_station = network::WorldFromStation{};
+      network::Stations stations;
+      stations.push_back(station);
+      return stations;
+    };
+    return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", environment);
+  };
+  const std::string kSecond = "generation = 2\nstations_file = 'room.toml'\n";
+  const DaemonConfig config = read(kSecond, 2, true);
+  EXPECT_EQ(config.targets.at(0).generation, 2);
+  EXPECT_EQ(config.targets.at(0).stations_file, "/etc/pharos/room.toml");
+  EXPECT_EQ(config.targets.at(0).stations.size(), 1U);
+  EXPECT_THAT(describe(config), HasSubstr("1 of Lighthouse 2.0, from /etc/pharos/room.toml"));
+  EXPECT_EQ(read("", 2, true).targets.at(0).generation, 1);
+  const auto error = [&](const std::string& more, std::uint8_t generation, bool posed) {
+    return test::error_of([&] { read(more, generation, posed); });
+  };
+  EXPECT_THAT(error("generation = 2\n", 2, true), HasSubstr("stations_file"));
+  EXPECT_THAT(error("stations_file = 'room.toml'\n", 2, true), HasSubstr("is for generation = 2"));
+  EXPECT_THAT(error("generation = 3\n", 2, true), HasSubstr("generation"));
+  EXPECT_THAT(error(kSecond, 1, true), HasSubstr("is of generation 1"));
+  EXPECT_THAT(error(kSecond, 2, false), HasSubstr("no position_m"));
+  for (const char* other : {"method = 'epoch'\n", "calibration_file = 'c.toml'\n", "remember_calibrations = true\n"}) {
+    EXPECT_THAT(error(kSecond + other, 2, true), HasSubstr("is for generation 1")) << other;
+  }
+}
+
 TEST(DaemonConfig, TakesWhoTheBoardMustBe) {
   const auto identity = [&](const std::string& more) {
     return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).identity;
