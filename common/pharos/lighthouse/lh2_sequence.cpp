@@ -46,13 +46,17 @@ Lh2Sequences::Lh2Sequences() {
 std::optional<std::uint32_t> Lh2Sequences::place_of(std::uint32_t window, std::size_t sequence) const {
   if (window == 0 || window > kWindowMask || sequence >= kLh2Sequences) return std::nullopt;
   const std::uint32_t feedback = reversed(kLh2Taps[sequence]);
-  std::uint32_t state = galois_state(window, feedback);
+  // The state in the highest 17 bits: what is shifted out is the sign.
+  constexpr unsigned kUp = 32 - kWindowBits;
+  constexpr std::uint32_t kMark = ((1U << kMarkBits) - 1U) << kUp;
+  const std::uint32_t feedback_up = feedback << kUp;
+  std::uint32_t state = galois_state(window, feedback) << kUp;
   std::uint32_t steps = 0;
-  while ((state & ((1U << kMarkBits) - 1U)) != 0) {
-    state = step(state, feedback);
+  while ((state & kMark) != 0) {
+    state = state << 1U ^ (feedback_up & (0U - (state >> 31U)));
     if (++steps > kLh2SequenceLength) return std::nullopt;  // no sequence of full length: not reached with these taps
   }
-  const std::uint32_t place = marked_[sequence][state >> kMarkBits];
+  const std::uint32_t place = marked_[sequence][state >> (kMarkBits + kUp)];
   return place >= steps ? place - steps : place + kLh2SequenceLength - steps;
 }
 

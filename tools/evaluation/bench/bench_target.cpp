@@ -121,6 +121,23 @@ void add_motion(const std::filesystem::path& images, Rows& rows) {
   rows.add("motion tracker object", of(motion, "tracker_bytes"), std::nullopt, "bytes");
 }
 
+// Light of Lighthouse 2.0, once a block in logic delivers the changes.
+void add_lh2(const std::filesystem::path& images, Rows& rows) {
+  const TargetFigures lh2 = run_image(images, "measure_lh2", simulated_light(1));
+  const auto add = [&](const char* what, const std::string& name) {
+    rows.add(std::string("Lighthouse 2.0, ") + what + ": median", of(lh2, name + "_median"), std::nullopt,
+             "instructions");
+    rows.add(std::string("Lighthouse 2.0, ") + what + ": worst", of(lh2, name + "_worst"), std::nullopt,
+             "instructions");
+  };
+  add("bits of a burst", "lh2_bits");
+  add("a burst of a known station", "lh2_known");
+  add("a burst among all channels", "lh2_unknown");
+  add("place of 17 bits", "lh2_search");
+  rows.add("Lighthouse 2.0, sequences and decoder", of(lh2, "lh2_sequences_bytes"), std::nullopt, "bytes",
+           of(lh2, "lh2_decoder_bytes"), "bytes");
+}
+
 double host_ns_an_edge(const std::string& edges) {
   constexpr double kEdgesAPulse = 2.0;
   return 1e3 / bench_decode(edges).front().ours / kEdgesAPulse;  // of M pulses/s
@@ -139,6 +156,7 @@ std::vector<TargetRow> bench_target(const TargetBench& options) {
       pose_problems(test::frustum_target(), 8, 8, options.problems, std::min(options.problems, kFromNothing));
   add_poses(run_image(images, "measure_pose", input.bytes), input, rows);
   add_motion(images, rows);
+  add_lh2(images, rows);
   add_fractions(simulated, rows);
   add_flying(images, rows);
   rows.add("decoder object", of(simulated, "decoder_bytes"), std::nullopt, "bytes");
