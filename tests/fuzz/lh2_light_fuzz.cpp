@@ -27,6 +27,11 @@ const pharos::test::Lh2Station& good_station() {
   return kStation;
 }
 
+const Lh2Sequences& sequences() {
+  static const Lh2Sequences kSequences;
+  return kSequences;
+}
+
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -83,7 +88,7 @@ class Watched {
     hits_ += sweep.hits.size();
   }
 
-  std::unique_ptr<Lh2LightDecoder> decoder_ = std::make_unique<Lh2LightDecoder>();
+  std::unique_ptr<Lh2LightDecoder> decoder_ = std::make_unique<Lh2LightDecoder>(sequences());
   std::size_t hits_ = 0;
 };
 

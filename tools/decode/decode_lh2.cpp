@@ -113,7 +113,8 @@ int write_bits(host::Lh2LightReader& reader, bool statistics, const OutputOption
 int write_decoded(host::Lh2LightReader& reader, bool ootx, bool statistics, const OutputOptions& options) {
   Output output(options, ootx ? lh2_ootx_columns() : lh2_hit_columns());
   Progress progress("decode", "sweeps");
-  const auto decoder = std::make_unique<lighthouse::Lh2LightDecoder>();
+  const auto sequences = std::make_unique<lighthouse::Lh2Sequences>();
+  const auto decoder = std::make_unique<lighthouse::Lh2LightDecoder>(*sequences);
   Lh2HitRows hits(output.rows());
   const auto take = [&] {
     while (const auto payload = decoder->take_ootx()) {

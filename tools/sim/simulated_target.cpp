@@ -16,7 +16,9 @@ constexpr std::int64_t kEdgeHold_ticks = kTicksPerSecond / 1000;
 }  // namespace
 
 SimulatedTarget::SimulatedTarget(const TargetIdentity& identity) : identity_(identity) {
-  if (identity.generation == 2) lh2_ = std::make_unique<lighthouse::Lh2LightDecoder>();
+  if (identity.generation != 2) return;
+  sequences_ = std::make_unique<lighthouse::Lh2Sequences>();
+  lh2_ = std::make_unique<lighthouse::Lh2LightDecoder>(*sequences_);
 }
 
 void SimulatedTarget::queue(report::Reporter::Bytes bytes) {

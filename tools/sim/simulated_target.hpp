@@ -69,7 +69,9 @@ class SimulatedTarget {
 
   TargetIdentity identity_;
   lighthouse::Decoder decoder_;
-  std::unique_ptr<lighthouse::Lh2LightDecoder> lh2_;  // of generation 2
+  // Of generation 2.
+  std::unique_ptr<lighthouse::Lh2Sequences> sequences_;
+  std::unique_ptr<lighthouse::Lh2LightDecoder> lh2_;
   report::Reporter reporter_;
   wire::FrameDecoder from_host_;
   wire::DeviceCounters device_;

@@ -7,6 +7,8 @@ namespace pharos::lighthouse {
 namespace {
 
 constexpr int kAgrees = 1, kDiffers = -3;
+// No other window can be the right one: bits that agree by chance get here once in a thousand bursts.
+constexpr int kCertainScore = 24;
 constexpr int kGiveUp = 7;  // a stretch ends where the score fell this far below its best
 
 /// How far a sequence agrees on one side of a window.
@@ -94,6 +96,7 @@ Candidate best_of(const Lh2Bits& bits, std::uint32_t channels) {
     for (std::size_t sequence = 0; sequence < kLh2Sequences; ++sequence) {
       if ((channels >> (sequence / 2) & 1U) == 0) continue;
       try_window(bits, i + 1 - kWindowBits, window, sequence, best);
+      if (best.score >= kCertainScore) return best;
     }
   }
   return best;

@@ -12,9 +12,12 @@ namespace pharos::lighthouse {
 /// Light of Lighthouse 2.0 from receivers' outputs to sweeps: bursts, bits, places in sequences, syncs.
 ///
 /// Each stage stands alone (lh2_burst, lh2_biphase, lh2_identify, Lh2SweepDecoder), so that a block in logic can take
-/// over the first ones. 64 KiB with 32 sensors.
+/// over the first ones. 41 KiB with 32 sensors.
 class Lh2LightDecoder {
  public:
+  /// `sequences` must outlive this.
+  explicit Lh2LightDecoder(const Lh2Sequences& sequences) : sequences_(sequences) {}
+
   void push(const Lh2Edge& edge);
   void advance(std::int64_t now_ticks);
   void flush();
@@ -29,7 +32,7 @@ class Lh2LightDecoder {
 
   std::int64_t looked_ticks_ = 0;
   Lh2BurstCollector collector_;
-  Lh2Sequences sequences_;
+  const Lh2Sequences& sequences_;
   Lh2SweepDecoder sweeps_;
 };
 

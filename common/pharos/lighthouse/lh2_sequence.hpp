@@ -37,8 +37,8 @@ constexpr std::uint32_t window_before(std::uint32_t window, std::uint32_t taps) 
 ///
 /// In the other form of the same register (Galois: one shift and one exclusive or) states with ten low zeros are
 /// marked, 127 of each sequence, indexed by their high bits. A search steps from the window's state to the next marked
-/// one: 1024 steps of 8 instructions on average. Fixed memory, 16 KiB; construction steps once through all sequences
-/// (4.2 M steps).
+/// one: some 2000 steps on average, as marked states come in groups. Fixed memory, 16 KiB; construction steps once
+/// through all sequences (4.2 M steps).
 class Lh2Sequences {
  public:
   Lh2Sequences();

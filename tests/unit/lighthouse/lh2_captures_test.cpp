@@ -71,8 +71,9 @@ TEST(Lh2Captures, EveryBurstsBitsAreOneStations) {
 
 TEST(Lh2Captures, SyncsOfBothPlanesAgreeTo20ns) {
   PHAROS_NEEDS_DATA("open/lh2_light");
+  const auto sequences = std::make_unique<Lh2Sequences>();
   for (const LightCapture& capture : kCaptures) {
-    const auto decoder = std::make_unique<Lh2LightDecoder>();
+    const auto decoder = std::make_unique<Lh2LightDecoder>(*sequences);
     std::vector<Lh2Sweep> sweeps;
     const auto take = [&] {
       while (const auto sweep = decoder->take_sweep()) sweeps.push_back(*sweep);

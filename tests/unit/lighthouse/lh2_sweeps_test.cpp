@@ -17,8 +17,13 @@
 namespace pharos::lighthouse {
 namespace {
 
+const Lh2Sequences& all_sequences() {
+  static const Lh2Sequences kSequences;
+  return kSequences;
+}
+
 struct Lh2Decoded {
-  std::unique_ptr<Lh2LightDecoder> decoder = std::make_unique<Lh2LightDecoder>();
+  std::unique_ptr<Lh2LightDecoder> decoder = std::make_unique<Lh2LightDecoder>(all_sequences());
   std::vector<Lh2Sweep> sweeps;
   std::vector<OotxPayload> payloads;
 
@@ -213,7 +218,7 @@ TEST(Lh2Sweeps, NoHeap) {
   const Lh2Scene scene = channel_6();
   std::vector<Lh2Edge> light = lh2_dark();
   scene.add(5, {}, light);
-  const auto decoder = std::make_unique<Lh2LightDecoder>();
+  const auto decoder = std::make_unique<Lh2LightDecoder>(all_sequences());
   const test::AllocationGuard guard;
   std::size_t sweeps = 0;
   for (const Lh2Edge& edge : light) {

@@ -34,7 +34,8 @@ constexpr double kSame_s = 3e-6;  // a third of the light's length
 
 Comparison decode(const LighthouseScenario& scenario, std::uint64_t seed = 7) {
   Lh2Simulator simulator(scenario, seed);
-  const auto decoder = std::make_unique<lighthouse::Lh2LightDecoder>();
+  static const lighthouse::Lh2Sequences kSequences;
+  const auto decoder = std::make_unique<lighthouse::Lh2LightDecoder>(kSequences);
   std::vector<lighthouse::Lh2Sweep> sweeps;
   Comparison out;
   const auto take = [&] {
