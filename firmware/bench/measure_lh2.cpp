@@ -55,8 +55,8 @@ int main() {
     bits.add(bench::instructions_of([&] { read = lighthouse::biphase_bits(burst); }));
     if (!read) continue;
     std::optional<lighthouse::Lh2Beam> beam;
-    known.add(bench::instructions_of(
-        [&] { beam = lighthouse::identify(*read, 1U << (kSequence / 2), *sequences, lighthouse::kSureScore); }));
+    known.add(
+        bench::instructions_of([&] { beam = lighthouse::identify(*read, 1U << (kSequence / 2), *sequences, 0); }));
     if (beam) ++found;
     unknown.add(
         bench::instructions_of([&] { beam = lighthouse::identify(*read, lighthouse::kAllLh2Channels, *sequences); }));

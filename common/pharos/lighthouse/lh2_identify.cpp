@@ -19,7 +19,7 @@ struct Reach {
 };
 
 struct Candidate {
-  int score = 0;
+  int score = -1;
   std::size_t sequence = 0;
   std::size_t window_at = 0;
   std::uint32_t window = 0;
@@ -69,7 +69,7 @@ Reach backward(const Lh2Bits& bits, std::size_t at, std::uint32_t window, std::u
 /// Keeps `best`, or what `sequence` makes of the window at bit `at`.
 void try_window(const Lh2Bits& bits, std::size_t at, std::uint32_t window, std::size_t sequence, Candidate& best) {
   const bool inside = sequence == best.sequence && at >= best.begin && at + kWindowBits <= best.end;
-  if (inside && best.score > 0) return;
+  if (inside && best.score >= 0) return;
   const std::uint32_t taps = kLh2Taps[sequence];
   const Reach after = forward(bits, at + kWindowBits, window, taps);
   const Reach before = backward(bits, at, window, taps);
@@ -84,7 +84,7 @@ void try_window(const Lh2Bits& bits, std::size_t at, std::uint32_t window, std::
           static_cast<std::uint8_t>(kWindowBits + after.agree + before.agree)};
 }
 
-/// The best of all windows; score 0 where there is none.
+/// The best of all windows; score -1 where there is none.
 Candidate best_of(const Lh2Bits& bits, std::uint32_t channels) {
   Candidate best;
   std::uint32_t window = 0;
@@ -107,7 +107,7 @@ Candidate best_of(const Lh2Bits& bits, std::uint32_t channels) {
 std::optional<Lh2Beam> identify(const Lh2Bits& bits, std::uint32_t channels, const Lh2Sequences& sequences,
                                 int min_score) {
   const Candidate best = best_of(bits, channels);
-  if (best.score < min_score) return std::nullopt;
+  if (best.score < 0 || best.score < min_score) return std::nullopt;
   const auto place = sequences.place_of(best.window, best.sequence);
   if (!place) return std::nullopt;
   Lh2Beam beam;

@@ -39,9 +39,10 @@ void Lh2LightDecoder::take(const Lh2Burst& burst) {
     ++sweeps_.counters().bursts_no_clock;
     return;
   }
-  // Stations that are known first: one that is new costs a search among all 32 sequences.
-  std::optional<Lh2Beam> beam = identify(*bits, sweeps_.channels(), sequences_, kSureScore);
-  if (!beam) beam = identify(*bits, kAllLh2Channels, sequences_);
+  // Of a station whose sync is known 17 bits at the right place are enough: by chance once in a thousand bursts. One
+  // that is new costs a search among all 32 sequences.
+  std::optional<Lh2Beam> beam = identify(*bits, sweeps_.channels(), sequences_, 0);
+  if (!beam || !sweeps_.fits(*beam)) beam = identify(*bits, kAllLh2Channels, sequences_);
   if (!beam) {
     ++sweeps_.counters().bursts_unknown;
     return;

@@ -39,6 +39,8 @@ class Lh2Rotor {
   std::uint32_t flush();
 
   bool running() const { return running_; }
+  /// Whether the rotor runs and the beam leads to its sync.
+  bool fits(const Lh2Beam& beam) const { return running_ && place(beam).has_value(); }
   /// Rate of the station's clock against ours, 2^-30: a bit lasts 50 (1 + rate) sixths.
   std::int64_t rate_q30() const { return rate_q30_; }
 

@@ -86,6 +86,10 @@ std::optional<OotxPayload> Lh2SweepDecoder::take_ootx() {
   return payloads_.pop();
 }
 
+bool Lh2SweepDecoder::fits(const Lh2Beam& beam) const {
+  return within_turn(beam) && channel_[beam.channel].rotor.fits(beam);
+}
+
 std::uint32_t Lh2SweepDecoder::channels() const {
   std::uint32_t running = 0;
   for (std::size_t c = 0; c < kLh2Channels; ++c) running |= std::uint32_t{channel_[c].rotor.running()} << c;

@@ -30,6 +30,8 @@ class Lh2SweepDecoder {
   std::optional<Lh2Sweep> take_sweep();
   std::optional<OotxPayload> take_ootx();
 
+  /// Whether a beam belongs to a station that is known: it leads to its sync.
+  bool fits(const Lh2Beam& beam) const;
   /// Channels whose rotors run, as bits.
   std::uint32_t channels() const;
   const Lh2Rotor& rotor(std::size_t channel) const { return channel_[channel].rotor; }

@@ -142,6 +142,31 @@ TEST(Lh2Sweeps, SeparatesStationsWhoseLightMeets) {
   EXPECT_GE(hits[0], 350U);
 }
 
+// Far away or at the edge of the field light lasts 4 us: too few bits to know a station by, enough to know it again.
+TEST(Lh2Sweeps, ShortLightOfAKnownStationIsFound) {
+  const Lh2Scene scene = channel_6();
+  std::vector<Lh2Edge> light = lh2_dark();
+  std::mt19937 random(1);
+  for (int turn = 0; turn < 40; ++turn) {
+    for (int plane = 0; plane < 2; ++plane) {
+      const std::size_t place = Lh2Scene::place(3, plane);
+      scene.station.pass(scene.sync(turn), false, place, 48, 3, light, random);
+      if (turn > 3) scene.station.pass(scene.sync(turn), false, place + 300, 21, 7, light, random);
+    }
+  }
+  Lh2Decoded decoded;
+  decoded.push(light);
+  EXPECT_GE(decoded.decoder->counters().hits, 80U + 68U);
+  // Alone it is nobody's.
+  light = lh2_dark();
+  for (int turn = 0; turn < 40; ++turn) {
+    scene.station.pass(scene.sync(turn), false, Lh2Scene::place(7, 0), 21, 7, light, random);
+  }
+  Lh2Decoded alone;
+  alone.push(light);
+  EXPECT_EQ(alone.decoder->counters().hits, 0U);
+}
+
 TEST(Lh2Sweeps, OneBeamAloneIsNoStation) {
   const Lh2Scene scene = channel_6();
   std::vector<Lh2Edge> light = lh2_dark();
