@@ -12,8 +12,10 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   command->footer(
       "Example:\n  pharos calibrate lighthouse rests.edges.csv.gz --target target.csv --output calibrated.toml\n"
+      "  pharos calibrate stations sweeps.csv --target target.csv --output stations.toml\n"
       "  pharos calibrate camera board*.png --board dots --output camera.toml");
   add_calibrate_lighthouse(*command, exit_code);
+  add_calibrate_stations(*command, exit_code);
   add_calibrate_camera(*command, exit_code);
   add_calibrate_stereo(*command, exit_code);
 }

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "host/stations/network_file.hpp"
+#include "host/stations/sweep_table.hpp"
 #include "host/support/input_error.hpp"
-#include "host/table/table_reader.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/network/network_tracker.hpp"
@@ -74,30 +74,6 @@ void write_result(const network::NetworkResult& result, const network::Stations&
   rows.end_row();
 }
 
-// Rows of sweeps.csv.
-class SweepTable {
- public:
-  explicit SweepTable(const std::string& path)
-      : table_(host::ByteSource(path), {"time_s", "station", "axis", "sensor", "theta_rad"}) {}
-
-  bool next() { return table_.next(); }
-  std::uint8_t station() const { return static_cast<std::uint8_t>(table_.integer(1, 0, 255)); }
-  network::Hit hit() const {
-    return {table_.number(0), static_cast<std::uint8_t>(table_.integer(3, 0, kMaxSensors - 1)), table_.number(4)};
-  }
-  std::size_t plane(const network::Stations& stations) const {
-    const std::string_view axis = table_.text(2);
-    const network::Station* known = network::find_station(stations, station());
-    const bool second = known != nullptr && known->generation == network::Generation::kLighthouse2;
-    if (axis == (second ? "a" : "x")) return 0;
-    if (axis == (second ? "b" : "y")) return 1;
-    table_.fail(2, second ? "must be a or b: this station is of generation 2" : "must be x or y");
-  }
-
- private:
-  host::TableReader table_;
-};
-
 void require_poses(const network::Stations& stations, const std::string& path) {
   for (const network::Station& station : stations) {
     if (!station.T_world_station) {
@@ -116,7 +92,7 @@ int track_network(const NetworkFiles& files, const OutputOptions& output_options
   const host::TargetFile target = host::read_target(files.target);
   note_target_shape(files.target, target.shape);
   const auto tracker = std::make_unique<network::NetworkTracker>(stations, target.target, network::NetworkOptions{});
-  SweepTable sweeps(files.sweeps);
+  host::SweepTable sweeps(files.sweeps);
   Output output(output_options, network_columns());
   std::size_t poses = 0;
   const auto take = [&](const std::optional<network::NetworkResult>& result) {
@@ -124,7 +100,11 @@ int track_network(const NetworkFiles& files, const OutputOptions& output_options
     write_result(*result, stations, output.rows());
     if (result->pose.ok()) ++poses;
   };
-  while (sweeps.next()) take(tracker->push(sweeps.station(), sweeps.plane(stations), sweeps.hit()));
+  while (sweeps.next()) {
+    const network::Station* station = network::find_station(stations, sweeps.station());
+    if (station != nullptr) sweeps.require(station->generation);
+    take(tracker->push(sweeps.station(), sweeps.plane(), sweeps.hit()));
+  }
   take(tracker->flush());
   output.finish();
   const network::NetworkCounters& c = tracker->counters();

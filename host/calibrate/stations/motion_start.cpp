@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/stations/motion_start.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "pharos/network/network_tracker.hpp"
+
+namespace pharos::calibrate {
+namespace {
+
+using network::WorldFromBody;
+
+// Short pieces: one that does not fit is left out without much that does.
+constexpr double kMinPiece_s = 0.3, kMaxPiece_s = 1.0, kGap_s = 0.15;
+// Between control points: a hand moves by less than a millimetre otherwise within it.
+constexpr double kStep_s = 0.04;
+
+struct Tracked {
+  double time_s = 0.0;
+  WorldFromBody pose;
+};
+
+WorldFromBody between(const std::vector<Tracked>& poses, double time_s) {
+  const auto after =
+      std::lower_bound(poses.begin(), poses.end(), time_s, [](const Tracked& p, double t) { return p.time_s < t; });
+  if (after == poses.begin()) return poses.front().pose;
+  if (after == poses.end()) return poses.back().pose;
+  const Tracked& a = *(after - 1);
+  const double part = (time_s - a.time_s) / std::max(1e-9, after->time_s - a.time_s);
+  return {rotation_exp(part * rotation_log(after->pose.R * a.pose.R.transpose())) * a.pose.R,
+          a.pose.t + part * (after->pose.t - a.pose.t)};
+}
+
+}  // namespace
+
+double TrackedMotion::seconds() const {
+  double sum_s = 0.0;
+  for (const BodySpline& piece : pieces) sum_s += piece.end_s() - piece.begin_s();
+  return sum_s;
+}
+
+TrackedMotion track_motion(const std::vector<network::PlaneSweep>& sweeps, const network::Stations& stations,
+                           const Target& target, const network::StationSigmas& unstated) {
+  network::NetworkOptions options;
+  options.noise.unstated = unstated;
+  network::Stations uncertain = stations;
+  for (network::Station& station : uncertain) station.sigmas.reset();
+  const auto tracker = std::make_unique<network::NetworkTracker>(uncertain, target, options);
+  TrackedMotion out;
+  std::vector<Tracked> piece;
+  const auto end_piece = [&] {
+    if (!piece.empty() && piece.back().time_s - piece.front().time_s >= kMinPiece_s) {
+      out.pieces.emplace_back(piece.front().time_s, piece.back().time_s, kStep_s,
+                              [&](double time_s) { return between(piece, time_s); });
+    }
+    piece.clear();
+  };
+  const auto take = [&](const std::optional<network::NetworkResult>& result) {
+    if (!result || !result->pose.ok()) return;
+    const double time_s = result->time_s;
+    if (!piece.empty() && time_s <= piece.back().time_s) return;  // sweeps of two stations overlap
+    const bool gap = !piece.empty() && time_s - piece.back().time_s > kGap_s;
+    if (gap || (!piece.empty() && time_s - piece.front().time_s > kMaxPiece_s)) end_piece();
+    piece.push_back({time_s, result->pose.value()});
+  };
+  for (const network::PlaneSweep& sweep : sweeps) {
+    for (const network::Hit& hit : sweep.hits) take(tracker->push(stations[sweep.station].number, sweep.plane, hit));
+  }
+  take(tracker->flush());
+  end_piece();
+  return out;
+}
+
+}  // namespace pharos::calibrate
