@@ -2,6 +2,8 @@
 #include "tools/calibrate/station_reports.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "host/stations/network_file.hpp"
 #include "pharos/base/units.hpp"
@@ -24,6 +26,32 @@ std::string gauge_text(const StationCalibration& c) {
 
 std::string scale_text(const StationCalibration& c) {
   return printf_text("scale: from the target's size alone, %.2f %% of every length (1 sigma)", 100.0 * c.scale_sigma);
+}
+
+// Names of one group ("station 0 plane x") come together: "all of station 0 plane x", or each.
+std::string untold_text(const StationCalibration& c) {
+  struct Group {
+    std::string name, members;
+    std::size_t all = 0, untold = 0;
+  };
+  std::vector<Group> groups;
+  for (const StationParameter& p : c.parameters) {
+    if (!(p.prior_sigma > 0.0)) continue;
+    const std::size_t space = p.name.rfind(' ');
+    const std::string group = p.name.substr(0, space);
+    if (groups.empty() || groups.back().name != group) groups.push_back({group, "", 0, 0});
+    ++groups.back().all;
+    if (p.sigma <= kHardlyTold * p.prior_sigma) continue;
+    ++groups.back().untold;
+    groups.back().members += p.name.substr(space);
+  }
+  std::string text;
+  for (const Group& group : groups) {
+    if (group.untold == 0) continue;
+    text +=
+        (text.empty() ? "" : "; ") + (group.untold == group.all ? "all of " + group.name : group.name + group.members);
+  }
+  return text;
 }
 
 }  // namespace
@@ -68,12 +96,9 @@ void note_stations(const StationCalibration& c) {
   if (!c.converged) note("the adjustment did not settle: look at the residuals before using it");
   note("gauge: " + gauge_text(c));
   note(scale_text(c));
-  std::string unobservable;
-  for (const StationParameter& p : c.parameters) {
-    if (!(p.prior_sigma > 0.0) || p.sigma <= kHardlyTold * p.prior_sigma) continue;
-    unobservable += (unobservable.empty() ? "" : ", ") + p.name;
-  }
-  if (!unobservable.empty()) note("this recording cannot tell, left near the prior: " + unobservable);
+  const std::string untold = untold_text(c);
+  if (!untold.empty())
+    note("this recording does not tell these one by one, their sigma is near the prior's: " + untold);
 }
 
 }  // namespace pharos::tools

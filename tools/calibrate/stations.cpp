@@ -21,7 +21,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kStationsExample =
     "Example:\n"
     "  pharos convert crazyflie log02 --config system-config.yaml --output carried\n"
     "  pharos calibrate stations carried/sweeps.csv --target carried/target.csv --stations carried/stations.toml \\\n"
@@ -34,7 +34,7 @@ constexpr const char* kExample =
 // Of an hour under two stations; more is no better.
 constexpr std::size_t kMaxHits = 4'000'000;
 
-struct Options {
+struct StationOptions {
   std::string sweeps, target, stations, up, output;
   double sensor_sigma_mm = 0.1;
   bool json = false;
@@ -83,7 +83,7 @@ void note_unheard(const network::Stations& told, const network::Stations& used, 
   }
 }
 
-int run(const Options& options) {
+int run_stations(const StationOptions& options) {
   require_one_standard_input({{"SWEEPS", options.sweeps},
                               {"--target", options.target},
                               {"--stations", options.stations},
@@ -111,7 +111,7 @@ int run(const Options& options) {
 void add_calibrate_stations(CLI::App& calibrate, int& exit_code) {
   CLI::App* command = calibrate.add_subcommand(
       "stations", "Poses and calibration of a room's base stations from a target that is carried around");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StationOptions>();
   command->add_option("SWEEPS", options->sweeps, "Table of hits, as `pharos convert` writes it; .gz")->required();
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
   command->add_option("--stations", options->stations,
@@ -126,8 +126,8 @@ void add_calibrate_stations(CLI::App& calibrate, int& exit_code) {
       ->check(number_from(1e-3, 100.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "The table as one JSON object a line instead of CSV");
-  command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->footer(kStationsExample);
+  command->callback([options, &exit_code] { exit_code = run_stations(*options); });
 }
 
 }  // namespace pharos::tools

@@ -104,6 +104,14 @@ double plane_sigma(const PlaneFit& fit, const network::Station& station, const S
   return std::hypot(fit.mean_rad, scale_sigma * spread.sigma_m.norm() / range_m);
 }
 
+// What hits of a sweep leave about their mean, as if the station were turned against the body.
+double turned_sigma(const PlaneFit& fit, const network::Station& station, const Target& target, const Spread& spread) {
+  double square = 0.0;
+  for (const SensorPlacement& sensor : target) square += sensor.position_m.squaredNorm();
+  const double radius_m = std::sqrt(square / static_cast<double>(target.size()));
+  return fit.own_rad * (spread.centre_m - station.T_world_station->t).norm() / radius_m;
+}
+
 }  // namespace
 
 Spread spread_of(const StationUnknowns& unknowns) {
@@ -145,6 +153,7 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
       sigmas.rotation_rad = std::max(sigmas.rotation_rad, sigma_of(result.covariance, s * kStationColumns + k));
     }
     for (const PlaneFit& fit : fits) {
+      sigmas.rotation_rad = std::max(sigmas.rotation_rad, turned_sigma(fit, at.stations[s], at.target, spread));
       sigmas.plane_rad = std::max(sigmas.plane_rad, plane_sigma(fit, at.stations[s], spread, out.scale_sigma));
     }
     out.stations[s].sigmas = sigmas;
