@@ -14,11 +14,12 @@ struct Acceleration {
 };
 
 struct Up {
-  Vector3 direction = Vector3::Zero();  // unit, world; zero where there are fewer than a second of samples
+  Vector3 direction = Vector3::Zero();  // unit, world; zero where fewer than three pieces have samples
   double sigma_rad = 0.0;               // from the scatter of the pieces of motion
 };
 
-/// The direction of the mean of R f - a over all samples within the motion: what is left is against gravity.
+/// Against gravity: over the pieces of motion, mean of R f - a = g + R bias by robust least squares, the bias of the
+/// body (accelerometer and mounting) known to 0.4 m/s^2 before.
 Up up_of(const std::vector<BodySpline>& motion, const std::vector<Acceleration>& samples);
 
 }  // namespace pharos::calibrate
