@@ -46,17 +46,6 @@ std::string read_whole(const std::string& path) {
 
 std::string named(const std::string& path) { return path == "-" ? "standard input" : path; }
 
-// The lighthouse deck: four sensors in a plane, x ahead, y left, looking up.
-Target deck() {
-  Target target;
-  constexpr double kX_m = 0.015, kY_m = 0.0075;
-  std::uint8_t number = 0;
-  for (const double x : {-kX_m, kX_m}) {
-    for (const double y : {kY_m, -kY_m}) target.push_back({number++, {x, y, 0.0}, Vector3::UnitZ()});
-  }
-  return target;
-}
-
 int crazyflie(const std::string& path, const std::string& config, const std::string& output) {
   require_one_standard_input({{"LOG", path}, {"--config", config}});
   const std::string bytes = read_whole(path);
@@ -67,7 +56,7 @@ int crazyflie(const std::string& path, const std::string& config, const std::str
   out.generation = static_cast<int>(out.stations[0].generation);
   convert::CrazyflieSweeps sweeps = convert::sweeps_of(log, out.generation);
   out.hits = std::move(sweeps.hits);
-  out.target = deck();
+  out.target = convert::lighthouse_deck();
   out.imu = std::move(log.imu);
   out.crossing_beams = std::move(log.crossing_beams);
   out.events = std::move(log.events);

@@ -173,4 +173,14 @@ CrazyflieSweeps sweeps_of(const CrazyflieLog& log, int generation) {
   return out;
 }
 
+Target lighthouse_deck() {
+  Target target;
+  constexpr double kX_m = 0.015, kY_m = 0.0075;
+  std::uint8_t number = 0;
+  for (const double x : {-kX_m, kX_m}) {
+    for (const double y : {kY_m, -kY_m}) target.push_back({number++, {x, y, 0.0}, Vector3::UnitZ()});
+  }
+  return target;
+}
+
 }  // namespace pharos::convert

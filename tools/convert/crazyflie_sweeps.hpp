@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "pharos/geometry/target.hpp"
 #include "tools/convert/crazyflie_log.hpp"
 
 namespace pharos::convert {
@@ -23,6 +24,9 @@ struct CrazyflieSweeps {
 /// slots of half a turn before the group; LH2: one turn, whose later plane ended before the group. The log's clock may
 /// be off by 5 %; the rotors tell by how much.
 CrazyflieSweeps sweeps_of(const CrazyflieLog& log, int generation);
+
+/// The lighthouse deck: four sensors in a plane, x ahead, y left, looking up.
+Target lighthouse_deck();
 
 /// Nominal time of a rotor's turn, s. `channel` of LH2: 0..15.
 double rotor_period_s(int generation, int channel);

@@ -11,6 +11,7 @@
 #include "tools/evaluation/reproduce/pointing/add_reproduce_pointing.hpp"
 #include "tools/evaluation/reproduce/ring2/add_reproduce_ring2.hpp"
 #include "tools/evaluation/reproduce/slam/add_reproduce_slam.hpp"
+#include "tools/evaluation/reproduce/stations/add_reproduce_stations.hpp"
 #include "tools/evaluation/reproduce/tof/add_reproduce_tof.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output_place.hpp"
@@ -102,6 +103,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   add_reproduce_pointing(*reproduce, exit_code);
   add_reproduce_ring2(*reproduce, exit_code);
   add_reproduce_integrity(*reproduce, exit_code);
+  add_reproduce_stations(*reproduce, exit_code);
 }
 
 }  // namespace pharos::tools
