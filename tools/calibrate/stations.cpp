@@ -91,7 +91,6 @@ int run_stations(const StationOptions& options) {
   require_writable(options.output);
   calibrate::StationCalibrationInput input;
   const host::TargetFile target = host::read_target(options.target);
-  note_target_shape(options.target, target.shape);
   input.target = target.target;
   input.sensor_sigma_m = options.sensor_sigma_mm / kMmPerM;
   const bool told = !options.stations.empty();
@@ -101,6 +100,7 @@ int run_stations(const StationOptions& options) {
   const calibrate::StationCalibration calibration = calibrate::calibrate_stations(input);
   write_text_file(options.output, stations_text(calibration));
   if (options.output != "-") write_station_parameters(calibration, {options.json, "-"});
+  note_target_shape(options.target, target.shape);
   note_unheard(input.stations, calibration.stations, told ? options.stations : options.sweeps);
   note_stations(calibration);
   return kExitAnswered;

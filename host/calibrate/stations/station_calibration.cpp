@@ -21,6 +21,7 @@ constexpr StationSigmas kGiven = network::kUnstatedSigmas, kFound{0.05, 0.0, 0.0
 constexpr std::size_t kMinHits = 200;  // of a station
 constexpr double kMinMotion_s = 3.0;   // with two stations at once
 constexpr double kMinSpread_m = 0.05;  // of the target's positions, the second of three, 1 sigma
+constexpr double kMaxLeftOut = 0.15;   // of the hits within the motion
 constexpr SelectionGates kWide{2e-3, 50e-3}, kNarrow{1e-3, 10e-3};
 
 // The stations of the file that were heard.
@@ -74,6 +75,15 @@ void require_motion(const StationUnknowns& at, const std::string& name) {
   }
 }
 
+// Another target's sensors, or stations of another room.
+void require_fit(const StationCalibration& calibration, const std::string& name) {
+  const auto hits = static_cast<double>(calibration.hits);
+  if (static_cast<double>(calibration.hits_left_out) <= kMaxLeftOut * hits) return;
+  throw host::InputError(name + ": " + std::to_string(calibration.hits_left_out) + " of " +
+                         std::to_string(calibration.hits) +
+                         " hits do not fit; is the target's table of the target that was carried?");
+}
+
 void turn_up(const std::vector<Acceleration>& samples, const std::string& name, StationUnknowns& at,
              StationCalibration& out) {
   const Up up = up_of(at.motion, samples);
@@ -118,6 +128,7 @@ StationCalibration calibrate_stations(const StationCalibrationInput& input) {
     out.pieces_left_out += drop_pieces(sweeps, at, kWide);
     adjust(kNarrow, last);
   }
+  require_fit(out, input.log.name);
   if (!input.accelerations.empty()) turn_up(input.accelerations, input.log.name, at, out);
   for (std::size_t s = 0; s < at.stations.size(); ++s) {
     out.stations[s].T_world_station = at.stations[s].T_world_station;

@@ -139,6 +139,9 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
                  double sensor_sigma_m, const StationBundleResult& result, StationCalibration& out) {
   const StationUnknowns& at = result.unknowns;
   out.stations = at.stations;
+  for (network::Station& station : out.stations) {
+    for (auto& plane : station.plane) plane = plane_of(with_phases_in_a_turn(fields_of(plane)));
+  }
   out.sensors = at.target;
   out.converged = result.converged;
   out.sweeps = sweeps.size();

@@ -2,6 +2,9 @@
 #include "host/calibrate/stations/station_unknowns.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "pharos/base/units.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -25,6 +28,11 @@ PlaneFields fields_of(const lighthouse::PlaneCalibration& p) {
 }
 
 lighthouse::PlaneCalibration plane_of(const PlaneFields& f) { return {f[0], f[1], f[2], f[3], f[4], f[5], f[6]}; }
+
+PlaneFields with_phases_in_a_turn(PlaneFields fields) {
+  for (const std::size_t k : {3U, 5U}) fields[k] = std::remainder(fields[k], 2.0 * kPi);
+  return fields;
+}
 
 PlaneFields prior_sigmas(Generation generation, const PlaneFields& at) {
   const bool sent = std::any_of(at.begin(), at.end(), [](double value) { return value != 0.0; });

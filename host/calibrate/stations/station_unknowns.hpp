@@ -20,6 +20,9 @@ inline constexpr std::array<const char*, kPlaneFields> kPlaneFieldNames = {
 PlaneFields fields_of(const lighthouse::PlaneCalibration& plane);
 lighthouse::PlaneCalibration plane_of(const PlaneFields& fields);
 
+/// The same plane, its phases of gibbous and ogee within half a turn of zero.
+PlaneFields with_phases_in_a_turn(PlaneFields fields);
+
 /// 1 sigma of what is known of a plane's fields before, around `at`: of a plane that sent its calibration, what such a
 /// calibration leaves; of one without (all zero), the spread of real stations' fields.
 PlaneFields prior_sigmas(network::Generation generation, const PlaneFields& at);
