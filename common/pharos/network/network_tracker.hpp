@@ -64,10 +64,14 @@ class NetworkTracker {
   bool excluded(std::size_t station) const { return watch_[station].excluded; }
 
  private:
+  static constexpr double kFresh_s = 0.1;           // light is of now
+  static constexpr double kTriangulation_s = 0.04;  // what a body moves in it while two stations tell its position
+
   struct StationWatch {
     bool excluded = false;
     int refused = 0;   // sweeps in a row beyond every model
     int accepted = 0;  // sweeps in a row that fit
+    int dissents = 0;  // how often more than not it contradicted all others
     double seen_s = -1e9;
     std::array<double, kPlanes> plane_s = {-1e9, -1e9};  // of each plane's last sweep
     std::array<Vector3, kPlanes> gradient;               // of its angle by the position then
@@ -90,6 +94,7 @@ class NetworkTracker {
   bool take(const PlaneSweep& sweep, LinearisedSweep& linearised);
   bool fits(const LinearisedSweep& sweep) const;
   void watch(std::size_t station, bool fits, double time_s);
+  void check_consensus(double time_s);
   bool try_start(double time_s);
   void start_at(const WorldFromBody& pose, double time_s);
   bool strayed();
@@ -111,9 +116,11 @@ class NetworkTracker {
   double accepted_s_ = 0.0;
   double checked_s_ = 0.0;
   double started_s_ = 0.0;
+  double consensus_s_ = 0.0;
   std::optional<Vector3> position_;  // what two stations tell at once, now
   double triangulated_s_ = -1e9;     // when two stations last agreed with the filter
   int refused_in_row_ = 0;
+  int contradictions_ = 0;  // checks more than not in which no position fits all stations
   bool ambiguous_ = false;
   WorldFromBody second_;
   double delta_chi2_ = 0.0;
