@@ -9,7 +9,7 @@ namespace pharos::network {
 namespace {
 
 constexpr double kUnseen_m = 0.1;
-constexpr double kFastest_m_s = 2.0;
+constexpr double kFastest_m_s = 3.0;
 // How long a small target is followed without two stations that agree.
 constexpr double kCoast_s = 0.05;
 
@@ -32,7 +32,9 @@ NetworkResult NetworkTracker::unconfirmed(const PlaneSweep& sweep) const {
   out.covariance = state.covariance.topLeftCorner<6, 6>();
   out.covariance.topRightCorner<3, 3>().setZero();
   out.covariance.bottomLeftCorner<3, 3>().setZero();
-  const double moved_m = kTriangulation_s * std::min(kFastest_m_s, state.rate.tail<3>().norm());
+  // The rates are hardly known here: what they may be counts as what they are.
+  const double spread_m_s = std::sqrt(state.covariance.block<3, 3>(kRateAt + 3, kRateAt + 3).trace());
+  const double moved_m = kTriangulation_s * std::min(kFastest_m_s, state.rate.tail<3>().norm() + spread_m_s);
   out.covariance.bottomRightCorner<3, 3>() =
       station_covariance(out.time_s) + Matrix3::Identity() * (moved_m * moved_m / 3.0);
   out.flags = kFused;
