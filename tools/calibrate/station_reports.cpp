@@ -29,10 +29,10 @@ std::string scale_text(const StationCalibration& c) {
 }
 
 // Names of one group ("station 0 plane x") come together: "all of station 0 plane x", or each.
-std::string untold_text(const StationCalibration& c) {
+std::string unobservable_text(const StationCalibration& c) {
   struct Group {
     std::string name, members;
-    std::size_t all = 0, untold = 0;
+    std::size_t all = 0, unobservable = 0;
   };
   std::vector<Group> groups;
   for (const StationParameter& p : c.parameters) {
@@ -42,14 +42,14 @@ std::string untold_text(const StationCalibration& c) {
     if (groups.empty() || groups.back().name != group) groups.push_back({group, "", 0, 0});
     ++groups.back().all;
     if (p.sigma <= kHardlyTold * p.prior_sigma) continue;
-    ++groups.back().untold;
+    ++groups.back().unobservable;
     groups.back().members += p.name.substr(space);
   }
   std::string text;
   for (const Group& group : groups) {
-    if (group.untold == 0) continue;
-    text +=
-        (text.empty() ? "" : "; ") + (group.untold == group.all ? "all of " + group.name : group.name + group.members);
+    if (group.unobservable == 0) continue;
+    text += (text.empty() ? "" : "; ") +
+            (group.unobservable == group.all ? "all of " + group.name : group.name + group.members);
   }
   return text;
 }
@@ -96,9 +96,9 @@ void note_stations(const StationCalibration& c) {
   if (!c.converged) note("the adjustment did not settle: look at the residuals before using it");
   note("gauge: " + gauge_text(c));
   note(scale_text(c));
-  const std::string untold = untold_text(c);
-  if (!untold.empty())
-    note("this recording does not tell these one by one, their sigma is near the prior's: " + untold);
+  const std::string unobservable = unobservable_text(c);
+  if (!unobservable.empty())
+    note("this recording does not tell these one by one, their sigma is near the prior's: " + unobservable);
 }
 
 }  // namespace pharos::tools
