@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 TEST(CliUsage, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command :
-       {"decode", "track", "solve", "precision", "reproduce lighthouse", "sim lighthouse", "sim serial", "listen"}) {
+  for (const char* command : {"decode", "track", "solve", "precision", "reproduce lighthouse", "reproduce stations",
+                              "calibrate stations", "sim lighthouse", "sim serial", "listen"}) {
     const Outcome run = pharos(std::string(command) + " --help");
     EXPECT_EQ(run.exit_code, 0) << command;
     EXPECT_THAT(run.out, HasSubstr("Example")) << command;
