@@ -15,10 +15,10 @@ constexpr double kMinAspect = 1.3;  // of a lone panel; a body is as long as wid
 // Pairs that are measured, the longest: a wing's four edges make four, a body's as many.
 constexpr std::size_t kMaxPairs = 12;
 constexpr double kWingBonus = 1.6;  // a second panel in line is no accident
-// From here on an axis is so uncertain that a wrong one lies within its sigmas: nothing needs to confirm it.
-constexpr double kUnsureSigma_rad = 5.0 * kRadPerDeg;
 // Beyond chance, and what lens and blur move edges by.
 constexpr double kMaxSigmas = 5.0;
+// From here on an axis is so uncertain that a wrong one lies within its sigmas: nothing needs to confirm it.
+constexpr double kUnsureSigma_rad = 90.0 * kRadPerDeg / kMaxSigmas;
 constexpr double kAngleSlack_rad = 0.3 * kRadPerDeg;
 // A test of right angles that could not have failed confirms nothing.
 constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
@@ -37,6 +37,7 @@ struct Hypothesis {
   PanelMeasurement measurement;
   AxisEstimate axis;  // in C
   double score = 0.0;
+  bool has_face_beyond = false;  // no panel's, if its sides are measured right: it competes and is no answer
 };
 
 double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
@@ -117,12 +118,17 @@ class Chooser {
     for (const auto& [pair, sides] : measured_) add_lone(pair, sides, hypotheses);
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
-    std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_contradicted(h) || !is_confirmed(h); });
-    if (hypotheses.empty()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
-    Hypothesis& best = hypotheses.front();
+    std::erase_if(hypotheses, [](const Hypothesis& h) { return is_contradicted(h); });
+    const auto confirmed = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                        [&](const Hypothesis& h) { return !h.has_face_beyond && is_confirmed(h); });
+    if (confirmed == hypotheses.end()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
+    Hypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
+    const bool in_line = is_in_line(best);
     for (const Hypothesis& other : hypotheses) {
       if (!is_rival(best, other)) continue;
+      // A body's outline is a rectangle as well: alone it does not outweigh another pair that nothing confirms.
+      if (in_line && (other.has_face_beyond || !is_confirmed(other))) continue;
       best.measurement.other_planes = other.measurement.long_planes;
       break;
     }
@@ -137,7 +143,7 @@ class Chooser {
       for (std::size_t k = i + 1; k < measured_.size(); ++k) {
         const auto& [a, a_sides] = measured_[i];
         const auto& [b, b_sides] = measured_[k];
-        if (!is_wing(a, b)) continue;
+        if (has_face_beyond(a_sides) || has_face_beyond(b_sides) || !is_wing(a, b)) continue;
         Hypothesis wing{{a, b}, measurement_of({a_sides, b_sides}, camera_), {}, 0.0};
         const auto axis = axis_of(wing.measurement);
         if (!axis) continue;
@@ -155,14 +161,20 @@ class Chooser {
     const auto axis = axis_of(lone.measurement);
     if (!axis) return;
     lone.axis = *axis;
+    lone.has_face_beyond = has_face_beyond(sides);
     hypotheses.push_back(std::move(lone));
   }
 
   bool is_confirmed(const Hypothesis& h) const {
-    if (h.pairs.size() == 2 || h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+    if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
     const auto square = square_of(h.measurement, h.axis);
-    if (square && square->sigma_rad < kMaxSquareSigma_rad) return true;
-    return std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
+    return (square && square->sigma_rad < kMaxSquareSigma_rad) || is_in_line(h);
+  }
+
+  // Two panels on one axis, or one and an edge of another.
+  bool is_in_line(const Hypothesis& h) const {
+    return h.pairs.size() == 2 ||
+           std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
   }
 
   // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.

@@ -66,6 +66,11 @@ Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image
   return side;
 }
 
+// A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark.
+bool has_face_beyond(const PanelSides& panel) {
+  return std::max(panel.first.backing, panel.second.backing) > kMaxBacking;
+}
+
 Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t> image, const TargetMask& target,
                                                    const PinholeCamera& camera, const EdgePair& pair,
                                                    const std::vector<Segment>& outline) {
@@ -80,8 +85,6 @@ Result<PanelSides, PointingRefusal> measured_panel(ImageView<const std::uint16_t
     return why == PointingRefusal::kEdgeUnsure ? PointingRefusal::kOneEdge : why;
   }
   if (!first) return first.error();
-  // A panel is thin: beyond its sides is sky. Beyond a face's is another face, in the dark.
-  if (std::max(first->backing, second->backing) > kMaxBacking) return PointingRefusal::kNoPanel;
   PanelSides panel{*first, *second, {}};
   measure_ends(image, target, camera, outline, panel);
   return panel;

@@ -29,6 +29,9 @@ struct PanelSides {
   std::vector<Side> ends;
 };
 
+/// Whether another face shows beyond one of the long sides: the pair is a body's, or a panel before one.
+bool has_face_beyond(const PanelSides& panel);
+
 /// An edge of the outline as a side. kCutByBorder, kEdgeUnsure, kOutsideLens.
 Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image, const TargetMask& target,
                                             const PinholeCamera& camera, const Segment& guess, double reach_px);
