@@ -5,12 +5,11 @@
 #include <array>
 #include <bitset>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <span>
 
 #include "pharos/ellipse/arc_pair.hpp"
-#include "pharos/ellipse/blurred_contour.hpp"
+#include "pharos/ellipse/checked_fit.hpp"
 #include "pharos/ellipse/close_edges.hpp"
 #include "pharos/ellipse/cluster.hpp"
 #include "pharos/ellipse/direct_fit.hpp"
@@ -22,8 +21,7 @@
 namespace pharos::ellipse {
 namespace {
 
-// An arc that turns by less is not fitted alone, nor a pair that does so together: the fit would follow the noise.
-constexpr float kMinTurnAlone_rad = 1.75F;
+// A pair that turns by less together is not fitted.
 constexpr float kMinTurnOfPair_rad = 1.0F;
 // An arc that turns by more closes but for its ends: it is an ellipse of its own, no other's partner.
 constexpr float kTurnOfWhole_rad = 5.5F;
@@ -45,21 +43,10 @@ constexpr double kFirstGate_px = 2.0;
 constexpr double kGate_px = 1.25;
 // Best fits with one arc that are completed.
 constexpr std::size_t kBestFits = 3;
-// Neighbouring edge points share pixels through the filter: with sigma = 1 px their noise is that of one measurement in
-// 3.5 px (the sum of exp(-d^2/4) over the distances d).
-constexpr double kCorrelation_px = 3.5;
 // A first fit that scores less than this fraction of the threshold will not reach it by refinement, nor a refined one
 // by another (285 accepted: at least 0.836 and 0.844). Nine of ten that are completed are rejected.
 constexpr double kHope = 0.8;
 constexpr double kHopeOfRefined = 0.84;
-// A contour of which less has edges is partly hidden or outside the image.
-constexpr double kWhole = 0.8;
-// Of the points, so many must be left where those beside gaps are not used.
-constexpr double kMinKept = 0.55;
-// Smaller contours may be cut without a gap that shows it.
-constexpr double kMaxDot_px = 12.0;
-// The steepest place of an edge of blur s and gradient g moves by s^2 n'/g; the noise's slope n' is sigma / 1.1 px.
-constexpr double kNoiseToEdge_px = 1.7;
 // An arc of which this fraction lies on an accepted ellipse proposes no other.
 constexpr double kExplained = 0.5;
 
@@ -67,11 +54,6 @@ struct Candidate {
   Ellipse ellipse;
   double rank = 0.0;  // fraction of the contour covered by its arcs
 };
-
-bool plausible(const Ellipse& e, const EllipseSettings& settings, double of_min_minor = 1.0) {
-  return e.b_px >= of_min_minor * settings.min_minor_px && e.a_px < settings.max_axis_ratio * e.b_px &&
-         e.a_px < kMaxSide_px;
-}
 
 class Combiner {
  public:
@@ -136,7 +118,7 @@ class Combiner {
       }
       const std::span<const PointF> fitted(points.data(), points.size());
       const std::optional<Ellipse> ellipse = fit_direct(fitted);
-      if (!ellipse || !plausible(*ellipse, settings_, kSeenMinor)) continue;
+      if (!ellipse || !is_plausible(*ellipse, settings_, kSeenMinor)) continue;
       const double squares = mean_square_px2(*ellipse, fitted, best_squares);
       if (!(squares <= best_squares)) continue;
       best = ellipse;
@@ -186,13 +168,9 @@ class Combiner {
       if (!fit) return std::nullopt;
       collect_support(fit->ellipse, bright_inside, kGate_px, workspace_, support_);
     }
-    if (!plausible(fit->ellipse, settings_)) return std::nullopt;
-    if (support_.count == 0 || fit->rms_px > max_rms_px(fit->ellipse)) return std::nullopt;
     const double rms_px = fit->rms_px;
-    if (support_.beside_gaps != 0) away_from_gaps(*fit);
-    if (!is_determined(*fit) || is_noise(fit->ellipse)) return std::nullopt;
-    add_jackknife(std::span<const PointF>(support_.points.data(), support_.points.size()), *fit);
-    widen_dot(rms_px, *fit);
+    fit = checked_fit(*fit, support_, settings_, workspace_);
+    if (!fit) return std::nullopt;
     DetectedEllipse found;
     found.ellipse = fit->ellipse;
     found.covariance = fit->covariance;
@@ -206,82 +184,9 @@ class Combiner {
     return found;
   }
 
-  // What edges may scatter about an ellipse: by the image's noise, by what the scene itself is off (print, lens, JPEG),
-  // and by a part of its size. A small polygon scatters by more: a square of half-side h by 0.03 h after blur and
-  // gates, yet less than a fixed limit for rings allows.
-  double max_rms_px(const Ellipse& e) const {
-    constexpr double kOfNoise = 1.5, kScene_px = 0.12, kOfSize = 0.015;
-    constexpr double kMaxRmsOfPart_px = 0.3, kMinRoughness_px = 0.12, kOfCorners = 0.01;
-    const double noise = kOfNoise * kNoiseToEdge_px * static_cast<double>(workspace_.noise);
-    const double size = kOfSize * e.b_px;
-    // Rougher than a true ring's 0.25 px, with a margin, no part shows the whole; nor does noise of a fiftieth of the
-    // size show whether a small contour has corners.
-    const double of_shape = support_.length_fraction < kWhole ? kMaxRmsOfPart_px : settings_.max_rms_px;
-    const double of_corners = kMinRoughness_px + kOfCorners * e.b_px;
-    return std::min({of_shape, of_corners, settings_.max_rms_px,
-                     std::sqrt(noise * noise / support_.squared_gradient + kScene_px * kScene_px + size * size)});
-  }
-
-  // An axis that is not known to a tenth of the smaller one is no measurement. Where a part of the contour is hidden or
-  // outside the image, the rest must say what the whole is: five sigmas, the most that a fit is off, stay within that
-  // tenth. Beyond the border the score asks for nothing: there the arcs must turn by as much as a lone one.
-  bool is_determined(const RefinedFit& fit) const {
-    constexpr double kTolerance = 0.1, kSigmas = 5.0;
-    const double limit = kTolerance * fit.ellipse.b_px / (support_.length_fraction < kWhole ? kSigmas : 1.0);
-    const double turn_rad = 2.0 * std::numbers::pi * support_.turn_fraction;
-    return fit.covariance(2, 2) <= limit * limit && fit.covariance(3, 3) <= limit * limit &&
-           (support_.inside_fraction == 1.0 || turn_rad >= static_cast<double>(kMinTurnAlone_rad));
-  }
-
-  // Where something hides a contour, its edge bends into the other's within the blur. The fit without the points there,
-  // and half of what they changed as an error of it.
-  void away_from_gaps(RefinedFit& fit) {
-    StaticVector<PointF, kMaxFitPoints> points;
-    for (std::size_t k = 0; k < support_.points.size(); ++k) {
-      if ((support_.beside_gaps >> support_.sectors[k] & 1U) == 0) points.push_back(support_.points[k]);
-    }
-    const std::span<const PointF> kept(points.data(), points.size());
-    if (static_cast<double>(kept.size()) < kMinKept * static_cast<double>(support_.points.size())) return;
-    const std::optional<RefinedFit> apart = refine_fit(fit.ellipse, kept, independent());
-    if (!apart || !plausible(apart->ellipse, settings_)) return;
-    Vector5 change;
-    change << apart->ellipse.cx_px - fit.ellipse.cx_px, apart->ellipse.cy_px - fit.ellipse.cy_px,
-        apart->ellipse.a_px - fit.ellipse.a_px, apart->ellipse.b_px - fit.ellipse.b_px,
-        std::remainder(apart->ellipse.theta_rad - fit.ellipse.theta_rad, std::numbers::pi);
-    fit = *apart;
-    fit.covariance += 0.25 * change * change.transpose();
-    limit_direction(fit.covariance);
-  }
-
-  // Dots of a few pixels that noise makes have gradients of a few of its sigmas.
-  bool is_noise(const Ellipse& e) const {
-    constexpr double kMinSigmas = 6.0, kMaxNoise_px = 7.0;
-    const double limit = kMinSigmas * static_cast<double>(workspace_.noise);
-    return e.b_px < kMaxNoise_px && support_.squared_gradient < limit * limit;
-  }
-
-  // A dot of a few pixels may be cut by something as bright as its surroundings: blur rounds what is left. What shows
-  // it is scatter beyond the noise and a step that changes along the contour; below the blur's width nothing does.
-  void widen_dot(double rms_px, RefinedFit& fit) const {
-    // Whole dots scatter by at most 0.035 px beyond noise, seven of ten; their squared gradients by less than 0.15 of
-    // the mean. The factors: what cut dots of simulated images are off by.
-    constexpr double kWholeScatter_px = 0.035, kPerScatter = 5.0, kWholeVariation = 0.15, kVariation_px = 1.5;
-    constexpr double kResolved_px = 4.0, kPerUnresolved = 0.12, kUnresolved_px = 2.5, kOfUnresolved = 0.25;
-    const double b_px = fit.ellipse.b_px;
-    if (b_px >= kMaxDot_px) return;
-    const double noise_px =
-        kNoiseToEdge_px * static_cast<double>(workspace_.noise) / std::sqrt(support_.squared_gradient);
-    const double scatter_px = std::sqrt(std::max(0.0, rms_px * rms_px - 0.5 * noise_px * noise_px));
-    const double cut_px = kPerScatter * std::max(0.0, scatter_px - kWholeScatter_px) +
-                          kVariation_px * std::max(0.0, support_.gradient_variation - kWholeVariation);
-    double shape_px = std::hypot(cut_px, kPerUnresolved * std::max(0.0, kResolved_px - b_px));
-    if (b_px < kUnresolved_px) shape_px = std::max(shape_px, kOfUnresolved * fit.ellipse.a_px);
-    fit.covariance.diagonal().head<4>().array() += 0.5 * shape_px * shape_px;
-  }
-
-  double independent() const { return std::min(1.0, support_.stride / kCorrelation_px); }
   std::optional<RefinedFit> refit(const Ellipse& ellipse) {
-    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()), independent());
+    return refine_fit(ellipse, std::span<const PointF>(support_.points.data(), support_.points.size()),
+                      support_.independent());
   }
 
   void mark_explained(const DetectedEllipse& e) {

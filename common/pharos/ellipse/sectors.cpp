@@ -9,6 +9,16 @@
 #include "pharos/ellipse/workspace.hpp"
 
 namespace pharos::ellipse {
+namespace {
+
+std::uint64_t all_of(int count) { return ~std::uint64_t{0} >> (kMaxSectors - count); }
+
+// Those before and after each, around the contour.
+std::uint64_t neighbours(std::uint64_t sectors, int count) {
+  return (sectors << 1U | sectors >> (count - 1) | sectors >> 1U | sectors << (count - 1)) & all_of(count);
+}
+
+}  // namespace
 
 Sectors::Sectors(const Ellipse& e, std::int32_t width_px, std::int32_t height_px)
     : e_(e), right_(width_px - 1.0 - kBorder_px), bottom_(height_px - 1.0 - kBorder_px) {
@@ -29,8 +39,7 @@ int Sectors::sector_of(PointF p) const {
 void Sectors::mark(PointF p) { marked_ |= std::uint64_t{1} << sector_of(p); }
 
 ContourFractions Sectors::fractions() const {
-  const std::uint64_t all = ~std::uint64_t{0} >> (kMaxSectors - 4 * quarter_);
-  if (marked_ == all) return {1.0, 1.0, 1.0, 1.0};
+  if (marked_ == all_of(count())) return {1.0, 1.0, 1.0, 1.0};
   // Of a quarter from the x axis to the y axis, then of one back: each comes twice.
   std::array<double, kMaxSectors / 2> lengths, turns;
   for (int k = 0; k < 2 * quarter_; ++k) {
@@ -60,20 +69,19 @@ ContourFractions Sectors::fractions() const {
   return {length / all_length, turn / all_turn, inside_length / all_length, inside_turn / all_turn};
 }
 
+std::uint64_t with_neighbours(std::uint64_t sectors, int count) { return sectors | neighbours(sectors, count); }
+
 std::uint64_t Sectors::beside_gaps(int reach) const {
   const int count = 4 * quarter_;
-  const std::uint64_t all = ~std::uint64_t{0} >> (kMaxSectors - count);
-  const auto turned = [&](std::uint64_t bits) { return (bits << 1U | bits >> (count - 1)) & all; };
-  const auto turned_back = [&](std::uint64_t bits) { return (bits >> 1U | bits << (count - 1)) & all; };
-  std::uint64_t gaps = ~marked_ & all;
+  std::uint64_t gaps = ~marked_ & all_of(count);
   if (gaps != 0 && cut_) {
     const double c = std::cos(e_.theta_rad), s = std::sin(e_.theta_rad);
     for (int k = 0; k < count; ++k) {
       if ((gaps >> k & 1U) != 0 && outside(k, c, s)) gaps &= ~(std::uint64_t{1} << k);
     }
   }
-  std::uint64_t beside = gaps & (turned(gaps) | turned_back(gaps));
-  for (int k = 0; k < reach; ++k) beside |= turned(beside) | turned_back(beside);
+  std::uint64_t beside = gaps & neighbours(gaps, count);
+  for (int k = 0; k < reach; ++k) beside |= neighbours(beside, count);
   return beside;
 }
 

@@ -17,6 +17,9 @@ struct ContourFractions {
   double inside_length = 1.0, inside_turn = 1.0;  ///< inside the image
 };
 
+/// Bits of the first `count` sectors, and of those next to them around the contour.
+std::uint64_t with_neighbours(std::uint64_t sectors, int count);
+
 /// The contour cut into sectors of equal steps around the diamond |x| + |y| = 1: no trigonometry, and so identical on
 /// every machine. Points are in units of the axes: on the unit circle where they are on the contour.
 class Sectors {

@@ -11,8 +11,10 @@ namespace pharos::ellipse {
 
 /// The points of the image's arcs that lie on one ellipse.
 struct Support {
-  StaticVector<PointF, kMaxFitPoints> points;         ///< evenly taken from all that lie on it
-  StaticVector<std::uint8_t, kMaxFitPoints> sectors;  ///< of the contour in which each of them lies
+  StaticVector<PointF, kMaxFitPoints> points;            ///< evenly taken from all that lie on it
+  StaticVector<std::uint8_t, kMaxFitPoints> sectors;     ///< of the contour in which each of them lies
+  StaticVector<float, kMaxFitPoints> squared_gradients;  ///< at each of them
+  int sector_count = 0;                                  ///< of the whole contour
   std::uint64_t beside_gaps = 0;    ///< a bit for each sector near one of those where the contour is hidden
   std::uint32_t stride = 1;         ///< one in so many was taken
   std::uint32_t count = 0;          ///< N of (3) and (4): all that lie on it
@@ -26,9 +28,13 @@ struct Support {
   double inside_fraction = 1.0;  ///< of the contour's length, inside the image
   double inside_turn = 1.0;      ///< of its full turn, inside the image
 
+  /// Fraction of the points that count as independent measurements.
+  double independent() const;
+
   void clear() {
     points.clear();
     sectors.clear();
+    squared_gradients.clear();
     beside_gaps = 0;
     stride = 1;
     count = arcs = 0;
