@@ -125,6 +125,18 @@ ring2::Ring2Estimate with_scatter(ring2::Ring2Estimate estimate) {
   return estimate;
 }
 
+// A covariance whose tilts are about other axes of nearly the same plane.
+ring2::Matrix8 covariance_about(const ring2::Matrix8& covariance, const std::array<Vector3, 2>& from,
+                                const std::array<Vector3, 2>& to) {
+  ring2::Matrix8 change = ring2::Matrix8::Identity();
+  for (int i = 0; i < 2; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      change(i, k) = to[static_cast<std::size_t>(i)].dot(from[static_cast<std::size_t>(k)]);
+    }
+  }
+  return change * covariance * change.transpose();
+}
+
 std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Settings& settings,
                                          const Ring2Images& images, std::vector<RingHypothesis> hypotheses) {
   std::vector<RingHypothesis> near;
@@ -138,8 +150,11 @@ std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Setti
   std::vector<FollowedHypothesis> result;
   for (RingHypothesis& hypothesis : near) {
     if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kLast, hypothesis)) continue;
-    const auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
+    auto estimate = ring2::solve_ring2(rig, hypothesis.contours);
     if (!estimate || estimate->unobservable != (hypothesis.has_nozzle ? 0 : ring2::kUnobservableNozzle)) continue;
+    if (const auto stated = ring2::solve_ring2(rig, hypothesis.stated)) {
+      (*estimate).covariance = covariance_about(stated->covariance, stated->tilt_axes, estimate->tilt_axes);
+    }
     const double rim = rim_evidence(rig, images, {estimate->ring_centre_m, estimate->normal, estimate->ring_radius_m});
     result.push_back({std::move(hypothesis), with_scatter(*estimate), rim});
   }

@@ -21,6 +21,9 @@ constexpr double kMinSeenInOneView = 0.4;
 // Minimum evidence, as a fraction of that of undisturbed edges. A ring's contour is long and its rim is a lit face; a
 // nozzle's lip is thin, and half of it is in front of a dark background.
 constexpr double kMinCleanRing = 0.35, kMinCleanNozzle = 0.1;
+// Minimum evidence of a second edge in the ring's plane, as a fraction of that of the undisturbed first one. The edge
+// of a round body has chance edges beside it: up to a tenth; docking rings have from a fifth on.
+constexpr double kMinRim = 0.15;
 // Two hypotheses closer than this are the same answer.
 constexpr double kSameNormal_rad = 0.5 * kRadPerDeg;
 constexpr double kSameCentre_m = 0.005;
@@ -52,7 +55,10 @@ bool has_ring(const RingHypothesis& h) {
   return is_shown(h, 0, h.evidence - h.nozzle_evidence, kMinCleanRing) && !is_half_shown(h.seen[0][0]) &&
          !is_half_shown(h.seen[1][0]);
 }
-bool has_nozzle(const RingHypothesis& h) { return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle); }
+bool has_nozzle(const RingHypothesis& h) {
+  return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) && !is_half_shown(h.seen[0][1]) &&
+         !is_half_shown(h.seen[1][1]);
+}
 
 bool agrees(double found_m, double sigma_m, const KnownLength& told, double slack_m) {
   const double off = std::max(0.0, std::abs(found_m - told.value_m) - slack_m);
@@ -80,7 +86,7 @@ bool is_candidate(const FollowedHypothesis& f, const RingSizes& sizes) {
   if (!has_ring(f.hypothesis) || !agrees(f, sizes)) return false;
   if (f.hypothesis.has_nozzle && !has_nozzle(f.hypothesis)) return false;
   if (sizes.outer_radius || sizes.inner_radius) return true;
-  return f.hypothesis.has_nozzle && f.rim_evidence > kMinEvidence;
+  return f.hypothesis.has_nozzle && f.rim_evidence > std::max(kMinEvidence, kMinRim * f.hypothesis.evidence_limit[0]);
 }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }

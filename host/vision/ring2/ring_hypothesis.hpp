@@ -15,6 +15,8 @@ using Ring2Images = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
 /// An assignment of circles in a pair of images to ring and nozzle.
 struct RingHypothesis {
   ring2::ContourSet contours;
+  /// The same contours with the information that disturbed ones have: their errors are larger than their weights say.
+  ring2::ContourSet stated;
   ring2::CircleModel model;  ///< both circles; the second radius is 0 if there is no nozzle
   bool has_nozzle = false;
   double evidence = 0.0;         ///< log-likelihood ratio of all contours against chance
