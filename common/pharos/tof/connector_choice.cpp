@@ -83,9 +83,10 @@ class Chooser {
   bool alike(const SeenConnector& a, const SeenConnector& b) const {
     const double heights = (a.face.height_m - workspace_.base_m) / (b.face.height_m - workspace_.base_m);
     if (!(heights < kAlikeHeights && heights * kAlikeHeights > 1.0)) return false;
-    if (!a.sure || !b.sure) return true;
-    const double areas = a.face.rectangle.area_m2() / b.face.rectangle.area_m2();
-    return areas < kAlikeSides * kAlikeSides && areas * kAlikeSides * kAlikeSides > 1.0;
+    const double first = std::sqrt(a.face.rectangle.area_m2()), second = std::sqrt(b.face.rectangle.area_m2());
+    // Sides that only the depth image gives are known to a cell.
+    const double slack_m = a.sure && b.sure ? 0.0 : workspace_.grid.cell_m();
+    return std::max(first, second) - slack_m < kAlikeSides * (std::min(first, second) + slack_m);
   }
 
   double equal_within(const SeenConnector& a, const SeenConnector& b) const {

@@ -14,6 +14,10 @@ constexpr double kPlaceMargin_m = 0.004;
 constexpr double kHeightMargin_m = 0.012;
 // Sides agree to within this factor: noise of a cell on either side, at the far end.
 constexpr double kLikeDescribed = 1.35;
+// A side's length and the centre along it have errors of the same two edges: the length's is twice the centre's.
+constexpr double kLengthPerCentre = 2.0;
+// A side that differs from the described one by more than this many deviations has an edge that is not its own.
+constexpr double kSideGate = 2.0;
 // What one connector can say at most for or against a turn, as the logarithm of odds. One that is absent in plain sight
 // says less: bodies differ from drawings, and any one connector gives the turn.
 constexpr double kMaxFor = 15.0;
@@ -52,17 +56,38 @@ class TurnFinder {
       if (same_turn(one, *best) || (second != nullptr && one.log_odds <= second->log_odds)) continue;
       second = &one;
     }
-    DescribedTurn result{{faces_[best->seen], best->described}, std::nullopt, 0.0};
+    DescribedTurn result{identified(*best), std::nullopt, 0.0};
     if (second != nullptr) {
       result.delta_chi2 = std::max(0.0, 2.0 * (best->log_odds - second->log_odds));
       if (result.delta_chi2 < kAmbiguous) {
-        result.second = IdentifiedConnector{faces_[second->seen], second->described};
+        result.second = identified(*second);
       }
     }
     return result;
   }
 
  private:
+  IdentifiedConnector identified(const Hypothesis& h) const {
+    IdentifiedConnector result{faces_[h.seen], h.described};
+    add_side_errors(target_.connectors[h.described].size_m, result.face);
+    return result;
+  }
+  // Where a side's length is wrong, a wall or a shadow was taken for one of its edges: half of what it differs by is an
+  // error of the centre.
+  static void add_side_errors(const Vector2& described_m, ConnectorFace& face) {
+    const Vector2 sides = 2.0 * face.rectangle.half_sides_m;
+    const Vector2 off = sides - described_m, turned = sides - Vector2(described_m.y(), described_m.x());
+    const Vector2& least = off.squaredNorm() <= turned.squaredNorm() ? off : turned;
+    Matrix2 more = Matrix2::Zero();
+    for (int side = 0; side < 2; ++side) {
+      const Vector2 along = face.rectangle.outward(side);
+      const double sigma_m = kLengthPerCentre * std::sqrt(along.dot(face.covariance * along));
+      if (std::fabs(least[side]) > kSideGate * sigma_m)
+        more += 0.25 * least[side] * least[side] * along * along.transpose();
+    }
+    face.covariance += more;
+  }
+
   static bool same_turn(const Hypothesis& a, const Hypothesis& b) {
     return std::fabs(std::remainder(a.turn_rad - b.turn_rad, kTwoPi)) < kSameTurn_rad;
   }

@@ -112,6 +112,28 @@ TEST(OwnSigmas, ADotOfAFewPixelsThatIsCut) {
   }
 }
 
+// A polygon nearly as bright as the ground: its own edge runs along the contour that it covers.
+TEST(OwnSigmas, APolygonThatEndsAlongTheContour) {
+  int reported = 0;
+  for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {
+    Picture picture(seed);
+    Drawing drawing(kSide_px, kSide_px, 0.8);
+    const double b = picture.uniform(15.0, 20.0);
+    const TrueEllipse e{50.0, 50.0, b * picture.uniform(1.1, 1.5), b, picture.uniform(-1.5, 1.5)};
+    drawing.fill(e, 0.2);
+    const double at = picture.uniform(0.0, 6.0), away = picture.uniform(0.2, 0.45) * b;
+    drawing.fill(regular_polygon_at(50.0 + away * std::cos(at), 50.0 + away * std::sin(at),
+                                    picture.uniform(0.85, 1.05) * b, picture.uniform(0.0, 6.0), 6),
+                 picture.uniform(0.6, 0.7));
+    for (const DetectedEllipse& found : picture.detect(drawing, 1.0)) {
+      if (found.ellipse.b_px < 0.7 * b) continue;
+      expect_within_sigmas(found, e, seed);
+      ++reported;
+    }
+  }
+  EXPECT_GE(reported, 1);
+}
+
 TEST(OwnSigmas, PolygonsInNoiseAreNone) {
   int reported = 0;
   for (std::uint64_t seed = 1; seed <= kPictures; ++seed) {

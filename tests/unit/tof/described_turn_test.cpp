@@ -88,6 +88,19 @@ TEST_F(DescribedTurns, ABoxOfAnotherHeightIsNone) {
   EXPECT_FALSE(measure({Vector2(0.66, 0.0)}).has_turn());
 }
 
+// A wall or shadow that was taken for one of a face's edges shows in the length of that side.
+TEST_F(DescribedTurns, ASideOfAnotherLengthWidensTheSigma) {
+  describe({0.66, 0.0});
+  const TofPose exact = measure({Vector2(0.66, 0.0)});
+  settings_.target.connectors.clear();
+  settings_.target.connectors.push_back({{0.66, 0.0}, -0.03, {kSide_m, kSide_m - 0.012}, 0.001, 0.001});
+  const TofPose longer = measure({Vector2(0.66, 0.0)});
+  ASSERT_TRUE(exact.has_turn() && longer.has_turn());
+  const double before = std::sqrt(exact.target.covariance(2, 2)), after = std::sqrt(longer.target.covariance(2, 2));
+  EXPECT_LT(before, 0.003);
+  EXPECT_NEAR(std::sqrt(after * after - before * before), 0.006 / 0.66, 0.002);
+}
+
 TEST_F(DescribedTurns, HeightsMayCountFromThePlate) {
   describe({0.66, 0.0}, 0.07);
   const TofPose pose = measure({Vector2(0.66, 0.0)});

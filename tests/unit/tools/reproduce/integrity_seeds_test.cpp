@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies at which campaigns found an integrity failure, by their seeds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "tools/evaluation/reproduce/integrity/trial.hpp"
+
+namespace pharos::tools {
+namespace {
+
+void expect_no_failure(const std::string& name, std::initializer_list<std::uint64_t> seeds) {
+  const std::vector<IntegrityKind>& kinds = integrity_kinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const IntegrityKind& k) { return k.name == name; });
+  ASSERT_NE(kind, kinds.end());
+  for (const std::uint64_t seed : seeds) {
+    const IntegrityTrial trial = kind->trial(seed);
+    for (const Deviation& d : trial.deviations) {
+      EXPECT_FALSE(trial.failed()) << "seed " << seed << ": " << d.quantity << " " << d.error << ", sigma " << d.sigma;
+    }
+  }
+}
+
+// A boom, a rail and two bodies' outlines, taken for the panel.
+TEST(IntegritySeeds, Line) { expect_no_failure("line", {62, 108, 220, 244}); }
+
+// Polygons that end along a contour, and what one leaves of a dot.
+TEST(IntegritySeeds, Ellipses) { expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065}); }
+
+// A look-alike for a dark connector, another for a hidden one, and a wall taken for a connector's edge.
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328}); }
+
+// The foot of a ring, the edge of a round body, a small ring beside it, a groove.
+TEST(IntegritySeeds, Ring2) { expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454}); }
+
+}  // namespace
+}  // namespace pharos::tools
