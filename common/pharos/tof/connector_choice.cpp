@@ -22,6 +22,8 @@ constexpr double kStands = 15.0;
 constexpr double kClearOfNozzle = 0.45;
 // Places so near to a box' centre, in half diagonals, show the box or its walls.
 constexpr double kBesideBox = 2.0;
+// Of the least side that a connector may have: half of it.
+constexpr double kSmallestHalf = 0.5;
 // Distances closer than this many deviations are equal.
 constexpr double kEqualSigmas = 4.0;
 // A connector does not overlap the ring by more than this fraction of its side.
@@ -45,7 +47,7 @@ class Chooser {
 
  private:
   void sort_in(const RaisedBox& box) {
-    if (box.verdict == BoxVerdict::kUnclear) {
+    if (box.verdict == BoxVerdict::kUnclear || (box.verdict == BoxVerdict::kConnector && overlaps_another(box))) {
       unclear_m_ = std::min(unclear_m_, box.distance_m() - box.rectangle.half_sides_m.maxCoeff());
       return;
     }
@@ -61,6 +63,22 @@ class Chooser {
     for (std::size_t i = list.size() - 1; i > 0 && list[i].distance_m() < list[i - 1].distance_m(); --i) {
       std::swap(list[i], list[i - 1]);
     }
+  }
+
+  // Two boxes that overlap are parts of one thing: a rail in noise.
+  bool overlaps_another(const RaisedBox& box) const {
+    return std::any_of(workspace_.boxes.begin(), workspace_.boxes.end(), [&](const RaisedBox& other) {
+      return &other != &box && other.verdict == BoxVerdict::kConnector &&
+             (holds_a_corner(box.rectangle, other.rectangle) || holds_a_corner(other.rectangle, box.rectangle));
+    });
+  }
+  static bool holds_a_corner(const PlanarRectangle& a, const PlanarRectangle& b) {
+    for (int side = 0; side < 4; ++side) {
+      if (a.holds(b.centre_m + b.half_side(side) * b.outward(side) + b.half_side(side + 1) * b.outward(side + 1))) {
+        return true;
+      }
+    }
+    return false;
   }
 
   ConnectorDoubt doubt() const {
@@ -112,15 +130,17 @@ class Chooser {
 
   // Whether no connector like the nearest one seen can stand nearer to the centre.
   bool nearer_places_are_plate() const {
-    return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0],
+    // The one seen may be a cover: connectors as small as there are must be told from the plate.
+    const double half_m = std::min(seen_half_m(), kSmallestHalf * settings_.min_side_m);
+    return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], half_m,
                              [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
   }
   // Whether something as high and wide as the nearest one stands nearer, and is none of the boxes found.
   bool something_stands_nearer() const {
     // Clear of the nozzle and of its walls in sight.
-    const double half_m = std::sqrt(0.25 * result_.seen[0].face.rectangle.area_m2());
+    const double half_m = seen_half_m();
     const double nearest_m = kClearOfNozzle * ring_.model.radius_m[0] + 2.0 * half_m;
-    return any_nearer_place(nearest_m, [&](const Vector2& place, double log_odds) {
+    return any_nearer_place(nearest_m, half_m, [&](const Vector2& place, double log_odds) {
       if (log_odds < kStands || beside_wall(place.norm(), half_m) || beside_hidden(place, half_m)) return false;
       return std::none_of(workspace_.boxes.begin(), workspace_.boxes.end(), [&](const RaisedBox& box) {
         return (place - box.rectangle.centre_m).norm() < kBesideBox * box.rectangle.half_sides_m.norm();
@@ -151,12 +171,13 @@ class Chooser {
     return false;
   }
 
-  // Calls is(place, logarithm of the odds of a connector over the plate) for places nearer to the centre than the
-  // nearest one seen, until it is true.
+  double seen_half_m() const { return std::sqrt(0.25 * result_.seen[0].face.rectangle.area_m2()); }
+
+  // Calls is(place, logarithm of the odds of a connector over the plate) of half side `half` for places nearer to the
+  // centre than the nearest one seen, until it is true.
   template <class Is>
-  bool any_nearer_place(double nearest_m, Is is) const {
+  bool any_nearer_place(double nearest_m, double half, Is is) const {
     const SeenConnector& nearest = result_.seen[0];
-    const double half = std::sqrt(0.25 * nearest.face.rectangle.area_m2());
     const double step = nearest.face.height_m - workspace_.base_m;
     const double limit = nearest.distance_m() + settings_.min_difference_m;
     const RingModel& model = ring_.model;
@@ -169,7 +190,7 @@ class Chooser {
         if (distance > limit || distance < nearest_m) continue;
         if (distance > model.radius_m[1] - clear && distance < model.radius_m[0] + clear) continue;
         // Those that overlap the one seen are itself.
-        if ((place - nearest.face.rectangle.centre_m).norm() < 2.5 * half) continue;
+        if ((place - nearest.face.rectangle.centre_m).norm() < 2.5 * std::max(half, seen_half_m())) continue;
         if (is(place, log_likelihood_of_box(workspace_, model, column, row, half, step))) return true;
       }
     }

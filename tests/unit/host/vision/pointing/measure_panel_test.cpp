@@ -127,6 +127,69 @@ TEST(MeasurePanelRefuses, AFaceWithAnotherOneBesideIt) {
   EXPECT_EQ(refusal_of(image, scene.camera), PointingRefusal::kNoPanel);
 }
 
+// Brighter of both at each pixel.
+host::GreyImage over(host::GreyImage image, const host::GreyImage& other) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = std::max(image.pixels[i], other.pixels[i]);
+  return image;
+}
+
+void paint_disc(const Vector2& centre, double radius_px, host::GreyImage& image) {
+  for (int v = 0; v < image.height_px; ++v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      const double inside = radius_px - (Vector2(u, v) - centre).norm();
+      auto& pixel = image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) +
+                                 static_cast<std::size_t>(u)];
+      const double light = 600.0 + 30000.0 * 0.5 * std::erfc(-inside / (1.2 * std::sqrt(2.0)));
+      pixel = std::max(pixel, static_cast<std::uint16_t>(light));
+    }
+  }
+}
+
+// Where one end of the panel is hidden nothing confirms it; the body beside it is a rectangle with two ends.
+TEST(MeasurePanel, ABodysOutlineDoesNotAnswerForAPanelThatNothingConfirms) {
+  PaintedPanel panel = near_panel(0.95);
+  panel.shift_m = {-1.2, -1.2};
+  PaintedPanel body = near_panel(0.0);
+  body.set_axis(0.4 + 0.5 * kPi, 0.7);
+  body.length_m = 3.9;
+  body.width_m = 1.8;
+  body.shift_m = {2.6, 4.2};
+  const auto alone = measure_panel(body.image().view(), body.camera);
+  ASSERT_TRUE(alone.ok()) << name_of(alone.error());
+  host::GreyImage image = over(panel.image(), body.image());
+  const auto whole = measure_panel(image.view(), panel.camera);
+  ASSERT_TRUE(whole.ok());
+  const PointingResult with_ends = answer_of(*whole, panel.sight);
+  EXPECT_FALSE(with_ends.second_axis.has_value());
+  EXPECT_LT(angle_between(with_ends.axis.axis, panel.axis_station) * kDegPerRad, 0.5);
+  // A round shape before one end.
+  ASSERT_EQ(whole->short_edges.size(), 2u);
+  const Segment& end = whole->short_edges[0];
+  paint_disc(end.middle(), 0.6 * end.length(), image);
+  const auto hidden = measure_panel(image.view(), panel.camera);
+  if (hidden.ok()) {
+    EXPECT_TRUE(answer_of(*hidden, panel.sight).second_axis.has_value());
+  }
+}
+
+// Long and thin, without ends that could be measured: an axis to some degrees that nothing confirms.
+TEST(MeasurePanelRefuses, ABoom) {
+  PaintedPanel boom = near_panel(0.5);
+  boom.range_m = 250.0;
+  boom.camera.fx_px = boom.camera.fy_px = 450.0 * 250.0 / 12.0;
+  boom.width_m = 0.25;
+  boom.noise = 2500.0;
+  EXPECT_EQ(refusal_of(boom.image(), boom.camera), PointingRefusal::kNoPanel);
+}
+
+// A dark frame bends the rise; the level beyond the edge is the sky's all the same.
+TEST(MeasurePanel, AFramedPanelHasSkyBeyondItsSides) {
+  PaintedPanel framed = near_panel(0.95);
+  framed.rim_m = 0.12;
+  framed.rim_light = 0.4;
+  EXPECT_TRUE(measure_panel(framed.image().view(), framed.camera).ok());
+}
+
 TEST(MeasurePanelRefuses, APanelThatIsSeenAlongItsAxis) {
   PaintedPanel scene = near_panel(1.45);  // 7 deg off the line of sight
   scene.camera.fx_px = scene.camera.fy_px = 800.0;
