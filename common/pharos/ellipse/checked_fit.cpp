@@ -85,7 +85,8 @@ class FitCheck {
   }
 
   // What covers a contour may end along it: its edge, of another step, then counts as the contour's. The fit without
-  // the points of other steps, and of where they begin, is taken where it is another one or its points agree better.
+  // the points of other steps, and of where they begin, is taken where it is another one or its points agree better;
+  // else half of what it would change counts as an error.
   void leave_other_steps(double rms_px) {
     const std::uint64_t others = near_other_steps();
     const auto apart =
@@ -93,8 +94,12 @@ class FitCheck {
     if (!apart) return;
     const Vector5 change = change_to(apart->ellipse);
     const double moved = change.head<4>().squaredNorm();
-    if (apart->rms_px < kOfOneStep * rms_px || moved > kMaxByNoise * apart->covariance.topLeftCorner<4, 4>().trace()) {
+    const bool is_other =
+        apart->rms_px < kOfOneStep * rms_px || moved > kMaxByNoise * apart->covariance.topLeftCorner<4, 4>().trace();
+    if (is_other) {
       take(*apart);
+    } else {
+      add_half_of(change);
     }
   }
 
@@ -167,6 +172,9 @@ class FitCheck {
   void take(const RefinedFit& other) {
     const Vector5 change = change_to(other.ellipse);
     fit_ = other;
+    add_half_of(change);
+  }
+  void add_half_of(const Vector5& change) {
     fit_.covariance += 0.25 * change * change.transpose();
     limit_direction(fit_.covariance);
   }

@@ -22,8 +22,8 @@ constexpr double kStands = 15.0;
 constexpr double kClearOfNozzle = 0.45;
 // Places so near to a box' centre, in half diagonals, show the box or its walls.
 constexpr double kBesideBox = 2.0;
-// Of the least side that a connector may have: half of it.
-constexpr double kSmallestHalf = 0.5;
+// Of what is seen as a connector, the side of a smaller one that may be hidden.
+constexpr double kConnectorPerCover = 0.5;
 // Distances closer than this many deviations are equal.
 constexpr double kEqualSigmas = 4.0;
 // A connector does not overlap the ring by more than this fraction of its side.
@@ -130,8 +130,8 @@ class Chooser {
 
   // Whether no connector like the nearest one seen can stand nearer to the centre.
   bool nearer_places_are_plate() const {
-    // The one seen may be a cover: connectors as small as there are must be told from the plate.
-    const double half_m = std::min(seen_half_m(), kSmallestHalf * settings_.min_side_m);
+    // The one seen may be a cover: a connector of half its side must be told from the plate too.
+    const double half_m = kConnectorPerCover * seen_half_m();
     return !any_nearer_place(kMinConnectorDistance * ring_.model.radius_m[0], half_m,
                              [](const Vector2&, double log_odds) { return log_odds > kPlateCertain; });
   }
@@ -181,7 +181,7 @@ class Chooser {
     const double step = nearest.face.height_m - workspace_.base_m;
     const double limit = nearest.distance_m() + settings_.min_difference_m;
     const RingModel& model = ring_.model;
-    const double clear = half * (1.0 - 2.0 * kRingOverlap);
+    const double clear = seen_half_m() * (1.0 - 2.0 * kRingOverlap);
     const ReliefGrid& grid = workspace_.grid;
     for (int row = 0; row < grid.side(); ++row) {
       for (int column = 0; column < grid.side(); ++column) {
@@ -190,7 +190,7 @@ class Chooser {
         if (distance > limit || distance < nearest_m) continue;
         if (distance > model.radius_m[1] - clear && distance < model.radius_m[0] + clear) continue;
         // Those that overlap the one seen are itself.
-        if ((place - nearest.face.rectangle.centre_m).norm() < 2.5 * std::max(half, seen_half_m())) continue;
+        if ((place - nearest.face.rectangle.centre_m).norm() < 2.5 * seen_half_m()) continue;
         if (is(place, log_likelihood_of_box(workspace_, model, column, row, half, step))) return true;
       }
     }
