@@ -22,9 +22,12 @@ constexpr double kMaxDot_px = 12.0;
 constexpr double kNoiseToEdge_px = 1.7;
 // Another object's edge, where it covers the contour, has another step.
 constexpr double kMinVariation = 0.3;  // of the squared gradients: with less there is no other step
-constexpr float kOtherStep = 1.6F;     // of a point's gradient to the median, or the inverse
+constexpr float kOtherStep = 1.4F;     // of a point's gradient to the median, or the inverse
 constexpr double kOfOneStep = 0.7;     // of the scatter of all: what the points of one step must scatter less by
 constexpr double kMaxByNoise = 9.0;    // squared sigmas by which their fit may differ otherwise
+
+// Of sigma, for a contour of which nearly all is hidden.
+constexpr double kPerHidden = 2.0;
 
 using Points = StaticVector<PointF, kMaxFitPoints>;
 
@@ -44,6 +47,10 @@ class FitCheck {
     if (!is_determined() || is_noise()) return std::nullopt;
     add_jackknife(std::span<const PointF>(support_.points.data(), support_.points.size()), fit_);
     widen_dot(rms_px);
+    // What hides a part of a contour may bend the rest beyond what its points show.
+    const double hidden = std::max(0.0, support_.inside_fraction - support_.length_fraction);
+    fit_.covariance *= (1.0 + kPerHidden * hidden) * (1.0 + kPerHidden * hidden);
+    limit_direction(fit_.covariance);
     fit_.rms_px = rms_px;
     return fit_;
   }
@@ -121,7 +128,7 @@ class FitCheck {
 
   // Dots of a few pixels that noise makes have gradients of a few of its sigmas.
   bool is_noise() const {
-    constexpr double kMinSigmas = 6.0, kMaxNoise_px = 7.0;
+    constexpr double kMinSigmas = 10.0, kMaxNoise_px = 9.0;
     const double limit = kMinSigmas * noise_;
     return fit_.ellipse.b_px < kMaxNoise_px && support_.squared_gradient < limit * limit;
   }

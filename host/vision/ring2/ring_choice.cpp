@@ -24,6 +24,9 @@ constexpr double kMinCleanRing = 0.35, kMinCleanNozzle = 0.1;
 // Minimum evidence of a second edge in the ring's plane, as a fraction of that of the undisturbed first one. The edge
 // of a round body has chance edges beside it: up to a tenth; docking rings have from a fifth on.
 constexpr double kMinRim = 0.15;
+// A nozzle's exit is no farther before its ring than this, in radii of the ring: what stands before a small ring in one
+// image only may be anything.
+constexpr double kMaxNozzleDistance = 3.0;
 // Two hypotheses closer than this are the same answer.
 constexpr double kSameNormal_rad = 0.5 * kRadPerDeg;
 constexpr double kSameCentre_m = 0.005;
@@ -56,8 +59,8 @@ bool has_ring(const RingHypothesis& h) {
          !is_half_shown(h.seen[1][0]);
 }
 bool has_nozzle(const RingHypothesis& h) {
-  return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) && !is_half_shown(h.seen[0][1]) &&
-         !is_half_shown(h.seen[1][1]);
+  return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) &&
+         h.model.distance_m < kMaxNozzleDistance * h.model.radius_m;
 }
 
 bool agrees(double found_m, double sigma_m, const KnownLength& told, double slack_m) {
