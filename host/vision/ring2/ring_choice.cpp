@@ -18,6 +18,7 @@ constexpr double kMinEvidence = 12.0;
 // wall and shadow has about half of its points on one of them; of a true contour a third may be hidden or dark.
 constexpr double kMinSeenOnAverage = 0.6;
 constexpr double kMinSeenInOneView = 0.4;
+constexpr double kMinSeenAlone = 0.75;
 // Minimum evidence, as a fraction of that of undisturbed edges. A ring's contour is long and its rim is a lit face; a
 // nozzle's lip is thin, and half of it is in front of a dark background.
 constexpr double kMinCleanRing = 0.35, kMinCleanNozzle = 0.1;
@@ -48,18 +49,20 @@ double mean_seen(const RingHypothesis& h, std::size_t feature) {
 }
 
 bool is_shown(const RingHypothesis& h, std::size_t feature, double evidence, double min_clean) {
-  return evidence > kMinEvidence && evidence > min_clean * h.evidence_limit[feature] &&
-         mean_seen(h, feature) > kMinSeenOnAverage;
+  return evidence > kMinEvidence && evidence > min_clean * h.evidence_limit[feature];
 }
 // A ring may be absent in one view: its nozzle and the other view determine it. A contour that is present in part only
 // follows other edges.
 bool is_half_shown(double seen) { return seen > 0.0 && seen < kMinSeenInOneView; }
 bool has_ring(const RingHypothesis& h) {
-  return is_shown(h, 0, h.evidence - h.nozzle_evidence, kMinCleanRing) && !is_half_shown(h.seen[0][0]) &&
-         !is_half_shown(h.seen[1][0]);
+  return is_shown(h, 0, h.evidence - h.nozzle_evidence, kMinCleanRing) && mean_seen(h, 0) > kMinSeenOnAverage &&
+         !is_half_shown(h.seen[0][0]) && !is_half_shown(h.seen[1][0]);
 }
+// One image that shows the nozzle is enough.
 bool has_nozzle(const RingHypothesis& h) {
-  return h.has_nozzle && is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) &&
+  const double most_seen = std::max(h.seen[0][1], h.seen[1][1]);
+  return h.has_nozzle && (mean_seen(h, 1) > kMinSeenOnAverage || most_seen > kMinSeenAlone) &&
+         is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) &&
          h.model.distance_m < kMaxNozzleDistance * h.model.radius_m;
 }
 

@@ -37,6 +37,8 @@ constexpr std::array<EdgeSearch, 6> kRounds = {
 constexpr std::size_t kFirstRounds = 3;
 // Contours with a smaller visible fraction are not used.
 constexpr double kMinSeen = 0.15;
+// Nor is a nozzle's in the last rounds, if one image shows less of it: it follows other edges there.
+constexpr double kMinSeenOfNozzle = 0.4;
 
 // A contour with half of the evidence may consist of two circles' edges, those of a ring's front and foot: its error is
 // a tenth of a pixel over the square of that fraction. As weights such errors would let the other contours carry the
@@ -167,7 +169,7 @@ bool follow_edges(const ring2::Rig& rig, const Ring2Images& images, double syste
         hypothesis.edges += edge->edges;
         hypothesis.evidence_limit[f] += edge->evidence_limit;
         if (f == 1) hypothesis.nozzle_evidence += edge->evidence;
-        if (!(edge->seen > kMinSeen)) continue;
+        if (!(edge->seen > (f == 1 && rounds == FollowRounds::kLast ? kMinSeenOfNozzle : kMinSeen))) continue;
         contours[v][f] = edge->contour;
         stated[v][f] = with_disturbance(*edge);
       }
