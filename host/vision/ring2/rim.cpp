@@ -14,7 +14,7 @@ using ring2::Feature;
 using ring2::Ring2Estimate;
 
 // Fractions of a rim's radius: maximum width of its face, and the standard deviation if nothing else is known. Docking
-// rings have 4 to 10 %, the stiffening rims of nozzles up to 15 %.
+// rings have 4 to 13 %, the stiffening rims of nozzles up to 15 %.
 constexpr double kMaxWidth = 0.2;
 constexpr double kWidthSigma = 0.1;
 // Circles nearer than this fraction are one edge that was found twice.
