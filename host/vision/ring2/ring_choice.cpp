@@ -60,8 +60,8 @@ bool has_ring(const RingHypothesis& h) {
 }
 // One image that shows the nozzle is enough.
 bool has_nozzle(const RingHypothesis& h) {
-  const double most_seen = std::max(h.seen[0][1], h.seen[1][1]);
-  return h.has_nozzle && (mean_seen(h, 1) > kMinSeenOnAverage || most_seen > kMinSeenAlone) &&
+  const double max_seen = std::max(h.seen[0][1], h.seen[1][1]);
+  return h.has_nozzle && (mean_seen(h, 1) > kMinSeenOnAverage || max_seen > kMinSeenAlone) &&
          is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) &&
          h.model.distance_m < kMaxNozzleDistance * h.model.radius_m;
 }
