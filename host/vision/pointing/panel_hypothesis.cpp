@@ -127,8 +127,10 @@ class Chooser {
     const bool in_line = is_in_line(best);
     for (const Hypothesis& other : hypotheses) {
       if (!is_rival(best, other)) continue;
-      // A body's outline is a rectangle as well: alone it does not outweigh another pair that nothing confirms.
-      if (in_line && (other.has_face_beyond || !is_confirmed(other))) continue;
+      // A body's outline is a rectangle as well, and a third edge may be an accident: alone they do not outweigh
+      // another pair that nothing confirms, nor a longer one.
+      const bool needs_proof = best.pairs.size() == 2 || (in_line && other.score < best.score);
+      if (needs_proof && (other.has_face_beyond || !is_confirmed(other))) continue;
       best.measurement.other_planes = other.measurement.long_planes;
       break;
     }

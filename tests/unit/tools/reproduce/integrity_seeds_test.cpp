@@ -23,13 +23,15 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 }
 
 // A boom, a rail and two bodies' outlines, taken for the panel.
-TEST(IntegritySeeds, Line) { expect_no_failure("line", {62, 108, 220, 244}); }
+TEST(IntegritySeeds, Line) { expect_no_failure("line", {62, 108, 220, 244, 1251, 1446}); }
 
 // Polygons that end along a contour, and what one leaves of a dot.
-TEST(IntegritySeeds, Ellipses) { expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065}); }
+TEST(IntegritySeeds, Ellipses) {
+  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934});
+}
 
 // A look-alike for a dark connector, another for a hidden one, and a wall taken for a connector's edge.
-TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328}); }
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951}); }
 
 // The foot of a ring, the edge of a round body, a small ring beside it, a groove.
 TEST(IntegritySeeds, Ring2) { expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454}); }
