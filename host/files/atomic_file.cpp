@@ -39,14 +39,17 @@ std::string random_name() {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// A pipe or a device has no place to be put into, and nothing in /dev or /proc is ours to replace.
-bool is_replaceable(const fs::path& path) {
+// Nothing in /dev or /proc is ours to replace.
+bool is_of_the_system(const fs::path& path) {
   std::error_code error;
   const std::string folder = fs::weakly_canonical(folder_of(path), error).string();
-  const bool of_the_system =
-      folder == "/dev" || folder.rfind("/dev/fd", 0) == 0 || folder == "/proc" || folder.rfind("/proc/", 0) == 0;
-  if (of_the_system) return false;
-  return !fs::exists(path, error) || fs::is_regular_file(path, error);
+  return folder == "/dev" || folder.rfind("/dev/fd", 0) == 0 || folder == "/proc" || folder.rfind("/proc/", 0) == 0;
+}
+
+// A pipe or a device has no place to be put into. One look only: between two of them the path may become another file.
+bool is_replaceable(const fs::path& path) {
+  struct stat about {};
+  return !is_of_the_system(path) && (::stat(path.c_str(), &about) != 0 || S_ISREG(about.st_mode));
 }
 
 }  // namespace
@@ -72,9 +75,16 @@ void AtomicFile::refuse() const {
   throw InputError(path_ + ": cannot be written: " + std::strerror(errno) + "; choose another file");
 }
 
+// What was a pipe or a device before may be a link to somebody's file now: such a file is neither created nor cut.
 void AtomicFile::open_in_place() {
-  stream_ = std::fopen(path_.c_str(), "we");
+  const bool redirected = is_of_the_system(path_);  // /dev/stdout may lead to a file
+  UniqueFd fd(::open(path_.c_str(), O_WRONLY | O_CLOEXEC | (redirected ? O_CREAT | O_TRUNC : 0), kNewFile));
+  struct stat about {};
+  const bool has_changed = fd.valid() ? ::fstat(fd.get(), &about) != 0 || S_ISREG(about.st_mode) : errno == ENOENT;
+  if (has_changed && !redirected) return open_aside();
+  if (fd.valid()) stream_ = ::fdopen(fd.get(), "w");
   if (stream_ == nullptr) refuse();
+  fd.release();
 }
 
 void AtomicFile::open_aside() {
