@@ -16,13 +16,19 @@ bool is_output(const CLI::Option& option) {
   }
 }
 
+// A number or one of several words is no file, even if there is one of that name.
+bool may_be_a_path(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.rfind("TEXT", 0) == 0 && type.find(":{") == std::string::npos;
+}
+
 }  // namespace
 
 void refuse_output_onto_input(const CLI::App& command) {
   for (const CLI::Option* output : command.get_options()) {
     if (!is_output(*output)) continue;
     for (const CLI::Option* other : command.get_options()) {
-      if (other == output) continue;
+      if (other == output || !may_be_a_path(*other)) continue;
       for (const std::string& place : output->results()) {
         for (const std::string& path : other->results()) {
           if (!host::same_file(place, path)) continue;
