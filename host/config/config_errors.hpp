@@ -28,6 +28,9 @@ class ConfigErrors {
   void add_unknown_keys(const TomlTable& table) {
     for (const std::string& message : table.unknown_keys()) add(message);
   }
+  void add(const std::string& line) {
+    if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+  }
   std::size_t count() const { return lines_.size(); }
   /// Throws all errors as one InputError, one line each; does nothing if there are none.
   void throw_all() const {
@@ -37,10 +40,6 @@ class ConfigErrors {
   }
 
  private:
-  void add(const std::string& line) {
-    if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
-  }
-
   std::vector<std::string> lines_;
 };
 

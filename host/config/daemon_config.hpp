@@ -181,6 +181,14 @@ struct SourceConfigs {
   std::vector<StereoConfig> stereos;
 };
 
+/// A folder, log file or port that cannot be used as configured.
+struct PlaceError {
+  std::string table;      // empty: the top level
+  std::size_t index = 0;  // of several tables of that name
+  std::string key;
+  std::string message;  // read from a file: with file, line and key
+};
+
 /// The complete configuration of `pharosd`.
 struct DaemonConfig : SourceConfigs {
   /// Part of every message; identifies one of several daemons.
@@ -191,6 +199,8 @@ struct DaemonConfig : SourceConfigs {
   PublishConfig publish;
   std::optional<RecordingConfig> recording;
   LogConfig log;
+  /// Found when the file was read. Poses need none of these places: they are reported and do not prevent a start.
+  std::vector<PlaceError> place_errors;
 };
 
 }  // namespace pharos::host

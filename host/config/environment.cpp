@@ -91,45 +91,47 @@ int why_not_writable(const fs::path& folder) {
   return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
 
-void add_error(std::vector<std::string>& errors, const char* key, const fs::path& directory) {
+// Why nothing can be created in `directory`, or in the folder that it would be created in; empty if it can.
+std::string writing_error(const fs::path& directory) {
   std::error_code error;
   fs::path folder = fs::absolute(directory, error).lexically_normal();
   while (folder.has_relative_path() && fs::symlink_status(folder, error).type() == fs::file_type::not_found) {
     folder = folder.parent_path();
   }
   const int reason = why_not_writable(folder);
-  if (reason == 0) return;
+  if (reason == 0) return "";
   const std::string where = folder == directory ? "" : " (in " + folder.string() + ")";
-  errors.push_back(std::string(key) + ": " + directory.string() + ": cannot be written" + where + ": " +
-                   std::strerror(reason) + "; change its owner or permissions, or name another");
+  return directory.string() + ": cannot be written" + where + ": " + std::strerror(reason) +
+         "; change its owner or permissions, or name another";
 }
 
-void add_log_error(std::vector<std::string>& errors, const fs::path& file) {
+std::string log_error(const fs::path& file) {
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error)) {
-    errors.push_back("log.file: " + file.string() + ": its folder does not exist; create it, or name another");
-    return;
-  }
-  if (!fs::exists(file, error)) return add_error(errors, "log.file", folder);
+  if (!fs::is_directory(folder, error))
+    return file.string() + ": its folder does not exist; create it, or name another";
+  if (!fs::exists(file, error)) return writing_error(folder);
   const bool writable = !fs::is_directory(file, error) && ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) == 0;
-  if (!writable) errors.push_back("log.file: " + file.string() + ": cannot be written; name another");
+  return writable ? "" : file.string() + ": cannot be written; name another";
 }
 
 // A port may be connected later, but its path must not be something other than a terminal device.
-void add_port_error(std::vector<std::string>& errors, const TargetConfig& target) {
-  if (target.is_replay()) return;
+std::string port_error(const TargetConfig& target) {
+  if (target.is_replay() || target.port.empty()) return "";
   const fs::path port = target.port;
-  const std::string key = "target " + target.name + ": port: " + target.port;
   std::error_code error;
   if (fs::exists(port, error)) {
-    if (!fs::is_character_file(port, error)) errors.push_back(key + ": is no terminal device; name one (/dev/...)");
-    return;
+    return fs::is_character_file(port, error) ? "" : target.port + ": is no terminal device; name one (/dev/...)";
   }
   const bool may_come = port.string().rfind("/dev/", 0) == 0;  // udev creates folders when devices are connected
-  if (!may_come && !fs::is_directory(port.parent_path(), error)) {
-    errors.push_back(key + ": its folder does not exist; check the path");
-  }
+  if (may_come || fs::is_directory(port.parent_path(), error)) return "";
+  return target.port + ": its folder does not exist; check the path";
+}
+
+std::string telescope_error(const PointingConfig& telescope) {
+  std::error_code error;
+  if (telescope.directory.empty() || fs::is_directory(telescope.directory, error)) return "";
+  return telescope.directory.string() + ": is no folder; create it, or name another";
 }
 
 }  // namespace
@@ -138,7 +140,7 @@ Environment host_environment() {
   return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
           read_camera_file, check_frames,     read_rig_file, check_ring2,
           check_slam,       check_vocabulary, check_pairs,   read_docking_target,
-          read_network_file};
+          place_errors,     read_network_file};
 }
 
 calibrate::CalibrationFile Environment::no_calibration(const std::string& path) {
@@ -148,6 +150,8 @@ calibrate::CalibrationFile Environment::no_calibration(const std::string& path) 
 network::Stations Environment::no_stations(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
+
+std::vector<PlaceError> Environment::no_place_errors(const DaemonConfig&) { return {}; }
 
 RigFile Environment::no_rig(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
@@ -161,17 +165,19 @@ DockingTarget Environment::no_docking_target(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 
-std::vector<std::string> directory_errors(const DaemonConfig& config) {
-  std::vector<std::string> errors;
-  if (!config.state_directory.empty()) add_error(errors, "state_directory", config.state_directory);
-  if (config.recording) add_error(errors, "recording.directory", config.recording->directory);
-  if (config.log.sink == LogSink::kFile) add_log_error(errors, config.log.file);
-  for (const TargetConfig& target : config.targets) add_port_error(errors, target);
-  for (const PointingConfig& telescope : config.telescopes) {
-    std::error_code error;
-    if (fs::is_directory(telescope.directory, error)) continue;
-    errors.push_back("telescope " + telescope.name + ": directory: " + telescope.directory.string() +
-                     ": is no folder; create it, or name another");
+std::vector<PlaceError> place_errors(const DaemonConfig& config) {
+  std::vector<PlaceError> errors;
+  const auto add = [&](const char* table, std::size_t index, const char* key, const std::string& message) {
+    if (!message.empty()) errors.push_back({table, index, key, message});
+  };
+  if (!config.state_directory.empty()) add("", 0, "state_directory", writing_error(config.state_directory));
+  if (config.recording && !config.recording->directory.empty()) {
+    add("recording", 0, "directory", writing_error(config.recording->directory));
+  }
+  if (config.log.sink == LogSink::kFile && !config.log.file.empty()) add("log", 0, "file", log_error(config.log.file));
+  for (std::size_t i = 0; i < config.targets.size(); ++i) add("target", i, "port", port_error(config.targets[i]));
+  for (std::size_t i = 0; i < config.telescopes.size(); ++i) {
+    add("telescope", i, "directory", telescope_error(config.telescopes[i]));
   }
   return errors;
 }

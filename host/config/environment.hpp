@@ -45,11 +45,14 @@ struct Environment {
       [](const std::filesystem::path&, const RigFile&) {};
   /// How a description of ring and connectors becomes one; throws InputError. Unless given, there is none.
   std::function<DockingTarget(const std::string& path)> read_docking_target = no_docking_target;
+  /// The places of a configuration that cannot be used; see place_errors(). If not set, all can.
+  std::function<std::vector<PlaceError>(const DaemonConfig& config)> check_places = no_place_errors;
 
   /// Reads the stations of a room; throws InputError. Unless given, there are none.
   std::function<network::Stations(const std::string& path)> read_stations = no_stations;
 
   static network::Stations no_stations(const std::string& path);
+  static std::vector<PlaceError> no_place_errors(const DaemonConfig& config);
   static RigFile no_rig(const std::string& path);
   static calibrate::CalibrationFile no_calibration(const std::string& path);
   static CameraFile no_camera(const std::string& path);
@@ -59,8 +62,8 @@ struct Environment {
 /// The environment of this computer.
 Environment host_environment();
 
-/// Folders, log file and ports that cannot be used as configured, one readable line each. Creates nothing on the disk:
-/// for a missing directory the folder in which it would be created is checked.
-std::vector<std::string> directory_errors(const DaemonConfig& config);
+/// Folders, log file and ports that cannot be used as configured. Creates nothing on the disk: for a missing directory
+/// the folder in which it would be created is checked.
+std::vector<PlaceError> place_errors(const DaemonConfig& config);
 
 }  // namespace pharos::host

@@ -268,6 +268,15 @@ std::vector<TargetConfig> read_targets(const TomlTable& root, const fs::path& fo
   return targets;
 }
 
+/// With file and line, as every other error.
+std::vector<PlaceError> located(std::vector<PlaceError> errors, const TomlTable& root) {
+  for (PlaceError& error : errors) {
+    const TomlTable table = error.table.empty() ? root : root.tables(error.table)[error.index];
+    error.message = table.message_of(error.key, error.message);
+  }
+  return errors;
+}
+
 DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Environment& environment) {
   DaemonConfig config;
   ConfigErrors errors;
@@ -286,6 +295,10 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment, errors); });
   errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras, errors); });
   errors.add_unknown_keys(root);
+  config.place_errors = located(environment.check_places(config), root);
+  if (errors.count() > 0) {
+    for (const PlaceError& error : config.place_errors) errors.add(error.message);
+  }
   errors.throw_all();
   if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
     root.fail("target",

@@ -19,6 +19,7 @@ DaemonConfig replay_config(const DaemonConfig& config, const std::string& file) 
   static_cast<SourceConfigs&>(replay) = {};
   replay.targets = {*chosen};
   replay.targets.front().port = TargetConfig::kReplayPrefix + file;
+  std::erase_if(replay.place_errors, [](const PlaceError& error) { return error.table == "target"; });
   return replay;
 }
 

@@ -63,13 +63,11 @@ host::DaemonConfig load(const Options& options) {
 }
 
 int check(const Options& options) {
-  const host::DaemonConfig config = host::load_daemon_config(options.config);
-  const std::vector<std::string> errors = host::directory_errors(config);
+  const host::DaemonConfig config = load(options);
   std::fputs(host::describe(config).c_str(), stdout);
-  for (const std::string& error : errors) {
-    std::fprintf(stderr, "pharosd: %s: %s\n", options.config.c_str(), error.c_str());
-  }
-  return errors.empty() ? 0 : kExitUsage;
+  for (const host::PlaceError& error : config.place_errors)
+    std::fprintf(stderr, "pharosd: %s\n", error.message.c_str());
+  return config.place_errors.empty() ? 0 : kExitUsage;
 }
 
 host::DaemonControl control_of(const Options& options, host::DaemonLog& log, host::StopDeadline& deadline) {
@@ -95,7 +93,7 @@ int run(const Options& options) {
   host::StopDeadline deadline({SIGTERM, SIGINT}, kStopLimit);
   host::DaemonLog log(config.log);
   // Poses need neither directory: a read-only disk is reported but does not prevent the start.
-  for (const std::string& error : host::directory_errors(config)) spdlog::warn("{}", error);
+  for (const host::PlaceError& error : config.place_errors) spdlog::warn("{}", error.message);
   host::LcmSink lcm(config.lcm.url);
   host::TracedSink sink(lcm);
   const host::SystemClock clock;

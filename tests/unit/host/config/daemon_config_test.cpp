@@ -82,6 +82,26 @@ TEST(DaemonConfig, TakesTheStationsOfLighthouse2) {
   }
 }
 
+// Ports, folders and the log file are checked in the same run as the text, and have their line too.
+TEST(DaemonConfig, PlacesThatCannotBeUsedHaveTheirLineAndAreToldWithEveryOtherError) {
+  Environment environment = made_up();
+  environment.check_places = [](const DaemonConfig& config) {
+    std::vector<PlaceError> errors{{"", 0, "state_directory", "is read-only"}};
+    for (std::size_t i = 0; i < config.targets.size(); ++i) errors.push_back({"target", i, "port", "is no device"});
+    return errors;
+  };
+  const std::string good = "state_directory = 'state'\n" + std::string(kOneTarget);
+  const DaemonConfig config = parse_daemon_config(good, "p.toml", "/etc/pharos", environment);
+  ASSERT_EQ(config.place_errors.size(), 2u) << "no obstacle to a start";
+  EXPECT_EQ(config.place_errors[0].message, "p.toml:1: state_directory: is read-only");
+  EXPECT_EQ(config.place_errors[1].message, "p.toml:4: target[0].port: is no device");
+  const std::string told = pharos::test::error_of(
+      [&] { parse_daemon_config(good + "colour = 'red'\n", "p.toml", "/etc/pharos", environment); });
+  EXPECT_THAT(told, AllOf(HasSubstr("p.toml:6: target[0].colour: unknown key"),
+                          HasSubstr("p.toml:1: state_directory: is read-only"),
+                          HasSubstr("p.toml:4: target[0].port: is no device")));
+}
+
 TEST(DaemonConfig, TakesWhoTheBoardMustBe) {
   const auto identity = [&](const std::string& more) {
     return parse_daemon_config(kOneTarget + more, "p.toml", "/etc/pharos", made_up()).targets.at(0).identity;

@@ -32,7 +32,14 @@ class EnvironmentTest : public ::testing::Test {
     DaemonConfig config;
     config.state_directory = state;
     config.recording.emplace().directory = recording;
-    return directory_errors(config);
+    return lines(config);
+  }
+  std::vector<std::string> lines(const DaemonConfig& config) const {
+    std::vector<std::string> all;
+    for (const PlaceError& error : place_errors(config)) {
+      all.push_back((error.table.empty() ? "" : error.table + '.') + error.key + ": " + error.message);
+    }
+    return all;
   }
   std::vector<fs::path> everything() const {
     std::vector<fs::path> all;
@@ -129,8 +136,8 @@ TEST_F(EnvironmentTest, WhatStandsInThePlaceOfAPortALogOrATelescopesFolderIsRepo
   config.telescopes.resize(1);
   config.telescopes[0].directory = path("no");
   config.log.file = path("file/log");
-  EXPECT_THAT(directory_errors(config), ElementsAre(HasSubstr("log.file: "), HasSubstr("is no terminal device"),
-                                                    HasSubstr("its folder does not exist"), HasSubstr("is no folder")));
+  EXPECT_THAT(lines(config), ElementsAre(HasSubstr("log.file: "), HasSubstr("is no terminal device"),
+                                         HasSubstr("its folder does not exist"), HasSubstr("is no folder")));
 }
 
 TEST_F(EnvironmentTest, AFileInADirectorysPlaceIsReported) {
