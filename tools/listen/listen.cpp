@@ -49,6 +49,10 @@ void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
 // failures.
 void subscribe(lcm::LCM& lcm, Listener& listener, const ListenOptions& options) {
   if (!lcm.good() || lcm.getFileno() < 0) {
+    if (options.url.rfind("file:", 0) == 0) {
+      throw host::InputError("LCM cannot read --url " + options.url +
+                             ": check that the file exists and is a recording of lcm-logger or pharosd with messages");
+    }
     throw host::InputError("LCM cannot be set up with --url " + options.url +
                            ": check it, and that there is a route for multicast (without a network: "
                            "ip route add 224.0.0.0/4 dev lo)");
