@@ -2,32 +2,15 @@
 // A million hostile datagrams to a camera's process while a lighthouse and the camera measure.
 #include <atomic>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <thread>
 
+#include "campaigns/attack/campaign_table.hpp"
 #include "integration/camera/attacked_daemon.hpp"
 
 namespace pharos::host {
 namespace {
 
-const ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new NetworkNamespace);
-
-/// VmHWM of a process, MiB: the most it had resident.
-double peak_mib(pid_t process) {
-  std::ifstream about("/proc/" + std::to_string(process) + "/status");
-  for (std::string line; std::getline(about, line);) {
-    if (line.rfind("VmHWM:", 0) == 0) return std::atof(line.c_str() + 6) / 1024.0;
-  }
-  return 0.0;
-}
-
-std::int64_t datagrams() {
-  const char* asked = std::getenv("PHAROS_ATTACK_DATAGRAMS");
-  return asked == nullptr ? 1'000'000 : std::atoll(asked);
-}
-
-class AttackCampaign : public AttackedDaemon {
+class AttackedCamera : public AttackedDaemon {
  protected:
   /// Poses that are not true, of both.
   int false_poses() {
@@ -40,16 +23,18 @@ class AttackCampaign : public AttackedDaemon {
     }
     return count;
   }
+  std::string memory() { return peak_memory("pharosd", daemon.process().pid()); }
 };
 
-TEST_F(AttackCampaign, DatagramsToACamerasPorts) {
+TEST_F(AttackedCamera, DatagramsToItsPorts) {
   constexpr int kBurst = 40;
+  const std::int64_t datagrams = campaign_size("PHAROS_ATTACK_DATAGRAMS", 1'000'000);
   start_both();
   ASSERT_TRUE(both_measure()) << daemon.process().text();
   HostileSender sender(1);
   std::atomic<bool> stop{false};
   std::thread attack([&] {
-    while (!stop && sender.sent() < datagrams()) {
+    while (!stop && sender.sent() < datagrams) {
       for (const Attacker attacker : kAttackers) {
         for (const std::uint16_t port : ports_of_others()) sender.send(attacker, port, kBurst);
       }
@@ -66,21 +51,17 @@ TEST_F(AttackCampaign, DatagramsToACamerasPorts) {
   const double back_s = static_cast<double>(monotonic_now_ns() - began_ns) * 1e-9;
   const std::int64_t lost = lighthouse_poses_lost();
   const int wrong = false_poses();
-  const std::int64_t deaths = daemon.counter("device.camera_process_deaths", kCamera);
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(wrong, 0);
-  std::printf("test                    | load                | false | lost | memory\n");
-  std::printf("datagrams to a camera   | %9lld datagrams | %5d | %4lld | pharosd %.0f MiB, pharos-camera %.0f MiB\n",
-              static_cast<long long>(sender.sent()), wrong, static_cast<long long>(lost),
-              peak_mib(daemon.process().pid()), peak_mib(camera_process()));
-  std::printf(
-      "discarded by the kernel %lld, frames discarded %lld, process deaths %lld, camera poses %zu, back after %.1f s\n",
-      static_cast<long long>(daemon.counter("device.datagrams_discarded", kCamera)),
-      static_cast<long long>(daemon.counter("device.frames_out_of_order", kCamera)), static_cast<long long>(deaths),
-      daemon.valid_poses(kCamera), back_s);
+  EXPECT_EQ(daemon.counter("device.camera_process_deaths", kCamera), 0);
+  add_row({"datagrams to a camera",
+           std::to_string(sender.sent()) + " hostile datagrams, " +
+               std::to_string(daemon.counter("device.datagrams_discarded", kCamera)) +
+               " discarded by the kernel; camera back after " + seconds_text(back_s),
+           wrong, lost, memory() + ", " + peak_memory("pharos-camera", camera_process())});
 }
 
-TEST_F(AttackCampaign, KillsOfACamerasProcess) {
+TEST_F(AttackedCamera, KillsOfItsProcess) {
   constexpr int kKills = 5;
   start_both();
   ASSERT_TRUE(both_measure()) << daemon.process().text();
@@ -99,10 +80,9 @@ TEST_F(AttackCampaign, KillsOfACamerasProcess) {
   const int wrong = false_poses();
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(wrong, 0);
-  std::printf("test                    | load                | false | lost | memory\n");
-  std::printf("camera's process killed | %9d times     | %5d | %4lld | pharosd %.0f MiB\n", kKills, wrong,
-              static_cast<long long>(lost), peak_mib(daemon.process().pid()));
-  std::printf("kill to the next pose %.2f s at the most\n", longest_s);
+  add_row({"camera's process killed",
+           std::to_string(kKills) + " SIGKILL; at most " + seconds_text(longest_s) + " to the next pose", wrong, lost,
+           memory()});
 }
 
 }  // namespace
