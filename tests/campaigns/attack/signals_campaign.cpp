@@ -34,7 +34,7 @@ TEST_F(AttackedBySignals, OfEveryKindThatMeansNoEnd) {
   const int wrong = false_poses();
   const std::int64_t lost = lost_poses();
   EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(lost, 0) << reasons();
   EXPECT_TRUE(runs()) << daemon.process().text();
   add_row(
       {"signal storm",
