@@ -12,6 +12,7 @@
 #include "host/runtime/timer.hpp"
 #include "host/support/input_error.hpp"
 #include "tools/listen/listener.hpp"
+#include "tools/listen/subscription.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
 
@@ -24,7 +25,7 @@ constexpr std::chrono::milliseconds kTick{100};
 
 struct ListenOptions {
   std::string channel = "PHAROS_LIGHTHOUSE_POSE";
-  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string url = kDefaultUrl;
   std::string truth;
   double duration_s = 0.0;
   std::int64_t count = 0;
@@ -42,25 +43,6 @@ ListenFormat format_of(const ListenOptions& options) {
 void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
   static_cast<Listener*>(listener)->take(channel, buffer->data, static_cast<int>(buffer->data_size), host::utc_now_ns(),
                                          host::monotonic_now_ns());
-}
-
-// Uses LCM's C functions: those of C++ return a subscription also where it failed, and its owner would wait for ever.
-// Receiving is set up first, with LCM's own test of multicast, so that the error message can distinguish the two
-// failures.
-void subscribe(lcm::LCM& lcm, Listener& listener, const ListenOptions& options) {
-  if (!lcm.good() || lcm.getFileno() < 0) {
-    if (options.url.rfind("file:", 0) == 0) {
-      throw host::InputError("LCM cannot read --url " + options.url +
-                             ": check that the file exists and is a recording of lcm-logger or pharosd with messages");
-    }
-    throw host::InputError("LCM cannot be set up with --url " + options.url +
-                           ": check it, and that there is a route for multicast (without a network: "
-                           "ip route add 224.0.0.0/4 dev lo)");
-  }
-  if (lcm_subscribe(lcm.getUnderlyingLCM(), options.channel.c_str(), hear, &listener) == nullptr) {
-    throw host::InputError("CHANNEL '" + options.channel +
-                           "' is not a regular expression; mend it (PHAROS_.* hears all of them)");
-  }
 }
 
 void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals, const ListenOptions& options) {
@@ -92,7 +74,7 @@ int listen(const ListenOptions& options) {
   if (!options.truth.empty()) truth.emplace(options.truth);
   lcm::LCM lcm(options.url);
   Listener listener(format_of(options), std::move(truth));
-  subscribe(lcm, listener, options);
+  subscribe(lcm, options.url, options.channel, hear, &listener);
   listener.begin();
   listen_until_done(lcm, listener, signals, options);
   listener.finish();

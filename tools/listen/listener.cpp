@@ -28,32 +28,6 @@ bool decode(Message& message, const void* data, int size) {
   return message.decode(data, 0, size) == size;
 }
 
-ReceivedPose received(const std::string& channel, const pose_t& message, std::int64_t utc_ns) {
-  ReceivedPose pose;
-  pose.utime_us = message.utime;
-  pose.sequence = message.sequence;
-  pose.channel = channel;
-  pose.source = message.source;
-  pose.target = message.target;
-  pose.station_id = message.station_or_camera;
-  pose.station = static_cast<std::uint8_t>(message.station);
-  pose.status = message.status;
-  // Slam's target frame equals the camera's at the start, so its Z axis does not point to the camera.
-  pose.of_camera = message.child_frame == "target" && !pose.source.starts_with("slam/");
-  pose.flags = message.flags;
-  pose.has_turn = pose.flags.find("no_connector") == std::string::npos;
-  pose.sigma_rot_rad = message.sigma_rot_rad;
-  pose.sigma_pos_m = message.sigma_pos_m;
-  pose.covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance);
-  pose.age_s = static_cast<double>(utc_ns) * 1e-9 - static_cast<double>(message.utime) * 1e-6;
-  if (message.valid == 0) return pose;
-  const Quaternion q(message.orientation_wxyz[0], message.orientation_wxyz[1], message.orientation_wxyz[2],
-                     message.orientation_wxyz[3]);
-  pose.pose = LighthouseFromBody{q.normalized().toRotationMatrix(),
-                                 Vector3(message.position_m[0], message.position_m[1], message.position_m[2])};
-  return pose;
-}
-
 }  // namespace
 
 Listener::Listener(ListenFormat format, std::optional<TruthFile> truth) : format_(format), truth_(std::move(truth)) {
@@ -88,7 +62,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
 
 void Listener::take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns,
                          std::int64_t monotonic_ns) {
-  ReceivedPose pose = received(channel, message, utc_ns);
+  ReceivedPose pose = received_pose(channel, message, utc_ns);
   pose.rate_hz = summary_.add(pose, monotonic_ns);
   print_row(sight_.add(pose, monotonic_ns));
   waiting_.push_back({std::move(pose), monotonic_ns});

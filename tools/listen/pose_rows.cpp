@@ -15,6 +15,16 @@ namespace {
 constexpr std::int64_t kMicrosecondsPerSecond = 1'000'000;
 constexpr double kMsPerS = 1e3;
 
+}  // namespace
+
+std::string clock_text(std::int64_t utime_us) {
+  const std::time_t seconds = utime_us / kMicrosecondsPerSecond;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec,
+                     utime_us % kMicrosecondsPerSecond / 1000);
+}
+
 std::string attitude_text(const ReceivedPose& pose) {
   if (pose.of_camera) {
     const tof::TargetAngles angles = tof::angles_of(pose.pose->R);
@@ -24,16 +34,6 @@ std::string attitude_text(const ReceivedPose& pose) {
   }
   const Vector3 r_deg = rotation_log(pose.pose->R) * kDegPerRad;
   return fmt::format("r {:.3f} {:.3f} {:.3f} deg", r_deg.x(), r_deg.y(), r_deg.z());
-}
-
-}  // namespace
-
-std::string clock_text(std::int64_t utime_us) {
-  const std::time_t seconds = utime_us / kMicrosecondsPerSecond;
-  std::tm utc{};
-  ::gmtime_r(&seconds, &utc);
-  return fmt::format("{:02}:{:02}:{:02}.{:03}", utc.tm_hour, utc.tm_min, utc.tm_sec,
-                     utime_us % kMicrosecondsPerSecond / 1000);
 }
 
 std::string pose_line(const ReceivedPose& pose) {

@@ -13,6 +13,9 @@ namespace pharos::tools {
 /// Time of day, UTC, to the millisecond.
 std::string clock_text(std::int64_t utime_us);
 
+/// Rotation vector in degrees, of cameras the angles of paper 000; the pose is there.
+std::string attitude_text(const ReceivedPose& pose);
+
 /// One line of text: UTC, target, station, position in mm, rotation vector in degrees (of cameras: the
 /// angles of paper 000), sigmas, rate, age, error.
 std::string pose_line(const ReceivedPose& pose);

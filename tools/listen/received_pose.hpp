@@ -7,6 +7,10 @@
 
 #include "pharos/geometry/pose.hpp"
 
+namespace pharos {
+class pose_t;
+}  // namespace pharos
+
 namespace pharos::tools {
 
 /// Error of a pose relative to the truth: angle of the relative rotation (paper 002, 23) and distance (25). Of a pose
@@ -46,5 +50,8 @@ struct ReceivedPose {
   double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;
 };
+
+/// A message as it arrived on `channel` at `utc_ns`.
+ReceivedPose received_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns);
 
 }  // namespace pharos::tools
