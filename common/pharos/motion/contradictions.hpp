@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -57,48 +56,43 @@ class RotorGate {
   Turn last_, candidate_;
 };
 
-/// How often a target's data contradicted a state that was quiet and known: what a body's motion or the light's faults
-/// do seldom, and data that are wrong do again and again.
+/// Whether a target's data are to be trusted: a cumulative sum (Page, "Continuous inspection schemes", 1954) of sweeps
+/// that speak against it, less those that agree with their track. Motion and light make such sweeps now and then, data
+/// that are wrong make them again and again. The sum counts sweeps, not time: in darkness nothing is learnt.
 class Contradictions {
  public:
-  /// What a violent motion also makes, in two seconds.
-  static constexpr int kFew = 3;
-
-  /// One at this time.
-  void add(std::int64_t ticks) {
-    for (std::size_t i = kSuspect - 1; i > 0; --i) at_ticks_[i] = at_ticks_[i - 1];
-    at_ticks_[0] = ticks;
-    newest_ticks_ = std::max(newest_ticks_, ticks);
-    if (recent(ticks) >= static_cast<int>(kSuspect)) suspect_until_ticks_ = ticks + kHold_ticks;
+  /// A sweep that speaks against the target; weight from 0 to 1.
+  void add(double weight) {
+    sum_ = std::min(sum_ + static_cast<int>(kOne * weight), kMax);
+    suspect_ = suspect_ || sum_ >= kSuspect;
+    disputed_ = true;
   }
-  /// Of the last two seconds; kSuspect at most.
-  int recent(std::int64_t now_ticks) const {
-    return static_cast<int>(std::count_if(at_ticks_.begin(), at_ticks_.end(), [now_ticks](std::int64_t at) {
-      return at != kNever && std::abs(now_ticks - at) <= kWindow_ticks;
-    }));
+  /// A sweep that agrees.
+  void agree() {
+    sum_ = std::max(sum_ - 1, kProven);
+    suspect_ = suspect_ && sum_ > kCleared;
+    disputed_ = disputed_ && sum_ > kQuiet;
   }
   /// The target's data are not to be trusted now.
-  bool suspect(std::int64_t now_ticks) const {
-    return suspect_until_ticks_ != kNever && now_ticks < suspect_until_ticks_ &&
-           now_ticks > suspect_until_ticks_ - 2 * kHold_ticks;
+  bool suspect() const { return suspect_; }
+  /// Sweeps spoke against it again and again, not long ago.
+  bool disputed() const { return disputed_; }
+  /// Sweeps in a row that nothing must have spoken against before a state is reported.
+  int needed() const {
+    if (sum_ > kCleared) return 16;
+    if (sum_ > kYoung) return 4;
+    return sum_ > kShaken ? 2 : 0;
   }
 
  private:
-  // In the real recordings, a hand that shakes a controller among them, three come in two seconds at the most
-  // (motion_recordings_test); a target with every tenth sweep shifted makes twenty.
-  static constexpr std::size_t kSuspect = 5;
-  static constexpr std::int64_t kWindow_ticks = 2 * kTicksPerSecond;
-  static constexpr std::int64_t kHold_ticks = 4 * kTicksPerSecond;
-  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
-
-  static constexpr std::array<std::int64_t, kSuspect> never() {
-    std::array<std::int64_t, kSuspect> at{};
-    for (std::int64_t& one : at) one = kNever;
-    return at;
-  }
-  std::array<std::int64_t, kSuspect> at_ticks_ = never();
-  std::int64_t newest_ticks_ = kNever;
-  std::int64_t suspect_until_ticks_ = kNever;
+  // One sweep that no body can have made outweighs fifty that agree: a target with every tenth sweep wrong is suspect
+  // after some thirty sweeps, or ninety where it was sound for long. The real recordings, a shaking hand among them,
+  // stay below zero (motion_recordings_test).
+  static constexpr int kOne = 50, kSuspect = 100, kMax = 250, kCleared = 0;
+  // A target begins at zero; a hundred sweeps that agree are the most that count for it.
+  static constexpr int kProven = -100, kYoung = -10, kQuiet = -50, kShaken = -60;
+  int sum_ = 0;
+  bool suspect_ = false, disputed_ = false;
 };
 
 }  // namespace pharos::motion

@@ -37,13 +37,11 @@ void predict(ImmFilter& filter, double dt_s) {
   if (dt_s > 0.0) filter.predict(dt_s);
 }
 
-// Sensors that must agree with one another before a sweep may reset the rates of the filter.
-constexpr int kMinSensorsForRateReset = 4;
 // Chi-squared of a sweep (five degrees of freedom) beyond every model's gate: one in ten million.
 constexpr double kRateResetChi2 = 40.0;
 // Of a sweep beyond what the filter's present models hold possible, by far: a quiet body was pushed, or the sweep is
 // wrong. It is withheld; the next one of either rotor tells.
-constexpr double kSurpriseChi2 = 500.0;
+constexpr double kSurpriseChi2 = 200.0;
 // Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
 constexpr double kAgitated = 0.3;
 // Sweeps in a row that confirm a state: one of each rotor.
@@ -53,6 +51,8 @@ constexpr int kConfirming = 2;
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
 
+// A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
+constexpr int kSettled = 16, kSettles = 4;
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
   return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
@@ -84,7 +84,7 @@ Hypothesis::Hypothesis(const track::Cycle& cycle, const LighthouseFromBody& pose
     }
     start = predicted(begun_ticks).pose;
   }
-  agreements_ = fitted_ = 0;
+  agreements_ = fitted_ = undisputed_ = 0;
   confirmed_ = false;
 }
 
@@ -110,12 +110,18 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
                        noise.sigma_rad * std::sqrt(noise.rho)};
   StateEstimate prediction = with_systematics(filter_, observer);
   fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
-  const bool contradicts = fit_.sensors >= kMinSensorsForRateReset && exceeds_rate_reset_gate(fit_, prediction);
+  const bool contradicts = fit_.sensors >= kMinSensorsToJudge && exceeds_rate_reset_gate(fit_, prediction);
   const bool surprises =
-      contradicts || (fit_.sensors >= kMinSensorsForRateReset && !fit_.used.empty() &&
+      contradicts || (fit_.sensors >= kMinSensorsToJudge && !fit_.used.empty() &&
                       innovation_of(fit_.information, prediction.covariance, Vector6::Zero()).chi2 > kSurpriseChi2);
-  withheld_ = quiet && surprises && !contradicted_ && !station_state.contradicted[axis_index];
-  contradicted_ = station_state.contradicted[axis_index] = surprises;
+  Leaps& leaps_of_rotor = station_state.leaps[axis_index];
+  bool& rotor_contradicted = station_state.contradicted[axis_index];
+  const bool leapt = leaps(fit_, prediction, now, leaps_of_rotor.since_taken_s(time)) &&
+                     !leaps_of_rotor.go_on(fit_, !quiet && rotor_contradicted);
+  leaps_of_rotor.set(leapt, fit_);
+  withheld_ = leapt || (quiet && surprises && !contradicted_ && !rotor_contradicted);
+  const bool pushed = quiet && surprises && !withheld_ && sweeps_ > kSettled;
+  contradicted_ = rotor_contradicted = surprises;
   rates_reset_ = contradicts && !withheld_;
   if (rates_reset_) {
     filter_.reset_rates(since_s);
@@ -123,13 +129,17 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     fit_ = fit_sweep(bearings, axis, view, prediction, time, now);
   }
   follow(bearings, axis, view, prediction, now);
+  withheld_ = withheld_ || hits_disagree(fit_);
   diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
+  dispute(leapt, pushed);
+  if (used > 0 && !diverged_) leaps_of_rotor.taken(time);
   consecutive_rejections_ = contradicts || used == 0 || 2 * used < fit_.sensors ? consecutive_rejections_ + 1 : 0;
-  cost_ += fit_.log_density;
+  // How badly a withheld sweep fits decides nothing between two hypotheses that both withhold it.
+  cost_ += withheld_ ? fit_.sensors * kStrayLogDensity : fit_.log_density;
   if (diverged_) {
     // The state stays as predicted.
-    cost_ += nis_;
+    cost_ += withheld_ ? 0.0 : nis_;
     agreements_ = 0;
     fitted_ = 0;
     confirmed_ = confirmed_ && withheld_;
@@ -148,6 +158,15 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   }
   state_estimate_ = with_systematics(filter_, observer);
   return fit_;
+}
+
+// How strongly the sweep speaks against the target, and for how long nothing did.
+void Hypothesis::dispute(bool leapt, bool pushed) {
+  dispute_ = leapt ? 1.0 : dispute_of(fit_, withheld_, nis_);
+  undisputed_ = dispute_ > kSomeDispute ? 0 : undisputed_ + 1;
+  if (!pushed) return;
+  undisputed_ = -kSettles;
+  dispute_ = std::max(dispute_, kSomeDispute);
 }
 
 // Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended

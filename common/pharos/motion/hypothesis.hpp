@@ -7,6 +7,7 @@
 #include "pharos/lighthouse/bearing.hpp"
 #include "pharos/motion/cycle_information.hpp"
 #include "pharos/motion/imm_filter.hpp"
+#include "pharos/motion/plausibility.hpp"
 #include "pharos/motion/sweep_fit.hpp"
 #include "pharos/track/cycle.hpp"
 
@@ -81,8 +82,12 @@ class Hypothesis {
   bool confirmed() const { return confirmed_; }
   /// Sweeps in a row that agreed: with the prediction, and not by way of new rates.
   int agreements() const { return agreements_; }
-  /// The last sweep contradicted a quiet body and was left out.
+  /// The last sweep contradicted a quiet body, or no body can have made it; it was left out.
   bool withheld() const { return withheld_; }
+  /// How strongly the last sweep speaks against the target, 0 to 1: no body moved so, or its hits are not of one body.
+  double dispute() const { return dispute_; }
+  /// Sweeps since it began, or since one spoke strongly against the target.
+  int undisputed() const { return undisputed_; }
   /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as estimated.
@@ -97,6 +102,7 @@ class Hypothesis {
     Matrix6 systematic = Matrix6::Zero();  // of the pose it sees, from errors that do not average out
     std::int64_t seen_ticks = INT64_MIN;
     std::array<bool, kAxes> contradicted{};  // the last sweep of each rotor
+    std::array<Leaps, kAxes> leaps;          // of each rotor
     double level = 1.0;                      // own variance over the assumed one
     double noise_degrees_of_freedom = 0.0;   // that it was estimated from
   };
@@ -107,6 +113,7 @@ class Hypothesis {
     return station_states_[static_cast<std::size_t>(observer)];
   }
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
+  void dispute(bool leapt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
               const StateEstimate& prediction, const SweepNoise& noise);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;
@@ -125,11 +132,12 @@ class Hypothesis {
   double cost_ = 0.0;
   double nis_ = 0.0;
   int sweeps_ = 0;
-  int agreements_ = 0, fitted_ = 0;
+  int agreements_ = 0, fitted_ = 0, undisputed_ = 0;
   bool confirmed_ = false;
   int consecutive_rejections_ = 0;
   bool rates_reset_ = false;
   bool withheld_ = false;
+  double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;
 };

@@ -10,6 +10,11 @@
 namespace pharos::motion {
 namespace {
 
+// Four times what sensors of a target built from its drawing are out of their places.
+constexpr double kMaxNoise_m = 1.5e-3;
+// Of so few hits a sweep's shape says next to nothing of a tilt.
+constexpr std::size_t kFewSensors = 4;
+
 std::uint8_t flags_of(const lighthouse::Sweep& sweep, bool calibrated) {
   std::uint8_t flags = 0;
   if (!calibrated) flags |= track::kEpochUncalibrated;
@@ -110,8 +115,7 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   if (lit) {
     station.track.push(bearings, axis, view_of(station), noise_of(station));
     pair_.push(bearings, axis, sweep.flash.station, tracks(), view_of(station), noise_of(station));
-    const Hypothesis* own = station.track.best();
-    if (own != nullptr && (own->withheld() || own->noise_implausible())) contradictions_.add(sweep.flash.start_ticks);
+    assess(station);
   }
   if (const auto cycle =
           station.assembler.push(sweep.flash.station, axis, sweep.flash.start_ticks, sweep.flags, bearings)) {
@@ -119,6 +123,18 @@ std::optional<track::EpochResult> MotionTracker::push(const lighthouse::Sweep& s
   }
   if (bearings.empty()) return std::nullopt;
   return answer(station, sweep, bearings);
+}
+
+// What the last sweep of a station says of the target.
+void MotionTracker::assess(const Station& station) {
+  const Hypothesis* own = station.track.best();
+  if (own == nullptr) return;
+  const double dispute = own->noise_implausible() ? 1.0 : own->dispute();
+  if (dispute > 0.0) {
+    contradictions_.add(dispute);
+  } else if (own->agreements() > 0) {
+    contradictions_.agree();
+  }
 }
 
 // The hypothesis that took this sweep and has the smaller covariance: the station's own or the joint one.
@@ -175,8 +191,8 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   if (static_cast<int>(fit.used.size()) < fit.candidates) result.flags |= track::kEpochOutliers;
   if (best.noise_scale(observer) > kNoisy) result.flags |= track::kEpochResidualHigh;
   if (!answers(best)) return pose::Refusal::kPoorFit;
-  if (contradictions_.suspect(result.time_ticks)) return pose::Refusal::kSuspectTarget;
-  if (!trusted(best, result.time_ticks)) return pose::Refusal::kUnconfirmed;
+  if (contradictions_.suspect()) return pose::Refusal::kSuspectTarget;
+  if (!trusted(station, best)) return pose::Refusal::kUnconfirmed;
   result.observations = static_cast<int>(fit.used.size());
   result.time_ticks = last_used_hit(bearings, fit.used);
 
@@ -212,15 +228,19 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
   return e;
 }
 
-// After a contradiction a state must be confirmed by sweeps in a row, by more the more contradictions there were.
-bool MotionTracker::trusted(const Hypothesis& best, std::int64_t ticks) const {
-  const int contradictions = contradictions_.recent(ticks);
-  return best.confirmed() && (contradictions < Contradictions::kFew || best.agreements() >= 2 << contradictions);
+// After sweeps that speak against the target a state must be confirmed by sweeps in a row. Where the hits of a
+// calibrated station are as noisy as if sensors were far from their places, the state is that of another body or
+// attitude.
+bool MotionTracker::trusted(const Station& station, const Hypothesis& best) const {
+  if (!best.confirmed() || best.undisputed() < contradictions_.needed()) return false;
+  if (contradictions_.disputed() && best.last_fit().used.size() <= kFewSensors) return false;
+  const double own_rad = best.noise_scale(best.observer()) * options_.solve.sigma_rad * std::sqrt(1.0 - options_.rho);
+  return !station.calibration || own_rad * best.state_estimate().pose.t.norm() < kMaxNoise_m;
 }
 
 std::optional<track::EpochResult> MotionTracker::refused_as_mistimed(const lighthouse::Sweep& sweep) {
   ++mistimed_;
-  contradictions_.add(sweep.flash.start_ticks);
+  contradictions_.add(1.0);
   if (sweep.hits.empty()) return std::nullopt;
   track::EpochResult result;
   result.station = sweep.flash.station;

@@ -99,13 +99,14 @@ class MotionTracker {
   StationView view_of(const Station& station) const;
   AssumedNoise noise_of(const Station& station) const;
   StationPair::Tracks tracks() const { return {&stations_[0].track, &stations_[1].track}; }
+  void assess(const Station& station);
   const Hypothesis* better_of(const Station& station, std::uint8_t slot, std::int64_t time_ticks) const;
   track::EpochResult answer(Station& station, const lighthouse::Sweep& sweep,
                             const lighthouse::SweepBearings& bearings);
   Result<LighthousePoseEstimate, pose::Refusal> estimate(const Station& station, const Hypothesis& best,
                                                          const lighthouse::SweepBearings& bearings,
                                                          track::EpochResult& result) const;
-  bool trusted(const Hypothesis& best, std::int64_t ticks) const;
+  bool trusted(const Station& station, const Hypothesis& best) const;
   std::optional<track::EpochResult> refused_as_mistimed(const lighthouse::Sweep& sweep);
   void keep_bearings(const lighthouse::SweepBearings& bearings, Axis axis, const SweepFit* fit);
 

@@ -15,12 +15,16 @@ namespace {
 // Nearer to the station than this no sensor is lit.
 constexpr double kNearest_m = 1e-3;
 
-// An outlier may lie anywhere within 20 mrad or so: 2 ln(0.02) - ln(2 pi).
-constexpr double kStrayLogDensity = -9.7;
-
 // Additional own noise of a narrow pulse: 5 arcsec at 52 ticks, as one over the width's square, maximum 25 arcsec
 // (stationary sensors in recordings: README). From 150 ticks on it is zero.
 constexpr double kNarrow_rad = 5.0 * kRadPerArcsec, kNarrow_ticks = 52.0, kMaxNarrow_rad = 25.0 * kRadPerArcsec;
+
+// No sensor is this far from its place: seven times what those of a target built from its drawing are.
+constexpr double kForeign_m = 3e-3;
+
+bool is_foreign(const HitFit& hit, double departure_rad) {
+  return std::abs(departure_rad) * hit.point_m.norm() > kForeign_m;
+}
 
 using Candidates = StaticVector<HitFit, kMaxHitsPerSweep>;
 
@@ -106,26 +110,27 @@ HitFits nearest_to(double centre, const Candidates& candidates, const lighthouse
   return chosen;
 }
 
-// Leaves out what departs from the common shift; everything where the shift itself is implausible.
-void gate(HitFits& hits, double centre, const Matrix6& covariance, double common_variance) {
-  Vector6 mean = Vector6::Zero();
+// Leaves out what departs from the common shift; everything where the shift itself is implausible. Returns how many of
+// them are foreign.
+int gate(HitFits& hits, const Vector6& mean, double centre, const Matrix6& covariance, double common_variance) {
   double own = 0.0;
-  for (const HitFit& hit : hits) {
-    mean += hit.jacobian;
-    own = std::max(own, hit.variance);
-  }
-  mean /= static_cast<double>(hits.size());
+  for (const HitFit& hit : hits) own = std::max(own, hit.variance);
   constexpr double kSquare = kHitGate * kHitGate;
   if (centre * centre > kSquare * (quadratic(mean, covariance) + own + common_variance)) {
+    const int all = static_cast<int>(hits.size());
     hits.clear();
-    return;
+    return all;
   }
+  int foreign = 0;
   for (std::size_t i = hits.size(); i-- > 0;) {
     const double departure = hits[i].residual_rad - centre;
     // The median itself has up to one hit's noise.
     const double spread = quadratic(hits[i].jacobian - mean, covariance) + 2.0 * hits[i].variance;
-    if (departure * departure > kSquare * spread) hits.erase_unordered(i);
+    if (departure * departure <= kSquare * spread) continue;
+    foreign += is_foreign(hits[i], departure) ? 1 : 0;
+    hits.erase_unordered(i);
   }
+  return foreign;
 }
 
 SweepInformation summed(const HitFits& hits, double common_variance) {
@@ -184,12 +189,16 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   fit.sensors = static_cast<int>(fit.used.size());
   const double centre = median_residual(fit.used);
   if (candidates.size() > fit.used.size()) fit.used = nearest_to(centre, candidates, bearings);
-  gate(fit.used, centre, state_estimate.gate_covariance, common_variance);
+  fit.shift_rad = centre;
+  for (const HitFit& hit : fit.used) fit.shift_jacobian += hit.jacobian;
+  fit.shift_jacobian /= static_cast<double>(fit.used.size());
+  fit.foreign = gate(fit.used, fit.shift_jacobian, centre, state_estimate.gate_covariance, common_variance);
   fit.information = summed(fit.used, common_variance);
   while (!credible(fit.information)) {
     double deviations = 0.0;
     const std::size_t worst = worst_of(fit.used, fit.information, state_estimate.gate_covariance, deviations);
     if (deviations < kHitGate) break;
+    fit.foreign += is_foreign(fit.used[worst], deviations * std::sqrt(fit.used[worst].variance)) ? 1 : 0;
     fit.used.erase_unordered(worst);
     fit.information = summed(fit.used, common_variance);
   }

@@ -40,11 +40,18 @@ struct SweepFit {
   LighthouseFromBody pose;  // that it was linearised at
   int candidates = 0;       // hits of the target's sensors
   int sensors = 0;          // sensors that were hit
+  int foreign = 0;          // of them left out, and further off than any sensor is from its place
   /// -2 ln of the densities of the hits' own noise: of hits used, ln of their variance; of sensors left out, that of a
   /// uniform outlier. Makes hypotheses of different noise comparable.
   double log_density = 0.0;
   HitFits used;
+  /// What all hits have in common, those left out too: the median residual, and the derivative of their mean bearing.
+  double shift_rad = 0.0;
+  Vector6 shift_jacobian = Vector6::Zero();
 };
+
+/// -2 ln of the density of a hit that was left out: it may lie anywhere within 20 mrad or so, 2 ln(0.02) - ln(2 pi).
+inline constexpr double kStrayLogDensity = -9.7;
 
 /// Standard deviations beyond which a hit does not belong to this body.
 inline constexpr double kHitGate = 5.0;
