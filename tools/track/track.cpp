@@ -33,7 +33,8 @@ constexpr const char* kExample =
     "Each row is T_lighthouse_body in the frame of the station in the column station.\n"
     "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated, both stations' hits in\n"
     "one estimate where both see it (flag fused); noise shared by all hits of a sweep is taken as 0.87 of a bearing's\n"
-    "variance unless --rho says otherwise. --method epoch: a row a cycle, time_s the mean time of the hits used.\n"
+    "variance unless --rho says otherwise. --method epoch: a row a cycle, time_s the mean time of the hits used;\n"
+    "no check of a faulty target, which method motion refuses as refused_suspect_target.\n"
     "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, fused, "
     "residual_high\n"
     "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
