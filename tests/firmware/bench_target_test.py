@@ -25,9 +25,9 @@ BUDGET = {
     "share of the core: flying decoder with frames and line at 3 cycles/instruction": 13.0,
     "flying decoder: edges lost and frames skipped": 0,
     "share of the core: decoder and poses at 3 cycles/instruction": 100.0,
-    "Lighthouse 2.0, bits of a burst: median": 12_500,
-    "Lighthouse 2.0, a burst of a known station: median": 21_000,
-    "Lighthouse 2.0, a burst among all channels: median": 28_000,
+    "Lighthouse 2.0: bits of a burst: median": 12_500,
+    "Lighthouse 2.0: a burst of a known station: median": 21_000,
+    "Lighthouse 2.0: a burst among all channels: median": 28_000,
     "decoder object": 7_168,
     "tracker object": 15_360,
 }

@@ -125,16 +125,16 @@ void add_motion(const std::filesystem::path& images, Rows& rows) {
 void add_lh2(const std::filesystem::path& images, Rows& rows) {
   const TargetFigures lh2 = run_image(images, "measure_lh2", simulated_light(1));
   const auto add = [&](const char* what, const std::string& name) {
-    rows.add(std::string("Lighthouse 2.0, ") + what + ": median", of(lh2, name + "_median"), std::nullopt,
+    rows.add(std::string("Lighthouse 2.0: ") + what + ": median", of(lh2, name + "_median"), std::nullopt,
              "instructions");
-    rows.add(std::string("Lighthouse 2.0, ") + what + ": worst", of(lh2, name + "_worst"), std::nullopt,
+    rows.add(std::string("Lighthouse 2.0: ") + what + ": worst", of(lh2, name + "_worst"), std::nullopt,
              "instructions");
   };
   add("bits of a burst", "lh2_bits");
   add("a burst of a known station", "lh2_known");
   add("a burst among all channels", "lh2_unknown");
   add("place of 17 bits", "lh2_search");
-  rows.add("Lighthouse 2.0, sequences and decoder", of(lh2, "lh2_sequences_bytes"), std::nullopt, "bytes",
+  rows.add("Lighthouse 2.0: sequences and decoder", of(lh2, "lh2_sequences_bytes"), std::nullopt, "bytes",
            of(lh2, "lh2_decoder_bytes"), "bytes");
 }
 
