@@ -107,4 +107,16 @@ int ChildProcess::wait_exit(double seconds) {
   return exit_code_;
 }
 
+bool ChildProcess::fill_standard_error() const {
+  const std::string path = "/proc/" + std::to_string(pid_) + "/fd/2";
+  const UniqueFd end(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!end.valid()) return false;
+  const std::string bytes(4096, '-');
+  while (::write(end.get(), bytes.data(), bytes.size()) > 0) {
+  }
+  while (::write(end.get(), bytes.data(), 1) > 0) {
+  }
+  return true;
+}
+
 }  // namespace pharos::host

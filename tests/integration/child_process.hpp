@@ -24,6 +24,8 @@ class ChildProcess {
   /// Waits until text() contains `words`; false after `seconds` or when the program ended without.
   bool wait_for(const std::string& words, double seconds = 10.0);
   void signal(int number) const;
+  /// Fills the pipe of its standard error, so that it takes no further byte until somebody reads; false if it cannot.
+  bool fill_standard_error() const;
   /// Waits for its end: the exit code, 128 + signal, or -1 after `seconds`.
   int wait_exit(double seconds = 10.0);
   /// The same for a program whose output is not read.

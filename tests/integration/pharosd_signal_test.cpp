@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +7,6 @@
 #include <fstream>
 #include <string>
 
-#include "host/support/unique_fd.hpp"
 #include "integration/pharosd_fixture.hpp"
 
 namespace pharos::host {
@@ -20,18 +18,6 @@ using ::testing::HasSubstr;
 // Limit of the time until the end after SIGTERM, with a margin for a busy machine.
 constexpr double kStop_s = 1.0 + 4.0;
 
-// Fills the pipe of the program's log: it accepts no further byte.
-void fill_standard_error(int pid) {
-  const std::string path = "/proc/" + std::to_string(pid) + "/fd/2";
-  const UniqueFd end(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  ASSERT_TRUE(end.valid());
-  const std::string bytes(4096, '-');
-  while (::write(end.get(), bytes.data(), bytes.size()) > 0) {
-  }
-  while (::write(end.get(), bytes.data(), 1) > 0) {
-  }
-}
-
 // At level trace every message is a line: a blocked log delayed the poses.
 using PharosdBlockedLog = PharosdTest;
 constexpr const char* kTrace = "log.level = 'trace'\n";
@@ -39,14 +25,14 @@ constexpr const char* kTrace = "log.level = 'trace'\n";
 TEST_F(PharosdBlockedLog, HoldsUpNoPoses) {
   start("", kTrace);
   ASSERT_TRUE(poses_come(2));
-  fill_standard_error(daemon.process().pid());
+  ASSERT_TRUE(daemon.process().fill_standard_error());
   EXPECT_TRUE(poses_come(20));
 }
 
 TEST_F(PharosdBlockedLog, EndsOnSigtermAllTheSame) {
   start("", kTrace);
   ASSERT_TRUE(poses_come(2));
-  fill_standard_error(daemon.process().pid());
+  ASSERT_TRUE(daemon.process().fill_standard_error());
   ASSERT_TRUE(poses_come(5));
   daemon.process().signal(SIGTERM);
   // Its output must not be read meanwhile, because the test is about a pipe without reader.

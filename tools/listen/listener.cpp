@@ -13,6 +13,7 @@
 #include "tools/listen/pose_rows.hpp"
 #include "tools/listen/spin_rows.hpp"
 #include "tools/listen/status_rows.hpp"
+#include "tools/listen/subscription.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -22,11 +23,6 @@ constexpr std::size_t kMaxNotCompared = 36'000;
 // A pose is held this long until its truth is available, which a simulator writes up to a frame later; then it is
 // printed without.
 constexpr std::int64_t kLongestWait_ns = 500'000'000;
-
-template <class Message>
-bool decode(Message& message, const void* data, int size) {
-  return message.decode(data, 0, size) == size;
-}
 
 }  // namespace
 

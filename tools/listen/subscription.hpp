@@ -14,4 +14,10 @@ inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 void subscribe(lcm::LCM& lcm, const std::string& url, const std::string& channel, lcm_msg_handler_t handler,
                void* user);
 
+/// Whether `data` is a message of this type, and whole; its fields then.
+template <class Message>
+bool decode(Message& message, const void* data, int size) {
+  return message.decode(data, 0, size) == size;
+}
+
 }  // namespace pharos::tools

@@ -37,24 +37,19 @@ struct WatchOptions {
   double duration_s = 0.0;
 };
 
-template <class Message>
-bool decode(Message& message, const lcm_recv_buf_t& buffer) {
-  const int size = static_cast<int>(buffer.data_size);
-  return message.decode(buffer.data, 0, size) == size;
-}
-
 void hear(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
   WatchTable& table = *static_cast<WatchTable*>(user);
   const std::int64_t utc_ns = host::utc_now_ns();
   const std::int64_t now_ns = host::monotonic_now_ns();
+  const int size = static_cast<int>(buffer->data_size);
   pose_t pose;
   pointing_t pointing;
   status_t status;
-  if (decode(pose, *buffer)) {
+  if (decode(pose, buffer->data, size)) {
     table.add(received_pose(channel, pose, utc_ns), now_ns);
-  } else if (decode(pointing, *buffer)) {
+  } else if (decode(pointing, buffer->data, size)) {
     table.add(channel, pointing, utc_ns, now_ns);
-  } else if (decode(status, *buffer)) {
+  } else if (decode(status, buffer->data, size)) {
     table.add(status, now_ns);
   } else {
     table.add_unknown();

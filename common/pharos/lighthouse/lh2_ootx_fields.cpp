@@ -9,12 +9,6 @@ namespace {
 constexpr std::size_t kKnownBytes = 41;
 constexpr std::uint8_t kLastProtocolOfLh1 = 6;
 
-std::uint16_t read_word(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8);
-}
-
-double half_at(std::span<const std::uint8_t> bytes, std::size_t at) { return half_to_double(read_word(bytes, at)); }
-
 bool all_finite(const PlaneCalibration& plane) {
   return std::isfinite(plane.phase_rad) && std::isfinite(plane.tilt_rad) && std::isfinite(plane.curve) &&
          std::isfinite(plane.gibbous_phase_rad) && std::isfinite(plane.gibbous_magnitude_rad) &&
@@ -26,21 +20,21 @@ bool all_finite(const PlaneCalibration& plane) {
 Result<Lh2OotxFields, OotxError> lh2_ootx_fields(std::span<const std::uint8_t> payload) {
   if (payload.size() < 2) return OotxError::kTooShort;
   Lh2OotxFields fields;
-  const std::uint16_t version = read_word(payload, 0x00);
+  const std::uint16_t version = ootx_word(payload, 0x00);
   fields.firmware = static_cast<std::uint16_t>(version >> 6U);
   fields.protocol = static_cast<std::uint8_t>(version & 0x3FU);
   if (fields.protocol <= kLastProtocolOfLh1) return OotxError::kUnknownProtocol;
   if (payload.size() < kKnownBytes) return OotxError::kTooShort;
-  fields.calibration.id = read_word(payload, 0x02) | std::uint32_t{read_word(payload, 0x04)} << 16U;
+  fields.calibration.id = ootx_word(payload, 0x02) | std::uint32_t{ootx_word(payload, 0x04)} << 16U;
   for (std::size_t k = 0; k < kPlanes; ++k) {
     PlaneCalibration& plane = fields.calibration.plane[k];
-    plane.phase_rad = half_at(payload, 0x06 + 2 * k);
-    plane.tilt_rad = half_at(payload, 0x0A + 2 * k);
-    plane.curve = half_at(payload, 0x10 + 2 * k);
-    plane.gibbous_phase_rad = half_at(payload, 0x17 + 2 * k);
-    plane.gibbous_magnitude_rad = half_at(payload, 0x1B + 2 * k);
-    plane.ogee_phase_rad = half_at(payload, 0x21 + 2 * k);
-    plane.ogee_magnitude = half_at(payload, 0x25 + 2 * k);
+    plane.phase_rad = ootx_half(payload, 0x06 + 2 * k);
+    plane.tilt_rad = ootx_half(payload, 0x0A + 2 * k);
+    plane.curve = ootx_half(payload, 0x10 + 2 * k);
+    plane.gibbous_phase_rad = ootx_half(payload, 0x17 + 2 * k);
+    plane.gibbous_magnitude_rad = ootx_half(payload, 0x1B + 2 * k);
+    plane.ogee_phase_rad = ootx_half(payload, 0x21 + 2 * k);
+    plane.ogee_magnitude = ootx_half(payload, 0x25 + 2 * k);
     if (!all_finite(plane)) return OotxError::kNotFinite;
   }
   fields.unlock_count = payload[0x0E];

@@ -23,4 +23,8 @@ Result<OotxFields, OotxError> ootx_fields(std::span<const std::uint8_t> payload)
 /// Value of an IEEE 754 half, exact; needs no hardware support. Infinity and NaN as such.
 double half_to_double(std::uint16_t half);
 
+/// Fields of a payload, of either generation: a little-endian word, and a half. `at + 1` must be within.
+std::uint16_t ootx_word(std::span<const std::uint8_t> bytes, std::size_t at);
+double ootx_half(std::span<const std::uint8_t> bytes, std::size_t at);
+
 }  // namespace pharos::lighthouse

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A log that nobody reads, at the level of a line for every message; SIGTERM while it is blocked.
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <csignal>
 
 #include "campaigns/attack/attacked_lighthouse.hpp"
 #include "host/runtime/now.hpp"
-#include "host/support/unique_fd.hpp"
 
 namespace pharos::host {
 namespace {
-
-void fill_standard_error(int pid) {
-  const std::string path = "/proc/" + std::to_string(pid) + "/fd/2";
-  const UniqueFd end(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  ASSERT_TRUE(end.valid());
-  const std::string bytes(4096, '-');
-  while (::write(end.get(), bytes.data(), bytes.size()) > 0) {
-  }
-  while (::write(end.get(), bytes.data(), 1) > 0) {
-  }
-}
 
 using AttackedLog = AttackedLighthouse;
 
@@ -38,7 +24,7 @@ TEST_F(AttackedLog, NobodyReadsIt) {
       daemon.start();
     }
     ASSERT_TRUE(measures()) << daemon.process().text();
-    fill_standard_error(daemon.process().pid());
+    ASSERT_TRUE(daemon.process().fill_standard_error());
     play_for(kBlocked_s);
     sent += sweeps_sent();
     lost += lost_poses();
