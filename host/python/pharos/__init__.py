@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pharos for Python: the LCM types (pose_t, ...), a receiver of live messages, LCM logs and tables as numpy.
+
+    import pharos
+    for received in pharos.Receiver():
+        print(received.channel, received.message.status)
+    poses = pharos.read_table("poses.csv.gz")
+
+Reading tables needs numpy, which is imported at the first use.
+"""
+
+# The types first: lcm-gen's code finds one type in another as an attribute of this package.
+from .bearing_t import bearing_t
+from .bearings_t import bearings_t
+from .counter_t import counter_t
+from .pointing_t import pointing_t
+from .pose_t import pose_t
+from .source_status_t import source_status_t
+from .spin_t import spin_t
+from .status_t import status_t
+
+from .flags import NOT_FOR_STEERING, flag_words, for_steering
+from .log import read_log
+from .messages import Message, decode
+from .receiver import DEFAULT_URL, Receiver
+
+
+def __getattr__(name):
+    if name in ("read_table", "read_tum", "pose_arrays", "rotation_matrices", "covariance_matrix"):
+        from . import tables
+
+        return getattr(tables, name)
+    raise AttributeError(f"module 'pharos' has no attribute '{name}'")

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+import random
+import unittest
+
+import examples
+import pharos
+
+
+class Messages(unittest.TestCase):
+    def test_every_type_is_recognised_and_reads_back_equal(self):
+        for message in examples.every_type():
+            decoded = pharos.decode(message.encode())
+            self.assertIs(type(decoded), type(message))
+            self.assertEqual(examples.fields(decoded), examples.fields(message))
+
+    def test_cut_off_longer_or_foreign_bytes_are_refused(self):
+        for message in examples.every_type():
+            data = message.encode()
+            for length in range(len(data)):
+                with self.assertRaises(ValueError):
+                    pharos.decode(data[:length])
+            with self.assertRaises(ValueError):
+                pharos.decode(data + b"\0")
+        with self.assertRaises(ValueError):
+            pharos.decode(bytes(1000))
+
+    def test_any_change_of_bytes_is_a_message_or_refused(self):
+        chance = random.Random("any_change_of_bytes")
+        for message in examples.every_type():
+            for _ in range(300):
+                data = bytearray(message.encode())
+                for _ in range(chance.randint(1, 8)):
+                    data[chance.randrange(len(data))] = chance.randrange(256)
+                try:
+                    pharos.decode(bytes(data))
+                except ValueError:
+                    pass
+
+
+class Steering(unittest.TestCase):
+    NOW_S = 1_700_000_000.2
+
+    def for_steering(self, **changes):
+        return pharos.for_steering(examples.pose(**changes), 0.5, now_s=self.NOW_S)
+
+    def test_a_fresh_pose_without_doubts_steers(self):
+        self.assertTrue(self.for_steering())
+
+    def test_each_doubt_alone_forbids_it(self):
+        self.assertFalse(self.for_steering(valid=False))
+        self.assertFalse(self.for_steering(status="ambiguous"))
+        self.assertFalse(self.for_steering(utime=1_699_999_999_000_000))
+        self.assertFalse(self.for_steering(utime=1_700_000_001_000_000))
+        for word in pharos.NOT_FOR_STEERING:
+            self.assertFalse(self.for_steering(flags=f"prior|{word}"))
+
+    def test_flags_are_words(self):
+        self.assertEqual(pharos.flag_words(examples.pose()), {"prior", "fused"})
+        self.assertEqual(pharos.flag_words(examples.pose(flags="")), frozenset())
+        self.assertTrue(self.for_steering(flags="not_uncalibrated_really"))
+
+
+if __name__ == "__main__":
+    unittest.main()
