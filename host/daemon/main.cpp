@@ -15,6 +15,7 @@
 #include "host/config/replay_config.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/log_setup.hpp"
+#include "host/daemon/program_options.hpp"
 #include "host/daemon/traced_sink.hpp"
 #include "host/publish/lcm_sink.hpp"
 #include "host/runtime/signals.hpp"
@@ -30,12 +31,7 @@ constexpr int kExitUsage = 2;
 // A stop may take one second; the rest of it is for the kernel to remove the process.
 constexpr std::chrono::milliseconds kStopLimit{800};
 
-struct Options {
-  std::string config;
-  std::string replay;
-  bool check = false;
-  bool fast = false;
-};
+using Options = host::ProgramOptions;
 
 // Ignores signals that would end the program without need. A write beyond a limit on file sizes or into a closed pipe
 // then fails with an error.
@@ -107,19 +103,9 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures relative poses and broadcasts them over LCM", "pharosd");
+  CLI::App app("", "pharosd");
   Options options;
-  app.set_version_flag("--version", PHAROS_VERSION);
-  app.add_option("config", options.config, "Configuration (TOML)")->required();
-  app.add_flag("--check", options.check,
-               "Only check the configuration and what it names, and print what was understood");
-  app.add_option("--replay", options.replay, "Play a recorded serial stream instead of listening to its target's port");
-  app.add_flag("--fast", options.fast,
-               "Play recordings as fast as they can be worked on, not at real speed; a subscriber on the network does "
-               "not keep up and misses messages: keep them all with [lcm] url = \"file:///FILE?mode=w\"");
-  app.footer(
-      "Example: pharosd --check /etc/pharos/pharosd.toml\nEnds with 0 when stopped by a signal, with 1 when LCM "
-      "cannot be set up, with 2 for a configuration that cannot be worked with.");
+  host::add_program_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

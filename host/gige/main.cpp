@@ -5,9 +5,9 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <optional>
 
@@ -15,6 +15,7 @@
 #include "host/camera_link/camera_process.hpp"
 #include "host/gige/camera_server.hpp"
 #include "host/gige/process_limits.hpp"
+#include "host/gige/program_options.hpp"
 
 namespace {
 
@@ -46,9 +47,14 @@ void tell_last_words(const char*, GLogLevelFlags level, const char* text, void*)
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
-    std::puts(PHAROS_VERSION);
-    return 0;
+  if (argc > 1) {
+    CLI::App app("", "pharos-camera");
+    host::add_camera_program_options(app);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : kExitUsage;
+    }
   }
   host::bind_to_parent();
   try {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "tools/cli/program.hpp"
 #include "tools/cli/usage.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
@@ -19,12 +20,9 @@ void refuse_lost_inputs(CLI::App& command) {
 
 int main(int argc, char** argv) {
   using namespace pharos::tools;
-  CLI::App app("Relative pose of spacecraft at close range", "pharos");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", PHAROS_VERSION);
-  app.footer("Every subcommand has --help with an example. Exit code: 0 at least one answer, 1 none, 2 wrong usage.");
+  CLI::App app("", "pharos");
   int exit_code = kExitAnswered;
-  add_commands(app, exit_code);
+  add_program(app, exit_code);
   refuse_lost_inputs(app);
   const NamedCommand named = named_command(app, {argv + std::min(argc, 1), argv + argc});
   set_message_prefix(named.name);
