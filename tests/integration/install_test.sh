@@ -14,7 +14,11 @@ DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" || { c
 for file in bin/pharosd bin/pharos bin/pharos-example-subscriber lib/systemd/system/pharosd.service \
   lib/udev/rules.d/70-pharos.rules share/doc/pharos/README.md share/doc/pharos/subscribers.md \
   share/doc/pharos/examples/pharosd.toml share/doc/pharos/examples/target12.csv share/doc/pharos/examples/subscriber.cpp \
-  libexec/pharos/pharos-camera share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp; do
+  libexec/pharos/pharos-camera share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp \
+  include/pharos/pose/solve.hpp lib/libpharos.a lib/cmake/Pharos/PharosConfig.cmake lib/pkgconfig/pharos.pc \
+  share/pharos/scenarios/demo.toml lib/sysusers.d/pharos.conf lib/tmpfiles.d/pharos.conf \
+  share/man/man1/pharos-track.1 share/man/man5/pharosd.toml.5 share/man/man7/pharos-lcm.7 share/man/man8/pharosd.8 \
+  share/bash-completion/completions/pharos share/zsh/site-functions/_pharos lib/python3/dist-packages/pharos/pose_t.py; do
   [ -s "$root/usr/$file" ] || fail "/usr/$file is missing or empty"
 done
 # README edits and the unit reads the same configuration; a configuration in use is kept.
@@ -49,6 +53,9 @@ if command -v systemd-analyze >/dev/null; then
   [ -z "$words" ] || fail "systemd-analyze: $words"
   systemd-analyze security --offline=true --threshold=15 "$root/pharosd.service" >"$root/security.log" ||
     fail "the unit's exposure is above 1.5: $(tail -1 "$root/security.log")"
+fi
+if command -v systemd-sysusers >/dev/null; then
+  words=$(systemd-sysusers --dry-run "$root/usr/lib/sysusers.d/pharos.conf" 2>&1) || fail "systemd-sysusers: $words"
 fi
 if command -v apparmor_parser >/dev/null; then
   apparmor_parser -QK "$root/usr/share/pharos/apparmor/pharosd" || fail "the AppArmor profile is refused"
