@@ -56,10 +56,16 @@ function(pharos_firmware_tree)
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
     USES_TERMINAL_BUILD ON)
-  # Only the decoder for the emulator, without the test programs, for tools/demo.
-  add_custom_target(firmware_decoder
-    COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
-      -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
-    COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/firmware --target decoder.qemu_virt
-    USES_TERMINAL VERBATIM)
+  # Without the test programs: only the decoder for the emulator, for tools/demo; what is installed, for tools/package.
+  foreach(part decoder installed)
+    set(target firmware_${part})
+    if(part STREQUAL "decoder")
+      set(target decoder.qemu_virt)
+    endif()
+    add_custom_target(firmware_${part}
+      COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
+        -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
+      COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/firmware --target ${target}
+      USES_TERMINAL VERBATIM)
+  endforeach()
 endfunction()
