@@ -34,8 +34,7 @@ def section(text, title):
 
 def roff(text):
     out = "".join(ROFF.get(letter, letter) for letter in text)
-    out = re.sub(r",(?=[^ ])", r",\\:", out)  # lists of columns are longer than a line
-    return "\\&" + out if out.startswith(".") else out
+    return re.sub(r",(?=[^ ])", r",\\:", out)  # lists of columns are longer than a line
 
 
 def inline(text):
@@ -49,6 +48,11 @@ def inline(text):
     return "".join(parts)
 
 
+def text_line(text):
+    """A line of running text; one that begins with a full stop would be a request."""
+    return "\\&" + text if text.startswith(".") else text
+
+
 def cells(line):
     return [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line.strip()[1:-1])]
 
@@ -57,7 +61,7 @@ def row(header, values):
     """The first cell is the term; the last one says what it is; those between are named by their columns."""
     named = [f"{inline(name)}: {inline(value)}" for name, value in zip(header[1:-1], values[1:-1]) if value]
     text = [inline(values[-1])] if len(values) > 1 and values[-1] else []
-    return [".TP", inline(values[0]) or "\\&", "; ".join(text + named) or "\\&"]
+    return [".TP", text_line(inline(values[0])) or "\\&", text_line("; ".join(text + named)) or "\\&"]
 
 
 def table(lines):
@@ -82,7 +86,7 @@ def page_body(lines):
 
     def flush():
         if paragraph:
-            out.append(inline(" ".join(paragraph)))
+            out.append(text_line(inline(" ".join(paragraph))))
             paragraph.clear()
 
     while i < len(lines):

@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# usage: chroot_test.sh PACKAGES_DIR
+# Installs the packages in a clean Debian 12, runs Pharos there from installed files alone, builds programs against them,
+# and purges them: nothing may be left. PHAROS_DEBIAN_MIRROR: where Debian comes from (http://deb.debian.org/debian).
+# Ends with 77, and says so, where that is not possible: not root, no debootstrap, no mirror.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+packages=$(realpath "$1")
+mirror=${PHAROS_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+skip() { echo "SKIPPED: packages were NOT installed in a clean chroot: $*"; exit 77; }
+[ "$(id -u)" -eq 0 ] || skip "only root can make one"
+command -v debootstrap >/dev/null || skip "debootstrap is not installed (tools/install-dependencies full)"
+"${PYTHON:-/usr/bin/python3}" -c 'import sys, urllib.request; urllib.request.urlopen(sys.argv[1], timeout=30)' \
+  "$mirror/dists/bookworm/Release" 2>/dev/null || skip "$mirror is not reachable (PHAROS_DEBIAN_MIRROR)"
+compgen -G "$packages/pharos_*.deb" >/dev/null || { echo "no packages in $packages: tools/package"; exit 1; }
+
+root=$(mktemp -d -t pharos-chroot-XXXXXX)
+children=()
+clean_up() {
+  for child in "${children[@]}"; do kill "$child" 2>/dev/null || true; done
+  wait 2>/dev/null || true
+  for place in dev/pts dev proc; do mountpoint -q "$root/$place" && umount -l "$root/$place"; done
+  rm -rf --one-file-system "$root"
+}
+trap clean_up EXIT
+fail() { echo "chroot: $*" >&2; exit 1; }
+say() { echo "== $*"; }
+inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/root \
+  DEBIAN_FRONTEND=noninteractive "$@"; }
+quietly() { "$@" >"$root/log" 2>&1 || { tail -40 "$root/log" >&2; fail "$* failed"; }; }
+install_packages() { quietly inside apt-get install -y -qq --no-install-recommends "$@"; }
+
+say "debootstrap"
+debootstrap --variant=minbase bookworm "$root" "$mirror" >"$packages/debootstrap.log" 2>&1 ||
+  { tail -20 "$packages/debootstrap.log" >&2; skip "debootstrap failed"; }
+mount -t proc proc "$root/proc"
+mount --bind /dev "$root/dev"
+mount --bind /dev/pts "$root/dev/pts"
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+quietly inside apt-get update -qq
+mkdir "$root/given"
+cp "$packages"/*.deb "$root/given/"
+
+say "installation"
+install_packages /given/pharos_*.deb /given/pharos-firmware_*.deb /given/python3-pharos_*.deb
+inside getent passwd pharosd >/dev/null || fail "the user pharosd was not made"
+inside dpkg-query --show --showformat='${Conffiles}' pharos | grep -q /etc/pharos/pharosd.toml ||
+  fail "the configuration is no conffile"
+[ "$(stat -c %a "$root/var/spool/pharos" 2>/dev/null || echo none)" != none ] ||
+  inside command -v systemd-tmpfiles >/dev/null 2>&1 || echo "no systemd-tmpfiles there: /var/spool/pharos comes at boot"
+inside pharosd --check /etc/pharos/pharosd.toml | grep -q 'target target12' || fail "/etc/pharos/pharosd.toml is refused"
+[ -s "$root/usr/share/pharos/firmware/decoder.ep4ce10.image" ] || fail "no image for the board"
+
+say "a recording to poses, read by Python"
+examples=/usr/share/pharos/examples/lighthouse
+inside pharos track $examples/edges.csv.gz --target $examples/target.csv --output /given/poses.csv || fail "pharos track"
+inside python3 -c '
+import numpy, pharos
+table = pharos.read_table("/given/poses.csv")
+truth = pharos.read_table("'$examples/truth.csv'")
+rotation, position_m = pharos.pose_arrays(table)
+off_mm = 1e3 * numpy.abs(numpy.nanmean(position_m, axis=0) - [truth[name].mean() for name in ("tx_m", "ty_m", "tz_m")]).max()
+print(len(table["time_s"]), "poses, their mean off by", round(off_mm, 2), "mm")
+assert (table["status"] == "ok").mean() > 0.9 and off_mm < 5.0' || fail "the poses are wrong"
+
+say "pharosd before a simulated target, pharos listen against its truth"
+port=$((20000 + RANDOM % 10000))
+cat >"$root/given/pharosd.toml" <<END
+state_directory = "/given"
+[lcm]
+url = "udpm://239.255.76.67:$port?ttl=0"
+[publish]
+max_age_s = 5.0
+[[target]]
+name = "target12"
+port = "/given/target"
+baud = 12_000_000
+target_file = "/usr/share/pharos/scenarios/target12.csv"
+END
+inside pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /given/target --truth /given/truth.csv \
+  2>"$root/given/sim.log" &
+children+=($!)
+for _ in $(seq 100); do [ -L "$root/given/target" ] && break; sleep 0.1; done
+inside pharosd /given/pharosd.toml 2>"$root/given/pharosd.log" &
+daemon=$!
+children+=($daemon)
+inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "udpm://239.255.76.67:$port?ttl=0" --truth /given/truth.csv --duration 20 \
+  >"$root/given/lines.txt" 2>"$root/given/summary.txt" ||
+  { cat "$root/given"/*.log "$root/given/summary.txt" >&2; fail "no pose came"; }
+cat "$root/given/summary.txt"
+grep -q 'error against truth' "$root/given/summary.txt" || fail "nothing was compared with the truth"
+kill "$daemon" "${children[0]}" 2>/dev/null || true
+wait "$daemon" || fail "pharosd did not stop cleanly"
+children=()
+
+say "programs built against the packages"
+install_packages /given/libpharos-dev_*.deb g++ cmake ninja-build pkg-config
+mkdir -p "$root/given/tests"
+cp -r "$here" "$root/given/tests/packaging"
+cp "$here/../../SUBSCRIBER.md" "$root/given/"
+inside /given/tests/packaging/consumers_test.sh --installed /usr/bin/python3 || fail "programs outside do not build or run"
+
+say "purge"
+quietly inside apt-get purge -y -qq pharos libpharos-dev python3-pharos pharos-firmware
+rm -rf "$root/given" "$root/log"
+left=$(find "$root" -xdev \( -path "$root/proc" -o -path "$root/dev" -o -path "$root/var/cache/apt" \) -prune -o -name '*pharos*' -print)
+[ -z "${left//$root/}" ] || fail "left behind: ${left//$root/}"
+left=$(grep -rl pharos "$root/etc" "$root/var/lib/dpkg/info" "$root/var/lib/systemd" 2>/dev/null || true)
+[ -z "$left" ] || fail "still named in: ${left//$root/}"
+grep -q '^Package: pharos' "$root/var/lib/dpkg/status" && fail "dpkg still knows them"
+echo "installed, run, built against, purged: nothing left"
