@@ -6,6 +6,7 @@ messages and every flag."""
 import pathlib
 import re
 import sys
+import tomllib
 
 import programs
 
@@ -51,6 +52,28 @@ def document_errors(root, commands):
                 yield f"{name}: `{line.strip()}`: {error}"
 
 
+def keys_of(table, above=""):
+    """`target[].name` and the like of a configuration."""
+    for key, value in table.items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            for inner in value:
+                yield from keys_of(inner, f"{above}{key}[].")
+        elif isinstance(value, dict):
+            yield from keys_of(value, f"{above}{key}.")
+        else:
+            yield above + key
+
+
+def configuration_errors(root):
+    """Configurations in OPERATOR.md have keys that host/README.md's table has."""
+    table = (root / "host/README.md").read_text().split("## Configuration")[1]
+    for text in re.findall(r"^```toml\n(.*?)^```$", (root / "OPERATOR.md").read_text(), re.MULTILINE | re.DOTALL):
+        for key in keys_of(tomllib.loads(text)):
+            checked.append(key)
+            if f"`{key}`" not in table:
+                yield f"OPERATOR.md: {key} is no key of the configuration"
+
+
 def flag_words(root):
     for place in FLAG_PLACES:
         path = root / place
@@ -83,8 +106,8 @@ checked = []
 def main():
     root, build = map(pathlib.Path, sys.argv[1:3])
     commands = {" ".join(command.words): command for _, command in programs.every_command(build)}
-    errors = [*document_errors(root, commands), *subscriber_errors(root)]
-    programs.finish(errors, f"{len(checked)} command lines, fields and flags")
+    errors = [*document_errors(root, commands), *configuration_errors(root), *subscriber_errors(root)]
+    programs.finish(errors, f"{len(checked)} command lines, keys, fields and flags")
 
 
 if __name__ == "__main__":

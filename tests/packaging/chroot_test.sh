@@ -29,6 +29,7 @@ say() { echo "== $*"; }
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/root \
   DEBIAN_FRONTEND=noninteractive "$@"; }
 quietly() { "$@" >"$root/log" 2>&1 || { tail -40 "$root/log" >&2; fail "$* failed"; }; }
+given() { (cd "$root" && for name; do compgen -G "given/${name}_*.deb" | sed 's|^|/|'; done); }
 install_packages() { quietly inside apt-get install -y -qq --no-install-recommends "$@"; }
 
 say "debootstrap"
@@ -43,7 +44,8 @@ mkdir "$root/given"
 cp "$packages"/*.deb "$root/given/"
 
 say "installation"
-install_packages /given/pharos_*.deb /given/pharos-firmware_*.deb /given/python3-pharos_*.deb
+mapfile -t wanted < <(given pharos pharos-firmware python3-pharos)
+install_packages "${wanted[@]}"
 inside getent passwd pharosd >/dev/null || fail "the user pharosd was not made"
 inside dpkg-query --show --showformat='${Conffiles}' pharos | grep -q /etc/pharos/pharosd.toml ||
   fail "the configuration is no conffile"
@@ -95,7 +97,7 @@ wait "$daemon" || fail "pharosd did not stop cleanly"
 children=()
 
 say "programs built against the packages"
-install_packages /given/libpharos-dev_*.deb g++ cmake ninja-build pkg-config
+install_packages "$(given libpharos-dev)" g++ cmake ninja-build pkg-config
 mkdir -p "$root/given/tests"
 cp -r "$here" "$root/given/tests/packaging"
 cp "$here/../../SUBSCRIBER.md" "$root/given/"
