@@ -26,8 +26,9 @@ clean_up() {
 trap clean_up EXIT
 fail() { echo "chroot: $*" >&2; exit 1; }
 say() { echo "== $*"; }
-inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/root \
-  DEBIAN_FRONTEND=noninteractive "$@"; }
+in_chroot=(chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/root
+  DEBIAN_FRONTEND=noninteractive)
+inside() { "${in_chroot[@]}" "$@"; }
 quietly() { "$@" >"$root/log" 2>&1 || { tail -40 "$root/log" >&2; fail "$* failed"; }; }
 given() { (cd "$root" && for name; do compgen -G "given/${name}_*.deb" | sed 's|^|/|'; done); }
 install_packages() { quietly inside apt-get install -y -qq --no-install-recommends "$@"; }
@@ -80,11 +81,11 @@ port = "/given/target"
 baud = 12_000_000
 target_file = "/usr/share/pharos/scenarios/target12.csv"
 END
-inside pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /given/target --truth /given/truth.csv \
+"${in_chroot[@]}" pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /given/target --truth /given/truth.csv \
   2>"$root/given/sim.log" &
 children+=($!)
 for _ in $(seq 100); do [ -L "$root/given/target" ] && break; sleep 0.1; done
-inside pharosd /given/pharosd.toml 2>"$root/given/pharosd.log" &
+"${in_chroot[@]}" pharosd /given/pharosd.toml 2>"$root/given/pharosd.log" &
 daemon=$!
 children+=($daemon)
 inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "udpm://239.255.76.67:$port?ttl=0" --truth /given/truth.csv --duration 20 \
@@ -92,9 +93,9 @@ inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "udpm://239.255.76.67:$port?tt
   { cat "$root/given"/*.log "$root/given/summary.txt" >&2; fail "no pose came"; }
 cat "$root/given/summary.txt"
 grep -q 'error against truth' "$root/given/summary.txt" || fail "nothing was compared with the truth"
-kill "$daemon" "${children[0]}" 2>/dev/null || true
+kill "$daemon"
 wait "$daemon" || fail "pharosd did not stop cleanly"
-children=()
+kill "${children[0]}" 2>/dev/null || true # the simulated target
 
 say "programs built against the packages"
 install_packages "$(given libpharos-dev)" g++ cmake ninja-build pkg-config

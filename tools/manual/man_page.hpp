@@ -20,8 +20,8 @@ struct PageFrame {
 /// and defaults, subcommands by name, the footer as notes and examples.
 std::string man_page(const CommandDescription& command, const PageFrame& frame);
 
-/// `text` with whatever roff would interpret protected; hyphens stay ASCII, so that examples can be copied. A line may be
-/// broken after a comma.
+/// `text` with whatever roff would interpret protected; hyphens stay ASCII, so that examples can be copied. A line may
+/// be broken after a comma.
 std::string roff_text(const std::string& text);
 
 }  // namespace pharos::tools
