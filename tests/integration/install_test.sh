@@ -16,7 +16,7 @@ for file in bin/pharosd bin/pharos bin/pharos-example-subscriber lib/systemd/sys
   share/doc/pharos/examples/pharosd.toml share/doc/pharos/examples/target12.csv share/doc/pharos/examples/subscriber.cpp \
   libexec/pharos/pharos-camera share/pharos/lcm/pose_t.lcm share/pharos/lcm/status_t.lcm include/pharos_lcm/pharos/pose_t.hpp \
   include/pharos/pose/solve.hpp lib/libpharos.a lib/cmake/Pharos/PharosConfig.cmake lib/pkgconfig/pharos.pc \
-  share/pharos/scenarios/demo.toml lib/sysusers.d/pharos.conf lib/tmpfiles.d/pharos.conf \
+  share/pharos/scenarios/demo.toml share/pharos/examples/demo.toml share/doc/pharos/OPERATOR.md lib/sysusers.d/pharos.conf lib/tmpfiles.d/pharos.conf \
   share/man/man1/pharos-track.1 share/man/man5/pharosd.toml.5 share/man/man7/pharos-lcm.7 share/man/man8/pharosd.8 \
   share/bash-completion/completions/pharos share/zsh/site-functions/_pharos lib/python3/dist-packages/pharos/pose_t.py; do
   [ -s "$root/usr/$file" ] || fail "/usr/$file is missing or empty"

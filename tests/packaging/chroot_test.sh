@@ -68,27 +68,18 @@ print(len(table["time_s"]), "poses, their mean off by", round(off_mm, 2), "mm")
 assert (table["status"] == "ok").mean() > 0.9 and off_mm < 5.0' || fail "the poses are wrong"
 
 say "pharosd before a simulated target, pharos listen against its truth"
-port=$((20000 + RANDOM % 10000))
-cat >"$root/given/pharosd.toml" <<END
-state_directory = "/given"
-[lcm]
-url = "udpm://239.255.76.67:$port?ttl=0"
-[publish]
-max_age_s = 5.0
-[[target]]
-name = "target12"
-port = "/given/target"
-baud = 12_000_000
-target_file = "/usr/share/pharos/scenarios/target12.csv"
-END
-"${in_chroot[@]}" pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /given/target --truth /given/truth.csv \
-  2>"$root/given/sim.log" &
+port=$((20000 + RANDOM % 10000)) # not that of other daemons on this computer
+url=udpm://239.255.76.67:$port?ttl=0
+{ cat "$root/usr/share/pharos/examples/demo.toml"; echo "[lcm]"; echo "url = \"$url\""; } |
+  sed 's|^max_age_s = .*|max_age_s = 5.0|' >"$root/usr/share/pharos/examples/of_this_test.toml"
+"${in_chroot[@]}" pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /tmp/pharos-demo-target \
+  --truth /tmp/pharos-demo-truth.csv 2>"$root/given/sim.log" &
 children+=($!)
-for _ in $(seq 100); do [ -L "$root/given/target" ] && break; sleep 0.1; done
-"${in_chroot[@]}" pharosd /given/pharosd.toml 2>"$root/given/pharosd.log" &
+for _ in $(seq 100); do [ -L "$root/tmp/pharos-demo-target" ] && break; sleep 0.1; done
+"${in_chroot[@]}" pharosd /usr/share/pharos/examples/of_this_test.toml 2>"$root/given/pharosd.log" &
 daemon=$!
 children+=($daemon)
-inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "udpm://239.255.76.67:$port?ttl=0" --truth /given/truth.csv --duration 20 \
+inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "$url" --truth /tmp/pharos-demo-truth.csv --duration 20 \
   >"$root/given/lines.txt" 2>"$root/given/summary.txt" ||
   { cat "$root/given"/*.log "$root/given/summary.txt" >&2; fail "no pose came"; }
 cat "$root/given/summary.txt"
@@ -96,6 +87,7 @@ grep -q 'error against truth' "$root/given/summary.txt" || fail "nothing was com
 kill "$daemon"
 wait "$daemon" || fail "pharosd did not stop cleanly"
 kill "${children[0]}" 2>/dev/null || true # the simulated target
+rm "$root/usr/share/pharos/examples/of_this_test.toml"
 
 say "programs built against the packages"
 install_packages "$(given libpharos-dev)" g++ cmake ninja-build pkg-config
@@ -106,7 +98,7 @@ inside /given/tests/packaging/consumers_test.sh --installed /usr/bin/python3 || 
 
 say "purge"
 quietly inside apt-get purge -y -qq pharos libpharos-dev python3-pharos pharos-firmware
-rm -rf "$root/given" "$root/log"
+rm -rf "$root/given" "$root/log" "$root"/tmp/pharos-demo-* # of this test
 left=$(find "$root" -xdev \( -path "$root/proc" -o -path "$root/dev" -o -path "$root/var/cache/apt" \) -prune -o -name '*pharos*' -print)
 [ -z "${left//$root/}" ] || fail "left behind: ${left//$root/}"
 left=$(grep -rl pharos "$root/etc" "$root/var/lib/dpkg/info" "$root/var/lib/systemd" 2>/dev/null || true)
