@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
 import random
 import unittest
 
@@ -8,6 +9,12 @@ import pharos
 
 
 class Messages(unittest.TestCase):
+    def test_every_type_of_proto_is_there(self):
+        proto = pathlib.Path(__file__).resolve().parents[2] / "proto"
+        self.assertEqual(set(pharos.TYPES), {file.stem for file in proto.glob("*.lcm")})
+        for name, kind in pharos.TYPES.items():
+            self.assertIs(getattr(pharos, name), kind)
+
     def test_every_type_is_recognised_and_reads_back_equal(self):
         for message in examples.every_type():
             decoded = pharos.decode(message.encode())

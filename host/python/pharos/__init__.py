@@ -9,15 +9,15 @@
 Reading tables needs numpy, which is imported at the first use.
 """
 
-# The types first: lcm-gen's code finds one type in another as an attribute of this package.
-from .bearing_t import bearing_t
-from .bearings_t import bearings_t
-from .counter_t import counter_t
-from .pointing_t import pointing_t
-from .pose_t import pose_t
-from .source_status_t import source_status_t
-from .spin_t import spin_t
-from .status_t import status_t
+import importlib
+import pkgutil
+
+# Every type of the build, first: lcm-gen's code finds one type in another as an attribute of this package.
+TYPES = {}
+for _module in pkgutil.iter_modules(__path__):
+    if _module.name.endswith("_t"):
+        TYPES[_module.name] = getattr(importlib.import_module(f"{__name__}.{_module.name}"), _module.name)
+globals().update(TYPES)
 
 from .flags import NOT_FOR_STEERING, flag_words, for_steering
 from .log import read_log
