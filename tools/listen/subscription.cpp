@@ -8,8 +8,8 @@ namespace pharos::tools {
 // Uses LCM's C functions: those of C++ return a subscription also where it failed, and its owner would wait for ever.
 // Receiving is set up first, with LCM's own test of multicast, so that the error message can distinguish the two
 // failures.
-void subscribe(lcm::LCM& lcm, const std::string& url, const std::string& channel, lcm_msg_handler_t handler,
-               void* user) {
+void subscribe(lcm::LCM& lcm, const std::string& url, const std::string& channel, lcm_msg_handler_t handler, void* user,
+               int queue) {
   if (!lcm.good() || lcm.getFileno() < 0) {
     if (url.rfind("file:", 0) == 0) {
       throw host::InputError("LCM cannot read --url " + url +
@@ -19,10 +19,12 @@ void subscribe(lcm::LCM& lcm, const std::string& url, const std::string& channel
                            ": check it, and that there is a route for multicast (without a network: "
                            "ip route add 224.0.0.0/4 dev lo)");
   }
-  if (lcm_subscribe(lcm.getUnderlyingLCM(), channel.c_str(), handler, user) == nullptr) {
+  lcm_subscription_t* subscription = lcm_subscribe(lcm.getUnderlyingLCM(), channel.c_str(), handler, user);
+  if (subscription == nullptr) {
     throw host::InputError("CHANNEL '" + channel +
                            "' is not a regular expression; mend it (PHAROS_.* hears all of them)");
   }
+  if (queue > 0) lcm_subscription_set_queue_capacity(subscription, queue);
 }
 
 }  // namespace pharos::tools

@@ -13,9 +13,6 @@
 #include "host/runtime/signals.hpp"
 #include "host/runtime/timer.hpp"
 #include "host/support/input_error.hpp"
-#include "pharos/pointing_t.hpp"
-#include "pharos/pose_t.hpp"
-#include "pharos/status_t.hpp"
 #include "tools/listen/subscription.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
@@ -37,23 +34,9 @@ struct WatchOptions {
   double duration_s = 0.0;
 };
 
-void hear(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
-  WatchTable& table = *static_cast<WatchTable*>(user);
-  const std::int64_t utc_ns = host::utc_now_ns();
-  const std::int64_t now_ns = host::monotonic_now_ns();
-  const int size = static_cast<int>(buffer->data_size);
-  pose_t pose;
-  pointing_t pointing;
-  status_t status;
-  if (decode(pose, buffer->data, size)) {
-    table.add(received_pose(channel, pose, utc_ns), now_ns);
-  } else if (decode(pointing, buffer->data, size)) {
-    table.add(channel, pointing, utc_ns, now_ns);
-  } else if (decode(status, buffer->data, size)) {
-    table.add(status, now_ns);
-  } else {
-    table.add_unknown();
-  }
+void hear(const lcm_recv_buf_t* buffer, const char* channel, void* table) {
+  static_cast<SourceTable*>(table)->take(channel, buffer->data, static_cast<int>(buffer->data_size), host::utc_now_ns(),
+                                         host::monotonic_now_ns());
 }
 
 /// The terminal's second screen while it is needed; the first one returns with what was on it.
@@ -71,11 +54,11 @@ class Screen {
 
   bool is_terminal() const { return terminal_; }
 
-  void draw(const WatchTable& table) const {
+  void draw(const SourceTable& table) const {
     winsize size{};
     const bool sized =
         terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 1;
-    std::vector<std::string> lines = table.lines(host::monotonic_now_ns(), sized ? size.ws_col : kUnlimited);
+    std::vector<std::string> lines = watch_lines(table, host::monotonic_now_ns(), sized ? size.ws_col : kUnlimited);
     if (sized) lines.resize(std::min<std::size_t>(lines.size(), size.ws_row - 1U));
     std::string text = terminal_ ? "\x1b[H" : "";
     for (const std::string& line : lines) text += line + (terminal_ ? "\x1b[K\n" : "\n");
@@ -92,7 +75,7 @@ int watch(const WatchOptions& options) {
   // Signals are blocked before LCM starts its own thread, which would receive them otherwise.
   host::Signals signals{SIGINT, SIGTERM};
   lcm::LCM lcm(options.url);
-  WatchTable table;
+  SourceTable table;
   subscribe(lcm, options.url, options.channel, hear, &table);
   const Screen screen;
   host::EventLoop loop;

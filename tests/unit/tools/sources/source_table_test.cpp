@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sources/source_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "pharos/bearings_t.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
+#include "pharos/status_t.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::Optional;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+pose_t pose_of(std::int64_t sequence, int station = 0) {
+  pose_t pose{};
+  pose.source = "lighthouse/chaser";
+  pose.target = "dock";
+  pose.station = static_cast<std::int8_t>(station);
+  pose.sequence = sequence;
+  pose.status = "ok";
+  pose.valid = 1;
+  pose.orientation_wxyz[0] = 1.0;
+  return pose;
+}
+
+void add(SourceTable& table, const pose_t& pose, std::int64_t now_ns = kSecond_ns) {
+  table.add("PHAROS_LIGHTHOUSE_POSE", pose, now_ns, now_ns);
+}
+
+std::int64_t lost_of(const SourceTable& table) {
+  std::int64_t sum = 0;
+  for (const auto& [key, row] : table.rows()) sum += row.lost;
+  return sum;
+}
+
+TEST(SourceTable, TwoStationsOnOneTargetShareTheirNumbersAndNoneIsLost) {
+  SourceTable table;
+  for (std::int64_t k = 0; k < 20; ++k) add(table, pose_of(k, static_cast<int>(k % 2)));
+  EXPECT_EQ(table.rows().size(), 2u);
+  EXPECT_EQ(lost_of(table), 0);
+  add(table, pose_of(25, 0));
+  EXPECT_EQ(lost_of(table), 5);
+}
+
+TEST(SourceTable, ValuesThatNoPharosdSendsAreLeftOutAndCounted) {
+  SourceTable table;
+  std::vector<pose_t> bad(6, pose_of(0));
+  bad[0].position_m[1] = std::nan("");
+  bad[1].orientation_wxyz[0] = 0.0;
+  bad[2].covariance[7] = std::numeric_limits<double>::infinity();
+  bad[3].utime = std::numeric_limits<std::int64_t>::min();
+  bad[4].sequence = std::numeric_limits<std::int64_t>::max();
+  bad[5].target = std::string(100'000, 'x');
+  for (const pose_t& pose : bad) add(table, pose);
+  EXPECT_TRUE(table.rows().empty());
+  EXPECT_EQ(table.left_out().impossible, 6);
+}
+
+TEST(SourceTable, ForeignBytesUnderAKnownChannelAreCounted) {
+  SourceTable table;
+  const std::vector<unsigned char> bytes(100, 0xAB);
+  table.take("PHAROS_LIGHTHOUSE_POSE", bytes.data(), 100, 0, 0);
+  table.take("PHAROS_STATUS", nullptr, 0, 0, 0);
+  EXPECT_EQ(table.left_out().foreign, 2);
+  EXPECT_EQ(table.received(), 0);
+}
+
+bearing_t bearing_of(int sensor, int axis, double theta_rad, bool used) {
+  bearing_t bearing{};
+  bearing.sensor = static_cast<std::int8_t>(sensor);
+  bearing.axis = static_cast<std::int8_t>(axis);
+  bearing.ideal_theta_rad = theta_rad;
+  bearing.used = used ? 1 : 0;
+  return bearing;
+}
+
+TEST(SourceTable, ASensorsDirectionIsWhereBothPlanesHitIt) {
+  SourceTable table;
+  bearings_t bearings{};
+  bearings.source = "lighthouse/chaser";
+  bearings.target = "dock";
+  bearings.calibrated = 1;
+  // x/z = cot(theta_x) = 0.5, y/z = -0.25; before it a reflection that was not used.
+  bearings.bearings = {bearing_of(7, 0, 1.9, false), bearing_of(7, 0, std::atan2(1.0, 0.5), true),
+                       bearing_of(7, 1, std::atan2(1.0, -0.25), true), bearing_of(9, 0, 1.5, false)};
+  table.add(bearings, kSecond_ns);
+  const Sights* sights = table.sights_of({"PHAROS_LIGHTHOUSE_POSE", "lighthouse/chaser", "dock", 0});
+  ASSERT_NE(sights, nullptr);
+  ASSERT_TRUE(sights->sensors[7]);
+  EXPECT_THAT(sights->sensors[7]->x_over_z, Optional(DoubleNear(0.5, 1e-12)));
+  EXPECT_THAT(sights->sensors[7]->y_over_z, Optional(DoubleNear(-0.25, 1e-12)));
+  EXPECT_TRUE(sights->sensors[7]->used);
+  ASSERT_TRUE(sights->sensors[9]);
+  EXPECT_FALSE(sights->sensors[9]->used);
+  EXPECT_FALSE(sights->sensors[9]->y_over_z);
+  EXPECT_FALSE(sights->sensors[8]);
+}
+
+TEST(SourceTable, ABearingOfASensorThatCannotBeIsLeftOut) {
+  SourceTable table;
+  bearings_t bearings{};
+  bearings.bearings = {bearing_of(32, 0, 1.5, true)};
+  table.add(bearings, kSecond_ns);
+  bearings.bearings = {bearing_of(3, 0, 0.0, true)};
+  table.add(bearings, kSecond_ns);
+  EXPECT_EQ(table.left_out().impossible, 2);
+}
+
+TEST(SourceTable, ItsSizeIsBoundedWhateverComes) {
+  SourceTable table;
+  for (int k = 0; k < 1000; ++k) {
+    pose_t pose = pose_of(0);
+    pose.target = "t" + std::to_string(k);
+    add(table, pose);
+    bearings_t bearings{};
+    bearings.target = pose.target;
+    table.add(bearings, kSecond_ns);
+    status_t status{};
+    status.host = pose.target;
+    table.add(status, kSecond_ns);
+    status.state = "error" + std::to_string(k);
+    table.add(status, kSecond_ns);
+  }
+  EXPECT_EQ(table.rows().size(), 128u);
+  EXPECT_LE(table.daemons().size(), 16u);
+  EXPECT_LE(table.events().size(), 50u);
+  EXPECT_GT(table.left_out().too_many, 0);
+}
+
+TEST(SourceTable, EventsAreNumberedSoThatAReaderSeesEachOnce) {
+  SourceTable table;
+  status_t status{};
+  status.host = "chaser";
+  for (int k = 0; k < 100; ++k) {
+    status.state = k % 2 == 0 ? "ok" : "error";
+    table.add(status, kSecond_ns);
+  }
+  ASSERT_FALSE(table.events().empty());
+  EXPECT_EQ(table.events().back().number, 99);
+  EXPECT_EQ(table.events().front().number, 50);
+}
+
+TEST(SourceTable, ASpinIsARow) {
+  SourceTable table;
+  spin_t spin{};
+  spin.source = "slam/bow";
+  spin.status = "ok";
+  spin.valid = 1;
+  spin.rate_rad_s[2] = 0.1;
+  table.add("PHAROS_SLAM_SPIN", spin, kSecond_ns, kSecond_ns);
+  ASSERT_EQ(table.rows().size(), 1u);
+  EXPECT_DOUBLE_EQ(table.rows().begin()->second.spin->rate_rad_s.z(), 0.1);
+}
+
+}  // namespace
+}  // namespace pharos::tools

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sources/possible.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "pharos/bearings_t.hpp"
+#include "pharos/pointing_t.hpp"
+#include "pharos/pose_t.hpp"
+#include "pharos/spin_t.hpp"
+
+namespace pharos::tools {
+namespace {
+
+// A hundred thousand kilometres: beyond it nothing is at close range.
+constexpr double kMaxValue = 1e8;
+// Of a quaternion that was sent as doubles.
+constexpr double kUnitTolerance = 1e-3;
+// Year 2200: times of arrival and of measurement can be subtracted in nanoseconds.
+constexpr std::int64_t kMaxTime_us = 7'258'118'400'000'000;
+constexpr int kMaxSensors = 32;
+// Names are kept as keys.
+constexpr std::size_t kMaxName = 200;
+constexpr std::int64_t kMaxSequence = std::int64_t{1} << 53U;
+
+bool is_value(double value) { return std::abs(value) <= kMaxValue; }  // false for nan
+
+template <std::size_t kSize>
+bool are_values(const double (&values)[kSize]) {
+  return std::all_of(values, values + kSize, is_value);
+}
+
+bool is_unit(const double (&q)[4]) {
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  return std::abs(norm - 1.0) < kUnitTolerance;
+}
+
+template <class Message>
+bool has_header(const Message& message) {
+  return message.utime >= 0 && message.utime <= kMaxTime_us && message.sequence >= 0 &&
+         message.sequence <= kMaxSequence && message.source.size() <= kMaxName && message.target.size() <= kMaxName;
+}
+
+}  // namespace
+
+bool is_possible(const pose_t& message) {
+  if (!has_header(message)) return false;
+  if (message.valid == 0) return true;
+  const bool second =
+      message.has_second == 0 || (are_values(message.second_position_m) && is_unit(message.second_orientation_wxyz));
+  return second && are_values(message.position_m) && is_unit(message.orientation_wxyz) &&
+         are_values(message.covariance) && is_value(message.sigma_rot_rad) && is_value(message.sigma_pos_m) &&
+         is_value(message.residual_rms_rad);
+}
+
+bool is_possible(const bearings_t& message) {
+  return has_header(message) &&
+         std::all_of(message.bearings.begin(), message.bearings.end(), [](const bearing_t& bearing) {
+           return bearing.sensor >= 0 && bearing.sensor < kMaxSensors && (bearing.axis == 0 || bearing.axis == 1) &&
+                  bearing.ideal_theta_rad > 1e-3 && bearing.ideal_theta_rad < M_PI - 1e-3;
+         });
+}
+
+bool is_possible(const pointing_t& message) {
+  return has_header(message) &&
+         (message.valid == 0 || (are_values(message.axis_station) && is_value(message.pitch_rad) &&
+                                 is_value(message.yaw_rad) && is_value(message.sigma_axis_rad)));
+}
+
+bool is_possible(const spin_t& message) {
+  return has_header(message) &&
+         (message.valid == 0 || (are_values(message.rate_rad_s) && is_value(message.sigma_rate_rad_s)));
+}
+
+}  // namespace pharos::tools
