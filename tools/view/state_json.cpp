@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/state_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/view/lights.hpp"
+
+namespace pharos::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kPosition = 1e6;
+constexpr double kSigma = 1e9;
+
+// Few digits: a state is sent thirty times a second.
+double rounded(double value, double scale) { return std::round(value * scale) / scale; }
+
+Json json_of(const Vector3& v) {
+  return {rounded(v.x(), kPosition), rounded(v.y(), kPosition), rounded(v.z(), kPosition)};
+}
+
+Json json_of(const Quaternion& q) {
+  return {rounded(q.w(), kPosition), rounded(q.x(), kPosition), rounded(q.y(), kPosition), rounded(q.z(), kPosition)};
+}
+
+// Of the position, m^2: xx, xy, xz, yy, yz, zz.
+Json position_covariance(const Matrix6& covariance) {
+  Json out = Json::array();
+  for (int row = 3; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) out.push_back(rounded(covariance(row, column), 1e12));
+  }
+  return out;
+}
+
+Json json_of(const Lights& lights) {
+  Json out = Json::array();
+  for (const Light* light : {&lights.sees_light, &lights.calibrated, &lights.geometry_known, &lights.estimate_good}) {
+    out.push_back({name_of(light->level), light->reason});
+  }
+  return out;
+}
+
+// A list for each sensor that is lit: number, used, x/z, y/z (null where one plane alone hit it).
+Json json_of(const Sights& sights) {
+  constexpr double kDirection = 1e5;
+  Json out = Json::array();
+  for (std::size_t number = 0; number < sights.sensors.size(); ++number) {
+    const auto& sensor = sights.sensors[number];
+    if (!sensor) continue;
+    const auto ratio = [](const std::optional<double>& value) {
+      return value ? Json(rounded(*value, kDirection)) : Json();
+    };
+    out.push_back({number, sensor->used, ratio(sensor->x_over_z), ratio(sensor->y_over_z)});
+  }
+  return out;
+}
+
+void add_value(Json& out, const SourceRow& row) {
+  if (row.pose) {
+    out["p"] = json_of(row.pose->pose->t);
+    out["q"] = json_of(row.pose->pose->quaternion());
+    out["sigma_m"] = rounded(row.pose->sigma_pos_m, kSigma);
+    out["sigma_rad"] = rounded(row.pose->sigma_rot_rad, kSigma);
+    out["covariance"] = position_covariance(row.pose->covariance);
+    out["residual_rad"] = rounded(row.details.residual_rms_rad, kSigma);
+    out["observations"] = row.details.observations;
+    out["frames"] = {row.details.parent_frame, row.details.child_frame};
+    out["turn"] = row.pose->has_turn;
+    out["camera"] = row.pose->of_camera;
+    if (row.details.second) {
+      out["p2"] = json_of(row.details.second->t);
+      out["q2"] = json_of(row.details.second->quaternion());
+    }
+  }
+  if (row.axis) {
+    out["axis"] = json_of(row.axis->axis);
+    out["pitch_rad"] = rounded(row.axis->pitch_rad, kPosition);
+    out["yaw_rad"] = rounded(row.axis->yaw_rad, kPosition);
+    out["sigma_rad"] = rounded(row.axis->sigma_rad, kSigma);
+  }
+  if (row.spin) {
+    out["spin"] = json_of(row.spin->rate_rad_s);
+    out["sigma_rad_s"] = rounded(row.spin->sigma_rad_s, kSigma);
+  }
+}
+
+Json row_json(const SourceTable& table, const SourceKey& key, const SourceRow& row, const ViewContext& context) {
+  Json out = {{"channel", key.channel},
+              {"source", key.source},
+              {"target", key.target},
+              {"station", key.station},
+              {"by", row.by},
+              {"status", row.status},
+              {"flags", row.flags},
+              {"refused", row.refused},
+              {"lost", row.lost},
+              {"version", row.version},
+              {"rate", row.arrivals_ns.size()}};
+  const bool current = row.current(context.now_ns);
+  out["current"] = current;
+  out["age_s"] = row.any() ? Json(rounded(row.age_s(context.now_ns), 1e4)) : Json();
+  out["lights"] = json_of(lights_of(table, key, row, context.now_ns));
+  if (current) add_value(out, row);
+  const Sights* sights = table.sights_of(key);
+  // As long as a value stays current; then the sensors are dark.
+  if (sights != nullptr && context.now_ns - sights->arrived_ns < 1'500'000'000) out["sensors"] = json_of(*sights);
+  return out;
+}
+
+Json daemons_json(const SourceTable& table, std::int64_t now_ns) {
+  Json out = Json::array();
+  for (const auto& [host, daemon] : table.daemons()) {
+    Json sources = Json::array();
+    for (const auto& [name, health] : daemon.sources) {
+      sources.push_back(
+          {{"source", name.first}, {"target", name.second}, {"state", health.state}, {"message", health.message}});
+    }
+    out.push_back({{"host", host},
+                   {"version", daemon.version},
+                   {"state", daemon.state},
+                   {"message", daemon.message},
+                   {"silent", daemon.silent(now_ns)},
+                   {"sources", sources}});
+  }
+  return out;
+}
+
+Json events_json(const SourceTable& table) {
+  Json out = Json::array();
+  for (const SourceEvent& event : table.events()) out.push_back({event.number, event.text});
+  return out;
+}
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string state_json(const SourceTable& table, const ViewContext& context) {
+  Json rows = Json::array();
+  for (const auto& [key, row] : table.rows()) rows.push_back(row_json(table, key, row, context));
+  const LeftOut& left_out = table.left_out();
+  Json state = {{"utc_ms", context.utc_ns / 1'000'000},
+                {"rows", std::move(rows)},
+                {"daemons", daemons_json(table, context.now_ns)},
+                {"events", events_json(table)},
+                {"counters",
+                 {{"received", table.received()},
+                  {"foreign", left_out.foreign},
+                  {"impossible", left_out.impossible},
+                  {"too_many", left_out.too_many},
+                  {"viewers", context.viewers},
+                  {"refused_requests", context.refused_requests}}}};
+  if (context.replay) {
+    const ReplayState& replay = *context.replay;
+    state["replay"] = {{"position_s", rounded(replay.position_s, 1e3)},
+                       {"duration_s", rounded(replay.duration_s, 1e3)},
+                       {"speed", replay.speed},
+                       {"playing", replay.playing},
+                       {"skipped", replay.skipped}};
+  }
+  return text_of(state);
+}
+
+std::string targets_json(const std::map<std::string, Target>& targets) {
+  Json out = Json::object();
+  for (const auto& [name, target] : targets) {
+    Json sensors = Json::array();
+    for (const SensorPlacement& placement : target) {
+      sensors.push_back({placement.sensor, json_of(placement.position_m)});
+    }
+    out[name] = std::move(sensors);
+  }
+  return text_of(out);
+}
+
+}  // namespace pharos::tools
