@@ -110,6 +110,7 @@ HttpServer::HttpServer(const Settings& settings, OnControl on_control)
 }
 
 HttpServer::~HttpServer() {
+  stopping_ = true;
   for (auto& [connection, viewer] : viewers_) {
     if (viewer->suspended) MHD_resume_connection(connection);
   }
@@ -208,6 +209,7 @@ int HttpServer::answer_control(MHD_Connection* connection) {
 }
 
 std::int64_t HttpServer::read_states(Viewer& viewer, char* buffer, std::size_t size) {
+  if (stopping_) return MHD_CONTENT_READER_END_OF_STREAM;
   connections_.moved(socket_of(viewer.connection), host::monotonic_now_ns());
   if (viewer.state == nullptr && viewer.version < version_) {
     viewer.state = state_;

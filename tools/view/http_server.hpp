@@ -75,6 +75,7 @@ class HttpServer {
   std::int64_t version_ = 0;
   std::map<MHD_Connection*, std::unique_ptr<Viewer>> viewers_;
   std::int64_t refused_requests_ = 0;
+  bool stopping_ = false;
   MHD_Daemon* daemon_ = nullptr;
 };
 

@@ -44,7 +44,8 @@ void LogPlayer::build_index() {
       continue;
     }
     // An entry a second of a day's gap would be many: one for each second that has a message.
-    if (index_.empty() || *time_ns / kLogSecond_ns > index_.back().time_ns / kLogSecond_ns) index_.push_back({at, *time_ns});
+    if (index_.empty() || *time_ns / kLogSecond_ns > index_.back().time_ns / kLogSecond_ns)
+      index_.push_back({at, *time_ns});
     newest_ns_ = *time_ns;
   }
   duration_ns_ = newest_ns_;

@@ -86,7 +86,10 @@ class Browser:
         """Until the expression is true; its last value, false where it never was."""
         end = time.monotonic() + seconds
         while True:
-            value = self.evaluate(expression)
+            try:
+                value = self.evaluate(expression)
+            except RuntimeError:  # the page is not complete yet
+                value = False
             if value or time.monotonic() > end:
                 return value
             time.sleep(0.1)

@@ -10,8 +10,8 @@ const LINES = ["#e4605c", "#3fae6a", "#4c8ff0"];
 // From a row to the plot's lines; a line's null is a gap.
 const PLOTS = [
   { name: "position", unit: "mm", lines: ["x", "y", "z"], of: (row) => row.p?.map((c) => c * 1e3) },
-  { name: "attitude", unit: "deg", lines: ["rx", "ry", "rz"], wraps: true, of: (row) => (row.q ? rotationVector(row.q).map((c) => c * DEG) : row.axis ? [row.pitch_rad * DEG, row.yaw_rad * DEG] : undefined) },
-  { name: "sigma", unit: "mm, 0.01 deg", lines: ["position", "rotation"], zero: true, of: (row) => (row.current ? [row.sigma_m !== undefined ? row.sigma_m * 1e3 : null, row.sigma_rad !== undefined ? row.sigma_rad * DEG * 100 : null] : undefined) },
+  { name: "attitude", unit: "°", lines: ["rx", "ry", "rz"], wraps: true, of: (row) => (row.q ? rotationVector(row.q).map((c) => c * DEG) : row.axis ? [row.pitch_rad * DEG, row.yaw_rad * DEG] : undefined) },
+  { name: "sigma", unit: "mm, °/100", lines: ["pos.", "rot."], zero: true, of: (row) => (row.current ? [row.sigma_m !== undefined ? row.sigma_m * 1e3 : null, row.sigma_rad !== undefined ? row.sigma_rad * DEG * 100 : null] : undefined) },
   { name: "residual", unit: "arcsec", lines: ["RMS"], zero: true, of: (row) => (row.residual_rad !== undefined ? [row.residual_rad * DEG * 3600] : undefined) },
   { name: "rate", unit: "1/s", lines: ["valid"], zero: true, of: (row) => [row.rate] },
   { name: "age", unit: "ms", lines: ["since measured"], zero: true, of: (row) => (row.current ? [row.age_s * 1e3] : undefined) },

@@ -170,6 +170,7 @@ export class Scene {
   }
 
   view(name) {
+    this.world.updateMatrixWorld(true);
     const places = [...this.targets.keys()].map((id) => this.place(id)).filter(Boolean);
     this.viewed = places.length > 0;
     const box = new THREE.Box3().setFromPoints([new THREE.Vector3(-0.8, -0.4, 0.3), new THREE.Vector3(0.8, 0.4, 0), ...places]);
@@ -177,7 +178,7 @@ export class Scene {
     const size = Math.max(1.6, box.getSize(new THREE.Vector3()).length());
     const from = { behind: [0.55, 0.5, 0.85], side: [1, 0.12, 0], above: [0.001, 1, 0.001], fit: [-0.7, 0.45, 0.6] }[name];
     this.controls.target.copy(centre);
-    this.eye.position.copy(new THREE.Vector3(...from).normalize().multiplyScalar(size * 0.95).add(centre));
+    this.eye.position.copy(new THREE.Vector3(...from).normalize().multiplyScalar(size * 1.1).add(centre));
     this.controls.update();
     this.stale = true;
   }

@@ -46,7 +46,7 @@ class Row {
   }
 
   show(row, selected) {
-    setText(this.cells.source, row.source);
+    setText(this.cells.source, row.channel.endsWith("_SPIN") ? `${row.source} spin` : row.source);
     setText(this.cells.target, row.target);
     setText(this.cells.by, row.by || `station ${row.station}`);
     row.lights.forEach((light, at) => setLamp(this.lamps[at], light, LIGHT_NAMES[at]));

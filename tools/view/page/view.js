@@ -150,5 +150,6 @@ element("theme-button").addEventListener("click", () => press("t"));
 startTheme();
 targets = await fetch("/targets").then((answer) => answer.json()).catch(() => ({}));
 startScene();
+window.pharosScene = scene; // read by tests
 connect();
 requestAnimationFrame(frame);
