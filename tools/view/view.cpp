@@ -124,6 +124,8 @@ class Feed {
       player_ = std::make_unique<LogPlayer>(options.log);
       return;
     }
+    if (options.url.starts_with("file:"))
+      throw host::InputError("--url " + options.url + ": replay a log with --log FILE");
     lcm_ = std::make_unique<lcm::LCM>(options.url);
     subscribe(*lcm_, options.url, options.channel, &Feed::hear, &live_, kQueue);
   }

@@ -7,6 +7,7 @@ turns its light red, foreign messages are counted, dark and light differ, a phon
 replay jumps. 77 (skipped) without Chromium."""
 
 import json
+import pathlib
 import struct
 import sys
 import tempfile
@@ -14,6 +15,7 @@ import threading
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools/lib"))
 from browser import Browser, chromium
 from running_view import RunningView, load_types, pose
 

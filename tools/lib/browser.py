@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A headless Chromium, driven over its debugging pipe (DevTools protocol, without further packages)."""
+"""usage: browser.py ADDRESS PICTURE SECONDS: the page at ADDRESS after so many seconds as a PNG.
+
+A headless Chromium, driven over its debugging pipe (DevTools protocol, without further packages)."""
 
 import base64
 import json
@@ -7,6 +9,7 @@ import os
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -111,3 +114,12 @@ class Browser:
         os.close(self.write_end)
         os.close(self.read_end)
         self.profile.cleanup()
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4 or chromium() is None:
+        sys.exit(__doc__ if len(sys.argv) != 4 else "Chromium is not installed")
+    page = Browser(sys.argv[1])
+    time.sleep(float(sys.argv[3]))
+    page.screenshot(sys.argv[2])
+    page.close()
