@@ -39,3 +39,26 @@ function(pharos_verilate name)
   set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "")
   target_link_libraries(${name} PUBLIC ${archive} pharos_verilated)
 endfunction()
+
+# pharos_verilate_module(NAME MODULE module DEVICE file SOURCES files... [FLAGS verilator's...]): a library of the Verilated module with
+# what DEVICE makes of it.
+function(pharos_verilate_module name)
+  cmake_parse_arguments(ARG "" "MODULE;DEVICE" "SOURCES;FLAGS" ${ARGN})
+  set(prefix V${name})
+  set(directory ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  set(archive ${directory}/${prefix}__ALL.a)
+  add_custom_command(OUTPUT ${archive}
+    COMMAND ${PHAROS_VERILATOR} --cc --Mdir ${directory} --prefix ${prefix} --top-module ${ARG_MODULE} -Wall -O3 --x-assign fast
+      ${ARG_FLAGS} ${ARG_SOURCES}
+    COMMAND make --silent -C ${directory} -f ${prefix}.mk ${prefix}__ALL.a CXX=${CMAKE_CXX_COMPILER} LINK=${CMAKE_CXX_COMPILER}
+      OPT_FAST=-O2 OPT_SLOW=-O1
+    DEPENDS ${ARG_SOURCES} COMMENT "Verilating ${name}" VERBATIM)
+  add_custom_target(${name}_generate DEPENDS ${archive})
+  configure_file(${ARG_DEVICE} ${directory}_device.cpp @ONLY)
+  add_library(${name} STATIC ${directory}_device.cpp)
+  add_dependencies(${name} ${name}_generate)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/tests PRIVATE ${directory})
+  target_compile_options(${name} PRIVATE -w -O2)
+  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "")
+  target_link_libraries(${name} PUBLIC ${archive} pharos_verilated)
+endfunction()

@@ -1,19 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants one fault at a time in a copy of the capture logic; the test bench must fail on every one of them, and only then.
+"""Plants one fault at a time in a copy of some logic; the test bench must fail on every one of them, and only then.
 
-A mutant that lives means that the bench has a hole. `--few` takes the four that stand for the bench's main promises.
+A mutant that lives means that the bench has a hole. `--few` takes those that stand for the bench's main promises.
 """
 
 import argparse
+import importlib
 import pathlib
 import shlex
 import subprocess
 import sys
 
-from mutations import FEW, MUTATIONS
-
-VERILOG = ("pharos_capture.v", "capture_inputs.v", "capture_fifo.v", "capture_losses.v")
 PREFIX = "Vmutant"
 SECONDS = 300
 
@@ -28,6 +26,9 @@ class Workshop:
     def __init__(self, arguments):
         self.verilator = arguments.verilator
         self.root = arguments.root
+        self.top = arguments.top
+        self.sources = sorted((self.root / arguments.sources).glob("*.v"))
+        self.device = self.root / arguments.device
         self.folder = arguments.build
         self.folder.mkdir(parents=True, exist_ok=True)
         self.parameters = [f"-G{parameter}" for parameter in arguments.parameter]
@@ -39,17 +40,17 @@ class Workshop:
         """Exit code of the test bench on the logic with `original` in `file` replaced."""
         folder = self.folder / name
         folder.mkdir(exist_ok=True)
-        for verilog in VERILOG:
-            text = (self.root / "firmware/rtl" / verilog).read_text()
-            if verilog == file:
+        for verilog in self.sources:
+            text = verilog.read_text()
+            if verilog.name == file:
                 if text.count(original) != 1:
                     sys.exit(f"{name}: {file} has '{original}' {text.count(original)} times instead of once")
                 text = text.replace(original, replacement)
-            (folder / verilog).write_text(text)
-        run([self.verilator, "--cc", "--Mdir", folder, "--prefix", PREFIX, "--top-module", "pharos_capture", "-Wno-lint",
-          "--output-split", "0", *self.parameters, *(folder / verilog for verilog in VERILOG)])
+            (folder / verilog.name).write_text(text)
+        run([self.verilator, "--cc", "--Mdir", folder, "--prefix", PREFIX, "--top-module", self.top, "-Wno-lint",
+          "--output-split", "0", *self.parameters, *(folder / verilog.name for verilog in self.sources)])
         device = folder / "device.cpp"
-        device.write_text((self.root / "tests/rtl/verilated_device.cpp.in").read_text().replace("@prefix@", PREFIX))
+        device.write_text(self.device.read_text().replace("@prefix@", PREFIX))
         program = folder / "bench"
         run([*self.compile, f"-I{folder}", *sorted(folder.glob(PREFIX + "*.cpp")), device, *self.bench, "-o", program,
           "-lgtest", "-lgtest_main", "-lpthread"])
@@ -67,15 +68,20 @@ def main():
     for name in ("--build", "--root"):
         parser.add_argument(name, required=True, type=pathlib.Path)
     parser.add_argument("--parameter", action="append", default=[], help="NAME=VALUE of the Verilog")
+    parser.add_argument("--top", default="pharos_capture", help="the logic's module")
+    parser.add_argument("--sources", default="firmware/rtl", help="its folder")
+    parser.add_argument("--device", default="tests/rtl/verilated_device.cpp.in", help="the bench's view of it")
+    parser.add_argument("--mutations", default="mutations", help="the module with the faults")
     parser.add_argument("--few", action="store_true")
     parser.add_argument("bench", nargs="+", help="objects and libraries of the bench, built for these parameters")
     arguments = parser.parse_args()
     arguments.build = arguments.build / ("few" if arguments.few else "all")
+    faults = importlib.import_module(arguments.mutations)
     workshop = Workshop(arguments)
 
     if workshop.bench_on("unharmed", "", "", "") != 0:
         sys.exit("the bench fails on the logic as it is")
-    chosen = [mutation for mutation in MUTATIONS if not arguments.few or mutation[0] in FEW]
+    chosen = [mutation for mutation in faults.MUTATIONS if not arguments.few or mutation[0] in faults.FEW]
     alive = []
     for name, *mutation in chosen:
         killed = workshop.bench_on(name, *mutation) != 0

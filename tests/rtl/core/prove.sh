@@ -1,0 +1,39 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# usage: prove.sh RTL PROPERTIES TICKS [PLANT-FILE PLANT-SED]: proves the properties in formal/PROPERTIES.v of the core's Verilog in
+# the folder RTL for every input: TICKS 0: of combinational logic, by yosys' own solver; else up to so many ticks after start, by
+# yosys-smtbmc with z3. With a planted fault (a sed command on one file): fails when it is not found. 77: a tool is missing.
+set -euo pipefail
+rtl=$1 properties=$2 ticks=$3
+here=$(cd "$(dirname "$0")" && pwd)
+for tool in yosys yosys-smtbmc z3; do
+  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (tools/install-dependencies test)"; exit 77; }
+done
+work=$(mktemp -d)
+trap 'rm -r "$work"' EXIT
+cp "$rtl"/*.v "$work"
+cp "$here/formal/core_registers.v" "$work" # registers that return anything
+[ "$properties" != bus_properties ] || rm "$work/core_multiplier.v"
+
+prove() {
+  local read="read_verilog -formal -sv $work/*.v $here/formal/$properties.v; prep -flatten -top $properties"
+  if [ "$ticks" = 0 ]; then
+    yosys -p "$read; sat -verify -prove-asserts -show-inputs $properties" >"$work/log" 2>&1
+  else
+    yosys -q -p "$read; async2sync; dffunmap; write_smt2 -wires $work/properties.smt2" >"$work/log" 2>&1 || return 2
+    yosys-smtbmc -s z3 --noincr -t "$ticks" "$work/properties.smt2" >"$work/log" 2>&1
+  fi
+}
+
+prove || { tail -20 "$work/log"; exit 1; }
+echo "$properties hold"
+[ $# -gt 3 ] || exit 0
+cp "$work/$4" "$work/before"
+sed -i "$5" "$work/$4"
+! cmp -s "$work/$4" "$work/before" || { echo "nothing was planted in $4"; exit 1; }
+if prove; then
+  echo "a planted fault was not found: $5"
+  exit 1
+fi
+grep -q "Assert failed\|proof did fail" "$work/log" || { tail "$work/log"; exit 1; }
+echo "a planted fault is found"
