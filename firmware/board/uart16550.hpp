@@ -10,14 +10,14 @@
 
 namespace pharos::board {
 
-/// A 16550-compatible UART with FIFOs, 8N1: QEMU's (a byte a register) and Intel's "Altera 16550 Compatible UART" (a
-/// word a register; Embedded Peripherals IP User Guide). The baud rate is set by the program that starts first.
+/// A 16550-compatible UART with FIFOs, 8N1: QEMU's (a byte a register) and the chip's own (a word a register;
+/// firmware/rtl/soc/soc_uart.v). The baud rate is set by the program that starts first.
 class Uart16550 {
  public:
   constexpr Uart16550(std::uintptr_t base, std::uintptr_t register_bytes, std::size_t transmit_fifo)
       : base_(base), stride_(register_bytes), fifo_(transmit_fifo) {}
 
-  /// `divisor`: clock / (16 baud); 0: leave it as it is.
+  /// `divisor`: the UART's; 0: leave it as it is.
   void start(std::uint16_t divisor) {
     put(kLineControl, kEightBits | kDivisorLatch);
     if (divisor != 0) {

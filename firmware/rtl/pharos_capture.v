@@ -106,7 +106,7 @@ module pharos_capture #(
   wire full;
   wire gap;
   wire [RECORD_WIDTH-1:0] head;
-  wire [COUNT_WIDTH-1:0] count;
+  wire [COUNT_WIDTH-1:0] count  /* verilator public_flat_rd */;
   capture_fifo #(
       .WIDTH(RECORD_WIDTH),
       .DEPTH(DEPTH)

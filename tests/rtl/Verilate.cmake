@@ -55,6 +55,7 @@ function(pharos_verilate_module name)
     DEPENDS ${ARG_SOURCES} COMMENT "Verilating ${name}" VERBATIM)
   add_custom_target(${name}_generate DEPENDS ${archive})
   configure_file(${ARG_DEVICE} ${directory}_device.cpp @ONLY)
+  set_source_files_properties(${directory}_device.cpp PROPERTIES OBJECT_DEPENDS ${archive})  # and the headers beside it
   add_library(${name} STATIC ${directory}_device.cpp)
   add_dependencies(${name} ${name}_generate)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/tests PRIVATE ${directory})

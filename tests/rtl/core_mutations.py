@@ -44,9 +44,14 @@ MUTATIONS = (
   ("cycle_high_is_low", "core_csr.v", "CYCLEH: value = cycle[63:32]", "CYCLEH: value = cycle[31:0]"),
   ("cause_of_interrupt_without_its_bit", "core_csr.v", "{trap_interrupt, trap_cause}", "{1'b0, trap_cause}"),
   # Bytes.
-  ("signed_byte_unsigned", "core_lanes.v", "byte_wide ? low_byte[7]", "byte_wide ? 1'b0"),
-  ("half_store_to_wrong_half", "core_lanes.v", "offset[1] ? 4'b1100 : 4'b0011", "offset[1] ? 4'b0011 : 4'b1100"),
-  ("half_never_misaligned", "core_lanes.v", "half_wide ? offset[0]", "half_wide ? 1'b0"),
+  ("signed_byte_unsigned", "core_lanes.v", "byte_wide ? word[7]", "byte_wide ? 1'b0"),
+  ("half_is_a_byte", "core_lanes.v", "half_wide ? 4'b0011", "half_wide ? 4'b0001"),
+  ("store_not_rotated_by_two", "core_lanes.v", "offset[1] ? {by_one[15:0], by_one[31:16]}", "1'b0 ? {by_one[15:0], by_one[31:16]}"),
+  ("crossing_load_forgets_lower_word", "core_lanes.v", "(crosses && bytes[i])", "1'b0"),
+  ("crossing_not_seen", "core_lanes.v", "crosses = bytes[7:4] != 4'd0", "crosses = 1'b0"),
+  ("upper_word_is_the_lower_again", CORE, "sum[31:2] + 30'd1", "sum[31:2]"),
+  ("lower_word_not_kept", CORE, "if (lower_fresh) lower_lanes", "lower_lanes"),
+  ("upper_word_of_store_left_out", CORE, "!(x_store && !last_accepted)", "!(x_store && !accepted)"),
   # Registers.
   ("second_copy_not_written", "core_registers.v", "if (write) copy_2", "if (write && write_number != 5'd5) copy_2"),
   # Pipeline.
@@ -59,8 +64,8 @@ MUTATIONS = (
   ("fetched_word_not_held", CORE, "d_fresh ? ibus_readdata : d_word_held", "ibus_readdata"),
   ("fetch_fault_not_held", CORE, "d_fresh ? ibus_fault : d_fault_held", "ibus_fault"),
   ("fetch_ignores_wait", CORE, "ibus_read && !ibus_wait", "ibus_read"),
-  ("store_ignores_wait", CORE, "!(x_store && !accepted)", "1'b1"),
-  ("load_ignores_wait", CORE, "accesses && !dbus_wait;\n  wire refused", "accesses;\n  wire refused"),
+  ("store_ignores_wait", CORE, "!(x_store && !last_accepted)", "1'b1"),
+  ("load_ignores_wait", CORE, "accesses && !dbus_wait;\n", "accesses;\n"),
   ("interrupt_in_a_waiting_request", CORE, "first && !x_waiting && interrupt", "first && interrupt"),
   ("interrupt_within_an_instruction", CORE, "first && !x_waiting && interrupt", "x_valid && !x_waiting && interrupt"),
   ("refused_access_not_trapped", CORE, "accepted && dbus_fault", "1'b0"),
@@ -69,7 +74,6 @@ MUTATIONS = (
   ("trapped_jump_writes_link", CORE, "x_writes && !trapped && !interrupted", "x_writes && !interrupted"),
   ("interrupted_instruction_writes", CORE, "x_writes && !trapped && !interrupted", "x_writes && !trapped"),
   ("trapped_instruction_retires", CORE, "ends && x_valid && !trapped && !interrupted", "ends && x_valid && !interrupted"),
-  ("misaligned_access_on_the_bus", CORE, "works && x_load && !misaligned", "works && x_load"),
   ("fence_does_not_refetch", CORE, "|| x_fence_instructions);", ");"),
   ("upper_immediate_adds_register", CORE, "|| d_load_upper;", ";"),
 )

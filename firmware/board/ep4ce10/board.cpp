@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The EP4CE10 system as addresses.hpp describes it. Links in every build; has not run on a board.
+// The chip of firmware/rtl/soc on an EP4CE10. Runs on the simulated chip (tests/rtl/chip); has not run on a board.
 #include "firmware/hal/board.hpp"
 
 #include "firmware/board/ep4ce10/addresses.hpp"
@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::size_t kUartFifo = 128;
 constexpr std::uint32_t kMillisecond = 50'000;  // of the machine timer, which counts the core's 50 MHz
-// Intel's Interval Timer core as a watchdog of one second (Embedded Peripherals IP User Guide): it is stopped until
-// started, and writing a period register restarts its time.
+// Watchdog of one second: it is stopped until started, and writing its period restarts its time.
 constexpr std::uintptr_t kWatchdogControl = kWatchdog + 4;
 constexpr std::uintptr_t kWatchdogPeriod = kWatchdog + 8;
 constexpr std::uint32_t kWatchdogStart = 4;

@@ -13,8 +13,8 @@
 
 namespace pharos::board {
 
-/// Intel's SPI core (Embedded Peripherals IP User Guide, "SPI Core"): a word a register.
-class AvalonSpi {
+/// The chip's SPI master (firmware/rtl/soc/soc_spi.v).
+class ChipSpi {
  public:
   static void select() { mmio32(kControl) = kForceSelect; }
   static void deselect() {
@@ -40,11 +40,11 @@ class AvalonSpi {
 };
 
 /// The EP4CE10 board's interface for the loader (boot/boot_board.hpp). The slots lie after the FPGA's configuration
-/// (368,011 bytes) in its EPCS16. Links; has not run on a board.
+/// (368,011 bytes) in its EPCS16. Runs on the simulated chip; has not run on a board.
 class LoaderBoard : public LoaderMemory {
  public:
   alignas(4) static constexpr std::array<char, 24> kName{"ep4ce10"};
-  using Flash = SpiNorFlash<AvalonSpi>;
+  using Flash = SpiNorFlash<ChipSpi>;
   static constexpr std::uint32_t kSlotBytes = 4 * Flash::kSectorBytes;
 
   static void prepare() {

@@ -36,9 +36,7 @@ module pharos_core #(
   localparam [3:0] INSTRUCTION_FAULT = 4'd1;
   localparam [3:0] ILLEGAL_INSTRUCTION = 4'd2;
   localparam [3:0] BREAKPOINT = 4'd3;
-  localparam [3:0] LOAD_MISALIGNED = 4'd4;
   localparam [3:0] LOAD_FAULT = 4'd5;
-  localparam [3:0] STORE_MISALIGNED = 4'd6;
   localparam [3:0] STORE_FAULT = 4'd7;
   localparam [3:0] TIMER_INTERRUPT = 4'd7;
   localparam [3:0] ENVIRONMENT_CALL = 4'd11;
@@ -113,7 +111,8 @@ module pharos_core #(
 
   // Execute: what was decoded. A word that could not be fetched has none of the kinds below.
   reg x_valid;
-  reg x_second;   // it has begun, in an earlier tick, what takes more than one
+  reg x_upper;    // the word below was taken; the one above is requested
+  reg x_second;   // it has begun, in an earlier tick, what takes more than one: its result is awaited
   reg x_waiting;  // its request waited in the tick before
   reg [31:2] x_address;
   reg [31:0] x_word;
@@ -213,29 +212,46 @@ module pharos_core #(
   wire jumps = x_jump || (x_branch && holds);
   wire [31:2] next_address = x_address + 30'd1;
 
-  // Loads and stores. The operands stay until the instruction ends.
-  wire misaligned;
+  // Loads and stores. The operands stay until the instruction ends. Where the bytes cross into the next word, there are
+  // two requests.
+  wire crosses;
+  wire [3:0] lower_bytes, upper_bytes;
+  reg [31:2] upper_address;
+  reg [31:0] lower_lanes;
+  reg lower_fresh;  // the bus shows the lower word
   wire [31:0] load_value;
   core_lanes lanes (
       .width(x_funct3),
       .offset(sum[1:0]),
       .store_value(operand_2),
-      .misaligned(misaligned),
-      .bytes(dbus_bytes),
+      .crosses(crosses),
+      .lower_bytes(lower_bytes),
+      .upper_bytes(upper_bytes),
       .store_lanes(dbus_writedata),
-      .load_lanes(dbus_readdata),
+      .lower_lanes(lower_lanes),
+      .upper_lanes(dbus_readdata),
       .load_value(load_value)
   );
   wire interrupt;
-  wire first = x_valid && !x_second;
+  wire first = x_valid && !x_second && !x_upper;
   wire interrupted = first && !x_waiting && interrupt;
   wire works = first && !interrupted;
-  assign dbus_address = sum[31:2];
-  assign dbus_read = works && x_load && !misaligned;
-  assign dbus_write = works && x_store && !misaligned;
+  wire requests = works || (x_valid && x_upper && !x_second);
+  assign dbus_address = x_upper ? upper_address : sum[31:2];
+  assign dbus_bytes = x_upper ? upper_bytes : lower_bytes;
+  assign dbus_read = requests && x_load;
+  assign dbus_write = requests && x_store;
   wire accesses = dbus_read || dbus_write;
   wire accepted = accesses && !dbus_wait;
   wire refused = accepted && dbus_fault;
+  wire last_accepted = accepted && (x_upper || !crosses);
+
+  always @(posedge clock) begin
+    x_upper       <= !reset && x_stays && (x_upper || (accepted && crosses));
+    upper_address <= sum[31:2] + 30'd1;
+    lower_fresh   <= accepted;
+    if (lower_fresh) lower_lanes <= dbus_readdata;
+  end
 
   // Multiplication and division.
   wire [31:0] multiply_result;
@@ -263,7 +279,7 @@ module pharos_core #(
   );
 
   always @(posedge clock) begin
-    x_second  <= !reset && x_stays && (x_second || accepted || x_multiply || x_divide);
+    x_second  <= !reset && x_stays && (x_second || (x_load && last_accepted) || x_multiply || x_divide);
     x_waiting <= !reset && accesses && dbus_wait;
   end
 
@@ -298,15 +314,13 @@ module pharos_core #(
       .retired(ends && x_valid && !trapped && !interrupted)
   );
 
-  // Exceptions, all in the first tick.
+  // Exceptions, all in the first tick but a refused access to the upper word.
   wire illegal = x_illegal || (x_control_register && csr_illegal);
   wire off_target = jumps && target[1];
-  wire off_access = (x_load || x_store) && misaligned;
-  assign trapped = works && (x_fault || illegal || x_breakpoint || x_environment_call || off_target || off_access || refused);
+  assign trapped = (works && (x_fault || illegal || x_breakpoint || x_environment_call || off_target)) || refused;
   always @* begin
     cause = x_store ? STORE_FAULT : LOAD_FAULT;
     trap_value = sum;
-    if (off_access) cause = x_store ? STORE_MISALIGNED : LOAD_MISALIGNED;
     if (x_jump || x_branch) begin
       cause = INSTRUCTION_MISALIGNED;
       trap_value = target;
@@ -336,7 +350,7 @@ module pharos_core #(
   // End of an instruction.
   wire several_ticks = x_load || x_multiply || x_divide;
   assign ends = interrupted || trapped || (x_second ? x_load || multiply_done || divide_done
-                                                    : !several_ticks && !(x_store && !accepted));
+                                                    : !several_ticks && !(x_store && !last_accepted));
   assign redirect = x_valid && ends &&
                     (interrupted || trapped || jumps || x_trap_return || x_fence_instructions);
   assign redirect_address = (interrupted || trapped) ? trap_vector :

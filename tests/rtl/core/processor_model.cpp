@@ -115,26 +115,51 @@ StepResult ProcessorModel::branch(const Instruction& in) {
   return taken ? jump(state_.pc + in.b(), 0) : retire(state_.pc + 4);
 }
 
+// A value whose bytes lie in two words is read and written from the lower one on; what was written stays where the upper
+// one is refused.
+std::optional<std::uint32_t> ProcessorModel::load_bytes(std::uint32_t address, unsigned size) {
+  std::uint32_t value = 0;
+  std::optional<std::uint32_t> word;
+  for (unsigned i = 0; i < size; ++i) {
+    const std::uint32_t at = address + i;
+    if (i == 0 || at % 4 == 0) {
+      std::uint8_t bytes = 0;
+      for (unsigned k = i; k < size && (k == i || (address + k) % 4 != 0); ++k) bytes = static_cast<std::uint8_t>(bytes | 1U << (address + k) % 4);
+      word = bus_.load(at & ~3U, bytes);
+      if (!word) return std::nullopt;
+    }
+    value |= (*word >> 8 * (at % 4) & 0xFF) << 8 * i;
+  }
+  return value;
+}
+
+bool ProcessorModel::store_bytes(std::uint32_t address, unsigned size, std::uint32_t value) {
+  for (unsigned i = 0; i < size;) {
+    const std::uint32_t word_address = (address + i) & ~3U;
+    std::uint8_t bytes = 0;
+    std::uint32_t word = 0;
+    for (; i < size && ((address + i) & ~3U) == word_address; ++i) {
+      bytes = static_cast<std::uint8_t>(bytes | 1U << (address + i) % 4);
+      word |= (value >> 8 * i & 0xFF) << 8 * ((address + i) % 4);
+    }
+    if (!bus_.store(word_address, bytes, word)) return false;
+  }
+  return true;
+}
+
 StepResult ProcessorModel::load(const Instruction& in) {
   const unsigned size = 1U << (in.funct3() & 3);
   if (size == 8 || in.funct3() == 6) return illegal(in.word);
   const std::uint32_t address = state_.x[in.rs1()] + in.i();
-  if (address % size != 0) return trap(4, address);
-  const auto bytes = static_cast<std::uint8_t>(((1U << size) - 1) << address % 4);
-  const auto word = bus_.load(address & ~3U, bytes);
-  if (!word) return trap(5, address);
-  const std::uint32_t shifted = *word >> 8 * (address % 4);
-  const std::uint32_t narrow = size == 4 ? shifted : shifted & ((1U << 8 * size) - 1);
-  return write(in.rd(), size == 4 || in.funct3() >= 4 ? narrow : sign_extended(narrow, 8 * size));
+  const auto value = load_bytes(address, size);
+  if (!value) return trap(5, address);
+  return write(in.rd(), size == 4 || in.funct3() >= 4 ? *value : sign_extended(*value, 8 * size));
 }
 
 StepResult ProcessorModel::store(const Instruction& in) {
   if (in.funct3() > 2) return illegal(in.word);
-  const unsigned size = 1U << in.funct3();
   const std::uint32_t address = state_.x[in.rs1()] + in.s();
-  if (address % size != 0) return trap(6, address);
-  const auto bytes = static_cast<std::uint8_t>(((1U << size) - 1) << address % 4);
-  if (!bus_.store(address & ~3U, bytes, state_.x[in.rs2()] << 8 * (address % 4))) return trap(7, address);
+  if (!store_bytes(address, 1U << in.funct3(), state_.x[in.rs2()])) return trap(7, address);
   return retire(state_.pc + 4);
 }
 

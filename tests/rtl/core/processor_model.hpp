@@ -67,6 +67,8 @@ class ProcessorModel {
   StepResult branch(const Instruction& in);
   StepResult load(const Instruction& in);
   StepResult store(const Instruction& in);
+  std::optional<std::uint32_t> load_bytes(std::uint32_t address, unsigned size);
+  bool store_bytes(std::uint32_t address, unsigned size, std::uint32_t value);
   StepResult arithmetic(const Instruction& in);
   StepResult system(const Instruction& in, const ModelInputs& inputs);
   std::optional<std::uint32_t> read_csr(std::uint32_t number, const ModelInputs& inputs) const;

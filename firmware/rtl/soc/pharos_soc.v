@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Core, bus, boot ROM and devices. RAM and capture block are the chip's: RAM has two ports on one chip and one on another,
+// and the capture block may have a faster clock. Addresses: addresses.toml.
+`default_nettype none
+
+module pharos_soc #(
+    parameter CLOCK_HZ = 50000000,
+    parameter ROM_FILE = "loader.hex",
+    parameter [4:0] LAST_RAM_PAGE = 5'd8  // RAM is the pages of 4 KiB from 1 to this one, after the ROM
+) (
+    input  wire        clock,
+    input  wire        power_on_reset,
+    output reg         reset,             // of all but the memories: power on, watchdog
+    // RAM: word addresses from the ROM on; data in the tick after a request without wait.
+    output wire        code_read,
+    output wire [16:2] code_address,
+    input  wire        code_wait,
+    input  wire [31:0] code_data,
+    output wire        ram_read,
+    output wire [ 3:0] ram_write,
+    output wire [16:2] ram_address,
+    output wire [31:0] ram_write_data,
+    input  wire        ram_wait,
+    input  wire [31:0] ram_data,
+    // Capture block: a request is held until a tick without wait, data in the tick after.
+    output wire        capture_read,
+    output wire        capture_write,
+    output wire [ 5:2] capture_address,
+    output wire [31:0] capture_write_data,
+    input  wire        capture_wait,
+    input  wire [31:0] capture_data,
+    input  wire        uart_receive,
+    output wire        uart_transmit,
+    output wire        spi_clock,
+    output wire        spi_select_n,
+    output wire        spi_out,
+    input  wire        spi_in,
+    output wire [ 3:0] leds,
+    input  wire [ 7:0] pin_levels,
+    output wire [ 7:0] pin_outputs,
+    output wire [ 7:0] pin_driven,
+    output wire        trace_ends         // an instruction, for test benches
+);
+
+  `include "soc_addresses.vh"
+
+  // Reset: 16 ticks after power on or the watchdog's end.
+  reg [3:0] reset_left;
+  wire watchdog_ended;
+  always @(posedge clock)
+    if (power_on_reset || watchdog_ended) begin
+      reset      <= 1'b1;
+      reset_left <= 4'd15;
+    end else begin
+      if (reset_left != 4'd0) reset_left <= reset_left - 4'd1;
+      else reset <= 1'b0;
+    end
+
+  // The core.
+  wire ibus_read, dbus_read, dbus_write, timer_interrupt;
+  wire [31:2] ibus_address, dbus_address;
+  wire [3:0] dbus_bytes;
+  wire [31:0] dbus_writedata;
+  reg [31:0] dbus_readdata;
+  wire ibus_wait, dbus_wait, dbus_fault;
+  reg ibus_fault;
+  wire [31:0] ibus_readdata;
+  wire [31:0] trace_address;
+  wire trace_trapped, trace_interrupted;
+  pharos_core core (
+      .clock(clock),
+      .reset(reset),
+      .ibus_read(ibus_read),
+      .ibus_address(ibus_address),
+      .ibus_wait(ibus_wait),
+      .ibus_readdata(ibus_readdata),
+      .ibus_fault(ibus_fault),
+      .dbus_read(dbus_read),
+      .dbus_write(dbus_write),
+      .dbus_address(dbus_address),
+      .dbus_bytes(dbus_bytes),
+      .dbus_writedata(dbus_writedata),
+      .dbus_wait(dbus_wait),
+      .dbus_readdata(dbus_readdata),
+      .dbus_fault(dbus_fault),
+      .timer_interrupt(timer_interrupt),
+      .trace_ends(trace_ends),
+      .trace_address(trace_address),
+      .trace_trapped(trace_trapped),
+      .trace_interrupted(trace_interrupted)
+  );
+
+  // Instructions: ROM, RAM.
+  function is_ram(input [31:12] page);
+    is_ram = page[31:17] == PAGE_OF_RAM[31:17] && page[16:12] != 5'd0 && page[16:12] <= LAST_RAM_PAGE;
+  endfunction
+
+  wire i_rom = ibus_address[31:12] == PAGE_OF_ROM;
+  wire i_ram = is_ram(ibus_address[31:12]);
+  assign code_read = ibus_read && i_ram;
+  assign code_address = ibus_address[16:2];
+  assign ibus_wait = i_ram && code_wait;
+  reg i_from_ram;
+  wire [31:0] rom_code, rom_data;
+  always @(posedge clock) begin
+    ibus_fault <= !i_rom && !i_ram;
+    i_from_ram <= i_ram;
+  end
+  assign ibus_readdata = i_from_ram ? code_data : rom_code;
+
+  // Data.
+  wire [31:12] page = dbus_address[31:12];
+  wire d_rom = page == PAGE_OF_ROM;
+  wire d_ram = is_ram(page);
+  wire d_uart = page == PAGE_OF_UART;
+  wire d_capture = page == PAGE_OF_CAPTURE;
+  wire d_spi = page == PAGE_OF_SPI;
+  wire d_watchdog = page == PAGE_OF_WATCHDOG;
+  wire d_timer = page == PAGE_OF_TIMER;
+  wire d_pins = page == PAGE_OF_PINS;
+  assign dbus_fault = !(d_ram || (d_rom && !dbus_write) || d_uart || d_capture || d_spi || d_watchdog || d_timer || d_pins);
+  assign dbus_wait = (d_ram && ram_wait) || (d_capture && capture_wait);
+
+  assign ram_read = dbus_read && d_ram;
+  assign ram_write = dbus_bytes & {4{dbus_write && d_ram}};
+  assign ram_address = dbus_address[16:2];
+  assign ram_write_data = dbus_writedata;
+  assign capture_read = dbus_read && d_capture;
+  assign capture_write = dbus_write && d_capture;
+  assign capture_address = dbus_address[5:2];
+  assign capture_write_data = dbus_writedata;
+
+  soc_rom #(
+      .FILE(ROM_FILE)
+  ) rom (
+      .clock(clock),
+      .read_a(ibus_read),
+      .address_a(ibus_address[11:2]),
+      .data_a(rom_code),
+      .read_b(dbus_read),
+      .address_b(dbus_address[11:2]),
+      .data_b(rom_data)
+  );
+
+  wire [7:0] uart_data;
+  soc_uart uart (
+      .clock(clock),
+      .reset(reset),
+      .address(dbus_address[4:2]),
+      .read(dbus_read && d_uart),
+      .write(dbus_write && d_uart),
+      .write_data(dbus_writedata[7:0]),
+      .read_data(uart_data),
+      .receive(uart_receive),
+      .transmit(uart_transmit)
+  );
+
+  wire [31:0] spi_data;
+  soc_spi spi (
+      .clock(clock),
+      .reset(reset),
+      .address(dbus_address[3:2]),
+      .read(dbus_read && d_spi),
+      .write(dbus_write && d_spi),
+      .write_data(dbus_writedata),
+      .read_data(spi_data),
+      .spi_clock(spi_clock),
+      .spi_select_n(spi_select_n),
+      .spi_out(spi_out),
+      .spi_in(spi_in)
+  );
+
+  soc_watchdog #(
+      .CLOCK_HZ(CLOCK_HZ)
+  ) watchdog (
+      .clock(clock),
+      .reset(reset),
+      .address(dbus_address[3:2]),
+      .write(dbus_write && d_watchdog),
+      .start_bit(dbus_writedata[2]),
+      .ended(watchdog_ended)
+  );
+
+  wire [31:0] timer_data;
+  soc_timer timer (
+      .clock(clock),
+      .reset(reset),
+      .address(dbus_address[3:2]),
+      .write(dbus_write && d_timer),
+      .write_data(dbus_writedata),
+      .read_data(timer_data),
+      .interrupt(timer_interrupt)
+  );
+
+  wire [7:0] pins_data;
+  soc_pins pins (
+      .clock(clock),
+      .reset(reset),
+      .address(dbus_address[3:2]),
+      .write(dbus_write && d_pins),
+      .write_data(dbus_writedata[7:0]),
+      .read_data(pins_data),
+      .leds(leds),
+      .levels(pin_levels),
+      .outputs(pin_outputs),
+      .driven(pin_driven)
+  );
+
+  // What the request of the tick before is answered with.
+  reg from_ram, from_rom, from_uart, from_capture, from_spi, from_timer;
+  always @(posedge clock) begin
+    from_ram     <= d_ram;
+    from_rom     <= d_rom;
+    from_uart    <= d_uart;
+    from_capture <= d_capture;
+    from_spi     <= d_spi;
+    from_timer   <= d_timer;
+  end
+  always @*
+    if (from_ram) dbus_readdata = ram_data;
+    else if (from_rom) dbus_readdata = rom_data;
+    else if (from_uart) dbus_readdata = {24'd0, uart_data};
+    else if (from_capture) dbus_readdata = capture_data;
+    else if (from_spi) dbus_readdata = spi_data;
+    else if (from_timer) dbus_readdata = timer_data;
+    else dbus_readdata = {24'd0, pins_data};
+
+  wire unused = &{1'b0, trace_address, trace_trapped, trace_interrupted, PAGE_OF_RAM[16:12]};
+
+endmodule
+`default_nettype wire

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtl/chip/chip_bench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "firmware/rtl/capture_registers.h"
+
+namespace pharos::rtl {
+
+void ChipBench::power_on() {
+  const std::int64_t start = device_->ticks();
+  inputs_.power_on_reset = true;
+  for (int i = 0; i < 4; ++i) tick();
+  inputs_.power_on_reset = false;
+  // Reset clears the counter: it is set again as soon as it counts.
+  while (device_->ticks() == 0) tick();
+  device_->set_ticks(start);
+  counts_ = {};
+}
+
+void ChipBench::start_in_ram(std::span<const std::uint8_t> program) {
+  // lui t0, 0x80001; jr t0
+  constexpr std::array<std::uint8_t, 8> kJump{0xB7, 0x12, 0x00, 0x80, 0x67, 0x80, 0x02, 0x00};
+  device_->set_rom(kJump);
+  device_->set_ram(program);
+}
+
+void ChipBench::set_light(std::span<const lighthouse::RawPulse> pulses) {
+  edges_.clear();
+  next_edge_ = 0;
+  for (const lighthouse::RawPulse& pulse : pulses) {
+    if (pulse.sensor >= kInputs || pulse.fall_ticks <= pulse.rise_ticks) continue;
+    for (const std::int64_t at : {pulse.rise_ticks, pulse.fall_ticks}) {
+      edges_.push_back({at - PHAROS_CAPTURE_LATENCY_TICKS, 1U << pulse.sensor});
+    }
+  }
+  std::ranges::stable_sort(edges_, {}, &PinEdge::tick);
+}
+
+void ChipBench::tick() {
+  for (; next_edge_ < edges_.size() && edges_[next_edge_].tick <= device_->ticks(); ++next_edge_) {
+    inputs_.photodiodes ^= edges_[next_edge_].bit;
+  }
+  inputs_.uart_receive = line_.transmit();
+  const ChipOutputs outputs = device_->tick(inputs_);
+  inputs_.spi_in = flash_.tick(outputs.spi_select_n, outputs.spi_clock, outputs.spi_out);
+  if (outputs.reset || inputs_.power_on_reset) return;  // its pins may show anything
+  if (const auto byte = line_.receive(outputs.uart_transmit)) received_.push_back(*byte);
+  ++counts_.ticks;
+  counts_.instructions += outputs.instruction_ended ? 1 : 0;
+  counts_.worst_fill = std::max(counts_.worst_fill, outputs.fifo_fill);
+}
+
+void ChipBench::run_until(std::int64_t ticks) {
+  while (device_->ticks() < ticks) tick();
+}
+
+std::vector<std::uint8_t> ChipBench::take_received() { return std::exchange(received_, {}); }
+
+ChipCounts ChipBench::take_counts() { return std::exchange(counts_, {}); }
+
+}  // namespace pharos::rtl

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pharos/lighthouse/pulse.hpp"
+#include "rtl/chip/chip_device.hpp"
+#include "rtl/chip/spi_flash_model.hpp"
+#include "rtl/chip/uart_line.hpp"
+
+namespace pharos::rtl {
+
+/// What was counted while the chip ran.
+struct ChipCounts {
+  std::uint64_t ticks = 0;  // with the core out of reset
+  std::uint64_t instructions = 0;
+  std::uint32_t worst_fill = 0;  // records in the capture block
+};
+
+/// The chip with everything around it: photodiodes, configuration flash, serial line.
+class ChipBench {
+ public:
+  static constexpr std::uint32_t kInputs = 12;
+  static constexpr std::size_t kFlashBytes = 2 << 20;  // EPCS16
+
+  ChipBench() : flash_(kFlashBytes) {}
+
+  ChipDevice& device() { return *device_; }
+  SpiFlashModel& flash() { return flash_; }
+  UartLine& line() { return line_; }
+
+  /// Power on: memories and counter as set before, everything else reset.
+  void power_on();
+  /// A ROM that only jumps to the RAM, and the program there: starts without the loader.
+  void start_in_ram(std::span<const std::uint8_t> program);
+  /// Pulses whose rise and fall the capture block is to stamp at their ticks; those of inputs that it lacks are left
+  /// out.
+  void set_light(std::span<const lighthouse::RawPulse> pulses);
+  /// Runs until the capture block's counter has this value.
+  void run_until(std::int64_t ticks);
+  void run(std::int64_t ticks) { run_until(device_->ticks() + ticks); }
+
+  /// Bytes that the chip sent since the last call.
+  std::vector<std::uint8_t> take_received();
+  /// Counts since the last call.
+  ChipCounts take_counts();
+
+ private:
+  struct PinEdge {
+    std::int64_t tick;
+    std::uint32_t bit;
+  };
+  void tick();
+
+  std::unique_ptr<ChipDevice> device_ = make_chip_device();
+  SpiFlashModel flash_;
+  UartLine line_;
+  ChipInputs inputs_;
+  std::vector<PinEdge> edges_;
+  std::size_t next_edge_ = 0;
+  std::vector<std::uint8_t> received_;
+  ChipCounts counts_;
+};
+
+}  // namespace pharos::rtl

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace pharos::rtl {
+
+/// Pins into the chip.
+struct ChipInputs {
+  bool power_on_reset = false;
+  std::uint32_t photodiodes = 0;
+  bool uart_receive = true;
+  bool spi_in = true;
+};
+
+/// Pins out of it, and for measurements: an instruction ended, or the core was in reset.
+struct ChipOutputs {
+  bool uart_transmit = true;
+  bool spi_clock = false;
+  bool spi_select_n = true;
+  bool spi_out = false;
+  bool instruction_ended = false;
+  bool reset = false;
+  std::uint32_t fifo_fill = 0;  // records in the capture block
+};
+
+/// The Verilated chip (firmware/rtl/soc/pharos_chip.v), one clock tick at a time.
+class ChipDevice {
+ public:
+  virtual ~ChipDevice() = default;
+  /// One rising edge of the clock with these inputs before it; outputs before it.
+  virtual ChipOutputs tick(const ChipInputs& inputs) = 0;
+  /// The capture block's counter.
+  virtual std::int64_t ticks() const = 0;
+  virtual void set_ticks(std::int64_t ticks) = 0;
+  /// Words of the boot ROM.
+  virtual void set_rom(std::span<const std::uint8_t> bytes) = 0;
+  /// Bytes of the RAM from its first address on.
+  virtual void set_ram(std::span<const std::uint8_t> bytes) = 0;
+  virtual std::uint8_t ram(std::uint32_t offset) const = 0;
+};
+
+std::unique_ptr<ChipDevice> make_chip_device();
+
+}  // namespace pharos::rtl

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole chip from light to the serial line, tick by tick.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "host/support/input_error.hpp"
+#include "host/table/edges_reader.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/boot_image/slot.hpp"
+#include "rtl/chip/chip_bench.hpp"
+
+namespace pharos::rtl {
+namespace {
+
+struct Arguments {
+  std::string edges;
+  std::string program;
+  std::string loader;
+  std::string image;
+  std::string output;
+  double seconds = 1e9;
+};
+
+constexpr std::uint32_t kFirstSlot = 0x100000;  // board/ep4ce10/loader_board.hpp
+/// The program must be ready before the first light; after the last, its frames are still to be sent.
+constexpr std::int64_t kLead_ticks = 10 * kTicksPerSecond / 1000;
+constexpr std::int64_t kLoaderLead_ticks = kTicksPerSecond;
+constexpr std::int64_t kTail_ticks = 60 * kTicksPerSecond / 1000;
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw host::InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// An image as the loader leaves it in the flash: with its mark.
+std::vector<std::uint8_t> marked(std::vector<std::uint8_t> image) {
+  boot_image::SlotHead head;
+  if (image.size() < sizeof head) throw host::InputError("the image is too short");
+  std::memcpy(&head, image.data(), sizeof head);
+  head.mark = boot_image::make_mark(head.header, 1);
+  std::memcpy(image.data(), &head, sizeof head);
+  return image;
+}
+
+std::vector<lighthouse::RawPulse> pulses_of(const Arguments& arguments) {
+  host::EdgesReader reader{host::ByteSource(arguments.edges)};
+  std::vector<lighthouse::RawPulse> pulses;
+  while (const auto pulse = reader.next()) pulses.push_back(*pulse);
+  if (pulses.empty()) throw host::InputError(arguments.edges + ": no edges");
+  const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
+  std::erase_if(pulses, [&](const lighthouse::RawPulse& pulse) {
+    return ticks_to_seconds(pulse.rise_ticks - first) >= arguments.seconds;
+  });
+  return pulses;
+}
+
+int run(const Arguments& arguments) {
+  const auto pulses = pulses_of(arguments);
+  const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
+  const auto last = std::ranges::max(pulses, {}, &lighthouse::RawPulse::fall_ticks).fall_ticks;
+  ChipBench bench;
+  if (arguments.program.empty()) {
+    const auto image = marked(bytes_of(arguments.image));
+    std::ranges::copy(image, bench.flash().content().begin() + kFirstSlot);
+    bench.device().set_rom(bytes_of(arguments.loader));
+  } else {
+    bench.start_in_ram(bytes_of(arguments.program));
+  }
+  const std::int64_t lead = arguments.program.empty() ? kLoaderLead_ticks : kLead_ticks;
+  bench.device().set_ticks(first - lead);
+  const auto begin = std::chrono::steady_clock::now();
+  bench.power_on();
+  bench.set_light(pulses);
+  bench.run_until(first);
+  (void)bench.take_counts();
+  bench.run_until(last);
+  const ChipCounts counts = bench.take_counts();
+  bench.run(kTail_ticks);
+  const auto frames = bench.take_received();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::ofstream file(arguments.output, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(frames.data()), static_cast<std::streamsize>(frames.size()));
+  file.close();
+  if (!file) throw host::InputError(arguments.output + ": cannot be written");
+  std::fprintf(stderr,
+               "%zu pulses in %.3f s, %zu bytes sent, %u framing errors; %.3f M instructions, %.3f cycles each, "
+               "at most %u records in the FIFO; %.2f M ticks a second\n",
+               pulses.size(), ticks_to_seconds(last - first), frames.size(), bench.line().framing_errors(),
+               static_cast<double>(counts.instructions) * 1e-6,
+               static_cast<double>(counts.ticks) / static_cast<double>(std::max<std::uint64_t>(counts.instructions, 1)),
+               counts.worst_fill,
+               static_cast<double>(last - first + lead + kTail_ticks) * 1e-6 / std::max(seconds, 1e-9));
+  return frames.empty() ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace pharos::rtl
+
+int main(int count, char** values) {
+  pharos::rtl::Arguments arguments;
+  CLI::App app{
+      "Runs the decoder on the simulated chip (firmware/rtl/soc), every tick of its clock: EDGES on the photodiodes' "
+      "pins,\n"
+      "what it sends on its serial line to a file for `pharos decode`.\n"
+      "Example: chip_simulator slice.csv --program decoder.ep4ce10.bin --output line"};
+  app.add_option("EDGES", arguments.edges, "table sensor,rise_ticks,fall_ticks")->required();
+  auto* program = app.add_option("--program", arguments.program, "bytes for the RAM, started without the loader");
+  auto* image =
+      app.add_option("--image", arguments.image, "image in the first slot of the flash, which the loader starts");
+  app.add_option("--loader", arguments.loader, "bytes of the boot ROM")->needs(image);
+  program->excludes(image);
+  app.add_option("--output", arguments.output, "file for the bytes of the serial line")->required();
+  app.add_option("--seconds", arguments.seconds, "seconds of light to simulate");
+  CLI11_PARSE(app, count, values);
+  try {
+    if (arguments.program.empty() && arguments.loader.empty())
+      throw pharos::host::InputError("--program, or --image and --loader");
+    return pharos::rtl::run(arguments);
+  } catch (const pharos::host::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
