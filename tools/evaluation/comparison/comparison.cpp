@@ -9,7 +9,6 @@
 #include "host/files/atomic_file.hpp"
 
 namespace pharos::tools {
-namespace {
 
 std::string rounded(double value) {
   std::array<char, 32> text;
@@ -19,6 +18,16 @@ std::string rounded(double value) {
     return std::to_string(std::llround(value));
   }
   return {text.data(), static_cast<std::size_t>(size)};
+}
+
+namespace {
+
+bool any_theirs(const std::vector<ComparisonRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const ComparisonRow& row) { return row.theirs.has_value(); });
+}
+
+std::string shown(const std::optional<double>& value, const std::string& unit) {
+  return value ? rounded(*value) + unit : "";
 }
 
 bool any_further(const std::vector<ComparisonRow>& rows) {
@@ -32,13 +41,21 @@ std::optional<double> ratio_of(const ComparisonRow& row) {
   const char* end = row.expected.data() + row.expected.size();
   const auto result = std::from_chars(row.expected.data(), end, published);
   if (result.ec != std::errc{} || result.ptr != end || published == 0.0) return std::nullopt;
-  return row.ours / published;
+  if (!row.ours || !row.comparable) return std::nullopt;
+  return *row.ours / published;
+}
+
+std::optional<double> ratio_to_theirs(const ComparisonRow& row) {
+  if (!row.ours || !row.theirs || !row.comparable || *row.theirs == 0.0) return std::nullopt;
+  return *row.ours / *row.theirs;
 }
 
 void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options) {
   std::vector<std::string> columns = {"item", "what", "unit", "published", "ours", "ratio", "remark"};
   const bool further = any_further(rows);
   if (further) columns.insert(columns.end(), {"calibrated", "motion", "both"});
+  const bool theirs = any_theirs(rows);
+  if (theirs) columns.emplace_back("theirs");
   Output output(options, columns);
   for (const ComparisonRow& row : rows) {
     host::RowWriter& out = output.rows();
@@ -49,6 +66,7 @@ void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& opt
     } else if (further) {
       out.none(3);
     }
+    if (theirs) out.number(row.theirs);
     out.end_row();
   }
   output.finish();
@@ -56,14 +74,16 @@ void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& opt
 
 void write_markdown(const std::vector<ComparisonRow>& rows, const std::string& path) {
   const bool further = any_further(rows);
-  std::string text = "| item | what | published or asked | ours | ratio | remark |";
-  text += further ? " + calibration | + motion | both |\n|---|---|---|---|---|---|---|---|---|\n"
-                  : "\n|---|---|---|---|---|---|\n";
+  const bool theirs = any_theirs(rows);
+  std::string text = std::string("| item | what | published or asked | ") + (theirs ? "theirs rerun | " : "") +
+                     "ours | ratio | remark |" + (further ? " + calibration | + motion | both |" : "") +
+                     "\n|---|---|---|---|---|---|" + (theirs ? "---|" : "") + (further ? "---|---|---|" : "") + "\n";
   for (const ComparisonRow& row : rows) {
     const std::optional<double> ratio = ratio_of(row);
     const std::string unit = row.unit.empty() ? "" : " " + row.unit;
     text += "| " + row.item + " | " + row.what + " | " + (row.expected.empty() ? "" : row.expected + unit) + " | " +
-            rounded(row.ours) + unit + " | " + (ratio ? rounded(*ratio) : "") + " | " + row.remark + " |";
+            (theirs ? shown(row.theirs, unit) + " | " : "") + shown(row.ours, unit) + " | " + shown(ratio, "") + " | " +
+            row.remark + " |";
     if (further && row.further) {
       const FurtherColumns& more = *row.further;
       text += " " + rounded(more.calibrated) + unit + " | " + rounded(more.motion) + unit + " | " + rounded(more.both) +

@@ -13,7 +13,7 @@ IntegrityTrial answered(double error, double sigma) { return {true, "ok", {{"att
 
 double value_of(const std::vector<ComparisonRow>& rows, const std::string& what) {
   for (const ComparisonRow& row : rows) {
-    if (row.what == what) return row.ours;
+    if (row.what == what) return row.ours.value_or(-1.0);
   }
   ADD_FAILURE() << "no row " << what;
   return -1.0;
