@@ -11,6 +11,7 @@
 #include "host/support/input_error.hpp"
 #include "host/vision/pointing/track_file.hpp"
 #include "pharos/base/units.hpp"
+#include "tools/pointing/paper/paper_pictures.hpp"
 #include "tools/pointing/pointing_overlay.hpp"
 #include "tools/pointing/pointing_table.hpp"
 #include "tools/support/commands.hpp"
@@ -28,6 +29,7 @@ constexpr const char* kExample =
     "Examples:\n"
     "  pharos line panel.png --camera camera.toml --azimuth-deg 288 --elevation-deg 52 --latitude-deg 34.27 "
     "--longitude-deg 108.95\n"
+    "  pharos line panel.png --camera camera.toml --azimuth-deg 288 --elevation-deg 52 --method paper --stages steps\n"
     "  pharos line --track pass/track.csv --camera pass/camera.toml --law inertial\n"
     "Directions: s is the station's frame (east, north, up), e Earth-fixed (WGS-84); the axis has no sign, sz >= 0 is\n"
     "given. plane_n is the plane through the telescope that holds the axis: what one image always tells; sigma_deg "
@@ -43,6 +45,9 @@ struct Options {
   std::string camera;
   std::string overlay;
   std::string law = "inertial";
+  std::string method = "edges";
+  std::string stages;
+  std::optional<double> slope_deg;
   std::optional<double> azimuth_deg, elevation_deg, latitude_deg, longitude_deg;
   double height_m = 0.0;
   double max_spin_deg_s = 5.0;
@@ -120,6 +125,34 @@ void report_time(const Options& options, const host::GreyImage& image, const Pin
   note("median of " + std::to_string(options.time) + ": " + std::to_string(times_ms[times_ms.size() / 2]) + " ms");
 }
 
+// Paper 003 as printed: no sigma, no plane.
+int run_paper(const Options& options, const host::GreyImage& image, const pointing::LineOfSight& sight) {
+  const auto station = station_of(options);
+  const PinholeCamera camera = host::read_camera_file(options.camera).camera.intrinsics;
+  paper003::Constraints constraints;
+  if (options.slope_deg) constraints.slope_rad = *options.slope_deg * kRadPerDeg;
+  Output output(options.output, pointing_columns());
+  const auto refuse = [&](paper003::Failure failure) {
+    write_pointing_refusal(output.rows(), options.image, std::string(paper003::name_of(failure)));
+    output.finish();
+    note(options.image + ": refused_" + std::string(paper003::name_of(failure)));
+    return kExitNoAnswer;
+  };
+  const auto stages = paper003::find_panel_edges(image.view(), constraints);
+  if (!stages) return refuse(stages.error());
+  if (!options.stages.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.stages, error);
+    if (error) throw host::InputError(options.stages + ": cannot be made: " + error.message());
+    paper003::write_stage_pictures(options.stages + "/", *stages, image.width_px, image.height_px);
+  }
+  const auto axis = paper003::axis_of(*stages, camera, sight.azimuth_rad, sight.elevation_rad);
+  if (!axis) return refuse(axis.error());
+  write_paper_axis(output.rows(), options.image, axis->direction_station, axis->square_rad, station);
+  output.finish();
+  return kExitAnswered;
+}
+
 int run_image(const Options& options) {
   if (!options.azimuth_deg || !options.elevation_deg) {
     throw host::InputError("an image needs --azimuth-deg and --elevation-deg: where the telescope pointed");
@@ -127,9 +160,10 @@ int run_image(const Options& options) {
   const auto station = station_of(options);
   ImageInput input;
   const host::GreyImage image = input.read(options.image);
+  const pointing::LineOfSight sight{*options.azimuth_deg * kRadPerDeg, *options.elevation_deg * kRadPerDeg};
+  if (options.method == "paper") return run_paper(options, image, sight);
   Output output(options.output, pointing_columns());
   Measurer measurer(options, station, output.rows());
-  const pointing::LineOfSight sight{*options.azimuth_deg * kRadPerDeg, *options.elevation_deg * kRadPerDeg};
   static_cast<void>(measurer.measure(options.image, image, sight, options.overlay));
   const bool answered = measurer.last_error().empty();  // an ambiguous answer is one
   output.finish();
@@ -224,6 +258,17 @@ void add_pointing(CLI::App& app, int& exit_code) {
       ->check(number_from(-180.0, 360.0));
   command->add_option("--height-m", options->height_m, "Of the station above the ellipsoid (default 0)")
       ->check(number_from(-500.0, 9000.0));
+  CLI::Option* method =
+      command->add_option("--method", options->method, "edges (default), or paper: paper 003 as printed, one image")
+          ->check(CLI::IsMember({"edges", "paper"}));
+  command
+      ->add_option("--paper-slope-deg", options->slope_deg,
+                   "With --method paper: slope of the panel's long edges in the image, from right towards down")
+      ->check(number_from(0.0, 180.0))
+      ->needs(method);
+  command->add_option("--stages", options->stages, "With --method paper: a folder for pictures of its steps")
+      ->check(output_place())
+      ->needs(method);
   command->add_option("--law", options->law, "How the target holds its axis during a pass: inertial, nadir or spin")
       ->check(CLI::IsMember({"inertial", "nadir", "spin"}));
   command
@@ -239,6 +284,12 @@ void add_pointing(CLI::App& app, int& exit_code) {
   command->callback([options, &exit_code] {
     if (options->image.empty() == options->track.empty()) {
       throw host::InputError("give an IMAGE, or --track FILE for a pass (`pharos line --help`)");
+    }
+    if (options->method == "paper" && (!options->track.empty() || !options->overlay.empty() || options->time > 0)) {
+      throw host::InputError("--method paper is of one IMAGE, without --track, --overlay and --time");
+    }
+    if (options->method != "paper" && (!options->stages.empty() || options->slope_deg)) {
+      throw host::InputError("--stages and --paper-slope-deg are of --method paper");
     }
     exit_code = options->track.empty() ? run_image(*options) : run_track(*options);
   });

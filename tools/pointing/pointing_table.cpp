@@ -78,6 +78,15 @@ void write_image(host::RowWriter& rows, const std::string& image, const pointing
   rows.end_row();
 }
 
+void write_paper_axis(host::RowWriter& rows, const std::string& image, const Vector3& axis_station,
+                      const std::optional<double>& square_rad, const std::optional<pointing::Geodetic>& station) {
+  rows.text(image);
+  write_axis(rows, pointing::signed_axis(axis_station), station);
+  rows.none(5).text("ok").none(2);  // sigma and plane; flags, sigma along the axis
+  rows.number(square_rad ? std::optional(*square_rad * kDegPerRad) : std::nullopt).none(kQuality.size() - 3);
+  rows.none(kPass.size()).end_row();
+}
+
 void write_pointing_refusal(host::RowWriter& rows, const std::string& image, const std::string& reason) {
   rows.text(image).none(kContract.size() - 2).text("refused_" + reason).none(kQuality.size() + kPass.size()).end_row();
 }

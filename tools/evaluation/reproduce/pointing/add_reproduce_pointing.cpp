@@ -19,7 +19,7 @@ struct Options {
 
 int run(const Options& options) {
   require_writable(options.output.path);
-  const std::vector<ComparisonRow> rows = reproduce_attitudes(options.seed);
+  const std::vector<ComparisonRow> rows = reproduce_attitudes(options.seed).rows;
   write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }
@@ -33,7 +33,8 @@ void add_reproduce_pointing(CLI::App& reproduce, int& exit_code) {
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(
-      "The four attitudes are rendered and measured as `pharos line` does.\n\nExample: pharos reproduce line "
+      "The four attitudes are rendered and measured by the paper's method as printed and by ours.\n\nExample: pharos "
+      "reproduce line "
       "--markdown");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
