@@ -81,6 +81,50 @@ std::array<double, 2> mounting_of(const RigView& view) {
   return {std::atan2(forward.x(), forward.z()), std::atan2(forward.y(), forward.z())};
 }
 
+using Circles = std::array<SharedCircle, kFeatures>;
+
+std::optional<Ring2Failure> rig_refusal(const Rig& rig) {
+  switch (fault_of(rig)) {
+    case RigFault::kNone:
+      break;
+    case RigFault::kIntrinsics:
+      return Ring2Failure::kRigIntrinsics;
+    case RigFault::kRotation:
+      return Ring2Failure::kRigRotation;
+    case RigFault::kCamerasCoincide:
+      return Ring2Failure::kCamerasCoincide;
+  }
+  return std::nullopt;
+}
+
+// Ring and nozzle by both cameras.
+Result<Circles, Ring2Failure> circles_of(const Rig& rig, const ContourSet& contours) {
+  if (const auto refusal = rig_refusal(rig)) return *refusal;
+  for (const auto& view : contours) {
+    for (const auto& contour : view) {
+      if (!contour) return Ring2Failure::kTooFewEllipses;
+      if (!is_usable(contour->ellipse)) return Ring2Failure::kBadEllipse;
+    }
+  }
+  Circles circles;
+  for (std::size_t f = 0; f < kFeatures; ++f) {
+    const auto left = seen_circle(rig.views[0], *contours[0][f]);
+    const auto right = seen_circle(rig.views[1], *contours[1][f]);
+    if (!left || !right) return Ring2Failure::kBadEllipse;
+    const auto shared = shared_circle(rig, {*left, *right});
+    if (!shared) return Ring2Failure::kInconsistent;
+    circles[f] = *shared;
+  }
+  return circles;
+}
+
+std::array<PlaneTriangle, 2> triangles_of(const RigView& view, std::size_t v, const ContourSet& contours,
+                                          const Circles& circles) {
+  const CentreImage ring = image_of(view, circles[0].centre_per_radius[v], contours[v][0]->ellipse.a_px);
+  const CentreImage nozzle = image_of(view, circles[1].centre_per_radius[v], contours[v][1]->ellipse.a_px);
+  return apparent_circles(view, ring, nozzle, circles[0].radius_m, circles[1].radius_m);
+}
+
 // From the axis' angles in the rig's planes: n = (-sin gamma, .., ..), so XZ counts against gamma.
 Attitude attitude_of_planes(double xz_rad, double yz_rad) { return {yz_rad, -xz_rad}; }
 
@@ -102,42 +146,40 @@ double axis_angle_by_paper(const PlaneTriangle& s, double distance_m) {
   return std::asin(std::clamp(sine, -1.0, 1.0)) - s.beta2_rad;
 }
 
-Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours) {
-  // Both methods use the same refusals.
-  const Result<Ring2Estimate, Ring2Failure> exact = solve_ring2(rig, contours);
-  if (!exact) return exact.error();
-  if (exact->ellipses != static_cast<int>(kViews * kFeatures)) return Ring2Failure::kTooFewEllipses;
-  std::array<std::optional<SharedCircle>, kFeatures> circles;
-  for (std::size_t f = 0; f < kFeatures; ++f) {
-    const auto left = seen_circle(rig.views[0], *contours[0][f]);
-    const auto right = seen_circle(rig.views[1], *contours[1][f]);
-    if (!left || !right) return Ring2Failure::kBadEllipse;
-    circles[f] = shared_circle(rig, {*left, *right});
-    if (!circles[f]) return Ring2Failure::kInconsistent;
-  }
-  double xz_rad = 0.0;
-  double yz_rad = 0.0;
-  double distance_m = 0.0;
+Result<PaperAttitudes, Ring2Failure> paper_attitudes(const Rig& rig, const ContourSet& contours) {
+  const Result<Circles, Ring2Failure> circles = circles_of(rig, contours);
+  if (!circles) return circles.error();
+  PaperAttitudes attitudes;
   for (std::size_t v = 0; v < kViews; ++v) {
-    const RigView& view = rig.views[v];
-    const CentreImage ring = image_of(view, circles[0]->centre_per_radius[v], contours[v][0]->ellipse.a_px);
-    const CentreImage nozzle = image_of(view, circles[1]->centre_per_radius[v], contours[v][1]->ellipse.a_px);
-    const auto [xz, yz] = apparent_circles(view, ring, nozzle, circles[0]->radius_m, circles[1]->radius_m);
-    const std::array<double, 2> mounting = mounting_of(view);
-    // (19) and (24) as signed means; (24) as printed is a difference that symmetry makes zero.
-    xz_rad += 0.5 * (axis_angle_by_paper(xz, distance_by_paper(xz)) - mounting[0]);
-    yz_rad += 0.5 * (axis_angle_by_paper(yz, distance_by_paper(yz)) - mounting[1]);
-    distance_m += 0.5 * distance_by_paper(xz);
+    const std::array<PlaneTriangle, 2> planes = triangles_of(rig.views[v], v, contours, *circles);
+    const std::array<double, 2> mounting = mounting_of(rig.views[v]);
+    std::array<double, 2> angle_rad{};
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      angle_rad[k] = axis_angle_by_paper(planes[k], distance_by_paper(planes[k])) - mounting[k];
+    }
+    attitudes.camera[v] = attitude_of_planes(angle_rad[0], angle_rad[1]);
+    attitudes.distance_m += 0.5 * distance_by_paper(planes[0]);
   }
+  // (19) and (24) as signed means; (24) as printed is a difference that symmetry makes zero.
+  attitudes.both = {0.5 * (attitudes.camera[0].theta_rad + attitudes.camera[1].theta_rad),
+                    0.5 * (attitudes.camera[0].gamma_rad + attitudes.camera[1].gamma_rad)};
+  return attitudes;
+}
+
+Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours) {
+  const Result<Circles, Ring2Failure> circles = circles_of(rig, contours);
+  if (!circles) return circles.error();
+  const Result<PaperAttitudes, Ring2Failure> attitudes = paper_attitudes(rig, contours);
+  if (!attitudes) return attitudes.error();
   Ring2Estimate estimate;
-  estimate.normal = normal_of(attitude_of_planes(xz_rad, yz_rad));
+  estimate.normal = normal_of(attitudes->both);
   estimate.tilt_axes = tilt_axes(estimate.normal);
-  estimate.ring_radius_m = circles[0]->radius_m;
-  estimate.nozzle_radius_m = circles[1]->radius_m;
-  estimate.ring_centre_m = circles[0]->centre_m;
-  estimate.nozzle_centre_m = circles[1]->centre_m;
-  estimate.distance_m = distance_m;
-  estimate.ellipses = exact->ellipses;
+  estimate.ring_radius_m = (*circles)[0].radius_m;
+  estimate.nozzle_radius_m = (*circles)[1].radius_m;
+  estimate.ring_centre_m = (*circles)[0].centre_m;
+  estimate.nozzle_centre_m = (*circles)[1].centre_m;
+  estimate.distance_m = attitudes->distance_m;
+  estimate.ellipses = static_cast<int>(kViews * kFeatures);
   return estimate;
 }
 

@@ -6,8 +6,18 @@
 namespace pharos::ring2 {
 
 /// Paper 001 as published, with the repairs that its print needs (README.md names them). A reference: it carries no
-/// covariance (zero) and has the model's own error. Needs all four ellipses.
+/// covariance (zero) and has the model's own error. Needs all four ellipses. It takes neither a start nor a refusal
+/// from solve_ring2: ellipses that do not fit together are answered too, as in print.
 Result<Ring2Estimate, Ring2Failure> solve_ring2_by_paper(const Rig& rig, const ContourSet& contours);
+
+/// The attitudes of which (19) and (24) take the mean.
+struct PaperAttitudes {
+  std::array<Attitude, kViews> camera;  ///< (10) to (18), (20) to (23) with one camera alone, in the rig's frame
+  Attitude both;
+  double distance_m = 0.0;  ///< (9), mean of both cameras
+};
+/// Figure 9 compares `both` with the left camera's.
+Result<PaperAttitudes, Ring2Failure> paper_attitudes(const Rig& rig, const ContourSet& contours);
 
 /// Prior knowledge of the monocular variant.
 struct KnownSizes {

@@ -25,7 +25,7 @@ struct Options {
 
 int run(const Options& options) {
   require_writable(options.output.path);
-  std::vector<ComparisonRow> rows = reproduce_ring2_sweeps(options.seed);
+  std::vector<ComparisonRow> rows = reproduce_ring2_sweeps(options.seed).rows;
   for (const ComparisonRow& row : reproduce_ring2_noise(options.problems, options.seed)) rows.push_back(row);
   write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
@@ -34,7 +34,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_reproduce_ring2(CLI::App& reproduce, int& exit_code) {
-  CLI::App* command = reproduce.add_subcommand("ring2", "Paper 001: figures 8 to 10, and what noise does");
+  CLI::App* command = reproduce.add_subcommand("ring2", "Paper 001: figures 7 to 10, and what noise does");
   const auto options = std::make_shared<Options>();
   command->add_option("--problems", options->problems, "Random attitudes of each noise level")
       ->check(CLI::Range(10, 100'000))
