@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tools/evaluation/comparison/comparison.hpp"
+#include "tools/evaluation/report/part.hpp"
 
 namespace pharos::tools {
 
@@ -17,8 +19,9 @@ struct StaticSetsOptions {
 };
 
 /// Paper 002, section 4.2 and figure 5: sets of a stationary target, their spread as predicted by (24) and measured by
-/// (23). Poses as in the paper: anywhere on a 3 m x 3 m floor ahead, any attitude in which at least four sensors are
-/// visible.
-std::vector<ComparisonRow> reproduce_static_sets(const StaticSetsOptions& options);
+/// (23), by the paper's method (paper_pose.hpp) and ours. Poses as in the paper: anywhere on a 3 m x 3 m floor ahead,
+/// any attitude in which at least four sensors are visible. With `folder` also the picture of figure 5 is written
+/// there.
+report::PartResult reproduce_static_sets(const StaticSetsOptions& options, const std::filesystem::path& folder = {});
 
 }  // namespace pharos::tools
