@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/calibrate/camera/camera_calibration.hpp"
+#include "host/images/canvas.hpp"
 #include "tools/sim/board/board_poses.hpp"
 
 namespace pharos::tools {
@@ -61,6 +62,21 @@ BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t see
   figure.opencv_rms_px = result.opencv_rms_px;
   figure.parameters = parameters_of(*result.outcome);
   return figure;
+}
+
+void write_board_pictures(const std::string& prefix, std::uint64_t seed) {
+  const sim::BoardSheet sheet;
+  const sim::BoardRenderer renderer(sim::kPaperLens);
+  const auto poses = sim::board_poses(sim::kPaperLens, sheet, 1, seed);
+  const host::GreyImage image = renderer.render(sheet, poses.front(), kRetroReflective, 1000 * seed);
+  host::write_grey_png(prefix + "board.png", image.view(), 8);
+  const calibrate::ImageOutcome found{"0", calibrate::find_board(image.view(), calibrate::CalibrationChoices{}.board)};
+  host::Canvas canvas(image.view(), 1);
+  std::vector<host::Place> places;
+  for (const auto& point : found.search.board.points) places.push_back({point.pixel.x(), point.pixel.y()});
+  canvas.polyline(places, host::colours::kGreen);
+  for (const host::Place& place : places) canvas.cross(place, host::colours::kRed, 3.0);
+  canvas.write_png(prefix + "dots.png");
 }
 
 }  // namespace pharos::tools

@@ -29,4 +29,8 @@ struct BoardFigure {
 /// host::InputError where OpenCV's module is not there.
 BoardFigure reproduce_board_calibration(bool dots, int images, std::uint64_t seed, const std::function<void()>& tick);
 
+/// Figure 2 of paper 000: one such image of dots (`prefix`board.png), and its dots as found, joined in their order
+/// (`prefix`dots.png). Throws host::InputError where they cannot be written.
+void write_board_pictures(const std::string& prefix, std::uint64_t seed);
+
 }  // namespace pharos::tools

@@ -44,7 +44,7 @@ std::vector<ComparisonRow> rows_of(const Options& options) {
   if (options.success > 0) return reproduce_success(options.success, options.seed);
   std::vector<ComparisonRow> rows;
   if (options.boards > 0) rows = reproduce_board_table(options.boards, options.seed);
-  for (const ComparisonRow& row : reproduce_four_tests({options.frames, options.seed})) rows.push_back(row);
+  for (const ComparisonRow& row : reproduce_four_tests({options.frames, options.seed}).rows) rows.push_back(row);
   return rows;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/reproduce/tof/four_tests.hpp"
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 #include "tools/evaluation/reproduce/tof/eight_bit.hpp"
 #include "tools/evaluation/reproduce/tof/orb/orb_motion.hpp"
+#include "tools/plot/curves.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -19,7 +22,12 @@ constexpr std::size_t kTests = 4;
 constexpr std::array<const char*, 6> kNames = {"X", "Y", "Z", "alpha", "beta", "gamma"};
 constexpr std::array<const char*, 6> kUnits = {"mm", "mm", "mm", "deg", "deg", "deg"};
 
-// Table 2: standard deviations.
+// Table 2: means, then standard deviations.
+constexpr std::array<std::array<const char*, 6>, kTests> kPublishedMean = {
+    {{"-24.9450", "-17.7542", "4160.9610", "2.1898", "-1.1236", "-40.0284"},
+     {"-24.7347", "-17.5638", "4161.6241", "2.3504", "-1.3453", "-50.1938"},
+     {"-24.8963", "-17.6972", "3160.7328", "2.2107", "-1.0863", "-50.0215"},
+     {"-25.0107", "-17.5758", "3161.4673", "-2.7394", "-1.3826", "-50.1332"}}};
 constexpr std::array<std::array<const char*, 6>, kTests> kPublishedSigma = {
     {{"0.2714", "0.2437", "2.8402", "0.3269", "0.4944", "0.1210"},
      {"0.2615", "0.2739", "2.7273", "0.3097", "0.4273", "0.1508"},
@@ -65,11 +73,21 @@ class Spread {
   Values squares_{};
 };
 
+// One value of each frame, in the order of the frames; without a pose not numbers.
+using Series = std::vector<Values>;
+const Values kNoPose = [] {
+  Values values{};
+  values.fill(std::numeric_limits<double>::quiet_NaN());
+  return values;
+}();
+
 struct TestResult {
   Spread ours;
   Spread eight_bit;
   Spread paper;
   Spread orb;  // pose of this test by ORB from the last test's frames and truth
+  Series ours_series, paper_series;
+  Series orb_series;  // motion from the frame before: none in truth
 };
 
 sim::TofScenario paper_scenario(int frames) {
@@ -99,6 +117,7 @@ class FourTests {
     for (int frame = 0; frame < simulator_.frames(); ++frame) {
       const auto test = static_cast<std::size_t>(frame / options_.frames);
       const sim::TofPixels pixels = simulator_.pixels(frame);
+      if (test == 0) measure_at_rest(pixels, results_[test]);
       measure(pixels, results_[test]);
       if (test > 0) measure_by_orb(frame, pixels, results_[test].orb);
       if (frame % options_.frames == 0) first_ = pixels;
@@ -115,15 +134,29 @@ class FourTests {
  private:
   void measure(const sim::TofPixels& pixels, TestResult& result) {
     const auto pose = tof::measure_tof_pose(frame_of(pixels), camera_, {}, *workspace_);
-    if (pose && pose->has_turn()) result.ours.add(values_of(pose->target.pose));
+    const bool answered = pose && pose->has_turn();
+    result.ours_series.push_back(answered ? values_of(pose->target.pose) : kNoPose);
+    if (answered) result.ours.add(result.ours_series.back());
     const sim::TofPixels coarse = eight_bit_depth(pixels, simulator_.scenario().depth);
     const auto seen = tof::measure_tof_pose(frame_of(coarse), camera_, {}, *workspace_);
+    result.paper_series.push_back(kNoPose);
     if (!seen || !seen->has_turn()) return;
     result.eight_bit.add(values_of(seen->target.pose));
     tof::find_connectors(frame_of(coarse), camera_, workspace_->rays, seen->ring.fit, tof::ConnectorSettings{},
                          workspace_->connector);
     const auto published_way = paper_pose(coarse, camera_, *seen, *workspace_);
-    if (published_way) result.paper.add(values_of(*published_way));
+    if (!published_way) return;
+    result.paper_series.back() = values_of(*published_way);
+    result.paper.add(result.paper_series.back());
+  }
+
+  // Figure 10: from the frame before, at rest.
+  void measure_at_rest(const sim::TofPixels& pixels, TestResult& result) {
+    if (!result.ours_series.empty() && previous_.width_px > 0) {
+      const auto moved = orb_motion(previous_, pixels, camera_);
+      result.orb_series.push_back(moved ? values_of({moved->R, moved->t}) : kNoPose);
+    }
+    previous_ = pixels;
   }
 
   // From the last test's first frame to this one, applied to the last test's true pose.
@@ -141,58 +174,131 @@ class FourTests {
   std::array<TestResult, kTests> results_;
   sim::TofPixels first_;       // of this test
   sim::TofPixels last_first_;  // of the last one
+  sim::TofPixels previous_;    // the frame before, of test 1
 };
 
 std::string count_text(const Spread& spread, int frames) {
   return spread.count() == frames ? "" : std::to_string(spread.count()) + " of " + std::to_string(frames) + " frames";
 }
 
-void add_sigmas(std::vector<ComparisonRow>& rows, std::size_t test, const char* way, const Spread& spread, int frames) {
+std::optional<double> of_count(const Spread& spread, double value) {
+  return spread.count() > 0 ? std::optional(value) : std::nullopt;
+}
+
+// Why a value is missing, or of how many frames it is.
+std::string remark_of(const char* way, const Spread& spread, int frames) {
+  if (spread.count() == frames) return "";
+  return std::string(way) + ": " + count_text(spread, frames) + (spread.count() == 0 ? " have an answer" : "");
+}
+
+std::string joined(const std::string& one, const std::string& other) {
+  return one.empty() || other.empty() ? one + other : one + "; " + other;
+}
+
+void add_table_two(std::vector<ComparisonRow>& rows, std::size_t test, const TestResult& result, int frames) {
+  const std::string name = "test " + std::to_string(test + 1);
+  const std::string remark = joined(remark_of("theirs", result.paper, frames), remark_of("ours", result.ours, frames));
   for (std::size_t i = 0; i < 6; ++i) {
-    rows.push_back({"table 2", "test " + std::to_string(test + 1) + ", " + way + ": sigma of " + kNames[i], kUnits[i],
-                    kPublishedSigma[test][i], spread.sigma(i), count_text(spread, frames)});
+    // A coordinate has no ratio.
+    ComparisonRow mean{"table 2",
+                       name + ": mean of " + kNames[i],
+                       kUnits[i],
+                       kPublishedMean[test][i],
+                       of_count(result.ours, result.ours.mean(i)),
+                       remark};
+    mean.theirs = of_count(result.paper, result.paper.mean(i));
+    mean.comparable = false;
+    rows.push_back(mean);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    ComparisonRow sigma{"table 2",
+                        name + ": sigma of " + kNames[i],
+                        kUnits[i],
+                        kPublishedSigma[test][i],
+                        of_count(result.ours, result.ours.sigma(i)),
+                        remark};
+    sigma.theirs = of_count(result.paper, result.paper.sigma(i));
+    rows.push_back(sigma);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    rows.push_back({"ours on 8-bit depth", name + ": sigma of " + kNames[i], kUnits[i], kPublishedSigma[test][i],
+                    of_count(result.eight_bit, result.eight_bit.sigma(i)),
+                    remark_of("ours", result.eight_bit, frames)});
   }
 }
 
-void add_errors(std::vector<ComparisonRow>& rows, std::size_t pair, const char* way,
-                const std::array<const char*, 6>& published, const Values& error, const std::string& remark) {
+// What the means of two tests differ by, less the truth.
+Values difference_of(const Spread& from, const Spread& to, const Values& truth_from, const Values& truth_to) {
+  Values error{};
   for (std::size_t i = 0; i < 6; ++i) {
-    rows.push_back({"table 3",
-                    "tests " + std::to_string(pair + 1) + " and " + std::to_string(pair + 2) + ", " + way +
-                        ": error of " + kNames[i],
-                    kUnits[i], published[i], std::abs(error[i]), remark});
+    error[i] = std::abs((to.mean(i) - from.mean(i)) - (truth_to[i] - truth_from[i]));
   }
+  return error;
+}
+
+void add_table_three(std::vector<ComparisonRow>& rows, std::size_t pair, const FourTests& tests, int frames) {
+  const TestResult &from = tests.result(pair), &to = tests.result(pair + 1);
+  const Values truth_from = tests.truth(pair), truth_to = tests.truth(pair + 1);
+  const Values ours = difference_of(from.ours, to.ours, truth_from, truth_to);
+  const Values theirs = difference_of(from.paper, to.paper, truth_from, truth_to);
+  const bool both = from.paper.count() > 0 && to.paper.count() > 0;
+  const std::string name = "tests " + std::to_string(pair + 1) + " and " + std::to_string(pair + 2);
+  for (std::size_t i = 0; i < 6; ++i) {
+    ComparisonRow row{"table 3",
+                      name + ": error of " + kNames[i],
+                      kUnits[i],
+                      kPublishedError[pair][i],
+                      of_count(to.ours, ours[i]),
+                      joined(remark_of("theirs", to.paper, frames), remark_of("ours", to.ours, frames))};
+    if (both) row.theirs = theirs[i];
+    rows.push_back(row);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    ComparisonRow row{"table 3",
+                      name + ", ORB: error of " + kNames[i],
+                      kUnits[i],
+                      kPublishedOrb[pair][i],
+                      of_count(to.ours, ours[i]),
+                      remark_of("ORB", to.orb, frames)};
+    if (to.orb.count() > 0) row.theirs = std::abs(to.orb.mean(i) - truth_to[i]);
+    rows.push_back(row);
+  }
+}
+
+Curve curve_of(const char* name, const char* colour, const Series& series, std::size_t i) {
+  Curve curve{name, colour, {}};
+  for (std::size_t k = 0; k < series.size(); ++k) curve.points.push_back({static_cast<double>(k) + 1.0, series[k][i]});
+  return curve;
+}
+
+void add_pictures(const TestResult& rest, const std::filesystem::path& folder, report::PartResult& result) {
+  std::vector<CurvePanel> nine, ten;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string title = std::string(kNames[i]) + ", " + kUnits[i];
+    nine.push_back(
+        {title,
+         {curve_of("theirs", "#e1501e", rest.paper_series, i), curve_of("ours", "#00a060", rest.ours_series, i)}});
+    ten.push_back({title + ", from the frame before", {curve_of("ORB", "#e1501e", rest.orb_series, i)}});
+  }
+  write_curves((folder / "figure9.svg").string(), nine, "frame");
+  write_curves((folder / "figure10.svg").string(), ten, "frame");
+  result.pictures.push_back({"figure 9", "test 1, pose of each frame: theirs on 8-bit depth, ours", "figure9.svg"});
+  result.pictures.push_back(
+      {"figure 10", "test 1, motion by ORB from frame to frame; gaps: no answer", "figure10.svg"});
 }
 
 }  // namespace
 
-std::vector<ComparisonRow> reproduce_four_tests(const FourTestsOptions& options) {
+report::PartResult reproduce_four_tests(const FourTestsOptions& options, const std::filesystem::path& folder) {
   FourTests tests(options);
   tests.run();
-  std::vector<ComparisonRow> rows;
+  report::PartResult result;
   for (std::size_t test = 0; test < kTests; ++test) {
-    const TestResult& result = tests.result(test);
-    add_sigmas(rows, test, "ours", result.ours, options.frames);
-    add_sigmas(rows, test, "ours on 8-bit depth", result.eight_bit, options.frames);
-    add_sigmas(rows, test, "the paper's way", result.paper, options.frames);
+    add_table_two(result.rows, test, tests.result(test), options.frames);
   }
-  for (std::size_t pair = 0; pair + 1 < kTests; ++pair) {
-    const TestResult& from = tests.result(pair);
-    const TestResult& to = tests.result(pair + 1);
-    const Values truth_from = tests.truth(pair);
-    const Values truth_to = tests.truth(pair + 1);
-    Values ours{};
-    Values orb{};
-    for (std::size_t i = 0; i < 6; ++i) {
-      ours[i] = (to.ours.mean(i) - from.ours.mean(i)) - (truth_to[i] - truth_from[i]);
-      orb[i] = to.orb.mean(i) - truth_to[i];
-    }
-    add_errors(rows, pair, "ours", kPublishedError[pair], ours, count_text(to.ours, options.frames));
-    if (to.orb.count() > 0) {
-      add_errors(rows, pair, "ORB", kPublishedOrb[pair], orb, count_text(to.orb, options.frames));
-    }
-  }
-  return rows;
+  for (std::size_t pair = 0; pair + 1 < kTests; ++pair) add_table_three(result.rows, pair, tests, options.frames);
+  if (!folder.empty()) add_pictures(tests.result(0), folder, result);
+  return result;
 }
 
 }  // namespace pharos::tools
