@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tools/evaluation/reproduce/add_reproduce_all.hpp"
 #include "tools/evaluation/reproduce/integrity/add_reproduce_integrity.hpp"
-#include "tools/evaluation/reproduce/lighthouse/dynamic_runs.hpp"
+#include "tools/evaluation/reproduce/lighthouse/lighthouse_parts.hpp"
 #include "tools/evaluation/reproduce/lighthouse/recordings.hpp"
-#include "tools/evaluation/reproduce/lighthouse/static_sets.hpp"
 #include "tools/evaluation/reproduce/pointing/add_reproduce_pointing.hpp"
 #include "tools/evaluation/reproduce/ring2/add_reproduce_ring2.hpp"
 #include "tools/evaluation/reproduce/slam/add_reproduce_slam.hpp"
@@ -26,12 +26,6 @@ constexpr const char* kExample =
     "  pharos reproduce lighthouse --quick --sets sets.csv\n"
     "  pharos reproduce lighthouse --recordings ../shared/data/lighthouse\n"
     "Light pulses are simulated and go through the decoder, OOTX, calibration and solver as real ones do.";
-
-constexpr int kQuickSets = 10;
-constexpr double kQuickSet_s = 12.0;  // OOTX is received twice within 9 s
-constexpr int kQuickRuns = 3;
-constexpr double kQuickRun_s = 15.0;
-constexpr CalibrationSession kQuickCalibration = {12, 1.0};
 
 struct Options {
   bool quick = false;
@@ -56,14 +50,11 @@ std::vector<ComparisonRow> simulated_rows(const Options& options) {
   sets.seed = runs.seed = options.seed;
   sets.sets_file = options.sets_file;
   if (options.quick) {
-    sets.sets = kQuickSets;
-    sets.set_s = kQuickSet_s;
-    runs.runs = kQuickRuns;
-    runs.run_s = kQuickRun_s;
-    runs.calibration = kQuickCalibration;
+    make_quick(sets);
+    make_quick(runs);
   }
-  std::vector<ComparisonRow> rows = reproduce_static_sets(sets);
-  for (const ComparisonRow& row : reproduce_dynamic_runs(runs)) rows.push_back(row);
+  std::vector<ComparisonRow> rows = reproduce_static_sets(sets).rows;
+  for (const ComparisonRow& row : reproduce_dynamic_runs(runs).rows) rows.push_back(row);
   return rows;
 }
 
@@ -98,6 +89,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     options->real = recordings->count() > 0;
     exit_code = run(*options);
   });
+  add_reproduce_all(*reproduce, exit_code);
   add_reproduce_slam(*reproduce, exit_code);
   add_reproduce_tof(*reproduce, exit_code);
   add_reproduce_pointing(*reproduce, exit_code);

@@ -33,7 +33,7 @@ int run(Options options) {
   options.table.povray = options.renderer == "povray";
   Progress progress("reproduce slam", "pairs", table_one_pairs(options.table));
   options.table.step = [&progress](std::size_t pairs) { progress.step(pairs); };
-  const std::vector<ComparisonRow> rows = reproduce_table_one(options.table);
+  const std::vector<ComparisonRow> rows = reproduce_table_one(options.table).rows;
   write_comparison(rows, options.markdown, options.output);
   return kExitAnswered;
 }

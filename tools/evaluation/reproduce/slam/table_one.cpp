@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <optional>
 
+#include "host/images/grey_image.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/vision/enhance/enhancer.hpp"
 #include "host/vision/slam/slam_system.hpp"
+#include "tools/plot/curves.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 
 namespace pharos::tools {
@@ -19,17 +22,17 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kLoopFrom_deg = 360.0;
 
-// As printed: RMSE and absolute error, deg.
+// As printed: RMSE, absolute error and estimated value, deg.
 struct Published {
   double turn_deg;
-  std::array<double, 2> good, low;
+  std::array<double, 3> good, low;
 };
-constexpr std::array<Published, 6> kTable{{{30.0, {0.177, 0.12}, {0.339, 0.57}},
-                                           {60.0, {0.162, 0.03}, {0.455, 0.46}},
-                                           {90.0, {0.21, 0.03}, {0.478, 0.42}},
-                                           {180.0, {0.181, 0.15}, {0.33, 0.24}},
-                                           {360.0, {1.506, 0.6}, {0.559, 3.22}},
-                                           {720.0, {0.221, 1.36}, {0.625, 4.47}}}};
+constexpr std::array<Published, 6> kTable{{{30.0, {0.177, 0.12, 29.88}, {0.339, 0.57, 29.43}},
+                                           {60.0, {0.162, 0.03, 60.03}, {0.455, 0.46, 59.54}},
+                                           {90.0, {0.21, 0.03, 89.97}, {0.478, 0.42, 89.58}},
+                                           {180.0, {0.181, 0.15, 179.85}, {0.33, 0.24, 179.76}},
+                                           {360.0, {1.506, 0.6, 359.4}, {0.559, 3.22, 356.78}},
+                                           {720.0, {0.221, 1.36, 718.64}, {0.625, 4.47, 715.53}}}};
 
 struct Variant {
   const char* key;
@@ -108,6 +111,9 @@ struct Outcome {
   double attitude_square = 0.0, position_square = 0.0;  // NEES per degree of freedom
   int loops = 0, placed = 0, without_pose = 0;
   bool last_placed = false;
+  // The whole turn about the target's axis: what of the true turn is left by the error about that axis.
+  double turned_deg = 0.0;
+  std::vector<PlotPoint> estimated, truth;  // turn over the frame's number, deg
 };
 
 double normalised_square(const Vector3& error, const Matrix3& covariance) {
@@ -116,6 +122,8 @@ double normalised_square(const Vector3& error, const Matrix3& covariance) {
 
 Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& sequence) {
   Outcome outcome;
+  // Of the turn in the camera's frame, from one step of it.
+  const Vector3 axis = rotation_log(sequence.truth(1).R * sequence.truth(0).R.transpose()).normalized();
   for (const slam::TrackedFrame& frame : system.optimised_trajectory()) {
     outcome.last_placed = frame.placed.has_value();
     if (!frame.placed) {
@@ -125,6 +133,11 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
     const auto truth = sequence.truth(static_cast<int>(frame.number));
     outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth.R);
     outcome.rmse_deg += outcome.last_deg * outcome.last_deg;
+    const double true_deg = sim::TumblingScenario{}.step_deg * static_cast<double>(frame.number);
+    const double error_deg = kDegrees * rotation_log(frame.placed->pose.R * truth.R.transpose()).dot(axis);
+    outcome.turned_deg = true_deg + error_deg;
+    outcome.truth.push_back({static_cast<double>(frame.number), true_deg});
+    outcome.estimated.push_back({static_cast<double>(frame.number), outcome.turned_deg});
     // The first one with a pose defines the frame.
     if (outcome.placed++ == 0) continue;
     const Matrix6& covariance = frame.placed->covariance;
@@ -142,17 +155,24 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
 
 void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, std::vector<ComparisonRow>& rows) {
   const std::string item = "table 1, " + std::to_string(static_cast<int>(turn_deg)) + " deg, " + variant.name;
-  std::string rmse, last;
+  std::string rmse, last, estimated, relative;
   for (const Published& published : kTable) {
     if (published.turn_deg != turn_deg) continue;
-    const std::array<double, 2>& values = variant.good_light ? published.good : published.low;
+    const std::array<double, 3>& values = variant.good_light ? published.good : published.low;
     rmse = host::exact_number(values[0]);
     last = host::exact_number(values[1]);
+    estimated = host::exact_number(values[2]);
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", 100.0 * std::abs(values[2] / turn_deg - 1.0));
+    relative = text.data();
   }
   if (outcome.placed > 0) {
-    rows.push_back({item, "attitude RMSE", "deg", rmse, outcome.rmse_deg, ""});
     const char* remark = outcome.last_placed ? "" : "of the last frame with a pose; later ones have none";
+    rows.push_back({item, "estimated turn", "deg", estimated, outcome.turned_deg, remark});
+    rows.push_back({item, "attitude RMSE", "deg", rmse, outcome.rmse_deg, ""});
     rows.push_back({item, "error of the last attitude", "deg", last, outcome.last_deg, remark});
+    rows.push_back(
+        {item, "relative error", "%", relative, 100.0 * std::abs(outcome.turned_deg / turn_deg - 1.0), remark});
   }
   if (outcome.placed > 1) {
     const char* remark = "1 where covariances are true";
@@ -166,23 +186,65 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
   }
 }
 
+// Figures 3 and 5: the turn over the frames, and how far it is off.
+void add_picture(double turn_deg, const Variant& variant, const Outcome& outcome, const std::filesystem::path& folder,
+                 report::PartResult& result) {
+  const std::string turn = std::to_string(static_cast<int>(turn_deg));
+  const std::string file = std::string(variant.key) + "_" + turn + ".svg";
+  std::vector<PlotPoint> error = outcome.estimated;
+  for (std::size_t i = 0; i < error.size(); ++i) error[i].y -= outcome.truth[i].y;
+  write_curves((folder / file).string(),
+               {{"turn, deg", {{"truth", "#909090", outcome.truth}, {"ours", "#00a060", outcome.estimated, true}}},
+                {"error of the turn, deg", {{"", "#00a060", error}}}},
+               "frame");
+  result.pictures.push_back({variant.good_light ? "figure 3" : "figure 5", turn + " deg, " + variant.name, file});
+}
+
 // One variant while it processes a sequence.
 struct Run {
   const Variant* variant;
   std::vector<double> turns;
   std::unique_ptr<slam::SlamSystem> system;
-  std::vector<ComparisonRow> rows;
+  report::PartResult result;
+  std::filesystem::path folder;
 
   void push(const Pictures& pictures, sim::TumblingSequence& sequence, int frame) {
     if (turns.empty() || frame > last_frame(turns.back())) return;
     system->push(0.05 * frame, pictures.view(variant->enhanced, 0), pictures.view(variant->enhanced, 1));
     for (const double turn : turns) {
-      if (last_frame(turn) == frame) add_rows(turn, *variant, outcome_of(*system, sequence), rows);
+      if (last_frame(turn) != frame) continue;
+      const Outcome outcome = outcome_of(*system, sequence);
+      add_rows(turn, *variant, outcome, result.rows);
+      if (!folder.empty()) add_picture(turn, *variant, outcome, folder, result);
     }
   }
 };
 
-void run_light(bool good_light, const TableOneOptions& options, std::vector<ComparisonRow>& rows) {
+void write_view(ImageView<const std::uint8_t> view, const std::filesystem::path& path) {
+  std::vector<std::uint16_t> pixels;
+  for (std::int32_t v = 0; v < view.height_px; ++v) {
+    const std::uint8_t* row = view.row(v);
+    for (std::int32_t u = 0; u < view.width_px; ++u) pixels.push_back(static_cast<std::uint16_t>(row[u] * 257));
+  }
+  host::write_grey_png(path.string(), {pixels.data(), view.width_px, view.height_px}, 8);
+}
+
+// Figure 2 in good light; in low light figure 4: as it is and enhanced.
+void add_first_views(bool good_light, bool enhanced, const Pictures& pictures, const std::filesystem::path& folder,
+                     report::PartResult& result) {
+  const std::string name = good_light ? "good.png" : "dark.png";
+  write_view(pictures.view(false, 0), folder / name);
+  if (good_light) {
+    result.pictures.push_back({"figure 2", "the rendered satellite, left camera, first frame", name});
+    return;
+  }
+  result.pictures.push_back({"figure 4", "in low light as it is", name});
+  if (!enhanced) return;
+  write_view(pictures.view(true, 0), folder / "enhanced.png");
+  result.pictures.push_back({"figure 4", "the same by LIME with our fast denoiser", "enhanced.png"});
+}
+
+void run_light(bool good_light, const TableOneOptions& options, report::PartResult& result) {
   std::vector<Run> runs;
   double longest = 0.0;
   bool enhanced = false;
@@ -191,7 +253,7 @@ void run_light(bool good_light, const TableOneOptions& options, std::vector<Comp
     if (variant.good_light != good_light || !wanted(variant, options) || turns.empty()) continue;
     longest = std::max(longest, turns.back());
     enhanced = enhanced || variant.enhanced;
-    runs.push_back({&variant, turns, nullptr, {}});
+    runs.push_back({&variant, turns, nullptr, {}, options.folder});
   }
   if (runs.empty()) return;
   sim::TumblingSequence sequence(scenario_of(longest, good_light, options), options.seed);
@@ -204,12 +266,17 @@ void run_light(bool good_light, const TableOneOptions& options, std::vector<Comp
   Pictures pictures(enhanced);
   for (int frame = 0; frame < sequence.frames(); ++frame) {
     pictures.take(sequence, frame);
+    if (frame == 0 && !options.folder.empty()) add_first_views(good_light, enhanced, pictures, options.folder, result);
     for (Run& run : runs) {
       run.push(pictures, sequence, frame);
       if (options.step && frame <= last_frame(run.turns.back())) options.step(1);
     }
   }
-  for (const Run& run : runs) rows.insert(rows.end(), run.rows.begin(), run.rows.end());
+  for (const Run& run : runs) {
+    const report::PartResult& one = run.result;
+    result.rows.insert(result.rows.end(), one.rows.begin(), one.rows.end());
+    result.pictures.insert(result.pictures.end(), one.pictures.begin(), one.pictures.end());
+  }
 }
 
 }  // namespace
@@ -218,6 +285,21 @@ std::vector<std::string> table_one_runs() {
   std::vector<std::string> keys;
   for (const Variant& variant : kVariants) keys.emplace_back(variant.key);
   return keys;
+}
+
+std::vector<ComparisonRow> table_one_left_out(bool good_light, const std::vector<double>& turns_deg) {
+  std::vector<ComparisonRow> rows;
+  for (const Published& published : kTable) {
+    if (std::find(turns_deg.begin(), turns_deg.end(), published.turn_deg) != turns_deg.end()) continue;
+    const std::string item = "table 1, " + std::to_string(static_cast<int>(published.turn_deg)) + " deg, " +
+                             (good_light ? "good light" : "low light");
+    const std::array<double, 3>& values = good_light ? published.good : published.low;
+    constexpr const char* kRemark = "left out by --quick";
+    rows.push_back({item, "estimated turn", "deg", host::exact_number(values[2]), std::nullopt, kRemark});
+    rows.push_back({item, "attitude RMSE", "deg", host::exact_number(values[0]), std::nullopt, kRemark});
+    rows.push_back({item, "error of the last attitude", "deg", host::exact_number(values[1]), std::nullopt, kRemark});
+  }
+  return rows;
 }
 
 std::size_t table_one_pairs(const TableOneOptions& options) {
@@ -229,10 +311,10 @@ std::size_t table_one_pairs(const TableOneOptions& options) {
   return pairs;
 }
 
-std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options) {
-  std::vector<ComparisonRow> rows;
-  for (const bool good_light : {true, false}) run_light(good_light, options, rows);
-  return rows;
+report::PartResult reproduce_table_one(const TableOneOptions& options) {
+  report::PartResult result;
+  for (const bool good_light : {true, false}) run_light(good_light, options, result);
+  return result;
 }
 
 }  // namespace pharos::tools

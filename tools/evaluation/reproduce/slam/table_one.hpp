@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "tools/evaluation/comparison/comparison.hpp"
+#include "tools/evaluation/report/part.hpp"
 
 namespace pharos::tools {
 
@@ -19,18 +21,22 @@ struct TableOneOptions {
   int features = 1000;
   bool povray = true;
   std::uint64_t seed = 1;
+  std::filesystem::path folder;           ///< for the pictures of figures 3 and 5; empty: none
   std::function<void(std::size_t)> step;  ///< called with the number of pairs done
 };
 
 /// Number of pairs of all runs with these options.
 std::size_t table_one_pairs(const TableOneOptions& options);
 
+/// Rows of the table's other turns, with the published figures alone.
+std::vector<ComparisonRow> table_one_left_out(bool good_light, const std::vector<double>& turns_deg);
+
 /// Table 1 of paper 004: each turn in good light, and in low light with and without enhancement; from 360 deg on also
-/// without loop closing. Rows: attitude RMSE, error of the last attitude, NEES (mean, per degree of freedom), frames
-/// without a pose, loops closed.
+/// without loop closing. Rows: estimated turn, attitude RMSE, error of the last attitude, NEES (mean, per degree of
+/// freedom), frames without a pose, loops closed.
 ///
 /// A shorter turn is the beginning of a longer one, image by image, so each run processes the longest once and is
 /// evaluated at the end of each (SlamSystem::optimised_trajectory). Runs in the same light use the same images.
-std::vector<ComparisonRow> reproduce_table_one(const TableOneOptions& options);
+report::PartResult reproduce_table_one(const TableOneOptions& options);
 
 }  // namespace pharos::tools

@@ -25,7 +25,7 @@ void expect_table_one(const std::string& run, const Bounds& bounds) {
   options.runs = {run};
   options.povray = false;
   int turns = 0, closed = 0;
-  for (const tools::ComparisonRow& row : tools::reproduce_table_one(options)) {
+  for (const tools::ComparisonRow& row : tools::reproduce_table_one(options).rows) {
     const std::string name = row.item + ", " + row.what;
     if (row.what == "attitude RMSE") {
       ++turns;

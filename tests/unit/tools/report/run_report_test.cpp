@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/report/run_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "host/support/input_error.hpp"
+#include "tools/evaluation/report/store.hpp"
+
+namespace pharos::tools::report {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A part that counts its runs and may fail.
+struct Planted {
+  int runs = 0;
+  bool fails = false;
+
+  Part part(const std::string& id) {
+    return {id, [](const PartSettings&) { return std::string("pharos reproduce <planted>"); },
+            [this](const PartSettings&, const fs::path& folder) {
+              ++runs;
+              std::ofstream(folder / "a.svg") << "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>";
+              if (fails) throw host::InputError("killed");
+              ComparisonRow row{"figure 8a", "an angle", "deg", "< 1", 0.1 + 0.2, "a < b & c"};
+              row.theirs = 0.75;
+              PartResult result;
+              result.rows = {row, {"noise", "without an answer", "", "", std::nullopt, "why"}};
+              result.pictures = {{"figure 8a", "curves", "a.svg"}};
+              return result;
+            }};
+  }
+};
+
+class RunReport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("report_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  ReportOptions options(bool quick = true, std::uint64_t seed = 1) const {
+    return {folder_.string(), {quick, seed}, {}};
+  }
+  fs::path folder_;
+};
+
+TEST_F(RunReport, KeepsAFinishedPartAndRunsItAgainForOtherSettings) {
+  Planted planted;
+  const std::vector<Part> parts = {planted.part("ring2")};
+  run_report(parts, options());
+  const std::string first = text_of(folder_ / "report.html");
+  run_report(parts, options());
+  EXPECT_EQ(planted.runs, 1);
+  EXPECT_EQ(text_of(folder_ / "report.html"), first);
+  run_report(parts, options(true, 2));
+  EXPECT_EQ(planted.runs, 2);
+  run_report(parts, options(false, 2));
+  EXPECT_EQ(planted.runs, 3);
+}
+
+TEST_F(RunReport, AnInterruptedRunLeavesTheFinishedPartsAndGoesOnThere) {
+  Planted first, second;
+  const std::vector<Part> parts = {first.part("ring2"), second.part("line")};
+  second.fails = true;
+  EXPECT_THROW(run_report(parts, options()), host::InputError);
+  EXPECT_THAT(text_of(folder_ / "report.html"), HasSubstr("Part line was not run"));
+  second.fails = false;
+  run_report(parts, options());
+  EXPECT_EQ(first.runs, 1);
+  EXPECT_EQ(second.runs, 2);
+  EXPECT_THAT(text_of(folder_ / "report.html"), Not(HasSubstr("Part line was not run")));
+}
+
+TEST_F(RunReport, APartWhosePicturesOrTableAreGoneIsRunAgain) {
+  Planted planted;
+  const std::vector<Part> parts = {planted.part("ring2")};
+  run_report(parts, options());
+  fs::remove(folder_ / "ring2" / "a.svg");
+  run_report(parts, options());
+  EXPECT_EQ(planted.runs, 2);
+  std::ofstream(folder_ / "ring2" / "part.json") << "{\"format\": 1, \"key\": [";
+  run_report(parts, options());
+  EXPECT_EQ(planted.runs, 3);
+}
+
+TEST_F(RunReport, KeptFiguresAreTheSameToTheLastBit) {
+  Planted planted;
+  run_report({planted.part("ring2")}, options());
+  const auto kept = kept_part(folder_ / "ring2", key_of("ring2", {true, 1}));
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(kept->result.rows[0].ours, 0.1 + 0.2);
+  EXPECT_EQ(kept->result.rows[1].ours, std::nullopt);
+  EXPECT_EQ(kept->result.rows[1].remark, "why");
+}
+
+TEST_F(RunReport, APictureOutsideOfThePartsFolderIsNotRead) {
+  Planted planted;
+  run_report({planted.part("ring2")}, options());
+  std::string text = text_of(folder_ / "ring2" / "part.json");
+  text.replace(text.find("a.svg"), 5, "../report.md");
+  std::ofstream(folder_ / "ring2" / "part.json") << text;
+  EXPECT_FALSE(kept_part(folder_ / "ring2", key_of("ring2", {true, 1})).has_value());
+}
+
+TEST_F(RunReport, ThePageIsWholeAndNeedsNoNetwork) {
+  Planted planted;
+  EXPECT_FALSE(run_report({planted.part("ring2")}, options()));  // figures 7, 9 and 10 are not there
+  const std::string page = text_of(folder_ / "report.html");
+  EXPECT_THAT(page, HasSubstr("a &lt; b &amp; c"));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("paper 001, figure 10: no picture"));
+  EXPECT_THAT(page, HasSubstr("pharos reproduce &lt;planted&gt;"));
+  for (const char* outside : {"src=\"http", "href=\"http", "<script", "<link", "url("}) {
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+  }
+}
+
+}  // namespace
+}  // namespace pharos::tools::report
