@@ -51,9 +51,17 @@ void append_csv_text(std::string& out, std::string_view text) {
 
 }  // namespace
 
-RowWriter::RowWriter(std::FILE* stream, RowFormat format, std::vector<std::string> columns)
-    : stream_(stream), format_(format), columns_(std::move(columns)) {
-  if (format_ == RowFormat::kJson) return;
+RowWriter::RowWriter(std::FILE* stream, RowFormat format, std::vector<std::string> columns, const RowExtras& extras)
+    : stream_(stream),
+      format_(format),
+      columns_(std::move(columns)),
+      covariance_(extras.covariance),
+      tum_(extras.series) {
+  assert(!covariance_ || format_ != RowFormat::kTum);
+  if (covariance_) {
+    for (const std::string& column : covariance_columns()) columns_.push_back(column);
+  }
+  if (format_ != RowFormat::kCsv) return;
   for (const std::string& column : columns_) buffer_ += (buffer_.empty() ? "" : ",") + column;
   buffer_ += '\n';
 }
@@ -66,8 +74,13 @@ RowWriter::~RowWriter() {
   std::fflush(stream_);
 }
 
-void RowWriter::begin_field() {
+// False where the form has no fields.
+bool RowWriter::begin_field() {
   assert(field_ < columns_.size());
+  if (format_ == RowFormat::kTum) {
+    ++field_;
+    return false;
+  }
   if (format_ == RowFormat::kCsv) {
     if (field_ > 0) buffer_ += ',';
   } else {
@@ -76,24 +89,23 @@ void RowWriter::begin_field() {
     buffer_ += ':';
   }
   ++field_;
+  return true;
 }
 
 RowWriter& RowWriter::number(double value) {
   if (!std::isfinite(value)) return none();
-  begin_field();
-  append_number(buffer_, value);
+  if (begin_field()) append_number(buffer_, value);
   return *this;
 }
 
 RowWriter& RowWriter::integer(std::int64_t value) {
-  begin_field();
-  append_number(buffer_, value);
+  if (begin_field()) append_number(buffer_, value);
   return *this;
 }
 
 RowWriter& RowWriter::text(std::string_view value) {
   if (value.empty()) return none();
-  begin_field();
+  if (!begin_field()) return *this;
   if (format_ == RowFormat::kJson) {
     append_json_text(buffer_, value);
   } else {
@@ -103,8 +115,7 @@ RowWriter& RowWriter::text(std::string_view value) {
 }
 
 RowWriter& RowWriter::none() {
-  begin_field();
-  if (format_ == RowFormat::kJson) buffer_ += "null";
+  if (begin_field() && format_ == RowFormat::kJson) buffer_ += "null";
   return *this;
 }
 
@@ -113,9 +124,30 @@ RowWriter& RowWriter::none(std::size_t count) {
   return *this;
 }
 
+RowWriter& RowWriter::pose(RowPose pose) {
+  pose_ = std::move(pose);
+  return *this;
+}
+
+void RowWriter::write_covariance() {
+  if (!pose_ || !pose_->covariance) {
+    none(static_cast<std::size_t>(Matrix6::SizeAtCompileTime));
+    return;
+  }
+  for (int i = 0; i < Matrix6::RowsAtCompileTime; ++i) {
+    for (int j = 0; j < Matrix6::ColsAtCompileTime; ++j) number((*pose_->covariance)(i, j));
+  }
+}
+
 void RowWriter::end_row() {
+  if (covariance_) write_covariance();
   assert(field_ == columns_.size());
-  buffer_ += format_ == RowFormat::kJson ? "}\n" : "\n";
+  if (format_ == RowFormat::kTum) {
+    buffer_ += tum_.line(pose_);
+  } else {
+    buffer_ += format_ == RowFormat::kJson ? "}\n" : "\n";
+  }
+  pose_.reset();
   field_ = 0;
   ++rows_;
   if (buffer_.size() >= kFlushAt) flush();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "host/cameras/rig_file.hpp"
+#include "host/table/table_reader.hpp"
 #include "integration/daemon_under_test.hpp"
+#include "pharos/base/units.hpp"
 #include "pharos/pose_t.hpp"
 #include "support/painted_ring_pair.hpp"
 #include "support/temporary_folder.hpp"
@@ -135,6 +138,65 @@ TEST(Listen, ARecordedFileEndsWhereItEndsAndTellsOldAges) {
   EXPECT_EQ(listen.wait_exit(20.0), 0) << listen.text();
   EXPECT_THAT(listen.text(), HasSubstr(": 5 poses in"));
   EXPECT_THAT(listen.text(), ::testing::ContainsRegex("age on arrival: [0-9]{13,}"));
+}
+
+// A log of poses of two sources, with a covariance whose elements tell their place; every third one is refused.
+void write_log_of_poses(const std::string& file) {
+  lcm::LogFile log(file, "w");
+  for (int i = 0; i < 9; ++i) {
+    pose_t pose{};
+    pose.utime = 1'700'000'000'000'000 + 10'000 * i;
+    pose.sequence = i;
+    pose.source = i == 8 ? "lighthouse/other" : "lighthouse/chaser";
+    pose.valid = i % 3 == 2 ? 0 : 1;
+    pose.status = pose.valid == 0 ? "refused_too_few" : i == 4 ? "ambiguous" : "ok";
+    if (i == 8) pose.valid = 1, pose.status = "ok";
+    pose.orientation_wxyz[0] = 1.0;
+    pose.position_m[2] = 2.0 + i;
+    for (int k = 0; k < 36; ++k) pose.covariance[k] = k % 7 == 0 ? 1e-6 * (k + 1) : 0.0;
+    pose.sigma_rot_rad = std::sqrt(1e-6 * (1 + 8 + 15));
+    pose.sigma_pos_m = std::sqrt(1e-6 * (22 + 29 + 36));
+    std::vector<char> bytes(static_cast<std::size_t>(pose.getEncodedSize()));
+    pose.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    lcm::LogEvent event{i, pose.utime, "PHAROS_LIGHTHOUSE_POSE", static_cast<int>(bytes.size()), bytes.data()};
+    ASSERT_EQ(log.writeEvent(&event), 0);
+  }
+}
+
+TEST(Listen, TheCovarianceOfATableIsThatOfTheMessages) {
+  const test::TemporaryFolder folder;
+  write_log_of_poses(folder.path("poses.lcm"));
+  ChildProcess listen(
+      {PHAROS, "listen", "--url", "file://" + folder.path("poses.lcm") + "?mode=r", "--format", "csv", "--covariance"});
+  EXPECT_EQ(listen.wait_exit(20.0), 0) << listen.text();
+  const std::string text = listen.text();
+  const std::string table =
+      folder.write("poses.csv", text.substr(text.find("utime,"), text.find("PHAROS_LIGHT") - text.find("utime,")));
+  TableReader rows(ByteSource(table), {"cov_rx_rx_rad2", "cov_ry_ry_rad2", "cov_rz_rz_rad2", "cov_tx_tx_m2",
+                                       "cov_ty_ty_m2", "cov_tz_tz_m2", "sigma_rot_deg", "sigma_pos_mm", "tz_m"});
+  int poses = 0, refused = 0;
+  while (rows.next()) {
+    if (rows.empty(8)) {
+      EXPECT_TRUE(rows.empty(0));
+      ++refused;
+      continue;
+    }
+    EXPECT_DOUBLE_EQ(std::sqrt(rows.number(0) + rows.number(1) + rows.number(2)) * kDegPerRad, rows.number(6));
+    EXPECT_DOUBLE_EQ(std::sqrt(rows.number(3) + rows.number(4) + rows.number(5)) * kMmPerM, rows.number(7));
+    ++poses;
+  }
+  EXPECT_EQ(poses, 7);
+  EXPECT_EQ(refused, 2);
+}
+
+TEST(Listen, TumHoldsTheGoodPosesOfOneSourceAndSaysWhatItLeavesOut) {
+  const test::TemporaryFolder folder;
+  write_log_of_poses(folder.path("poses.lcm"));
+  ChildProcess listen({PHAROS, "listen", "--url", "file://" + folder.path("poses.lcm") + "?mode=r", "--format", "tum"});
+  EXPECT_EQ(listen.wait_exit(20.0), 0) << listen.text();
+  EXPECT_THAT(listen.text(), HasSubstr("1700000000.01 0.0 0.0 3.0 0.0 0.0 0.0 1.0\n"));
+  EXPECT_THAT(listen.text(),
+              HasSubstr("4 rows have no TUM line: 2 refused, 1 ambiguous, 1 of another station or source"));
 }
 
 TEST(Listen, EndsWith2WithoutLcmOrTruthFile) {

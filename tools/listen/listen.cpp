@@ -29,6 +29,8 @@ struct ListenOptions {
   std::string truth;
   double duration_s = 0.0;
   std::int64_t count = 0;
+  std::string format = "lines";
+  bool covariance = false;
   bool csv = false;
   bool json = false;
   bool summary = false;
@@ -36,8 +38,9 @@ struct ListenOptions {
 
 ListenFormat format_of(const ListenOptions& options) {
   if (options.summary) return ListenFormat::kNone;
-  if (options.json) return ListenFormat::kJson;
-  return options.csv ? ListenFormat::kCsv : ListenFormat::kLines;
+  if (options.json || options.format == "json") return ListenFormat::kJson;
+  if (options.format == "tum") return ListenFormat::kTum;
+  return options.csv || options.format == "csv" ? ListenFormat::kCsv : ListenFormat::kLines;
 }
 
 void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener) {
@@ -67,13 +70,29 @@ void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals
   loop.run();
 }
 
+// What is received and is no row of the format.
+void report_not_shown(const Listener& listener, ListenFormat format) {
+  const bool of_poses = format == ListenFormat::kCsv || format == ListenFormat::kTum;
+  if (of_poses && listener.other_messages() > 0) {
+    std::fprintf(stderr, "%lld status or pointing messages not shown: they are no rows of this table; use --json\n",
+                 static_cast<long long>(listener.other_messages()));
+  }
+  if (format != ListenFormat::kTum || listener.left_out() == nullptr) return;
+  const std::string text = text_of(*listener.left_out());
+  if (!text.empty()) std::fprintf(stderr, "%s\n", text.c_str());
+}
+
 int listen(const ListenOptions& options) {
+  const ListenFormat format = format_of(options);
+  if (options.covariance && format != ListenFormat::kCsv && format != ListenFormat::kJson) {
+    throw host::InputError("--covariance is for tables: give --format csv or json");
+  }
   // Signals are blocked before LCM starts its own thread, which would receive them otherwise.
   host::Signals signals{SIGINT, SIGTERM};
   std::optional<TruthFile> truth;
   if (!options.truth.empty()) truth.emplace(options.truth);
   lcm::LCM lcm(options.url);
-  Listener listener(format_of(options), std::move(truth));
+  Listener listener(format, options.covariance, std::move(truth));
   subscribe(lcm, options.url, options.channel, hear, &listener);
   listener.begin();
   listen_until_done(lcm, listener, signals, options);
@@ -83,10 +102,7 @@ int listen(const ListenOptions& options) {
   if (listener.other_types() > 0) {
     std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.other_types()));
   }
-  if (options.csv && listener.other_messages() > 0) {
-    std::fprintf(stderr, "%lld status or pointing messages not shown: they are no rows of this table; use --json\n",
-                 static_cast<long long>(listener.other_messages()));
-  }
+  report_not_shown(listener, format);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw host::InputError(
         "standard output: rows were lost, it cannot be written; free the disk or choose another file");
@@ -110,7 +126,19 @@ void add_listen(CLI::App& app, int& exit_code) {
   command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
       ->check(number_from(kShortest_s, kLongest_s));
   command->add_option("--count", options->count, "Stop after this many valid poses")->check(CLI::Range(0, INT_MAX));
-  command->add_flag("--csv", options->csv, "A CSV table of the poses");
+  command
+      ->add_option(
+          "--format", options->format,
+          "lines; csv, json: a table; tum: lines `time_s x y z qx qy qz qw` (UTC) of the good poses of the first "
+          "source heard, the others are counted on standard error")
+      ->check(CLI::IsMember({"lines", "csv", "tum", "json"}))
+      ->capture_default_str();
+  command->add_flag(
+      "--covariance", options->covariance,
+      "36 further columns cov_rx_rx_rad2 ... cov_tz_tz_m2 of a table: the covariance of the message, row by "
+      "row, rotation (rad) before translation (m), in the parent frame; where the turn about the target's "
+      "axis is not measured, its variance is pi^2/3 rad^2; of an ambiguous pose about the first solution");
+  command->add_flag("--csv", options->csv, "A CSV table of the poses, as --format csv");
   command->add_flag("--json", options->json, "One JSON object a line")->excludes("--csv");
   command->add_flag("--summary", options->summary, "Only the summary at the end, on standard output");
   command->footer(

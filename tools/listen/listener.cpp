@@ -26,10 +26,13 @@ constexpr std::int64_t kLongestWait_ns = 500'000'000;
 
 }  // namespace
 
-Listener::Listener(ListenFormat format, std::optional<TruthFile> truth) : format_(format), truth_(std::move(truth)) {
-  if (format_ != ListenFormat::kCsv && format_ != ListenFormat::kJson) return;
-  const auto row_format = format_ == ListenFormat::kJson ? host::RowFormat::kJson : host::RowFormat::kCsv;
-  rows_ = std::make_unique<host::RowWriter>(stdout, row_format, pose_columns());
+Listener::Listener(ListenFormat format, bool covariance, std::optional<TruthFile> truth)
+    : format_(format), truth_(std::move(truth)) {
+  if (format_ == ListenFormat::kLines || format_ == ListenFormat::kNone) return;
+  const auto row_format = format_ == ListenFormat::kJson  ? host::RowFormat::kJson
+                          : format_ == ListenFormat::kTum ? host::RowFormat::kTum
+                                                          : host::RowFormat::kCsv;
+  rows_ = std::make_unique<host::RowWriter>(stdout, row_format, pose_columns(), host::RowExtras{covariance});
 }
 
 void Listener::begin() {
@@ -114,7 +117,7 @@ void Listener::print(const ReceivedPose& pose) {
 
 void Listener::take_other(const std::function<std::string(bool)>& text) {
   ++other_messages_;
-  if (format_ == ListenFormat::kNone || format_ == ListenFormat::kCsv) return;
+  if (format_ != ListenFormat::kLines && format_ != ListenFormat::kJson) return;
   std::puts(text(format_ == ListenFormat::kJson).c_str());
   std::fflush(stdout);
 }

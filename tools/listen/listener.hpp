@@ -23,22 +23,26 @@ class pose_t;
 
 namespace pharos::tools {
 
-enum class ListenFormat : std::uint8_t { kLines, kCsv, kJson, kNone };
+enum class ListenFormat : std::uint8_t { kLines, kCsv, kJson, kTum, kNone };
 
 /// Prints messages, and keeps their statistics.
 class Listener {
  public:
-  Listener(ListenFormat format, std::optional<TruthFile> truth);
+  /// `covariance`: 36 more columns of a table; not with kTum.
+  Listener(ListenFormat format, bool covariance, std::optional<TruthFile> truth);
 
   /// Printed before the first message: the header row of a CSV table.
   void begin();
   /// Any message of a channel listened to: pose_t, pointing_t, spin_t and status_t are printed (the last three not as
-  /// CSV, whose columns they do not have), others counted as foreign.
+  /// CSV or TUM, which have no place for them), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Several times a second: prints a row LOST for each source whose poses have stopped (lines only).
   void tick(std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Prints the poses still held for their truth, and compares those that were printed before it was written.
   void finish();
+
+  /// Of kTum: what has no line.
+  const host::TumLeftOut* left_out() const { return rows_ ? &rows_->tum().left_out() : nullptr; }
 
   const ListenSummary& summary() const { return summary_; }
   std::int64_t other_types() const { return other_types_; }
@@ -64,7 +68,7 @@ class Listener {
   };
   std::deque<Waiting> waiting_;
   std::vector<ReceivedPose> not_compared_;  // printed without an error
-  std::unique_ptr<host::RowWriter> rows_;   // of CSV and JSON
+  std::unique_ptr<host::RowWriter> rows_;   // of CSV, JSON and TUM
   ListenSummary summary_;
   SightMonitor sight_;
   std::int64_t other_types_ = 0;

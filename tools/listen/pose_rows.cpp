@@ -14,6 +14,17 @@ namespace {
 
 constexpr std::int64_t kMicrosecondsPerSecond = 1'000'000;
 constexpr double kMsPerS = 1e3;
+constexpr double kMicrosecond_s = 1e-6;
+
+host::RowPose row_pose(const ReceivedPose& pose) {
+  const std::string series = pose.channel + '/' + pose.source + '/' + pose.target + '/' + std::to_string(pose.station);
+  return {static_cast<double>(pose.utime_us) * kMicrosecond_s,
+          pose.pose->quaternion(),
+          pose.pose->t,
+          pose.covariance,
+          grade_of(pose),
+          series};
+}
 
 }  // namespace
 
@@ -66,6 +77,7 @@ void write_pose_row(host::RowWriter& rows, const ReceivedPose& pose) {
     rows.number(q.w()).number(q.x()).number(q.y()).number(q.z());
     rows.number(pose.pose->t.x()).number(pose.pose->t.y()).number(pose.pose->t.z());
     rows.number(pose.sigma_rot_rad * kDegPerRad).number(pose.sigma_pos_m * kMmPerM);
+    rows.pose(row_pose(pose));
   } else {
     rows.none(9);
   }

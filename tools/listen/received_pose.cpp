@@ -7,6 +7,11 @@
 
 namespace pharos::tools {
 
+host::PoseGrade grade_of(const ReceivedPose& pose) {
+  if (!pose.has_turn && !pose.source.starts_with("ring2/")) return host::PoseGrade::kNoTurn;
+  return pose.status == "ambiguous" ? host::PoseGrade::kAmbiguous : host::PoseGrade::kGood;
+}
+
 ReceivedPose received_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns) {
   ReceivedPose pose;
   pose.utime_us = message.utime;

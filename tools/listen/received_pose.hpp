@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "host/table/row_pose.hpp"
 #include "pharos/geometry/pose.hpp"
 
 namespace pharos {
@@ -50,6 +51,10 @@ struct ReceivedPose {
   double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;
 };
+
+/// Whether it may stand alone in a line of TUM or as a transform. ring2 never measures the turn about the ring's axis:
+/// its poses are taken with the conventional one; the pose is there.
+host::PoseGrade grade_of(const ReceivedPose& pose);
 
 /// A message as it arrived on `channel` at `utc_ns`.
 ReceivedPose received_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos circles: ring and nozzle of a satellite from two views.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <memory>
 
 #include "host/cameras/docking_target.hpp"
@@ -35,7 +36,14 @@ constexpr const char* kExample =
     "nozzle, sigma_px of one edge point (0.1) and how many there are (one a pixel of contour); one ellipse of four "
     "may\n"
     "be missing, more where the rest can tell: `untold` says what they cannot. --method paper is paper 001 as "
-    "published.";
+    "published.\n"
+    "--covariance: of T_rig_target, origin at the ring's centre, Z' = n; the turn about n is not measured: its "
+    "variance "
+    "is\n"
+    "that of a uniform angle, pi^2/3 rad^2. Empty with --method paper, and where the position is not told. --format "
+    "tum: "
+    "the\n"
+    "same pose with X' nearest the rig's x axis; time_s is the problem's number.";
 
 struct Options {
   std::vector<std::string> images;
@@ -64,13 +72,27 @@ Solved solved(const ring2::Rig& rig, const ring2::ContourSet& contours, bool by_
   return by_paper ? ring2::solve_ring2_by_paper(rig, contours) : ring2::solve_ring2(rig, contours);
 }
 
-bool write(const Solved& estimate, bool by_paper, host::RowWriter& rows) {
+bool write(const Solved& estimate, const Ring2Row& row, host::RowWriter& rows) {
   if (estimate) {
-    write_ring2(*estimate, by_paper, 0, rows);
+    write_ring2(*estimate, row, rows);
   } else {
     write_refusal(name_of(estimate.error()), rows);
   }
   return estimate.ok();
+}
+
+// The problem's number where it has one, otherwise its place.
+double time_of(const EllipseProblem& problem, std::size_t place) {
+  std::uint64_t number = 0;
+  const char* const end = problem.name.data() + problem.name.size();
+  const auto [stop, error] = std::from_chars(problem.name.data(), end, number);
+  return static_cast<double>(error == std::errc{} && stop == end ? number : place);
+}
+
+// No pair of images tells the turn: a line of TUM holds a conventional one.
+void note_turn(const Options& options) {
+  if (options.output.row_format() != host::RowFormat::kTum) return;
+  note("the turn about the ring's axis is not measured; the quaternions' is such that X' is nearest the rig's x axis");
 }
 
 void print_time(const char* what, const Options& options, const std::function<void()>& work) {
@@ -92,9 +114,11 @@ bool from_table(const ring2::Rig& rig, const Options& options) {
     if (table.has_problems) output.rows().text(problem.name);
     const Solved estimate = solved(rig, problem.contours, by_paper);
     if (!estimate) refusal = name_of(estimate.error());
-    answered = write(estimate, by_paper, output.rows()) || answered;
+    const auto place = static_cast<std::size_t>(&problem - table.problems.data());
+    answered = write(estimate, {by_paper, 0, time_of(problem, place)}, output.rows()) || answered;
   }
   output.finish();
+  if (answered) note_turn(options);
   if (!answered) {
     const std::size_t count = table.problems.size();
     note(options.ellipses + ": " +
@@ -141,12 +165,13 @@ bool from_images(const ring2::Rig& rig, const Options& options) {
     note(options.images[0] + ", " + options.images[1] + ": " + refusal_text(circles.refusal));
   }
   if (circles.estimate) {
-    write_ring2(*circles.estimate, by_paper, circles.one_edge, output.rows());
+    write_ring2(*circles.estimate, {by_paper, circles.one_edge}, output.rows());
   } else {
     write_refusal(circles.refusal, output.rows());
   }
   if (!options.overlay.empty()) write_ring2_overlay(options.overlay, images, rig, circles);
   output.finish();
+  if (circles.estimate) note_turn(options);
   print_time("a pair", options, [&] { finder.find({images[0].view(), images[1].view()}); });
   return circles.estimate.has_value();
 }
@@ -186,6 +211,7 @@ void add_ring2(CLI::App& app, int& exit_code) {
   command->add_option("--time", options->repeats, "Solve so many times more; median ms on standard error")
       ->check(CLI::Range(1, 1'000'000));
   add_output_options(*command, options->output);
+  add_pose_format_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -6,6 +6,7 @@
 
 #include "host/support/flag_text.hpp"
 #include "host/vision/ring2/rim.hpp"
+#include "host/vision/ring2/ring2_pose.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::tools {
@@ -45,6 +46,14 @@ const std::vector<std::string> kDetails = {"sigma_position_mm",
                                            "alt_cx_m",
                                            "alt_cy_m",
                                            "alt_cz_m"};
+
+// Only where ring and scale are observable. No focal length: the residual is not used.
+host::RowPose row_pose(const Ring2Estimate& e, bool by_paper, double time_s) {
+  const auto estimate = host::ring2_pose(e, 1.0);
+  return {time_s, estimate.pose.quaternion(), estimate.pose.t,
+          by_paper ? std::nullopt : std::optional<Matrix6>(estimate.covariance),
+          e.ambiguous() ? host::PoseGrade::kAmbiguous : host::PoseGrade::kGood};
+}
 
 void write_vector(const Vector3& vector, bool told, host::RowWriter& rows) {
   for (int axis = 0; axis < 3; ++axis) rows.number(told ? std::optional<double>(vector[axis]) : std::nullopt);
@@ -104,7 +113,8 @@ std::string unobservable_words(std::uint8_t unobservable) {
   return host::joined_flags(unobservable, kUnobservableWords);
 }
 
-void write_ring2(const Ring2Estimate& e, bool by_paper, std::uint8_t one_edge, host::RowWriter& rows) {
+void write_ring2(const Ring2Estimate& e, const Ring2Row& row, host::RowWriter& rows) {
+  const bool by_paper = row.by_paper;
   const ring2::Attitude attitude = ring2::attitude_of(e.normal);
   const Observable told(e.unobservable);
   const auto when = [](bool is_observable, double value) {
@@ -131,13 +141,14 @@ void write_ring2(const Ring2Estimate& e, bool by_paper, std::uint8_t one_edge, h
   } else {
     rows.none(3);
   }
-  rows.text(host::joined_flags(one_edge, kOneEdgeWords));
+  rows.text(host::joined_flags(row.one_edge, kOneEdgeWords));
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) {
       rows.number(when(!by_paper && told.ring, e.covariance(ring2::kCentre + i, ring2::kCentre + j)));
     }
   }
   write_vector(e.second ? e.second->ring_centre_m : Vector3::Zero().eval(), e.second.has_value() && told.ring, rows);
+  if (told.ring) rows.pose(row_pose(e, by_paper, row.time_s));
   rows.end_row();
 }
 

@@ -3,9 +3,6 @@
 
 #include <cmath>
 
-#include "host/files/atomic_file.hpp"
-#include "host/support/exact_number.hpp"
-#include "host/support/fixed_number.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
 
@@ -28,43 +25,6 @@ WrittenPose written(const slam::TrackedPose& placed, bool of_camera) {
   return {canonical_quaternion(inverse.pose.R), inverse.pose.t, inverse.covariance};
 }
 
-int write_tum(const PoseFile& file, const std::vector<slam::TrackedFrame>& trajectory) {
-  int rows = 0;
-  std::string text;
-  for (const slam::TrackedFrame& frame : trajectory) {
-    if (!frame.placed) continue;
-    const auto [q, t, covariance] = written(*frame.placed, file.of_camera);
-    text += host::fixed_number(frame.time_s);
-    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-      text += ' ' + host::exact_number(value);
-    text += '\n';
-    ++rows;
-  }
-  host::write_file(file.output.path, text);
-  return rows;
-}
-
-int write_table(const PoseFile& file, const std::vector<slam::TrackedFrame>& trajectory) {
-  Output output(file.output, kColumns);
-  host::RowWriter& rows = output.rows();
-  int answers = 0;
-  for (const slam::TrackedFrame& frame : trajectory) {
-    rows.number(frame.time_s);
-    if (!frame.placed) {
-      rows.none(kColumns.size() - 2).text("refused_lost").end_row();
-      continue;
-    }
-    const auto [q, t, covariance] = written(*frame.placed, file.of_camera);
-    for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) rows.number(value);
-    rows.number(std::sqrt(covariance.topLeftCorner<3, 3>().trace()) * kDegPerRad);
-    rows.number(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()) * kMmPerM);
-    rows.text("ok").end_row();
-    ++answers;
-  }
-  output.finish();
-  return answers;
-}
-
 }  // namespace
 
 // R' = exp(a) R, t' = t + b: the inverse turns by -R^T a and moves by -R^T (t x a + b).
@@ -78,7 +38,24 @@ InversePose inverse_of(const slam::TrackedPose& placed) {
 }
 
 int write_poses(const PoseFile& file, const std::vector<slam::TrackedFrame>& trajectory) {
-  return file.table ? write_table(file, trajectory) : write_tum(file, trajectory);
+  Output output(file.output, kColumns);
+  host::RowWriter& rows = output.rows();
+  int answers = 0;
+  for (const slam::TrackedFrame& frame : trajectory) {
+    rows.number(frame.time_s);
+    if (!frame.placed) {
+      rows.none(kColumns.size() - 2).text("refused_lost").end_row();
+      continue;
+    }
+    const auto [q, t, covariance] = written(*frame.placed, file.of_camera);
+    for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) rows.number(value);
+    rows.number(std::sqrt(covariance.topLeftCorner<3, 3>().trace()) * kDegPerRad);
+    rows.number(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()) * kMmPerM);
+    rows.pose({frame.time_s, q, t, covariance}).text("ok").end_row();
+    ++answers;
+  }
+  output.finish();
+  return answers;
 }
 
 }  // namespace pharos::tools

@@ -12,7 +12,6 @@ namespace pharos::tools {
 /// How poses are written: lines of TUM (timestamp tx ty tz qx qy qz qw), or a table (CSV or JSON) with sigmas.
 struct PoseFile {
   OutputOptions output;
-  bool table = false;
   bool of_camera = false;  // the inverse poses
 };
 

@@ -27,7 +27,10 @@ constexpr const char* kExample =
     "Rows: timestamp tx ty tz qx qy qz qw, metres: the pose of the target in the left camera's frame, relative to its\n"
     "pose at the first frame (T_C_T with T = C then); --output camera gives its inverse. A frame that is lost has no\n"
     "row, in a table (--format csv, --json) no pose: time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,\n"
-    "status. --scene auto says on standard error which scene it is: target where the background is dark all around,\n"
+    "status; --covariance: in the left camera's frame, of its inverse with --output camera; nothing of it holds the "
+    "first\n"
+    "pose, which is exact. --scene auto says on standard error which scene it is: target where the background is dark "
+    "all around,\n"
     "else static: nothing is masked, the camera moves; --output camera tells its path.\n"
     "Images: PNG, TIFF, PGM or PPM of 8 or 16 bits (of which the upper 8 count, unless enhanced), JPEG or BMP; of "
     "colour\n"
@@ -37,7 +40,7 @@ constexpr const char* kExample =
 struct Options {
   PairChoice names;
   std::string rig;
-  std::string scene = "auto", output = "target", format = "tum";
+  std::string scene = "auto", output = "target";
   OutputOptions poses;
   std::string report, map, overlay;
   bool no_loops = false, threads = false;
@@ -116,6 +119,7 @@ class Feeder {
 };
 
 int run(Options options) {
+  require_place_for_covariance(options.poses);
   options.settings.scene = slam::scene_named(options.scene);
   options.settings.close_loops = !options.no_loops;
   options.settings.threads = options.threads;
@@ -135,8 +139,7 @@ int run(Options options) {
   }
   system->finish();
   const std::vector<slam::TrackedFrame> trajectory = system->trajectory();
-  const bool table = options.poses.json || options.format == "csv";
-  const int rows = write_poses({options.poses, table, options.output == "camera"}, trajectory);
+  const int rows = write_poses({options.poses, options.output == "camera"}, trajectory);
   if (!options.map.empty()) write_map_ply(options.map, system->points());
   if (!options.report.empty()) write_slam_report(options.report, system->report(), trajectory, figures);
   if (rows == 0 && !feeder.input().nothing_read()) {
@@ -167,8 +170,8 @@ void add_slam(CLI::App& app, int& exit_code) {
   command->add_option("-o", options->poses.path, "File for the poses instead of standard output (-)")
       ->type_name("FILE")
       ->check(output_place());
-  command->add_option("--format", options->format, "tum (default), or csv: a table with sigmas and a status")
-      ->check(CLI::IsMember({"tum", "csv"}));
+  options->poses.format = "tum";
+  add_pose_format_options(*command, options->poses);
   command->add_flag("--json", options->poses.json, "One JSON object a line with the names of --format csv");
   command->add_option("--rate", options->names.rate_hz, "Pairs a second where names tell no time (default 20)")
       ->check(CLI::Range(0.001, 10'000.0));

@@ -2,6 +2,7 @@
 #include "tools/support/pose_columns.hpp"
 
 #include <array>
+#include <utility>
 
 namespace pharos::tools {
 namespace {
@@ -29,6 +30,15 @@ void write_pose(host::RowWriter& rows, const LighthouseFromBody& T_lighthouse_bo
   rows.number(q.w()).number(q.x()).number(q.y()).number(q.z());
   const Vector3& t = T_lighthouse_body.t;
   rows.number(t.x()).number(t.y()).number(t.z());
+}
+
+host::RowPose row_pose(const LighthousePoseEstimate& estimate, double time_s, std::string series) {
+  return {time_s,
+          estimate.pose.quaternion(),
+          estimate.pose.t,
+          estimate.covariance,
+          estimate.ambiguous() ? host::PoseGrade::kAmbiguous : host::PoseGrade::kGood,
+          std::move(series)};
 }
 
 void write_no_pose(host::RowWriter& rows) { rows.none(kPoseColumns.size()); }

@@ -17,6 +17,8 @@ std::vector<std::string> second_solution_columns();
 
 /// Fields qw..tz_m (quaternion with w >= 0).
 void write_pose(host::RowWriter& rows, const LighthouseFromBody& T_lighthouse_body);
+/// The row's pose for covariance and TUM; poses of one `series` are of one trajectory.
+host::RowPose row_pose(const LighthousePoseEstimate& estimate, double time_s, std::string series);
 /// Fields qw..tz_m without values.
 void write_no_pose(host::RowWriter& rows);
 /// Fields alt_qw..delta_chi2: filled exactly when the pose is ambiguous. Null for a refused pose.

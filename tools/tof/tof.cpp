@@ -32,7 +32,10 @@ constexpr const char* kExample =
     "ring.toml\n"
     "Poses are T_camera_target: the ring's centre, and (8) of the paper for the angles. Without a connector (flag "
     "no_connector) gamma and the\n"
-    "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.";
+    "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.\n"
+    "--covariance: in the camera's frame; without a connector the variance about Z' is that of a uniform angle, pi^2/3 "
+    "rad^2.\n"
+    "--format tum: time_s is the frame's number (of 16 digits and more: ns); frames without a turn have no line.";
 
 struct Options {
   std::string folder;
@@ -144,6 +147,9 @@ void write_learnt(const std::string& path, const TargetLearner& learner) {
 }
 
 int run(Options options) {
+  if (options.summary && (options.output.covariance || options.output.row_format() == host::RowFormat::kTum)) {
+    throw host::InputError("--summary has no poses: give it without --covariance and --format tum");
+  }
   if (options.min_diameter_mm > 0.0) options.settings.ring.min_outer_radius_m = 0.0005 * options.min_diameter_mm;
   if (options.max_diameter_mm > 0.0) options.settings.ring.max_outer_radius_m = 0.0005 * options.max_diameter_mm;
   if (!options.target.empty()) {
@@ -200,6 +206,7 @@ void add_tof(CLI::App& app, int& exit_code) {
   command->add_option("--target", options->target, "Target description (TOML): any one of its connectors gives gamma");
   command->add_option("--learn", options->learn, "Write a target description of ring and connectors, as seen");
   add_output_options(*command, options->output);
+  add_pose_format_options(*command, options->output);
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

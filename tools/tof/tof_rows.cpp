@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/tof/tof_rows.hpp"
 
+#include <charconv>
 #include <cmath>
 
 #include "host/support/flag_text.hpp"
@@ -18,6 +19,22 @@ const std::vector<std::string> kSecond = {"alt_qw",   "alt_qx",   "alt_qy",   "a
 void write_quaternion(host::RowWriter& rows, const Matrix3& R) {
   const Quaternion q = canonical_quaternion(R);
   rows.number(q.w()).number(q.x()).number(q.y()).number(q.z());
+}
+
+// The frame's number; of so many digits, nanoseconds since 1970.
+double frame_time_s(const std::string& frame) {
+  constexpr std::size_t kStampDigits = 16;
+  constexpr double kNanosecond_s = 1e-9;
+  std::uint64_t number = 0;
+  std::from_chars(frame.data(), frame.data() + frame.size(), number);
+  return static_cast<double>(number) * (frame.size() >= kStampDigits ? kNanosecond_s : 1.0);
+}
+
+host::RowPose row_pose(const std::string& frame, const tof::TargetPose& target, bool has_turn, bool ambiguous) {
+  const host::PoseGrade grade = !has_turn   ? host::PoseGrade::kNoTurn
+                                : ambiguous ? host::PoseGrade::kAmbiguous
+                                            : host::PoseGrade::kGood;
+  return {frame_time_s(frame), canonical_quaternion(target.pose.R), target.pose.t, target.covariance, grade};
 }
 
 // Without the turn about Z', gamma and the quaternion have no value, and sigma_rot_deg is that of the two tilts.
@@ -52,6 +69,7 @@ std::vector<std::string> tof_columns() {
 void write_frame(host::RowWriter& rows, const std::string& frame, const tof::TofPose& pose) {
   rows.text(frame);
   write_target(rows, pose.target, pose.has_turn());
+  rows.pose(row_pose(frame, pose.target, pose.has_turn(), pose.ambiguous()));
   rows.text(pose.ambiguous() ? "ambiguous" : "ok").text(host::joined_flags(pose.flags, tof::kTofFlagWords));
   const tof::RingFit& ring = pose.ring.fit;
   rows.integer(1).number(ring.seen);
@@ -75,6 +93,7 @@ void write_frame(host::RowWriter& rows, const std::string& frame, const tof::Tof
 void write_window(host::RowWriter& rows, const std::string& frame, const WindowMean& window) {
   rows.text(frame);
   write_target(rows, *window.mean(), window.has_turn());
+  rows.pose(row_pose(frame, *window.mean(), window.has_turn(), false));
   rows.text("ok").text(host::joined_flags(window.flags(), tof::kTofFlagWords));
   rows.integer(static_cast<std::int64_t>(window.frames()));
   rows.none(kDetails.size() - 1 + kSecond.size()).end_row();

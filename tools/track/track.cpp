@@ -37,7 +37,10 @@ constexpr const char* kExample =
     "no check of a faulty target, which method motion refuses as refused_suspect_target.\n"
     "flags: uncalibrated, flash_weak, period_nominal, outliers (hits left out), prior, lock_poor, fused, "
     "residual_high\n"
-    "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).";
+    "(more is left than --sigma-arcsec explains: sigmas and the ambiguity test are too kind; give the real noise).\n"
+    "--covariance: of T_lighthouse_body in the station's frame (of T_world_body with --sweeps), its roots of traces "
+    "are\n"
+    "sigma_rot_deg and sigma_pos_mm. --format tum: one station's poses, --station says whose.";
 
 struct Options {
   std::string edges;
@@ -49,6 +52,7 @@ struct Options {
   int form = 1;
   bool raw_flashes = false;
   bool stats = false;
+  std::optional<int> station;  // of the lines of TUM
   double largest_sigma_deg = motion::UncertaintyLimits{}.rotation_rad * kDegPerRad;
   double largest_sigma_mm = motion::UncertaintyLimits{}.position_m * kMmPerM;
   SolverOptions solver;
@@ -87,6 +91,7 @@ void write_result(const track::EpochResult& result, const std::string& station_i
     rows.number(factors ? std::optional(estimate->adop_deg_per_rad) : std::nullopt);
     rows.number(factors ? std::optional(estimate->pdop_m_per_rad) : std::nullopt);
     rows.number(estimate->residual_rms * kArcsecPerRad);
+    rows.pose(row_pose(*estimate, ticks_to_seconds(result.time_ticks), std::to_string(result.station)));
   } else {
     write_no_pose(rows);
     rows.none(5);
@@ -172,7 +177,13 @@ void check_files(const Options& options) {
   require_writable(options.sensors);
 }
 
-int run(const Options& options) {
+int run(Options options) {
+  if (options.station) {
+    if (options.output.row_format() != host::RowFormat::kTum || !options.sweeps.empty()) {
+      throw host::InputError("--station chooses the lines of --format tum from EDGES; tables have a column station");
+    }
+    options.output.series = std::to_string(*options.station);
+  }
   if (!options.sweeps.empty() || !options.stations.empty()) {
     if (options.sweeps.empty() || options.stations.empty() || !options.edges.empty()) {
       throw host::InputError("give --sweeps and --stations together, and no EDGES");
@@ -243,6 +254,11 @@ void add_track(CLI::App& app, int& exit_code) {
   command->add_flag("--stats", options->stats, "Every counter at the end, on standard error");
   add_solver_options(*command, options->solver);
   add_output_options(*command, options->output);
+  add_pose_format_options(*command, options->output);
+  command
+      ->add_option("--station", options->station,
+                   "With --format tum: the station whose poses are written (default: that of the first good one)")
+      ->check(CLI::Range(0, 1));
   command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -51,6 +51,8 @@ void write_result(const network::NetworkResult& result, const network::Stations&
     rows.number(std::sqrt(result.covariance.topLeftCorner<3, 3>().trace()) * kDegPerRad);
     rows.number(std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace()) * kMmPerM);
     rows.number(result.residual_rms_rad * kArcsecPerRad);
+    rows.pose({result.time_s, result.pose.value().quaternion(), result.pose.value().t, result.covariance,
+               result.ambiguous ? host::PoseGrade::kAmbiguous : host::PoseGrade::kGood});
   } else {
     write_no_pose(rows);
     rows.none(3);

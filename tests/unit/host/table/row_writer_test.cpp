@@ -21,12 +21,12 @@ namespace {
 using pharos::test::TemporaryFile;
 
 template <class Fill>
-std::string written(RowFormat format, std::vector<std::string> columns, Fill&& fill) {
+std::string written(RowFormat format, std::vector<std::string> columns, Fill&& fill, const RowExtras& extras = {}) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* stream = open_memstream(&text, &size);
   {
-    RowWriter writer(stream, format, std::move(columns));
+    RowWriter writer(stream, format, std::move(columns), extras);
     fill(writer);
   }
   std::fclose(stream);
@@ -82,6 +82,49 @@ TEST(RowWriter, WritesNumbersThatReadBackExactly) {
     ASSERT_TRUE(table.next());
     EXPECT_EQ(std::bit_cast<std::uint64_t>(table.number(0)), std::bit_cast<std::uint64_t>(value));
   }
+}
+
+// Numbers that tell their row and column.
+RowPose pose_with_covariance() {
+  RowPose pose{2.0, Quaternion::Identity(), Vector3(1.0, 2.0, 3.0)};
+  pose.covariance = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) (*pose.covariance)(i, j) = 10 * i + j;
+  }
+  return pose;
+}
+
+TEST(RowWriter, AppendsTheCovarianceRowByRowAndNothingWhereThereIsNone) {
+  const auto fill = [](RowWriter& writer) {
+    writer.text("ok").pose(pose_with_covariance()).end_row();
+    writer.text("refused").end_row();
+  };
+  const std::string text = written(RowFormat::kCsv, {"status"}, fill, {true, ""});
+  const TemporaryFile file(text);
+  std::vector<std::string> columns = covariance_columns();
+  ASSERT_EQ(columns.size(), 36U);
+  EXPECT_EQ(columns[0], "cov_rx_rx_rad2");
+  EXPECT_EQ(columns[3], "cov_rx_tx_rad_m");
+  EXPECT_EQ(columns[18], "cov_tx_rx_rad_m");
+  EXPECT_EQ(columns[35], "cov_tz_tz_m2");
+  TableReader table(ByteSource(file.path()), columns);
+  ASSERT_TRUE(table.next());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    EXPECT_EQ(table.number(k), 10.0 * static_cast<double>(k / 6) + static_cast<double>(k % 6)) << columns[k];
+  }
+  ASSERT_TRUE(table.next());
+  for (std::size_t k = 0; k < columns.size(); ++k) EXPECT_TRUE(table.empty(k)) << "not that of the row before";
+  EXPECT_EQ(text.substr(0, 22), "status,cov_rx_rx_rad2,");
+}
+
+TEST(RowWriter, AsTumWritesThePosesAlone) {
+  const auto fill = [](RowWriter& writer) {
+    writer.number(2.0).text("ok").pose(pose_with_covariance()).end_row();
+    writer.none().text("refused").end_row();
+    EXPECT_EQ(writer.rows(), 2U);
+    EXPECT_EQ(writer.tum().left_out().refused, 1U);
+  };
+  EXPECT_EQ(written(RowFormat::kTum, {"time_s", "status"}, fill), "2.0 1.0 2.0 3.0 0.0 0.0 0.0 1.0\n");
 }
 
 TEST(RowWriter, ReportsAFullDisk) {
