@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace pharos {
+class bearings_t;
+class pointing_t;
+class pose_t;
+class spin_t;
+class status_t;
+}  // namespace pharos
+
+namespace pharos::tools {
+
+using Json = nlohmann::ordered_json;
+
+// The messages with all their fields, names and units as in proto/: what a message does not apply to is 0 there, too.
+Json json_of(const pose_t& message);
+Json json_of(const pointing_t& message);
+Json json_of(const spin_t& message);
+Json json_of(const status_t& message);
+Json json_of(const bearings_t& message);
+
+/// The counters alone, by name, for plots: {"utime", "daemon": {...}, "sources": {SOURCE: {...}}}.
+Json counters_of(const status_t& message);
+
+/// Whether all its numbers are finite: JSON has no others.
+bool all_finite(const Json& value);
+
+/// One line. Bytes that are not UTF-8 are replaced.
+std::string text_of(const Json& value);
+
+}  // namespace pharos::tools
