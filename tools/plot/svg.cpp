@@ -4,8 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 
 #include "host/files/atomic_file.hpp"
 
@@ -22,22 +20,6 @@ std::string place(double value) { return "\"" + coordinate(value) + "\""; }
 std::string listed(const std::vector<PlotPoint>& points) {
   std::string text;
   for (const PlotPoint& p : points) text += coordinate(p.x) + "," + coordinate(p.y) + " ";
-  return text;
-}
-
-std::string escaped(std::string_view words) {
-  std::string text;
-  for (const char c : words) {
-    if (c == '<') {
-      text += "&lt;";
-    } else if (c == '>') {
-      text += "&gt;";
-    } else if (c == '&') {
-      text += "&amp;";
-    } else {
-      text += c;
-    }
-  }
   return text;
 }
 
@@ -65,6 +47,24 @@ std::string tick_text(double value, double step) {
 
 }  // namespace
 
+std::string escaped_markup(std::string_view words) {
+  std::string text;
+  for (const char c : words) {
+    if (c == '<') {
+      text += "&lt;";
+    } else if (c == '>') {
+      text += "&gt;";
+    } else if (c == '&') {
+      text += "&amp;";
+    } else if (c == '"') {
+      text += "&quot;";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
 Svg::Svg(double width, double height) : width_(width), height_(height) {}
 
 void Svg::line(PlotPoint from, PlotPoint to, std::string_view colour, double width, bool dashed) {
@@ -90,17 +90,16 @@ void Svg::circle(PlotPoint centre, double radius, std::string_view fill) {
 
 void Svg::text(PlotPoint at, std::string_view words, double size, std::string_view anchor) {
   body_ += "<text x=" + place(at.x) + " y=" + place(at.y) + " font-size=" + place(size) + " text-anchor=\"" +
-           std::string(anchor) + "\">" + escaped(words) + "</text>\n";
+           std::string(anchor) + "\">" + escaped_markup(words) + "</text>\n";
 }
 
-void Svg::write(const std::string& path) const {
-  host::AtomicFile file(path);
-  std::fprintf(file.stream(),
-               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\">\n"
-               "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n%s</svg>\n",
-               width_, height_, body_.c_str());
-  file.commit();
+std::string Svg::element() const {
+  const auto whole = [](double value) { return "\"" + shown(value, std::chars_format::fixed, 0) + "\""; };
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=" + whole(width_) + " height=" + whole(height_) +
+         " font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body_ + "</svg>\n";
 }
+
+void Svg::write(const std::string& path) const { host::write_file(path, element()); }
 
 PlotPoint Axes::at(double x, double y) const {
   return {left + width * (x - x_low) / (x_high - x_low), top + height * (y_high - y) / (y_high - y_low)};

@@ -13,6 +13,9 @@ struct PlotPoint {
   double y = 0.0;
 };
 
+/// Text with the characters of markup as entities.
+std::string escaped_markup(std::string_view words);
+
 /// A picture in SVG, drawn from back to front. Colours are CSS words or "#rrggbb".
 class Svg {
  public:
@@ -25,6 +28,8 @@ class Svg {
   /// `anchor` is start, middle or end.
   void text(PlotPoint at, std::string_view words, double size = 12.0, std::string_view anchor = "start");
 
+  /// The picture as an element, for a page or a file.
+  std::string element() const;
   /// Throws host::InputError when the file cannot be written.
   void write(const std::string& path) const;
 

@@ -37,6 +37,7 @@ void add_ellipses(CLI::App& app, int& exit_code);    // tools/ellipses
 void add_ring2(CLI::App& app, int& exit_code);       // tools/ring2
 void add_enhance(CLI::App& app, int& exit_code);     // tools/enhance
 void add_tof(CLI::App& app, int& exit_code);         // tools/tof
+void add_plot(CLI::App& app, int& exit_code);        // tools/plot_pages
 void add_pointing(CLI::App& app, int& exit_code);    // tools/pointing
 void add_slam(CLI::App& app, int& exit_code);        // tools/slam
 void add_vocabulary(CLI::App& app, int& exit_code);  // tools/slam
@@ -65,6 +66,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_ring2(app, exit_code);
   add_enhance(app, exit_code);
   add_tof(app, exit_code);
+  add_plot(app, exit_code);
   add_pointing(app, exit_code);
   add_slam(app, exit_code);
   add_vocabulary(app, exit_code);
