@@ -24,11 +24,13 @@ void add_reproduce(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);         // tools/sim
 void add_listen(CLI::App& app, int& exit_code);      // tools/listen
 void add_watch(CLI::App& app, int& exit_code);       // tools/watch
-<<<<<<< HEAD
 void add_view(CLI::App& app, int& exit_code);        // tools/view
-=======
 void add_export(CLI::App& app, int& exit_code);      // tools/export
->>>>>>> 353ef07 (export: a log of LCM as MCAP)
+<<<<<<< HEAD
+=======
+void add_devices(CLI::App& app, int& exit_code);     // tools/devices
+void add_init(CLI::App& app, int& exit_code);        // tools/init
+>>>>>>> a7e1f37 (devices, init: what is connected, and a first configuration from it)
 void add_flash(CLI::App& app, int& exit_code);       // tools/flash
 void add_bench(CLI::App& app, int& exit_code);       // tools/evaluation/bench
 void add_evaluate(CLI::App& app, int& exit_code);    // tools/evaluate
@@ -53,11 +55,13 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_sim(app, exit_code);
   add_listen(app, exit_code);
   add_watch(app, exit_code);
-<<<<<<< HEAD
   add_view(app, exit_code);
-=======
   add_export(app, exit_code);
->>>>>>> 353ef07 (export: a log of LCM as MCAP)
+<<<<<<< HEAD
+=======
+  add_devices(app, exit_code);
+  add_init(app, exit_code);
+>>>>>>> a7e1f37 (devices, init: what is connected, and a first configuration from it)
   add_flash(app, exit_code);
   add_bench(app, exit_code);
   add_evaluate(app, exit_code);
