@@ -13,6 +13,7 @@
 
 #include "host/config/load_config.hpp"
 #include "host/config/replay_config.hpp"
+#include "host/config/source_table.hpp"
 #include "host/daemon/daemon.hpp"
 #include "host/daemon/log_setup.hpp"
 #include "host/daemon/program_options.hpp"
@@ -90,6 +91,7 @@ int run(const Options& options) {
   host::DaemonLog log(config.log);
   // Poses need neither directory: a read-only disk is reported but does not prevent the start.
   for (const host::PlaceError& error : config.place_errors) spdlog::warn("{}", error.message);
+  for (const std::string& line : host::source_table(config)) spdlog::info("{}", line);
   host::LcmSink lcm(config.lcm.url);
   host::TracedSink sink(lcm);
   const host::SystemClock clock;
