@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <lcm/lcm_coretypes.h>
-
-#include <cstdint>
 #include <lcm/lcm-cpp.hpp>
-#include <span>
 #include <string>
 
 #include "tools/listen/message_shape.hpp"
-#include "tools/listen/message_check.hpp"
 
 namespace pharos::tools {
 
@@ -27,16 +22,6 @@ template <class Message>
 bool decode(Message& message, const void* data, int size) {
   static_assert(!kMessageShape<Message>.empty(), "write the type's shape into message_shape.hpp");
   return has_shape(data, size, kMessageShape<Message>) && message.decode(data, 0, size) == size;
-/// Whether `data` is a message of this type, and whole; its fields then. Lengths are checked first, because the
-/// messages come from anyone.
-  constexpr int kFingerprintBytes = 8;
-  if (size < kFingerprintBytes) return false;
-  std::int64_t fingerprint = 0;
-  __int64_t_decode_array(data, 0, size, &fingerprint, 1);
-  if (fingerprint != Message::getHash()) return false;
-  const auto* bytes = static_cast<const std::uint8_t*>(data);
-  const std::span fields(bytes + kFingerprintBytes, static_cast<std::size_t>(size - kFingerprintBytes));
-  return fits_layout(layout_of(message), fields) && message.decode(data, 0, size) == size;
 }
 
 }  // namespace pharos::tools

@@ -26,11 +26,8 @@ void add_listen(CLI::App& app, int& exit_code);      // tools/listen
 void add_watch(CLI::App& app, int& exit_code);       // tools/watch
 void add_view(CLI::App& app, int& exit_code);        // tools/view
 void add_export(CLI::App& app, int& exit_code);      // tools/export
-<<<<<<< HEAD
-=======
 void add_devices(CLI::App& app, int& exit_code);     // tools/devices
 void add_init(CLI::App& app, int& exit_code);        // tools/init
->>>>>>> a7e1f37 (devices, init: what is connected, and a first configuration from it)
 void add_flash(CLI::App& app, int& exit_code);       // tools/flash
 void add_bench(CLI::App& app, int& exit_code);       // tools/evaluation/bench
 void add_evaluate(CLI::App& app, int& exit_code);    // tools/evaluate
@@ -57,11 +54,8 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_watch(app, exit_code);
   add_view(app, exit_code);
   add_export(app, exit_code);
-<<<<<<< HEAD
-=======
   add_devices(app, exit_code);
   add_init(app, exit_code);
->>>>>>> a7e1f37 (devices, init: what is connected, and a first configuration from it)
   add_flash(app, exit_code);
   add_bench(app, exit_code);
   add_evaluate(app, exit_code);
