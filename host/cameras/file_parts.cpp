@@ -2,12 +2,9 @@
 #include "host/cameras/file_parts.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cstdio>
-#include <string_view>
 
 #include "host/support/exact_number.hpp"
+#include "host/support/toml_text.hpp"
 
 namespace pharos::host {
 namespace {
@@ -21,27 +18,6 @@ constexpr Range kDistortion{-1e12, 1e12};
 // Two cameras with nine values each, and their relative pose.
 constexpr std::size_t kMaxParameters = 24;
 constexpr std::int64_t kMaxCounted = 1'000'000'000;
-
-std::string toml_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (std::iscntrl(static_cast<unsigned char>(c)) == 0) {
-      out += c;
-    } else {
-      std::array<char, 8> escaped{};
-      std::snprintf(escaped.data(), escaped.size(), "\\u%04X", static_cast<unsigned>(c));
-      out += escaped.data();
-    }
-  }
-  return out + "\"";
-}
-
-std::string toml_strings(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + toml_string(text);
-  return "[" + out + "]";
-}
 
 // Whether k1, k2, k3 map greater angles to greater radii, as every lens does, out to the corner that is nearest to the
 // principal point: d/dr of r (1 + k1 r^2 + k2 r^4 + k3 r^6).
