@@ -65,6 +65,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   add_sim_serial(*sim, exit_code);
   add_sim_capture(*sim, exit_code);
   add_sim_camera(*sim, exit_code);
+  add_sim_approach(*sim, exit_code);
 }
 
 }  // namespace pharos::tools

@@ -17,6 +17,7 @@ void add_sim_pointing(CLI::App& sim, int& exit_code);
 void add_sim_stereo(CLI::App& sim, int& exit_code);
 void add_sim_serial(CLI::App& sim, int& exit_code);
 void add_sim_camera(CLI::App& sim, int& exit_code);
+void add_sim_approach(CLI::App& sim, int& exit_code);
 void add_sim_capture(CLI::App& sim, int& exit_code);
 
 }  // namespace pharos::tools
