@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "pharos/fusion/fusion_core.hpp"
+
+namespace pharos::fusion {
+namespace {
+
+constexpr double kAgree_probability_chi2 = 11.3;  // 1 % of three degrees of freedom
+constexpr double kStarved_s = 1.0;                // a side that accepts nothing of its source begins anew
+
+double distance(const Filter& a, const Filter& b, int at) {
+  const Vector6 apart = pose_difference(a.mean().pose, b.mean().pose);
+  const Matrix3 P = (a.pose_covariance() + b.pose_covariance()).block<3, 3>(at, at);
+  const Vector3 d = apart.segment<3>(at);
+  return d.dot(P.ldlt().solve(d));
+}
+
+}  // namespace
+
+void FusionCore::enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const {
+  ++state.counters.conflicts;
+  state.suspects = Suspects{true, first, second, 0, 0.0};
+  for (const std::uint8_t s : {first, second}) {
+    state.monitors[s].contributed = true;  // the level covers the fault of either
+    state.monitors[s].gated_run = 0;
+    state.monitors[s].scattered = 0;
+  }
+}
+
+// The suspects' measurements go only into the solutions without the other one.
+Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) const {
+  Suspects& suspects = state.suspects;
+  const TargetMeasurement m = view(state, raw, &state.main.mean().pose);
+  SourceMonitor& monitor = state.monitors[m.source];
+  const bool suspect = m.source == suspects.first || m.source == suspects.second;
+  if (!suspect) {
+    const Innovation a = state.without[suspects.first].innovation(m, settings_);
+    const Innovation b = state.without[suspects.second].innovation(m, settings_);
+    const bool both = state.without[suspects.first].valid() && state.without[suspects.second].valid();
+    if (both && a.ok && b.ok && !settings_.sources[m.source].relative) {
+      suspects.score += std::min(b.nis + b.log_det, 2.0 * gate(b.rank) + b.log_det) -
+                        std::min(a.nis + a.log_det, 2.0 * gate(a.rank) + a.log_det);
+    }
+    const Use use = use_or_gate(state, raw);
+    if (state.tracking && suspects.active) examine_conflict(state);
+    return use;
+  }
+  const std::uint8_t other = m.source == suspects.first ? suspects.second : suspects.first;
+  Filter& side = state.without[other];
+  if (!side.valid()) {
+    if (!settings_.sources[m.source].relative) side.start(m, settings_, &state.main.mean().pose);
+    monitor.gated_run = 0;
+    return Use::kConflict;
+  }
+  const TargetMeasurement own = view(state, raw, &side.mean().pose);
+  if (settings_.sources[m.source].relative && !side.aligned(m.source)) {
+    side.align(own, settings_);
+    return Use::kConflict;
+  }
+  const Innovation in = side.innovation(own, settings_);
+  monitor.nis = in.nis;
+  monitor.rank = in.rank;
+  if (in.ok && in.nis < gate(in.rank)) {
+    side.correct(in, m.source, settings_);
+    monitor.gated_run = 0;
+  } else {
+    if (monitor.gated_run == 0) monitor.gated_since_ns = m.time_ns;
+    ++monitor.gated_run;
+    if (seconds(m.time_ns, monitor.gated_since_ns) > kStarved_s) {
+      if (m.directions.rank == 6 && !settings_.sources[m.source].relative) side.start(m, settings_, nullptr);
+      monitor.gated_run = 0;
+    }
+  }
+  state.last_used_ns = m.time_ns;
+  examine_conflict(state);
+  return Use::kConflict;
+}
+
+void FusionCore::examine_conflict(FusionState& state) const {
+  Suspects& suspects = state.suspects;
+  const Filter& without_first = state.without[suspects.first];
+  const Filter& without_second = state.without[suspects.second];
+  // Other sources' measurements fit one side: the source that this side does not use is the wrong one.
+  const double needed = settings_.detection.attribution_chi2;
+  if (suspects.score > needed || suspects.score < -needed) {
+    const std::uint8_t wrong = suspects.score > 0.0 ? suspects.first : suspects.second;
+    suspects.active = false;
+    exclude(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
+    return;
+  }
+  if (!without_first.valid() || !without_second.valid()) return;
+  const bool agree = distance(without_first, without_second, 0) < kAgree_probability_chi2 &&
+                     distance(without_first, without_second, 3) < kAgree_probability_chi2;
+  if (!agree) {
+    suspects.agree_since_ns = 0;
+    return;
+  }
+  if (suspects.agree_since_ns == 0) suspects.agree_since_ns = state.time_ns;
+  if (seconds(state.time_ns, suspects.agree_since_ns) < settings_.detection.proof_s) return;
+  // Both again: the main solution goes on from the better one, which holds the other suspect's measurements.
+  const bool first_better =
+      without_first.pose_covariance().diagonal().sum() < without_second.pose_covariance().diagonal().sum();
+  const std::uint8_t left_out = first_better ? suspects.first : suspects.second;
+  const std::uint8_t held = first_better ? suspects.second : suspects.first;
+  suspects.active = false;
+  state.main = state.without[left_out];
+  state.monitors[left_out].contributed = false;
+  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+    if (k != left_out && k != held && state.monitors[k].contributed) state.without[k].invalidate();
+  }
+}
+
+}  // namespace pharos::fusion

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "pharos/fusion/fusion_core.hpp"
+
+namespace pharos::fusion {
+namespace {
+
+constexpr double kSuspicious = 1.0 / 3.0;  // of the separation's threshold: another source may be the faulty one
+constexpr double kWitnessed = 0.7;         // of a direction: the witness measures it
+constexpr double kOutlierFraction = 0.35;  // of a source's measurements: it is not believed
+constexpr int kJudged = 12;                // before that fraction says something
+constexpr int kScatteredRun = 3;           // gated poses that contradict each other: no motion does that
+constexpr double kAlone_s = 1.0;           // after which the only source is followed
+constexpr double kSlack = 0.02;            // of the other solution's covariance: rounding, and gates that differ
+
+}  // namespace
+
+void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why) const {
+  ++state.counters.exclusions;
+  const bool contributed = state.monitors[source].contributed;
+  state.monitors[source].exclude(why);
+  if (!state.tracking || !contributed) return;
+  if (!state.without[source].valid()) {
+    restart(state);
+    return;
+  }
+  // The solution without it never held the fault. All others did: they start anew from the next measurements.
+  state.main = state.without[source];
+  for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
+    if (k != source && state.monitors[k].contributed) {
+      state.without[k].invalidate();
+    } else if (k != source) {
+      state.without[k] = state.main;
+    }
+  }
+  state.suspects = Suspects{};
+}
+
+// A measurement of an excluded source beside the state, with its bias as unknown as before its first one.
+Use FusionCore::prove(FusionState& state, const TargetMeasurement& m) const {
+  SourceMonitor& monitor = state.monitors[m.source];
+  Filter probe = state.main;
+  probe.reset_bias(m.source, settings_);
+  bool agrees = true;
+  if (!settings_.sources[m.source].relative) {
+    const Innovation in = probe.innovation(m, settings_);
+    monitor.nis = in.nis;
+    monitor.rank = in.rank;
+    agrees = in.ok && in.nis < gate(in.rank);
+  }
+  if (state.suspects.active) agrees = false;
+  monitor.note_proof(m.time_ns, agrees);
+  if (monitor.proved(m.time_ns, settings_.detection)) {
+    monitor.excluded = false;
+    monitor.gated_run = 0;
+    state.main.reset_bias(m.source, settings_);
+    for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
+      if (state.without[k].valid()) state.without[k].reset_bias(m.source, settings_);
+    }
+    state.without[m.source] = state.main;
+    ++state.counters.readmissions;
+  }
+  return Use::kExcluded;
+}
+
+void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, const Innovation& in) const {
+  SourceMonitor& monitor = state.monitors[m.source];
+  const Vector6 change = in.residual - monitor.gated_residual;
+  const Matrix6 noise = 2.0 * m.covariance;
+  double apart = 0.0;
+  for (int i = 0; i < 6; ++i) apart += change[i] * change[i] / noise(i, i);
+  monitor.note_gated(m.time_ns, in.residual, apart);
+  if (state.suspects.active) return;  // one contradiction at a time
+  if ((monitor.judged >= kJudged && monitor.outliers > kOutlierFraction && monitor.scattered > 0) ||
+      monitor.scattered >= kScatteredRun) {
+    exclude(state, m.source, FaultKind::kOutliers);
+    return;
+  }
+  const DetectionSettings& limits = settings_.detection;
+  const double run_s = seconds(m.time_ns, monitor.gated_since_ns);
+  if (monitor.gated_run < limits.gated_run || run_s < limits.gated_run_s) return;
+  // Who else measures this direction, and agrees with the state?
+  Vector6 direction = in.residual;
+  for (int i = 0; i < 6; ++i) direction[i] /= std::sqrt(m.covariance(i, i));
+  direction.normalize();
+  int witnesses = 0;
+  std::uint8_t witness = 0;
+  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+    const SourceMonitor& other = state.monitors[k];
+    const SourceSettings& source = settings_.sources[k];
+    if (k == m.source || other.excluded || other.last_gated || source.relative || !other.contributed) continue;
+    if (seconds(m.time_ns, other.last_used_ns) > source.silent_after_s) continue;
+    if (other.last_used_ns < monitor.gated_since_ns) continue;
+    if (other.directions.fraction_of(direction) < kWitnessed) continue;
+    ++witnesses;
+    witness = k;
+  }
+  if (witnesses == 0) {
+    if (run_s > kAlone_s) restart(state);
+    return;
+  }
+  std::uint8_t suspect = witness;
+  bool doubted = witnesses == 1;
+  for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
+    if (k == m.source || !state.monitors[k].contributed) continue;
+    const double largest = std::fmax(separation(state, k, true), separation(state, k, false));
+    if (largest > kSuspicious * separation_threshold_) {
+      doubted = true;
+      suspect = k;
+    }
+  }
+  if (doubted) {
+    enter_conflict(state, m.source, suspect);
+  } else {
+    exclude(state, m.source, monitor.classify(false, in.residual));
+  }
+}
+
+// d^T (P_i - P)^-1 d: the covariance of the difference of two solutions of which one uses a part of the other's
+// measurements (Blanch et al. 2015, equation 10). 0 where it says nothing.
+double FusionCore::separation(const FusionState& state, std::size_t source, bool rotation) const {
+  const Filter& other = state.without[source];
+  if (!state.monitors[source].contributed || !other.valid()) return 0.0;
+  const int at = rotation ? 0 : 3;
+  const Vector6 apart = pose_difference(state.main.mean().pose, other.mean().pose);
+  const Matrix3 P_other = other.pose_covariance().block<3, 3>(at, at);
+  const Matrix3 P = state.main.pose_covariance().block<3, 3>(at, at);
+  const Matrix3 difference = P_other * (1.0 + kSlack) - P;
+  const Eigen::LDLT<Matrix3> factor(difference);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return 0.0;
+  const Vector3 d = apart.segment<3>(at);
+  return d.dot(factor.solve(d));
+}
+
+void FusionCore::examine_separations(FusionState& state) const {
+  for (const bool rotation : {true, false}) {
+    std::array<double, 2> best{};
+    std::array<std::uint8_t, 2> who{};
+    for (std::uint8_t s = 0; s < settings_.sources.size(); ++s) {
+      const double square = separation(state, s, rotation);
+      if (square > best[0]) {
+        best[1] = best[0];
+        who[1] = who[0];
+        best[0] = square;
+        who[0] = s;
+      } else if (square > best[1]) {
+        best[1] = square;
+        who[1] = s;
+      }
+    }
+    if (best[0] < separation_threshold_) continue;
+    if (best[0] - best[1] > settings_.detection.attribution_chi2) {
+      const Vector6 residual = state.monitors[who[0]].gated_residual;
+      exclude(state, who[0], state.monitors[who[0]].classify(true, residual));
+      return;
+    }
+    if (best[0] > settings_.detection.conflict_ratio * separation_threshold_ && best[1] > 0.0) {
+      enter_conflict(state, who[0], who[1]);
+      return;
+    }
+  }
+}
+
+}  // namespace pharos::fusion

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/fusion/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace pharos::fusion {
+namespace {
+
+constexpr double kWideRotation_rad = 1.0;
+constexpr double kWidePosition_m = 10.0;  // of a start: what no measurement says yet
+constexpr double kFillPosition_m = 1.0;
+
+std::size_t bias_row(std::size_t source) { return static_cast<std::size_t>(kKinematic) + 6 * source; }
+
+using Kinematic12 = Eigen::Matrix<double, kKinematic, kKinematic>;
+
+struct Derivatives {
+  Matrix6 by_pose, by_bias;
+};
+
+// Of the pose that a source sees: T = bias * T_state (kSensor, about the sensor), or T_state * bias (kFeature).
+Derivatives derivatives(const Kinematics& mean, const BiasMean& bias, const SourceSettings& source) {
+  Derivatives d{Matrix6::Zero(), Matrix6::Zero()};
+  if (source.bias_frame == BiasFrame::kSensor) {
+    const Vector3 arm = bias.R * (mean.pose.t - source.T_vehicle_sensor.t);
+    d.by_pose.topLeftCorner<3, 3>() = bias.R;
+    d.by_pose.bottomRightCorner<3, 3>() = bias.R;
+    d.by_bias.setIdentity();
+    d.by_bias.bottomLeftCorner<3, 3>() = -skew(arm);
+  } else {
+    d.by_pose.setIdentity();
+    d.by_pose.bottomLeftCorner<3, 3>() = -skew(mean.pose.R * bias.t);
+    d.by_bias.topLeftCorner<3, 3>() = mean.pose.R;
+    d.by_bias.bottomRightCorner<3, 3>() = mean.pose.R;
+  }
+  return d;
+}
+
+// White noise integrated over a step: q (dt^3/3, dt^2/2, dt) of each axis.
+void add_process_noise(Kinematic12& P, double dt, const MotionSettings& motion) {
+  const double size = std::abs(dt);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const auto& [value, rate, density] :
+         {std::tuple{axis, axis + 6, motion.angular_acceleration_density},
+          std::tuple{axis + 3, axis + 9, motion.acceleration_density}}) {
+      P(value, value) += density * size * size * size / 3.0;
+      P(value, rate) += density * size * size / 2.0;
+      P(rate, value) += density * size * size / 2.0;
+      P(rate, rate) += density * size;
+    }
+  }
+}
+
+// Lower Cholesky factor of the leading block; false where it is not positive definite.
+bool factorise(const Matrix6& a, int rank, Matrix6& lower) {
+  for (int j = 0; j < rank; ++j) {
+    for (int i = j; i < rank; ++i) {
+      double sum = a(i, j);
+      for (int k = 0; k < j; ++k) sum -= lower(i, k) * lower(j, k);
+      if (i > j) {
+        lower(i, j) = sum / lower(j, j);
+      } else if (sum > 1e-13 * a(j, j)) {
+        lower(j, j) = std::sqrt(sum);
+      } else {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+Vector6 solve_lower(const Matrix6& lower, int rank, Vector6 x) {
+  for (int i = 0; i < rank; ++i) {
+    for (int k = 0; k < i; ++k) x[i] -= lower(i, k) * x[k];
+    x[i] /= lower(i, i);
+  }
+  return x;
+}
+
+}  // namespace
+
+TargetPose completed(const TargetPose& pose, const Directions& directions, const TargetPose& reference) {
+  if (directions.rank == 6) return pose;
+  const auto rows = directions.rows.topRows(directions.rank);
+  TargetPose out = pose;
+  for (int step = 0; step < 4; ++step) {
+    const Vector6 delta = pose_difference(reference, out);
+    out = out.moved_by(delta - rows.transpose() * (rows * delta));
+  }
+  return out;
+}
+
+TargetPose Filter::expected_pose(std::uint8_t source, const SourceSettings& settings) const {
+  const BiasMean& b = bias_[source];
+  if (settings.bias_frame == BiasFrame::kSensor) {
+    const Vector3& centre = settings.T_vehicle_sensor.t;
+    return {b.R * mean_.pose.R, centre + b.R * (mean_.pose.t - centre) + b.t};
+  }
+  return {mean_.pose.R * b.R, mean_.pose.t + mean_.pose.R * b.t};
+}
+
+void Filter::set_bias_block(std::uint8_t source, const Matrix6& block) {
+  const std::size_t first = bias_row(source);
+  for (std::size_t i = first; i < first + 6; ++i) {
+    for (std::size_t j = 0; j < static_cast<std::size_t>(kStates); ++j) covariance_(i, j) = 0.0;
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      covariance_(first + i, first + j) = block(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
+}
+
+void Filter::reset_bias(std::uint8_t source, const Settings& settings) {
+  bias_[source] = BiasMean{};
+  active_[source] = false;
+  set_bias_block(source, settings.sources[source].bias_covariance);
+}
+
+void Filter::start(const TargetMeasurement& measurement, const Settings& settings, const TargetPose* fill) {
+  covariance_ = Covariance{};
+  mean_ = Kinematics{};
+  mean_.pose = measurement.pose;
+  Vector6 wide;
+  wide << Vector3::Constant(kWideRotation_rad), Vector3::Constant(kWidePosition_m);
+  if (fill != nullptr) {
+    mean_.pose = completed(measurement.pose, measurement.directions, *fill);
+    if (measurement.directions.rank < 6) wide.tail<3>().setConstant(kFillPosition_m);
+  }
+  for (std::size_t i = 0; i < 6; ++i) covariance_(i, i) = wide[static_cast<int>(i)] * wide[static_cast<int>(i)];
+  const StartSettings& start = settings.start;
+  for (std::size_t i = 6; i < 9; ++i) covariance_(i, i) = start.sigma_rate_rad_s * start.sigma_rate_rad_s;
+  for (std::size_t i = 9; i < 12; ++i) covariance_(i, i) = start.sigma_velocity_m_s * start.sigma_velocity_m_s;
+  for (std::uint8_t s = 0; s < settings.sources.size(); ++s) reset_bias(s, settings);
+  valid_ = true;
+  const Innovation first = innovation(measurement, settings);
+  if (first.ok) correct(first, measurement.source, settings);
+}
+
+void Filter::align(const TargetMeasurement& measurement, const Settings& settings) {
+  const std::uint8_t s = measurement.source;
+  BiasMean& bias = bias_[s];
+  bias.R = mean_.pose.R.transpose() * measurement.pose.R;
+  bias.t = mean_.pose.R.transpose() * (measurement.pose.t - mean_.pose.t);
+  Matrix6 wide = Matrix6::Zero();
+  wide.diagonal() << Vector3::Constant(kWideRotation_rad), Vector3::Constant(kWidePosition_m * kWidePosition_m);
+  set_bias_block(s, wide);
+  const Innovation first = innovation(measurement, settings);
+  if (first.ok) correct(first, s, settings);
+}
+
+void Filter::predict(double dt_s, const Settings& settings) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(dt_s) / kMaxStep_s)));
+  for (int step = 0; step < steps; ++step) predict_step(dt_s / steps, settings);
+  predict_biases(dt_s, settings);
+}
+
+void Filter::predict_step(double dt, const Settings& settings) {
+  const Transition transition = advance(mean_, dt, settings.motion);
+  Kinematic12 P = kinematic_covariance();
+  for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
+  P.transposeInPlace();
+  for (int i = 0; i < kKinematic; ++i) transition.apply(P.col(i).data());
+  add_process_noise(P, dt, settings.motion);
+  for (std::size_t i = 0; i < kKinematic; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      covariance_(i, j) = 0.5 * (P(static_cast<int>(i), static_cast<int>(j)) + P(static_cast<int>(j), static_cast<int>(i)));
+    }
+  }
+  for (std::size_t s = 0; s < settings.sources.size(); ++s) {
+    if (!active_[s]) continue;
+    // Rows of the packed lower triangle are contiguous: cross terms with the kinematic states come first.
+    for (std::size_t i = bias_row(s); i < bias_row(s) + 6; ++i) transition.apply(&covariance_(i, 0));
+  }
+}
+
+void Filter::predict_biases(double dt_s, const Settings& settings) {
+  std::array<double, kMaxSources> kept{};
+  for (std::size_t s = 0; s < settings.sources.size(); ++s) {
+    const SourceSettings& source = settings.sources[s];
+    kept[s] = source.relative ? 1.0 : std::exp(-std::abs(dt_s) / source.bias_time_constant_s);
+  }
+  for (std::size_t s = 0; s < settings.sources.size(); ++s) {
+    if (!active_[s]) continue;
+    const SourceSettings& source = settings.sources[s];
+    const double gained = source.relative ? 2.0 * std::abs(dt_s) / source.bias_time_constant_s : 1.0 - kept[s] * kept[s];
+    const std::size_t first = bias_row(s);
+    for (std::size_t i = first; i < first + 6; ++i) {
+      for (std::size_t j = 0; j < kKinematic; ++j) covariance_(i, j) *= kept[s];
+      for (std::size_t other = 0; other <= s; ++other) {
+        const std::size_t begin = bias_row(other);
+        for (std::size_t j = begin; j < std::min(begin + 6, i + 1); ++j) covariance_(i, j) *= kept[s] * kept[other];
+      }
+      for (std::size_t j = first; j <= i; ++j) {
+        covariance_(i, j) += gained * source.bias_covariance(static_cast<int>(i - first), static_cast<int>(j - first));
+      }
+    }
+    if (!source.relative) {
+      bias_[s].R = rotation_exp(kept[s] * rotation_log(bias_[s].R));
+      bias_[s].t *= kept[s];
+    }
+  }
+}
+
+Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settings, bool second) const {
+  const SourceSettings& source = settings.sources[m.source];
+  const TargetPose expected = expected_pose(m.source, source);
+  const TargetPose pose = completed(second && m.second ? *m.second : m.pose, m.directions, expected);
+  const Derivatives d = derivatives(mean_, bias_[m.source], source);
+  Innovation out;
+  out.rank = m.directions.rank;
+  out.residual = pose_difference(pose, expected);
+  out.derivatives << m.directions.rows * d.by_pose, m.directions.rows * d.by_bias;
+  Kinematic12 P;  // of pose and this bias
+  const std::size_t first = bias_row(m.source);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const auto a = static_cast<int>(i);
+      const auto b = static_cast<int>(j);
+      P(a, b) = covariance_(i, j);
+      P(a + 6, b) = P(b, a + 6) = covariance_(first + i, j);
+      P(a + 6, b + 6) = covariance_(first + i, first + j);
+    }
+  }
+  Matrix6 noise = m.covariance;
+  if (source.time_sigma_s > 0.0) {
+    Vector6 motion;
+    motion << mean_.rate_rad_s, mean_.velocity_m_s;
+    noise += motion * motion.transpose() * (source.time_sigma_s * source.time_sigma_s);
+  }
+  const Matrix6 S = Matrix6(out.derivatives * P * out.derivatives.transpose()) +
+                    Matrix6(m.directions.rows * noise * m.directions.rows.transpose());
+  out.ok = factorise(S, out.rank, out.factor);
+  if (!out.ok) return out;
+  out.whitened = solve_lower(out.factor, out.rank, m.directions.rows * out.residual);
+  for (int i = 0; i < out.rank; ++i) {
+    out.nis += out.whitened[i] * out.whitened[i];
+    out.log_det += 2.0 * std::log(out.factor(i, i));
+  }
+  return out;
+}
+
+void Filter::correct(const Innovation& in, std::uint8_t source, const Settings& settings) {
+  active_[source] = true;
+  const std::size_t first = bias_row(source);
+  // Rows that a correction changes: the kinematic states and the biases that are part of the state.
+  std::array<std::size_t, kStates> rows;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kKinematic; ++i) rows[count++] = i;
+  for (std::size_t s = 0; s < settings.sources.size(); ++s) {
+    if (!active_[s]) continue;
+    for (std::size_t i = bias_row(s); i < bias_row(s) + 6; ++i) rows[count++] = i;
+  }
+  // T = P H^T C^-T, row by row; P -= T T^T, state += T whitened.
+  std::array<Vector6, kStates> T;
+  std::array<double, kStates> delta{};
+  const Eigen::Matrix<double, 12, 6> by_state = in.derivatives.transpose();
+  for (std::size_t k = 0; k < count; ++k) {
+    Eigen::Matrix<double, 1, 12> seen;
+    for (std::size_t j = 0; j < 6; ++j) {
+      seen[static_cast<int>(j)] = covariance_(rows[k], j);
+      seen[static_cast<int>(j) + 6] = covariance_(rows[k], first + j);
+    }
+    T[k] = solve_lower(in.factor, in.rank, (seen * by_state).transpose());
+    for (int r = in.rank; r < 6; ++r) T[k][r] = 0.0;
+    delta[rows[k]] = T[k].dot(in.whitened);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t l = 0; l <= k; ++l) covariance_(rows[k], rows[l]) -= T[k].dot(T[l]);
+  }
+  shift(delta);
+}
+
+void Filter::shift(const std::array<double, kStates>& delta) {
+  const auto part = [&](std::size_t first) { return Vector3(delta[first], delta[first + 1], delta[first + 2]); };
+  mean_.pose.R = orthonormalised(rotation_exp(part(0)) * mean_.pose.R);
+  mean_.pose.t += part(3);
+  mean_.rate_rad_s += part(6);
+  mean_.velocity_m_s += part(9);
+  for (std::size_t s = 0; s < kMaxSources; ++s) {
+    if (!active_[s]) continue;
+    bias_[s].R = orthonormalised(rotation_exp(part(bias_row(s))) * bias_[s].R);
+    bias_[s].t += part(bias_row(s) + 3);
+  }
+}
+
+Matrix6 Filter::pose_covariance() const {
+  Matrix6 out;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) out(static_cast<int>(i), static_cast<int>(j)) = covariance_(i, j);
+  }
+  return out;
+}
+
+Kinematic12 Filter::kinematic_covariance() const {
+  Kinematic12 out;
+  for (std::size_t i = 0; i < kKinematic; ++i) {
+    for (std::size_t j = 0; j < kKinematic; ++j) out(static_cast<int>(i), static_cast<int>(j)) = covariance_(i, j);
+  }
+  return out;
+}
+
+}  // namespace pharos::fusion

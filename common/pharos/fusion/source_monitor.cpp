@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pharos/fusion/source_monitor.hpp"
+
+#include <cmath>
+
+namespace pharos::fusion {
+namespace {
+
+constexpr double kKept = 0.9;            // of a sum, per measurement
+constexpr double kOutlierWeight = 0.05;  // of one measurement in the fraction of outliers
+constexpr double kExplained = 0.8;       // of chi-squared by one offset
+constexpr double kMirrored_rad = 0.8;    // mirrored and half-turned rings differ by far more than noise
+constexpr double kOtherTarget_m = 0.3;   // no error of a source on the right target
+constexpr double kScattered_chi2 = 60.0;  // two gated poses of one cause are within some sigmas of each other
+constexpr double kNanosecond_s = 1e-9;
+
+}  // namespace
+
+void ErrorSums::add(const Innovation& in, const TargetMeasurement& m, const Kinematics& mean,
+                    const SourceSettings& source) {
+  if (!in.ok) return;
+  Vector6 time, scale;
+  time << mean.rate_rad_s, mean.velocity_m_s;
+  scale << Vector3::Zero(), mean.pose.t - source.T_vehicle_sensor.t;
+  const auto whiten = [&](const Vector6& direction) {
+    Vector6 x = m.directions.rows * direction;
+    for (int i = 0; i < in.rank; ++i) {
+      for (int k = 0; k < i; ++k) x[i] -= in.factor(i, k) * x[k];
+      x[i] /= in.factor(i, i);
+    }
+    for (int i = in.rank; i < 6; ++i) x[i] = 0.0;
+    return x;
+  };
+  const Vector6 by_time = whiten(time);
+  const Vector6 by_scale = whiten(scale);
+  total = kKept * total + in.nis;
+  time_residual = kKept * time_residual + by_time.dot(in.whitened);
+  time_time = kKept * time_time + by_time.squaredNorm();
+  scale_residual = kKept * scale_residual + by_scale.dot(in.whitened);
+  scale_scale = kKept * scale_scale + by_scale.squaredNorm();
+}
+
+double ErrorSums::explained_by_time() const {
+  return time_time > 0.0 && total > 0.0 ? time_residual * time_residual / (time_time * total) : 0.0;
+}
+
+double ErrorSums::explained_by_scale() const {
+  return scale_scale > 0.0 && total > 0.0 ? scale_residual * scale_residual / (scale_scale * total) : 0.0;
+}
+
+bool SourceMonitor::repeats_pose(const SensorPose& pose) {
+  const bool same = seen && pose.R == last_pose.R && pose.t == last_pose.t;
+  repeats = same ? repeats + 1 : 0;
+  last_pose = pose;
+  return same;
+}
+
+void SourceMonitor::note_used(std::int64_t time_ns) {
+  ever_used = true;
+  contributed = true;
+  last_used_ns = time_ns;
+  last_gated = false;
+  gated_run = 0;
+  scattered = 0;
+  outliers *= 1.0 - kOutlierWeight;
+  ++judged;
+}
+
+void SourceMonitor::note_gated(std::int64_t time_ns, const Vector6& residual, double apart) {
+  if (gated_run == 0) gated_since_ns = time_ns;
+  if (gated_run > 0 && apart > kScattered_chi2) ++scattered;
+  ++gated_run;
+  gated_residual = residual;
+  last_gated = true;
+  outliers += kOutlierWeight * (1.0 - outliers);
+  ++judged;
+}
+
+void SourceMonitor::exclude(FaultKind why) {
+  excluded = true;
+  contributed = false;
+  reason = why;
+  proof = 0;
+  proof_nis = 0.0;
+  proof_dof = 0;
+  gated_run = 0;
+  scattered = 0;
+  outliers = 0.0;
+  judged = 0;
+}
+
+void SourceMonitor::note_proof(std::int64_t time_ns, bool agrees) {
+  if (!agrees) {
+    proof = 0;
+    proof_nis = 0.0;
+    proof_dof = 0;
+    return;
+  }
+  if (proof == 0) proof_since_ns = time_ns;
+  ++proof;
+  proof_nis += nis;
+  proof_dof += rank;
+}
+
+bool SourceMonitor::proved(std::int64_t time_ns, const DetectionSettings& detection) const {
+  if (proof < detection.proof_measurements) return false;
+  if (static_cast<double>(time_ns - proof_since_ns) * kNanosecond_s < detection.proof_s) return false;
+  // The mean of what agreed must look like noise too: an offset of two sigma passes every single gate.
+  return proof_nis < proof_dof * (1.0 + 3.0 * std::sqrt(2.0 / proof_dof));
+}
+
+FaultKind SourceMonitor::classify(bool slow, const Vector6& residual) const {
+  const double rotation = residual.head<3>().norm();
+  const double position = residual.tail<3>().norm();
+  if (rotation > kMirrored_rad && position < kOtherTarget_m) return FaultKind::kMirrored;
+  if (position > kOtherTarget_m) return FaultKind::kWrongTarget;
+  if (scattered > 0) return FaultKind::kOutliers;
+  const double time = sums.explained_by_time();
+  const double scale = sums.explained_by_scale();
+  if (time > kExplained && time > scale) return FaultKind::kWrongTime;
+  if (scale > kExplained) return FaultKind::kWrongScale;
+  return slow ? FaultKind::kRamp : FaultKind::kStep;
+}
+
+}  // namespace pharos::fusion

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "pharos/fusion/filter.hpp"
+
+namespace pharos::fusion {
+
+/// What the fusion does with a source.
+enum class SourceState : std::uint8_t {
+  kSilent,    // nothing from it, or nothing recent
+  kUsed,      // its last measurement was used
+  kGated,     // its last measurement was not, for this time
+  kExcluded,  // not believed, until it has agreed for a while
+  kConflict,  // it or another one is wrong, and nothing tells which
+};
+
+/// Sums that tell whether innovations are those of a wrong time, or of a wrong scale: how much of their chi-squared one
+/// offset along that direction explains. Older innovations are forgotten.
+struct ErrorSums {
+  double total = 0.0;
+  double time_residual = 0.0, time_time = 0.0;
+  double scale_residual = 0.0, scale_scale = 0.0;
+
+  void add(const Innovation& innovation, const TargetMeasurement& measurement, const Kinematics& mean,
+           const SourceSettings& source);
+  double explained_by_time() const;
+  double explained_by_scale() const;
+};
+
+/// What is remembered of a source between its measurements.
+struct SourceMonitor {
+  bool seen = false;
+  std::int64_t last_ns = 0;
+  SensorPose last_pose;
+  int repeats = 0;  // the same pose to the last digit
+  bool ever_used = false;
+  std::int64_t last_used_ns = 0;
+  std::int64_t joined_ns = 0;
+  Directions directions;  // of its last measurement
+  double nis = 0.0;       // of its last measurement, for `rank` degrees of freedom
+  int rank = 0;
+  bool last_gated = false;
+  bool contributed = false;  // the main filter holds information of it
+  int gated_run = 0;
+  std::int64_t gated_since_ns = 0;
+  Vector6 gated_residual = Vector6::Zero();
+  int scattered = 0;  // gated ones that disagree with the gated one before
+  double outliers = 0.0;  // mean of gated (1) and used (0) over some 20 measurements
+  int judged = 0;
+  bool excluded = false;
+  FaultKind reason = FaultKind::kStep;
+  int proof = 0;
+  std::int64_t proof_since_ns = 0;
+  double proof_nis = 0.0;
+  int proof_dof = 0;
+  ErrorSums sums;
+
+  /// Whether the pose repeats the last one; noise never does.
+  bool repeats_pose(const SensorPose& pose);
+  void note_used(std::int64_t time_ns);
+  /// `apart`: the squared distance of its residual from the last gated one, in its own sigmas.
+  void note_gated(std::int64_t time_ns, const Vector6& residual, double apart);
+  void exclude(FaultKind why);
+  /// A measurement of an excluded source, that agrees or does not.
+  void note_proof(std::int64_t time_ns, bool agrees);
+  bool proved(std::int64_t time_ns, const DetectionSettings& detection) const;
+  /// The kind of fault that the last residuals look like; `slow`: found by solution separation.
+  FaultKind classify(bool slow, const Vector6& residual) const;
+};
+
+}  // namespace pharos::fusion
