@@ -11,8 +11,8 @@ inline constexpr std::size_t kMaxSources = 5;
 inline constexpr int kKinematic = 12;
 inline constexpr int kBias = 6;
 inline constexpr int kStates = kKinematic + kBias * static_cast<int>(kMaxSources);
-/// Measurements kept for those that arrive late: 0.3 s at 210 a second.
-inline constexpr std::size_t kMaxBuffered = 64;
+/// Measurements kept for those that arrive late: 0.3 s at 180 a second.
+inline constexpr std::size_t kMaxBuffered = 54;
 /// Copies of the state that late measurements start from.
 inline constexpr std::size_t kSnapshots = 3;
 

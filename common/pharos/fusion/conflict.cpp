@@ -107,7 +107,7 @@ void FusionCore::examine_conflict(FusionState& state) const {
   state.main = state.without[left_out];
   state.monitors[left_out].contributed = false;
   for (std::uint8_t k = 0; k < settings_.sources.size(); ++k) {
-    if (k != left_out && k != held && state.monitors[k].contributed) state.without[k].invalidate();
+    if (k != left_out && k != held && state.monitors[k].contributed) drop_without(state, k);
   }
 }
 

@@ -12,6 +12,7 @@ constexpr double kOutlierFraction = 0.35;  // of a source's measurements: it is 
 constexpr int kJudged = 12;                // before that fraction says something
 constexpr int kScatteredRun = 3;           // gated poses that contradict each other: no motion does that
 constexpr double kAlone_s = 1.0;           // after which the only source is followed
+constexpr double kPoor = 1.0 / 6.0;          // sigma over the largest level
 constexpr double kSlack = 0.02;            // of the other solution's covariance: rounding, and gates that differ
 
 }  // namespace
@@ -29,7 +30,7 @@ void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why)
   state.main = state.without[source];
   for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
     if (k != source && state.monitors[k].contributed) {
-      state.without[k].invalidate();
+      drop_without(state, k);
     } else if (k != source) {
       state.without[k] = state.main;
     }
@@ -125,6 +126,9 @@ double FusionCore::separation(const FusionState& state, std::size_t source, bool
   const int at = rotation ? 0 : 3;
   const Vector6 apart = pose_difference(state.main.mean().pose, other.mean().pose);
   const Matrix3 P_other = other.pose_covariance().block<3, 3>(at, at);
+  // A solution that poor bounds nothing, and is too wide for a linear difference.
+  const double largest = rotation ? settings_.integrity.max_rotation_rad : settings_.integrity.max_position_m;
+  if (P_other.trace() > kPoor * kPoor * largest * largest) return 0.0;
   const Matrix3 P = state.main.pose_covariance().block<3, 3>(at, at);
   const Matrix3 difference = P_other * (1.0 + kSlack) - P;
   const Eigen::LDLT<Matrix3> factor(difference);
@@ -133,32 +137,42 @@ double FusionCore::separation(const FusionState& state, std::size_t source, bool
   return d.dot(factor.solve(d));
 }
 
+// How badly the measurements of all other sources fit the solution without one: what a fault of another source leaves.
+double FusionCore::misfit(const FusionState& state, std::size_t without) const {
+  double sum = 0.0;
+  for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
+    if (s == without || !state.monitors[s].contributed) continue;
+    const InnovationMean& mean = state.innovation_means[without][s];
+    sum += std::fmax(0.0, mean.chi2() - mean.rank);
+  }
+  return sum;
+}
+
+// A separation beyond its threshold tells that there is a fault; the solution that the remaining sources fit tells whose.
+// The largest separation does not: a solution without the best source is the most sensitive to any other's ramp.
 void FusionCore::examine_separations(FusionState& state) const {
-  for (const bool rotation : {true, false}) {
-    std::array<double, 2> best{};
-    std::array<std::uint8_t, 2> who{};
-    for (std::uint8_t s = 0; s < settings_.sources.size(); ++s) {
-      const double square = separation(state, s, rotation);
-      if (square > best[0]) {
-        best[1] = best[0];
-        who[1] = who[0];
-        best[0] = square;
-        who[0] = s;
-      } else if (square > best[1]) {
-        best[1] = square;
-        who[1] = s;
-      }
+  double largest = 0.0;
+  std::array<double, 2> best{1e300, 1e300};
+  std::array<std::uint8_t, 2> who{};
+  int candidates = 0;
+  for (std::uint8_t s = 0; s < settings_.sources.size(); ++s) {
+    if (!state.monitors[s].contributed || !state.without[s].valid()) continue;
+    largest = std::fmax(largest, std::fmax(separation(state, s, true), separation(state, s, false)));
+    const double fit = misfit(state, s);
+    ++candidates;
+    if (fit < best[0]) {
+      best = {fit, best[0]};
+      who = {s, who[0]};
+    } else if (fit < best[1]) {
+      best[1] = fit;
+      who[1] = s;
     }
-    if (best[0] < separation_threshold_) continue;
-    if (best[0] - best[1] > settings_.detection.attribution_chi2) {
-      const Vector6 residual = state.monitors[who[0]].gated_residual;
-      exclude(state, who[0], state.monitors[who[0]].classify(true, residual));
-      return;
-    }
-    if (best[0] > settings_.detection.conflict_ratio * separation_threshold_ && best[1] > 0.0) {
-      enter_conflict(state, who[0], who[1]);
-      return;
-    }
+  }
+  if (largest < separation_threshold_ || candidates < 2) return;
+  if (best[1] - best[0] > settings_.detection.attribution_chi2) {
+    exclude(state, who[0], state.monitors[who[0]].classify(true, state.monitors[who[0]].gated_residual));
+  } else if (largest > settings_.detection.conflict_ratio * separation_threshold_) {
+    enter_conflict(state, who[0], who[1]);
   }
 }
 

@@ -212,7 +212,11 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
   Innovation out;
   out.rank = m.directions.rank;
   out.residual = pose_difference(pose, expected);
-  out.derivatives << m.directions.rows * d.by_pose, m.directions.rows * d.by_bias;
+  // The axis that is not measured is taken where the state has it, not where the noise of each measurement puts it:
+  // else a rotation known to 1 rad would be measured by its projection on ever new axes.
+  Matrix6 rows = m.directions.rows;
+  if (out.rank < 6) rows.leftCols<3>() = rows.leftCols<3>() * (pose.R * expected.R.transpose());
+  out.derivatives << rows * d.by_pose, rows * d.by_bias;
   Kinematic12 P;  // of pose and this bias
   const std::size_t first = bias_row(m.source);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -231,10 +235,10 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
     noise += motion * motion.transpose() * (source.time_sigma_s * source.time_sigma_s);
   }
   const Matrix6 S = Matrix6(out.derivatives * P * out.derivatives.transpose()) +
-                    Matrix6(m.directions.rows * noise * m.directions.rows.transpose());
+                    Matrix6(rows * noise * rows.transpose());
   out.ok = factorise(S, out.rank, out.factor);
   if (!out.ok) return out;
-  out.whitened = solve_lower(out.factor, out.rank, m.directions.rows * out.residual);
+  out.whitened = solve_lower(out.factor, out.rank, rows * out.residual);
   for (int i = 0; i < out.rank; ++i) {
     out.nis += out.whitened[i] * out.whitened[i];
     out.log_det += 2.0 * std::log(out.factor(i, i));

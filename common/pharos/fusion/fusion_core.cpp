@@ -125,6 +125,12 @@ Use FusionCore::use_or_gate(FusionState& state, const Measurement& raw) const {
   monitor.sums.add(in, m, state.main.mean(), source);
   if (!in.ok || !(in.nis < gate(in.rank))) {
     ++state.counters.gated;
+    // What the other solutions think of it counts, although they do not use it.
+    for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
+      Filter& filter = state.without[k];
+      if (k == m.source || !filter.valid() || (source.relative && !filter.aligned(m.source))) continue;
+      state.innovation_means[k][m.source].add(filter.innovation(m, settings_, second), m.time_ns);
+    }
     examine_gated(state, m, in);
     return Use::kGated;
   }
@@ -182,7 +188,13 @@ void FusionCore::correct_without(FusionState& state, std::size_t k, const Target
     return;
   }
   const Innovation in = filter.innovation(m, settings_, second);
+  state.innovation_means[k][m.source].add(in, m.time_ns);
   if (in.ok && in.nis < gate(in.rank)) filter.correct(in, m.source, settings_);
+}
+
+void FusionCore::drop_without(FusionState& state, std::size_t k) const {
+  state.without[k].invalidate();
+  state.innovation_means[k] = {};
 }
 
 Mode FusionCore::mode_at(const FusionState& state, std::int64_t time_ns) const {
@@ -225,11 +237,11 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
   out.kinematics = main.mean();
   out.covariance = main.kinematic_covariance();
   const LargestSigma sigma = largest_sigma(main.pose_covariance());
-  out.protection = {true, factors_.fault_free * sigma.position_m, factors_.fault_free * sigma.rotation_rad};
+  out.protection = {true, true, factors_.fault_free * sigma.position_m, factors_.fault_free * sigma.rotation_rad};
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     if (!state.monitors[s].contributed) continue;
     if (!state.without[s].valid()) {
-      out.protection.available = false;
+      out.protection.position_available = out.protection.rotation_available = false;
       continue;
     }
     Filter other = state.without[s];
@@ -241,11 +253,11 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
       out.conflict[side] = {static_cast<std::uint8_t>(s), true, other.mean().pose, other.pose_covariance()};
     }
   }
-  const IntegritySettings& limits = settings_.integrity;
-  if (!(out.protection.position_m <= limits.max_position_m && out.protection.rotation_rad <= limits.max_rotation_rad)) {
-    out.protection.available = false;
-  }
-  if (!out.protection.available) out.protection = ProtectionLevel{};
+  ProtectionLevel& level = out.protection;
+  level.position_available = level.position_available && level.position_m <= settings_.integrity.max_position_m;
+  level.rotation_available = level.rotation_available && level.rotation_rad <= settings_.integrity.max_rotation_rad;
+  if (!level.position_available) level.position_m = 0.0;
+  if (!level.rotation_available) level.rotation_rad = 0.0;
   return out;
 }
 

@@ -42,6 +42,7 @@ class FusionCore {
   void place_feature(FusionState& state, const Measurement& raw) const;
   void correct_main(FusionState& state, TargetMeasurement& measurement, const Innovation& innovation, bool second) const;
   void correct_without(FusionState& state, std::size_t k, const TargetMeasurement& measurement, bool second) const;
+  void drop_without(FusionState& state, std::size_t k) const;
   bool is_lost(const FusionState& state) const;
   double gate(int rank) const { return gates_[static_cast<std::size_t>(rank)]; }
   // exclusion.cpp
@@ -49,6 +50,7 @@ class FusionCore {
   void exclude(FusionState& state, std::uint8_t source, FaultKind why) const;
   void examine_gated(FusionState& state, const TargetMeasurement& measurement, const Innovation& innovation) const;
   void examine_separations(FusionState& state) const;
+  double misfit(const FusionState& state, std::size_t without) const;
   double separation(const FusionState& state, std::size_t source, bool rotation) const;
   // conflict.cpp
   void enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const;

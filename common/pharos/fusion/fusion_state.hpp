@@ -47,6 +47,8 @@ struct FusionState {
   Filter main;
   /// One without each source. While searching, `main` and without[0] are the two candidates.
   std::array<Filter, kMaxSources> without;
+  /// Of each source (second index) in the solution without another.
+  std::array<std::array<InnovationMean, kMaxSources>, kMaxSources> innovation_means;
   std::array<SourceMonitor, kMaxSources> monitors;
   /// Where each source's feature is in the target: as set, or of a relative source as its first pose tells.
   std::array<Pose<frame::Target, FeatureFrame>, kMaxSources> T_target_feature;

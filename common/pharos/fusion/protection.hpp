@@ -7,8 +7,9 @@ namespace pharos::fusion {
 
 /// A bound of the error of position and attitude that holds but for the stated risk.
 struct ProtectionLevel {
-  bool available = false;
-  double position_m = 0.0;
+  bool position_available = false;
+  bool rotation_available = false;
+  double position_m = 0.0;  // 0 where unavailable
   double rotation_rad = 0.0;
 };
 

@@ -22,7 +22,7 @@ void FusionCore::restart(FusionState& state) const {
   state.tracking = false;
   state.lost = true;
   state.main.invalidate();
-  for (Filter& filter : state.without) filter.invalidate();
+  for (std::size_t k = 0; k < kMaxSources; ++k) drop_without(state, k);
   state.search = Search{};
   state.suspects = Suspects{};
   for (SourceMonitor& monitor : state.monitors) {
@@ -96,11 +96,12 @@ void FusionCore::begin_track(FusionState& state, std::int64_t time_ns) const {
     SourceMonitor& monitor = state.monitors[s];
     monitor.contributed = (state.search.sources >> s & 1U) != 0;
     if (monitor.contributed) {
-      state.without[s].invalidate();
+      drop_without(state, s);
       monitor.note_used(time_ns);
       monitor.joined_ns = time_ns;
     } else {
       state.without[s] = state.main;
+      state.innovation_means[s] = {};
     }
   }
   state.tracking = true;

@@ -13,6 +13,8 @@ constexpr double kMirrored_rad = 0.8;    // mirrored and half-turned rings diffe
 constexpr double kOtherTarget_m = 0.3;   // no error of a source on the right target
 constexpr double kScattered_chi2 = 60.0;  // two gated poses of one cause are within some sigmas of each other
 constexpr double kNanosecond_s = 1e-9;
+constexpr double kMemory_s = 2.0;        // of InnovationMean
+constexpr double kMaxWhitened = 6.0;     // one outlier does not decide
 
 }  // namespace
 
@@ -38,6 +40,15 @@ void ErrorSums::add(const Innovation& in, const TargetMeasurement& m, const Kine
   time_time = kKept * time_time + by_time.squaredNorm();
   scale_residual = kKept * scale_residual + by_scale.dot(in.whitened);
   scale_scale = kKept * scale_scale + by_scale.squaredNorm();
+}
+
+void InnovationMean::add(const Innovation& in, std::int64_t time_ns) {
+  if (!in.ok) return;
+  const double kept = std::exp(-static_cast<double>(time_ns - last_ns) * kNanosecond_s / kMemory_s);
+  last_ns = time_ns;
+  rank = in.rank;
+  sum = kept * sum + in.whitened.cwiseMax(-kMaxWhitened).cwiseMin(kMaxWhitened);
+  weight = kept * kept * weight + 1.0;
 }
 
 double ErrorSums::explained_by_time() const {

@@ -29,6 +29,19 @@ struct ErrorSums {
   double explained_by_scale() const;
 };
 
+/// Sum of a source's whitened innovations of the last seconds in one filter: noise cancels, a persistent disagreement
+/// does not.
+struct InnovationMean {
+  Vector6 sum = Vector6::Zero();
+  double weight = 0.0;  // sum of squared weights
+  std::int64_t last_ns = 0;
+  int rank = 0;
+
+  void add(const Innovation& innovation, std::int64_t time_ns);
+  /// Chi-squared of `rank` degrees of freedom where innovations are white.
+  double chi2() const { return weight > 0.0 ? sum.squaredNorm() / weight : 0.0; }
+};
+
 /// What is remembered of a source between its measurements.
 struct SourceMonitor {
   bool seen = false;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tools/evaluation/reproduce/add_reproduce_all.hpp"
+#include "tools/evaluation/reproduce/fusion/add_reproduce_fusion.hpp"
 #include "tools/evaluation/reproduce/integrity/add_reproduce_integrity.hpp"
 #include "tools/evaluation/reproduce/lighthouse/lighthouse_parts.hpp"
 #include "tools/evaluation/reproduce/lighthouse/recordings.hpp"
@@ -96,6 +97,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   add_reproduce_ring2(*reproduce, exit_code);
   add_reproduce_integrity(*reproduce, exit_code);
   add_reproduce_stations(*reproduce, exit_code);
+  add_reproduce_fusion(*reproduce, exit_code);
 }
 
 }  // namespace pharos::tools

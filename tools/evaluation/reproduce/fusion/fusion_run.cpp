@@ -31,12 +31,14 @@ class Judge {
     const Vector6 error = pose_difference(truth.pose, state.kinematics.pose);
     const double rotation = error.head<3>().norm();
     const double position = error.tail<3>().norm();
-    if (state.protection.available) {
-      ++out.protected_looks;
-      const double ratio = std::max(rotation / state.protection.rotation_rad, position / state.protection.position_m);
-      out.largest_ratio = std::max(out.largest_ratio, ratio);
-      out.outside += ratio > 1.0 ? 1 : 0;
-    }
+    const fusion::ProtectionLevel& level = state.protection;
+    const double ratio = std::max(level.rotation_available ? rotation / level.rotation_rad : 0.0,
+                                  level.position_available ? position / level.position_m : 0.0);
+    const bool both = level.rotation_available && level.position_available;
+    out.protected_looks += both ? 1 : 0;
+    out.position_levels += level.position_available ? 1 : 0;
+    out.largest_ratio = std::max(out.largest_ratio, ratio);
+    out.outside += ratio > 1.0 ? 1 : 0;
     if (state.mode != Mode::kFused || truth.time_s - first_s_ < kSettled_s) return;
     ++out.settled;
     Vector6 rates;
@@ -49,10 +51,10 @@ class Judge {
     out.rotation_rad2 += rotation * rotation;
     out.rate_rad2_s2 += rates.head<3>().squaredNorm();
     out.velocity_m2_s2 += rates.tail<3>().squaredNorm();
-    if (!state.protection.available) return;
+    if (!both) return;
     ++out.settled_levels;
-    out.level_position_m += state.protection.position_m;
-    out.level_rotation_rad += state.protection.rotation_rad;
+    out.level_position_m += level.position_m;
+    out.level_rotation_rad += level.rotation_rad;
   }
 
  private:

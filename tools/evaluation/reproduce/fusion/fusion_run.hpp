@@ -12,8 +12,9 @@ namespace pharos::tools {
 struct RunFigures {
   std::size_t looks = 0;         // from the first valid state on
   std::size_t answered = 0;      // with a valid state
-  std::size_t protected_looks = 0;  // with a protection level
-  std::size_t outside = 0;       // of those: truth outside of it
+  std::size_t protected_looks = 0;  // with protection levels of position and rotation
+  std::size_t position_levels = 0;  // with that of position
+  std::size_t outside = 0;          // truth outside of either
   std::size_t wrong_excluded = 0;  // looks in which a right source was excluded
   std::size_t conflict = 0;
   std::size_t fused = 0;
