@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/calibrate/camera/board_image.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
 #include "tools/calibrate/printf_text.hpp"
@@ -64,6 +65,23 @@ void write_image_statuses(const std::vector<ImageOutcome>& images, const OutputO
         static_cast<std::int64_t>(image.search.status == ImageStatus::kUsed ? image.search.board.points.size() : 0));
     output.rows().number(used && image.rms_px > 0.0 ? std::optional(image.rms_px) : std::nullopt);
     output.rows().text(image.search.detail).end_row();
+  }
+  output.finish();
+}
+
+void write_board_points(const calibrate::CameraCalibration& result, const calibrate::Board& board,
+                        const OutputOptions& options) {
+  Output output(options, {"image", "point", "u_px", "v_px", "du_px", "dv_px"});
+  host::RowWriter& rows = output.rows();
+  for (const ImageOutcome& image : result.images) {
+    if (!result.outcome || image.search.status != ImageStatus::kUsed) continue;
+    const auto& T = result.outcome->state.T_camera_board[image.view];
+    for (std::size_t i = 0; i < board.size(); ++i) {
+      const Vector2 found = image.search.board.points[i].pixel;
+      const Vector2 residual = found - calibrate::project_board_point(result.camera(), T, board, i).pixel;
+      rows.text(image.name).integer(static_cast<std::int64_t>(i)).number(found.x()).number(found.y());
+      rows.number(residual.x()).number(residual.y()).end_row();
+    }
   }
   output.finish();
 }

@@ -16,6 +16,11 @@ void write_board_parameters(const calibrate::BundleOutcome& outcome, const Outpu
 /// `image,status,points,rms_px,detail`: every image that was given.
 void write_image_statuses(const std::vector<calibrate::ImageOutcome>& images, const OutputOptions& options);
 
+/// `image,point,u_px,v_px,du_px,dv_px`: each point of the images used, and by how much it was found beside where the
+/// camera sees it.
+void write_board_points(const calibrate::CameraCalibration& result, const calibrate::Board& board,
+                        const OutputOptions& options);
+
 /// On standard error: how many images were used, and why the others were not.
 void note_images(const std::vector<calibrate::ImageOutcome>& images);
 

@@ -11,6 +11,7 @@
 #include "tools/calibrate/printf_text.hpp"
 #include "tools/calibrate/text_file.hpp"
 #include "tools/support/commands.hpp"
+#include "tools/support/output_place.hpp"
 #include "tools/support/progress.hpp"
 
 namespace pharos::tools {
@@ -30,11 +31,13 @@ constexpr const char* kCameraExample =
 struct CameraOptions {
   BoardOptions board;
   std::vector<std::string> images;
+  std::string points;
 };
 
 void write_outputs(const CameraOptions& options, const calibrate::CalibrationChoices& choices,
                    const BoardPictures& pictures, const calibrate::CameraCalibration& result) {
   if (!options.board.images.empty()) write_image_statuses(result.images, {options.board.json, options.board.images});
+  if (!options.points.empty()) write_board_points(result, choices.board, {options.board.json, options.points});
   if (options.board.overlay.empty()) return;
   const PinholeCamera* camera = result.outcome ? &result.camera() : nullptr;
   const std::vector<calibrate::CameraFromBoard> none;
@@ -45,6 +48,7 @@ void write_outputs(const CameraOptions& options, const calibrate::CalibrationCho
 int run_camera(const CameraOptions& options) {
   const calibrate::CalibrationChoices choices = choices_of(options.board);
   if (options.board.output != "-") require_writable(options.board.output);
+  if (!options.points.empty()) require_writable(options.points);
   ImageInput input;
   const BoardPictures pictures(options.images, input);
   if (input.nothing_read()) return input.finish(false);
@@ -81,6 +85,10 @@ void add_calibrate_camera(CLI::App& calibrate, int& exit_code) {
   const auto options = std::make_shared<CameraOptions>();
   command->add_option("IMAGE", options->images, "Images of the board")->required();
   add_board_options(*command, options->board);
+  command
+      ->add_option("--points", options->points,
+                   "File for each point and its residual (a table, for `pharos plot calibration`)")
+      ->check(output_place());
   command->footer(kCameraExample);
   command->callback([options, &exit_code] { exit_code = run_camera(*options); });
 }

@@ -177,6 +177,39 @@ void add_residuals(HtmlPage& page, const std::string& path) {
               "hit, its coverage.");
 }
 
+// A board's points over the image, with their residuals enlarged: where points were, and whether what is left has a
+// pattern.
+void add_points(HtmlPage& page, const std::string& path, const TomlTable& camera) {
+  const auto width_px = static_cast<double>(camera.integer("width_px", 1, 100'000));
+  const auto height_px = static_cast<double>(camera.integer("height_px", 1, 100'000));
+  host::TableReader table(host::ByteSource(path), {"u_px", "v_px", "du_px", "dv_px"});
+  std::vector<std::array<double, 4>> points;
+  double square = 0.0;
+  while (table.next()) {
+    points.push_back({table.number(0), table.number(1), table.number(2), table.number(3)});
+    square += points.back()[2] * points.back()[2] + points.back()[3] * points.back()[3];
+  }
+  page.heading("Coverage and residuals of the image");
+  if (points.empty()) {
+    page.paragraph(path + ": no point.");
+    return;
+  }
+  const double rms_px = std::sqrt(square / static_cast<double>(points.size()));
+  const double enlarged = rms_px > 0.0 ? 0.02 * width_px / rms_px : 1.0;
+  const double scale = (kWidth - 20.0) / width_px;
+  Svg svg(kWidth, scale * height_px + 20.0);
+  const auto at = [scale](double u, double v) { return PlotPoint{10.0 + scale * (u + 0.5), 10.0 + scale * (v + 0.5)}; };
+  const PlotPoint first = at(-0.5, -0.5), last = at(width_px - 0.5, height_px - 0.5);
+  svg.polygon({first, {last.x, first.y}, last, {first.x, last.y}}, "none", "#404040");
+  for (const auto& [u, v, du, dv] : points) {
+    svg.circle(at(u, v), 1.5, "#2f8f4e");
+    svg.line(at(u, v), at(u + enlarged * du, v + enlarged * dv), "#1f5fa8");
+  }
+  page.figure(svg, std::to_string(points.size()) + " points (green) over the whole image and their residuals (blue), " +
+                       shown_number(enlarged, 3) + " times as long; their root mean square length is " +
+                       shown_number(rms_px, 3) + " px.");
+}
+
 void add_images(HtmlPage& page, const std::string& path) {
   host::TableReader table(host::ByteSource(path), {"image", "status", "points", "rms_px", "detail"});
   std::map<std::string, int> statuses;
@@ -230,6 +263,7 @@ void add_calibration(HtmlPage& page, const CalibrationFiles& files) {
                            "`pharos calibrate`");
   }
   if (!files.residuals.empty()) add_residuals(page, files.residuals);
+  if (!files.points.empty()) add_points(page, files.points, root);
   if (!files.images.empty()) add_images(page, files.images);
   add_sensors(page, sensors);
   add_covariance(page, record, files.calibration);

@@ -24,6 +24,7 @@ constexpr const char* kExample =
     "  pharos plot poses poses.csv --truth mocap.csv --align hand-eye --output poses.html\n"
     "  pharos plot precision --target target.csv --max-range-m 8 --output precision.html\n"
     "  pharos plot calibration cal.toml --residuals residuals.csv --output cal.html\n"
+    "  pharos plot calibration camera.toml --points points.csv --images images.csv --output camera.html\n"
     "Each writes one HTML file with its figures in it (SVG): no script, nothing from the network.";
 
 struct PoseOptions {
@@ -101,8 +102,10 @@ int plot_precision(const PrecisionOptions& options) {
 }
 
 int plot_calibration(const CalibrationFiles& files, const std::string& output) {
-  require_one_standard_input(
-      {{"CALIBRATION", files.calibration}, {"--residuals", files.residuals}, {"--images", files.images}});
+  require_one_standard_input({{"CALIBRATION", files.calibration},
+                              {"--residuals", files.residuals},
+                              {"--images", files.images},
+                              {"--points", files.points}});
   require_writable(output);
   HtmlPage page("Calibration " + files.calibration);
   add_calibration(page, files);
@@ -124,6 +127,7 @@ void add_plot_poses(CLI::App& plot, int& exit_code) {
       ->capture_default_str();
   command->add_option("--station", options->station, "Rows of this station only");
   add_output(*command, options->output);
+  command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = plot_poses(*options); });
 }
 
@@ -146,6 +150,7 @@ void add_plot_precision(CLI::App& plot, int& exit_code) {
       ->capture_default_str();
   add_noise_options(*command, options->noise);
   add_output(*command, options->output);
+  command->footer(kExample);
   command->callback([options, &exit_code] { exit_code = plot_precision(*options); });
 }
 
@@ -157,7 +162,9 @@ void add_plot_calibration(CLI::App& plot, int& exit_code) {
   command->add_option("CALIBRATION", files->calibration, "TOML file of `pharos calibrate`")->required();
   command->add_option("--residuals", files->residuals, "Table of `pharos calibrate lighthouse --residuals`");
   command->add_option("--images", files->images, "Table of `pharos calibrate camera --images`");
+  command->add_option("--points", files->points, "Table of `pharos calibrate camera --points`: the field of residuals");
   add_output(*command, *output);
+  command->footer(kExample);
   command->callback([files, output, &exit_code] { exit_code = plot_calibration(*files, *output); });
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "host/cameras/camera_file.hpp"
@@ -55,7 +56,8 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheStatusOfEachImage) {
   const std::vector<std::uint16_t> dark(320 * 240);
   host::write_grey_png(path("dark.png"), {dark.data(), 320, 240});
   const Outcome run = pharos("calibrate camera" + list("left", 4) + " " + path("dark.png") + kBoard + " --output " +
-                             path("camera.toml") + " --images " + path("fates.csv") + " --overlay " + path("overlay"));
+                             path("camera.toml") + " --images " + path("fates.csv") + " --overlay " + path("overlay") +
+                             " --points " + path("points.csv"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, testing::StartsWith("parameter,value,sigma\nfx_px,"));
   EXPECT_THAT(run.err, HasSubstr("5 images: 1 no_board, 4 used"));
@@ -74,6 +76,15 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheStatusOfEachImage) {
   EXPECT_EQ(outcomes[0].at("status"), "used");
   EXPECT_EQ(outcomes[4].at("status"), "no_board");
   EXPECT_EQ(outcomes[4].at("rms_px"), "");
+  double square = 0.0;  // of the first image
+  const std::vector<Row> points = rows_of(content_of(path("points.csv")));
+  ASSERT_EQ(points.size(), 4U * 30U);
+  for (const Row& point : points) {
+    if (point.at("image") != outcomes[0].at("image")) continue;
+    square += std::pow(std::stod(point.at("du_px")), 2) + std::pow(std::stod(point.at("dv_px")), 2);
+  }
+  const double rms_px = std::stod(outcomes[0].at("rms_px"));
+  EXPECT_NEAR(std::sqrt(square / 30.0), rms_px, 1e-9 * rms_px);
 }
 
 TEST_F(BoardImages, ThatCannotBeReadAreLeftOutAndKeepTheirRow) {

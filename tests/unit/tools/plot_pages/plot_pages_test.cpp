@@ -198,11 +198,25 @@ TEST_F(PlotPages, ACalibrationShowsCovarianceCoverageResidualsAndWhatWasRefused)
   expect_no_nan(text);
 }
 
+TEST_F(PlotPages, PointsOfABoardAreOverTheImageWithTheirResiduals) {
+  CalibrationFiles files;
+  files.calibration = folder_.write("camera.toml", "width_px = 100\nheight_px = 50\n" + std::string(kCalibration));
+  files.points = folder_.write("points.csv",
+                               "image,point,u_px,v_px,du_px,dv_px\na.png,0,49.5,24.5,0.03,0.04\na.png,1,0,0,-0.05,0\n");
+  HtmlPage page("calibration");
+  add_calibration(page, files);
+  const std::string text = written(page);
+  EXPECT_THAT(text, AllOf(HasSubstr("2 points (green)"), HasSubstr("root mean square length is 0.05 px"),
+                          HasSubstr("40 times as long"), HasSubstr("<circle cx=\"480.0\" cy=\"245.0\"")));
+  expect_balanced(text);
+  expect_no_nan(text);
+}
+
 TEST_F(PlotPages, FilesThatAreNoCalibrationAreRefused) {
   HtmlPage page("calibration");
   for (const char* text : {"a = 1\n", "[calibration]\nparameters = ['a']\ncovariance = []\n",
                            "[calibration]\nparameters = ['a']\ncovariance = [[-1.0]]\n", "no toml"}) {
-    const CalibrationFiles files{folder_.write("cal.toml", text), "", ""};
+    const CalibrationFiles files{folder_.write("cal.toml", text), "", "", ""};
     EXPECT_THROW(add_calibration(page, files), host::InputError) << text;
   }
 }
