@@ -43,7 +43,7 @@ Aligned aligned_as_asked(const EstimateTrajectory& estimate, const TruthTrajecto
                          const ComparisonOptions& options, double max_gap_s) {
   const bool free_time = !options.time_offset_s;
   if (options.mode == AlignMode::kHandEye) return hand_eye(estimate, truth, time_offset_s, free_time, max_gap_s);
-  Alignment start;
+  Alignment start = options.known.value_or(Alignment{});
   start.time_offset_s = time_offset_s;
   if (options.mode == AlignMode::kNone) {
     return free_time ? align(estimate, truth, start, {false, false, true}, max_gap_s) : Aligned{start, {}, 0.0};

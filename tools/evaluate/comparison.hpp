@@ -13,6 +13,7 @@ enum class AlignMode { kNone, kSe3, kHandEye };
 
 struct ComparisonOptions {
   AlignMode mode = AlignMode::kNone;
+  std::optional<Alignment> known;             // of frames and bodies, with mode kNone: nothing of it is fitted
   std::optional<double> time_offset_s = 0.0;  // to add to ESTIMATE's times; none: estimate it
   std::optional<double> max_gap_s;            // none: 3.5 times TRUTH's median interval
   double relative_s = 1.0;                    // for the RPE

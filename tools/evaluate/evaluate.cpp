@@ -15,6 +15,7 @@
 #include "tools/evaluate/error_plot.hpp"
 #include "tools/evaluate/evaluate_positions.hpp"
 #include "tools/evaluate/figure_table.hpp"
+#include "tools/evaluate/known_transform.hpp"
 #include "tools/evaluate/position_track.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/number_option.hpp"
@@ -37,6 +38,7 @@ constexpr const char* kExample =
     "body: T_estimate = world * T_truth * body. se3 finds the first only, from positions by least squares: where "
     "TRUTH\n"
     "is of another body than ESTIMATE (EuRoC's is the IMU's, not the camera's), its ate_mm holds their lever arm.\n"
+    "--transform FILE: both frames are known beforehand, as in paper 002, section 4.3; nothing is fitted.\n"
     "rot_* and pos_*: errors (25); spread_*: (23), errors about their mean; *_normalised_square is 1 where stated\n"
     "sigmas are honest. Refused and ambiguous rows are counted and left out.\n"
     "  pharos evaluate poses.csv mocap.csv.gz --clock-marks 13.94,45.56 --epochs crossing_beam.csv --lever-arm "
@@ -48,6 +50,7 @@ struct Options {
   std::string estimate;
   std::string truth;
   AlignMode mode = AlignMode::kNone;
+  std::string transform;
   std::string time_offset = "0";
   double max_gap_s = 0.0;
   double relative_s = 1.0;
@@ -144,7 +147,8 @@ std::string open_parts(const evaluate::Aligned& aligned) {
   return text;
 }
 
-const char* name_of(AlignMode mode) {
+const char* name_of(AlignMode mode, bool known) {
+  if (known) return "known";
   return mode == AlignMode::kNone ? "none" : mode == AlignMode::kSe3 ? "se3" : "hand-eye";
 }
 
@@ -164,7 +168,7 @@ void write_figures(host::RowWriter& rows, const evaluate::Comparison& c, double 
 void write_row(host::RowWriter& rows, const Options& options, const evaluate::TrajectoryFile<evaluate::EstimatePose>& e,
                const evaluate::Comparison& c) {
   const bool answered = c.refused.empty();
-  rows.text(name_of(options.mode));
+  rows.text(name_of(options.mode, !options.transform.empty()));
   if (answered) {
     rows.number(c.aligned.alignment.time_offset_s);
   } else {
@@ -204,6 +208,7 @@ void write(const Options& options, const evaluate::TrajectoryFile<evaluate::Esti
 evaluate::ComparisonOptions comparison_options(const Options& options) {
   evaluate::ComparisonOptions result;
   result.mode = options.mode;
+  if (!options.transform.empty()) result.known = evaluate::read_transform(options.transform);
   result.time_offset_s.reset();
   if (options.time_offset != "auto") result.time_offset_s = std::stod(options.time_offset);
   if (options.max_gap_s > 0.0) result.max_gap_s = options.max_gap_s;
@@ -222,9 +227,13 @@ void remark(const Options& options, const evaluate::Comparison& c) {
 }
 
 int run(const Options& options) {
-  require_one_standard_input({{"ESTIMATE", options.estimate}, {"TRUTH", options.truth}});
+  require_one_standard_input(
+      {{"ESTIMATE", options.estimate}, {"TRUTH", options.truth}, {"--transform", options.transform}});
   if (!options.plot.empty()) require_writable(options.plot);
   if (options.truth != "-" && evaluate::is_position_table(options.truth)) {
+    if (!options.transform.empty()) {
+      throw host::InputError("--transform: a TRUTH of positions is aligned by itself; leave the option out");
+    }
     return evaluate_positions(options.estimate, options.truth, options.positions, options.output);
   }
   evaluate::TrajectoryChoice choice = options.choice;
@@ -265,8 +274,15 @@ void add_evaluate(CLI::App& app, int& exit_code) {
       ->required();
   const std::map<std::string, AlignMode> modes = {
       {"none", AlignMode::kNone}, {"se3", AlignMode::kSe3}, {"hand-eye", AlignMode::kHandEye}};
-  command->add_option("--align", options->mode, "none, se3 (worlds) or hand-eye (worlds and bodies)")
-      ->transform(CLI::CheckedTransformer(modes).description("{hand-eye,none,se3}"));
+  CLI::Option* align =
+      command->add_option("--align", options->mode, "none, se3 (worlds) or hand-eye (worlds and bodies)")
+          ->transform(CLI::CheckedTransformer(modes).description("{hand-eye,none,se3}"));
+  command
+      ->add_option(
+          "--transform", options->transform,
+          "A known alignment instead: one row of qw..tz_m (ESTIMATE's frame from TRUTH's), of the paper's psi_0 "
+          "(phi_x_rad..z_mm), or of this command")
+      ->excludes(align);
   command
       ->add_option("--time-offset", options->time_offset,
                    "Seconds to add to ESTIMATE's times, or auto: found from the motion")
