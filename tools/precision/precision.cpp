@@ -3,11 +3,16 @@
 #include "pharos/pose/precision.hpp"
 
 #include <CLI/CLI.hpp>
+#include <variant>
 
+#include "host/support/input_error.hpp"
 #include "host/table/pose_table.hpp"
 #include "host/table/target_file.hpp"
+#include "pharos/base/units.hpp"
+#include "tools/precision/noise_estimate.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
+#include "tools/support/recording.hpp"
 #include "tools/support/solver_options.hpp"
 #include "tools/support/standard_input.hpp"
 #include "tools/support/target_notes.hpp"
@@ -19,9 +24,15 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos precision --target target.csv --poses poses.csv --sigma-arcsec 8.8 --rho 0.8717\n"
     "poses.csv: pose,qw,qx,qy,qz,tx_m,ty_m,tz_m (T_lighthouse_body). A sensor is visible when its normal is within 60\n"
-    "deg of the direction to the station; sensors without normals always are. The sigmas are equation (24).";
+    "deg of the direction to the station; sensors without normals always are. The sigmas are equation (24).\n"
+    "  pharos precision --estimate still.edges.csv.gz\n"
+    "--estimate: sigma and rho of a recording in which nothing moves for at least 20 s, a row for each rotor: the "
+    "noise\n"
+    "of one raw angle, and the correlation between the sensors of a rotor, (19). A rotor whose angles wander is "
+    "refused.";
 
 struct Options {
+  std::string estimate;
   std::string target;
   std::string poses;
   NoiseOptions noise;
@@ -67,18 +78,59 @@ int run(const Options& options) {
   return kExitNoAnswer;
 }
 
+const std::vector<std::string> kNoiseColumns = {"station",      "axis", "sensors", "turns",
+                                                "sigma_arcsec", "rho",  "drift",   "status"};
+
+int run_estimate(const Options& options) {
+  Recording recording(options.estimate);
+  NoiseEstimator estimator;
+  while (const auto event = recording.next()) {
+    if (const auto* sweep = std::get_if<lighthouse::Sweep>(&*event)) estimator.push(*sweep);
+  }
+  const std::vector<RotorNoise> rotors = estimator.estimate();
+  Output output(options.output, kNoiseColumns);
+  bool answered = false;
+  for (const RotorNoise& noise : rotors) {
+    host::RowWriter& rows = output.rows();
+    rows.integer(noise.station).text(noise.axis == Axis::kX ? "x" : "y").integer(noise.sensors).integer(noise.turns);
+    if (noise.moving()) {
+      rows.none(2).number(noise.drift).text("refused_moving").end_row();
+      continue;
+    }
+    answered = true;
+    rows.number(noise.sigma_rad * kArcsecPerRad).number(noise.rho).number(noise.drift).text("ok").end_row();
+  }
+  output.finish();
+  recording.print_remarks();
+  if (answered) return kExitAnswered;
+  note(options.estimate + (rotors.empty() ? ": no sensor was hit for 20 s by any rotor; record longer"
+                                          : ": the target or the station moves; record a target at rest"));
+  return kExitNoAnswer;
+}
+
 }  // namespace
 
 void add_precision(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("precision", "Dilution of precision of a target at given poses");
   const auto options = std::make_shared<Options>();
-  command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
-  command->add_option("--poses", options->poses, "Table pose,qw,qx,qy,qz,tx_m,ty_m,tz_m; .gz; - is standard input")
-      ->required();
+  CLI::Option* target = command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]");
+  CLI::Option* poses =
+      command->add_option("--poses", options->poses, "Table pose,qw,qx,qy,qz,tx_m,ty_m,tz_m; .gz; - is standard input");
+  command
+      ->add_option("--estimate", options->estimate,
+                   "Instead: the noise of a RECORDING at rest, EDGES as of decode, or a serial stream")
+      ->type_name("RECORDING")
+      ->excludes(target)
+      ->excludes(poses);
   add_noise_options(*command, options->noise);
   add_output_options(*command, options->output);
   command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] {
+    if (options->estimate.empty() && (options->target.empty() || options->poses.empty())) {
+      throw host::InputError("give --target and --poses, or --estimate RECORDING (`pharos precision --help`)");
+    }
+    exit_code = options->estimate.empty() ? run(*options) : run_estimate(*options);
+  });
 }
 
 }  // namespace pharos::tools
