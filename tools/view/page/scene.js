@@ -7,6 +7,7 @@ import { colourOf, kindOf, lengthText, range, rowId } from "./words.js";
 
 const ELLIPSOIDS = [100, 1, 30, 0]; // times 3 sigma; 0: none
 const MAX_LABELS = 40;
+const MAX_LABEL_STEPS = 4;
 const SPACING = 0.3; // between instruments, m
 const GROUNDS = { dark: 0x10141a, light: 0xeef1f5 };
 
@@ -31,6 +32,8 @@ export class Scene {
     this.follow = false;
     this.stale = true;
     this.viewed = false;
+    this.drawn = 0;
+    this.cost_ms = 0;
     this.furnish();
     this.view("behind");
   }
@@ -81,8 +84,13 @@ export class Scene {
     mounted.forEach((one, at) => one.group.position.set((at - (mounted.length - 1) / 2) * SPACING, 0, 0));
   }
 
+  // The newest state; it is put into the scene when it is drawn.
   take(state) {
+    this.pending = state;
     this.stale = true;
+  }
+
+  apply(state) {
     if (state.replay) this.noticeJump(state.replay.position_s);
     for (const row of state.rows) {
       if (row.axis) this.takeAxis(row);
@@ -219,9 +227,15 @@ export class Scene {
         this.controls.update();
       }
     }
-    if (!this.stale) return;
+    const now = performance.now();
+    // Where drawing is slow (many targets, software rendering) the rest of the page has half of the time.
+    if (!this.stale || now - this.drawn < 2 * this.cost_ms) return;
     this.stale = false;
+    if (this.pending) this.apply(this.pending);
+    this.pending = null;
     this.renderer.render(this.world, this.eye);
+    this.drawn = performance.now();
+    this.cost_ms = 0.8 * this.cost_ms + 0.2 * (this.drawn - now);
     this.drawLabels(selected);
     const scale = this.options.ellipsoid;
     this.note.textContent = `instruments side by side, nominal sizes; ${scale ? `ellipsoids 3 sigma × ${scale}` : "no ellipsoids"}`;
@@ -244,8 +258,8 @@ export class Scene {
     const taken = [];
     for (const [id, label] of wanted) {
       const at = label.place.project(this.eye);
-      const shown = Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1 && taken.length < MAX_LABELS;
-      this.showLabel(id, shown, label, shown ? this.freePlace(at, label.text, taken) : null);
+      const seen = Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1 && taken.length < MAX_LABELS;
+      this.showLabel(id, label, seen ? this.freePlace(at, label.text, taken) : null);
     }
     for (const [id, span] of this.spans) {
       if (wanted.has(id)) continue;
@@ -254,26 +268,27 @@ export class Scene {
     }
   }
 
-  // Beside a point, moved down until no other label is there.
+  // Beside a point, or a little below it where another label is; null where there is no room.
   freePlace(at, text, taken) {
     const box = { x: ((at.x + 1) / 2) * this.width + 12, y: ((1 - at.y) / 2) * this.height - 22, width: 7 * text.length + 14 };
     box.x = Math.min(box.x, this.width - box.width);
     const hits = (other) => Math.abs(other.y - box.y) < 20 && box.x < other.x + other.width && other.x < box.x + box.width;
-    for (let tries = 0; tries < MAX_LABELS && taken.some(hits); tries += 1) box.y += 20;
+    for (let tries = 0; tries < MAX_LABEL_STEPS && taken.some(hits); tries += 1) box.y += 20;
+    if (taken.some(hits)) return null;
     taken.push(box);
     return box;
   }
 
-  showLabel(id, shown, label, box) {
+  showLabel(id, label, box) {
     let span = this.spans.get(id);
     if (!span) {
-      if (!shown) return;
+      if (!box) return;
       this.spans.set(id, (span = document.createElement("span")));
       span.style.borderLeftColor = label.colour;
       this.labels.append(span);
     }
-    span.hidden = !shown;
-    if (!shown) return;
+    span.hidden = !box;
+    if (!box) return;
     if (span.textContent !== label.text) span.textContent = label.text;
     span.style.transform = `translate(${box.x.toFixed(0)}px, ${box.y.toFixed(0)}px)`;
   }

@@ -16,9 +16,12 @@ export function lines(points, colour, opacity) {
 
 // x red, y green, z blue.
 export function axes(length) {
-  const group = new THREE.Group();
-  group.add(lines([[0, 0, 0], [length, 0, 0]], 0xf0524b), lines([[0, 0, 0], [0, length, 0]], 0x35c46f), lines([[0, 0, 0], [0, 0, length]], 0x4c8ff0));
-  return group;
+  const made = lines([[0, 0, 0], [length, 0, 0], [0, 0, 0], [0, length, 0], [0, 0, 0], [0, 0, length]], 0xffffff);
+  const colours = ["#f0524b", "#35c46f", "#4c8ff0"].map((name) => new THREE.Color(name).toArray());
+  const ends = colours.flatMap((colour) => [...colour, ...colour]);
+  made.geometry.setAttribute("color", new THREE.Float32BufferAttribute(ends, 3));
+  made.material.vertexColors = THREE.VertexColors;
+  return made;
 }
 
 function solid(geometry, colour, opacity = 1) {
@@ -132,7 +135,7 @@ export function ghost(object) {
 
 export function ellipsoid(colour) {
   const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity: 0.28, depthWrite: false });
-  const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 24, 16), material);
+  const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 10), material);
   mesh.matrixAutoUpdate = false;
   return mesh;
 }
@@ -146,11 +149,23 @@ export function trail(colour, length) {
   return line;
 }
 
-const sensorGeometry = () => new THREE.SphereBufferGeometry(1, 10, 8);
-let sharedSensor = null;
-export function sensor() {
-  sharedSensor = sharedSensor ?? sensorGeometry();
-  return new THREE.Mesh(sharedSensor, new THREE.MeshBasicMaterial({ color: 0x888888 }));
+// Up to `count` sensors as points of one object, each with its own colour.
+export function sensors(count) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(new Float32Array(3 * count), 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * count), 3));
+  const points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 0.035, vertexColors: THREE.VertexColors }));
+  points.frustumCulled = false;
+  points.show = (list) => {
+    list.slice(0, count).forEach(([position, colour], at) => {
+      geometry.attributes.position.array.set(position, 3 * at);
+      geometry.attributes.color.array.set(colour, 3 * at);
+    });
+    geometry.attributes.position.needsUpdate = true;
+    geometry.attributes.color.needsUpdate = true;
+    geometry.setDrawRange(0, Math.min(list.length, count));
+  };
+  return points;
 }
 
 export function arrow(colour) {

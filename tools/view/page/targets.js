@@ -5,9 +5,10 @@ import * as shapes from "./shapes.js";
 import { kindOf } from "./words.js";
 
 const TRAIL = 600;
-const USED = new THREE.Color("#35c46f");
-const REJECTED = new THREE.Color("#f0b92c");
-const DARK = new THREE.Color("#6c7683");
+const SENSORS = 32;
+const USED = new THREE.Color("#35c46f").toArray();
+const REJECTED = new THREE.Color("#f0b92c").toArray();
+const DARK = new THREE.Color("#6c7683").toArray();
 
 function shapeOf(row, colour) {
   if (row.camera) return shapes.ring(colour);
@@ -24,21 +25,9 @@ export class Target {
     this.ellipsoid = shapes.ellipsoid(colour);
     this.trail = shapes.trail(colour, TRAIL);
     this.points = [];
-    this.sensors = new Map();
-    this.known = new Set();
+    this.sensors = shapes.sensors(SENSORS);
     this.group.add(this.shape, this.second, this.ellipsoid, this.trail);
-    for (const [number, position] of placements ?? []) {
-      const sensor = this.sensor(number);
-      this.shape.add(sensor);
-      sensor.position.fromArray(position);
-      sensor.scale.setScalar(0.012);
-      this.known.add(number);
-    }
-  }
-
-  sensor(number) {
-    if (!this.sensors.has(number)) this.sensors.set(number, shapes.sensor());
-    return this.sensors.get(number);
+    (placements ? this.shape : this.group).add(this.sensors);
   }
 
   take(row, options) {
@@ -77,24 +66,13 @@ export class Target {
     this.trail.geometry.setDrawRange(0, 0);
   }
 
-  // Sensors whose place on the body is not known are drawn along their ray, at the target's distance.
+  // Sensors whose places on the body are not known are drawn along their rays, at the target's distance.
   takeSensors(row) {
     const lit = new Map((row.sensors ?? []).map((entry) => [entry[0], entry]));
-    for (const [number, sensor] of this.sensors) {
-      const entry = lit.get(number);
-      sensor.material.color = entry ? (entry[1] ? USED : REJECTED) : DARK;
-      if (!this.known.has(number)) sensor.visible = false;
-    }
+    const colour = (entry) => (entry ? (entry[1] ? USED : REJECTED) : DARK);
+    if (this.placements) return this.sensors.show(this.placements.map(([number, position]) => [position, colour(lit.get(number))]));
     const depth = row.p ? row.p[2] : null;
-    for (const [number, entry] of lit) {
-      const sensor = this.sensor(number);
-      sensor.material.color = entry[1] ? USED : REJECTED;
-      if (this.known.has(number)) continue;
-      sensor.visible = depth !== null && entry[2] !== null && entry[3] !== null;
-      if (!sensor.visible) continue;
-      if (sensor.parent !== this.group) this.group.add(sensor);
-      sensor.position.set(entry[2] * depth, entry[3] * depth, depth);
-      sensor.scale.setScalar(0.01);
-    }
+    const seen = depth === null ? [] : [...lit.values()].filter((entry) => entry[2] !== null && entry[3] !== null);
+    return this.sensors.show(seen.map((entry) => [[entry[2] * depth, entry[3] * depth, depth], colour(entry)]));
   }
 }
