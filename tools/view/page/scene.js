@@ -13,13 +13,22 @@ const GROUNDS = { dark: 0x10141a, light: 0xeef1f5 };
 
 const instrumentOf = (row) => [row.source, row.by || row.station, row.frames?.[0]].join("|");
 
+// Without a graphics processor smooth edges cost more than everything else.
+function rendersInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export class Scene {
   constructor(canvas, labels, note, targets) {
     this.canvas = canvas;
     this.labels = labels;
     this.note = note;
     this.placements = targets;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !rendersInSoftware() });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.world = new THREE.Scene();
     this.eye = new THREE.PerspectiveCamera(45, 1, 0.02, 2000);
