@@ -43,7 +43,8 @@ struct RangeNoise {
   double depth_mm = 3.0;    // along it
 };
 
-/// Slow error, first-order Gauss-Markov, constant in the sensor's frame: standard deviation of each axis.
+/// Slow error, first-order Gauss-Markov in the sensor's frame: standard deviation of each axis at RangeNoise::range_m;
+/// it grows with the range as the noise does.
 struct SlowBias {
   double rotation_deg = 0.02;
   double position_mm = 0.5;

@@ -55,7 +55,7 @@ class Noise {
   void apply(ApproachMeasurement& m, const Vector3& p_noise, double ratio) {
     slow_.advance(m.true_time_s, slow_random_);
     const PoseNoise white = white_noise(source_, m.pose, p_noise, ratio);
-    const Vector6 slow = slow_.error();
+    const Vector6 slow = slow_.error(range_factor(source_.noise, (m.pose * p_noise).norm()));
     // The slow error is the sensor's: the point p_noise moves by its translation.
     Vector6 delta = white.root * normal6(random_);
     delta.head<3>() += slow.head<3>();

@@ -36,12 +36,16 @@ Vector6 normal6(RandomStream& random) {
   return out;
 }
 
+double range_factor(const RangeNoise& noise, double range_m) {
+  return std::max(std::pow(range_m / noise.range_m, noise.power), noise.floor);
+}
+
 PoseNoise white_noise(const ApproachSource& source, const host::SensorFromFeature& pose, const Vector3& p_noise,
                       double ratio) {
   const RangeNoise& noise = source.noise;
   const Vector3 centre = pose * p_noise;
   const double range_m = std::max(centre.norm(), 1e-3);
-  const double factor = ratio * std::max(std::pow(range_m / noise.range_m, noise.power), noise.floor);
+  const double factor = ratio * range_factor(noise, range_m);
   const double turn_rad = source.has_turn ? noise.turn_deg * kRadPerDeg : 0.0;
   PoseNoise out;
   out.root.topLeftCorner<3, 3>() = factor * root_about(pose.R.col(2), noise.tilt_deg * kRadPerDeg, turn_rad);

@@ -19,6 +19,9 @@ struct PoseNoise {
   Matrix6 covariance() const { return root * root.transpose(); }
 };
 
+/// By how much the errors at this range exceed those at noise.range_m.
+double range_factor(const RangeNoise& noise, double range_m);
+
 /// White noise of a source at this pose. `p_noise` is the point of the feature frame whose position has lateral_mm and
 /// depth_mm (the target's centre for slam, whose own origin is far from it); `ratio` multiplies every sigma.
 PoseNoise white_noise(const ApproachSource& source, const host::SensorFromFeature& pose, const Vector3& p_noise,
@@ -37,8 +40,8 @@ class SlowErrors {
   SlowErrors(const ApproachSource& source, RandomStream& random);
   /// To `time_s`, later than before.
   void advance(double time_s, RandomStream& random);
-  /// Error of the pose in the sensor frame.
-  Vector6 error() const { return bias_ + drift_; }
+  /// Error of the pose in the sensor frame; the bias grows with the range as the noise does.
+  Vector6 error(double factor) const { return factor * bias_ + drift_; }
   double scale() const { return scale_; }
 
  private:
