@@ -31,6 +31,7 @@ void add_init(CLI::App& app, int& exit_code);        // tools/init
 void add_flash(CLI::App& app, int& exit_code);       // tools/flash
 void add_bench(CLI::App& app, int& exit_code);       // tools/evaluation/bench
 void add_evaluate(CLI::App& app, int& exit_code);    // tools/evaluate
+void add_fuse(CLI::App& app, int& exit_code);        // tools/fuse
 void add_layout(CLI::App& app, int& exit_code);      // tools/layout
 void add_ellipses(CLI::App& app, int& exit_code);    // tools/ellipses
 void add_ring2(CLI::App& app, int& exit_code);       // tools/ring2
@@ -59,6 +60,7 @@ inline void add_commands(CLI::App& app, int& exit_code) {
   add_flash(app, exit_code);
   add_bench(app, exit_code);
   add_evaluate(app, exit_code);
+  add_fuse(app, exit_code);
   add_layout(app, exit_code);
   add_ellipses(app, exit_code);
   add_ring2(app, exit_code);

@@ -12,7 +12,7 @@ constexpr double kOutlierFraction = 0.35;  // of a source's measurements: it is 
 constexpr int kJudged = 12;                // before that fraction says something
 constexpr int kScatteredRun = 3;           // gated poses that contradict each other: no motion does that
 constexpr double kAlone_s = 1.0;           // after which the only source is followed
-constexpr double kPoor = 1.0 / 6.0;          // sigma over the largest level
+constexpr double kPoor = 1.0 / 6.0;        // sigma over the largest level
 constexpr double kSlack = 0.02;            // of the other solution's covariance: rounding, and gates that differ
 
 }  // namespace
@@ -148,8 +148,8 @@ double FusionCore::misfit(const FusionState& state, std::size_t without) const {
   return sum;
 }
 
-// A separation beyond its threshold tells that there is a fault; the solution that the remaining sources fit tells whose.
-// The largest separation does not: a solution without the best source is the most sensitive to any other's ramp.
+// A separation beyond its threshold tells that there is a fault; the solution that the remaining sources fit tells
+// whose. The largest separation does not: a solution without the best source is the most sensitive to any other's ramp.
 void FusionCore::examine_separations(FusionState& state) const {
   double largest = 0.0;
   std::array<double, 2> best{1e300, 1e300};

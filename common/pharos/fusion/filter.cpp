@@ -42,9 +42,8 @@ Derivatives derivatives(const Kinematics& mean, const BiasMean& bias, const Sour
 void add_process_noise(Kinematic12& P, double dt, const MotionSettings& motion) {
   const double size = std::abs(dt);
   for (int axis = 0; axis < 3; ++axis) {
-    for (const auto& [value, rate, density] :
-         {std::tuple{axis, axis + 6, motion.angular_acceleration_density},
-          std::tuple{axis + 3, axis + 9, motion.acceleration_density}}) {
+    for (const auto& [value, rate, density] : {std::tuple{axis, axis + 6, motion.angular_acceleration_density},
+                                               std::tuple{axis + 3, axis + 9, motion.acceleration_density}}) {
       P(value, value) += density * size * size * size / 3.0;
       P(value, rate) += density * size * size / 2.0;
       P(rate, value) += density * size * size / 2.0;
@@ -166,7 +165,8 @@ void Filter::predict_step(double dt, const Settings& settings) {
   add_process_noise(P, dt, settings.motion);
   for (std::size_t i = 0; i < kKinematic; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      covariance_(i, j) = 0.5 * (P(static_cast<int>(i), static_cast<int>(j)) + P(static_cast<int>(j), static_cast<int>(i)));
+      covariance_(i, j) =
+          0.5 * (P(static_cast<int>(i), static_cast<int>(j)) + P(static_cast<int>(j), static_cast<int>(i)));
     }
   }
   for (std::size_t s = 0; s < settings.sources.size(); ++s) {
@@ -185,7 +185,8 @@ void Filter::predict_biases(double dt_s, const Settings& settings) {
   for (std::size_t s = 0; s < settings.sources.size(); ++s) {
     if (!active_[s]) continue;
     const SourceSettings& source = settings.sources[s];
-    const double gained = source.relative ? 2.0 * std::abs(dt_s) / source.bias_time_constant_s : 1.0 - kept[s] * kept[s];
+    const double gained =
+        source.relative ? 2.0 * std::abs(dt_s) / source.bias_time_constant_s : 1.0 - kept[s] * kept[s];
     const std::size_t first = bias_row(s);
     for (std::size_t i = first; i < first + 6; ++i) {
       for (std::size_t j = 0; j < kKinematic; ++j) covariance_(i, j) *= kept[s];
@@ -234,8 +235,8 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
     motion << mean_.rate_rad_s, mean_.velocity_m_s;
     noise += motion * motion.transpose() * (source.time_sigma_s * source.time_sigma_s);
   }
-  const Matrix6 S = Matrix6(out.derivatives * P * out.derivatives.transpose()) +
-                    Matrix6(rows * noise * rows.transpose());
+  const Matrix6 S =
+      Matrix6(out.derivatives * P * out.derivatives.transpose()) + Matrix6(rows * noise * rows.transpose());
   out.ok = factorise(S, out.rank, out.factor);
   if (!out.ok) return out;
   out.whitened = solve_lower(out.factor, out.rank, rows * out.residual);

@@ -29,9 +29,9 @@ struct BiasMean {
 };
 
 /// Error-state Kalman filter of the target with a multiplicative attitude error (Lefferts, Markley, Shuster, "Kalman
-/// filtering for spacecraft attitude estimation", J. Guidance 5 (1982); here in the vehicle frame: R_true = exp([d]x) R)
-/// and a first-order Gauss-Markov bias of every source (augmented state, as in Bar-Shalom, Li, Kirubarajan, "Estimation
-/// with applications to tracking and navigation", section 8.2).
+/// filtering for spacecraft attitude estimation", J. Guidance 5 (1982); here in the vehicle frame: R_true = exp([d]x)
+/// R) and a first-order Gauss-Markov bias of every source (augmented state, as in Bar-Shalom, Li, Kirubarajan,
+/// "Estimation with applications to tracking and navigation", section 8.2).
 ///
 /// State error, 42: rotation (rad), position (m), angular rate (rad/s), velocity (m/s), then six of each source's bias.
 /// Cost with three sources: predict 4 k, correct 6 k multiplications.
@@ -40,7 +40,8 @@ class Filter {
   bool valid() const { return valid_; }
   void invalidate() { valid_ = false; }
 
-  /// Starts from a pose with wide rates; directions that it does not measure are taken from `fill` (1 rad and 1 m wide).
+  /// Starts from a pose with wide rates; directions that it does not measure are taken from `fill` (1 rad and 1 m
+  /// wide).
   void start(const TargetMeasurement& measurement, const Settings& settings, const TargetPose* fill);
   /// To a time dt_s later.
   void predict(double dt_s, const Settings& settings);

@@ -17,7 +17,9 @@ constexpr int kMaxHalvings = 24;
 
 // Norm of a correction in the standard deviations before it, the larger of rotation and position.
 double sigmas_moved(const Matrix6& before, const Vector6& moved) {
-  const auto part = [](const Matrix3& P, const Vector3& d) { return std::sqrt(std::max(0.0, d.dot(P.ldlt().solve(d)))); };
+  const auto part = [](const Matrix3& P, const Vector3& d) {
+    return std::sqrt(std::max(0.0, d.dot(P.ldlt().solve(d))));
+  };
   return std::max(part(before.topLeftCorner<3, 3>(), moved.head<3>()),
                   part(before.bottomRightCorner<3, 3>(), moved.tail<3>()));
 }
@@ -65,7 +67,8 @@ Use FusionCore::push(FusionState& state, const Measurement& m) const {
   predict(state, m.time_ns);
   if (state.tracking && is_lost(state)) restart(state);
   if (repeated) {
-    if (state.tracking && monitor.repeats >= kFrozenRepeats && !monitor.excluded) exclude(state, m.source, FaultKind::kFreeze);
+    if (state.tracking && monitor.repeats >= kFrozenRepeats && !monitor.excluded)
+      exclude(state, m.source, FaultKind::kFreeze);
     if (monitor.excluded) monitor.note_proof(m.time_ns, false);
     return Use::kFrozen;
   }
@@ -80,9 +83,11 @@ Use FusionCore::track(FusionState& state, const Measurement& raw) const {
   return use;
 }
 
-TargetMeasurement FusionCore::view(const FusionState& state, const Measurement& raw, const TargetPose* reference) const {
+TargetMeasurement FusionCore::view(const FusionState& state, const Measurement& raw,
+                                   const TargetPose* reference) const {
   const SourceSettings& source = settings_.sources[raw.source];
-  return to_target(raw, source, source.relative ? state.T_target_feature[raw.source] : source.T_target_feature, reference);
+  return to_target(raw, source, source.relative ? state.T_target_feature[raw.source] : source.T_target_feature,
+                   reference);
 }
 
 // Of a relative source: where its first pose says, so that its bias begins at zero.
@@ -146,7 +151,8 @@ Use FusionCore::use_or_gate(FusionState& state, const Measurement& raw) const {
 
 void FusionCore::correct_main(FusionState& state, TargetMeasurement& m, const Innovation& first, bool second) const {
   SourceMonitor& monitor = state.monitors[m.source];
-  const bool came = !monitor.ever_used || seconds(m.time_ns, monitor.last_used_ns) > settings_.sources[m.source].silent_after_s;
+  const bool came =
+      !monitor.ever_used || seconds(m.time_ns, monitor.last_used_ns) > settings_.sources[m.source].silent_after_s;
   if (came) {
     monitor.joined_ns = m.time_ns;
     ++state.counters.hand_overs;
@@ -204,7 +210,8 @@ Mode FusionCore::mode_at(const FusionState& state, std::int64_t time_ns) const {
   int used = 0;
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     const SourceMonitor& monitor = state.monitors[s];
-    used += monitor.contributed && seconds(time_ns, monitor.last_used_ns) <= settings_.sources[s].silent_after_s ? 1 : 0;
+    used +=
+        monitor.contributed && seconds(time_ns, monitor.last_used_ns) <= settings_.sources[s].silent_after_s ? 1 : 0;
   }
   return used == 0 ? Mode::kCoasting : used == 1 ? Mode::kSingle : Mode::kFused;
 }
@@ -216,6 +223,7 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     const SourceMonitor& monitor = state.monitors[s];
     SourceReport report;
+    report.heard = monitor.seen;
     report.age_s = monitor.seen ? seconds(time_ns, monitor.last_ns) : 0.0;
     report.reason = monitor.reason;
     report.normalised_innovation = monitor.rank > 0 ? monitor.nis / monitor.rank : 0.0;

@@ -8,16 +8,17 @@ namespace pharos::fusion {
 /// What became of a measurement that was processed.
 enum class Use : std::uint8_t {
   kUsed,
-  kSearching,   // used to begin a track
-  kGated,       // too far from the prediction
-  kAmbiguous,   // both of its solutions fit
-  kFrozen,      // the same pose again
-  kExcluded,    // of a source that is not believed
-  kConflict,    // of one of two sources that contradict each other
-  kNotUsable,   // a relative or incomplete pose before there is a track
+  kSearching,  // used to begin a track
+  kGated,      // too far from the prediction
+  kAmbiguous,  // both of its solutions fit
+  kFrozen,     // the same pose again
+  kExcluded,   // of a source that is not believed
+  kConflict,   // of one of two sources that contradict each other
+  kNotUsable,  // a relative or incomplete pose before there is a track
 };
 
-/// Processes measurements in the order of time. All state is in FusionState, so that a copy of it is a place to go back to.
+/// Processes measurements in the order of time. All state is in FusionState, so that a copy of it is a place to go back
+/// to.
 class FusionCore {
  public:
   /// `settings` are checked (check_settings) and outlive this object.
@@ -40,7 +41,8 @@ class FusionCore {
   Use use_or_gate(FusionState& state, const Measurement& raw) const;
   TargetMeasurement view(const FusionState& state, const Measurement& raw, const TargetPose* reference) const;
   void place_feature(FusionState& state, const Measurement& raw) const;
-  void correct_main(FusionState& state, TargetMeasurement& measurement, const Innovation& innovation, bool second) const;
+  void correct_main(FusionState& state, TargetMeasurement& measurement, const Innovation& innovation,
+                    bool second) const;
   void correct_without(FusionState& state, std::size_t k, const TargetMeasurement& measurement, bool second) const;
   void drop_without(FusionState& state, std::size_t k) const;
   bool is_lost(const FusionState& state) const;

@@ -54,11 +54,11 @@ struct TargetMeasurement {
 enum class Refusal : std::uint8_t {
   kNone,
   kUnknownSource,
-  kNotFinite,         // a pose or covariance that is not a finite number, or a rotation that is none
-  kCovariance,        // not positive definite in the measured directions, or not symmetric
-  kTimeGoesBack,      // not later than the source's last one
-  kTimeAhead,         // far ahead of all other sources
-  kTooLate,           // older than the buffer
+  kNotFinite,     // a pose or covariance that is not a finite number, or a rotation that is none
+  kCovariance,    // not positive definite in the measured directions, or not symmetric
+  kTimeGoesBack,  // not later than the source's last one
+  kTimeAhead,     // far ahead of all other sources
+  kTooLate,       // older than the buffer
   kCount,
 };
 

@@ -21,14 +21,16 @@ Matrix3 left_jacobian(const Vector3& phi) {
 }
 
 struct AngularAcceleration {
-  Vector3 value;             // of the rate relative to the vehicle
+  Vector3 value;  // of the rate relative to the vehicle
   Matrix3 by_rate, by_rotation;
 };
 
 // In the vehicle frame, which turns with the orbit: alpha = R J^-1 (-w x J w) - Omega x omega, w = R^T omega and omega
-// the inertial rate. Its derivative by the attitude follows from alpha(exp(d) R, omega) = exp(d) alpha(R, exp(-d) omega).
+// the inertial rate. Its derivative by the attitude follows from alpha(exp(d) R, omega) = exp(d) alpha(R, exp(-d)
+// omega).
 AngularAcceleration torque_free(const Matrix3& R_vehicle_target, const Vector3& rate, const MotionSettings& m) {
-  const Vector3 orbit_rate = orbits(m) ? Vector3(m.R_vehicle_orbit.col(2) * m.mean_motion_rad_s) : Vector3(Vector3::Zero());
+  const Vector3 orbit_rate =
+      orbits(m) ? Vector3(m.R_vehicle_orbit.col(2) * m.mean_motion_rad_s) : Vector3(Vector3::Zero());
   const Matrix3 R = R_vehicle_target * m.R_target_principal;
   const Vector3 inertial = rate + orbit_rate;
   const Vector3 w = R.transpose() * inertial;

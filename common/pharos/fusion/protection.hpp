@@ -31,11 +31,11 @@ struct LargestSigma {
 };
 LargestSigma largest_sigma(const Matrix6& pose_covariance);
 
-/// Widens `level` to |d| + K sigma of another solution, d its difference from the main one: the main solution's error is
-/// the other's plus d, whatever the fault that the other solution does not hold (solution separation: Brown, "Solution of
-/// the two-failure GPS RAIM problem under worst case bias conditions", Navigation 44 (1997); Blanch et al., "Baseline
-/// advanced RAIM user algorithm", Navigation 62 (2015). They bound d by the detection threshold, before the measurement;
-/// here d is known).
+/// Widens `level` to |d| + K sigma of another solution, d its difference from the main one: the main solution's error
+/// is the other's plus d, whatever the fault that the other solution does not hold (solution separation: Brown,
+/// "Solution of the two-failure GPS RAIM problem under worst case bias conditions", Navigation 44 (1997); Blanch et
+/// al., "Baseline advanced RAIM user algorithm", Navigation 62 (2015). They bound d by the detection threshold, before
+/// the measurement; here d is known).
 void widen(ProtectionLevel& level, const Filter& main, const Filter& other, double factor);
 
 }  // namespace pharos::fusion

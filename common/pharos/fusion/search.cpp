@@ -6,7 +6,7 @@
 namespace pharos::fusion {
 namespace {
 
-constexpr double kLosing_chi2 = 18.4;  // 1 in 10,000: the candidate that explains the measurements this much worse
+constexpr double kLosing_chi2 = 18.4;   // 1 in 10,000: the candidate that explains the measurements this much worse
 constexpr double kOutside_chi2 = 30.0;  // what a measurement outside of a candidate's gate counts
 constexpr int kMaxRejected = 3;         // in a row, by all candidates: the first pose was wrong
 

@@ -9,7 +9,8 @@ namespace pharos::fusion {
 namespace {
 
 bool is_rotation_matrix(const Matrix3& R) {
-  return R.allFinite() && (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-6 && R.determinant() > 0.0;
+  return R.allFinite() && (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
+         R.determinant() > 0.0;
 }
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
@@ -28,9 +29,12 @@ bool motion_is_usable(const MotionSettings& m) {
 }
 
 SettingsError check_source(const SourceSettings& source) {
-  if (!source.T_vehicle_sensor.is_finite() || !is_rotation_matrix(source.T_vehicle_sensor.R)) return SettingsError::kMounting;
-  if (!source.T_target_feature.is_finite() || !is_rotation_matrix(source.T_target_feature.R)) return SettingsError::kMounting;
-  if (!source.bias_covariance.allFinite() || !positive_inverse<6>(source.bias_covariance)) return SettingsError::kBiasModel;
+  if (!source.T_vehicle_sensor.is_finite() || !is_rotation_matrix(source.T_vehicle_sensor.R))
+    return SettingsError::kMounting;
+  if (!source.T_target_feature.is_finite() || !is_rotation_matrix(source.T_target_feature.R))
+    return SettingsError::kMounting;
+  if (!source.bias_covariance.allFinite() || !positive_inverse<6>(source.bias_covariance))
+    return SettingsError::kBiasModel;
   if (!positive(source.bias_time_constant_s)) return SettingsError::kBiasModel;
   if (!(source.time_sigma_s >= 0.0) || !std::isfinite(source.time_sigma_s)) return SettingsError::kBiasModel;
   if (!positive(source.silent_after_s)) return SettingsError::kBiasModel;

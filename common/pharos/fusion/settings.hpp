@@ -12,10 +12,10 @@ namespace pharos::fusion {
 
 /// How the target moves between measurements.
 enum class MotionKind : std::uint8_t {
-  kFree,                // white acceleration, white angular acceleration
-  kClohessyWiltshire,   // relative orbital motion about a circular orbit; attitude as kFree
-  kTumbling,            // torque-free rotation with known inertia ratios; position as kFree
-  kTumblingInOrbit,     // both
+  kFree,               // white acceleration, white angular acceleration
+  kClohessyWiltshire,  // relative orbital motion about a circular orbit; attitude as kFree
+  kTumbling,           // torque-free rotation with known inertia ratios; position as kFree
+  kTumblingInOrbit,    // both
 };
 
 struct MotionSettings {
@@ -124,9 +124,9 @@ enum class SettingsError : std::uint8_t {
   kNone,
   kNoSource,
   kNoAbsoluteSource,
-  kMotion,      // densities not positive, inertia ratios that no body has, no rotation
-  kMounting,    // not a finite pose
-  kBiasModel,   // covariance not positive definite, time constant not positive
+  kMotion,       // densities not positive, inertia ratios that no body has, no rotation
+  kMounting,     // not a finite pose
+  kBiasModel,    // covariance not positive definite, time constant not positive
   kProbability,  // a risk, probability or rate outside its range
 };
 

@@ -6,15 +6,15 @@
 namespace pharos::fusion {
 namespace {
 
-constexpr double kKept = 0.9;            // of a sum, per measurement
-constexpr double kOutlierWeight = 0.05;  // of one measurement in the fraction of outliers
-constexpr double kExplained = 0.8;       // of chi-squared by one offset
-constexpr double kMirrored_rad = 0.8;    // mirrored and half-turned rings differ by far more than noise
-constexpr double kOtherTarget_m = 0.3;   // no error of a source on the right target
+constexpr double kKept = 0.9;             // of a sum, per measurement
+constexpr double kOutlierWeight = 0.05;   // of one measurement in the fraction of outliers
+constexpr double kExplained = 0.8;        // of chi-squared by one offset
+constexpr double kMirrored_rad = 0.8;     // mirrored and half-turned rings differ by far more than noise
+constexpr double kOtherTarget_m = 0.3;    // no error of a source on the right target
 constexpr double kScattered_chi2 = 60.0;  // two gated poses of one cause are within some sigmas of each other
 constexpr double kNanosecond_s = 1e-9;
-constexpr double kMemory_s = 2.0;        // of InnovationMean
-constexpr double kMaxWhitened = 6.0;     // one outlier does not decide
+constexpr double kMemory_s = 2.0;     // of InnovationMean
+constexpr double kMaxWhitened = 6.0;  // one outlier does not decide
 
 }  // namespace
 

@@ -59,7 +59,7 @@ struct SourceMonitor {
   int gated_run = 0;
   std::int64_t gated_since_ns = 0;
   Vector6 gated_residual = Vector6::Zero();
-  int scattered = 0;  // gated ones that disagree with the gated one before
+  int scattered = 0;      // gated ones that disagree with the gated one before
   double outliers = 0.0;  // mean of gated (1) and used (0) over some 20 measurements
   int judged = 0;
   bool excluded = false;

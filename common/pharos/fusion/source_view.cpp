@@ -33,8 +33,7 @@ TargetMeasurement to_target(const Measurement& m, const SourceSettings& source,
   const Pose<FeatureFrame, frame::Target> T_feature_target = T_target_feature.inverse();
   SensorPose pose = m.pose;
   if (reference != nullptr && m.directions.rank < 6) {
-    pose = completed_in_sensor(
-        pose, m.directions, source.T_vehicle_sensor.inverse() * (*reference * T_target_feature));
+    pose = completed_in_sensor(pose, m.directions, source.T_vehicle_sensor.inverse() * (*reference * T_target_feature));
   }
   TargetMeasurement out;
   out.time_ns = m.time_ns;

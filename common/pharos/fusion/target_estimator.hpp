@@ -51,9 +51,9 @@ class TargetEstimator {
   Settings settings_;
   FusionCore core_;
   FusionState current_;
-  StaticVector<FusionState, kSnapshots> snapshots_;    // oldest first
-  StaticVector<Measurement, kMaxBuffered> buffer_;     // by time, then source; later than the oldest snapshot
-  std::array<std::int64_t, kMaxSources> last_ns_{};    // of each source's accepted measurements
+  StaticVector<FusionState, kSnapshots> snapshots_;  // oldest first
+  StaticVector<Measurement, kMaxBuffered> buffer_;   // by time, then source; later than the oldest snapshot
+  std::array<std::int64_t, kMaxSources> last_ns_{};  // of each source's accepted measurements
   std::array<bool, kMaxSources> heard_{};
   std::array<int, kMaxSources> ahead_run_{};
   std::array<std::uint64_t, static_cast<std::size_t>(Refusal::kCount)> refused_{};

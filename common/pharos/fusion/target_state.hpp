@@ -17,7 +17,8 @@ enum class Mode : std::uint8_t {
 struct SourceReport {
   SourceState state = SourceState::kSilent;
   FaultKind reason = FaultKind::kStep;  // where excluded
-  double age_s = 0.0;                   // of its last measurement; 0 where there was none
+  bool heard = false;                   // there was a measurement
+  double age_s = 0.0;                   // of the last one
   double normalised_innovation = 0.0;   // NIS over its degrees of freedom, of the last measurement; 1 is expected
 };
 

@@ -31,8 +31,9 @@ int run_command(const FusionOptions& options) {
   require_writable(options.output.path);
   const FusionCampaign& campaign = options.campaign;
   const std::size_t kinds = campaign.faults.empty() ? fusion_fault_names().size() : campaign.faults.size();
-  Progress progress("reproduce fusion", "runs",
-                    static_cast<std::size_t>(campaign.consistency_runs) + kinds * static_cast<std::size_t>(campaign.runs));
+  Progress progress(
+      "reproduce fusion", "runs",
+      static_cast<std::size_t>(campaign.consistency_runs) + kinds * static_cast<std::size_t>(campaign.runs));
   const std::vector<ComparisonRow> rows = run_fusion_campaign(campaign, [&] { progress.step(); });
   write_comparison(rows, options.markdown, options.output);
   return rows.empty() ? kExitNoAnswer : kExitAnswered;

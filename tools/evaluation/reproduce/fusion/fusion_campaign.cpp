@@ -8,14 +8,13 @@
 #include <string>
 
 #include "pharos/base/units.hpp"
+#include "pharos/fusion/words.hpp"
 #include "tools/evaluation/reproduce/fusion/fusion_run.hpp"
 #include "tools/evaluation/reproduce/fusion/fusion_scenario.hpp"
 
 namespace pharos::tools {
 namespace {
 
-constexpr std::array<const char*, fusion::kFaultKinds> kFaultNames = {
-    "step", "ramp", "freeze", "wrong_time", "wrong_scale", "mirrored", "wrong_target", "outliers"};
 constexpr double kMinSize = 3.0;  // sigmas
 constexpr double kMaxSize = 30.0;
 constexpr double kFaultsPerHour = 1.0;
@@ -69,7 +68,8 @@ std::vector<ComparisonRow> consistency(const FusionCampaign& campaign, const std
           {item, "rotation RMS", "deg", "", root(sum.rotation_rad2, sum.settled) * kDegPerRad, ""},
           {item, "velocity RMS", "mm/s", "<= 3", root(sum.velocity_m2_s2, sum.settled) * kMmPerM, ""},
           {item, "angular rate RMS", "deg/s", "<= 0.05", root(sum.rate_rad2_s2, sum.settled) * kDegPerRad, ""},
-          {item, "protection level, position", "mm", "<= 20", sum.level_position_m / levels * kMmPerM, "mean, 2 m to 2.5 m"},
+          {item, "protection level, position", "mm", "<= 20", sum.level_position_m / levels * kMmPerM,
+           "mean, 2 m to 2.5 m"},
           {item, "protection level, rotation", "deg", "<= 0.5", sum.level_rotation_rad / levels * kDegPerRad, "mean"},
           {item, "truth outside the level", "", "0", static_cast<double>(sum.outside),
            "of " + std::to_string(sum.protected_looks) + " looks"},
@@ -96,7 +96,8 @@ sim::WorldSettings faulty_world(std::uint64_t seed, std::size_t kind) {
 std::string reasons_text(const std::array<int, fusion::kFaultKinds>& reasons) {
   std::string text;
   for (std::size_t k = 0; k < reasons.size(); ++k) {
-    if (reasons[k] > 0) text += (text.empty() ? "" : "; ") + std::string(kFaultNames[k]) + " " + std::to_string(reasons[k]);
+    if (reasons[k] > 0)
+      text += (text.empty() ? "" : "; ") + std::string(fusion::kFaultWords[k]) + " " + std::to_string(reasons[k]);
   }
   return text.empty() ? "" : "reasons: " + text;
 }
@@ -138,7 +139,7 @@ std::vector<ComparisonRow> faulty(const FusionCampaign& campaign, std::size_t ki
     }
     step();
   }
-  const std::string item = kFaultNames[kind];
+  const std::string item = fusion::kFaultWords[kind];
   // Clopper-Pearson for zero of n: 1 - 0.05^(1/n); for more the table tells the seeds.
   const double limit = outside == 0 ? 100.0 * (1.0 - std::pow(0.05, 1.0 / std::max(1, campaign.runs))) : 0.0;
   std::array<char, 32> limit_text{};
@@ -160,14 +161,14 @@ std::vector<ComparisonRow> faulty(const FusionCampaign& campaign, std::size_t ki
 
 }  // namespace
 
-std::vector<std::string> fusion_fault_names() { return {kFaultNames.begin(), kFaultNames.end()}; }
+std::vector<std::string> fusion_fault_names() { return {fusion::kFaultWords.begin(), fusion::kFaultWords.end()}; }
 
 std::vector<ComparisonRow> run_fusion_campaign(const FusionCampaign& campaign, const std::function<void()>& step) {
   std::vector<ComparisonRow> rows;
   if (campaign.consistency_runs > 0) rows = consistency(campaign, step);
   for (std::size_t kind = 0; kind < fusion::kFaultKinds; ++kind) {
-    const bool wanted = campaign.faults.empty() ||
-                        std::find(campaign.faults.begin(), campaign.faults.end(), kFaultNames[kind]) != campaign.faults.end();
+    const bool wanted = campaign.faults.empty() || std::find(campaign.faults.begin(), campaign.faults.end(),
+                                                             fusion::kFaultWords[kind]) != campaign.faults.end();
     if (!wanted || campaign.runs == 0) continue;
     for (const ComparisonRow& row : faulty(campaign, kind, step)) rows.push_back(row);
   }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/fuse/fuse_settings.hpp"
+
+#include "pharos/base/units.hpp"
+
+namespace pharos::tools {
+namespace {
+
+// A relative source's slow error is a random walk: what slam gains within one time constant.
+constexpr double kRelativeBias_rad = 0.3 / kDegPerRad;
+constexpr double kRelativeBias_m = 5e-3;
+
+fusion::MotionKind motion_kind(const std::string& word) {
+  if (word == "orbit") return fusion::MotionKind::kClohessyWiltshire;
+  if (word == "tumbling") return fusion::MotionKind::kTumbling;
+  if (word == "tumbling_orbit") return fusion::MotionKind::kTumblingInOrbit;
+  return fusion::MotionKind::kFree;
+}
+
+Matrix6 diagonal(double rotation, double position) {
+  Vector6 sigma;
+  sigma << Vector3::Constant(rotation), Vector3::Constant(position);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+// Errors of both fixed poses as one error of T_vehicle_sensor: e_sensor + A e_feature at the target's present pose.
+Matrix6 mounting_covariance(const host::SourceMounting& mounting, const host::SensorFromFeature& first) {
+  const host::VehicleFromSensor T_vehicle_sensor = mounting.vehicle_from_sensor();
+  const host::TargetFromFeature T_target_feature = *mounting.target_from_feature();
+  const host::VehicleFromTarget target = T_vehicle_sensor * first * T_target_feature.inverse();
+  Matrix6 by_feature = Matrix6::Zero();  // error of T_vehicle_target by that of T_target_feature
+  by_feature.topLeftCorner<3, 3>() = -target.R;
+  by_feature.bottomLeftCorner<3, 3>() = -target.R * skew(T_target_feature.t);
+  by_feature.bottomRightCorner<3, 3>() = -target.R;
+  Matrix6 from_sensor = Matrix6::Identity();  // that by T_vehicle_sensor's, inverted
+  from_sensor.bottomLeftCorner<3, 3>() = skew(target.t - T_vehicle_sensor.t);
+  const Matrix6 A = from_sensor * by_feature;
+  const Matrix6 cross = mounting.cross_covariance * A.transpose();
+  Matrix6 sum = mounting.T_vehicle_sensor.covariance + A * mounting.T_target_feature->covariance * A.transpose() +
+                cross + cross.transpose();
+  Vector6 scale;
+  scale << Vector3::Zero(), mounting.scale_sigma * (target.t - T_vehicle_sensor.t);
+  sum += scale * scale.transpose();
+  return 0.5 * (sum + sum.transpose());
+}
+
+}  // namespace
+
+fusion::Settings fusion_settings(const FuseChoices& choices) {
+  fusion::Settings settings;
+  settings.motion.kind = motion_kind(choices.motion);
+  settings.motion.mean_motion_rad_s = choices.mean_motion_rad_s;
+  settings.motion.inertia_ratios = Vector3(choices.inertia.data());
+  settings.motion.acceleration_density = choices.acceleration_density;
+  settings.motion.angular_acceleration_density = choices.angular_acceleration_density;
+  settings.integrity.risk_per_hour = choices.risk_per_hour;
+  return settings;
+}
+
+fusion::SourceSettings fused_source(const host::SourceMounting& mounting, const host::SensorFromFeature& first,
+                                    const FuseChoices& choices) {
+  fusion::SourceSettings out;
+  const host::VehicleFromSensor sensor = mounting.vehicle_from_sensor();
+  out.T_vehicle_sensor = {sensor.R, sensor.t};
+  out.bias_time_constant_s = choices.bias_time_s;
+  out.time_sigma_s = mounting.time_offset_sigma_s;
+  out.faults_per_hour.fill(choices.faults_per_hour);
+  const auto feature = mounting.target_from_feature();
+  if (!feature) {
+    out.relative = true;
+    out.bias_frame = fusion::BiasFrame::kFeature;
+    out.bias_covariance = diagonal(kRelativeBias_rad, kRelativeBias_m);
+    return out;
+  }
+  out.T_target_feature = {feature->R, feature->t};
+  out.bias_covariance =
+      diagonal(choices.bias_deg / kDegPerRad, choices.bias_mm / kMmPerM) + mounting_covariance(mounting, first);
+  return out;
+}
+
+}  // namespace pharos::tools
