@@ -17,7 +17,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kAllExample =
     "Each paper's numbered tables and figures: published, the published method rerun, ours. DIR receives report.html\n"
     "(one page, no network), report.md, and a folder for each part. A part that is finished with the same program and\n"
     "settings is not run again: after an interruption the same command goes on where it was.\n\n"
@@ -49,7 +49,7 @@ void add_reproduce_all(CLI::App& reproduce, int& exit_code) {
   command->add_flag("--quick", options->settings.quick, "Fewer and shorter runs");
   command->add_option("--only", options->only, "These parts alone")->check(CLI::IsMember(ids_of(all_parts())));
   add_seed_option(*command, options->settings.seed, "Of everything that is drawn at random");
-  command->footer(kExample);
+  command->footer(kAllExample);
   command->callback(
       [options, &exit_code] { exit_code = report::run_report(all_parts(), *options) ? kExitAnswered : kExitNoAnswer; });
 }

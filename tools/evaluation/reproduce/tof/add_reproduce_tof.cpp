@@ -36,6 +36,7 @@ struct Options {
   int boards = 20;
   int success = 0;
   std::uint64_t seed = 1;
+  std::string threshold = "printed";
   bool markdown = false;
   OutputOptions output;
 };
@@ -44,7 +45,9 @@ std::vector<ComparisonRow> rows_of(const Options& options) {
   if (options.success > 0) return reproduce_success(options.success, options.seed);
   std::vector<ComparisonRow> rows;
   if (options.boards > 0) rows = reproduce_board_table(options.boards, options.seed);
-  for (const ComparisonRow& row : reproduce_four_tests({options.frames, options.seed}).rows) rows.push_back(row);
+  for (const ComparisonRow& row :
+       reproduce_four_tests({options.frames, options.seed, options.threshold == "printed"}).rows)
+    rows.push_back(row);
   return rows;
 }
 
@@ -70,6 +73,11 @@ void add_reproduce_tof(CLI::App& reproduce, int& exit_code) {
       ->add_option("--success", options->success,
                    "Instead: this many random poses of either ring, a third of it hidden")
       ->check(CLI::Range(1, 1'000'000));
+  command
+      ->add_option("--threshold", options->threshold,
+                   "(5) of the paper's chain: printed (over the mean grey value), or count (of pixels)")
+      ->check(CLI::IsMember({"printed", "count"}))
+      ->capture_default_str();
   add_seed_option(*command, options->seed, "Of foil, poses and noise");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);

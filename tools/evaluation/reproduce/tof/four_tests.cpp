@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 #include "tools/evaluation/reproduce/tof/eight_bit.hpp"
 #include "tools/evaluation/reproduce/tof/orb/orb_motion.hpp"
+#include "tools/evaluation/reproduce/tof/paper/paper_pictures.hpp"
 #include "tools/plot/curves.hpp"
 #include "tools/support/progress.hpp"
 
@@ -84,8 +86,10 @@ const Values kNoPose = [] {
 struct TestResult {
   Spread ours;
   Spread eight_bit;
-  Spread paper;
-  Spread orb;  // pose of this test by ORB from the last test's frames and truth
+  Spread paper;                           // its whole chain
+  std::map<std::string, int> paper_ends;  // frames without a pose, by the step at which the chain ends
+  Spread paper_from_ours;                 // its steps of 2.3 from our ellipses and regions
+  Spread orb;                             // pose of this test by ORB from the last test's frames and truth
   Series ours_series, paper_series;
   Series orb_series;  // motion from the frame before: none in truth
 };
@@ -130,6 +134,8 @@ class FourTests {
     return values_of(simulator_.truth(static_cast<int>(test) * options_.frames).T_camera_target);
   }
   const TestResult& result(std::size_t test) const { return results_[test]; }
+  /// Of the first frame.
+  const std::optional<paper000::ChainStages>& stages() const { return stages_; }
 
  private:
   void measure(const sim::TofPixels& pixels, TestResult& result) {
@@ -139,15 +145,26 @@ class FourTests {
     if (answered) result.ours.add(result.ours_series.back());
     const sim::TofPixels coarse = eight_bit_depth(pixels, simulator_.scenario().depth);
     const auto seen = tof::measure_tof_pose(frame_of(coarse), camera_, {}, *workspace_);
-    result.paper_series.push_back(kNoPose);
+    measure_by_paper(coarse, result);
     if (!seen || !seen->has_turn()) return;
     result.eight_bit.add(values_of(seen->target.pose));
     tof::find_connectors(frame_of(coarse), camera_, workspace_->rays, seen->ring.fit, tof::ConnectorSettings{},
                          workspace_->connector);
-    const auto published_way = paper_pose(coarse, camera_, *seen, *workspace_);
-    if (!published_way) return;
-    result.paper_series.back() = values_of(*published_way);
-    result.paper.add(result.paper_series.back());
+    const auto from_ours = paper_pose(coarse, camera_, *seen, *workspace_);
+    if (from_ours) result.paper_from_ours.add(values_of(*from_ours));
+  }
+
+  void measure_by_paper(const sim::TofPixels& coarse, TestResult& result) {
+    paper000::ChainSettings settings;
+    settings.printed_threshold = options_.printed_threshold;
+    paper000::ChainResult chain = paper000::measure(coarse, camera_, settings);
+    result.paper_series.push_back(chain.pose ? values_of(*chain.pose) : kNoPose);
+    if (chain.pose) {
+      result.paper.add(result.paper_series.back());
+    } else {
+      ++result.paper_ends[chain.why];
+    }
+    if (!stages_) stages_ = std::move(chain.stages);
   }
 
   // Figure 10: from the frame before, at rest.
@@ -175,6 +192,7 @@ class FourTests {
   sim::TofPixels first_;       // of this test
   sim::TofPixels last_first_;  // of the last one
   sim::TofPixels previous_;    // the frame before, of test 1
+  std::optional<paper000::ChainStages> stages_;
 };
 
 std::string count_text(const Spread& spread, int frames) {
@@ -197,7 +215,9 @@ std::string joined(const std::string& one, const std::string& other) {
 
 void add_table_two(std::vector<ComparisonRow>& rows, std::size_t test, const TestResult& result, int frames) {
   const std::string name = "test " + std::to_string(test + 1);
-  const std::string remark = joined(remark_of("theirs", result.paper, frames), remark_of("ours", result.ours, frames));
+  std::string theirs = remark_of("theirs", result.paper, frames);
+  for (const auto& [why, count] : result.paper_ends) theirs += ", " + why + " in " + std::to_string(count);
+  const std::string remark = joined(theirs, remark_of("ours", result.ours, frames));
   for (std::size_t i = 0; i < 6; ++i) {
     // A coordinate has no ratio.
     ComparisonRow mean{"table 2",
@@ -224,6 +244,14 @@ void add_table_two(std::vector<ComparisonRow>& rows, std::size_t test, const Tes
     rows.push_back({"ours on 8-bit depth", name + ": sigma of " + kNames[i], kUnits[i], kPublishedSigma[test][i],
                     of_count(result.eight_bit, result.eight_bit.sigma(i)),
                     remark_of("ours", result.eight_bit, frames)});
+    ComparisonRow steps{"experiment: section 2.3 from our ellipses and regions",
+                        name + ": sigma of " + kNames[i],
+                        kUnits[i],
+                        kPublishedSigma[test][i],
+                        std::nullopt,
+                        "what the paper's detection has to do with table 2"};
+    steps.theirs = of_count(result.paper_from_ours, result.paper_from_ours.sigma(i));
+    rows.push_back(steps);
   }
 }
 
@@ -297,7 +325,9 @@ report::PartResult reproduce_four_tests(const FourTestsOptions& options, const s
     add_table_two(result.rows, test, tests.result(test), options.frames);
   }
   for (std::size_t pair = 0; pair + 1 < kTests; ++pair) add_table_three(result.rows, pair, tests, options.frames);
-  if (!folder.empty()) add_pictures(tests.result(0), folder, result);
+  if (folder.empty()) return result;
+  add_pictures(tests.result(0), folder, result);
+  if (tests.stages()) paper000::add_stage_pictures(*tests.stages(), folder, result);
   return result;
 }
 
