@@ -9,10 +9,10 @@
 namespace pharos::tools {
 namespace {
 
-constexpr std::int64_t kBlock = 120;     // turns: two seconds
-constexpr std::size_t kMinInBlock = 60;  // hits of a sensor in a block that counts
-constexpr int kMinBlocks = 10;
-constexpr std::size_t kMinCommon = 300;  // turns that hit both sensors of a pair
+constexpr std::int64_t kBlock = 60;      // turns: a second
+constexpr std::size_t kMinInBlock = 30;  // hits of a sensor in a block that counts
+constexpr int kMinBlocks = 6;
+constexpr std::size_t kMinCommon = 200;  // turns that hit both sensors of a pair
 // Means of blocks at rest scatter as their hits do over the square root of their number; a sensor that is carried
 // scatters by far more. Slow drifts of the rotor's angle reach some 5 in recordings at rest.
 constexpr double kMaxDrift = 30.0;

@@ -26,11 +26,11 @@ struct RotorNoise {
 };
 
 /// Collects raw angles (no smoothing, no station model) of a recording and estimates their noise. Angles are taken
-/// about their mean over blocks of two seconds, so that slow drifts do not count as noise.
+/// about their mean over blocks of a second, so that slow drifts do not count as noise.
 class NoiseEstimator {
  public:
   void push(const lighthouse::Sweep& sweep);
-  /// One entry a rotor that hit any sensor often enough (ten whole blocks), in the order of stations and axes.
+  /// One entry a rotor that hit any sensor often enough (six blocks), in the order of stations and axes.
   std::vector<RotorNoise> estimate() const;
 
  private:

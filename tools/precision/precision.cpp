@@ -26,7 +26,7 @@ constexpr const char* kExample =
     "poses.csv: pose,qw,qx,qy,qz,tx_m,ty_m,tz_m (T_lighthouse_body). A sensor is visible when its normal is within 60\n"
     "deg of the direction to the station; sensors without normals always are. The sigmas are equation (24).\n"
     "  pharos precision --estimate still.edges.csv.gz\n"
-    "--estimate: sigma and rho of a recording in which nothing moves for at least 20 s, a row for each rotor: the "
+    "--estimate: sigma and rho of a recording in which nothing moves for at least 7 s, a row for each rotor: the "
     "noise\n"
     "of one raw angle, and the correlation between the sensors of a rotor, (19). A rotor whose angles wander is "
     "refused.";
@@ -103,7 +103,7 @@ int run_estimate(const Options& options) {
   output.finish();
   recording.print_remarks();
   if (answered) return kExitAnswered;
-  note(options.estimate + (rotors.empty() ? ": no sensor was hit for 20 s by any rotor; record longer"
+  note(options.estimate + (rotors.empty() ? ": no sensor was hit for 6 s by any rotor; record longer"
                                           : ": the target or the station moves; record a target at rest"));
   return kExitNoAnswer;
 }

@@ -59,7 +59,7 @@ TEST(NoiseEstimate, ATargetInMotionIsCalledThat) {
 TEST(NoiseEstimate, AShortRecordingHasNone) {
   NoiseEstimator estimator;
   const SimulatedRun run = at_rest(0.5, 6);
-  for (std::size_t i = 0; i < run.sweeps().size() / 4; ++i) estimator.push(run.sweeps()[i]);
+  for (std::size_t i = 0; i < run.sweeps().size() / 10; ++i) estimator.push(run.sweeps()[i]);
   EXPECT_TRUE(estimator.estimate().empty());
 }
 
