@@ -115,8 +115,8 @@ StepResult ProcessorModel::branch(const Instruction& in) {
   return taken ? jump(state_.pc + in.b(), 0) : retire(state_.pc + 4);
 }
 
-// A value whose bytes lie in two words is read and written from the lower one on; what was written stays where the upper
-// one is refused.
+// A value whose bytes lie in two words is read and written from the lower one on; what was written stays where the
+// upper one is refused.
 std::optional<std::uint32_t> ProcessorModel::load_bytes(std::uint32_t address, unsigned size) {
   std::uint32_t value = 0;
   std::optional<std::uint32_t> word;
@@ -124,7 +124,8 @@ std::optional<std::uint32_t> ProcessorModel::load_bytes(std::uint32_t address, u
     const std::uint32_t at = address + i;
     if (i == 0 || at % 4 == 0) {
       std::uint8_t bytes = 0;
-      for (unsigned k = i; k < size && (k == i || (address + k) % 4 != 0); ++k) bytes = static_cast<std::uint8_t>(bytes | 1U << (address + k) % 4);
+      for (unsigned k = i; k < size && (k == i || (address + k) % 4 != 0); ++k)
+        bytes = static_cast<std::uint8_t>(bytes | 1U << (address + k) % 4);
       word = bus_.load(at & ~3U, bytes);
       if (!word) return std::nullopt;
     }
