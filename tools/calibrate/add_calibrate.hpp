@@ -12,5 +12,6 @@ void add_calibrate_lighthouse(CLI::App& calibrate, int& exit_code);
 void add_calibrate_stations(CLI::App& calibrate, int& exit_code);
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
 void add_calibrate_stereo(CLI::App& calibrate, int& exit_code);
+void add_calibrate_mounting(CLI::App& calibrate, int& exit_code);
 
 }  // namespace pharos::tools
