@@ -169,12 +169,13 @@ TEST(TargetEstimator, AContradictionAboutTheTurnIsAConflict) {
   const sim::MeasuredWorld world = sim::simulate_world(settings);
   const auto estimator = estimator_of(settings);
   for (const sim::SimulatedPose& pose : world.poses) {
-    if (pose.time_s > 6.0) break;
+    if (pose.time_s > 8.0) break;
     fusion::Measurement m = measurement_of(pose);
     if (m.source == kTof && pose.time_s > 5.0) m.pose.R = rotation_exp(0.1 * m.pose.R.col(2)) * m.pose.R;
     estimator->push(m);
   }
-  const TargetState state = estimator->state(ns(6.0));
+  const TargetState state = estimator->state(ns(8.0));
+  // Half a second for the contradiction, one more until the side of the turned source follows it.
   EXPECT_EQ(state.mode, Mode::kConflict);
   EXPECT_EQ(state.sources[kLighthouse].state, SourceState::kConflict);
   EXPECT_EQ(state.sources[kTof].state, SourceState::kConflict);
