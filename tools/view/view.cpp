@@ -227,8 +227,10 @@ void add_view(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--token-file", options->token_file,
                       "File with the token in its first line (default: a new one each time, with --listen)");
-  command->add_option("--target", options->targets,
-                      "NAME=FILE: sensor positions of a target, to draw its sensors where they are; may be repeated");
+  command
+      ->add_option("--target", options->targets,
+                   "NAME=FILE: sensor positions of a target, to draw its sensors where they are; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--duration", options->duration_s, "Stop after this many seconds (default: at Ctrl-C)")
       ->check(number_from(kShortest_s, kLongest_s));
   command->footer(
