@@ -27,7 +27,7 @@ std::array<std::string, 21> make_covariance_columns() {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = i; j < 6; ++j) {
       const char* unit = j < 3 ? "_rad2" : (i < 3 ? "_rad_m" : "_m2");
-      names[at++] = std::string("cov_") + kComponents[i] + kComponents[j] + unit;
+      names[at++] = std::string("cov_") + kComponents[i] + '_' + kComponents[j] + unit;
     }
   }
   return names;
@@ -47,7 +47,7 @@ std::vector<std::string> second_columns(SourceKind kind) {
   return {"alt_qw", "alt_qx", "alt_qy", "alt_qz", "alt_tx_m", "alt_ty_m", "alt_tz_m"};
 }
 
-std::vector<std::string> covariance_names() { return {covariance_columns().begin(), covariance_columns().end()}; }
+std::vector<std::string> covariance_names() { return {upper_covariance_columns().begin(), upper_covariance_columns().end()}; }
 
 const std::vector<std::string>& centre_columns() {
   static const std::vector<std::string> names = {"centre_cov_xx_m2", "centre_cov_xy_m2", "centre_cov_xz_m2",
@@ -57,7 +57,7 @@ const std::vector<std::string>& centre_columns() {
 
 }  // namespace
 
-const std::array<std::string, 21>& covariance_columns() {
+const std::array<std::string, 21>& upper_covariance_columns() {
   static const std::array<std::string, 21> names = make_covariance_columns();
   return names;
 }

@@ -59,8 +59,8 @@ class SourceTable {
   std::unique_ptr<State> state_;
 };
 
-/// Names of the 21 columns of a full covariance, upper triangle by rows: cov_rxrx_rad2 ... cov_rxtx_rad_m ...
-/// cov_tztz_m2.
-const std::array<std::string, 21>& covariance_columns();
+/// Names of the upper triangle of a full covariance by rows, 21 of the 36 columns that `--covariance` prints:
+/// cov_rx_rx_rad2 ... cov_rx_tx_rad_m ... cov_tz_tz_m2.
+const std::array<std::string, 21>& upper_covariance_columns();
 
 }  // namespace pharos::host

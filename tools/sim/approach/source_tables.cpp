@@ -48,7 +48,7 @@ std::vector<std::string> columns_of(SourceKind kind) {
     }
   }
   columns.emplace_back("arrival_s");
-  append(columns, {host::covariance_columns().begin(), host::covariance_columns().end()});
+  append(columns, {host::upper_covariance_columns().begin(), host::upper_covariance_columns().end()});
   return columns;
 }
 
@@ -147,7 +147,7 @@ void write_pose_row(RowWriter& rows, const ApproachMeasurement& m, bool lighthou
 void write_last(RowWriter& rows, const ApproachMeasurement& m) {
   rows.number(m.arrival_s);
   if (!m.seen) {
-    rows.none(host::covariance_columns().size()).end_row();
+    rows.none(host::upper_covariance_columns().size()).end_row();
     return;
   }
   for (int i = 0; i < 6; ++i) {

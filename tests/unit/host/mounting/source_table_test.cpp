@@ -85,7 +85,7 @@ TEST(SourceTable, RefusesAnAttitudeAndACovarianceThatAreNone) {
             std::string::npos);
   std::string header = "time_s,qw,qx,qy,qz,tx_m,ty_m,tz_m,sigma_rot_deg,sigma_pos_mm,status",
               row = "0.5,1,0,0,0,0,0,1,1,1,ok";
-  for (const std::string& name : covariance_columns()) {
+  for (const std::string& name : upper_covariance_columns()) {
     header += "," + name;
     row += ",-1";
   }
