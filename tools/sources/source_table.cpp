@@ -27,6 +27,8 @@ constexpr std::size_t kMaxEvents = 50;
 constexpr std::size_t kMaxArrivals = 4096;
 // Longest text that is kept of a message.
 constexpr std::size_t kMaxText = 200;
+// Both planes of a station pass within a turn of its rotors, of 20 ms at most; with room for what comes late.
+constexpr std::int64_t kCycle_ns = 100'000'000;
 
 double age_of(std::int64_t utc_ns, std::int64_t utime_us) {
   return static_cast<double>(utc_ns) * 1e-9 - static_cast<double>(utime_us) * 1e-6;
@@ -48,6 +50,23 @@ PoseDetails details_of(const pose_t& message) {
                                         vector_of(message.second_position_m)};
   }
   return details;
+}
+
+// A message of one sweep tells one axis: the other is that of the sweep before.
+void add_other_axis(Sights& sights, const Sights& before) {
+  bool has_x = false, has_y = false;
+  for (const auto& sensor : sights.sensors) {
+    has_x = has_x || (sensor && sensor->x_over_z);
+    has_y = has_y || (sensor && sensor->y_over_z);
+  }
+  if (has_x == has_y) return;
+  for (std::size_t number = 0; number < sights.sensors.size(); ++number) {
+    const auto& old = before.sensors[number];
+    if (!old || !(has_x ? old->y_over_z : old->x_over_z)) continue;
+    auto& sensor = sights.sensors[number];
+    if (!sensor) sensor = SensorSight{std::nullopt, std::nullopt, old->used};
+    (has_x ? sensor->y_over_z : sensor->x_over_z) = has_x ? old->y_over_z : old->x_over_z;
+  }
 }
 
 }  // namespace
@@ -178,7 +197,9 @@ void SourceTable::add(const bearings_t& message, std::int64_t now_ns) {
     // Of two hits, a reflection and the true one, the one that was used is shown.
     if (!ratio || bearing.used != 0) ratio = 1.0 / std::tan(bearing.ideal_theta_rad);
   }
-  sights_[key] = sights;
+  Sights& newest = sights_[key];
+  if (now_ns - newest.arrived_ns < kCycle_ns) add_other_axis(sights, newest);
+  newest = sights;
 }
 
 void SourceTable::add(const status_t& message, std::int64_t now_ns) {

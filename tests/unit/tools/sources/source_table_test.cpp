@@ -106,6 +106,21 @@ TEST(SourceTable, ASensorsDirectionIsWhereBothPlanesHitIt) {
   EXPECT_FALSE(sights->sensors[8]);
 }
 
+TEST(SourceTable, AxesThatComeInMessagesOfTheirOwnAreJoined) {
+  SourceTable table;
+  const SourceKey key{"", "", "", 0};
+  bearings_t x{}, y{};
+  x.bearings = {bearing_of(7, 0, std::atan2(1.0, 0.5), true)};
+  y.bearings = {bearing_of(7, 1, std::atan2(1.0, -0.25), true)};
+  table.add(x, kSecond_ns);
+  table.add(y, kSecond_ns + 8'000'000);
+  ASSERT_TRUE(table.sights_of(key)->sensors[7]);
+  EXPECT_THAT(table.sights_of(key)->sensors[7]->x_over_z, Optional(DoubleNear(0.5, 1e-12)));
+  EXPECT_THAT(table.sights_of(key)->sensors[7]->y_over_z, Optional(DoubleNear(-0.25, 1e-12)));
+  table.add(y, 2 * kSecond_ns);
+  EXPECT_FALSE(table.sights_of(key)->sensors[7]->x_over_z) << "too old";
+}
+
 TEST(SourceTable, ABearingOfASensorThatCannotBeIsLeftOut) {
   SourceTable table;
   bearings_t bearings{};
