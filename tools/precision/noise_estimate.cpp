@@ -13,8 +13,8 @@ constexpr std::int64_t kBlock = 60;      // turns: a second
 constexpr std::size_t kMinInBlock = 30;  // hits of a sensor in a block that counts
 constexpr int kMinBlocks = 6;
 constexpr std::size_t kMinCommon = 200;  // turns that hit both sensors of a pair
-// Means of blocks at rest scatter as their hits do over the square root of their number; a sensor that is carried
-// scatters by far more. Slow drifts of the rotor's angle reach some 5 in recordings at rest.
+// Means of blocks at rest scatter as their hits do over the square root of their number, with room for slow drifts of
+// a rotor; those of a target that is carried scatter by far more.
 constexpr double kMaxDrift = 30.0;
 
 // Deviations from the mean of their block, by the turn's number.
