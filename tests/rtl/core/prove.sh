@@ -12,8 +12,6 @@ done
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 cp "$rtl"/*.v "$work"
-cp "$here/formal/core_registers.v" "$work" # registers that return anything
-[ "$properties" != bus_properties ] || rm "$work/core_multiplier.v"
 
 prove() {
   local read="read_verilog -formal -sv $work/*.v $here/formal/$properties.v; prep -flatten -top $properties"
