@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos calibrate mounting: tables of poses of one moving target to where its sources are mounted.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 
 #include "host/calibrate/mounting/mounting_calibration.hpp"
@@ -29,6 +30,9 @@ constexpr const char* kMountingExample =
     "On standard output: source,parameter,value,sigma; residuals and what is not observable on standard error.";
 
 constexpr std::size_t kMaxRows = 200'000;  // of one table: an hour and a half at 30 Hz
+
+// Slam's drift in rotation acts with the lever arm to its own origin, the camera at the first image.
+constexpr double kSlamSlow_mm = 1.5;
 
 struct MountingOptions {
   std::vector<std::string> tables;
@@ -69,7 +73,8 @@ calibrate::MountingRecording read_recording(const TablePlace& place, const Mount
   recording.name = place.name;
   recording.kind = place.kind;
   recording.slow_rotation_rad = options.slow_deg * kRadPerDeg;
-  recording.slow_position_m = options.slow_mm / kMmPerM;
+  const bool slam = place.kind == host::SourceKind::kSlam;
+  recording.slow_position_m = (slam ? std::max(options.slow_mm, kSlamSlow_mm) : options.slow_mm) / kMmPerM;
   while (const auto row = table.next()) {
     if (recording.rows.size() == kMaxRows)
       throw host::InputError(table.name() + ": more than 200,000 poses; give a minute");

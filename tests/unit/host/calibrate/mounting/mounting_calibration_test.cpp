@@ -25,6 +25,8 @@ MountingCalibrationInput recorded(const sim::ApproachSimulator& simulator) {
     MountingRecording recording;
     recording.name = source.name;
     recording.kind = source.kind;
+    // Slam's drift in rotation acts with the lever arm to its own origin, 2 m and more from the target.
+    if (source.kind == host::SourceKind::kSlam) recording.slow_position_m = 1.5e-3;
     for (const sim::ApproachMeasurement& m : simulator.measure(i)) {
       if (m.seen)
         recording.rows.push_back({m.time_s, m.arrival_s, m.pose, m.covariance, m.has_turn, m.second, m.delta_chi2});
