@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include "pharos/fusion/fusion_core.hpp"
 
@@ -16,11 +17,22 @@ double distance(const Filter& a, const Filter& b, int at) {
   return d.dot(P.ldlt().solve(d));
 }
 
+// How badly the measurements of sources that are not suspect fit the solution without one of the suspects.
+double side_misfit(const FusionState& state, std::uint8_t without) {
+  double sum = 0.0;
+  for (std::size_t s = 0; s < kMaxSources; ++s) {
+    if (s == state.suspects.first || s == state.suspects.second || !state.monitors[s].contributed) continue;
+    const InnovationMean& mean = state.innovation_means[without][s];
+    sum += std::max(0.0, mean.chi2() - mean.rank);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void FusionCore::enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const {
   ++state.counters.conflicts;
-  state.suspects = Suspects{true, first, second, 0, 0.0};
+  state.suspects = Suspects{true, first, second, 0};
   for (const std::uint8_t s : {first, second}) {
     state.monitors[s].contributed = true;  // the level covers the fault of either
     state.monitors[s].gated_run = 0;
@@ -35,13 +47,6 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
   SourceMonitor& monitor = state.monitors[m.source];
   const bool suspect = m.source == suspects.first || m.source == suspects.second;
   if (!suspect) {
-    const Innovation a = state.without[suspects.first].innovation(m, settings_);
-    const Innovation b = state.without[suspects.second].innovation(m, settings_);
-    const bool both = state.without[suspects.first].valid() && state.without[suspects.second].valid();
-    if (both && a.ok && b.ok && !settings_.sources[m.source].relative) {
-      suspects.score += std::min(b.nis + b.log_det, 2.0 * gate(b.rank) + b.log_det) -
-                        std::min(a.nis + a.log_det, 2.0 * gate(a.rank) + a.log_det);
-    }
     const Use use = use_or_gate(state, raw);
     if (state.tracking && suspects.active) examine_conflict(state);
     return use;
@@ -81,15 +86,17 @@ void FusionCore::examine_conflict(FusionState& state) const {
   Suspects& suspects = state.suspects;
   const Filter& without_first = state.without[suspects.first];
   const Filter& without_second = state.without[suspects.second];
-  // Other sources' measurements fit one side: the source that this side does not use is the wrong one.
-  const double needed = settings_.detection.attribution_chi2;
-  if (suspects.score > needed || suspects.score < -needed) {
-    const std::uint8_t wrong = suspects.score > 0.0 ? suspects.first : suspects.second;
+  if (!without_first.valid() || !without_second.valid()) return;
+  // Other sources' measurements fit one side and contradict the other: the source that only the worse side uses is the
+  // wrong one. Not by likelihood, which favours the side of the better source whatever is wrong.
+  const double misfit_of_first = side_misfit(state, suspects.second);
+  const double misfit_of_second = side_misfit(state, suspects.first);
+  if (std::abs(misfit_of_first - misfit_of_second) > settings_.detection.attribution_chi2) {
+    const std::uint8_t wrong = misfit_of_first > misfit_of_second ? suspects.first : suspects.second;
     suspects.active = false;
     exclude(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
     return;
   }
-  if (!without_first.valid() || !without_second.valid()) return;
   const bool agree = distance(without_first, without_second, 0) < kAgree_probability_chi2 &&
                      distance(without_first, without_second, 3) < kAgree_probability_chi2;
   if (!agree) {

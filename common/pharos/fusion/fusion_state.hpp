@@ -35,7 +35,6 @@ struct Suspects {
   bool active = false;
   std::uint8_t first = 0, second = 0;
   std::int64_t agree_since_ns = 0;  // 0: they do not
-  double score = 0.0;  // chi-squared of other sources: of the solution without `second` minus without `first`
 };
 
 /// Everything that changes: a late measurement starts again from a copy of it.
