@@ -44,12 +44,19 @@ constexpr double kRateResetChi2 = 40.0;
 constexpr double kSurpriseChi2 = 200.0;
 // Probability of the model of highest process noise from which on the body is shaken, and surprises are its own.
 constexpr double kAgitated = 0.3;
+// A body that a hand moves quickly has another attitude error in every sweep.
+bool steady(const ImmFilter& filter) {
+  const auto& probability = filter.probability();
+  return probability[ImmFilter::kModels - 2] + probability[ImmFilter::kModels - 1] < kAgitated;
+}
 // Sweeps in a row that confirm a state: one of each rotor.
 constexpr int kConfirming = 2;
 // A sweep that rotates the estimate by less is linear enough; how often one that rotates it further is linearised
 // again.
 constexpr double kStraight_rad = 0.02;
 constexpr int kFollowed = 3;
+// An attitude known better than this after a sweep makes the bearings' second order negligible.
+constexpr double kLinear_rad = 0.003;
 
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
 constexpr int kSettled = 16, kSettles = 4;
@@ -185,6 +192,15 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     fit_ = again;
     offset = -shift;
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
+  }
+  if (!fit_.used.empty() && steady(filter_)) {
+    const Matrix6 known = prediction.covariance - systematic_of(observer_);  // systematic errors do not shrink
+    const Innovation of_known = innovation_of(fit_.information, known, offset);
+    const Matrix3 attitude = corrected_covariance(known, fit_.information, of_known).topLeftCorner<3, 3>();
+    if (attitude.trace() > kLinear_rad * kLinear_rad) {
+      count_second_order(fit_, attitude, noise);
+      innovation = innovation_of(fit_.information, prediction.covariance, offset);
+    }
   }
   nis_ = innovation.chi2;
   diverged_ = nis_ > kRateResetChi2 &&

@@ -73,6 +73,11 @@ Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, con
   return gain_side(covariance, sweep, innovation) * innovation.whitened;
 }
 
+Matrix6 corrected_covariance(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation) {
+  const Matrix6 T = gain_side(covariance, sweep, innovation);
+  return covariance - T.lazyProduct(T.transpose());
+}
+
 SecondView::SecondView(const LighthouseFromBody& body, const StationFromStation& second) : pose(second * body) {
   const Vector3 q = second.R * body.t;
   by_body.setZero();

@@ -24,6 +24,9 @@ Innovation innovation_of(const SweepInformation& sweep, const Matrix6& pose_cova
 /// Correction of a pose with this error covariance by the innovation.
 Vector6 pose_shift(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
 
+/// Covariance of a pose after its correction by the innovation.
+Matrix6 corrected_covariance(const Matrix6& covariance, const SweepInformation& sweep, const Innovation& innovation);
+
 /// Whose sweep it is: that of the station in whose frame the belief is kept, or that of a second one.
 enum class Observer : std::uint8_t { kReference, kSecond };
 

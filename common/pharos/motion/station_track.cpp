@@ -23,6 +23,8 @@ constexpr double kDecided = 18.0;
 constexpr int kSettleSweeps = 6;
 // Squared distance (6 degrees of freedom) from which a solved cycle contradicts the track.
 constexpr double kContradiction = 40.0;
+// Squared distance (6 degrees of freedom) up to which an alternative is the best hypothesis itself.
+constexpr double kSamePose = 1.0;
 // A track with larger sigmas than these is discarded.
 constexpr double kLostTrackRotation_rad = 0.7, kLostTrackPosition_m = 1.0;
 // Two solved cycles further apart than this determine no rate.
@@ -52,6 +54,13 @@ track::Cycle estimate_part(const track::Cycle& cycle, const track::IdealObservat
     }
   }
   return part;
+}
+
+// Two hypotheses that met: what the better one states holds both.
+bool same_pose(const Hypothesis& best, const Hypothesis& alternative) {
+  const StateEstimate& state_estimate = best.state_estimate();
+  return mahalanobis_squared(alternative.state_estimate().pose, state_estimate.pose, state_estimate.covariance) <
+         kSamePose;
 }
 
 }  // namespace
@@ -86,7 +95,7 @@ void StationTrack::decide() {
     return;
   }
   if (alternative_->cost() < best_->cost()) std::swap(best_, alternative_);
-  if (delta_chi2() > kDecided) alternative_.reset();
+  if (delta_chi2() > kDecided || same_pose(*best_, *alternative_)) alternative_.reset();
 }
 
 bool StationTrack::due() const {

@@ -8,6 +8,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/lighthouse/station_model.hpp"
 #include "pharos/pose/place_residuals.hpp"
+#include "pharos/pose/plane_fit.hpp"
 
 namespace pharos::motion {
 namespace {
@@ -21,6 +22,13 @@ constexpr double kNarrow_rad = 5.0 * kRadPerArcsec, kNarrow_ticks = 52.0, kMaxNa
 
 // No sensor is this far from its place: seven times what those of a target built from its drawing are.
 constexpr double kForeign_m = 3e-3;
+
+// Sweeps that an attitude error lasts, so that its second order does not average out in them: 2.5 s of one station.
+constexpr double kSameErrorSweeps = 300.0;
+// Sensors with more relief show a tilt itself.
+constexpr double kCoplanar_m = 0.5e-3;
+// Sigma of an attitude that one cycle of four coplanar sensors tells alone: how large their tilt is, not where to.
+constexpr double kSolvedAlone_rad = 0.06;
 
 bool is_foreign(const HitFit& hit, double departure_rad) {
   return std::abs(departure_rad) * hit.point_m.norm() > kForeign_m;
@@ -205,6 +213,29 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   fit.log_density = kStrayLogDensity * (fit.sensors - static_cast<int>(fit.used.size()));
   for (const HitFit& hit : fit.used) fit.log_density += std::log(hit.variance);
   return fit;
+}
+
+void count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
+  Vector3 centre = Vector3::Zero();
+  for (const HitFit& hit : fit.used) centre += hit.point_m;
+  centre /= static_cast<double>(fit.used.size());
+  pose::PlaneFit plane(centre);
+  for (const HitFit& hit : fit.used) plane.add(hit.point_m);
+  if (plane.thickness_m(plane.normal()) > kCoplanar_m) return;
+  const Matrix3 attitude =
+      attitude_covariance * std::min(1.0, kSolvedAlone_rad * kSolvedAlone_rad / attitude_covariance.trace());
+  for (HitFit& hit : fit.used) {
+    // A rotation d moves a point at q by d x q + d x (d x q) / 2; the shift of the centre is the translation's.
+    const Vector3 q = hit.point_m - centre;
+    const Vector3 gradient = hit.jacobian.tail<3>();
+    Matrix3 second = 0.5 * (gradient * q.transpose() + q * gradient.transpose());
+    second.diagonal().array() -= gradient.dot(q);
+    const Matrix3 product = second * attitude;
+    const double added = 0.5 * kSameErrorSweeps * (product * product).trace();
+    fit.log_density += std::log1p(added / hit.variance);
+    hit.variance += added;
+  }
+  fit.information = summed(fit.used, noise.common_rad * noise.common_rad);
 }
 
 }  // namespace pharos::motion

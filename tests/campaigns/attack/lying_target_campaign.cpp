@@ -139,6 +139,7 @@ TEST(LyingTarget, OfUnknownStations) {
 TEST(LyingTarget, ThatTellsTheTruth) {
   const Answers answers = trial("no fault, for comparison", 0.0, wrong_time);
   EXPECT_GT(answers.ok, 98 * answers.sweeps / 100);
+  EXPECT_EQ(answers.far_off, 0);
 }
 
 // Reported, not asserted: common/pharos/motion/README.md states what is left, tests/unit/tracking asserts what holds.

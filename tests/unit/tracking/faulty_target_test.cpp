@@ -13,6 +13,16 @@ TEST(FaultyTarget, ASoundOneIsAnswered) {
   EXPECT_EQ(count.wrong, 0);
 }
 
+// Four coplanar sensors, seen nearly from straight ahead for a second: their tilt shows in its square alone, and the
+// wrong sign fits as well. Flights 1 to 42 are those of the attack campaign; most of it is in 24 and 32.
+TEST(FaultyTarget, ASoundOneThatIsSeenFromStraightAheadIsNotFarOff) {
+  for (const std::uint64_t seed : {std::uint64_t{24}, std::uint64_t{32}}) {
+    const Count count = score_of(Fault::kNone, 1.0, 0.0, seed, seed);
+    EXPECT_EQ(count.wrong, 0);
+    EXPECT_GT(count.ok, 0.9 * count.answers);
+  }
+}
+
 TEST(FaultyTarget, WrongTimesGiveNoAnswerThatIsFarOff) {
   for (const double fraction : {0.01, 0.1, 0.5, 1.0}) EXPECT_EQ(score_of(Fault::kWrongTimes, fraction).wrong, 0);
 }
