@@ -18,12 +18,12 @@ using calibrate::MountingFit;
 
 constexpr double kMsPerS = 1000.0;
 
-struct Parameter {
+struct MountingParameter {
   std::string source, name;
   double value = 0.0, sigma = 0.0;
 };
 
-void add_pose(std::vector<Parameter>& out, const std::string& source, const char* name, const Matrix3& R,
+void add_pose(std::vector<MountingParameter>& out, const std::string& source, const char* name, const Matrix3& R,
               const Vector3& t, const Matrix6& covariance) {
   const std::array<const char*, 3> axes{"x", "y", "z"};
   const Vector3 turn = rotation_log(R);
@@ -37,8 +37,8 @@ void add_pose(std::vector<Parameter>& out, const std::string& source, const char
   }
 }
 
-std::vector<Parameter> parameters_of(const host::Mounting& mounting) {
-  std::vector<Parameter> out;
+std::vector<MountingParameter> parameters_of(const host::Mounting& mounting) {
+  std::vector<MountingParameter> out;
   for (const host::SourceMounting& source : mounting.sources) {
     const host::VehicleFromSensor X = source.vehicle_from_sensor();
     add_pose(out, source.name, "T_vehicle_sensor", X.R, X.t, source.T_vehicle_sensor.covariance);
@@ -119,7 +119,7 @@ std::string picture(const MountingFit& fit, bool rotation) {
 
 void write_mounting_parameters(const MountingCalibration& calibration, const OutputOptions& options) {
   Output output(options, {"source", "parameter", "value", "sigma"});
-  for (const Parameter& p : parameters_of(calibration.mounting)) {
+  for (const MountingParameter& p : parameters_of(calibration.mounting)) {
     output.rows().text(p.source).text(p.name).number(p.value).number(p.sigma).end_row();
   }
   output.finish();
@@ -136,7 +136,7 @@ void write_mounting_report(const MountingCalibration& calibration, const std::st
       "<h1>Mounting</h1>\n<ul>\n";
   for (const std::string& message : messages_of(calibration)) html += "<li>" + escaped(message) + "</li>\n";
   html += "</ul>\n<table><tr><th>source</th><th>parameter</th><th>value</th><th>sigma</th></tr>\n";
-  for (const Parameter& p : parameters_of(calibration.mounting)) {
+  for (const MountingParameter& p : parameters_of(calibration.mounting)) {
     html += printf_text("<tr><td>%s</td><td>%s</td><td>%.4f</td><td>%.4f</td></tr>\n", p.source.c_str(), p.name.c_str(),
                         p.value, p.sigma);
   }
