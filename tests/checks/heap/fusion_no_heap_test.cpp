@@ -41,7 +41,7 @@ TEST(NoHeap, FromPosesToTheFusedState) {
     Measurement late = pose_at((k - 5) * kStep_ns + kStep_ns / 2, 1);
     if (k > 150) late.pose.t.x() += 0.2;
     estimator->push(late);
-    valid += estimator->state(k * kStep_ns).valid ? 1 : 0;
+    valid += estimator->state(k * kStep_ns).valid ? 1U : 0U;
   }
   const std::size_t allocations = guard.allocations();
 
