@@ -235,8 +235,9 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
     motion << mean_.rate_rad_s, mean_.velocity_m_s;
     noise += motion * motion.transpose() * (source.time_sigma_s * source.time_sigma_s);
   }
-  const Matrix6 S =
-      Matrix6(out.derivatives * P * out.derivatives.transpose()) + Matrix6(rows * noise * rows.transpose());
+  // Lazy products: the others of this size link the heap.
+  const Eigen::Matrix<double, 6, kKinematic> seen = out.derivatives.lazyProduct(P);
+  const Matrix6 S = Matrix6(seen.lazyProduct(out.derivatives.transpose())) + Matrix6(rows * noise * rows.transpose());
   out.ok = factorise(S, out.rank, out.factor);
   if (!out.ok) return out;
   out.whitened = solve_lower(out.factor, out.rank, rows * out.residual);
@@ -268,7 +269,7 @@ void Filter::correct(const Innovation& in, std::uint8_t source, const Settings& 
       seen[static_cast<int>(j)] = covariance_(rows[k], j);
       seen[static_cast<int>(j) + 6] = covariance_(rows[k], first + j);
     }
-    T[k] = solve_lower(in.factor, in.rank, (seen * by_state).transpose());
+    T[k] = solve_lower(in.factor, in.rank, seen.lazyProduct(by_state).transpose());
     for (int r = in.rank; r < 6; ++r) T[k][r] = 0.0;
     delta[rows[k]] = T[k].dot(in.whitened);
   }
