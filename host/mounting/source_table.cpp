@@ -47,7 +47,9 @@ std::vector<std::string> second_columns(SourceKind kind) {
   return {"alt_qw", "alt_qx", "alt_qy", "alt_qz", "alt_tx_m", "alt_ty_m", "alt_tz_m"};
 }
 
-std::vector<std::string> covariance_names() { return {upper_covariance_columns().begin(), upper_covariance_columns().end()}; }
+std::vector<std::string> covariance_names() {
+  return {upper_covariance_columns().begin(), upper_covariance_columns().end()};
+}
 
 const std::vector<std::string>& centre_columns() {
   static const std::vector<std::string> names = {"centre_cov_xx_m2", "centre_cov_xy_m2", "centre_cov_xz_m2",
