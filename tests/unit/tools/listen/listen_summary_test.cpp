@@ -164,7 +164,7 @@ class ListenerWithTruth : public ::testing::Test {
 
   /// Output for a pose at `utime_us` and, `later_ns` after it, one whose truth is known.
   std::string lines_of(std::int64_t utime_us, std::int64_t later_ns, std::int64_t truth_until_us) {
-    Listener listener(ListenFormat::kLines, TruthFile(path_.string()));
+    Listener listener(ListenFormat::kLines, false, TruthFile(path_.string()));
     ::testing::internal::CaptureStdout();
     const auto take = [&](std::int64_t at_us, std::int64_t monotonic_ns) {
       const auto bytes = message_at(at_us);
@@ -202,7 +202,7 @@ TEST_F(ListenerWithTruth, APoseWhoseTruthNeverComesHoldsUpNobodyForLong) {
 
 TEST(Listener, ShowsARowWherePosesStopAndWhereTheyComeAgain) {
   constexpr std::int64_t kMs = 1'000'000;
-  Listener listener(ListenFormat::kLines, std::nullopt);
+  Listener listener(ListenFormat::kLines, false, std::nullopt);
   const auto bytes = message_at(500);
   const auto take = [&](std::int64_t ms) {
     listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, ms * kMs);
@@ -233,7 +233,7 @@ TEST(Listener, ShowsWhereAPanelPoints) {
   message.sigma_axis_rad = 0.02;
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  Listener listener(ListenFormat::kLines, std::nullopt);
+  Listener listener(ListenFormat::kLines, false, std::nullopt);
   ::testing::internal::CaptureStdout();
   listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
   EXPECT_THAT(::testing::internal::GetCapturedStdout(),
@@ -246,7 +246,7 @@ TEST(Listener, ShowsWhereAPanelPoints) {
 }
 
 TEST(Listener, PassesOverWhatItDoesNotKnow) {
-  Listener listener(ListenFormat::kNone, std::nullopt);
+  Listener listener(ListenFormat::kNone, false, std::nullopt);
   const char noise[] = "not a message";
   listener.take("C", noise, sizeof noise, 0, 0);
   EXPECT_EQ(listener.other_types(), 1);
@@ -255,7 +255,7 @@ TEST(Listener, PassesOverWhatItDoesNotKnow) {
 
 TEST(Listener, TakesAgeFromTheMeasurement) {
   const std::vector<std::uint8_t> bytes = message_at(1'000'000);
-  Listener listener(ListenFormat::kNone, std::nullopt);
+  Listener listener(ListenFormat::kNone, false, std::nullopt);
   listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 1'002'500'000, 0);
   ASSERT_EQ(listener.summary().poses(), 1);
   EXPECT_EQ(listener.summary().sources()[0].age.max_ns(), 2'500'000);
