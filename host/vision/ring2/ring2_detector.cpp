@@ -8,6 +8,7 @@
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/circle_match.hpp"
 #include "host/vision/ring2/image_check.hpp"
+#include "host/vision/ring2/other_ring.hpp"
 #include "host/vision/ring2/rim.hpp"
 #include "host/vision/ring2/rim_evidence.hpp"
 #include "pharos/ellipse/detect.hpp"
@@ -20,6 +21,8 @@ using ring2::Contour;
 using ring2::Feature;
 
 constexpr std::array<const char*, ring2::kViews> kViewNames{"left", "right"};
+// There are circles, but none is certainly the ring.
+constexpr const char* kRingUnsure = "ring_unsure";
 // Number of ellipses used of each image, the largest first: a satellite has two for the ring, two for the nozzle and a
 // few more.
 constexpr std::size_t kMaxEllipses = 24;
@@ -137,12 +140,13 @@ ring2::Matrix8 covariance_about(const ring2::Matrix8& covariance, const std::arr
   return change * covariance * change.transpose();
 }
 
+bool is_size_told(const RingSizes& sizes) { return sizes.outer_radius || sizes.inner_radius; }
+
 std::vector<FollowedHypothesis> followed(const ring2::Rig& rig, const Ring2Settings& settings,
                                          const Ring2Images& images, std::vector<RingHypothesis> hypotheses) {
   std::vector<RingHypothesis> near;
-  const bool is_size_told = settings.sizes.outer_radius || settings.sizes.inner_radius;
   for (RingHypothesis& hypothesis : hypotheses) {
-    if (!hypothesis.has_nozzle && !is_size_told) continue;  // it may be the nozzle instead
+    if (!hypothesis.has_nozzle && !is_size_told(settings.sizes)) continue;  // it may be the nozzle instead
     if (!follow_edges(rig, images, settings.edge_systematic_px, FollowRounds::kFirst, hypothesis)) continue;
     const auto is_known = [&](const RingHypothesis& other) { return is_same(other, hypothesis); };
     if (std::none_of(near.begin(), near.end(), is_known)) near.push_back(std::move(hypothesis));
@@ -182,6 +186,11 @@ Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settin
     if (decision.best == nullptr) continue;
     Ring2Detection answer;
     answer.found = std::move(found);
+    if (decision.rival == nullptr && !is_size_told(settings.sizes) &&
+        shows_another_ring(rig, answer.found, decision.best->estimate)) {
+      answer.refusal = kRingUnsure;
+      return answer;
+    }
     take(decision, answer);
     answer.one_edge = settle_rims(rig, contours, *answer.estimate);
     return answer;
@@ -191,8 +200,7 @@ Ring2Detection ring2_by_edges(const ring2::Rig& rig, const Ring2Settings& settin
   answer.estimate.reset();
   const ring2::ContourSet exchanged = chosen_contours(rig, {contours[1], contours[0]});
   const bool whole = exchanged[0][0] && exchanged[1][0] && exchanged[0][1] && exchanged[1][1];
-  answer.refusal =
-      whole && ring2::solve_ring2(rig, exchanged) ? name_of(ring2::Ring2Failure::kExchanged) : "ring_unsure";
+  answer.refusal = whole && ring2::solve_ring2(rig, exchanged) ? name_of(ring2::Ring2Failure::kExchanged) : kRingUnsure;
   return answer;
 }
 

@@ -33,8 +33,8 @@ TEST(IntegritySeeds, Ellipses) {
 // A look-alike for a dark connector, another for a hidden one, and a wall taken for a connector's edge.
 TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951}); }
 
-// The foot of a ring, the edge of a round body, a small ring beside it, a groove.
-TEST(IntegritySeeds, Ring2) { expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454}); }
+// The foot of a ring, the edge of a round body, a small ring beside it, a groove; two bodies with a second ring.
+TEST(IntegritySeeds, Ring2) { expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454, 20244, 20370}); }
 
 }  // namespace
 }  // namespace pharos::tools
