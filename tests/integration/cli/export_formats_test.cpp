@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 constexpr double kTinyFraction = 1e-9;  // of printed numbers, which read back exactly; roots are taken once more
 
-double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
+double value_of(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
 
 // The covariance as its columns are named.
 Matrix6 covariance_of(const Row& row) {
@@ -27,7 +27,7 @@ Matrix6 covariance_of(const Row& row) {
     for (int j = 0; j < 6; ++j) {
       const char* unit = i < 3 && j < 3 ? "_rad2" : i < 3 || j < 3 ? "_rad_m" : "_m2";
       const auto name = [&](int k) { return std::string(kNames[static_cast<std::size_t>(k)]); };
-      covariance(i, j) = number(row, "cov_" + name(i) + "_" + name(j) + unit);
+      covariance(i, j) = value_of(row, "cov_" + name(i) + "_" + name(j) + unit);
     }
   }
   return covariance;
@@ -47,8 +47,8 @@ void expect_sigmas(const Row& row) {
   expect_symmetric(covariance);
   const double rotation_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   const double position_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
-  expect_near_fraction(rotation_rad * kDegPerRad, number(row, "sigma_rot_deg"));
-  expect_near_fraction(position_m * kMmPerM, number(row, "sigma_pos_mm"));
+  expect_near_fraction(rotation_rad * kDegPerRad, value_of(row, "sigma_rot_deg"));
+  expect_near_fraction(position_m * kMmPerM, value_of(row, "sigma_pos_mm"));
 }
 
 std::string track_command() {
@@ -91,7 +91,9 @@ TEST(CliExportTrack, TumIsReadByEvaluateAndHoldsTheGoodPosesOfTheTable) {
     if (row.at("status") == "ok") ++good;
   }
   EXPECT_EQ(count_lines(content_of(tum)), good);
-  if (good < rows) EXPECT_THAT(run.err, HasSubstr(std::to_string(rows - good) + " rows have no TUM line"));
+  if (good < rows) {
+    EXPECT_THAT(run.err, HasSubstr(std::to_string(rows - good) + " rows have no TUM line"));
+  }
   const Outcome compared = pharos("evaluate " + tum + " " + csv + " --align none --json");
   ASSERT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_THAT(compared.out, HasSubstr("\"compared\":" + std::to_string(good)));
@@ -137,16 +139,16 @@ TEST_F(CliExportCircles, TheCovarianceReadBackIsThatOfTheSigmasWithAnyTurnAboutT
     if (row.at("status").starts_with("refused")) continue;
     const Matrix6 covariance = covariance_of(row);
     expect_symmetric(covariance);
-    const Vector3 normal(number(row, "nx"), number(row, "ny"), number(row, "nz"));
+    const Vector3 normal(value_of(row, "nx"), value_of(row, "ny"), value_of(row, "nz"));
     const Matrix3 rotation = covariance.topLeftCorner<3, 3>();
     const double turn_rad2 = normal.dot(rotation * normal);
     EXPECT_NEAR(turn_rad2, std::numbers::pi * std::numbers::pi / 3.0, 1e-9);
     // The variance across the normal is a difference of pi^2/3 and 1e-8 rad^2: six digits of it are left.
-    EXPECT_NEAR(std::sqrt(rotation.trace() - turn_rad2) * kDegPerRad, number(row, "sigma_deg"),
-                1e-4 * number(row, "sigma_deg"));
+    EXPECT_NEAR(std::sqrt(rotation.trace() - turn_rad2) * kDegPerRad, value_of(row, "sigma_deg"),
+                1e-4 * value_of(row, "sigma_deg"));
     const Matrix3 position = covariance.bottomRightCorner<3, 3>();
-    expect_near_fraction(std::sqrt(position.trace()) * kMmPerM, number(row, "sigma_position_mm"));
-    expect_near_fraction(position(0, 2), number(row, "centre_cov_xz_m2"));
+    expect_near_fraction(std::sqrt(position.trace()) * kMmPerM, value_of(row, "sigma_position_mm"));
+    expect_near_fraction(position(0, 2), value_of(row, "centre_cov_xz_m2"));
     ++compared;
   }
   EXPECT_EQ(compared, rows_of(run.out).size());
@@ -163,11 +165,11 @@ TEST_F(CliExportCircles, TumHoldsTheCentreAndTheNormalAndSaysThatTheTurnIsNotMea
     if (row.at("status") != "ok") continue;
     double time_s = 0.0, x = 0.0, y = 0.0, z = 0.0, qx = 0.0, qy = 0.0, qz = 0.0, qw = 0.0;
     ASSERT_TRUE(lines >> time_s >> x >> y >> z >> qx >> qy >> qz >> qw);
-    EXPECT_EQ(time_s, number(row, "problem"));
-    EXPECT_EQ(z, number(row, "cz_m"));
+    EXPECT_EQ(time_s, value_of(row, "problem"));
+    EXPECT_EQ(z, value_of(row, "cz_m"));
     const Vector3 normal = Quaternion(qw, qx, qy, qz).toRotationMatrix().col(2);
-    EXPECT_NEAR(normal.x(), number(row, "nx"), 1e-12);
-    EXPECT_NEAR(normal.z(), number(row, "nz"), 1e-12);
+    EXPECT_NEAR(normal.x(), value_of(row, "nx"), 1e-12);
+    EXPECT_NEAR(normal.z(), value_of(row, "nz"), 1e-12);
     ++compared;
   }
   EXPECT_EQ(count_lines(run.out), compared);
@@ -213,13 +215,13 @@ TEST_F(CliExportTof, WithoutAConnectorTheVarianceOfTheTurnIsThatOfAUniformAngle)
     ASSERT_THAT(rows[k].at("flags"), HasSubstr("no_connector"));
     // Both have one normal, Z' of the pose with a turn.
     const Row& turned = with[k];
-    const Quaternion q(number(turned, "qw"), number(turned, "qx"), number(turned, "qy"), number(turned, "qz"));
+    const Quaternion q(value_of(turned, "qw"), value_of(turned, "qx"), value_of(turned, "qy"), value_of(turned, "qz"));
     const Vector3 normal = q.toRotationMatrix().col(2);
     const Matrix3 rotation = covariance_of(rows[k]).topLeftCorner<3, 3>();
     const double turn_rad2 = normal.dot(rotation * normal);
     EXPECT_NEAR(turn_rad2, std::numbers::pi * std::numbers::pi / 3.0, 1e-3);
-    EXPECT_NEAR(std::sqrt(rotation.trace() - turn_rad2) * kDegPerRad, number(rows[k], "sigma_rot_deg"),
-                1e-2 * number(rows[k], "sigma_rot_deg"));
+    EXPECT_NEAR(std::sqrt(rotation.trace() - turn_rad2) * kDegPerRad, value_of(rows[k], "sigma_rot_deg"),
+                1e-2 * value_of(rows[k], "sigma_rot_deg"));
   }
 }
 

@@ -46,7 +46,9 @@ TEST(CliReproduce, GivesTheSameFiguresForTheSameSeed) {
 TEST(CliReproduce, FliesTheManoeuvresInFourWays) {
   for (const Row& row : rows_of(quick_run().out)) {
     const bool four = row.at("item") == "table 2";
-    if (!four) EXPECT_TRUE(row.at("both").empty());
+    if (!four) {
+      EXPECT_TRUE(row.at("both").empty());
+    }
     if (!four || row.at("what").find("median of runs") == std::string::npos) continue;
     if (row.at("what").find("position RMS") == std::string::npos) continue;
     EXPECT_LT(std::stod(row.at("calibrated")), std::stod(row.at("theirs")));
