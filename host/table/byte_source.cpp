@@ -66,6 +66,21 @@ class ByteSource::Impl {
     return pending_;
   }
 
+  std::int64_t skip(std::int64_t count) {
+    std::array<char, 65536> bytes;
+    std::int64_t skipped = 0;
+    while (skipped < count) {
+      // Behind what was read already a plain file's place is moved; a pipe has none.
+      const bool at_file = !gzip_ && pending_.empty() && raw_.empty();
+      if (at_file && ::lseek(fd_, count - skipped, SEEK_CUR) >= 0) return count;
+      const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(count - skipped, bytes.size()));
+      const std::size_t got = read(std::span(bytes).first(wanted));
+      if (got == 0) break;
+      skipped += static_cast<std::int64_t>(got);
+    }
+    return skipped;
+  }
+
   void on_pause(std::function<void()> before_waiting) { before_waiting_ = std::move(before_waiting); }
   bool cut_off() const { return cut_off_; }
   const std::string& name() const { return name_; }
@@ -159,6 +174,7 @@ ByteSource::~ByteSource() = default;
 ByteSource::ByteSource(ByteSource&&) noexcept = default;
 ByteSource& ByteSource::operator=(ByteSource&&) noexcept = default;
 std::size_t ByteSource::read(std::span<char> out) { return impl_->read(out); }
+std::int64_t ByteSource::skip(std::int64_t count) { return impl_->skip(count); }
 std::string_view ByteSource::peek(std::size_t count) { return impl_->peek(count); }
 void ByteSource::on_pause(std::function<void()> before_waiting) { impl_->on_pause(std::move(before_waiting)); }
 bool ByteSource::cut_off() const { return impl_->cut_off(); }

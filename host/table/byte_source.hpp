@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -23,6 +24,9 @@ class ByteSource {
 
   /// Next bytes, at least one; 0 at the end. Throws InputError on a read error or broken gzip data.
   std::size_t read(std::span<char> out);
+  /// Leaves the next bytes out; a plain file's without reading them. Returns how many there were, at most `count` (a
+  /// plain file's end is noticed by the next read).
+  std::int64_t skip(std::int64_t count);
   /// The first bytes still to be read, at least `count` of them unless the input ends before. Not consumed.
   std::string_view peek(std::size_t count);
   /// `before_waiting` is called whenever no bytes are available, before read() waits for them: the time to flush the

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "tools/export/lcm_log.hpp"
 #include "tools/export/mcap_writer.hpp"
 #include "tools/export/schemas.hpp"
+#include "tools/lcm_log/lcm_log.hpp"
 
 namespace pharos {
 class pose_t;

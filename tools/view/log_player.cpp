@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/log_player.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 
 #include "host/support/input_error.hpp"
 
@@ -18,12 +22,22 @@ constexpr std::int64_t kLead_ns = 3 * kLogSecond_ns;
 constexpr std::int64_t kTick_ns = kLogSecond_ns / 10;
 constexpr std::int64_t kMaxTime_us = 4'102'444'800'000'000;  // year 2100
 
+const char* const kGiveLog = "; give a log of lcm-logger";
+
+// A file can be read again from any place; a pipe cannot.
+host::ByteSource open_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw host::InputError(path + ": " + std::strerror(errno) + kGiveLog);
+  if (!S_ISREG(status.st_mode)) throw host::InputError(path + ": is not a file" + kGiveLog);
+  return host::ByteSource(path);
+}
+
 }  // namespace
 
-LogPlayer::LogPlayer(const std::string& path) : reader_(path) {
+LogPlayer::LogPlayer(const std::string& path) : path_(path), reader_(open_file(path)) {
   build_index();
   if (index_.empty()) {
-    throw host::InputError(path + ": has no LCM message; give a log of lcm-logger");
+    throw host::InputError(path + ": has no LCM message" + kGiveLog);
   }
   seek(0);
 }
@@ -31,7 +45,7 @@ LogPlayer::LogPlayer(const std::string& path) : reader_(path) {
 void LogPlayer::build_index() {
   bool any = false;
   std::int64_t place = reader_.position();
-  while (const auto message = reader_.next_header()) {
+  while (const auto message = reader_.next()) {
     const std::int64_t at = place;
     place = reader_.position();
     if (!any && message->utime_us > 0 && message->utime_us < kMaxTime_us) {
@@ -49,10 +63,10 @@ void LogPlayer::build_index() {
     newest_ns_ = *time_ns;
   }
   duration_ns_ = newest_ns_;
-  skipped_ += reader_.skipped();
+  skipped_ += reader_.counters().damaged + (reader_.counters().cut_off ? 1 : 0);
 }
 
-std::optional<std::int64_t> LogPlayer::time_of(const LogMessage& message) const {
+std::optional<std::int64_t> LogPlayer::time_of(const LoggedMessage& message) const {
   if (message.utime_us <= 0 || message.utime_us >= kMaxTime_us) return std::nullopt;
   const std::int64_t time_ns = message.utime_us * kNsPerUs - first_ns_;
   if (time_ns > newest_ns_ + kLongestGap_ns) return std::nullopt;
@@ -64,10 +78,10 @@ void LogPlayer::seek(std::int64_t position_ns) {
   auto at = std::upper_bound(index_.begin(), index_.end(), from_ns,
                              [](std::int64_t time_ns, const Place& place) { return time_ns < place.time_ns; });
   if (at != index_.begin()) --at;
-  reader_.seek(at->file_position);
+  waiting_.reset();
+  reader_ = LcmLogReader(host::ByteSource(path_), at->file_position);
   newest_ns_ = at->time_ns;
   position_ns_ = at->time_ns;
-  waiting_.reset();
   table_ = SourceTable();
   play_up_to(position_ns);
 }
@@ -86,7 +100,8 @@ void LogPlayer::play_up_to(std::int64_t position_ns) {
         table_.tick(first_ns_ + position_ns_, first_ns_ + position_ns_);
       }
       position_ns_ = *time_ns;
-      table_.take(waiting_->channel, waiting_->bytes.data(), static_cast<int>(waiting_->bytes.size()), utc_ns, utc_ns);
+      table_.take(std::string(waiting_->channel), waiting_->data.data(), static_cast<int>(waiting_->data.size()),
+                  utc_ns, utc_ns);
     }
     waiting_.reset();
   }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/lcm_log/lcm_log.hpp"
 #include "tools/sources/source_table.hpp"
-#include "tools/view/log_reader.hpp"
 #include "tools/view/routes.hpp"
 #include "tools/view/state_json.hpp"
 
@@ -18,8 +18,8 @@ namespace pharos::tools {
 /// more than a day later than all before as broken.
 class LogPlayer {
  public:
-  /// Reads the whole log once for its index. Throws host::InputError for a file that cannot be read or holds no
-  /// message.
+  /// Reads the whole log once for its index; a packed one (.gz) is unpacked again up to each place that is sought.
+  /// Throws host::InputError for a file that cannot be read or holds no message.
   explicit LogPlayer(const std::string& path);
 
   void control(const ControlRequest& request);
@@ -41,9 +41,10 @@ class LogPlayer {
   void seek(std::int64_t position_ns);
   void play_up_to(std::int64_t position_ns);
   // A message's time after the first one's; empty for a broken one.
-  std::optional<std::int64_t> time_of(const LogMessage& message) const;
+  std::optional<std::int64_t> time_of(const LoggedMessage& message) const;
 
-  LogReader reader_;
+  std::string path_;
+  LcmLogReader reader_;
   SourceTable table_;
   std::vector<Place> index_;  // one a second
   std::int64_t first_ns_ = 0;
@@ -51,7 +52,7 @@ class LogPlayer {
   std::int64_t position_ns_ = 0;
   std::int64_t newest_ns_ = 0;  // of the messages read so far
   std::int64_t skipped_ = 0;
-  std::optional<LogMessage> waiting_;  // the first one after position_ns_
+  std::optional<LoggedMessage> waiting_;  // the first one after position_ns_; the reader's until its next one
   double speed_ = 1.0;
   bool playing_ = true;
 };

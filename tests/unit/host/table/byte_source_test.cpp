@@ -41,6 +41,23 @@ TEST(ByteSource, GivesAPlainFileAsItIs) {
   EXPECT_FALSE(source.cut_off());
 }
 
+TEST(ByteSource, LeavesBytesOutOfPlainAndPackedFiles) {
+  const std::string text = long_text();
+  const TemporaryFile plain(text), packed(gzipped(text));
+  for (const std::string& path : {plain.path(), packed.path()}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{131'072}, std::size_t{400'001}}) {
+      ByteSource source(path);
+      std::array<char, 7> piece;
+      const std::size_t before = source.read(piece);
+      EXPECT_EQ(source.skip(static_cast<std::int64_t>(count)), static_cast<std::int64_t>(count));
+      EXPECT_EQ(all_of(source), text.substr(before + count)) << count;
+    }
+    ByteSource source(path);
+    source.skip(1LL << 40);
+    EXPECT_EQ(all_of(source), "") << "behind the end";
+  }
+}
+
 TEST(ByteSource, SaysBeforeItWaitsForAPipeThatPauses) {
   const std::string path = ::testing::TempDir() + "pharos_pausing_pipe_" + std::to_string(::getpid());
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);

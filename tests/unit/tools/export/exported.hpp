@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "logged.hpp"
+#include "one_of_each.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/export/mcap_export.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "host/support/input_error.hpp"
 #include "some_messages.hpp"
+#include "support/lcm_log.hpp"
 #include "support/memory_file.hpp"
 
 namespace pharos::tools {
@@ -22,7 +23,7 @@ std::string minute_of_poses() {
     pose_t pose = test::some_pose(k);
     pose.utime = kStart_us + k * 100'000 - 5'000;
     pose.position_m[0] = static_cast<double>(k) * 0.1;
-    log += test::log_event(k, kStart_us + k * 100'000, "PHAROS_LIGHTHOUSE_POSE", test::bytes_of(pose));
+    log += test::logged(kStart_us + k * 100'000, "PHAROS_LIGHTHOUSE_POSE", test::encoded(pose));
   }
   return log;
 }
@@ -86,11 +87,11 @@ TEST_F(Replay, PausesAndPlaysAtOtherSpeedsAndAgainFromTheEnd) {
 }
 
 TEST(LogPlayer, ATimeThatCannotBeIsSkippedAndCounted) {
-  const auto bytes = test::bytes_of(test::some_pose());
-  const std::string log = test::log_event(0, kStart_us, "P", bytes) + test::log_event(1, kStart_us * 2, "P", bytes) +
-                          test::log_event(2, -5, "P", bytes) +
-                          test::log_event(3, kStart_us - 7'000'000, "P", bytes) +  // the clock was set back
-                          test::log_event(4, kStart_us + 2'000'000, "P", bytes);
+  const auto bytes = test::encoded(test::some_pose());
+  const std::string log = test::logged(kStart_us, "P", bytes) + test::logged(kStart_us * 2, "P", bytes) +
+                          test::logged(-5, "P", bytes) +
+                          test::logged(kStart_us - 7'000'000, "P", bytes) +  // the clock was set back
+                          test::logged(kStart_us + 2'000'000, "P", bytes);
   const MemoryFile file(log.data(), log.size());
   LogPlayer player(file.path());
   EXPECT_DOUBLE_EQ(player.state().duration_s, 2.0);
@@ -105,6 +106,8 @@ TEST(LogPlayer, AFileWithoutMessagesIsRefused) {
   const std::string text = "utime,source,target\n1,2,3\n";
   const MemoryFile table(text.data(), text.size());
   EXPECT_THROW(LogPlayer{table.path()}, host::InputError);
+  EXPECT_THROW(LogPlayer{"/nonexistent/log"}, host::InputError);
+  EXPECT_THROW(LogPlayer{"/dev/zero"}, host::InputError) << "a log that never ends has no last second";
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "pharos/pose_t.hpp"
 
@@ -30,30 +28,6 @@ inline pose_t some_pose(std::int64_t sequence = 0) {
   pose.sigma_pos_m = 0.001;
   pose.sigma_rot_rad = 0.002;
   return pose;
-}
-
-template <class Message>
-std::vector<unsigned char> bytes_of(const Message& message) {
-  std::vector<unsigned char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-inline void append_big_endian(std::string& out, std::uint64_t value, int size) {
-  for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
-    out += static_cast<char>(value >> static_cast<unsigned>(shift));
-}
-
-/// One event of an LCM log, as its format's description says.
-inline std::string log_event(std::int64_t number, std::int64_t utime_us, const std::string& channel,
-                             const std::vector<unsigned char>& bytes) {
-  std::string out;
-  append_big_endian(out, 0xEDA1DA01, 4);
-  append_big_endian(out, static_cast<std::uint64_t>(number), 8);
-  append_big_endian(out, static_cast<std::uint64_t>(utime_us), 8);
-  append_big_endian(out, channel.size(), 4);
-  append_big_endian(out, bytes.size(), 4);
-  return out + channel + std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace pharos::test

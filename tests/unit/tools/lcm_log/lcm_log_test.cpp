@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/export/lcm_log.hpp"
+#include "tools/lcm_log/lcm_log.hpp"
 
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
 #include <vector>
 
-#include "logged.hpp"
+#include "host/support/input_error.hpp"
+#include "tests/support/gzipped.hpp"
+#include "tests/support/lcm_log.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pharos::tools {
@@ -93,6 +95,36 @@ TEST(LcmLog, AnEmptyFileHasNoMessage) {
   const Read rubbish = read_bytes(std::string(100'000, '\xED'));
   EXPECT_TRUE(rubbish.channels.empty());
   EXPECT_EQ(rubbish.counters.bytes_skipped, 100'000);
+}
+
+// A log read from each place again: the same messages from there on.
+void expect_every_place_again(const std::string& path) {
+  LcmLogReader reader{host::ByteSource(path)};
+  const std::vector<std::string> all = read(path).channels;
+  for (std::size_t next = 0; next <= all.size(); ++next) {
+    LcmLogReader again(host::ByteSource(path), reader.position());
+    for (std::size_t k = next; k < all.size(); ++k) {
+      const auto message = again.next();
+      ASSERT_TRUE(message) << next;
+      EXPECT_EQ(message->channel, all[k]) << next;
+    }
+    EXPECT_FALSE(again.next());
+    reader.next();
+  }
+}
+
+TEST(LcmLog, GoesOnFromAnyPlaceOfAPlainAndOfAPackedLog) {
+  const test::TemporaryFolder folder;
+  std::string log;
+  for (int k = 0; k < 6; ++k) log += logged(k, "CHANNEL_" + std::to_string(k), std::string(60'000, 'x')) + "rubbish";
+  expect_every_place_again(folder.write("log", log));
+  expect_every_place_again(folder.write("log.gz", test::gzipped(log)));
+  EXPECT_FALSE(LcmLogReader(host::ByteSource(folder.path("log")), 1'000'000'000).next()) << "behind its end";
+}
+
+TEST(LcmLog, WhatIsNoFileIsRefused) {
+  EXPECT_THROW(read("/nonexistent/log"), host::InputError);
+  EXPECT_THROW(read("/tmp"), host::InputError);
 }
 
 }  // namespace

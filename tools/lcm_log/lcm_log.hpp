@@ -39,9 +39,13 @@ class LcmLogReader {
   static constexpr std::size_t kMaxData = std::size_t{64} << 20U;
 
   explicit LcmLogReader(host::ByteSource source) : source_(std::move(source)) {}
+  /// Begins at a position() of before; the source is at its start. A log that is shorter has no message.
+  LcmLogReader(host::ByteSource source, std::int64_t position);
 
   /// The next whole message; none at the end. Throws InputError where the file cannot be read.
   std::optional<LoggedMessage> next();
+  /// Where the next message is looked for, in bytes (of the unpacked log) from its start.
+  std::int64_t position() const { return dropped_ + static_cast<std::int64_t>(begin_); }
   const LcmLogCounters& counters() const { return counters_; }
   const std::string& name() const { return source_.name(); }
 
@@ -56,7 +60,8 @@ class LcmLogReader {
 
   host::ByteSource source_;
   std::string buffer_;
-  std::size_t begin_ = 0;  // of what is not used yet
+  std::size_t begin_ = 0;     // of what is not used yet
+  std::int64_t dropped_ = 0;  // bytes of the log before the buffer
   bool ended_ = false;
   bool in_damage_ = false;
   LcmLogCounters counters_;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/export/lcm_log.hpp"
+#include "tools/lcm_log/lcm_log.hpp"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace pharos::tools {
 namespace {
@@ -25,6 +26,9 @@ struct LcmLogReader::Header {
 
   std::size_t end() const { return kHeaderBytes + channel + data; }
 };
+
+LcmLogReader::LcmLogReader(host::ByteSource source, std::int64_t position)
+    : source_(std::move(source)), dropped_(source_.skip(position)) {}
 
 // Reads until so many bytes are there; false where the log ends before.
 bool LcmLogReader::have(std::size_t count) {
@@ -84,6 +88,7 @@ bool LcmLogReader::skip_to_next_word() {
 
 void LcmLogReader::drop_used() {
   buffer_.erase(0, begin_);
+  dropped_ += static_cast<std::int64_t>(begin_);
   begin_ = 0;
 }
 
