@@ -12,31 +12,16 @@
 #include "pharos/report/convert.hpp"
 #include "pharos/wire/codec.hpp"
 #include "pharos/wire/frame.hpp"
+#include "support/input_bytes.hpp"
 #include "support/require.hpp"
 #include "support/synthetic_light.hpp"
 
 namespace {
 
+using pharos::test::InputBytes;
 using pharos::test::require;
 using namespace pharos::lighthouse;
 using pharos::test::SyntheticLight;
-
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  bool empty() const { return at_ == size_; }
-  std::uint8_t byte() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
-  std::int64_t number(int bytes) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < bytes; ++i) value = value << 8U | byte();
-    return static_cast<std::int64_t>(value);
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-  std::size_t at_ = 0;
-};
 
 /// Checks every result of the decoder.
 template <class AnyDecoder>
@@ -90,7 +75,7 @@ SyntheticLight light_at(std::int64_t ticks, bool lone) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Bytes in(data, size);
+  InputBytes in(data, size);
   Watched<Decoder> watched;
   Watched<SortedDecoder> promised;  // the same edges, which violate its precondition on their order
   Decoder& decoder = watched.decoder;

@@ -12,11 +12,13 @@
 #include "pharos/report/convert.hpp"
 #include "pharos/wire/codec.hpp"
 #include "pharos/wire/frame.hpp"
+#include "support/input_bytes.hpp"
 #include "support/lh2_light.hpp"
 #include "support/require.hpp"
 
 namespace {
 
+using pharos::test::InputBytes;
 using pharos::test::require;
 using namespace pharos::lighthouse;
 
@@ -31,23 +33,6 @@ const Lh2Sequences& sequences() {
   static const Lh2Sequences kSequences;
   return kSequences;
 }
-
-class Input {
- public:
-  Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  bool empty() const { return at_ == size_; }
-  std::uint8_t byte() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
-  std::int64_t number(int bytes) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < bytes; ++i) value = value << 8U | byte();
-    return static_cast<std::int64_t>(value);
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-  std::size_t at_ = 0;
-};
 
 class Watched {
  public:
@@ -106,7 +91,7 @@ void good_turn(double sync_ticks, bool slow_bit, std::mt19937& random, Watched& 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Input in(data, size);
+  InputBytes in(data, size);
   Watched watched;
   std::mt19937 random(1);
   std::int64_t now = 0;

@@ -20,24 +20,33 @@ MatrixXd whole(const MovingState& s) {
   return P;
 }
 
-MovingState some_state(unsigned seed) {
+MatrixXd some_covariance(int size, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
-  MatrixXd root(18, 18);
-  for (int i = 0; i < 18; ++i) {
-    for (int j = 0; j < 18; ++j) root(i, j) = 0.01 * normal(engine);
+  MatrixXd root(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) root(i, j) = 0.01 * normal(engine);
   }
-  const MatrixXd P = root * root.transpose();
-  MovingState s;
-  s.pose = {rotation_exp({0.3, -0.5, 0.9}), {0.2, -0.1, 2.0}};
-  s.rate << 0.4, -0.3, 0.8, 0.1, 0.2, -0.3;
-  s.acceleration << 0.5, 0.1, -0.2, 0.3, -0.4, 0.2;
+  return root * root.transpose();
+}
+
+// Of pose, rate and acceleration; what P has beyond them is left out.
+void set_covariance(MovingState& s, const MatrixXd& P) {
   s.pp = P.block<6, 6>(0, 0);
   s.rp = P.block<6, 6>(6, 0);
   s.rr = P.block<6, 6>(6, 6);
   s.ap = P.block<6, 6>(12, 0);
   s.ar = P.block<6, 6>(12, 6);
   s.aa = P.block<6, 6>(12, 12);
+}
+
+MovingState some_state(unsigned seed) {
+  const MatrixXd P = some_covariance(18, seed);
+  MovingState s;
+  s.pose = {rotation_exp({0.3, -0.5, 0.9}), {0.2, -0.1, 2.0}};
+  s.rate << 0.4, -0.3, 0.8, 0.1, 0.2, -0.3;
+  s.acceleration << 0.5, 0.1, -0.2, 0.3, -0.4, 0.2;
+  set_covariance(s, P);
   return s;
 }
 
@@ -128,20 +137,9 @@ MatrixXd whole_with_second(const MovingState& s) {
 }
 
 MovingState some_linked_state(unsigned seed) {
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  MatrixXd root(24, 24);
-  for (int i = 0; i < 24; ++i) {
-    for (int j = 0; j < 24; ++j) root(i, j) = 0.01 * normal(engine);
-  }
-  const MatrixXd P = root * root.transpose();
+  const MatrixXd P = some_covariance(24, seed);
   MovingState s = some_state(seed);
-  s.pp = P.block<6, 6>(0, 0);
-  s.rp = P.block<6, 6>(6, 0);
-  s.rr = P.block<6, 6>(6, 6);
-  s.ap = P.block<6, 6>(12, 0);
-  s.ar = P.block<6, 6>(12, 6);
-  s.aa = P.block<6, 6>(12, 12);
+  set_covariance(s, P);
   s.second.pose = {rotation_exp({0.1, 0.8, -0.2}), {1.5, 0.2, -0.4}};
   s.second.sp = P.block<6, 6>(18, 0);
   s.second.sr = P.block<6, 6>(18, 6);

@@ -34,17 +34,21 @@ Map simulated_map(std::mt19937_64& random, double sigma_px, std::vector<CameraFr
   return map;
 }
 
-TEST(Bundle, RecoversPosesAndPointsOfExactObservations) {
-  std::mt19937_64 random(1);
-  std::vector<CameraFromTarget> poses;
-  std::vector<Vector3> points;
-  Map map = simulated_map(random, 0.0, poses, points);
+void move_all_but_the_first(Map& map, std::mt19937_64& random) {
   for (auto& [id, keyframe] : map.keyframes) {
     if (id == 0) continue;
     Vector6 error;
     error << random_vector(random, 0.01), random_vector(random, 0.03);
     keyframe.pose = keyframe.pose.moved_by(error);
   }
+}
+
+TEST(Bundle, RecoversPosesAndPointsOfExactObservations) {
+  std::mt19937_64 random(1);
+  std::vector<CameraFromTarget> poses;
+  std::vector<Vector3> points;
+  Map map = simulated_map(random, 0.0, poses, points);
+  move_all_but_the_first(map, random);
   for (auto& [id, point] : map.points) point.position_m += random_vector(random, 0.02);
   BundleProblem problem = global_problem(map);
   EXPECT_TRUE(adjust_bundle(problem, kCamera, 30).empty());
@@ -64,12 +68,7 @@ TEST(Bundle, APointBehindTheCamerasIsLeftOut) {
   std::vector<CameraFromTarget> poses;
   std::vector<Vector3> points;
   Map map = simulated_map(random, 0.0, poses, points);
-  for (auto& [id, keyframe] : map.keyframes) {
-    if (id == 0) continue;
-    Vector6 error;
-    error << random_vector(random, 0.01), random_vector(random, 0.03);
-    keyframe.pose = keyframe.pose.moved_by(error);
-  }
+  move_all_but_the_first(map, random);
   map.points.at(7).position_m -= map.keyframes.at(2).pose.R.transpose() * Vector3(0.0, 0.0, 100.0);
   BundleProblem problem = global_problem(map);
   const auto rejected = adjust_bundle(problem, kCamera, 30);
