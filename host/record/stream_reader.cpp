@@ -12,7 +12,6 @@ namespace {
 
 using namespace stream_format;
 
-constexpr std::size_t kReadBytes = 128 * 1024;
 /// Half of what 64 bits hold, year 2116: sums and differences of such times cannot overflow.
 constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62;
 
@@ -25,7 +24,7 @@ bool has_good_crc(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-StreamReader::StreamReader(ByteSource source) : source_(std::move(source)) { read_header(); }
+StreamReader::StreamReader(ByteSource source) : in_(std::move(source)) { read_header(); }
 
 bool StreamReader::looks_like(std::string_view first_bytes) {
   return first_bytes.size() >= kMagic.size() &&
@@ -33,31 +32,12 @@ bool StreamReader::looks_like(std::string_view first_bytes) {
                     [](std::uint8_t wanted, char is) { return wanted == static_cast<std::uint8_t>(is); });
 }
 
-bool StreamReader::fill(std::size_t count) {
-  while (buffer_.size() - at_ < count && !ended_) {
-    if (at_ >= kReadBytes) {
-      buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
-      at_ = 0;
-    }
-    const std::size_t have = buffer_.size();
-    buffer_.resize(have + kReadBytes);
-    const std::size_t got = source_.read({reinterpret_cast<char*>(buffer_.data()) + have, kReadBytes});
-    buffer_.resize(have + got);
-    ended_ = got == 0;
-  }
-  return buffer_.size() - at_ >= count;
-}
-
-std::span<const std::uint8_t> StreamReader::ahead(std::size_t count) const {
-  return std::span(buffer_).subspan(at_, count);
-}
-
 void StreamReader::read_header() {
-  const std::string& file = source_.name();
-  if (!fill(kHeadBytes) || !std::equal(kMagic.begin(), kMagic.end(), ahead(kMagic.size()).begin())) {
+  const std::string& file = in_.name();
+  if (!in_.have(kHeadBytes) || !std::equal(kMagic.begin(), kMagic.end(), in_.ahead(kMagic.size()).begin())) {
     throw InputError(file + ": is not a recorded serial stream; those are made by pharosd's [recording]");
   }
-  wire::ByteReader reader(ahead(kHeadBytes).subspan(kMagic.size()));
+  wire::ByteReader reader(in_.ahead(kHeadBytes).subspan(kMagic.size()));
   const auto version = reader.get<std::uint8_t>();
   if (version != kVersion) {
     throw InputError(file + ": recorded in format version " + std::to_string(version) +
@@ -66,7 +46,7 @@ void StreamReader::read_header() {
   }
   const std::size_t name = reader.get<std::uint8_t>();
   const std::size_t whole = kHeadBytes + name + kCrcBytes;
-  if (!fill(whole) || !has_good_crc(ahead(whole))) {
+  if (!in_.have(whole) || !has_good_crc(in_.ahead(whole))) {
     throw InputError(file + ": the head of this recording is damaged; nothing can be said of what follows");
   }
   header_.baud = reader.get<std::uint32_t>();
@@ -76,21 +56,21 @@ void StreamReader::read_header() {
     throw InputError(file + ": the head of this recording tells impossible times; no pharosd made it");
   }
   last_monotonic_ns_ = header_.monotonic_ns;
-  const auto letters = ahead(whole).subspan(kHeadBytes, name);
+  const auto letters = in_.ahead(whole).subspan(kHeadBytes, name);
   header_.target.assign(letters.begin(), letters.end());
-  at_ += whole;
+  in_.use(whole);
 }
 
 /// Size of the complete, valid chunk that begins here; 0 when there is none.
 std::size_t StreamReader::whole_chunk_size() {
-  if (!fill(kChunkHeadBytes)) return 0;
-  wire::ByteReader reader(ahead(kChunkHeadBytes));
+  if (!in_.have(kChunkHeadBytes)) return 0;
+  wire::ByteReader reader(in_.ahead(kChunkHeadBytes));
   const auto mark = reader.get<std::uint8_t>();
   const std::size_t count = reader.get<std::uint16_t>();
   if (mark != kDataMark && !(mark == kLossMark && count == sizeof(std::uint64_t))) return 0;
   if (count > kMaxChunkBytes) return 0;
   const std::size_t whole = kChunkHeadBytes + count + kCrcBytes;
-  return fill(whole) && has_good_crc(ahead(whole)) ? whole : 0;
+  return in_.have(whole) && has_good_crc(in_.ahead(whole)) ? whole : 0;
 }
 
 bool StreamReader::credible(const StreamChunk& chunk) const {
@@ -101,17 +81,17 @@ bool StreamReader::credible(const StreamChunk& chunk) const {
 std::optional<StreamChunk> StreamReader::next() {
   std::uint64_t lost_before = 0;
   std::uint64_t skipped = 0;
-  while (fill(1)) {
+  while (in_.have(1)) {
     const std::size_t whole = whole_chunk_size();
     if (whole == 0) {
-      ++at_;
+      in_.use(1);
       ++skipped;
       continue;
     }
     dropped_bytes_ += skipped;
     skipped = 0;
-    const auto bytes = ahead(whole);
-    at_ += whole;
+    const auto bytes = in_.ahead(whole);
+    in_.use(whole);
     wire::ByteReader reader(bytes);
     const bool is_loss = reader.get<std::uint8_t>() == kLossMark;
     reader.get<std::uint16_t>();
@@ -135,7 +115,7 @@ std::optional<StreamChunk> StreamReader::next() {
     return chunk;
   }
   dropped_bytes_ += skipped;
-  cut_off_ = cut_off_ || skipped > 0 || source_.cut_off();
+  cut_off_ = cut_off_ || skipped > 0 || in_.cut_off();
   return std::nullopt;
 }
 

@@ -6,10 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "host/record/stream_format.hpp"
-#include "host/table/byte_source.hpp"
+#include "host/table/lookahead.hpp"
 
 namespace pharos::host {
 
@@ -38,7 +37,7 @@ class StreamReader {
   std::uint64_t bad_times() const { return bad_times_; }
   /// Bytes of the stream that the recorder marked as lost.
   std::uint64_t lost_bytes() const { return lost_bytes_; }
-  const std::string& name() const { return source_.name(); }
+  const std::string& name() const { return in_.name(); }
 
   /// Whether the first bytes of an input are the signature of a recording.
   static bool looks_like(std::string_view first_bytes);
@@ -46,17 +45,12 @@ class StreamReader {
   static constexpr std::size_t kHeaderBytes = stream_format::kMagic.size();
 
  private:
-  bool fill(std::size_t count);
-  std::span<const std::uint8_t> ahead(std::size_t count) const;
   std::size_t whole_chunk_size();
   void read_header();
   bool credible(const StreamChunk& chunk) const;
 
-  ByteSource source_;
+  Lookahead in_;
   StreamHeader header_;
-  std::vector<std::uint8_t> buffer_;  // [at_, end): read and not yet used
-  std::size_t at_ = 0;
-  bool ended_ = false;
   bool cut_off_ = false;
   std::uint64_t dropped_bytes_ = 0;
   std::uint64_t lost_bytes_ = 0;

@@ -51,7 +51,6 @@ class StreamRecorder {
   void append_chunk(std::span<const std::uint8_t> bytes, std::int64_t utc_ns, std::int64_t monotonic_ns);
   bool ready(std::int64_t utc_ns, std::int64_t monotonic_ns);
   bool open_file(std::int64_t utc_ns, std::int64_t monotonic_ns);
-  bool write_all(std::span<const std::uint8_t> bytes);
   void fail(const std::string& doing, int error, std::int64_t monotonic_ns);
   void close_file();
 
