@@ -7,6 +7,7 @@
 
 #include "host/daemon/port_feed.hpp"
 #include "host/daemon/replay_feed.hpp"
+#include "host/record/recording_file.hpp"
 #include "host/support/input_error.hpp"
 
 namespace pharos::host {
@@ -69,8 +70,9 @@ std::unique_ptr<ByteFeed> LighthouseFeed::open(const TargetConfig& config) {
     context_.on_finished();
   };
   if (config.is_replay()) {
-    return std::make_unique<ReplayFeed>(context_.loop, context_.clock, config.name, config.replay_file().string(),
-                                        context_.replay_speed, std::move(events));
+    return std::make_unique<ReplayFeed>(context_.loop, *context_.replay, config.name,
+                                        recording_files(config.replay_file(), config.name, kStreamSuffix),
+                                        std::move(events));
   }
   return std::make_unique<PortFeed>(context_.loop, context_.clock, config.name, config.port, config.baud,
                                     std::move(events));

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
-#include "host/daemon/replay_speed.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/runtime/clock.hpp"
 #include "host/runtime/event_loop.hpp"
+#include "host/runtime/replay_timeline.hpp"
 
 namespace pharos::host {
 
@@ -61,6 +61,8 @@ struct SourceContext {
   std::function<void()> on_finished = [] {};
   /// To be called for a change that must be reported without delay: publishes the status at once.
   std::function<void()> on_state_change = [] {};
+  /// Of all recordings that are played, so that they keep step.
+  std::shared_ptr<ReplayTimeline> replay = std::make_shared<ReplayTimeline>(clock, replay_speed);
 };
 
 /// A kind of source.

@@ -43,7 +43,8 @@ class ReplayFeedTest : public ::testing::Test {
 };
 
 TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
-  ReplayFeed feed(loop_, clock_, "dock", recording({0, 6 * kDay_ns}), ReplaySpeed::kReal, events());
+  ReplayTimeline timeline(clock_, ReplaySpeed::kReal);
+  ReplayFeed feed(loop_, timeline, "dock", {recording({0, 6 * kDay_ns})}, events());
   feed.attend(0);
   while (arrivals_.empty()) loop_.turn(1000);
   EXPECT_EQ(count(feed, "replay.silences_cut"), 1);
@@ -51,7 +52,8 @@ TEST_F(ReplayFeedTest, ASilenceOfDaysIsCutAtRealSpeed) {
 
 TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
   const std::string file = recording({0, 40'000 * kDay_ns, 10, 5, 20, std::numeric_limits<std::int64_t>::min(), 30});
-  ReplayFeed feed(loop_, clock_, "dock", file, ReplaySpeed::kReal, events());
+  ReplayTimeline timeline(clock_, ReplaySpeed::kReal);
+  ReplayFeed feed(loop_, timeline, "dock", {file}, events());
   clock_.step_at_readings(1000);
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
@@ -61,7 +63,8 @@ TEST_F(ReplayFeedTest, ImpossibleTimesAreCountedAndTheRestIsPlayed) {
 }
 
 TEST_F(ReplayFeedTest, AtFullSpeedNothingIsWaitedFor) {
-  ReplayFeed feed(loop_, clock_, "dock", recording({0, 6 * kDay_ns, 9 * kDay_ns}), ReplaySpeed::kFastest, events());
+  ReplayTimeline timeline(clock_, ReplaySpeed::kFastest);
+  ReplayFeed feed(loop_, timeline, "dock", {recording({0, 6 * kDay_ns, 9 * kDay_ns})}, events());
   feed.attend(0);
   while (!finished_) loop_.turn(1000);
   EXPECT_EQ(arrivals_.size(), 3u);
