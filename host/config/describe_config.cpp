@@ -34,7 +34,10 @@ void describe_recording(std::ostream& out, const std::optional<RecordingConfig>&
   }
   out << "recording: " << recording->directory.string() << ", a new file every "
       << static_cast<double>(recording->rotate_bytes) / (1 << 20) << " MiB or " << recording->rotate_s / 60.0
-      << " minutes\n";
+      << " minutes; cameras "
+      << (recording->cameras ? "too, the newest " + std::to_string(recording->camera_limit_bytes >> 30) + " GiB of each"
+                             : std::string("not"))
+      << "\n";
 }
 
 void describe_target(std::ostream& out, const TargetConfig& target) {

@@ -12,7 +12,9 @@
 
 #include "host/device/frame_directory.hpp"
 #include "host/device/pair_names.hpp"
+#include "host/frame_record/frame_reader.hpp"
 #include "host/images/grey_image.hpp"
+#include "host/record/recording_file.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/stations/network_file.hpp"
 #include "host/support/input_error.hpp"
@@ -27,9 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Opening a pipe would block, and a folder or a device is not a recording.
-void check_recording(const fs::path& file) {
+// Opening a pipe would block, and a device is not a recording.
+void check_recording(const fs::path& place, const std::string& target) {
   std::error_code error;
+  const std::vector<fs::path> files = recording_files(place, target, kStreamSuffix);
+  if (files.empty()) throw InputError(place.string() + ": has no recording of target \"" + target + "\"");
+  const fs::path& file = files.front();
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw InputError(file.string() + ": is not a file; give a recording made by pharosd's [recording]");
   }
@@ -52,8 +57,20 @@ void require_size(const std::string& file, const GreyImage& image, const Pinhole
                    std::to_string(intrinsics.height_px) + "; name the rig file of these cameras");
 }
 
+// Whether they are of this camera's size is seen when they are opened.
+void check_frame_recording(const fs::path& place, const std::string& camera) {
+  const std::vector<fs::path> files = recording_files(place, camera, kFramesSuffix);
+  if (files.empty()) throw InputError(place.string() + ": has no recording of camera \"" + camera + "\"");
+  const FrameReader reads_the_head{ByteSource(files.front().string())};
+}
+
 // Checks the first pair that can be read: unreadable pairs are skipped during the replay.
-void check_pairs(const fs::path& directory, const RigFile& rig) {
+void check_pairs(const fs::path& directory, const RigFile& rig, const std::string& name) {
+  if (is_frame_recording(directory, side_name(name, 0))) {
+    check_frame_recording(directory, side_name(name, 0));
+    check_frame_recording(directory, side_name(name, 1));
+    return;
+  }
   std::optional<InputError> first_error;
   for (const PairName& pair : pair_names_in(directory.string(), 1.0)) {
     std::array<GreyImage, 2> images;
@@ -70,7 +87,13 @@ void check_pairs(const fs::path& directory, const RigFile& rig) {
   throw InputError(*first_error);
 }
 
-void check_frames(const fs::path& directory) { static_cast<void>(FrameDirectory(directory.string())); }
+void check_frames(const fs::path& directory, const std::string& camera) {
+  if (is_frame_recording(directory, camera)) {
+    check_frame_recording(directory, camera);
+  } else {
+    static_cast<void>(FrameDirectory(directory.string()));
+  }
+}
 
 std::string identity(const std::string& path) {
   struct stat about {};

@@ -20,8 +20,9 @@ namespace pharos::host {
 struct Environment {
   /// Reads a target file; throws InputError.
   std::function<TargetFile(const std::string& path)> read_target;
-  /// Throws InputError unless the file is a readable recording of a serial stream.
-  std::function<void(const std::filesystem::path& file)> check_recording;
+  /// Throws InputError unless the file is a readable recording of a serial stream, or the directory has one of
+  /// `target`.
+  std::function<void(const std::filesystem::path& file, const std::string& target)> check_recording;
   /// An identity that is the same for all paths of one port or file: symbolic links, `..`, two device nodes.
   std::function<std::string(const std::string& path)> identity;
   /// Reads a calibration file; throws InputError. If not set, there is none.
@@ -29,8 +30,9 @@ struct Environment {
 
   /// Reads a camera file; throws InputError. If not set, there is none.
   std::function<CameraFile(const std::string& path)> read_camera = no_camera;
-  /// Throws InputError unless there are recorded frames in the directory. If not set, there are.
-  std::function<void(const std::filesystem::path& directory)> check_frames = [](const std::filesystem::path&) {};
+  /// Throws InputError unless there are recorded frames of the camera in the directory. If not set, there are.
+  std::function<void(const std::filesystem::path& directory, const std::string& camera)> check_frames =
+      [](const std::filesystem::path&, const std::string&) {};
 
   /// Reads a rig file; throws InputError. If not set, there is none.
   std::function<RigFile(const std::string& path)> read_rig = no_rig;
@@ -41,8 +43,8 @@ struct Environment {
   /// `path` empty: the installed vocabulary.
   std::function<void(const std::string& path)> check_vocabulary = [](const std::string&) {};
   /// Throws InputError unless there are recorded pairs of this rig in the directory; reads the first one.
-  std::function<void(const std::filesystem::path& directory, const RigFile& rig)> check_pairs =
-      [](const std::filesystem::path&, const RigFile&) {};
+  std::function<void(const std::filesystem::path& directory, const RigFile& rig, const std::string& name)> check_pairs =
+      [](const std::filesystem::path&, const RigFile&, const std::string&) {};
   /// How a description of ring and connectors becomes one; throws InputError. Unless given, there is none.
   std::function<DockingTarget(const std::string& path)> read_docking_target = no_docking_target;
   /// The places of a configuration that cannot be used; see place_errors(). If not set, all can.

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxPrefix = 40;  // leaves 23 of LCM's 63 characters for the channel's own name
 constexpr double kMebibyte = 1 << 20;
+constexpr double kGibibyte = 1 << 30;
 constexpr double kSecondsPerMinute = 60.0;
 
 LcmConfig read_lcm(const TomlTable& table, ConfigErrors& errors) {
@@ -60,6 +61,12 @@ RecordingConfig read_recording(const TomlTable& table, const fs::path& folder, C
   errors.attempt([&] {
     recording.rotate_s =
         table.number_or("rotate_minutes", recording.rotate_s / kSecondsPerMinute, {0.01, 10'080.0}) * kSecondsPerMinute;
+  });
+  errors.attempt([&] { recording.cameras = table.boolean_or("cameras", recording.cameras); });
+  errors.attempt([&] {
+    const double default_gib = static_cast<double>(recording.camera_limit_bytes) / kGibibyte;
+    recording.camera_limit_bytes =
+        static_cast<std::uint64_t>(table.number_or("camera_limit_gib", default_gib, {0.1, 1e6}) * kGibibyte);
   });
   return recording;
 }
@@ -172,7 +179,7 @@ void read_port(const TomlTable& table, const fs::path& folder, const Environment
     target.port = TargetConfig::kReplayPrefix + (folder / target.replay_file()).string();
   }
   try {
-    environment.check_recording(target.replay_file());
+    environment.check_recording(target.replay_file(), target.name);
   } catch (const InputError& error) {
     table.fail("port", error.what());
   }

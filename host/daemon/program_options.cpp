@@ -11,7 +11,10 @@ void add_program_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("config", options.config, "Configuration (TOML)")->required();
   app.add_flag("--check", options.check,
                "Only check the configuration and what it names, and print what was understood");
-  app.add_option("--replay", options.replay, "Play a recorded serial stream instead of listening to its target's port");
+  app.add_option(
+      "--replay", options.replay,
+      "Play recordings instead of listening: a recorded serial stream, or a directory of recordings, in which "
+      "every target, camera and rig finds its own; all keep step");
   app.add_flag("--fast", options.fast,
                "Play recordings as fast as they can be worked on, not at real speed; a subscriber on the network does "
                "not keep up and misses messages: keep them all with [lcm] url = \"file:///FILE?mode=w\"");

@@ -3,8 +3,9 @@
 
 #include <utility>
 
-#include "host/camera_link/camera_source.hpp"
+#include "host/daemon/camera_input.hpp"
 #include "host/device/recorded_source.hpp"
+#include "host/record/recording_file.hpp"
 
 namespace pharos::host {
 namespace {
@@ -12,12 +13,18 @@ namespace {
 // Frame rate of the camera that `pharos sim tof` simulates, which is the Helios' highest.
 constexpr double kUsualRate_hz = 30.0;
 
-std::unique_ptr<FrameSource> frames_of(const TofConfig& config, ReplaySpeed speed) {
-  if (!config.is_recorded()) return open_camera(config.device);
+std::unique_ptr<FrameSource> frames_of(const SourceContext& context, const TofConfig& config) {
+  if (!config.is_recorded()) return open_recorded_camera(context, config.device, config.name);
+  if (auto replayed = replayed_camera(context, config.frames, config.device, config.name)) return replayed;
   const double asked_hz = config.device.frame_rate_hz;
   const double rate_hz = asked_hz > 0.0 ? asked_hz : kUsualRate_hz;
   return std::make_unique<RecordedSource>(config.frames.string(), config.device.width_px, config.device.height_px,
-                                          speed == ReplaySpeed::kFastest ? 0.0 : rate_hz);
+                                          context.replay_speed == ReplaySpeed::kFastest ? 0.0 : rate_hz);
+}
+
+// Frames of a recording have its times.
+const Clock& clock_of(const SourceContext& context, const TofConfig& config) {
+  return is_frame_recording(config.frames, config.name) ? static_cast<const Clock&>(*context.replay) : context.clock;
 }
 
 }  // namespace
@@ -26,9 +33,10 @@ TofFeed::TofFeed(const SourceContext& context, const TofConfig& config)
     : context_(context),
       name_(config.name),
       state_log_(config.name),
-      frames_(frames_of(config, context.replay_speed)),
+      clock_(clock_of(context, config)),
+      frames_(frames_of(context, config)),
       estimator_(config.camera, config.tof),
-      pipeline_(config, context.config.publish, "tof/" + config.name, context.publisher, context.clock,
+      pipeline_(config, context.config.publish, "tof/" + config.name, context.publisher, clock_,
                 [this](const DepthFrame& frame) { return estimator_.measure(frame); }) {
   context_.loop.watch(frames_->fd(), [this] { on_readable(); });
 }
@@ -48,13 +56,16 @@ void TofFeed::on_readable() {
 
 void TofFeed::attend() {
   const FrameSourceStatus status = frames_->status();
-  const std::int64_t now_ns = context_.clock.monotonic_ns();
+  const std::int64_t now_ns = clock_.monotonic_ns();
   state_log_.update(frames_->device(), status, now_ns);
   if (pipeline_.state_changed(status, now_ns)) context_.on_state_change();
 }
 
 std::vector<SourceHealth> TofFeed::health() {
-  return {pipeline_.health(frames_->device(), frames_->status(), context_.clock.monotonic_ns())};
+  const FrameSourceStatus status = frames_->status();
+  SourceHealth health = pipeline_.health(frames_->device(), status, clock_.monotonic_ns());
+  add_recording(health.counters, "recording.", status);
+  return {std::move(health)};
 }
 
 std::size_t open_tof_feeds(const SourceContext& context, SourceList& sources) {

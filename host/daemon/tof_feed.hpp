@@ -24,7 +24,8 @@ class TofFeed final : public Source {
   void reconfigure() override { pipeline_.set_publish(context_.config.publish); }
   std::vector<SourceHealth> health() override;
   bool finished() const override { return finished_; }
-  std::string clock_notice() const override { return pipeline_.clock_notice(context_.clock.monotonic_ns()); }
+  std::string clock_notice() const override { return pipeline_.clock_notice(clock_.monotonic_ns()); }
+  StorageError storage_error() const override { return {"recording", frames_->storage_error()}; }
 
  private:
   void on_readable();
@@ -32,6 +33,7 @@ class TofFeed final : public Source {
   const SourceContext& context_;
   std::string name_;
   SourceStateLog state_log_;
+  const Clock& clock_;
   std::unique_ptr<FrameSource> frames_;
   TofEstimator estimator_;
   TofPipeline pipeline_;

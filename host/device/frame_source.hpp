@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -72,8 +73,18 @@ struct SourceStatus {
   bool finished = false;      // a recording has ended
 };
 
+/// Of a camera that is recorded, or that is played from a recording.
+struct FrameRecordingCounters {
+  std::int64_t frames = 0;         // written; of a replay: read
+  std::int64_t frames_lost = 0;    // the disk was too slow, full or gone; of a replay: missing or damaged
+  std::int64_t files = 0;          // begun
+  std::int64_t files_deleted = 0;  // the oldest, to keep the limit
+  std::int64_t failures = 0;       // to open, write, delete or read a file
+};
+
 struct FrameSourceStatus : SourceStatus {
   FrameSourceCounters counters;
+  std::optional<FrameRecordingCounters> recording;
 };
 
 /// A source of depth frames: a camera on the network, or recorded frames.
@@ -87,6 +98,8 @@ class FrameSource {
   virtual FrameSourceStatus status() const = 0;
   /// Readable name of its device.
   virtual std::string device() const = 0;
+  /// Why its frames are not recorded, though they should be; empty otherwise.
+  virtual std::string storage_error() const { return {}; }
 };
 
 }  // namespace pharos::host

@@ -24,11 +24,11 @@ pharos::host::CameraFile a_camera() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const pharos::host::Environment nothing{[](const std::string&) { return pharos::host::TargetFile{}; },
-                                          [](const std::filesystem::path&) {},
+                                          [](const std::filesystem::path&, const std::string&) {},
                                           [](const std::string& path) { return path; },
                                           pharos::host::Environment::no_calibration,
                                           [](const std::string&) { return a_camera(); },
-                                          [](const std::filesystem::path&) {},
+                                          [](const std::filesystem::path&, const std::string&) {},
                                           [](const std::string&) { return pharos::host::RigFile{}; }};
   try {
     const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);

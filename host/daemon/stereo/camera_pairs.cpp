@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "host/daemon/camera_input.hpp"
 #include "host/daemon/health_parts.hpp"
 
 namespace pharos::host {
@@ -38,6 +39,11 @@ CameraPairs::CameraPairs(Cameras cameras, std::int64_t window_ns)
       }) {}
 
 std::string CameraPairs::device() const { return cameras_[0]->device() + " and " + cameras_[1]->device(); }
+
+std::string CameraPairs::storage_error() const {
+  const std::string left = cameras_[0]->storage_error();
+  return left.empty() ? cameras_[1]->storage_error() : left;
+}
 
 std::string CameraPairs::clock_notice(std::int64_t monotonic_ns) const {
   const std::string left = clock_steps_[0].notice(monotonic_ns);
@@ -100,10 +106,12 @@ PairSourceStatus CameraPairs::status() const {
   const std::array<FrameSourceStatus, 2> cameras{cameras_[0]->status(), cameras_[1]->status()};
   PairSourceStatus status;
   status.pairs.came = pairs_;
+  status.finished = cameras[0].finished && cameras[1].finished;
   status.state = rank(cameras[0].state) < rank(cameras[1].state) ? cameras[1].state : cameras[0].state;
   for (std::size_t side = 0; side < cameras.size(); ++side) {
     add(status.error, kSides[side], cameras[side].error);
     add(status.identity, kSides[side], cameras[side].identity);
+    add(status.remark, kSides[side], cameras[side].remark);
     // A frame lost on one side leaves one without a partner on the other: the worse side has lost the pairs.
     status.pairs.lost = std::max(status.pairs.lost, delivered(cameras[side].counters).lost + matcher_.unpaired(side));
     status.session += cameras[side].session;
@@ -133,6 +141,7 @@ NamedCounts CameraPairs::named_counts(const std::array<FrameSourceStatus, 2>& ca
     for_each_counter(cameras[side].counters, [&](const char* name, std::int64_t value) {
       counts.push_back({head + name, value});
     });
+    add_recording(counts, head + "recording.", cameras[side]);
     add_times(counts, head + "transport", transport_[side]);
     counts.push_back({head + "clock.by_ptp", clocks_[side].by_ptp() ? 1 : 0});
     counts.push_back({head + "clock.ptp_doubted", clocks_[side].ptp_doubted()});

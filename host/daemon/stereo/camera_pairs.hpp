@@ -26,6 +26,7 @@ class CameraPairs : public PairSource {
   void recycle(StereoPairPtr pair) override;
   PairSourceStatus status() const override;
   std::string device() const override;
+  std::string storage_error() const override;
   std::string clock_notice(std::int64_t monotonic_ns) const override;
 
  private:

@@ -34,6 +34,8 @@ class PairSource {
   virtual std::string device() const = 0;
   /// Readable notice that this computer's clock was recently set; empty otherwise.
   virtual std::string clock_notice(std::int64_t monotonic_ns) const = 0;
+  /// Why a camera is not recorded, though it should be; empty otherwise.
+  virtual std::string storage_error() const { return {}; }
 };
 
 }  // namespace pharos::host

@@ -5,20 +5,33 @@
 #include <cmath>
 #include <utility>
 
-#include "host/camera_link/camera_source.hpp"
+#include "host/daemon/camera_input.hpp"
 #include "host/daemon/stereo/camera_pairs.hpp"
 #include "host/daemon/stereo/recorded_pairs.hpp"
 #include "host/daemon/stereo/ring2_estimator.hpp"
 #include "host/daemon/stereo/slam_estimator.hpp"
+#include "host/record/recording_file.hpp"
+#include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
 
+bool replays_cameras(const StereoConfig& config) {
+  return config.is_recorded() && is_frame_recording(config.frames, side_name(config.name, 0));
+}
+
 std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoConfig& config) {
-  if (!config.is_recorded()) {
-    return std::make_unique<CameraPairs>(
-        CameraPairs::Cameras{open_camera(config.devices[0]), open_camera(config.devices[1])},
-        std::llround(config.pairing_window_s * 1e9));
+  if (!config.is_recorded() || replays_cameras(config)) {
+    CameraPairs::Cameras cameras;
+    for (std::size_t side = 0; side < cameras.size(); ++side) {
+      const std::string name = side_name(config.name, side);
+      CameraSettings settings = config.devices[side];
+      if (config.is_recorded()) settings.format = CameraFormat::kMono16;  // grey of either depth is recorded so
+      cameras[side] = config.is_recorded() ? replayed_camera(context, config.frames, settings, name)
+                                           : open_recorded_camera(context, settings, name);
+      if (!cameras[side]) throw InputError(config.frames.string() + ": has no recording of " + name);
+    }
+    return std::make_unique<CameraPairs>(std::move(cameras), std::llround(config.pairing_window_s * 1e9));
   }
   RecordedPairs::Options options;
   options.fastest = context.replay_speed == ReplaySpeed::kFastest;
@@ -32,22 +45,42 @@ std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoC
 }  // namespace
 
 StereoFeed::StereoFeed(const SourceContext& context, const StereoConfig& config)
-    : context_(context), name_(config.name), state_log_(config.name), pairs_(pairs_of(context, config)) {
+    : context_(context),
+      name_(config.name),
+      state_log_(config.name),
+      clock_(replays_cameras(config) ? static_cast<const Clock&>(*context.replay) : context.clock),
+      pairs_(pairs_of(context, config)) {
   if (config.ring2) add_system(config, "ring2/", std::make_shared<Ring2Estimator>(config.rig));
   if (config.slam) add_system(config, "slam/", std::make_shared<SlamEstimator>(config));
-  for (const int fd : pairs_->fds()) context_.loop.watch(fd, [this] { on_readable(); });
+  watch_pairs();
 }
 
 StereoFeed::~StereoFeed() {
-  for (const int fd : pairs_->fds()) context_.loop.forget(fd);
+  forget_pairs();
   for (const auto& system : systems_) context_.loop.forget(system->worker.fd());
+}
+
+void StereoFeed::watch_pairs() {
+  if (watched_) return;
+  watched_ = true;
+  for (const int fd : pairs_->fds()) context_.loop.watch(fd, [this] { on_readable(); });
+}
+
+void StereoFeed::forget_pairs() {
+  if (!watched_) return;
+  watched_ = false;
+  for (const int fd : pairs_->fds()) context_.loop.forget(fd);
+}
+
+bool StereoFeed::idle() const {
+  return std::all_of(systems_.begin(), systems_.end(), [](const auto& system) { return system->worker.idle(); });
 }
 
 void StereoFeed::add_system(const StereoConfig& config, const char* word,
                             const std::shared_ptr<PairEstimator>& estimator) {
-  systems_.push_back(std::unique_ptr<System>(new System{
-      StereoPipeline(config, context_.config.publish, word + config.name, context_.publisher, context_.clock),
-      pair_worker(estimator)}));
+  systems_.push_back(std::unique_ptr<System>(
+      new System{StereoPipeline(config, context_.config.publish, word + config.name, context_.publisher, clock_),
+                 pair_worker(estimator)}));
   System& system = *systems_.back();
   context_.loop.watch(system.worker.fd(), [this, &system] { on_results(system); });
 }
@@ -62,6 +95,8 @@ void StereoFeed::on_readable() {
       }
     }
     release(std::move(pair));
+    // At full speed a recording waits until its pair is measured; it would be dropped for the next one.
+    if (context_.replay_speed == ReplaySpeed::kFastest && !idle()) forget_pairs();
   }
   finish_when_all_answered();
 }
@@ -71,6 +106,7 @@ void StereoFeed::on_results(System& system) {
     system.pipeline.done(*done, !clock_notice().empty());
     release(std::move(done->job));
   }
+  if (idle()) watch_pairs();
   finish_when_all_answered();
 }
 
@@ -82,13 +118,13 @@ void StereoFeed::release(StereoPairPtr pair) {
 
 void StereoFeed::finish_when_all_answered() {
   if (finished_ || !pairs_->status().finished) return;
-  finished_ = std::all_of(systems_.begin(), systems_.end(), [](const auto& system) { return system->worker.idle(); });
+  finished_ = idle();
   if (finished_) context_.on_finished();
 }
 
 void StereoFeed::attend() {
   const PairSourceStatus status = pairs_->status();
-  const std::int64_t now_ns = context_.clock.monotonic_ns();
+  const std::int64_t now_ns = clock_.monotonic_ns();
   state_log_.update(pairs_->device(), status, now_ns);
   bool changed = false;
   for (const auto& system : systems_) changed = system->pipeline.state_changed(status, now_ns) || changed;
@@ -99,7 +135,7 @@ std::vector<SourceHealth> StereoFeed::health() {
   std::vector<SourceHealth> all;
   const PairSourceStatus status = pairs_->status();
   for (const auto& system : systems_) {
-    all.push_back(system->pipeline.health(pairs_->device(), status, context_.clock.monotonic_ns()));
+    all.push_back(system->pipeline.health(pairs_->device(), status, clock_.monotonic_ns()));
   }
   return all;
 }

@@ -28,7 +28,8 @@ class StereoFeed final : public Source {
   }
   std::vector<SourceHealth> health() override;
   bool finished() const override { return finished_; }
-  std::string clock_notice() const override { return pairs_->clock_notice(context_.clock.monotonic_ns()); }
+  std::string clock_notice() const override { return pairs_->clock_notice(clock_.monotonic_ns()); }
+  StorageError storage_error() const override { return {"recording", pairs_->storage_error()}; }
 
  private:
   struct System {
@@ -37,6 +38,9 @@ class StereoFeed final : public Source {
   };
 
   void add_system(const StereoConfig& config, const char* word, const std::shared_ptr<PairEstimator>& estimator);
+  void watch_pairs();
+  void forget_pairs();
+  bool idle() const;
   void on_readable();
   void on_results(System& system);
   void release(StereoPairPtr pair);
@@ -45,7 +49,9 @@ class StereoFeed final : public Source {
   const SourceContext& context_;
   std::string name_;
   SourceStateLog state_log_;
+  const Clock& clock_;
   std::unique_ptr<PairSource> pairs_;
+  bool watched_ = false;  // the pairs' descriptors by the loop
   std::vector<std::unique_ptr<System>> systems_;
   bool finished_ = false;
 };

@@ -85,5 +85,29 @@ TEST_F(PharosdTofTest, MeasuresRecordedFrames) {
   EXPECT_EQ(daemon.counter("frames_ok", "client"), kFrames);
 }
 
+TEST_F(StationaryTofTest, ARecordedCameraIsReplayedWithTheSamePoses) {
+  serve();
+  start(kByAddress, "[recording]\ndirectory = 'raw'\ncameras = true\n");
+  ASSERT_TRUE(poses_come(10)) << daemon.process().text();
+  EXPECT_GT(daemon.counter("recording.frames", "client"), 0);
+  EXPECT_EQ(daemon.counter("recording.frames_lost", "client"), 0);
+  daemon.process().signal(SIGTERM);
+  ASSERT_EQ(daemon.process().wait_exit(), 0);
+  daemon.wait([] { return false; }, 0.1);
+  const std::vector<pose_t> live = daemon.poses();
+
+  daemon.start({"--replay", (daemon.folder() / "raw").string()});
+  EXPECT_EQ(daemon.process().wait_exit(), 0) << "ends with the recording";
+  daemon.wait([] { return false; }, 0.1);
+  ASSERT_GE(daemon.poses().size(), 2 * live.size()) << "the last frames were recorded and, stopped, not measured";
+  for (std::size_t k = 0; k < live.size(); ++k) {
+    const pose_t& again = daemon.poses()[live.size() + k];
+    EXPECT_EQ(again.utime, live[k].utime);
+    EXPECT_EQ(again.status, live[k].status);
+    EXPECT_EQ(std::vector<double>(again.position_m, again.position_m + 3),
+              std::vector<double>(live[k].position_m, live[k].position_m + 3));
+  }
+}
+
 }  // namespace
 }  // namespace pharos::host

@@ -26,7 +26,7 @@ class EnvironmentTest : public ::testing::Test {
  protected:
   std::string path(const char* name) const { return (folder_.path() / name).string(); }
   std::string error_of_recording(const char* name) const {
-    return pharos::test::error_of([&] { real_.check_recording(path(name)); });
+    return pharos::test::error_of([&] { real_.check_recording(path(name), "dock"); });
   }
   std::vector<std::string> errors(const fs::path& state, const fs::path& recording) const {
     DaemonConfig config;
@@ -61,12 +61,13 @@ TEST_F(EnvironmentTest, PairsAreHeldToTheRigByTheFirstThatCanBeRead) {
   for (const char* name : {"0_left.pgm", "0_right.pgm", "1_left.pgm"}) write(name, "P5\n2 1\n255\nAB");
   write("1_right.pgm", "P5\n1 1\n255\nA");
   write("0_right.pgm", "no image");
-  EXPECT_THROW(real_.check_pairs(folder_.path(), rig), InputError) << "the second right image is of another size";
+  EXPECT_THROW(real_.check_pairs(folder_.path(), rig, "front"), InputError)
+      << "the second right image is of another size";
   write("1_right.pgm", "P5\n2 1\n255\nAB");
-  EXPECT_NO_THROW(real_.check_pairs(folder_.path(), rig));
+  EXPECT_NO_THROW(real_.check_pairs(folder_.path(), rig, "front"));
   write("1_left.pgm", "");
   try {
-    real_.check_pairs(folder_.path(), rig);
+    real_.check_pairs(folder_.path(), rig, "front");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("0_right.pgm: is no PNG"));
@@ -87,11 +88,11 @@ TEST_F(EnvironmentTest, ARecordingIsOpenedAndItsHeadRead) {
   EXPECT_THAT(error_of_recording("damaged"), HasSubstr("head of this recording is damaged"));
 }
 
-TEST_F(EnvironmentTest, APipeOrAFolderIsRefusedAtOnce) {
+TEST_F(EnvironmentTest, APipeOrAFolderWithoutRecordingsIsRefusedAtOnce) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);  // opening it would wait for a writer
   EXPECT_THAT(error_of_recording("pipe"), HasSubstr("is not a file"));
   fs::create_directory(path("folder"));
-  EXPECT_THAT(error_of_recording("folder"), HasSubstr("is not a file"));
+  EXPECT_THAT(error_of_recording("folder"), HasSubstr("has no recording of target \"dock\""));
 }
 
 TEST_F(EnvironmentTest, EverySpellingOfAPortIsTheSame) {

@@ -46,7 +46,7 @@ inline DockingTarget a_docking_target(const std::string& path, std::size_t conne
 inline Environment made_up() {
   return {
       any_target,
-      [](const std::filesystem::path& file) {
+      [](const std::filesystem::path& file, const std::string&) {
         if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
       },
       [](const std::string& path) { return path == "/dev/left" || path == "/dev/right" ? "one" : path; },
@@ -62,14 +62,14 @@ inline Environment made_up() {
         file.camera.intrinsics.height_px = 480;
         return file;
       },
-      [](const std::filesystem::path& directory) {
+      [](const std::filesystem::path& directory, const std::string&) {
         if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
       },
       a_rig,
       [](const RigFile&) {},
       [](const RigFile&, const std::string&) {},
       [](const std::string&) {},
-      [](const std::filesystem::path&, const RigFile&) {},
+      [](const std::filesystem::path&, const RigFile&, const std::string&) {},
       [](const std::string& path) { return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2); }};
 }
 

@@ -138,7 +138,9 @@ TEST(StereoConfig, PassesOnWhatARigAVocabularyOrPairsAreNoGoodFor) {
   environment.check_vocabulary = [&](const std::string& path) {
     if (!path.empty()) no((path + ": cut short").c_str());
   };
-  environment.check_pairs = [&](const std::filesystem::path&, const RigFile&) { no("0000_left.png: has 2 x 2"); };
+  environment.check_pairs = [&](const std::filesystem::path&, const RigFile&, const std::string&) {
+    no("0000_left.png: has 2 x 2");
+  };
   const auto refusal = [&](const std::string& text) -> std::string {
     try {
       parse_daemon_config(text, "p.toml", "/etc/pharos", environment);

@@ -11,6 +11,8 @@
 #include <functional>
 #include <optional>
 
+#include "host/frame_record/frame_recorder.hpp"
+#include "host/record/recording_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_pose.hpp"
 #include "pharos/pose_t.hpp"
@@ -257,6 +259,58 @@ TEST(RingPose, TakesTiltCentreAndTheSecondSolutionIntoTheTargetsFrame) {
   EXPECT_DOUBLE_EQ(pose.residual_rms, 5e-4);
   ASSERT_TRUE(pose.ambiguous());
   EXPECT_EQ(pose.second->pose.R, Matrix3(Vector3(1.0, -1.0, -1.0).asDiagonal())) << "facing: no angle at all";
+}
+
+// Both cameras as [recording] writes them, each with a clock of its own, the right one's frames 4 ms later complete.
+void record_cameras(const fs::path& folder, const pharos::test::PaintedRig& painted, int pairs) {
+  constexpr std::int64_t kUtc_ns = 1'700'000'000'000'000'000, kPeriod_ns = 100'000'000, kTransport_ns = 9'000'000;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const GreyImage image = painted.image(pharos::test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg), side, 7);
+    FrameRecorderOptions options;
+    options.directory = folder;
+    options.camera = side_name("bow", side);
+    FrameRecorder recorder(options);
+    for (int k = 0; k < pairs; ++k) {
+      DepthFrame frame;
+      frame.width_px = image.width_px;
+      frame.height_px = image.height_px;
+      frame.intensity = image.pixels;
+      frame.session = 1;
+      frame.camera_ns = static_cast<std::int64_t>(side + 1) * 77'000'000'000 + k * kPeriod_ns;
+      frame.arrival_utc_ns = kUtc_ns + k * kPeriod_ns;
+      frame.arrival_monotonic_ns = 500'000'000'000 + k * kPeriod_ns;
+      frame.complete_monotonic_ns =
+          frame.arrival_monotonic_ns + kTransport_ns + static_cast<std::int64_t>(side) * 4'000'000;
+      recorder.append(frame);
+      while (recorder.counters().frames <= k) ::usleep(100);
+    }
+  }
+}
+
+TEST_F(StereoFeedTest, CamerasAreReplayedAsTheyWereRecorded) {
+  constexpr int kPairs = 12;
+  record_cameras(folder, painted, kPairs);
+  play();
+  const std::vector<pose_t> first = poses();
+  EXPECT_EQ(counter("device.pairs") + counter("device.frames_no_clock") / 2, kPairs) << "as with the cameras themselves";
+  EXPECT_EQ(counter("device.pairs"), static_cast<std::int64_t>(first.size())) << "at full speed none is left out";
+  EXPECT_EQ(counter("left.recording.frames"), kPairs);
+  EXPECT_EQ(counter("left.recording.frames_lost"), 0);
+  ASSERT_GE(first.size(), 10u);
+  for (const pose_t& pose : first) EXPECT_EQ(pose.status, "ok");
+  EXPECT_NEAR(static_cast<double>(first.back().utime - first.front().utime),
+              1e5 * static_cast<double>(first.size() - 1), 1e3)
+      << "the recorded times";
+  test::SourceBench again;
+  feed.emplace(again.context, config);
+  again.run_until(*feed, [&] { return again.finished; });
+  const std::vector<pose_t> second = again.sink.all<pose_t>("PHAROS_RING2_POSE");
+  ASSERT_EQ(second.size(), first.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(second[k].utime, first[k].utime);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(second[k].position_m[i], first[k].position_m[i]) << "bit by bit";
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(second[k].orientation_wxyz[i], first[k].orientation_wxyz[i]);
+  }
 }
 
 }  // namespace
