@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // pharos fuse: pose tables of all sources to one state of the target in the vehicle's frame.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "host/fusion/target_fuser.hpp"
 #include "host/mounting/mounting_file.hpp"
 #include "host/support/input_error.hpp"
-#include "pharos/fusion/target_estimator.hpp"
 #include "tools/fuse/fused_rows.hpp"
 #include "tools/fuse/fused_tables.hpp"
 #include "tools/fuse/truth_errors.hpp"
@@ -37,7 +38,8 @@ struct FuseOptions {
   std::string format = "csv";
   double rate_hz = 20.0;
   host::SourceTableChoice table;
-  FuseChoices choices;
+  host::FusionChoices choices;
+  std::vector<double> inertia{1.0, 1.0, 1.0};
   OutputOptions output;
 };
 
@@ -105,42 +107,49 @@ void remark_refusals(const fusion::TargetEstimator& estimator, const FusedTables
 int run(const FuseOptions& options) {
   if (options.output.path != "-") require_writable(options.output.path);
   const host::Mounting mounting = host::read_mounting_file(options.mounting);
-  const FusedTables tables = read_fused_tables(options.tables, mounting, options.choices, options.table);
-  const auto estimator = std::make_unique<fusion::TargetEstimator>(tables.settings);
-  FuseOutput output(options, tables.names);
+  const FusedTables tables = read_fused_tables(options.tables, mounting, options.table);
+  host::FusionChoices choices = options.choices;
+  std::copy_n(options.inertia.begin(), choices.inertia.size(), choices.inertia.begin());
+  host::TargetFuser fuser(tables.sources, choices);
+  const fusion::TargetEstimator& estimator = fuser.estimator();
+  FuseOutput output(options, fuser.names());
   std::int64_t look = 0;
   const double first_s = tables.poses.front().arrival_s;
   const auto look_s = [&] { return first_s + static_cast<double>(look) / options.rate_hz; };
   for (const ArrivedPose& pose : tables.poses) {
     for (; options.rate_hz > 0.0 && look_s() < pose.arrival_s; ++look) {
       // Nothing has been heard for so long that there is nothing to tell until the next pose.
-      if (pose.arrival_s - look_s() > 2.0 * tables.settings.detection.coasting_s &&
-          !estimator->state(std::llround(look_s() * 1e9)).valid) {
+      if (pose.arrival_s - look_s() > 2.0 * estimator.settings().detection.coasting_s &&
+          !fuser.state(std::llround(look_s() * 1e9)).valid) {
         look = static_cast<std::int64_t>(std::floor((pose.arrival_s - first_s) * options.rate_hz));
         continue;
       }
-      output.write(estimator->state(std::llround(look_s() * 1e9)));
+      output.write(fuser.state(std::llround(look_s() * 1e9)));
     }
-    const fusion::Outcome outcome = estimator->push(pose.measurement);
+    const fusion::Outcome outcome = fuser.push(pose.source, pose.row);
     if (options.rate_hz == 0.0 && outcome.refusal == fusion::Refusal::kNone) {
-      output.write(estimator->state(estimator->newest_ns()));
+      output.write(fuser.state(estimator.newest_ns()));
     }
   }
-  remark_refusals(*estimator, tables);
+  remark_refusals(estimator, tables);
   return output.finish();
 }
 
-void add_choices(CLI::App& command, FuseChoices& choices) {
-  const auto positive = CLI::Range(1e-15, 1e6);
+CLI::Range within(host::ChoiceRange range) { return {range.min, range.max}; }
+
+void add_choices(CLI::App& command, FuseOptions& options) {
+  host::FusionChoices& choices = options.choices;
+  const auto positive = within(host::kPositiveRange);
+  const std::vector<std::string> motions(host::kMotionWords.begin(), host::kMotionWords.end());
   command.add_option("--motion", choices.motion, "How the target moves: free, orbit, tumbling or tumbling_orbit")
-      ->check(CLI::IsMember({"free", "orbit", "tumbling", "tumbling_orbit"}))
+      ->check(CLI::IsMember(motions))
       ->capture_default_str();
   command
       .add_option("--mean-motion-rad-s", choices.mean_motion_rad_s,
                   "orbit: of the orbit, whose radial, along-track and normal axes are the vehicle's x, y, z")
-      ->check(CLI::Range(1e-6, 0.01))
+      ->check(within(host::kMeanMotionRange))
       ->capture_default_str();
-  command.add_option("--inertia", choices.inertia, "tumbling: ratios of the moments about the target's x, y, z")
+  command.add_option("--inertia", options.inertia, "tumbling: ratios of the moments about the target's x, y, z")
       ->expected(3)
       ->delimiter(',');
   command.add_option("--acceleration-density", choices.acceleration_density, "Of white acceleration, m^2/s^3")
@@ -150,17 +159,17 @@ void add_choices(CLI::App& command, FuseChoices& choices) {
       ->check(positive)
       ->capture_default_str();
   command.add_option("--bias-deg", choices.bias_deg, "1 sigma of each source's own slow error")
-      ->check(CLI::Range(1e-6, 90.0))
+      ->check(within(host::kBiasDegRange))
       ->capture_default_str();
   command.add_option("--bias-mm", choices.bias_mm, "The same of the position")
-      ->check(CLI::Range(1e-6, 1e5))
+      ->check(within(host::kBiasMmRange))
       ->capture_default_str();
   command.add_option("--bias-time-s", choices.bias_time_s, "Its time constant")->check(positive)->capture_default_str();
   command.add_option("--risk-per-hour", choices.risk_per_hour, "That the truth is outside of the protection level")
-      ->check(CLI::Range(1e-12, 0.1))
+      ->check(within(host::kRiskRange))
       ->capture_default_str();
   command.add_option("--faults-per-hour", choices.faults_per_hour, "Expected, of each kind and source")
-      ->check(CLI::Range(0.0, 1e3))
+      ->check(within(host::kFaultsRange))
       ->capture_default_str();
 }
 
@@ -182,7 +191,7 @@ void add_fuse(CLI::App& app, int& exit_code) {
   command->add_option("--frame-rate", options->table.rate_hz, "Of tables that count frames, Hz")
       ->check(CLI::Range(1e-3, 1e4));
   command->add_option("--station", options->table.station, "Of a lighthouse table with several");
-  add_choices(*command, options->choices);
+  add_choices(*command, *options);
   add_output_options(*command, options->output);
   command->footer(kFuseExample);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -5,29 +5,27 @@
 #include <vector>
 
 #include "host/mounting/source_table.hpp"
-#include "pharos/fusion/measurement.hpp"
-#include "tools/fuse/fuse_settings.hpp"
 
 namespace pharos::tools {
 
-/// A pose of any source, on the vehicle's clock.
+/// A pose of any source.
 struct ArrivedPose {
-  double arrival_s = 0.0;  // its own time where the table does not say more
-  fusion::Measurement measurement;
+  double arrival_s = 0.0;  // on the vehicle's clock; its own time where the table does not say more
+  std::size_t source = 0;
+  host::SourceRow row;
 };
 
-/// All sources' poses by arrival, and the fusion's settings.
+/// All sources' poses by arrival.
 struct FusedTables {
-  fusion::Settings settings;
-  std::vector<std::string> names;  // of the sources
+  std::vector<host::SourceMounting> sources;
   std::vector<ArrivedPose> poses;
   std::size_t refused = 0;  // rows without a pose
 };
 
-/// Reads `[NAME=]TABLE` arguments; without NAME the file's name up to its first dot is the source's. `rate_hz` is that
-/// of tables that count frames. Throws host::InputError: a source that the mounting does not have, one given twice,
-/// more than fusion::kMaxSources, a table without a pose, settings that no rig has.
+/// Reads `[NAME=]TABLE` arguments; without NAME the file's name up to its first dot is the source's. Throws
+/// host::InputError: a source that the mounting does not have, one given twice, a table without a pose, a time beyond
+/// 4e9 s.
 FusedTables read_fused_tables(const std::vector<std::string>& tables, const host::Mounting& mounting,
-                              const FuseChoices& choices, const host::SourceTableChoice& table_choice);
+                              const host::SourceTableChoice& table_choice);
 
 }  // namespace pharos::tools

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "pharos/geometry/positive_inverse.hpp"
+
 namespace pharos::fusion {
 namespace {
 
@@ -31,6 +33,23 @@ void TargetEstimator::reset() {
   heard_ = {};
   ahead_run_ = {};
   started_ = false;
+}
+
+bool TargetEstimator::set_bias_covariance(std::uint8_t source, const Matrix6& covariance) {
+  if (source >= settings_.sources.size() || heard_[source]) return false;
+  if (!covariance.allFinite() || !positive_inverse<6>(covariance)) return false;
+  settings_.sources[source].bias_covariance = covariance;
+  reset_bias(current_, source);
+  for (FusionState& snapshot : snapshots_) reset_bias(snapshot, source);
+  return true;
+}
+
+// Filters that have not used the source hold the covariance of before.
+void TargetEstimator::reset_bias(FusionState& state, std::uint8_t source) const {
+  if (state.main.valid()) state.main.reset_bias(source, settings_);
+  for (Filter& filter : state.without) {
+    if (filter.valid()) filter.reset_bias(source, settings_);
+  }
 }
 
 void TargetEstimator::begin(std::int64_t time_ns) {

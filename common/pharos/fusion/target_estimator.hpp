@@ -29,6 +29,9 @@ class TargetEstimator {
   TargetEstimator& operator=(const TargetEstimator&) = delete;
 
   Outcome push(const Measurement& measurement);
+  /// Sets a source's bias covariance before its first measurement: what a mounting leaves depends on where the target
+  /// is. False, and nothing changed, where the source was heard or the matrix is not positive definite.
+  bool set_bias_covariance(std::uint8_t source, const Matrix6& covariance);
   /// Predicted to `time_ns` with the covariance of the prediction.
   TargetState state(std::int64_t time_ns) const { return core_.report(current_, time_ns); }
   /// Time of the newest measurement that was used or gated; 0 before the first.
@@ -41,6 +44,7 @@ class TargetEstimator {
   void reset();
 
  private:
+  void reset_bias(FusionState& state, std::uint8_t source) const;
   Refusal check_time(const Measurement& measurement);
   void begin(std::int64_t time_ns);
   Use process(const Measurement& measurement);

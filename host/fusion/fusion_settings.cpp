@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/fuse/fuse_settings.hpp"
+#include "host/fusion/fusion_settings.hpp"
 
 #include "pharos/base/units.hpp"
 
-namespace pharos::tools {
+namespace pharos::host {
 namespace {
 
 // A relative source's slow error is a random walk: what slam gains within one time constant.
@@ -23,11 +23,15 @@ Matrix6 diagonal(double rotation, double position) {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+Matrix6 own_bias(const FusionChoices& choices) {
+  return diagonal(choices.bias_deg / kDegPerRad, choices.bias_mm / kMmPerM);
+}
+
 // Errors of both fixed poses as one error of T_vehicle_sensor: e_sensor + A e_feature at the target's present pose.
-Matrix6 mounting_covariance(const host::SourceMounting& mounting, const host::SensorFromFeature& first) {
-  const host::VehicleFromSensor T_vehicle_sensor = mounting.vehicle_from_sensor();
-  const host::TargetFromFeature T_target_feature = *mounting.target_from_feature();
-  const host::VehicleFromTarget target = T_vehicle_sensor * first * T_target_feature.inverse();
+Matrix6 mounting_covariance(const SourceMounting& mounting, const TargetFromFeature& T_target_feature,
+                            const SensorFromFeature& first) {
+  const VehicleFromSensor T_vehicle_sensor = mounting.vehicle_from_sensor();
+  const VehicleFromTarget target = T_vehicle_sensor * first * T_target_feature.inverse();
   Matrix6 by_feature = Matrix6::Zero();  // error of T_vehicle_target by that of T_target_feature
   by_feature.topLeftCorner<3, 3>() = -target.R;
   by_feature.bottomLeftCorner<3, 3>() = -target.R * skew(T_target_feature.t);
@@ -46,7 +50,7 @@ Matrix6 mounting_covariance(const host::SourceMounting& mounting, const host::Se
 
 }  // namespace
 
-fusion::Settings fusion_settings(const FuseChoices& choices) {
+fusion::Settings fusion_settings(const FusionChoices& choices) {
   fusion::Settings settings;
   settings.motion.kind = motion_kind(choices.motion);
   settings.motion.mean_motion_rad_s = choices.mean_motion_rad_s;
@@ -57,10 +61,9 @@ fusion::Settings fusion_settings(const FuseChoices& choices) {
   return settings;
 }
 
-fusion::SourceSettings fused_source(const host::SourceMounting& mounting, const host::SensorFromFeature& first,
-                                    const FuseChoices& choices) {
+fusion::SourceSettings source_settings(const SourceMounting& mounting, const FusionChoices& choices) {
   fusion::SourceSettings out;
-  const host::VehicleFromSensor sensor = mounting.vehicle_from_sensor();
+  const VehicleFromSensor sensor = mounting.vehicle_from_sensor();
   out.T_vehicle_sensor = {sensor.R, sensor.t};
   out.bias_time_constant_s = choices.bias_time_s;
   out.time_sigma_s = mounting.time_offset_sigma_s;
@@ -73,9 +76,29 @@ fusion::SourceSettings fused_source(const host::SourceMounting& mounting, const 
     return out;
   }
   out.T_target_feature = {feature->R, feature->t};
-  out.bias_covariance =
-      diagonal(choices.bias_deg / kDegPerRad, choices.bias_mm / kMmPerM) + mounting_covariance(mounting, first);
+  out.bias_covariance = own_bias(choices);
   return out;
 }
 
-}  // namespace pharos::tools
+Matrix6 source_bias(const SourceMounting& mounting, const SensorFromFeature& first, const FusionChoices& choices) {
+  return own_bias(choices) + mounting_covariance(mounting, *mounting.target_from_feature(), first);
+}
+
+const char* words_of(fusion::SettingsError error) {
+  switch (error) {
+    case fusion::SettingsError::kNoAbsoluteSource:
+      return "no source whose feature is known on the target (T_target_feature)";
+    case fusion::SettingsError::kMotion:
+      return "motion: densities, mean motion (0 to 0.01 rad/s) or moments of inertia that no body has";
+    case fusion::SettingsError::kMounting:
+      return "a mounting that is no pose";
+    case fusion::SettingsError::kBiasModel:
+      return "a bias whose covariance or time constant is not positive";
+    case fusion::SettingsError::kProbability:
+      return "a probability or rate outside of its range";
+    default:
+      return "no source";
+  }
+}
+
+}  // namespace pharos::host
