@@ -11,6 +11,7 @@
 
 #include "host/calibrate/calibration_file.hpp"
 #include "host/cameras/rig_file.hpp"
+#include "host/config/vehicle_config.hpp"
 #include "host/device/camera_settings.hpp"
 #include "host/vision/slam/slam_settings.hpp"
 #include "pharos/camera/depth_camera.hpp"
@@ -144,7 +145,7 @@ struct LcmConfig {
   /// Default: multicast that never leaves this computer (ttl 0).
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, RING2_POSE, SLAM_POSE,
-  /// LINE_POINTING, STATUS.
+  /// LINE_POINTING, TARGET_STATE, STATUS.
   std::string channel_prefix = "PHAROS_";
 };
 
@@ -202,6 +203,8 @@ struct DaemonConfig : SourceConfigs {
   LcmConfig lcm;
   PublishConfig publish;
   std::optional<RecordingConfig> recording;
+  /// The state of one target from all sources; empty: each source's poses only.
+  std::optional<VehicleConfig> vehicle;
   LogConfig log;
   /// Found when the file was read. Poses need none of these places: they are reported and do not prevent a start.
   std::vector<PlaceError> place_errors;

@@ -165,6 +165,33 @@ void describe_telescope(std::ostream& out, const PointingConfig& telescope) {
   }
 }
 
+// Each fused source has a line of its own, so that a mounting that changed is seen in it.
+void describe_vehicle(std::ostream& out, const VehicleConfig& vehicle) {
+  const FusionChoices& fusion = vehicle.fusion;
+  out << "vehicle (target " << vehicle.target << "):\n  mounting: " << vehicle.mounting_file.string()
+      << "\n  states: " << vehicle.rate_hz << " /s and one for every measurement\n  motion: " << fusion.motion;
+  if (fusion.motion == "orbit" || fusion.motion == "tumbling_orbit") {
+    out << ", mean motion " << fusion.mean_motion_rad_s << " rad/s";
+  }
+  if (fusion.motion == "tumbling" || fusion.motion == "tumbling_orbit") {
+    out << ", moments of inertia " << fusion.inertia[0] << " : " << fusion.inertia[1] << " : " << fusion.inertia[2];
+  }
+  out << ", acceleration density " << fusion.acceleration_density << " m^2/s^3, angular "
+      << fusion.angular_acceleration_density << " rad^2/s^3\n  sources' own slow error: " << fusion.bias_deg << " deg, "
+      << fusion.bias_mm << " mm over " << fusion.bias_time_s << " s\n  protection level: risk " << fusion.risk_per_hour
+      << " per hour, faults " << fusion.faults_per_hour << " per hour of each kind and source\n";
+  for (const FusedSourceConfig& source : vehicle.sources) {
+    const auto& [x, y, z] = source.mounting.T_vehicle_sensor.position_m;
+    out << "  fuses: " << source.mounting.name << " from " << source.source
+        << (source.station.empty() ? "" : ", station " + source.station) << ", at " << x << ' ' << y << ' ' << z << " m"
+        << (source.mounting.T_target_feature ? "" : ", tells changes only") << '\n';
+  }
+  for (const std::string& name : vehicle.not_configured) {
+    out << "  not configured here: " << name << " of the mounting file\n";
+  }
+  for (const std::string& name : vehicle.not_mounted) out << "  not fused, as it has no mounting: " << name << '\n';
+}
+
 }  // namespace
 
 std::string describe(const DaemonConfig& config) {
@@ -181,6 +208,7 @@ std::string describe(const DaemonConfig& config) {
   if (any([](const StereoConfig& stereo) { return stereo.ring2; })) out << prefix << "RING2_POSE, ";
   if (any([](const StereoConfig& stereo) { return stereo.slam.has_value(); })) out << prefix << "SLAM_POSE, ";
   if (!config.telescopes.empty()) out << prefix << "LINE_POINTING, ";
+  if (config.vehicle) out << prefix << "TARGET_STATE, ";
   out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
       << config.publish.status_period_s << " s\nstate directory: "
       << (config.state_directory.empty() ? "none: calibrations are forgotten at a restart"
@@ -192,6 +220,7 @@ std::string describe(const DaemonConfig& config) {
   for (const TofConfig& camera : config.cameras) describe_camera(out, camera);
   for (const StereoConfig& stereo : config.stereos) describe_stereo(out, stereo);
   for (const PointingConfig& telescope : config.telescopes) describe_telescope(out, telescope);
+  if (config.vehicle) describe_vehicle(out, *config.vehicle);
   return out.str();
 }
 

@@ -14,6 +14,7 @@
 #include "host/device/pair_names.hpp"
 #include "host/frame_record/frame_reader.hpp"
 #include "host/images/grey_image.hpp"
+#include "host/mounting/mounting_file.hpp"
 #include "host/record/recording_file.hpp"
 #include "host/record/stream_reader.hpp"
 #include "host/stations/network_file.hpp"
@@ -160,13 +161,17 @@ std::string telescope_error(const PointingConfig& telescope) {
 }  // namespace
 
 Environment host_environment() {
-  return {read_target,      check_recording,  identity,      calibrate::read_calibration_file,
-          read_camera_file, check_frames,     read_rig_file, check_ring2,
-          check_slam,       check_vocabulary, check_pairs,   read_docking_target,
-          place_errors,     read_network_file};
+  return {read_target,      check_recording,   identity,          calibrate::read_calibration_file,
+          read_camera_file, check_frames,      read_rig_file,     check_ring2,
+          check_slam,       check_vocabulary,  check_pairs,       read_docking_target,
+          place_errors,     read_network_file, read_mounting_file};
 }
 
 calibrate::CalibrationFile Environment::no_calibration(const std::string& path) {
+  throw InputError(path + ": cannot be opened; check the path and its permissions");
+}
+
+Mounting Environment::no_mounting(const std::string& path) {
   throw InputError(path + ": cannot be opened; check the path and its permissions");
 }
 

@@ -11,6 +11,7 @@
 #include "host/cameras/docking_target.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/config/daemon_config.hpp"
+#include "host/mounting/mounting.hpp"
 #include "host/table/target_file.hpp"
 
 namespace pharos::host {
@@ -53,6 +54,10 @@ struct Environment {
   /// Reads the stations of a room; throws InputError. Unless given, there are none.
   std::function<network::Stations(const std::string& path)> read_stations = no_stations;
 
+  /// Reads a mounting file; throws InputError. Unless given, there is none.
+  std::function<Mounting(const std::string& path)> read_mounting = no_mounting;
+
+  static Mounting no_mounting(const std::string& path);
   static network::Stations no_stations(const std::string& path);
   static std::vector<PlaceError> no_place_errors(const DaemonConfig& config);
   static RigFile no_rig(const std::string& path);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/config/load_config.hpp"
+#include "host/mounting/mounting_file.hpp"
 #include "host/stations/network_file.hpp"
 
 namespace pharos::host {
@@ -44,6 +45,21 @@ std::vector<std::string> settings(const DaemonConfig& config) {
   return lines;
 }
 
+// The rate; the estimator keeps its mountings and settings. A mounting file may have changed in what describe() does
+// not show.
+std::vector<std::string> take_vehicle_changes(const DaemonConfig& fresh, DaemonConfig& config) {
+  if (!config.vehicle) return {};
+  if (!fresh.vehicle) return {"without [vehicle]"};
+  config.vehicle->rate_hz = fresh.vehicle->rate_hz;
+  const auto mountings = [](const VehicleConfig& vehicle) {
+    Mounting mounting;
+    for (const FusedSourceConfig& source : vehicle.sources) mounting.sources.push_back(source.mounting);
+    return mounting_text(mounting);
+  };
+  if (mountings(*config.vehicle) == mountings(*fresh.vehicle)) return {};
+  return {"vehicle: " + fresh.vehicle->mounting_file.string() + " has changed"};
+}
+
 }  // namespace
 
 bool same_calibration(const TargetConfig& a, const TargetConfig& b) {
@@ -74,9 +90,9 @@ std::vector<std::string> take_live_changes(const DaemonConfig& fresh, DaemonConf
                                    [&](const TargetConfig& other) { return other.name == target.name; });
     if (same != fresh.targets.end()) take_calibration(*same, target);
   }
+  std::vector<std::string> not_taken = take_vehicle_changes(fresh, config);
   const std::vector<std::string> used = settings(config);
   const std::multiset<std::string> known(used.begin(), used.end());
-  std::vector<std::string> not_taken;
   for (const std::string& line : settings(fresh)) {
     if (!known.contains(line)) not_taken.push_back(line);
   }

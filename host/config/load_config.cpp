@@ -12,6 +12,7 @@
 #include "host/config/load_pointing.hpp"
 #include "host/config/load_stereo.hpp"
 #include "host/config/load_tof.hpp"
+#include "host/config/load_vehicle.hpp"
 #include "host/toml/strict_toml.hpp"
 #include "pharos/base/units.hpp"
 
@@ -301,6 +302,7 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment, errors); });
   errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment, errors); });
   errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras, errors); });
+  errors.attempt([&] { config.vehicle = read_vehicle(root, folder, environment, config, errors); });
   errors.add_unknown_keys(root);
   config.place_errors = located(environment.check_places(config), root);
   if (errors.count() > 0) {

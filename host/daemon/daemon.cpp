@@ -46,7 +46,7 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
                [this] { stop_when_all_finished(); },
                [this] { publish_health(); }},
       started_ns_(clock.monotonic_ns()) {
-  for (const SourceKind& kind : kinds) counts_.emplace_back(kind.noun, kind.open(context_, sources_));
+  for (const SourceRegistration& kind : kinds) counts_.emplace_back(kind.noun, kind.open(context_, sources_));
   loop_.watch(signals_.fd(), [this] { on_signal(); });
   loop_.watch(attend_timer_.fd(), [this] { attend(); });
   loop_.watch(status_timer_.fd(), [this] { publish_health(); });
@@ -128,7 +128,8 @@ void Daemon::reread_config() try {
   for (const auto& source : sources_) source->reconfigure();
   start_status_timer();
   spdlog::info(
-      "configuration read again: the log's level, [publish] and calibrations of targets are in use; camera and rig "
+      "configuration read again: the log's level, [publish], vehicle.rate_hz and calibrations of targets are in use; "
+      "camera and rig "
       "files are read at the start only");
   for (const std::string& line : not_taken) spdlog::warn("needs a restart: {}", line);
 } catch (const InputError& error) {
@@ -174,8 +175,8 @@ NamedCounts Daemon::named_counts() const {
   const ProcessUsage usage = process_usage();
   NamedCounts counts{{"published_poses", sent.poses},         {"published_bearings", sent.bearings},
                      {"published_pointings", sent.pointings}, {"published_spins", sent.spins},
-                     {"published_status", sent.status},       {"published_bytes", sent.bytes},
-                     {"publish_failures", sent.failed}};
+                     {"published_states", sent.states},       {"published_status", sent.status},
+                     {"published_bytes", sent.bytes},         {"publish_failures", sent.failed}};
   for (const auto& source : sources_) {
     const NamedCounts own = source->daemon_counters();
     counts.insert(counts.end(), own.begin(), own.end());

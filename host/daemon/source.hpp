@@ -66,14 +66,14 @@ struct SourceContext {
 };
 
 /// A kind of source.
-struct SourceKind {
+struct SourceRegistration {
   /// Its name in the log, singular.
   const char* noun = "";
   /// Appends the configured sources of this kind and returns their number. Throws InputError.
   std::function<std::size_t(const SourceContext&, SourceList&)> open;
 };
 
-using SourceKinds = std::vector<SourceKind>;
+using SourceKinds = std::vector<SourceRegistration>;
 
 /// The registration table: all kinds of source of pharosd.
 const SourceKinds& source_kinds();

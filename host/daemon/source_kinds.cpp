@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/daemon/fusion/fusion_feed.hpp"
 #include "host/daemon/lighthouse_feed.hpp"
 #include "host/daemon/pointing_feed.hpp"
 #include "host/daemon/source.hpp"
@@ -12,7 +13,8 @@ const SourceKinds& source_kinds() {
   static const SourceKinds kinds{{"target", open_target_feeds},
                                  {"camera", open_tof_feeds},
                                  {"telescope", open_pointing_feeds},
-                                 {"stereo rig", open_stereo_feeds}};
+                                 {"stereo rig", open_stereo_feeds},
+                                 {"vehicle", open_fusion_feed}};
   return kinds;
 }
 

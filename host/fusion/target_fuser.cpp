@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kMaxTime_s = 4e9;  // an integer of nanoseconds holds it
 
-fusion::Settings settings_of(const std::vector<SourceMounting>& sources, const FusionChoices& choices) {
+}  // namespace
+
+fusion::Settings checked_settings(const std::vector<SourceMounting>& sources, const FusionChoices& choices) {
   if (sources.size() > fusion::kMaxSources) {
     throw InputError("fusion: more than " + std::to_string(fusion::kMaxSources) + " sources");
   }
@@ -21,8 +23,6 @@ fusion::Settings settings_of(const std::vector<SourceMounting>& sources, const F
   if (error != fusion::SettingsError::kNone) throw InputError(std::string("fusion: ") + words_of(error));
   return settings;
 }
-
-}  // namespace
 
 fusion::Measurement measurement_of(const SourceRow& row, const SourceMounting& mounting, std::uint8_t source) {
   fusion::Measurement out;
@@ -44,7 +44,7 @@ TargetFuser::TargetFuser(std::vector<SourceMounting> sources, const FusionChoice
     : sources_(std::move(sources)),
       choices_(choices),
       placed_(sources_.size(), false),
-      estimator_(std::make_unique<fusion::TargetEstimator>(settings_of(sources_, choices_))) {
+      estimator_(std::make_unique<fusion::TargetEstimator>(checked_settings(sources_, choices_))) {
   for (const SourceMounting& source : sources_) names_.push_back(source.name);
 }
 

@@ -15,12 +15,15 @@ namespace pharos::host {
 /// index. Times beyond 4e9 s (the year 2096) are not finite.
 fusion::Measurement measurement_of(const SourceRow& row, const SourceMounting& mounting, std::uint8_t source);
 
+/// The core's settings; throws InputError for choices and mountings that cannot be used together, and for too many.
+fusion::Settings checked_settings(const std::vector<SourceMounting>& sources, const FusionChoices& choices);
+
 /// Poses as their sources report them to one state of the target, by the mounting: the way of `pharos fuse` and of
 /// pharosd.
 class TargetFuser {
  public:
   /// `sources`: those of a mounting file that are fused, 1 to fusion::kMaxSources; an index below is one into this
-  /// list. Throws InputError for choices and mountings that cannot be used together.
+  /// list. Throws InputError as checked_settings.
   TargetFuser(std::vector<SourceMounting> sources, const FusionChoices& choices);
 
   /// The first usable pose of a source also tells what its mounting's covariance leaves at the target's place.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/publish/health.hpp"
@@ -14,6 +16,7 @@ class pointing_t;
 class pose_t;
 class spin_t;
 class status_t;
+class target_state_t;
 }  // namespace pharos
 
 namespace pharos::host {
@@ -24,6 +27,7 @@ struct PublishCounters {
   std::int64_t bearings = 0;
   std::int64_t pointings = 0;
   std::int64_t spins = 0;
+  std::int64_t states = 0;
   std::int64_t status = 0;
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink could not send
@@ -32,6 +36,7 @@ struct PublishCounters {
   std::int64_t& of(const bearings_t&) { return bearings; }
   std::int64_t& of(const pointing_t&) { return pointings; }
   std::int64_t& of(const spin_t&) { return spins; }
+  std::int64_t& of(const target_state_t&) { return states; }
   std::int64_t& of(const status_t&) { return status; }
 };
 
@@ -44,6 +49,10 @@ class Publisher {
   /// status_t.
   bool publish_health(const DaemonHealth& health);
 
+  /// Gets every pose after it was sent (or could not be), with its channel behind the prefix.
+  using PoseListener = std::function<void(const char* channel, const pose_t& message)>;
+  void set_pose_listener(PoseListener listener) { pose_listener_ = std::move(listener); }
+
   const PublishCounters& counters() const { return counters_; }
 
  private:
@@ -54,13 +63,21 @@ class Publisher {
     const int size = message.getEncodedSize();
     buffer_.resize(static_cast<std::size_t>(size));
     const bool encoded = message.encode(buffer_.data(), 0, size) == size;
-    return send_buffer(channel, encoded, counters_.of(message));
+    const bool sent = send_buffer(channel, encoded, counters_.of(message));
+    announce(channel, message);
+    return sent;
+  }
+  template <class Message>
+  void announce(const char*, const Message&) const {}
+  void announce(const char* channel, const pose_t& message) const {
+    if (pose_listener_) pose_listener_(channel, message);
   }
   bool send_buffer(const char* channel, bool encoded, std::int64_t& count);
 
   MessageSink& sink_;
   std::string prefix_;
   std::string channel_;
+  PoseListener pose_listener_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t status_sequence_ = 0;
   PublishCounters counters_;

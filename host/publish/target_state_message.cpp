@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "host/support/time_units.hpp"
 #include "pharos/fusion/words.hpp"
@@ -48,6 +49,17 @@ void fill_conflict(const fusion::TargetState& state, const std::vector<std::stri
 }
 
 }  // namespace
+
+const char* channel_of(const TargetStateReport&) { return "TARGET_STATE"; }
+
+bool is_finite(const TargetStateReport& report) {
+  const fusion::ProtectionLevel& level = report.state.protection;
+  return is_finite(report.state) && std::isfinite(level.position_m) && std::isfinite(level.rotation_rad);
+}
+
+target_state_t message_of(const TargetStateReport& report) {
+  return message_of(report.state, {report.utc_ns, report.sequence, report.target, report.names, report.risk_per_hour});
+}
 
 target_state_t message_of(const fusion::TargetState& state, const TargetStateHeader& header) {
   target_state_t message{};

@@ -205,7 +205,8 @@ void FusionCore::drop_without(FusionState& state, std::size_t k) const {
 
 Mode FusionCore::mode_at(const FusionState& state, std::int64_t time_ns) const {
   if (!state.tracking) return state.lost ? Mode::kLost : Mode::kSearching;
-  if (seconds(time_ns, state.last_used_ns) > settings_.detection.coasting_s) return Mode::kLost;
+  // Nor is anything told of a time long before (the caller's clock was set).
+  if (std::abs(seconds(time_ns, state.last_used_ns)) > settings_.detection.coasting_s) return Mode::kLost;
   if (state.suspects.active) return Mode::kConflict;
   int used = 0;
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {

@@ -27,7 +27,9 @@ bool before(const Measurement& a, const Measurement& b) {
 TargetEstimator::TargetEstimator(const Settings& settings) : settings_(settings), core_(settings_) {}
 
 void TargetEstimator::reset() {
+  const FusionCounters counters = current_.counters;
   current_ = FusionState{};
+  current_.counters = counters;
   snapshots_.clear();
   buffer_.clear();
   heard_ = {};
@@ -67,9 +69,7 @@ Refusal TargetEstimator::check_time(const Measurement& m) {
     begin(m.time_ns);
   } else if (seconds(m.time_ns, current_.time_ns) > kMaxAhead_s) {
     if (++ahead_run_[m.source] < kAheadRun) return Refusal::kTimeAhead;
-    const FusionCounters counters = current_.counters;
     begin(m.time_ns);
-    current_.counters = counters;
     current_.lost = true;
   }
   if (m.time_ns <= snapshots_[0].time_ns) return Refusal::kTooLate;

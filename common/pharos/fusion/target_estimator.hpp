@@ -40,7 +40,7 @@ class TargetEstimator {
   std::uint64_t refused(Refusal reason) const { return refused_[static_cast<std::size_t>(reason)]; }
   std::uint64_t late() const { return late_; }
   const Settings& settings() const { return settings_; }
-  /// Forgets the track and all times (the clock was set).
+  /// Forgets the track and all times (the clock was set); counters go on.
   void reset();
 
  private:

@@ -257,5 +257,41 @@ TEST(TargetEstimator, ForgetsEverythingWhenItIsReset) {
   EXPECT_EQ(estimator->push(measurement_of(world.poses[0])).refusal, Refusal::kNone);
 }
 
+// As a daemon learns where the target is: what a mounting leaves is known with a source's first pose.
+TEST(TargetEstimator, ABiasSetBeforeASourcesFirstPoseIsAsIfSetAtTheStart) {
+  const sim::WorldSettings world = tools::close_range_world(3);
+  const sim::MeasuredWorld measured = sim::simulate_world(world);
+  fusion::Settings placeholders = settings_of(world, 1e-3);
+  for (fusion::SourceSettings& source : placeholders.sources) {
+    if (!source.relative) source.bias_covariance = Matrix6::Identity();
+  }
+  const auto known = estimator_of(world);
+  const auto learning = std::make_unique<TargetEstimator>(placeholders);
+  std::array<bool, fusion::kMaxSources> seen{};
+  for (const auto& pose : measured.poses) {
+    const fusion::Measurement m = measurement_of(pose);
+    if (!seen[m.source]) {
+      EXPECT_EQ(learning->set_bias_covariance(m.source, known->settings().sources[m.source].bias_covariance), true);
+    }
+    seen[m.source] = true;
+    known->push(m);
+    learning->push(m);
+  }
+  const std::int64_t end_ns = known->newest_ns();
+  EXPECT_TRUE(equal(known->state(end_ns), learning->state(end_ns)));
+  EXPECT_FALSE(learning->set_bias_covariance(0, Matrix6::Identity())) << "it was heard";
+  EXPECT_FALSE(estimator_of(world)->set_bias_covariance(0, Matrix6::Zero()));
+}
+
+TEST(TargetEstimator, TellsNothingOfATimeLongBeforeTheLastMeasurement) {
+  const sim::WorldSettings settings = world_of(1, {kLighthouse});
+  const sim::MeasuredWorld world = sim::simulate_world(settings);
+  const auto estimator = estimator_of(settings);
+  std::size_t next = 0;
+  feed(*estimator, world, 5.0, next);
+  EXPECT_TRUE(estimator->state(ns(4.9)).valid);
+  EXPECT_FALSE(estimator->state(ns(-3600.0)).valid);
+}
+
 }  // namespace
 }  // namespace pharos::tests

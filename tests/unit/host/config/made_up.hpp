@@ -40,11 +40,23 @@ inline DockingTarget a_docking_target(const std::string& path, std::size_t conne
   return target;
 }
 
+/// One source, `tof`, at the origin of the vehicle.
+inline Mounting a_mounting(const std::string& path) {
+  if (path.find("gone") != std::string::npos) throw InputError(path + ": cannot be opened");
+  SourceMounting tof;
+  tof.name = "tof";
+  tof.kind = SourceKind::kTof;
+  tof.T_vehicle_sensor.origin = MountingOrigin::kGiven;
+  tof.T_target_feature.emplace();
+  tof.T_target_feature->origin = MountingOrigin::kGiven;
+  return {"", {tof}};
+}
+
 /// An environment without a disk. Names that contain "gone" do not exist, all others do; /dev/left and /dev/right are
 /// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large". A docking target has
 /// two connectors, or nine if its name contains "many".
 inline Environment made_up() {
-  return {
+  Environment environment{
       any_target,
       [](const std::filesystem::path& file, const std::string&) {
         if (file.filename() == "gone") throw InputError(file.string() + ": cannot be opened");
@@ -71,6 +83,8 @@ inline Environment made_up() {
       [](const std::string&) {},
       [](const std::filesystem::path&, const RigFile&, const std::string&) {},
       [](const std::string& path) { return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2); }};
+  environment.read_mounting = a_mounting;
+  return environment;
 }
 
 inline DaemonConfig parse(const std::string& text) {
