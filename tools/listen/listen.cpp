@@ -146,6 +146,7 @@ void add_listen(CLI::App& app, int& exit_code) {
       "         pharos listen PHAROS_TOF_POSE\n"
       "         pharos listen 'PHAROS_(RING2|SLAM)_POSE'\n"
       "         pharos listen PHAROS_LINE_POINTING\n"
+      "         pharos listen PHAROS_TARGET_STATE\n"
       "         pharos listen PHAROS_STATUS --json\n"
       "Ends with 0 when at least one pose, pointing or status message was received, with 1 when none was.");
   command->callback([options, &exit_code] { exit_code = listen(*options); });

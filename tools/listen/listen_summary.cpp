@@ -69,7 +69,7 @@ double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
   summary.source = pose.source;
   summary.target = pose.target;
   summary.station = pose.station;
-  if (pose.of_camera) summary.camera = pose.station_id;
+  if (pose.of_camera || pose.fused) summary.camera = pose.station_id;
   const auto [last, first] = last_sequence_.try_emplace({pose.channel, pose.source + '/' + pose.target}, pose.sequence);
   if (!first && pose.sequence > last->second) summary.lost += pose.sequence - last->second - 1;
   last->second = pose.sequence;
@@ -102,7 +102,9 @@ std::vector<SourceSummary> ListenSummary::sources() const {
 std::string summary_text(const std::vector<SourceSummary>& sources) {
   std::string out;
   for (const SourceSummary& source : sources) {
-    std::string by = source.camera.empty() ? fmt::format("station {}", source.station) : "camera " + source.camera;
+    std::string by = source.camera.empty()            ? fmt::format("station {}", source.station)
+                     : source.source == kFusionSource ? kFusionSource
+                                                      : "camera " + source.camera;
     const auto same = [&source](const SourceSummary& other) {
       return other.channel == source.channel && other.target == source.target && other.station == source.station;
     };

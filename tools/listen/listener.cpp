@@ -9,8 +9,10 @@
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
 #include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
+#include "tools/listen/received_state.hpp"
 #include "tools/listen/spin_rows.hpp"
 #include "tools/listen/status_rows.hpp"
 #include "tools/listen/subscription.hpp"
@@ -45,8 +47,16 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   pointing_t pointing;
   spin_t spin;
   status_t status;
+  target_state_t state;
   if (decode(pose, data, size)) {
-    take_pose(channel, pose, utc_ns, monotonic_ns);
+    take_pose(received_pose(channel, pose, utc_ns), monotonic_ns);
+  } else if (decode(state, data, size)) {
+    ReceivedPose received = received_state(channel, state, utc_ns);
+    if (format_ == ListenFormat::kJson) {
+      std::puts(state_json(state).c_str());
+      std::fflush(stdout);
+    }
+    take_pose(std::move(received), monotonic_ns);
   } else if (decode(pointing, data, size)) {
     take_other([&](bool json) { return json ? pointing_json(pointing) : pointing_line(pointing); });
   } else if (decode(spin, data, size)) {
@@ -59,9 +69,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   }
 }
 
-void Listener::take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns,
-                         std::int64_t monotonic_ns) {
-  ReceivedPose pose = received_pose(channel, message, utc_ns);
+void Listener::take_pose(ReceivedPose pose, std::int64_t monotonic_ns) {
   pose.rate_hz = summary_.add(pose, monotonic_ns);
   print_row(sight_.add(pose, monotonic_ns));
   waiting_.push_back({std::move(pose), monotonic_ns});
@@ -106,7 +114,8 @@ void Listener::finish() {
 }
 
 void Listener::print(const ReceivedPose& pose) {
-  if (format_ == ListenFormat::kNone) return;
+  const bool printed = pose.fused && format_ == ListenFormat::kJson;  // as it came
+  if (format_ == ListenFormat::kNone || printed) return;
   if (format_ == ListenFormat::kLines) {
     std::puts(pose_line(pose).c_str());
     std::fflush(stdout);

@@ -17,10 +17,6 @@
 namespace lcm {
 struct ReceiveBuffer;
 }
-namespace pharos {
-class pose_t;
-}  // namespace pharos
-
 namespace pharos::tools {
 
 enum class ListenFormat : std::uint8_t { kLines, kCsv, kJson, kTum, kNone };
@@ -33,8 +29,8 @@ class Listener {
 
   /// Printed before the first message: the header row of a CSV table.
   void begin();
-  /// Any message of a channel listened to: pose_t, pointing_t, spin_t and status_t are printed (the last three not as
-  /// CSV or TUM, which have no place for them), others counted as foreign.
+  /// Any message of a channel listened to: pose_t, target_state_t, pointing_t, spin_t and status_t are printed (the
+  /// last three not as CSV or TUM, which have no place for them), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Several times a second: prints a row LOST for each source whose poses have stopped (lines only).
   void tick(std::int64_t utc_ns, std::int64_t monotonic_ns);
@@ -50,7 +46,7 @@ class Listener {
   std::int64_t other_messages() const { return other_messages_; }
 
  private:
-  void take_pose(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t monotonic_ns);
+  void take_pose(ReceivedPose pose, std::int64_t monotonic_ns);
   /// A message other than a pose; `text` returns its JSON object or its lines.
   void take_other(const std::function<std::string(bool json)>& text);
   /// Prints in order: a pose held for its truth delays the ones after it.

@@ -9,6 +9,7 @@ class pointing_t;
 class pose_t;
 class spin_t;
 class status_t;
+class target_state_t;
 }  // namespace pharos
 
 namespace pharos::tools {
@@ -30,6 +31,10 @@ template <>
 inline constexpr std::string_view kMessageShape<bearings_t> = "8 8 s s 1 s s 1 ( 1 1 8 8 4 4 1 8 )";
 template <>
 inline constexpr std::string_view kMessageShape<status_t> = "8 8 s s 8 s s ( s 8 ) ( s s s s s s 8 8 8 16 ( s 8 ) )";
+
+template <>
+inline constexpr std::string_view kMessageShape<target_state_t> =
+    "8 8 s s 1 24 32 24 24 1152 1 1 8 8 8 ( s s s 8 8 ) 1 s s 48 64";
 
 /// Whether `size` bytes at `data` are a fingerprint and then exactly the fields of `shape`, each length within them.
 bool has_shape(const void* data, int size, std::string_view shape);

@@ -8,6 +8,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
 #include "pharos/tof/target_frame.hpp"
+#include "tools/listen/received_state.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -61,6 +62,7 @@ std::string pose_line(const ReceivedPose& pose) {
     out += fmt::format("  error {:.2f} mm {:.3f} deg", pose.error->position_m * kMmPerM,
                        pose.error->rotation_rad * kDegPerRad);
   }
+  if (pose.fused) return out + "  " + fused_text(*pose.fused);
   return pose.flags.empty() ? out : out + "  " + pose.flags;
 }
 

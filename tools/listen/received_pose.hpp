@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/table/row_pose.hpp"
 #include "pharos/geometry/pose.hpp"
@@ -30,7 +31,29 @@ PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBod
 std::optional<double> pose_nees(const LighthouseFromBody& measured, const LighthouseFromBody& truth,
                                 const Matrix6& covariance);
 
-/// A received pose_t.
+/// What a fused state tells of one of its sources.
+struct FusedSource {
+  std::string name;
+  std::string state;    // used, gated, excluded, conflict, silent
+  std::string reason;   // where excluded
+  double age_s = -1.0;  // -1: never heard
+  double normalised_innovation = 0.0;
+};
+
+/// What a fused state tells beside its pose.
+struct FusedReading {
+  std::string mode;
+  Vector3 velocity_m_s = Vector3::Zero();
+  Vector3 rate_rad_s = Vector3::Zero();
+  std::optional<double> protection_m;  // empty where the level is not available
+  std::optional<double> protection_rad;
+  std::vector<FusedSource> sources;
+};
+
+/// Name of the fusion as a source: a target_state_t has none.
+inline constexpr const char* kFusionSource = "fusion";
+
+/// A received pose_t, or the pose of a target_state_t.
 struct ReceivedPose {
   std::int64_t utime_us = 0;
   std::int64_t sequence = 0;
@@ -50,6 +73,7 @@ struct ReceivedPose {
   double age_s = 0.0;      // on arrival, after the measurement
   double rate_hz = 0.0;    // of its kind over the last second
   std::optional<PoseError> error;
+  std::optional<FusedReading> fused;  // of a target_state_t
 };
 
 /// Whether it may stand alone in a line of TUM or as a transform. ring2 never measures the turn about the ring's axis:

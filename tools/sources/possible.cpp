@@ -10,6 +10,7 @@
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
+#include "pharos/target_state_t.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -72,6 +73,18 @@ bool is_possible(const pointing_t& message) {
 bool is_possible(const spin_t& message) {
   return has_header(message) &&
          (message.valid == 0 || (are_values(message.rate_rad_s) && is_value(message.sigma_rate_rad_s)));
+}
+
+bool is_possible(const target_state_t& message) {
+  const bool header = message.utime >= 0 && message.utime <= kMaxTime_us && message.sequence >= 0 &&
+                      message.sequence <= kMaxSequence && message.target.size() <= kMaxName;
+  const bool sources = std::all_of(message.sources.begin(), message.sources.end(),
+                                   [](const fused_source_t& source) { return is_value(source.normalised_innovation); });
+  if (!header || !sources) return false;
+  return message.valid == 0 ||
+         (are_values(message.position_m) && is_unit(message.orientation_wxyz) && are_values(message.velocity_m_s) &&
+          are_values(message.angular_rate_rad_s) && are_values(message.covariance) &&
+          is_value(message.position_protection_m) && is_value(message.rotation_protection_rad));
 }
 
 }  // namespace pharos::tools

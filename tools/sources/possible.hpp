@@ -6,6 +6,7 @@ class bearings_t;
 class pointing_t;
 class pose_t;
 class spin_t;
+class target_state_t;
 }  // namespace pharos
 
 namespace pharos::tools {
@@ -16,5 +17,6 @@ bool is_possible(const pose_t& message);
 bool is_possible(const bearings_t& message);
 bool is_possible(const pointing_t& message);
 bool is_possible(const spin_t& message);
+bool is_possible(const target_state_t& message);
 
 }  // namespace pharos::tools

@@ -73,6 +73,7 @@ struct SourceRow {
   PoseDetails details;               // of it
   std::optional<AxisReading> axis;
   std::optional<SpinReading> spin;
+  std::optional<FusedReading> fused;     // of the newest message, valid or not; its pose is in `pose`
   double age_at_arrival_s = 0.0;         // of the newest valid one
   std::int64_t heard_ns = 0;             // newest message
   std::int64_t valid_ns = 0;             // newest valid one; 0: none yet

@@ -11,7 +11,9 @@
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
 #include "tools/listen/pose_rows.hpp"
+#include "tools/listen/received_state.hpp"
 #include "tools/listen/subscription.hpp"
 #include "tools/sources/possible.hpp"
 
@@ -78,8 +80,11 @@ void SourceTable::take(const std::string& channel, const void* data, int size, s
   pointing_t pointing;
   spin_t spin;
   status_t status;
+  target_state_t state;
   if (decode(pose, data, size)) {
     add(channel, pose, utc_ns, now_ns);
+  } else if (decode(state, data, size)) {
+    add(channel, state, utc_ns, now_ns);
   } else if (decode(bearings, data, size)) {
     add(bearings, now_ns);
   } else if (decode(pointing, data, size)) {
@@ -176,6 +181,32 @@ void SourceTable::add(const std::string& channel, const spin_t& message, std::in
   row->spin = {vector_of(message.rate_rad_s), message.sigma_rate_rad_s};
 }
 
+void SourceTable::add(const std::string& channel, const target_state_t& message, std::int64_t utc_ns,
+                      std::int64_t now_ns) {
+  if (!is_possible(message)) {
+    ++left_out_.impossible;
+    return;
+  }
+  ReceivedPose state = received_state(channel, message, utc_ns);
+  const SourceKey key{channel, kFusionSource, message.target, 0};
+  SourceRow* row = row_of(key);
+  if (row == nullptr) return;
+  count_gap(key, *row, message.sequence);
+  arrived(*row, state.pose.has_value(), state.age_s, now_ns);
+  row->by = kFusionSource;
+  if (!row->status.empty() && row->status != state.status) {
+    event(fmt::format("{} {} fused state: {}", clock_text(message.utime), message.target, state.status));
+  }
+  row->status = kept(state.status);
+  row->flags = kept(state.flags);
+  row->fused = state.fused;
+  if (!state.pose) return;
+  const std::string found = sight_.add(state, now_ns);
+  if (!found.empty()) event(found);
+  row->details = {"vehicle", "target", 0.0, 0, std::nullopt};
+  row->pose = std::move(state);
+}
+
 void SourceTable::add(const bearings_t& message, std::int64_t now_ns) {
   if (!is_possible(message)) {
     ++left_out_.impossible;
@@ -244,6 +275,10 @@ const SourceHealth* SourceTable::health_of(const SourceKey& key) const {
   for (const auto& [host, daemon] : daemons_) {
     const auto at = daemon.sources.find({key.source, key.target});
     if (at != daemon.sources.end()) return &at->second;
+    if (key.source != kFusionSource) continue;
+    for (const auto& [name, health] : daemon.sources) {  // a state does not tell whose daemon's it is
+      if (name.first.starts_with("fusion/") && name.second == key.target) return &health;
+    }
   }
   return nullptr;
 }

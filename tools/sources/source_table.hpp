@@ -16,6 +16,7 @@ class pointing_t;
 class pose_t;
 class spin_t;
 class status_t;
+class target_state_t;
 }  // namespace pharos
 
 namespace pharos::tools {
@@ -46,6 +47,7 @@ class SourceTable {
   void add(const std::string& channel, const pose_t& pose, std::int64_t utc_ns, std::int64_t now_ns);
   void add(const std::string& channel, const pointing_t& pointing, std::int64_t utc_ns, std::int64_t now_ns);
   void add(const std::string& channel, const spin_t& spin, std::int64_t utc_ns, std::int64_t now_ns);
+  void add(const std::string& channel, const target_state_t& state, std::int64_t utc_ns, std::int64_t now_ns);
   void add(const bearings_t& bearings, std::int64_t now_ns);
   void add(const status_t& status, std::int64_t now_ns);
 

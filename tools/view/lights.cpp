@@ -69,6 +69,7 @@ Light geometry_known(const SourceRow& row) {
   }
   if (!row.any()) return {LightLevel::kUnknown, is_refused(row) ? refusal_words(row.status) : "no valid value yet"};
   if (is_refused(row)) return {LightLevel::kUnknown, refusal_words(row.status)};
+  if (row.status == "conflict") return {LightLevel::kDegraded, "two sources contradict each other"};
   return {LightLevel::kGood, "one solution"};
 }
 
@@ -80,8 +81,10 @@ Light estimate_good(const SourceRow& row, std::int64_t now_ns) {
     if (is_refused(row)) reason += "; " + refusal_words(row.status);
     return {LightLevel::kBad, reason};
   }
+  if (row.fused && (row.status == "lost" || row.status == "searching")) return {LightLevel::kBad, row.status};
   if (is_refused(row)) return {LightLevel::kDegraded, refusal_words(row.status)};
-  if (row.status != "ok") return {LightLevel::kDegraded, row.status};
+  const bool good = row.status == "ok" || (row.fused && (row.status == "fused" || row.status == "single"));
+  if (!good) return {LightLevel::kDegraded, row.status};
   // `prior` only tells that the last pose was the start of this one.
   if (!row.flags.empty() && row.flags != "prior") return {LightLevel::kDegraded, row.flags};
   if (row.pose) {

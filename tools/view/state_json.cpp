@@ -86,6 +86,24 @@ void add_value(Json& out, const SourceRow& row) {
   }
 }
 
+Json fused_json(const FusedReading& fused) {
+  const auto level = [](const std::optional<double>& value) { return value ? Json(rounded(*value, kSigma)) : Json(); };
+  Json sources = Json::array();
+  for (const FusedSource& source : fused.sources) {
+    sources.push_back({{"name", source.name},
+                       {"state", source.state},
+                       {"reason", source.reason},
+                       {"age_s", source.age_s < 0.0 ? Json() : Json(rounded(source.age_s, 1e4))},
+                       {"nis", rounded(source.normalised_innovation, 1e3)}});
+  }
+  return {{"mode", fused.mode},
+          {"velocity", json_of(fused.velocity_m_s)},
+          {"rate", json_of(fused.rate_rad_s)},
+          {"protection_m", level(fused.protection_m)},
+          {"protection_rad", level(fused.protection_rad)},
+          {"sources", std::move(sources)}};
+}
+
 Json row_json(const SourceTable& table, const SourceKey& key, const SourceRow& row, const ViewContext& context) {
   Json out = {{"channel", key.channel},
               {"source", key.source},
@@ -103,6 +121,7 @@ Json row_json(const SourceTable& table, const SourceKey& key, const SourceRow& r
   out["age_s"] = row.any() ? Json(rounded(row.age_s(context.now_ns), 1e4)) : Json();
   out["lights"] = json_of(lights_of(table, key, row, context.now_ns));
   if (current) add_value(out, row);
+  if (row.fused) out["fused"] = fused_json(*row.fused);
   const Sights* sights = table.sights_of(key);
   // As long as a value stays current; then the sensors are dark.
   if (sights != nullptr && context.now_ns - sights->arrived_ns < 1'500'000'000) out["sensors"] = json_of(*sights);

@@ -7,6 +7,7 @@
 
 #include "pharos/base/units.hpp"
 #include "tools/listen/pose_rows.hpp"
+#include "tools/listen/received_state.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -50,7 +51,7 @@ std::string row_text(const SourceKey& key, const SourceRow& row, std::int64_t no
   return fmt::format("{:<20} {:<12} {:<10} {:<14} {:>5} {:>8} {:>6} {:>5}  {:<66} {:<22} {}", printable(key.source, 20),
                      printable(key.target, 12), name, printable(row.any() && !current ? "LOST" : row.status, 14),
                      row.arrivals_ns.size(), age, row.refused, row.lost, text.value, text.sigma,
-                     printable(row.flags, kMaxText));
+                     printable(row.fused ? fused_text(*row.fused) : row.flags, kMaxText));
 }
 
 void add_daemon(std::vector<std::string>& out, const std::string& host, const DaemonState& daemon,

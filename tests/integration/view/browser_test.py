@@ -17,7 +17,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools/lib"))
 from browser import Browser, chromium
-from running_view import RunningView, load_types, pose
+from running_view import RunningView, load_types, pose, target_state
 
 PROGRAM, LCM_GEN = sys.argv[1:3]
 SCREENSHOT = sys.argv[3] if len(sys.argv) > 3 else None
@@ -130,6 +130,22 @@ class ViewInChromium(unittest.TestCase):
 
     def test_5_foreign_messages_are_counted_and_shown(self):
         self.assertTrue(self.browser.wait_for("/[1-9]\\d* of other types skipped/.test(document.getElementById('counters').textContent)"))
+
+    def test_5b_a_fused_state_has_its_row_its_place_and_its_level(self):
+        fused = "document.getElementById('fused').textContent"
+        self.assertIn("no fused state", self.browser.evaluate(fused))
+        for sequence in range(3):
+            self.view.publish("PHAROS_TARGET_STATE", target_state(self.sender.types, "client", (0.1, -0.2, 2.5), sequence))
+            time.sleep(0.1)
+        self.assertTrue(self.browser.wait_for(f"{fused}.includes('fused: fused')"))
+        self.assertTrue(self.browser.evaluate("document.getElementById('no-fused').hidden"))
+        self.assertEqual(self.browser.evaluate(ROWS), 2, "sources have their own rows")
+        level = """(() => { const target = [...pharosScene.targets].find(([id]) => id.includes('TARGET_STATE'))?.[1];
+            return target && target.protection.visible ? [target.protection.scale.x, ...target.protection.position.toArray()].join() : null; })()"""
+        self.assertTrue(self.browser.wait_for(f"{level} === '0.25,0.1,-0.2,2.5'"), self.browser.evaluate(level))
+        self.assertTrue(self.browser.wait_for(f"{fused}.includes('no message for')"), "it stopped")
+        self.assertFalse(self.browser.evaluate(f"{level} !== null"))
+        self.assertEqual(self.browser.exceptions(), [])
 
     def test_6_keys_work_and_dark_and_light_differ(self):
         def press(key):

@@ -52,6 +52,21 @@ class RunningView:
         return code
 
 
+def target_state(types, target, position, sequence):
+    made = types.target_state_t()
+    made.utime = int(time.time() * 1e6)
+    made.sequence, made.target, made.mode, made.valid = sequence, target, "fused", True
+    made.position_m = list(position)
+    made.orientation_wxyz = [1, 0, 0, 0]
+    made.covariance = [1e-6 if k % 13 == 0 else 0 for k in range(144)]
+    made.position_protection_available, made.position_protection_m = True, 0.25
+    source = types.fused_source_t()
+    source.name, source.state, source.reason, source.age_us = "tof", "excluded", "step", 1000
+    made.sources, made.source_count = [source], 1
+    made.conflict_without = ["", ""]
+    return made
+
+
 def pose(types, target, position, sequence, source="lighthouse/chaser", **fields):
     made = types.pose_t()
     made.utime = int(time.time() * 1e6)

@@ -74,7 +74,7 @@ export class Scene {
     if (made.isStation) {
       made.planes = [shapes.sweepPlane(0, 0xff5a4d), shapes.sweepPlane(1, 0x4da3ff)];
       made.group.add(shapes.station(colour), ...made.planes);
-    } else if (row.frames?.[0] === "world") {
+    } else if (["world", "vehicle"].includes(row.frames?.[0])) {
       made.group.add(shapes.axes(0.4));
     } else {
       made.frustum = shapes.frustum(colour, 2);
@@ -87,9 +87,9 @@ export class Scene {
     return made;
   }
 
-  // Side by side on the vehicle's front: messages do not tell where they are mounted.
+  // Side by side on the vehicle's front: messages do not tell where they are mounted. A fused state is in the vehicle's frame.
   arrange() {
-    const mounted = [...this.instruments.values()].filter((one) => one.row.frames?.[0] !== "world");
+    const mounted = [...this.instruments.values()].filter((one) => !["world", "vehicle"].includes(one.row.frames?.[0]));
     mounted.forEach((one, at) => one.group.position.set((at - (mounted.length - 1) / 2) * SPACING, 0, 0));
   }
 

@@ -140,6 +140,13 @@ export function ellipsoid(colour) {
   return mesh;
 }
 
+// A wire sphere of radius 1: the protection level, to scale.
+export function protection(colour) {
+  const sphere = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: colour, wireframe: true, transparent: true, opacity: 0.35 }));
+  sphere.visible = false;
+  return sphere;
+}
+
 export function trail(colour, length) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(new Float32Array(3 * length), 3));

@@ -23,6 +23,19 @@ function setLamp(lamp, light, name) {
   if (lamp.title !== title) lamp.title = title;
 }
 
+// What a fused state tells: rates, protection level, and each source with what is done with it.
+function fusedLines(row) {
+  const { fused } = row;
+  const level = (value, text) => (value === null || !row.p ? "not available" : text(value));
+  const lines = [["mode", fused.mode], ["protection level", `${level(fused.protection_m, lengthText)}, ${level(fused.protection_rad, degreeText)}`]];
+  if (row.p) lines.push(["velocity, rate", `${(range(fused.velocity) * 1e3).toFixed(1)} mm/s, ${degreeText(range(fused.rate), 3)}/s`]);
+  for (const source of fused.sources) {
+    const reason = source.reason ? ` (${source.reason.replaceAll("_", " ")})` : "";
+    lines.push([source.name, `${source.state}${reason}, ${source.age_s === null ? "never heard" : `${ageText(source.age_s)} old`}, NIS ${source.nis.toFixed(2)}`]);
+  }
+  return lines;
+}
+
 class Row {
   constructor(id, onSelect) {
     this.main = make("tr");
@@ -46,7 +59,7 @@ class Row {
   }
 
   show(row, selected) {
-    setText(this.cells.source, row.channel.endsWith("_SPIN") ? `${row.source} spin` : row.source);
+    setText(this.cells.source, row.fused ? `fused: ${row.fused.mode}` : row.channel.endsWith("_SPIN") ? `${row.source} spin` : row.source);
     setText(this.cells.target, row.target);
     setText(this.cells.by, row.by || `station ${row.station}`);
     row.lights.forEach((light, at) => setLamp(this.lamps[at], light, LIGHT_NAMES[at]));
@@ -96,7 +109,7 @@ export class Table {
       if (!this.rows.has(id)) {
         const shown = new Row(id, (chosen) => this.select(chosen));
         this.rows.set(id, shown);
-        element("rows").append(shown.main, shown.reason);
+        element(row.fused ? "fused" : "rows").append(shown.main, shown.reason);
       }
       if (this.selectedId === null) this.selectedId = id;
       this.rows.get(id).show(row, id === this.selectedId);
@@ -109,6 +122,7 @@ export class Table {
     }
     if (!seen.has(this.selectedId)) this.selectedId = this.rows.keys().next().value ?? null;
     element("nothing").hidden = seen.size > 0;
+    element("no-fused").hidden = state.rows.some((row) => row.fused);
     this.showDetail(state.rows.find((row) => rowId(row) === this.selectedId));
     this.showDaemons(state.daemons);
     this.showEvents(state.events);
@@ -127,6 +141,7 @@ export class Table {
       lines.push(["residual", row.residual_rad ? `${(row.residual_rad * 206264.8).toFixed(1)} arcsec RMS of ${row.observations}` : "–"]);
       lines.push(["frames", `T_${row.frames.join("_")}`]);
     }
+    if (row.fused) lines.push(...fusedLines(row));
     if (row.axis) lines.push(["axis", `pitch ${degreeText(row.pitch_rad, 4)}, yaw ${degreeText(row.yaw_rad, 4)}, sigma ${degreeText(row.sigma_rad, 4)}`]);
     if (row.spin) lines.push(["spin", `${degreeText(range(row.spin), 4)}/s, sigma ${degreeText(row.sigma_rad_s, 4)}/s`]);
     lines.push(["refused, lost", `${row.refused}, ${row.lost}`]);

@@ -24,9 +24,10 @@ export class Target {
     this.second = shapes.ghost(this.shape);
     this.ellipsoid = shapes.ellipsoid(colour);
     this.trail = shapes.trail(colour, TRAIL);
+    this.protection = shapes.protection(colour); // of a fused state: the centre is within
     this.points = [];
     this.sensors = shapes.sensors(SENSORS);
-    this.group.add(this.shape, this.second, this.ellipsoid, this.trail);
+    this.group.add(this.shape, this.second, this.ellipsoid, this.protection, this.trail);
     (placements ? this.shape : this.group).add(this.sensors);
   }
 
@@ -35,6 +36,7 @@ export class Target {
     this.shape.visible = current;
     this.second.visible = current && row.p2 !== undefined;
     this.ellipsoid.visible = current && options.ellipsoid > 0;
+    this.protection.visible = current && options.ellipsoid > 0 && (row.fused?.protection_m ?? null) !== null;
     this.trail.visible = options.trails;
     this.takeSensors(row);
     if (!current) return;
@@ -42,6 +44,10 @@ export class Target {
     if (row.p2) this.place(this.second, row.p2, row.q2);
     if (this.shape.connector) this.shape.connector.visible = row.turn;
     this.ellipsoid.matrix.copy(shapes.ellipsoidMatrix(row.covariance, 3 * options.ellipsoid)).setPosition(...row.p);
+    if (this.protection.visible) {
+      this.protection.position.fromArray(row.p);
+      this.protection.scale.setScalar(row.fused.protection_m);
+    }
     this.extend(row.p);
   }
 

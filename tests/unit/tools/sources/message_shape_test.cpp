@@ -10,6 +10,7 @@
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
 #include "tools/listen/subscription.hpp"
 
 namespace pharos::tools {
@@ -28,6 +29,16 @@ bearings_t example<bearings_t>() {
   message.source = "lighthouse/chaser";
   message.bearings.resize(3);
   message.count = 3;
+  return message;
+}
+template <>
+target_state_t example<target_state_t>() {
+  target_state_t message{};
+  message.target = "dock";
+  message.mode = "fused";
+  message.sources.resize(2);
+  message.sources[1].reason = "step";
+  message.source_count = 2;
   return message;
 }
 template <>
@@ -59,7 +70,7 @@ class Shape : public ::testing::Test {
     return decode(message, bytes.data(), static_cast<int>(bytes.size()));
   }
 };
-using Types = ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t>;
+using Types = ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t, target_state_t>;
 TYPED_TEST_SUITE(Shape, Types);
 
 TYPED_TEST(Shape, IsThatOfTheType) { EXPECT_TRUE(this->is_message(this->encoded())); }

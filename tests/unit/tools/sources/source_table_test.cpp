@@ -12,6 +12,8 @@
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
+#include "tools/listen/received_state.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -175,6 +177,48 @@ TEST(SourceTable, ASpinIsARow) {
   table.add("PHAROS_SLAM_SPIN", spin, kSecond_ns, kSecond_ns);
   ASSERT_EQ(table.rows().size(), 1u);
   EXPECT_DOUBLE_EQ(table.rows().begin()->second.spin->rate_rad_s.z(), 0.1);
+}
+
+TEST(SourceTableOfStates, AFusedStateHasARowWithItsSources) {
+  target_state_t state{};
+  state.utime = 1'000'000;
+  state.target = "client";
+  state.mode = "fused";
+  state.valid = 1;
+  state.orientation_wxyz[0] = 1.0;
+  state.position_m[2] = 2.0;
+  for (int i = 0; i < 12; ++i) state.covariance[13 * i] = 1e-6;
+  state.position_protection_available = 1;
+  state.position_protection_m = 0.02;
+  state.sources.resize(2);
+  state.sources[0].name = "lighthouse";
+  state.sources[0].state = "used";
+  state.sources[1].name = "tof";
+  state.sources[1].state = "excluded";
+  state.sources[1].reason = "step";
+  state.source_count = 2;
+  constexpr std::int64_t kNow_ns = 1'000'000'000;
+  SourceTable table;
+  table.add("PHAROS_TARGET_STATE", state, kNow_ns, kNow_ns);
+  ASSERT_EQ(table.rows().size(), 1U);
+  const SourceRow& row = table.rows().begin()->second;
+  EXPECT_EQ(row.status, "fused");
+  EXPECT_EQ(row.flags, "tof:excluded:step");
+  ASSERT_TRUE(row.fused && row.pose);
+  EXPECT_EQ(row.pose->pose->t.z(), 2.0);
+  EXPECT_NEAR(row.pose->sigma_pos_m, std::sqrt(3e-6), 1e-12);
+  EXPECT_EQ(row.fused->protection_m, 0.02);
+  EXPECT_FALSE(row.fused->protection_rad.has_value());
+  EXPECT_EQ(fused_text(*row.fused), "protected to 20.0 mm - deg  lighthouse used, tof excluded (step)");
+  state.mode = "lost";
+  state.valid = 0;
+  table.add("PHAROS_TARGET_STATE", state, kNow_ns + 1, kNow_ns + 1);
+  EXPECT_EQ(table.rows().begin()->second.status, "lost");
+  EXPECT_EQ(table.events().back().text.find("client fused state: lost") != std::string::npos, true);
+  state.valid = 1;
+  state.covariance[0] = std::nan("");
+  table.add("PHAROS_TARGET_STATE", state, kNow_ns + 2, kNow_ns + 2);
+  EXPECT_EQ(table.left_out().impossible, 1);
 }
 
 }  // namespace
