@@ -19,7 +19,7 @@ std::int64_t ReplayTimeline::earliest_ns() const {
 
 std::int64_t ReplayTimeline::wait_ns(Player player) {
   const std::int64_t next_ns = *next_ns_[player], first_ns = earliest_ns();
-  if (speed_ == ReplaySpeed::kFastest) return next_ns <= first_ns ? 0 : kNotYourTurn_ns;
+  if (speed_ == ReplaySpeed::kFastest) return next_ns <= first_ns && held_ == 0 ? 0 : kNotYourTurn_ns;
   const std::int64_t now_ns = clock_.monotonic_ns();
   if (!shift_ns_) shift_ns_ = now_ns - first_ns;
   const std::int64_t silence_ns = first_ns + *shift_ns_ - now_ns;

@@ -33,6 +33,9 @@ class ReplayTimeline final : public Clock {
   Player add(std::int64_t next_ns);
   void set_next(Player player, std::int64_t next_ns) { next_ns_[player] = next_ns; }
   void end(Player player) { next_ns_[player].reset(); }
+  /// At full speed nothing is played between these two: work on what was played is not done.
+  void hold() { ++held_; }
+  void go_on() { --held_; }
   /// Time until the player's next piece is due; 0: now. At full speed pieces are due in the order of their times.
   std::int64_t wait_ns(Player player);
   /// A piece that arrived at these times is played.
@@ -52,6 +55,7 @@ class ReplayTimeline final : public Clock {
   std::int64_t played_ns_ = 0;
   std::int64_t utc_minus_monotonic_ns_ = 0;
   std::int64_t silences_cut_ = 0;
+  int held_ = 0;
 };
 
 }  // namespace pharos::host

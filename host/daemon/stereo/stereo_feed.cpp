@@ -95,8 +95,12 @@ void StereoFeed::on_readable() {
       }
     }
     release(std::move(pair));
-    // At full speed a recording waits until its pair is measured; it would be dropped for the next one.
-    if (context_.replay_speed == ReplaySpeed::kFastest && !idle()) forget_pairs();
+    // At full speed all recordings wait until the pair is measured: it would be dropped for the next one, and its pose
+    // would come among other poses in another order each time.
+    if (context_.replay_speed == ReplaySpeed::kFastest && !idle()) {
+      forget_pairs();
+      context_.replay->hold();
+    }
   }
   finish_when_all_answered();
 }
@@ -106,7 +110,10 @@ void StereoFeed::on_results(System& system) {
     system.pipeline.done(*done, !clock_notice().empty());
     release(std::move(done->job));
   }
-  if (idle()) watch_pairs();
+  if (!watched_ && idle()) {
+    watch_pairs();
+    context_.replay->go_on();
+  }
   finish_when_all_answered();
 }
 
