@@ -220,6 +220,13 @@ void Engine::map_keyframe(KeyframeId id) {
   figures_.add_mapping(on_keyframe.ms());
 }
 
+ClosedLoop Engine::in_left_camera(const Loop& loop) const {
+  const Keyframe& there = map_.keyframes.at(loop.there);
+  const Pose<frame::Camera, frame::Camera> measured = loop.corrected * there.pose.inverse();
+  const Matrix3& R = frontend_.R_left_rectified();
+  return {map_.keyframes.at(loop.here).number, there.number, {R * measured.R * R.transpose(), R * measured.t}};
+}
+
 void Engine::close_loop(KeyframeId id) {
   if (!settings_.close_loops) return;
   const Stopwatch on_keyframe;
@@ -230,6 +237,7 @@ void Engine::close_loop(KeyframeId id) {
     const auto loop = closer_.find(id);
     figures_.set_loops_refused(closer_.refused(), closer_.counts());
     if (!loop) return;
+    loops_.push_back(in_left_camera(*loop));
     closer_.correct(*loop);
     ++corrections_;
     problem = global_problem(map_);
@@ -256,6 +264,11 @@ std::vector<SlamPoint> Engine::points() const {
     out.push_back({frontend_.R_left_rectified() * point.position_m, static_cast<int>(point.seen_by.size())});
   }
   return out;
+}
+
+std::vector<ClosedLoop> Engine::loops() const {
+  const std::lock_guard lock(mutex_);
+  return loops_;
 }
 
 SlamReport Engine::report() const {

@@ -32,6 +32,7 @@ class Engine final : public SlamSystem {
   std::vector<TrackedFrame> trajectory() const override;
   std::vector<TrackedFrame> optimised_trajectory() const override;
   std::vector<SlamPoint> points() const override;
+  std::vector<ClosedLoop> loops() const override;
   SlamReport report() const override;
   std::vector<std::array<double, 3>> last_features() const override;
   ImageView<const std::uint8_t> last_image() const override { return frontend_.image(); }
@@ -47,6 +48,7 @@ class Engine final : public SlamSystem {
   void note_skew(const Frame& frame);
   void map_keyframe(KeyframeId id);
   void close_loop(KeyframeId id);
+  ClosedLoop in_left_camera(const Loop& loop) const;
 
   SlamSettings settings_;
   StereoFrontend frontend_;
@@ -55,6 +57,7 @@ class Engine final : public SlamSystem {
   KeyframeDatabase keyframe_database_;
   Tracker tracker_;
   LoopCloser closer_;
+  std::vector<ClosedLoop> loops_;
   std::int64_t corrections_ = 0;  // of the whole map
   TrajectoryLog log_;
   Frame last_;

@@ -36,6 +36,13 @@ struct SlamPoint {
   int observers = 0;
 };
 
+/// A loop that was closed, as it was measured.
+struct ClosedLoop {
+  std::int64_t here = 0, there = 0;                 ///< numbers of the two pairs
+  Pose<frame::Camera, frame::Camera> T_here_there;  ///< from the left camera of the one to that of the other
+  bool taken_back = false;
+};
+
 /// Stereo frames to the pose of a target without a model (paper 004, section 2; ORB-SLAM2 of Mur-Artal 2017).
 ///
 /// After a failure of one of its threads (no memory), push(), finish() and optimised_trajectory() throw
@@ -54,6 +61,7 @@ class SlamSystem {
   /// The result of trajectory() after finish(), without any effect on the system.
   virtual std::vector<TrackedFrame> optimised_trajectory() const = 0;
   virtual std::vector<SlamPoint> points() const = 0;
+  virtual std::vector<ClosedLoop> loops() const = 0;
   virtual SlamReport report() const = 0;
   /// Features of the last pair in the rectified left image: column, row, and 0 (mono), 1 (stereo) or 2 (of the map).
   virtual std::vector<std::array<double, 3>> last_features() const = 0;

@@ -68,6 +68,20 @@ TEST(CliReproduce, PrintsAMarkdownTable) {
   EXPECT_THAT(run.out, HasSubstr("| table 2 | run 1: rotation RMS | 0.96 deg |"));
 }
 
+TEST(CliReproduce, TurnsBodiesDrawnAtRandom) {
+  const Outcome run = pharos("reproduce slam --bodies 1 --seed 8 --turn-deg 3");
+  ASSERT_EQ(run.exit_code, 0);
+  const auto rows = rows_of(run.out);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("seed"), "8");
+  EXPECT_EQ(rows[0].at("symmetric"), "1");
+  EXPECT_EQ(rows[0].at("pairs"), "4");
+  EXPECT_EQ(rows[0].at("placed"), "4");
+  EXPECT_LT(std::stod(rows[0].at("rmse_deg")), 0.25);
+  EXPECT_EQ(rows[2].at("seed"), "median");
+  EXPECT_EQ(pharos("reproduce slam --bodies 1 --turn-deg 0").exit_code, 2);
+}
+
 TEST(CliReproduce, SaysWhereRecordingsAreMissing) {
   const Outcome run = pharos("reproduce lighthouse --recordings /nowhere");
   EXPECT_EQ(run.exit_code, 2);

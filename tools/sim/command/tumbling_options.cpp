@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tools/sim/stereo_tumbling/board_pairs.hpp"
+#include "tools/sim/stereo_tumbling/body_sequence.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
 #include "tools/sim/stereo_tumbling/street_sequence.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
@@ -33,6 +34,13 @@ bool write_scene(SceneArguments options, std::uint64_t seed, const std::string& 
     sim::write_street(options.street, seed, directory, [&progress] { progress.step(); });
     return true;
   }
+  if (options.scene == "body") {
+    const sim::BodyScenario body{options.scenario.turn_deg, options.scenario.step_deg};
+    const auto pairs = static_cast<std::size_t>(body.turn_deg / body.step_deg) + 1;
+    Progress progress("rendered", "pairs", pairs);
+    sim::write_body(body, seed, directory, [&progress] { progress.step(); });
+    return true;
+  }
   if (options.scene == "boards") {
     Progress progress("rendered", "pairs", static_cast<std::size_t>(options.board_pairs));
     const host::RigFile rig = sim::tumbling_rig(options.scenario);
@@ -55,8 +63,8 @@ std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI:
       .add_option(
           "--scene", options->scene,
           "tumbling: a satellite that turns (paper 004); boards: its rig's calibration; room: a walk with a raw rig; "
-          "street: a drive round a corner")
-      ->check(CLI::IsMember({"tumbling", "boards", "room", "street"}));
+          "street: a drive round a corner; body: a satellite drawn from the seed turns")
+      ->check(CLI::IsMember({"tumbling", "body", "boards", "room", "street"}));
   command.add_option("--path-m", options->room.path_m, "room: length of the walk (default 60)")
       ->check(CLI::Range(0.0, 10'000.0));
   command.add_option("--straight-m", options->street.straight_m, "street: before and after the corner (default 36)")
@@ -71,9 +79,9 @@ std::function<bool(std::uint64_t, const std::string&)> add_tumbling_options(CLI:
       ->check(CLI::Range(-1.0, 1.0));
   command.add_option("--pairs", options->board_pairs, "boards: how many (default 15; dots, 12 x 8, 80 mm, radius 20)")
       ->check(CLI::Range(1, 1000));
-  command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling: the whole turn (default 360)")
+  command.add_option("--turn-deg", options->scenario.turn_deg, "tumbling, body: the whole turn (default 360)")
       ->check(CLI::Range(0.0, 7200.0));
-  command.add_option("--step-deg", options->scenario.step_deg, "tumbling: a frame (default 0.5)")
+  command.add_option("--step-deg", options->scenario.step_deg, "tumbling, body: a frame (default 0.5)")
       ->check(CLI::Range(0.01, 30.0));
   command
       .add_option("--light", options->light,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "tools/sim/render/solid_shapes.hpp"
@@ -40,27 +41,67 @@ double noise_at(double x, double y) {
          b * ((1 - a) * hashed(i, j + 1) + a * hashed(i + 1, j + 1));
 }
 
-Vector3 wrinkled(const Vector3& normal, const Vector2& place_m, const Material& material) {
-  const Vector2 p = place_m / material.bump_size_m;
-  const Vector3 tilt(noise_at(p.x(), p.y()), noise_at(p.x() + 91.7, p.y() + 13.1),
-                     noise_at(p.x() + 47.3, p.y() - 71.9));
+// Where on the lattice of random values a surface's pattern begins.
+Vector2 pattern_origin(const SolidHit& hit, const Material& material) {
+  if (material.pattern == 0) return Vector2::Zero();
+  const auto which = static_cast<std::int64_t>(material.pattern) * 8 + hit.face;
+  return 1e5 * Vector2(hashed(which, 1), hashed(which, 2));
+}
+
+// Noise of a surface with a pattern has finer parts too.
+double roughness_at(const Vector2& p, const Material& material) {
+  const double coarse = noise_at(p.x(), p.y());
+  if (material.pattern == 0) return coarse;
+  return 0.75 * coarse + 0.5 * noise_at(3.1 * p.x(), 3.1 * p.y());
+}
+
+Vector3 wrinkled(const Vector3& normal, const SolidHit& hit, const Material& material) {
+  const Vector2 p = hit.place_m / material.bump_size_m + pattern_origin(hit, material);
+  const Vector3 tilt(roughness_at(p, material), roughness_at(p + Vector2(91.7, 13.1), material),
+                     roughness_at(p + Vector2(47.3, -71.9), material));
   return (normal + 2.0 * material.bumps * tilt).normalized();
 }
 
-double albedo_at(const Vector2& place_m, const Material& material) {
-  if (material.line_m <= 0.0) return material.albedo;
+// Stains where there are no cells, else each cell's own shade: a factor on the albedo.
+double paint_at(const SolidHit& hit, const Material& material) {
+  if (material.paint_contrast <= 0.0) return 1.0;
+  const Vector2 origin = pattern_origin(hit, material);
+  if (material.line_m > 0.0 && material.cell_m.minCoeff() > 0.0) {
+    return 1.0 + 2.0 * material.paint_contrast *
+                     hashed(static_cast<std::int64_t>(std::floor(hit.place_m.x() / material.cell_m.x())) +
+                                static_cast<std::int64_t>(origin.x()),
+                            static_cast<std::int64_t>(std::floor(hit.place_m.y() / material.cell_m.y())) +
+                                static_cast<std::int64_t>(origin.y()));
+  }
+  return 1.0 + 2.0 * material.paint_contrast * roughness_at(hit.place_m / material.bump_size_m - origin, material);
+}
+
+double albedo_at(const SolidHit& hit, const Material& material) {
+  if (material.line_m <= 0.0) return material.albedo * paint_at(hit, material);
   for (int axis = 0; axis < 2; ++axis) {
     const double cell = material.cell_m[axis];
     if (cell <= 0.0) continue;
-    const double at = std::abs(place_m[axis] - cell * std::round(place_m[axis] / cell));
+    const double at = std::abs(hit.place_m[axis] - cell * std::round(hit.place_m[axis] / cell));
     if (at < 0.5 * material.line_m) return material.line_albedo;
   }
-  return material.albedo;
+  return material.albedo * paint_at(hit, material);
+}
+
+// Places on the sun's disc: its middle, or seven of equal weight.
+std::vector<Vector3> sun_directions(const SolidScene& scene) {
+  std::vector<Vector3> out{scene.to_sun};
+  if (scene.sun_radius_rad <= 0.0) return out;
+  const Vector3 across = scene.to_sun.unitOrthogonal(), along = scene.to_sun.cross(across);
+  for (int k = 0; k < 6; ++k) {
+    const double angle = k * std::numbers::pi / 3.0, radius = 0.76 * scene.sun_radius_rad;
+    out.push_back((scene.to_sun + radius * (std::cos(angle) * across + std::sin(angle) * along)).normalized());
+  }
+  return out;
 }
 
 class Caster {
  public:
-  Caster(const SolidScene& scene, const Vector3& eye) : scene_(scene), eye_(eye) {
+  Caster(const SolidScene& scene, const Vector3& eye) : scene_(scene), eye_(eye), suns_(sun_directions(scene)) {
     for (const Solid& solid : scene.solids) {
       const Bounds bounds = bounds_of(solid);
       bounds_.push_back({solid.R * bounds.centre_m + solid.t_m, bounds.radius_m});
@@ -78,6 +119,11 @@ class Caster {
     int which = -1;
     for (const std::uint16_t k : candidates) {
       const Solid& solid = scene_.solids[k];
+      // Past the sphere around it.
+      if ((bounds_[k].centre_m - eye_).cross(direction).squaredNorm() >
+          bounds_[k].radius_m * bounds_[k].radius_m * direction.squaredNorm()) {
+        continue;
+      }
       const Vector3 d = solid.R.transpose() * direction;
       const SolidHit hit = std::visit([&](const auto& shape) { return meet(shape, eyes_[k], d, 1e-9); }, solid.shape);
       if (hit.depth >= nearest.depth) continue;
@@ -97,15 +143,25 @@ class Caster {
     return std::visit([&](const auto& shape) { return meet(shape, o, d, nearest); }, solid.shape);
   }
 
-  bool in_shadow(const Vector3& place) const {
+  // Part of the sun that is seen from a place on the lit side of a solid: a box does not shade itself.
+  double sun_seen(const Vector3& place, const Solid& own) const {
+    std::vector<std::size_t>& near = in_the_way_;
+    near.clear();
     for (std::size_t k = 0; k < scene_.solids.size(); ++k) {
+      if (&scene_.solids[k] == &own && std::holds_alternative<SolidBox>(own.shape)) continue;
       const Vector3 to = bounds_[k].centre_m - place;
       const double along = to.dot(scene_.to_sun);
       if (along < -bounds_[k].radius_m) continue;
-      if ((to - along * scene_.to_sun).squaredNorm() > bounds_[k].radius_m * bounds_[k].radius_m) continue;
-      if (meet_solid(k, place, scene_.to_sun, kOffSurface_m).depth != kNever) return true;
+      const double reach = bounds_[k].radius_m + scene_.sun_radius_rad * std::max(0.0, along);
+      if ((to - along * scene_.to_sun).squaredNorm() <= reach * reach) near.push_back(k);
     }
-    return false;
+    if (near.empty()) return 1.0;
+    std::size_t seen = 0;
+    for (const Vector3& sun : suns_) {
+      seen += std::none_of(near.begin(), near.end(),
+                           [&](std::size_t k) { return meet_solid(k, place, sun, kOffSurface_m).depth != kNever; });
+    }
+    return static_cast<double>(seen) / static_cast<double>(suns_.size());
   }
 
   double light_of(const Solid& solid, const SolidHit& hit, const Vector3& direction) const {
@@ -113,16 +169,16 @@ class Caster {
     const Vector3 sight = direction.normalized();
     Vector3 flat = solid.R * hit.normal;
     if (flat.dot(sight) > 0.0) flat = -flat;
-    const Vector3 normal = material.bumps > 0.0 ? wrinkled(flat, hit.place_m, material) : flat;
-    const double albedo = albedo_at(hit.place_m, material);
+    const Vector3 normal = material.bumps > 0.0 ? wrinkled(flat, hit, material) : flat;
+    const double albedo = albedo_at(hit, material);
     double light = scene_.fill * albedo * std::max(0.0, -normal.dot(sight));
     const double sun = normal.dot(scene_.to_sun);
     if (sun <= 0.0 || flat.dot(scene_.to_sun) <= 0.0) return light;
-    if (in_shadow(eye_ + hit.depth * direction + kOffSurface_m * flat)) return light;
-    light += albedo * sun;
-    if (material.gloss > 0.0) {
+    const double seen = sun_seen(eye_ + hit.depth * direction + kOffSurface_m * flat, solid);
+    light += seen * albedo * sun;
+    if (material.gloss > 0.0 && seen > 0.0) {
       const Vector3 between = (scene_.to_sun - sight).normalized();
-      light += material.gloss * std::pow(std::max(0.0, between.dot(normal)), kShininess);
+      light += seen * material.gloss * std::pow(std::max(0.0, between.dot(normal)), kShininess);
     }
     return light;
   }
@@ -131,6 +187,8 @@ class Caster {
   Vector3 eye_;
   std::vector<Vector3> eyes_;  // in each solid's frame
   std::vector<Bounds> bounds_;
+  std::vector<Vector3> suns_;
+  mutable std::vector<std::size_t> in_the_way_;  // of one place, kept for its memory
 };
 
 // Which solids may be seen in each tile of the image.

@@ -20,6 +20,10 @@ struct Material {
   /// Cells: brighter or darker lines around each, of a box's faces; 0: none.
   Vector2 cell_m = Vector2::Zero();
   double line_m = 0.0, line_albedo = 0.0;
+  /// Which random pattern of paint and wrinkles a surface has, each face of a box another; equal numbers on equal
+  /// shapes look alike. 0: one pattern for all, wrinkles only.
+  std::uint32_t pattern = 0;
+  double paint_contrast = 0.0;  ///< of stains, as large as the wrinkles, and of whole cells: +- this part of the albedo
 };
 
 // Shapes in their own frame.
@@ -48,6 +52,7 @@ struct SolidScene {
   std::vector<Solid> solids;
   Vector3 to_sun = Vector3::UnitZ();  ///< unit
   double fill = 0.05;                 ///< of the sun's light, from the camera's side, without shadows
+  double sun_radius_rad = 0.0;        ///< of the sun or lamp as seen from the scene: soft edges of shadows
 };
 
 /// The scene's light in a camera with p_scene = R p_camera + t: hard shadows, `rays` places a pixel where surfaces or

@@ -9,6 +9,7 @@ SolidHit meet(const SolidBox& box, const Vector3& origin, const Vector3& directi
   if (!(entry.at > nearest) || entry.at == kNever) return hit;
   hit.depth = entry.at;
   hit.normal = Vector3::Unit(entry.axis);
+  hit.face = 2 * entry.axis + (direction[entry.axis] > 0.0 ? 0 : 1);
   const Vector3 place = origin + entry.at * direction - box.low;
   hit.place_m = {place[(entry.axis + 1) % 3], place[(entry.axis + 2) % 3]};
   if (entry.axis == 1) hit.place_m = {hit.place_m.y(), hit.place_m.x()};  // x before z, as x before y elsewhere
@@ -36,7 +37,8 @@ SolidHit meet(const ConeShell& cone, const Vector3& origin, const Vector3& direc
     const double radius = place.head<2>().norm();
     return {depth,
             Vector3(place.x() / radius, place.y() / radius, -slope).normalized(),
-            {radius * std::atan2(place.y(), place.x()), place.z()}};
+            {radius * std::atan2(place.y(), place.x()), place.z()},
+            0};
   }
   return {};
 }
@@ -50,7 +52,7 @@ SolidHit meet(const Dish& dish, const Vector3& origin, const Vector3& direction,
   for (const double depth : {(-b - root) / a, (-b + root) / a}) {
     const Vector3 place = origin + depth * direction;
     if (!(depth > nearest) || place.z() < dish.from_m) continue;
-    return {depth, place.normalized(), place.head<2>()};
+    return {depth, place.normalized(), place.head<2>(), 0};
   }
   return {};
 }

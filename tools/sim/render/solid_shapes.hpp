@@ -12,6 +12,7 @@ struct SolidHit {
   double depth = kNever;
   Vector3 normal = Vector3::UnitZ();
   Vector2 place_m = Vector2::Zero();
+  int face = 0;  ///< of a box
 };
 
 /// Nearest hit ahead of `nearest`; depth kNever where there is none.

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "tools/evaluation/reproduce/slam/body_campaign.hpp"
 #include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/output.hpp"
@@ -19,17 +20,31 @@ constexpr const char* kExample =
     "minutes; with POV-Ray hours. Runs can be had one by one; together they share pictures.\n\n"
     "Example:\n"
     "  pharos reproduce slam --turns 30 60 --renderer rays --markdown\n"
-    "  pharos reproduce slam --runs low-enhanced --renderer rays --output low.csv";
+    "  pharos reproduce slam --runs low-enhanced --renderer rays --output low.csv\n"
+    "  pharos reproduce slam --bodies 20 --seed 101 --markdown";
 
 struct Options {
   TableOneOptions table;
+  BodyCampaign bodies;
   std::string renderer = "povray";
   bool markdown = false;
   OutputOptions output;
 };
 
+int run_over_bodies(const Options& options) {
+  BodyCampaign campaign = options.bodies;
+  campaign.seed = options.table.seed;
+  campaign.features = options.table.features;
+  const auto pairs = static_cast<std::size_t>(campaign.scenario.turn_deg / campaign.scenario.step_deg) + 1;
+  Progress progress("reproduce slam", "pairs", static_cast<std::size_t>(campaign.bodies) * pairs);
+  campaign.step = [&progress] { progress.step(); };
+  run_bodies(campaign, options.markdown, options.output);
+  return kExitAnswered;
+}
+
 int run(Options options) {
   require_writable(options.output.path);
+  if (options.bodies.bodies > 0) return run_over_bodies(options);
   options.table.povray = options.renderer == "povray";
   Progress progress("reproduce slam", "pairs", table_one_pairs(options.table));
   options.table.step = [&progress](std::size_t pairs) { progress.step(pairs); };
@@ -52,7 +67,17 @@ void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
   command
       ->add_option("--renderer", options->renderer, "povray (default), or rays: without gloss, in a tenth of the time")
       ->check(CLI::IsMember({"povray", "rays"}));
-  add_seed_option(*command, options->table.seed, "Of textures, stars and noise");
+  command
+      ->add_option("--bodies", options->bodies.bodies,
+                   "Instead of the table: a turn of as many satellites drawn at random, a row each, every second one "
+                   "symmetric; --turn-deg and --step-deg say how")
+      ->check(CLI::Range(1, 100'000));
+  command->add_option("--turn-deg", options->bodies.scenario.turn_deg, "With --bodies (default 360)")
+      ->check(CLI::Range(1.0, 7200.0));
+  command->add_option("--step-deg,--step", options->bodies.scenario.step_deg, "With --bodies, a pair (default 1)")
+      ->check(CLI::Range(0.05, 30.0));
+  add_seed_option(*command, options->table.seed,
+                  "Of textures, stars and noise; with --bodies of the first, the next ones follow");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

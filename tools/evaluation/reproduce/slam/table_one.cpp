@@ -6,20 +6,19 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "host/images/grey_image.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/vision/enhance/enhancer.hpp"
 #include "host/vision/slam/slam_system.hpp"
+#include "tools/evaluation/reproduce/slam/nees.hpp"
 #include "tools/plot/curves.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 
 namespace pharos::tools {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kLoopFrom_deg = 360.0;
 
 // As printed: RMSE, absolute error and estimated value, deg.
@@ -116,10 +115,6 @@ struct Outcome {
   std::vector<PlotPoint> estimated, truth;  // turn over the frame's number, deg
 };
 
-double normalised_square(const Vector3& error, const Matrix3& covariance) {
-  return error.dot(covariance.inverse() * error) / 3.0;
-}
-
 Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& sequence) {
   Outcome outcome;
   // Of the turn in the camera's frame, from one step of it.
@@ -131,10 +126,10 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
       continue;
     }
     const auto truth = sequence.truth(static_cast<int>(frame.number));
-    outcome.last_deg = kDegrees * rotation_angle_between(frame.placed->pose.R, truth.R);
+    outcome.last_deg = kDegreesPerRadian * rotation_angle_between(frame.placed->pose.R, truth.R);
     outcome.rmse_deg += outcome.last_deg * outcome.last_deg;
     const double true_deg = sim::TumblingScenario{}.step_deg * static_cast<double>(frame.number);
-    const double error_deg = kDegrees * rotation_log(frame.placed->pose.R * truth.R.transpose()).dot(axis);
+    const double error_deg = kDegreesPerRadian * rotation_log(frame.placed->pose.R * truth.R.transpose()).dot(axis);
     outcome.turned_deg = true_deg + error_deg;
     outcome.truth.push_back({static_cast<double>(frame.number), true_deg});
     outcome.estimated.push_back({static_cast<double>(frame.number), outcome.turned_deg});
@@ -142,8 +137,8 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
     if (outcome.placed++ == 0) continue;
     const Matrix6& covariance = frame.placed->covariance;
     outcome.attitude_square +=
-        normalised_square(rotation_log(truth.R * frame.placed->pose.R.transpose()), covariance.topLeftCorner<3, 3>());
-    outcome.position_square += normalised_square(truth.t - frame.placed->pose.t, covariance.bottomRightCorner<3, 3>());
+        nees_of(rotation_log(truth.R * frame.placed->pose.R.transpose()), covariance.topLeftCorner<3, 3>());
+    outcome.position_square += nees_of(truth.t - frame.placed->pose.t, covariance.bottomRightCorner<3, 3>());
   }
   if (outcome.placed > 0) outcome.rmse_deg = std::sqrt(outcome.rmse_deg / outcome.placed);
   const int tracked = std::max(1, outcome.placed - 1);

@@ -3,6 +3,7 @@
 // hours (`pharos reproduce slam`).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "host/vision/slam/slam_system.hpp"
+#include "tools/evaluation/reproduce/slam/body_campaign.hpp"
 #include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/sim/stereo_tumbling/room_sequence.hpp"
 
@@ -47,6 +49,21 @@ void expect_table_one(const std::string& run, const Bounds& bounds) {
 TEST(SlamCampaign, GoodLight) { expect_table_one("good", {0.1, 0.1}); }
 
 TEST(SlamCampaign, LowLightEnhanced) { expect_table_one("low-enhanced", {0.2, 0.3}); }
+
+// Satellites drawn at random, two of four with symmetric parts.
+TEST(SlamCampaign, ATurnOfRandomBodies) {
+  tools::BodyCampaign campaign;
+  std::vector<double> rmse_deg;
+  for (const std::uint64_t seed : {41u, 42u, 43u, 44u}) {
+    const tools::BodyFigures body = tools::run_body(campaign, seed);
+    EXPECT_EQ(body.loops_wrong, body.loops_taken_back) << seed;
+    EXPECT_EQ(body.lost, 0) << seed;
+    EXPECT_LE(body.rmse_deg, 0.25) << seed;
+    rmse_deg.push_back(body.rmse_deg);
+  }
+  std::sort(rmse_deg.begin(), rmse_deg.end());
+  EXPECT_LE(0.5 * (rmse_deg[1] + rmse_deg[2]), 0.08);
+}
 
 // Raw images with a rig file; errors are computed without alignment.
 TEST(SlamCampaign, AWalkOfSixtyMetres) {
