@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <vector>
 
 #include "host/cameras/camera_file.hpp"
 #include "host/cameras/tof_target.hpp"
@@ -17,6 +18,7 @@
 #include "tools/support/progress.hpp"
 #include "tools/tof/described_target.hpp"
 #include "tools/tof/overlay.hpp"
+#include "tools/tof/paper_frames.hpp"
 #include "tools/tof/quantise.hpp"
 #include "tools/tof/tof_rows.hpp"
 
@@ -30,11 +32,14 @@ constexpr const char* kExample =
     "NNNN_abcy16.raw.\n"
     "  pharos tof recording --camera camera.toml --learn ring.toml; pharos tof other --camera camera.toml --target "
     "ring.toml\n"
+    "  pharos tof recording --camera camera.toml --method paper --stages steps --summary\n"
     "Poses are T_camera_target: the ring's centre, and (8) of the paper for the angles. Without a connector (flag "
     "no_connector) gamma and the\n"
     "quaternion are empty and sigma_rot_deg is that of the two tilts. --summary prints mean and sigma as table 2.\n"
     "--covariance: in the camera's frame; without a connector the variance about Z' is that of a uniform angle, pi^2/3 "
     "rad^2.\n"
+    "--method paper: no sigma, no flags; 8-bit depth, one connector's middle, any region that passes its rules may be "
+    "it.\n"
     "--format tum: time_s is the frame's number (of 16 digits and more: ns); frames without a turn have no line.";
 
 struct Options {
@@ -49,6 +54,9 @@ struct Options {
   tof::TofSettings settings;
   double min_diameter_mm = 0.0;
   double max_diameter_mm = 0.0;
+  std::string method = "ring";
+  std::string stages;
+  std::string threshold = "printed";
   OutputOptions output;
 };
 
@@ -146,10 +154,20 @@ void write_learnt(const std::string& path, const TargetLearner& learner) {
   note("--learn: " + path + " from " + std::to_string(learner.frames()) + " frames");
 }
 
+int run_paper(const Options& options) {
+  PaperFramesOptions paper{options.folder, options.camera};
+  paper.stages = options.stages;
+  paper.printed_threshold = options.threshold == "printed";
+  paper.summary = options.summary;
+  paper.output = options.output;
+  return run_paper_frames(paper);
+}
+
 int run(Options options) {
   if (options.summary && (options.output.covariance || options.output.row_format() == host::RowFormat::kTum)) {
     throw host::InputError("--summary has no poses: give it without --covariance and --format tum");
   }
+  if (options.method == "paper") return run_paper(options);
   if (options.min_diameter_mm > 0.0) options.settings.ring.min_outer_radius_m = 0.0005 * options.min_diameter_mm;
   if (options.max_diameter_mm > 0.0) options.settings.ring.max_outer_radius_m = 0.0005 * options.max_diameter_mm;
   if (!options.target.empty()) {
@@ -182,6 +200,31 @@ int run(Options options) {
   return measurer.input().finish(answered);
 }
 
+void add_paper_options(CLI::App& command, Options& options) {
+  command.add_option("--method", options.method, "ring: our estimator; paper: paper 000 as printed, on 8-bit depth")
+      ->check(CLI::IsMember({"ring", "paper"}))
+      ->capture_default_str();
+  command.add_option("--stages", options.stages, "With --method paper: a folder for pictures of its steps")
+      ->check(output_place());
+  command
+      .add_option("--threshold", options.threshold,
+                  "With --method paper: (5) as printed (over the mean grey value), or with the count of pixels")
+      ->check(CLI::IsMember({"printed", "count"}))
+      ->capture_default_str();
+}
+
+// Each method has options of its own.
+void refuse_options_of_the_other_method(const CLI::App& command, const Options& options) {
+  const bool paper = options.method == "paper";
+  const std::vector<const char*> ours = {"--overlay",          "--window",     "--depth-bits", "--least-diameter-mm",
+                                         "--most-diameter-mm", "--connectors", "--target",     "--learn"};
+  const std::vector<const char*> theirs = {"--stages", "--threshold"};
+  for (const char* name : paper ? ours : theirs) {
+    if (command.count(name) == 0) continue;
+    throw host::InputError(std::string(name) + (paper ? " is not of --method paper" : " is of --method paper alone"));
+  }
+}
+
 }  // namespace
 
 void add_tof(CLI::App& app, int& exit_code) {
@@ -207,8 +250,12 @@ void add_tof(CLI::App& app, int& exit_code) {
   command->add_option("--learn", options->learn, "Write a target description of ring and connectors, as seen");
   add_output_options(*command, options->output);
   add_pose_format_options(*command, options->output);
+  add_paper_options(*command, *options);
   command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([command, options, &exit_code] {
+    refuse_options_of_the_other_method(*command, *options);
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace pharos::tools

@@ -90,6 +90,16 @@ void write_frame(host::RowWriter& rows, const std::string& frame, const tof::Tof
   rows.end_row();
 }
 
+void write_paper_frame(host::RowWriter& rows, const std::string& frame, const tof::CameraFromTarget& pose) {
+  const PoseNumbers numbers = numbers_of(pose);
+  rows.text(frame).number(pose.t.x()).number(pose.t.y()).number(pose.t.z());
+  rows.number(numbers[3]).number(numbers[4]).number(numbers[5]);
+  write_quaternion(rows, pose.R);
+  rows.none(2).text("ok").none();  // sigmas; flags
+  rows.pose({frame_time_s(frame), canonical_quaternion(pose.R), pose.t});
+  rows.integer(1).none(kDetails.size() - 1 + kSecond.size()).end_row();
+}
+
 void write_window(host::RowWriter& rows, const std::string& frame, const WindowMean& window) {
   rows.text(frame);
   write_target(rows, *window.mean(), window.has_turn());
@@ -107,7 +117,7 @@ std::vector<std::string> summary_columns() {
   return {"statistic", "x_mm", "y_mm", "z_mm", "alpha_deg", "beta_deg", "gamma_deg", "frames"};
 }
 
-void write_summary(host::RowWriter& rows, const PoseSummary& summary) {
+void write_summary(host::RowWriter& rows, const PoseSummary& summary, SummaryRows which) {
   const auto write = [&](const char* name, const PoseNumbers& numbers) {
     rows.text(name);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -121,7 +131,7 @@ void write_summary(host::RowWriter& rows, const PoseSummary& summary) {
   };
   write("mean", summary.mean());
   write("sigma", summary.deviation());
-  write("foretold_sigma", summary.predicted());
+  if (which == SummaryRows::kAll) write("foretold_sigma", summary.predicted());
 }
 
 }  // namespace pharos::tools

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/reproduce/tof/eight_bit.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 
 #include "pharos/tof/ring_extent.hpp"
+#include "tools/tof/paper/paper_chain.hpp"
 
 namespace pharos::tools {
 namespace {
-
-constexpr double kGreys = 255.0;
-constexpr double kMiddleStep_m = 0.1;  // so that the grey scale does not change from frame to frame
-
-double middle_depth_m(const sim::TofPixels& pixels, double scale_m) {
-  std::vector<std::uint16_t> valid;
-  std::copy_if(pixels.depth.begin(), pixels.depth.end(), std::back_inserter(valid),
-               [](auto d) { return has_depth(d); });
-  if (valid.empty()) return 0.0;
-  const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
-  std::nth_element(valid.begin(), middle, valid.end());
-  return std::round(*middle * scale_m / kMiddleStep_m) * kMiddleStep_m;
-}
 
 ellipse::Ellipse mean_of(const ellipse::Ellipse& one, const ellipse::Ellipse& other) {
   ellipse::Ellipse mean = one;
@@ -65,16 +52,9 @@ std::optional<Vector3> point_at(const sim::TofPixels& pixels, const DepthCamera&
 
 }  // namespace
 
-sim::TofPixels eight_bit_depth(const sim::TofPixels& pixels, const sim::DepthScale& scale) {
-  const double low_m = middle_depth_m(pixels, scale.scale_m) - 0.5 * kGreySpan_m;
+sim::TofPixels eight_bit_frame(const sim::TofPixels& pixels, const DepthCamera& camera) {
   sim::TofPixels result = pixels;
-  for (std::uint16_t& counts : result.depth) {
-    if (!has_depth(counts)) continue;
-    const double grey = std::round((counts * scale.scale_m - low_m) / kGreySpan_m * kGreys);
-    const bool inside = grey >= 0.0 && grey <= kGreys;
-    counts = inside ? static_cast<std::uint16_t>(std::lround((low_m + grey / kGreys * kGreySpan_m) / scale.scale_m))
-                    : kNoDepthLow;
-  }
+  result.depth = paper000::eight_bit_depth({pixels.depth.data(), pixels.width_px, pixels.height_px}, camera);
   return result;
 }
 

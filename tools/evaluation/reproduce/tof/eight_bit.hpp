@@ -8,10 +8,8 @@
 
 namespace pharos::tools {
 
-/// The frame with its depth as paper 000 kept it: normalised into 256 grey values, here over kGreySpan_m around the
-/// middle of the frame's depths. "One grey value costs some millimetres": 3.9.
-sim::TofPixels eight_bit_depth(const sim::TofPixels& pixels, const sim::DepthScale& scale);
-inline constexpr double kGreySpan_m = 1.0;
+/// The frame with its depth as paper 000 kept it (paper000::eight_bit_depth).
+sim::TofPixels eight_bit_frame(const sim::TofPixels& pixels, const DepthCamera& camera);
 
 /// A pose as paper 000, 2.2.1 and 2.3 describe it: the mean of the ring's two ellipses, its centre taken for the
 /// circle's centre, a plane through the depths of kRingPoints pixels on it, the connector's middle by its region.

@@ -13,9 +13,9 @@
 #include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 #include "tools/evaluation/reproduce/tof/eight_bit.hpp"
 #include "tools/evaluation/reproduce/tof/orb/orb_motion.hpp"
-#include "tools/evaluation/reproduce/tof/paper/paper_pictures.hpp"
 #include "tools/plot/curves.hpp"
 #include "tools/support/progress.hpp"
+#include "tools/tof/paper/paper_pictures.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -143,7 +143,7 @@ class FourTests {
     const bool answered = pose && pose->has_turn();
     result.ours_series.push_back(answered ? values_of(pose->target.pose) : kNoPose);
     if (answered) result.ours.add(result.ours_series.back());
-    const sim::TofPixels coarse = eight_bit_depth(pixels, simulator_.scenario().depth);
+    const sim::TofPixels coarse = eight_bit_frame(pixels, camera_);
     const auto seen = tof::measure_tof_pose(frame_of(coarse), camera_, {}, *workspace_);
     measure_by_paper(coarse, result);
     if (!seen || !seen->has_turn()) return;
@@ -157,12 +157,12 @@ class FourTests {
   void measure_by_paper(const sim::TofPixels& coarse, TestResult& result) {
     paper000::ChainSettings settings;
     settings.printed_threshold = options_.printed_threshold;
-    paper000::ChainResult chain = paper000::measure(coarse, camera_, settings);
+    paper000::ChainResult chain = paper000::measure(frame_of(coarse).depth, camera_, settings);
     result.paper_series.push_back(chain.pose ? values_of(*chain.pose) : kNoPose);
     if (chain.pose) {
       result.paper.add(result.paper_series.back());
     } else {
-      ++result.paper_ends[chain.why];
+      ++result.paper_ends[std::string(name_of(*chain.failure))];
     }
     if (!stages_) stages_ = std::move(chain.stages);
   }
@@ -216,7 +216,7 @@ std::string joined(const std::string& one, const std::string& other) {
 void add_table_two(std::vector<ComparisonRow>& rows, std::size_t test, const TestResult& result, int frames) {
   const std::string name = "test " + std::to_string(test + 1);
   std::string theirs = remark_of("theirs", result.paper, frames);
-  for (const auto& [why, count] : result.paper_ends) theirs += ", " + why + " in " + std::to_string(count);
+  for (const auto& [why, count] : result.paper_ends) theirs += ", refused_" + why + " in " + std::to_string(count);
   const std::string remark = joined(theirs, remark_of("ours", result.ours, frames));
   for (std::size_t i = 0; i < 6; ++i) {
     // A coordinate has no ratio.
@@ -315,6 +315,13 @@ void add_pictures(const TestResult& rest, const std::filesystem::path& folder, r
       {"figure 10", "test 1, motion by ORB from frame to frame; gaps: no answer", "figure10.svg"});
 }
 
+void add_stages(const paper000::ChainStages& stages, const std::filesystem::path& folder, report::PartResult& result) {
+  for (const paper000::StagePicture& picture : paper000::write_stage_pictures((folder / "").string(), stages)) {
+    result.pictures.push_back(
+        {picture.figure, picture.caption, std::filesystem::path(picture.path).filename().string()});
+  }
+}
+
 }  // namespace
 
 report::PartResult reproduce_four_tests(const FourTestsOptions& options, const std::filesystem::path& folder) {
@@ -327,7 +334,7 @@ report::PartResult reproduce_four_tests(const FourTestsOptions& options, const s
   for (std::size_t pair = 0; pair + 1 < kTests; ++pair) add_table_three(result.rows, pair, tests, options.frames);
   if (folder.empty()) return result;
   add_pictures(tests.result(0), folder, result);
-  if (tests.stages()) paper000::add_stage_pictures(*tests.stages(), folder, result);
+  if (tests.stages()) add_stages(*tests.stages(), folder, result);
   return result;
 }
 

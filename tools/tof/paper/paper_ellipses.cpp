@@ -5,7 +5,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/evaluation/reproduce/tof/paper/paper_chain.hpp"
+#include "tools/tof/paper/paper_chain.hpp"
 
 namespace pharos::tools::paper000 {
 namespace {

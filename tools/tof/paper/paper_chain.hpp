@@ -5,16 +5,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pharos/base/image_view.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/pose.hpp"
-#include "tools/sim/tof/sensor.hpp"
 
 namespace pharos::tools::paper000 {
 
 // Sections 2.2 and 2.3 of paper 000 on one frame, from its own steps alone: no ring fit, ellipse or region of ours.
+
+/// Counts of Z, of a camera file's scale; see has_depth.
+using DepthView = ImageView<const std::uint16_t>;
 
 struct ChainSettings {
   /// (5) with the mean grey value under the root, as printed; false: with the number of pixels.
@@ -53,17 +56,31 @@ void find_ring(ChainStages& stages);
 /// 2.2.2: connectors; needs the ring.
 void find_connectors(ChainStages& stages, const ChainSettings& settings);
 
-/// The frame's depth as 256 grey values over `span_m` about the middle of its depths; 0 where there is none.
-ChainStages grey_of(const sim::TofPixels& pixels, const DepthCamera& camera, double span_m);
+/// The depths rounded to 256 values over 1 m about the middle of the frame's depths: one is 3.9 mm, "some millimetres".
+/// What is farther off has no depth. The middle is rounded to 0.1 m, so that the values do not change from frame to
+/// frame. Rows without gaps.
+std::vector<std::uint16_t> eight_bit_depth(DepthView depth, const DepthCamera& camera);
+
+/// At which step a frame without a pose ends.
+enum class ChainFailure : std::uint8_t {
+  kNoRing,       ///< no two ellipses of a ring
+  kNoConnector,  ///< no region passes all rules
+  kNoDepth,      ///< no depth at a point of the ring or at the connector's middle
+  kNoPlane,      ///< the ring's points are in no plane before the camera
+  kUnusable,     ///< OpenCV refuses the frame's numbers
+};
+/// The word after refused_: no_ring, ...
+std::string_view name_of(ChainFailure failure);
 
 struct ChainResult {
   ChainStages stages;
   std::optional<Pose<frame::Camera, frame::Target>> pose;
-  std::string why;  ///< no pose: at which step it ends
+  std::optional<ChainFailure> failure;  ///< of no pose
 };
 
-/// The whole chain on 8-bit depth. 2.3: the mean of the ring's two ellipses, a plane through the depths at eight points
-/// of it, its centre on that plane, the nearest connector's middle.
-ChainResult measure(const sim::TofPixels& eight_bit, const DepthCamera& camera, const ChainSettings& settings);
+/// The whole chain on 8-bit depth (eight_bit_depth). 2.3: the mean of the ring's two ellipses, a plane through the
+/// depths at eight points of it, its centre on that plane, the nearest connector's middle. The paper states no
+/// uncertainty and refuses nothing that these steps answer.
+ChainResult measure(DepthView eight_bit, const DepthCamera& camera, const ChainSettings& settings);
 
 }  // namespace pharos::tools::paper000
