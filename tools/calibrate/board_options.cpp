@@ -35,6 +35,12 @@ void add_board_options(CLI::App& command, BoardOptions& options) {
   command.add_option("--radius-mm", options.radius_mm, "A dot's radius")
       ->check(number_from(0.001, 5000.0))
       ->capture_default_str();
+  command
+      .add_option("--dot-threshold", options.dot_threshold,
+                  "What tells dots from the sheet: local (of each place's surroundings) or otsu (one for the image, as "
+                  "paper 000)")
+      ->check(CLI::IsMember({"local", "otsu"}))
+      ->capture_default_str();
   command.add_flag("--hold-k3", options.fix_k3, "Hold the fifth distortion term at 0");
   command.add_option("-o,--output", options.output, "File to write (TOML); - is standard output")
       ->check(output_place())
@@ -63,6 +69,7 @@ calibrate::CalibrationChoices choices_of(const BoardOptions& options) {
                            shown(board.pitch_m * kMmPerM) + " would (nearly) touch; give the radius, not the diameter");
   }
   choices.fix_k3 = options.fix_k3;
+  if (options.dot_threshold == "otsu") choices.dot_threshold = calibrate::DotThreshold::kOtsu;
   return choices;
 }
 

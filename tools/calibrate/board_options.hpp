@@ -19,6 +19,7 @@ struct BoardOptions {
   double pitch_mm = 0.0;
   double radius_mm = 5.0;
   bool fix_k3 = false;
+  std::string dot_threshold = "local";
   std::string output;
   std::string images;
   std::string overlay;

@@ -60,6 +60,17 @@ cv::Mat mask_of(GreyView image, int window_px, bool bright) {
   return mask;
 }
 
+// 1 where a pixel is beyond Otsu's threshold.
+cv::Mat otsu_mask_of(GreyView image, bool bright) {
+  const cv::Mat grey(image.height_px, image.width_px, CV_16U, const_cast<std::uint16_t*>(image.data),
+                     sizeof(std::uint16_t) * static_cast<std::size_t>(image.stride_px));
+  cv::Mat smooth, bytes, mask;
+  cv::GaussianBlur(grey, smooth, {5, 5}, 0.0);
+  cv::normalize(smooth, bytes, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
+  cv::threshold(bytes, mask, 0.0, 1.0, (bright ? cv::THRESH_BINARY : cv::THRESH_BINARY_INV) | cv::THRESH_OTSU);
+  return mask;
+}
+
 struct Moments {
   double area = 0.0;
   Vector2 sum = Vector2::Zero();
@@ -95,14 +106,10 @@ bool is_elliptic(const Blob& blob, double area) {
   return area > kMinFill * ellipse && axes < kMaxElongated;
 }
 
-}  // namespace
-
-double Blob::area_px() const { return 4.0 * std::numbers::pi * std::sqrt(covariance_px2.determinant()); }
-
-std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright) {
-  const double largest = kLargestFraction * static_cast<double>(image.pixels());
+std::vector<Blob> blobs_of(const cv::Mat& mask) {
+  const double largest = kLargestFraction * static_cast<double>(mask.total());
   std::vector<Blob> blobs;
-  for (const Moments& moments : regions_of(mask_of(image, window_px, bright))) {
+  for (const Moments& moments : regions_of(mask)) {
     if (moments.area < kMinArea_px || moments.area > largest) continue;
     Blob blob;
     blob.cut = moments.cut;
@@ -113,5 +120,15 @@ std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright) {
   }
   return blobs;
 }
+
+}  // namespace
+
+double Blob::area_px() const { return 4.0 * std::numbers::pi * std::sqrt(covariance_px2.determinant()); }
+
+std::vector<Blob> find_blobs(GreyView image, int window_px, bool bright) {
+  return blobs_of(mask_of(image, window_px, bright));
+}
+
+std::vector<Blob> find_blobs_by_otsu(GreyView image, bool bright) { return blobs_of(otsu_mask_of(image, bright)); }
 
 }  // namespace pharos::calibrate

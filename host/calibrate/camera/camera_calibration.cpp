@@ -24,7 +24,7 @@ std::string too_few(std::size_t views, std::size_t images) {
 
 }  // namespace
 
-std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures, const Board& board,
+std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures, const CalibrationChoices& choices,
                                       const StepDone& step_done) {
   const GreyView first = first_readable(pictures);
   std::vector<ImageOutcome> images;
@@ -35,7 +35,7 @@ std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures,
       outcome.search.status = ImageStatus::kUnreadable;
       outcome.search.detail = picture.error;
     } else if (picture.image.same_size(first)) {
-      outcome.search = find_board(picture.image, board);
+      outcome.search = find_board(picture.image, choices.board, choices.dot_threshold);
     } else {
       outcome.search.status = ImageStatus::kOtherSize;
       outcome.search.detail = std::to_string(picture.image.width_px) + " x " + std::to_string(picture.image.height_px) +
@@ -79,7 +79,7 @@ CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_p
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, const CalibrationChoices& choices,
                                    const StepDone& step_done) {
   const GreyView first = first_readable(pictures);
-  return calibrate_camera(find_boards(pictures, choices.board, step_done), first.width_px, first.height_px, choices);
+  return calibrate_camera(find_boards(pictures, choices, step_done), first.width_px, first.height_px, choices);
 }
 
 }  // namespace pharos::calibrate

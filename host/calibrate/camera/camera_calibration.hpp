@@ -34,6 +34,7 @@ struct CameraCalibration {
 struct CalibrationChoices {
   Board board;
   bool fix_k3 = false;
+  DotThreshold dot_threshold = DotThreshold::kLocal;
 };
 
 /// Called after each image that was searched.
@@ -49,7 +50,7 @@ CameraCalibration calibrate_camera(std::vector<ImageOutcome> images, int width_p
                                    const CalibrationChoices& choices);
 
 /// Boards in pictures that all must have the first one's size.
-std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures, const Board& board,
+std::vector<ImageOutcome> find_boards(const std::vector<BoardPicture>& pictures, const CalibrationChoices& choices,
                                       const StepDone& step_done);
 
 }  // namespace pharos::calibrate

@@ -86,8 +86,8 @@ GreyView first_readable(const std::vector<BoardPicture>& pictures) {
   return first == pictures.end() ? GreyView{} : first->image;
 }
 
-BoardSearch find_board(GreyView image, const Board& board) {
-  return board.kind == BoardKind::kDots ? find_dots(image, board) : find_chessboard(image, board);
+BoardSearch find_board(GreyView image, const Board& board, DotThreshold threshold) {
+  return board.kind == BoardKind::kDots ? find_dots(image, board, threshold) : find_chessboard(image, board);
 }
 
 }  // namespace pharos::calibrate

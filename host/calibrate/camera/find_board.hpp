@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/calibrate/camera/blobs.hpp"
 #include "host/calibrate/camera/board.hpp"
 #include "host/calibrate/camera/found_board.hpp"
 
@@ -21,7 +22,7 @@ GreyView first_readable(const std::vector<BoardPicture>& pictures);
 
 /// Finds `board`. Points run to the right along the columns and down along the rows as far as the board's symmetry
 /// permits: a board of dots, and a chessboard of even squares, look the same after half a turn. Chessboards: OpenCV's
-/// corners on the grey values stretched to 8 bit.
-BoardSearch find_board(GreyView image, const Board& board);
+/// corners on the grey values stretched to 8 bit. `threshold` is for dots.
+BoardSearch find_board(GreyView image, const Board& board, DotThreshold threshold = DotThreshold::kLocal);
 
 }  // namespace pharos::calibrate

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "host/calibrate/camera/dot_grid.hpp"
 #include "host/calibrate/camera/fit_dot.hpp"
@@ -42,11 +44,26 @@ struct Attempt {
   DotGrid grid;
 };
 
-Attempt attempt(GreyView image, const Board& board, int window_px, bool bright) {
+Attempt attempt(GreyView image, const Board& board, std::vector<Blob> blobs) {
   Attempt result;
-  result.blobs = find_blobs(image, window_px, bright);
+  result.blobs = std::move(blobs);
   result.grid = find_dot_grid(result.blobs, board, image.width_px, image.height_px);
   return result;
+}
+
+// Better of two; `now` where it has the board.
+void take_better(Attempt& best, Attempt now) {
+  if (now.grid.status == ImageStatus::kUsed || now.grid.found > best.grid.found) best = std::move(now);
+}
+
+Attempt attempt_by_otsu(GreyView image, const Board& board) {
+  Attempt best;
+  best.grid.detail = "no dots";
+  for (const bool bright : {true, false}) {
+    if (best.grid.status == ImageStatus::kUsed) break;
+    take_better(best, attempt(image, board, find_blobs_by_otsu(image, bright)));
+  }
+  return best;
 }
 
 Attempt best_attempt(GreyView image, const Board& board) {
@@ -55,9 +72,8 @@ Attempt best_attempt(GreyView image, const Board& board) {
   for (const int fraction : kWindows) {
     const int window_px = std::max(std::min(image.width_px, image.height_px) / fraction, kMinWindow_px);
     for (const bool bright : {true, false}) {
-      Attempt now = attempt(image, board, window_px, bright);
-      if (now.grid.status == ImageStatus::kUsed) return now;
-      if (now.grid.found > best.grid.found) best = std::move(now);
+      take_better(best, attempt(image, board, find_blobs(image, window_px, bright)));
+      if (best.grid.status == ImageStatus::kUsed) return best;
     }
   }
   return best;
@@ -65,8 +81,8 @@ Attempt best_attempt(GreyView image, const Board& board) {
 
 }  // namespace
 
-BoardSearch find_dots(GreyView image, const Board& board) {
-  const Attempt found = best_attempt(image, board);
+BoardSearch find_dots(GreyView image, const Board& board, DotThreshold threshold) {
+  const Attempt found = threshold == DotThreshold::kOtsu ? attempt_by_otsu(image, board) : best_attempt(image, board);
   if (found.grid.status != ImageStatus::kUsed) return refused(found.grid.status, found.grid.detail);
   const double gap = board.pitch_m / board.radius_m - 2.0;  // between two dots' edges, in radii
   const double reach = std::min(1.0 + kReachOfGap * gap, kMaxReach);

@@ -115,7 +115,7 @@ void note_fit(RigCalibration& result, const CalibrationChoices& choices) {
 RigCalibration calibrate_rig(const std::vector<BoardPicture>& left, const std::vector<BoardPicture>& right,
                              const CalibrationChoices& choices, const StepDone& step_done) {
   RigCalibration result;
-  result.images = {find_boards(left, choices.board, step_done), find_boards(right, choices.board, step_done)};
+  result.images = {find_boards(left, choices, step_done), find_boards(right, choices, step_done)};
   pair_up(result.images);
   result.pairs = used(result.images[0]);
   const std::array<GreyView, 2> first{first_readable(left), first_readable(right)};

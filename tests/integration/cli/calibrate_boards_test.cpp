@@ -87,6 +87,16 @@ TEST_F(BoardImages, GiveACameraFileOverlaysAndTheStatusOfEachImage) {
   EXPECT_NEAR(std::sqrt(square / 30.0), rms_px, 1e-9 * rms_px);
 }
 
+TEST_F(BoardImages, AreSearchedByOtsusThresholdOnRequest) {
+  render_tilted(4);
+  const std::string command = "calibrate camera" + list("left", 4) + kBoard + " --output " + path("camera.toml");
+  const Outcome run = pharos(command + " --dot-threshold otsu");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("4 images: 4 used"));
+  EXPECT_NEAR(host::read_camera_file(path("camera.toml")).camera.intrinsics.fx_px, kSmallLens.fx_px, 0.5);
+  EXPECT_EQ(pharos(command + " --dot-threshold mean").exit_code, 2);
+}
+
 TEST_F(BoardImages, ThatCannotBeReadAreLeftOutAndKeepTheirRow) {
   render_tilted(4);
   folder_.write("broken.tif", std::string("II*\0", 4));

@@ -64,6 +64,27 @@ TEST(FindDots, FindsDarkDotsOnABrightSheetInEightBitsUnderUnevenLight) {
   }
 }
 
+// One threshold for the image, as paper 000 has it: the same dots and centres while the board is alone in even light.
+TEST(FindDots, ByOtsuAreTheSameDotsWhileNothingElseIsBright) {
+  const sim::BoardSheet sheet;
+  host::GreyImage image = renderer().render(sheet, in_the_middle(sheet), {}, 1);
+  const BoardSearch local = find_dots(image.view(), {}), otsu = find_dots(image.view(), {}, DotThreshold::kOtsu);
+  ASSERT_EQ(local.status, ImageStatus::kUsed) << local.detail;
+  ASSERT_EQ(otsu.status, ImageStatus::kUsed) << otsu.detail;
+  for (std::size_t i = 0; i < local.board.points.size(); ++i) {
+    EXPECT_LT((local.board.points[i].pixel - otsu.board.points[i].pixel).norm(), 0.01);
+  }
+  // A wall in the sun beside the board, twenty times as bright.
+  for (std::size_t v = 0; v < static_cast<std::size_t>(image.height_px); ++v) {
+    for (std::size_t u = 0; u < static_cast<std::size_t>(image.width_px); ++u) {
+      std::uint16_t& pixel = image.pixels[v * static_cast<std::size_t>(image.width_px) + u];
+      pixel = u < 40 ? std::uint16_t{60000} : static_cast<std::uint16_t>(pixel / 20);
+    }
+  }
+  EXPECT_EQ(find_dots(image.view(), {}).status, ImageStatus::kUsed);
+  EXPECT_EQ(find_dots(image.view(), {}, DotThreshold::kOtsu).status, ImageStatus::kNoBoard);
+}
+
 TEST(FindDots, NamesTheDotThatIsMissing) {
   sim::BoardSheet sheet;
   sheet.missing = 4 * sheet.columns + 2;
