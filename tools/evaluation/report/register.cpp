@@ -63,7 +63,10 @@ std::vector<Exhibit> tof() {
        "Theirs: the paper's whole chain on 8-bit depth. Ours: the whole depth. The truth is near the published mean.",
        false,
        {"test 1: mean of X", "test 1: sigma of Z", "test 2: mean of X", "test 2: sigma of Z", "test 3: mean of X",
-        "test 3: sigma of Z", "test 4: mean of X", "test 4: sigma of Z", "test 4: sigma of gamma"}},
+        "test 3: sigma of Z", "test 4: mean of X", "test 4: sigma of Z", "test 4: sigma of gamma",
+        "why gamma jumps: test 1, as simulated: the chosen region is on the nearest connector",
+        "why gamma jumps: test 3, no depth noise, smooth foil: sigma of gamma, regions on the nearest connector "
+        "alone"}},
       {"000",
        "table 3",
        "Relative poses of two tests",

@@ -137,26 +137,36 @@ std::vector<std::uint16_t> eight_bit_depth(DepthView depth, const DepthCamera& c
   return rounded;
 }
 
+Result<Pose<frame::Camera, frame::Target>, ChainFailure> pose_from(DepthView depth, const DepthCamera& camera,
+                                                                   const std::array<PaperEllipse, 2>& ring,
+                                                                   const Vector2& connector_px) {
+  const PaperEllipse mean = mean_of(ring[0], ring[1]);
+  const auto plane = plane_of(depth, camera, mean);
+  const auto sight = sight_of(camera, {mean.cx_px, mean.cy_px});
+  const auto middle = point_at(depth, camera, connector_px);
+  if (!plane || !sight || !middle) return ChainFailure::kNoDepth;
+  Pose<frame::Camera, frame::Target> pose;
+  pose.t = *sight / plane->dot(*sight);
+  const Vector3 z = -plane->normalized();
+  const Vector3 y = z.cross(*middle - pose.t).normalized();
+  pose.R << y.cross(z), y, z;
+  if (!pose.is_finite() || pose.t.z() <= 0.0) return ChainFailure::kNoPlane;
+  return pose;
+}
+
 ChainResult measure(DepthView depth, const DepthCamera& camera, const ChainSettings& settings) try {
   ChainResult result;
   result.stages = grey_of(depth, camera);
   find_ring(result.stages);
   if (!result.stages.ring) return failed(std::move(result), ChainFailure::kNoRing);
   find_connectors(result.stages, settings);
-  const PaperEllipse ring = mean_of((*result.stages.ring)[0], (*result.stages.ring)[1]);
-  const Region* connector = nearest(result.stages.regions[3], ring);
+  const auto& ring = *result.stages.ring;
+  const Region* connector = nearest(result.stages.regions[3], mean_of(ring[0], ring[1]));
   if (connector == nullptr) return failed(std::move(result), ChainFailure::kNoConnector);
-  const auto plane = plane_of(depth, camera, ring);
-  const auto sight = sight_of(camera, {ring.cx_px, ring.cy_px});
-  const auto middle = point_at(depth, camera, connector->middle_px);
-  if (!plane || !sight || !middle) return failed(std::move(result), ChainFailure::kNoDepth);
-  Pose<frame::Camera, frame::Target> pose;
-  pose.t = *sight / plane->dot(*sight);
-  const Vector3 z = -plane->normalized();
-  const Vector3 y = z.cross(*middle - pose.t).normalized();
-  pose.R << y.cross(z), y, z;
-  if (!pose.is_finite() || pose.t.z() <= 0.0) return failed(std::move(result), ChainFailure::kNoPlane);
-  result.pose = pose;
+  result.connector_px = connector->middle_px;
+  const auto pose = pose_from(depth, camera, ring, *result.connector_px);
+  if (!pose) return failed(std::move(result), pose.error());
+  result.pose = *pose;
   return result;
 } catch (const cv::Exception&) {
   return failed({}, ChainFailure::kUnusable);

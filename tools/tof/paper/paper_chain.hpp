@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pharos/base/image_view.hpp"
+#include "pharos/base/result.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/geometry/pose.hpp"
 
@@ -72,15 +73,21 @@ enum class ChainFailure : std::uint8_t {
 /// The word after refused_: no_ring, ...
 std::string_view name_of(ChainFailure failure);
 
+/// 2.3: the mean of the ring's two ellipses, a plane through the depths at eight points of it, its centre on that
+/// plane, X' towards the connector's middle in the image.
+Result<Pose<frame::Camera, frame::Target>, ChainFailure> pose_from(DepthView eight_bit, const DepthCamera& camera,
+                                                                   const std::array<PaperEllipse, 2>& ring,
+                                                                   const Vector2& connector_px);
+
 struct ChainResult {
   ChainStages stages;
+  std::optional<Vector2> connector_px;  ///< the middle of the region nearest to the ring's centre
   std::optional<Pose<frame::Camera, frame::Target>> pose;
   std::optional<ChainFailure> failure;  ///< of no pose
 };
 
-/// The whole chain on 8-bit depth (eight_bit_depth). 2.3: the mean of the ring's two ellipses, a plane through the
-/// depths at eight points of it, its centre on that plane, the nearest connector's middle. The paper states no
-/// uncertainty and refuses nothing that these steps answer.
+/// The whole chain on 8-bit depth (eight_bit_depth). The paper states no uncertainty and refuses nothing that these
+/// steps answer.
 ChainResult measure(DepthView eight_bit, const DepthCamera& camera, const ChainSettings& settings);
 
 }  // namespace pharos::tools::paper000

@@ -10,9 +10,11 @@
 #include <string>
 
 #include "pharos/base/units.hpp"
+#include "tools/evaluation/reproduce/tof/connector_choice.hpp"
 #include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 #include "tools/evaluation/reproduce/tof/eight_bit.hpp"
 #include "tools/evaluation/reproduce/tof/orb/orb_motion.hpp"
+#include "tools/evaluation/reproduce/tof/paper_tests.hpp"
 #include "tools/plot/curves.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/tof/paper/paper_pictures.hpp"
@@ -20,7 +22,7 @@
 namespace pharos::tools {
 namespace {
 
-constexpr std::size_t kTests = 4;
+constexpr std::size_t kTests = kPaperTests;
 constexpr std::array<const char*, 6> kNames = {"X", "Y", "Z", "alpha", "beta", "gamma"};
 constexpr std::array<const char*, 6> kUnits = {"mm", "mm", "mm", "deg", "deg", "deg"};
 
@@ -46,35 +48,6 @@ constexpr std::array<std::array<const char*, 6>, kTests - 1> kPublishedOrb = {
      {"0.6414", "0.5487", "2.2569", "0.3361", "0.2927", "0.3260"},
      {"0.6837", "0.6268", "0.9582", "0.5835", "0.3681", "0.2732"}}};
 
-using Values = std::array<double, 6>;  // X, Y, Z in mm; angles (8) in degrees
-
-Values values_of(const tof::CameraFromTarget& pose) {
-  const sim::PaperAngles angles = sim::angles_of(pose.R);
-  return {pose.t.x() * kMmPerM, pose.t.y() * kMmPerM, pose.t.z() * kMmPerM,
-          angles.alpha_deg,     angles.beta_deg,      angles.gamma_deg};
-}
-
-// Running mean and deviation.
-class Spread {
- public:
-  void add(const Values& values) {
-    ++count_;
-    for (std::size_t i = 0; i < 6; ++i) {
-      const double step = values[i] - mean_[i];
-      mean_[i] += step / count_;
-      squares_[i] += step * (values[i] - mean_[i]);
-    }
-  }
-  int count() const { return count_; }
-  double mean(std::size_t i) const { return mean_[i]; }
-  double sigma(std::size_t i) const { return count_ > 1 ? std::sqrt(squares_[i] / (count_ - 1)) : 0.0; }
-
- private:
-  int count_ = 0;
-  Values mean_{};
-  Values squares_{};
-};
-
 // One value of each frame, in the order of the frames; without a pose not numbers.
 using Series = std::vector<Values>;
 const Values kNoPose = [] {
@@ -93,21 +66,6 @@ struct TestResult {
   Series ours_series, paper_series;
   Series orb_series;  // motion from the frame before: none in truth
 };
-
-sim::TofScenario paper_scenario(int frames) {
-  constexpr std::array<Values, kTests> kPoses = {{{-24.9, -17.7, 4161.0, 2.2, -1.1, -40.0},
-                                                  {-24.9, -17.7, 4161.0, 2.2, -1.1, -50.0},
-                                                  {-24.9, -17.7, 3161.0, 2.2, -1.1, -50.0},
-                                                  {-24.9, -17.7, 3161.0, -2.8, -1.1, -50.0}}};
-  sim::TofScenario scenario;
-  for (const Values& v : kPoses) {
-    sim::CameraFromTarget pose;
-    pose.t = Vector3(v[0], v[1], v[2]) / kMmPerM;
-    pose.R = sim::attitude_of({v[3], v[4], v[5]});
-    scenario.poses.insert(scenario.poses.end(), static_cast<std::size_t>(frames), pose);
-  }
-  return scenario;
-}
 
 class FourTests {
  public:
@@ -332,6 +290,9 @@ report::PartResult reproduce_four_tests(const FourTestsOptions& options, const s
     add_table_two(result.rows, test, tests.result(test), options.frames);
   }
   for (std::size_t pair = 0; pair + 1 < kTests; ++pair) add_table_three(result.rows, pair, tests, options.frames);
+  for (const ComparisonRow& row : reproduce_connector_choice(options.frames, options.seed, options.printed_threshold)) {
+    result.rows.push_back(row);
+  }
   if (folder.empty()) return result;
   add_pictures(tests.result(0), folder, result);
   if (tests.stages()) add_stages(*tests.stages(), folder, result);
