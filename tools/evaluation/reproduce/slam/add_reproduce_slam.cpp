@@ -60,7 +60,7 @@ void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
   const auto options = std::make_shared<Options>();
   command->add_option("--turns", options->table.turns_deg, "Turns, deg (default 30 60 90 180 360 720)")
       ->check(CLI::Range(1.0, 7200.0));
-  command->add_option("--runs", options->table.runs, "Which (default all): good, low-enhanced, low, and -no-loops")
+  command->add_option("--runs", options->table.runs, "Which (default all); BM3D alone takes most of an hour")
       ->check(CLI::IsMember(table_one_runs()));
   command->add_option("--features", options->table.features, "Features a frame (default 1000)")
       ->check(CLI::Range(100, 10'000));

@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "host/images/grey_image.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/vision/enhance/enhancer.hpp"
 #include "host/vision/slam/slam_system.hpp"
+#include "tools/evaluation/reproduce/slam/board_rig.hpp"
 #include "tools/evaluation/reproduce/slam/nees.hpp"
 #include "tools/plot/curves.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
@@ -33,17 +35,28 @@ constexpr std::array<Published, 6> kTable{{{30.0, {0.177, 0.12, 29.88}, {0.339, 
                                            {360.0, {1.506, 0.6, 359.4}, {0.559, 3.22, 356.78}},
                                            {720.0, {0.221, 1.36, 718.64}, {0.625, 4.47, 715.53}}}};
 
+// What is done to a picture: nothing, LIME with our fast denoiser, LIME with BM3D as the paper's.
+enum class Treatment : std::uint8_t { kNone, kFast, kBm3d };
+constexpr std::size_t kTreatments = 3;
+
 struct Variant {
   const char* key;
   const char* name;
-  bool good_light, enhanced, loops;
+  bool good_light;
+  Treatment treatment = Treatment::kNone;
+  bool loops = true;
+  std::size_t max_keyframes = 0;  // 0: no limit
+  bool boards = false;            // cameras calibrated from 15 boards, else the true ones
 };
-constexpr std::array<Variant, 5> kVariants{
-    {{"good", "good light", true, false, true},
-     {"good-no-loops", "good light, no loops", true, false, false},
-     {"low-enhanced", "low light, enhanced", false, true, true},
-     {"low-enhanced-no-loops", "low light, enhanced, no loops", false, true, false},
-     {"low", "low light, not enhanced", false, false, true}}};
+constexpr std::array<Variant, 8> kVariants{
+    {{"good", "good light", true},
+     {"good-no-loops", "good light, no loops", true, Treatment::kNone, false},
+     {"good-20-keyframes", "good light, 20 keyframes", true, Treatment::kNone, true, 20},
+     {"good-15-boards", "good light, calibrated from 15 boards", true, Treatment::kNone, true, 0, true},
+     {"low-enhanced", "low light, enhanced", false, Treatment::kFast},
+     {"low-bm3d", "low light, enhanced with BM3D", false, Treatment::kBm3d},
+     {"low-enhanced-no-loops", "low light, enhanced, no loops", false, Treatment::kFast, false},
+     {"low", "low light, not enhanced", false}}};
 
 bool wanted(const Variant& variant, const TableOneOptions& options) {
   return std::find(options.runs.begin(), options.runs.end(), variant.key) != options.runs.end();
@@ -71,14 +84,16 @@ int last_frame(double turn_deg) { return static_cast<int>(std::lround(turn_deg /
 
 using EightBits = std::array<std::vector<std::uint8_t>, 2>;
 
-// A pair as rendered and, where selected, enhanced.
+// A pair as rendered and as treated in each way that is wanted.
 class Pictures {
  public:
-  explicit Pictures(bool enhanced) {
-    enhance::EnhanceSettings settings;
-    settings.denoiser = enhance::Denoiser::kFast;
-    for (auto& enhancer : enhancers_) {
-      if (enhanced) enhancer = std::make_unique<enhance::Enhancer>(settings);
+  Pictures(const std::set<Treatment>& wanted, bool video_bm3d) {
+    for (const Treatment treatment : wanted) {
+      if (treatment == Treatment::kNone) continue;
+      enhance::EnhanceSettings settings;
+      settings.denoiser = treatment == Treatment::kFast ? enhance::Denoiser::kFast : enhance::Denoiser::kBm3d;
+      if (video_bm3d) settings.bm3d = enhance::kVideoBm3d;
+      for (auto& enhancer : of(treatment).enhancers) enhancer = std::make_unique<enhance::Enhancer>(settings);
     }
   }
   void take(sim::TumblingSequence& sequence, int frame) {
@@ -86,21 +101,30 @@ class Pictures {
       const host::GreyImage image = sequence.image(frame, static_cast<int>(side));
       width_px_ = image.width_px;
       height_px_ = image.height_px;
-      raw_[side].clear();
-      for (const std::uint16_t value : image.pixels) raw_[side].push_back(static_cast<std::uint8_t>(value >> 8U));
-      if (enhancers_[side] == nullptr) continue;
-      bright_[side].resize(raw_[side].size());
-      enhance::to_integers(enhancers_[side]->enhance(image.view()).result.view(),
-                           ImageView<std::uint8_t>(bright_[side].data(), width_px_, height_px_));
+      std::vector<std::uint8_t>& raw = of(Treatment::kNone).pixels[side];
+      raw.clear();
+      for (const std::uint16_t value : image.pixels) raw.push_back(static_cast<std::uint8_t>(value >> 8U));
+      for (Treated& one : treated_) {
+        if (one.enhancers[side] == nullptr) continue;
+        one.pixels[side].resize(raw.size());
+        enhance::to_integers(one.enhancers[side]->enhance(image.view()).result.view(),
+                             ImageView<std::uint8_t>(one.pixels[side].data(), width_px_, height_px_));
+      }
     }
   }
-  ImageView<const std::uint8_t> view(bool enhanced, std::size_t side) const {
-    return {(enhanced ? bright_ : raw_)[side].data(), width_px_, height_px_};
+  ImageView<const std::uint8_t> view(Treatment treatment, std::size_t side) const {
+    return {treated_[static_cast<std::size_t>(treatment)].pixels[side].data(), width_px_, height_px_};
   }
+  bool has(Treatment treatment) const { return !treated_[static_cast<std::size_t>(treatment)].pixels[0].empty(); }
 
  private:
-  std::array<std::unique_ptr<enhance::Enhancer>, 2> enhancers_;
-  EightBits raw_, bright_;
+  struct Treated {
+    std::array<std::unique_ptr<enhance::Enhancer>, 2> enhancers;
+    EightBits pixels;
+  };
+  Treated& of(Treatment treatment) { return treated_[static_cast<std::size_t>(treatment)]; }
+
+  std::array<Treated, kTreatments> treated_;
   std::int32_t width_px_ = 0, height_px_ = 0;
 };
 
@@ -205,7 +229,7 @@ struct Run {
 
   void push(const Pictures& pictures, sim::TumblingSequence& sequence, int frame) {
     if (turns.empty() || frame > last_frame(turns.back())) return;
-    system->push(0.05 * frame, pictures.view(variant->enhanced, 0), pictures.view(variant->enhanced, 1));
+    system->push(0.05 * frame, pictures.view(variant->treatment, 0), pictures.view(variant->treatment, 1));
     for (const double turn : turns) {
       if (last_frame(turn) != frame) continue;
       const Outcome outcome = outcome_of(*system, sequence);
@@ -225,29 +249,42 @@ void write_view(ImageView<const std::uint8_t> view, const std::filesystem::path&
 }
 
 // Figure 2 in good light; in low light figure 4: as it is and enhanced.
-void add_first_views(bool good_light, bool enhanced, const Pictures& pictures, const std::filesystem::path& folder,
+void add_first_views(bool good_light, const Pictures& pictures, const std::filesystem::path& folder,
                      report::PartResult& result) {
   const std::string name = good_light ? "good.png" : "dark.png";
-  write_view(pictures.view(false, 0), folder / name);
+  write_view(pictures.view(Treatment::kNone, 0), folder / name);
   if (good_light) {
     result.pictures.push_back({"figure 2", "the rendered satellite, left camera, first frame", name});
     return;
   }
   result.pictures.push_back({"figure 4", "in low light as it is", name});
-  if (!enhanced) return;
-  write_view(pictures.view(true, 0), folder / "enhanced.png");
-  result.pictures.push_back({"figure 4", "the same by LIME with our fast denoiser", "enhanced.png"});
+  const auto add = [&](Treatment treatment, const char* caption, const char* file) {
+    if (!pictures.has(treatment)) return;
+    write_view(pictures.view(treatment, 0), folder / file);
+    result.pictures.push_back({"figure 4", caption, file});
+  };
+  add(Treatment::kFast, "the same by LIME with our fast denoiser", "enhanced.png");
+  add(Treatment::kBm3d, "the same by LIME with BM3D", "bm3d.png");
+}
+
+// The true cameras, or those of a calibration as the paper's; its figures join `result`.
+host::RigFile rig_of(const Variant& variant, const sim::TumblingSequence& sequence, const TableOneOptions& options,
+                     report::PartResult& result) {
+  if (!variant.boards) return sequence.rig();
+  const BoardRig calibrated = rig_from_boards(sequence.rig(), options.seed);
+  result.rows.insert(result.rows.end(), calibrated.rows.begin(), calibrated.rows.end());
+  return calibrated.rig;
 }
 
 void run_light(bool good_light, const TableOneOptions& options, report::PartResult& result) {
   std::vector<Run> runs;
   double longest = 0.0;
-  bool enhanced = false;
+  std::set<Treatment> treatments;
   for (const Variant& variant : kVariants) {
     const std::vector<double> turns = turns_of(variant, options);
     if (variant.good_light != good_light || !wanted(variant, options) || turns.empty()) continue;
     longest = std::max(longest, turns.back());
-    enhanced = enhanced || variant.enhanced;
+    treatments.insert(variant.treatment);
     runs.push_back({&variant, turns, nullptr, {}, options.folder});
   }
   if (runs.empty()) return;
@@ -256,12 +293,13 @@ void run_light(bool good_light, const TableOneOptions& options, report::PartResu
     slam::SlamSettings settings;
     settings.features = options.features;
     settings.close_loops = run.variant->loops;
-    run.system = slam::make_slam(sequence.rig(), "the simulated rig", settings);
+    settings.max_keyframes = run.variant->max_keyframes;
+    run.system = slam::make_slam(rig_of(*run.variant, sequence, options, result), "the simulated rig", settings);
   }
-  Pictures pictures(enhanced);
+  Pictures pictures(treatments, options.video_bm3d);
   for (int frame = 0; frame < sequence.frames(); ++frame) {
     pictures.take(sequence, frame);
-    if (frame == 0 && !options.folder.empty()) add_first_views(good_light, enhanced, pictures, options.folder, result);
+    if (frame == 0 && !options.folder.empty()) add_first_views(good_light, pictures, options.folder, result);
     for (Run& run : runs) {
       run.push(pictures, sequence, frame);
       if (options.step && frame <= last_frame(run.turns.back())) options.step(1);
