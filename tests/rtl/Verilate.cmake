@@ -31,12 +31,13 @@ function(pharos_verilate name)
     DEPENDS ${PHAROS_RTL_SOURCES} COMMENT "Verilating ${name}" VERBATIM)
   add_custom_target(${name}_generate DEPENDS ${archive})
   configure_file(verilated_device.cpp.in ${directory}_device.cpp @ONLY)
+  set_source_files_properties(${directory}_device.cpp PROPERTIES OBJECT_DEPENDS ${archive})  # and the headers beside it
   add_library(${name} STATIC ${directory}_device.cpp)
   add_dependencies(${name} ${name}_generate)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/tests PRIVATE ${directory})
   target_compile_definitions(${name} INTERFACE ${definitions})
   target_compile_options(${name} PRIVATE -w -O2)
-  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "")
+  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "" UNITY_BUILD OFF)  # OBJECT_DEPENDS is a file's
   target_link_libraries(${name} PUBLIC ${archive} pharos_verilated)
 endfunction()
 
@@ -60,6 +61,6 @@ function(pharos_verilate_module name)
   add_dependencies(${name} ${name}_generate)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/tests PRIVATE ${directory})
   target_compile_options(${name} PRIVATE -w -O2)
-  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "")
+  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "" UNITY_BUILD OFF)  # OBJECT_DEPENDS is a file's
   target_link_libraries(${name} PUBLIC ${archive} pharos_verilated)
 endfunction()
