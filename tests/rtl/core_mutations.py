@@ -27,12 +27,13 @@ MUTATIONS = (
   # Multiplication and division.
   ("mulhsu_reads_b_signed", "core_multiply.v", "b[WIDTH-1] && operation == 2'd1;",
     "b[WIDTH-1] && (operation == 2'd1 || operation == 2'd2);"),
-  ("middle_products_lose_carry", "core_multiply.v", "{1'b0, low_high} + {1'b0, high_low}", "{1'b0, low_high + high_low}"),
-  ("product_one_tick_early", "core_multiply.v", "assign done = multiplied;", "assign done = started;"),
+  ("middle_products_without_sign", "core_multiply.v", "(HALF - 1) {middle[WIDTH+1]}", "(HALF - 1) {1'b0}"),
+  ("middle_products_lose_carry", "core_multiply.v", "middle[WIDTH:0]};", "1'b0, middle[WIDTH-1:0]};"),
+  ("product_one_tick_early", CORE, "= x_load || x_multiply || x_divide;", "= x_load || x_divide;"),
   ("signed_division_forgets_sign", "core_divide.v", "operation[1] ? a_negative :", "operation[1] ? 1'b0 :"),
   ("division_by_zero_negated", "core_divide.v", " && b != 0;", ";"),
   ("division_a_bit_short", "core_divide.v", "busy && left == 0", "busy && left == 1"),
-  ("negative_divisor_kept", "core_divide.v", "b_negative ? -b : b;", "b;"),
+  ("negative_divisor_kept", "core_divide.v", "b_negative ? b : ~b, !b_negative", "~b, 1'b1"),
   # Control registers.
   ("interrupt_ignores_its_enable", "core_csr.v", "enabled && timer_enabled &&", "enabled &&"),
   ("trap_keeps_interrupts_on", "core_csr.v", "enabled        <= 1'b0;\n      enabled_before <= enabled;",

@@ -26,7 +26,8 @@ module core_csr (
     // Machine timer.
     input  wire        timer_interrupt,
     output wire        interrupt,      // is to be taken
-    input  wire        retired
+    input  wire        retired,
+    output reg  [63:0] cycle  /* verilator public_flat_rw */  // since reset
 );
 
   localparam [11:0] MSTATUS = 12'h300;
@@ -48,7 +49,6 @@ module core_csr (
   reg [31:2] mepc  /* verilator public_flat_rd */;
   reg [4:0] mcause  /* verilator public_flat_rd */;    // interrupt, code
   reg [31:0] mtval  /* verilator public_flat_rd */;
-  reg [63:0] cycle  /* verilator public_flat_rw */;
   reg [63:0] instret  /* verilator public_flat_rw */;
 
   reg known;

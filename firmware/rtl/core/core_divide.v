@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // DIV, DIVU, REM, REMU: a bit a tick on magnitudes, signs at the end. `done` with the result WIDTH + 1 ticks after start.
+// Operation and divisor stay until then.
 `default_nettype none
 
 module core_divide #(
@@ -19,9 +20,7 @@ module core_divide #(
 
   reg [COUNT_WIDTH-1:0] left;  // bits
   reg busy;
-  reg take_remainder;
   reg negative;  // the result
-  reg [WIDTH-1:0] divisor;
   reg [WIDTH-1:0] remainder;
   reg [WIDTH-1:0] quotient;  // in its upper bits what is left of the dividend
 
@@ -30,8 +29,12 @@ module core_divide #(
   wire b_negative = has_signs && b[WIDTH-1];
 
   wire [WIDTH:0] shifted = {remainder, quotient[WIDTH-1]};
-  wire [WIDTH:0] difference = shifted - {1'b0, divisor};
+  // Less the magnitude of b: a negative b is added as it is.
+  wire [WIDTH:0] difference;
+  wire carry_in;
+  assign {difference, carry_in} = {shifted, 1'b1} + {1'b1, b_negative ? b : ~b, !b_negative};
   wire fits = !difference[WIDTH];
+  wire unused = &{1'b0, carry_in};
 
   always @(posedge clock)
     if (reset) begin
@@ -46,18 +49,16 @@ module core_divide #(
 
   always @(posedge clock)
     if (start) begin
-      take_remainder <= operation[1];
       // Division by zero gives a quotient of ones, which no sign changes, and the dividend as remainder.
-      negative       <= operation[1] ? a_negative : (a_negative != b_negative) && b != 0;
-      divisor        <= b_negative ? -b : b;
-      quotient       <= a_negative ? -a : a;
-      remainder      <= {WIDTH{1'b0}};
+      negative  <= operation[1] ? a_negative : (a_negative != b_negative) && b != 0;
+      quotient  <= a_negative ? -a : a;
+      remainder <= {WIDTH{1'b0}};
     end else if (!done) begin
       quotient  <= {quotient[WIDTH-2:0], fits};
       remainder <= fits ? difference[WIDTH-1:0] : shifted[WIDTH-1:0];
     end
 
-  wire [WIDTH-1:0] magnitude = take_remainder ? remainder : quotient;
+  wire [WIDTH-1:0] magnitude = operation[1] ? remainder : quotient;
   assign result = negative ? -magnitude : magnitude;
 
 endmodule

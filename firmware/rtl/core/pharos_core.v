@@ -25,6 +25,7 @@ module pharos_core #(
     input  wire [31:0] dbus_readdata,
     input  wire        dbus_fault,
     input  wire        timer_interrupt,
+    output wire [63:0] cycle,  // since reset
     // For test benches: an instruction ends in this tick, at this address; it was trapped, or gave way to an interrupt.
     output wire        trace_ends,
     output wire [31:0] trace_address,
@@ -256,15 +257,12 @@ module pharos_core #(
   // Multiplication and division.
   wire [31:0] multiply_result;
   wire [31:0] divide_result;
-  wire multiply_done, divide_done;
+  wire divide_done;
   core_multiply multiply (
       .clock(clock),
-      .reset(reset),
-      .start(works && x_multiply),
       .operation(x_funct3[1:0]),
       .a(operand_1),
       .b(operand_2),
-      .done(multiply_done),
       .result(multiply_result)
   );
   core_divide divide (
@@ -311,7 +309,8 @@ module pharos_core #(
       .return_address(return_address),
       .timer_interrupt(timer_interrupt),
       .interrupt(interrupt),
-      .retired(ends && x_valid && !trapped && !interrupted)
+      .retired(ends && x_valid && !trapped && !interrupted),
+      .cycle(cycle)
   );
 
   // Exceptions, all in the first tick but a refused access to the upper word.
@@ -349,7 +348,7 @@ module pharos_core #(
 
   // End of an instruction.
   wire several_ticks = x_load || x_multiply || x_divide;
-  assign ends = interrupted || trapped || (x_second ? x_load || multiply_done || divide_done
+  assign ends = interrupted || trapped || (x_second ? x_load || x_multiply || divide_done
                                                     : !several_ticks && !(x_store && !last_accepted));
   assign redirect = x_valid && ends &&
                     (interrupted || trapped || jumps || x_trap_return || x_fence_instructions);

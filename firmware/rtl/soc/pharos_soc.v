@@ -65,6 +65,7 @@ module pharos_soc #(
   wire ibus_wait, dbus_wait, dbus_fault;
   reg ibus_fault;
   wire [31:0] ibus_readdata;
+  wire [63:0] cycle;
   wire [31:0] trace_address;
   wire trace_trapped, trace_interrupted;
   pharos_core core (
@@ -84,6 +85,7 @@ module pharos_soc #(
       .dbus_readdata(dbus_readdata),
       .dbus_fault(dbus_fault),
       .timer_interrupt(timer_interrupt),
+      .cycle(cycle),
       .trace_ends(trace_ends),
       .trace_address(trace_address),
       .trace_trapped(trace_trapped),
@@ -185,6 +187,7 @@ module pharos_soc #(
   soc_timer timer (
       .clock(clock),
       .reset(reset),
+      .now(cycle),
       .address(dbus_address[3:2]),
       .write(dbus_write && d_timer),
       .write_data(dbus_writedata),

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machine timer: mtime at 0 and 4, mtimecmp at 8 and 12; the interrupt is high while mtime >= mtimecmp.
+// The machine timer: mtime, which is the core's cycle counter, at 0 and 4, mtimecmp at 8 and 12; the interrupt is high while
+// mtime >= mtimecmp.
 `default_nettype none
 
 module soc_timer (
     input  wire        clock,
     input  wire        reset,
+    input  wire [63:0] now,
     input  wire [ 1:0] address,
     input  wire        write,
     input  wire [31:0] write_data,
@@ -12,15 +14,12 @@ module soc_timer (
     output reg         interrupt
 );
 
-  reg [63:0] now;
   reg [63:0] compare;
   always @(posedge clock)
     if (reset) begin
-      now       <= 64'd0;
       compare   <= {64{1'b1}};
       interrupt <= 1'b0;
     end else begin
-      now <= now + 64'd1;
       if (write && address == 2'd2) compare[31:0] <= write_data;
       if (write && address == 2'd3) compare[63:32] <= write_data;
       interrupt <= now >= compare;

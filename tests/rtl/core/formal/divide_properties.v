@@ -11,7 +11,7 @@ module divide_properties #(
   reg [4:0] tick = 0;
   always @(posedge clock) tick <= tick + 1;
   reg [1:0] operation_held;
-  reg signed [WIDTH-1:0] a_held, b_held;
+  reg signed [WIDTH-1:0] a_held, b_held;  // the divider's operands stay
   always @(posedge clock)
     if (tick == 1) begin
       operation_held <= operation;
@@ -21,7 +21,8 @@ module divide_properties #(
   wire done;
   wire [WIDTH-1:0] result;
   core_divide #(.WIDTH(WIDTH)) divide (
-      .clock(clock), .reset(tick == 0), .start(tick == 1), .operation(operation), .a(a), .b(b), .done(done), .result(result));
+      .clock(clock), .reset(tick == 0), .start(tick == 1), .operation(tick == 1 ? operation : operation_held), .a(a),
+      .b(tick == 1 ? b : b_held), .done(done), .result(result));
 
   localparam [WIDTH-1:0] LOWEST = 1 << (WIDTH - 1);
   reg [WIDTH-1:0] expected;
