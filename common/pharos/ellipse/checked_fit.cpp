@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "pharos/ellipse/blurred_contour.hpp"
 #include "pharos/ellipse/sectors.hpp"
 
 namespace pharos::ellipse {
