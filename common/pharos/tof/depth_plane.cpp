@@ -219,6 +219,7 @@ class Fitter {
     PlaneFit fit;
     fit.plane.q = q;
     fit.pixels = used;
+    fit.margin_px = region_.margin_px;
     fit.amplitude = amplitude_;
     fit.inlier_fraction = static_cast<double>(used) / pixels_;
     const double mean_inverse_z = sums.right / sums.weights;
@@ -249,7 +250,7 @@ constexpr double kMaxMargin = 0.3;
 RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& outer) {
   const double width_px = std::min(outer.a_px - inner.a_px, outer.b_px - inner.b_px);
   const double margin_px = std::min(kMixed_px, kMaxMargin * width_px);
-  return {EllipseRows(inner, margin_px), EllipseRows(outer, -margin_px)};
+  return {EllipseRows(inner, margin_px), EllipseRows(outer, -margin_px), margin_px};
 }
 
 std::optional<PlaneFit> fit_plane(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,

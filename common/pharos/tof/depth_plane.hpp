@@ -38,12 +38,14 @@ struct PlaneFit {
   double amplitude = 0.0;           ///< median of its pixels', counts
   double variance_inflation = 1.0;  /// factor by which correlated noise of neighbours widens the covariance
   std::int32_t pixels = 0;          /// used for the plane
+  double margin_px = 0.0;           /// from the ring's edges, within which no pixel was used
 };
 
 /// The region between two ellipses, shrunk by the margin that mixed (flying) pixels need.
 struct RingRegion {
   EllipseRows inner;
   EllipseRows outer;
+  double margin_px = 0.0;
 };
 RingRegion ring_region(const ellipse::Ellipse& inner, const ellipse::Ellipse& outer);
 

@@ -6,8 +6,25 @@
 
 namespace pharos::tof {
 
-/// Across a box: its top from -half to +half, blurred, and the wall in sight beyond one of the two edges. The blur is
-/// that of a triangle, whose step is made of parabolas.
+/// From 0 far below to 1 far above, blurred by a cubic B-spline of a standard deviation: a bell with the tails of a
+/// normal distribution's up to 3.5 deviations, without an exponential.
+struct BlurredStep {
+  double value = 0.0;
+  double slope = 0.0;
+};
+inline BlurredStep blurred_step(double x, double blur) {
+  constexpr double kKnots = 0.57735026918962576;  // the spline's own deviation, 1/sqrt(3) of the distance of its knots
+  const double scale = kKnots / blur;
+  const double u = std::fabs(x) * scale;
+  if (u >= 2.0) return {x > 0.0 ? 1.0 : 0.0, 0.0};
+  const double rest = 2.0 - u, square = u * u;
+  const double tail =
+      u < 1.0 ? 0.5 - u * (2.0 / 3.0 - square * (1.0 / 3.0 - u / 8.0)) : rest * rest * rest * rest / 24.0;
+  const double bell = u < 1.0 ? 2.0 / 3.0 - square * (1.0 - 0.5 * u) : rest * rest * rest / 6.0;
+  return {x > 0.0 ? 1.0 - tail : tail, bell * scale};
+}
+
+/// Across a box: its top from -half to +half, blurred, and the wall in sight beyond one of the two edges.
 struct EdgeProfile {
   double half_m = 0.0;
   double blur_m = 0.0;  ///< standard deviation
@@ -24,7 +41,7 @@ struct EdgeProfile {
 
   /// At a place across, for a wall of a brightness relative to the top's.
   Value at(double place_m, double wall) const {
-    const Step high = step(half_m - place_m), low = step(half_m + place_m);
+    const BlurredStep high = blurred_step(half_m - place_m, blur_m), low = blurred_step(half_m + place_m, blur_m);
     Value result{high.value + low.value - 1.0, low.slope - high.slope, low.slope + high.slope, 0.0,
                  -(half_m - place_m) * high.slope - (half_m + place_m) * low.slope};
     const double width = std::fabs(foot_m);
@@ -34,7 +51,7 @@ struct EdgeProfile {
     const double beyond = sign * place_m - half_m;
     const double ramp = 1.0 - beyond / width;
     if (ramp <= 0.0) return result;
-    const Step edge = step(beyond);
+    const BlurredStep edge = blurred_step(beyond, blur_m);
     const double lit = std::min(1.0, ramp) * edge.value;
     const double slope = std::min(1.0, ramp) * edge.slope - (ramp < 1.0 ? edge.value / width : 0.0);
     result.value += wall * lit;
@@ -44,22 +61,6 @@ struct EdgeProfile {
     result.by_blur -= wall * std::min(1.0, ramp) * beyond * edge.slope;
     return result;
   }
-
- private:
-  struct Step {
-    double value = 0.0;
-    double slope = 0.0;
-  };
-  // From 0 far below to 1 far above, about 0.
-  Step step(double x) const {
-    const double reach = kTriangle * blur_m;
-    if (x <= -reach) return {0.0, 0.0};
-    if (x >= reach) return {1.0, 0.0};
-    const double rest = reach - std::fabs(x);
-    const double tail = 0.5 * rest * rest / (reach * reach);
-    return {x > 0.0 ? 1.0 - tail : tail, rest / (reach * reach)};
-  }
-  static constexpr double kTriangle = 2.4494897427831781;  // sqrt(6): half width over standard deviation
 };
 
 }  // namespace pharos::tof

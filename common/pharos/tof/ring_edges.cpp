@@ -180,6 +180,18 @@ class EdgeFinder {
 
 }  // namespace
 
+Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const Vector3& point_m,
+                 const Vector2& normal_px, RingEdge edge) {
+  const Vector3 by_point = project_jacobian(camera.intrinsics, point_m).transpose() * normal_px;
+  const Vector3 arm = point_m - model.centre_m;
+  Vector7 row = Vector7::Zero();
+  row[0] = by_point.dot(axes.first.cross(arm));
+  row[1] = by_point.dot(axes.second.cross(arm));
+  row.segment<3>(2) = by_point;
+  row[5 + static_cast<int>(edge)] = by_point.dot(arm) / model.radius(edge);
+  return row;
+}
+
 double find_ring_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const RingModel& model,
                        RingEdge edge, double search_px, const RingPrior& prior, RingEdgePoints& points) {
   return EdgeFinder(frame, camera, rays, model, edge, search_px, prior).find(points);

@@ -21,6 +21,11 @@ struct RingEdgePoint {
 };
 using RingEdgePoints = StaticVector<RingEdgePoint, kMaxEdgePoints>;
 
+/// Derivatives of an edge's position along its normal, px, by the ring's unknowns: rotation about the plane's two axes
+/// (axes_of), rad; centre, m; outer, inner radius, m.
+Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const Vector3& point_m,
+                 const Vector2& normal_px, RingEdge edge);
+
 /// What is known of the ring before its edges are searched.
 struct RingPrior {
   double depth_gate_m = 0.0;  ///< distance from the plane within which a pixel is the ring's

@@ -18,6 +18,10 @@ using Matrix37 = Eigen::Matrix<double, 3, 7>;
 constexpr int kRounds = 3;
 // The ellipses' own edges are at most a pixel off; after the first round half of that is left.
 constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
+constexpr int kLightRounds = 2;
+// Error of what blur does to the plane, over itself: it comes from the tails of the blur, of which the edges show only
+// the width.
+constexpr double kBiasSigma = 1.0;
 constexpr int kSteps = 3;  // of reweighting in each round
 constexpr double kGate = 3.0;
 constexpr double kMinEdgeSigma_px = 0.02;
@@ -42,19 +46,6 @@ Matrix37 plane_jacobian(const RingModel& model, const PlaneAxes& axes) {
   }
   for (int k = 0; k < 3; ++k) jacobian.col(2 + k) = -model.normal * (model.normal[k] / (distance * distance));
   return jacobian;
-}
-
-// Derivatives of an edge's position along its normal by the unknowns, px.
-Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const RingEdgePoint& point,
-                 RingEdge edge) {
-  const Vector3 by_point = project_jacobian(camera.intrinsics, point.point_m).transpose() * point.normal_px;
-  const Vector3 arm = point.point_m - model.centre_m;
-  Vector7 row = Vector7::Zero();
-  row[0] = by_point.dot(axes.first.cross(arm));
-  row[1] = by_point.dot(axes.second.cross(arm));
-  row.segment<3>(2) = by_point;
-  row[5 + static_cast<int>(edge)] = by_point.dot(arm) / model.radius(edge);
-  return row;
 }
 
 RingModel moved(const RingModel& model, const PlaneAxes& axes, const Vector7& by) {
@@ -98,7 +89,9 @@ void take_rows(const DepthCamera& camera, const RingModel& model, const PlaneAxe
                RingFitWorkspace& workspace) {
   const RingEdgePoints& points = workspace.points[index_of(edge)];
   auto& rows = workspace.rows[index_of(edge)];
-  for (std::size_t i = 0; i < points.size(); ++i) rows[i] = edge_row(camera, model, axes, points[i], edge);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    rows[i] = edge_row(camera, model, axes, points[i].point_m, points[i].normal_px, edge);
+  }
 }
 
 EdgeSums edge_sums(const RingEdgePoints& points, const RingEdgeRows& rows, const Vector7& step) {
@@ -191,6 +184,47 @@ bool is_sane(const RingModel& model) {
          model.radius_m[1] > 0.0 && model.radius_m[1] < model.radius_m[0] && model.normal.dot(model.centre_m) < 0.0;
 }
 
+// The plane of the depths without what the light from behind does to it.
+DepthPlane without_bias(const DepthPlane& plane, const RingModel& model, const Vector3& bias) {
+  const PlaneAxes axes = axes_of(plane.normal());
+  const Vector3 normal = plane.normal() + bias.y() * axes.first + bias.z() * axes.second;
+  const Vector3 middle = model.centre_m / plane.q.dot(model.centre_m) - bias.x() * plane.normal();
+  return {normal / normal.dot(middle)};
+}
+
+// Effect of an error of that correction: turns, and the centre along its ray.
+Matrix7 bias_noise(const RingModel& model, const Vector3& bias) {
+  Vector7 moves = Vector7::Zero();
+  moves[0] = -bias.z();
+  moves[1] = bias.y();
+  const double nearer = bias.x() / model.normal.dot(model.centre_m);
+  moves.segment<3>(2) = nearer * model.centre_m;
+  moves[5] = nearer * model.radius_m[0];
+  moves[6] = nearer * model.radius_m[1];
+  return kBiasSigma * kBiasSigma * moves * moves.transpose();
+}
+
+// All pixels about both edges in place of the edges' steepest points; returns the bias of the depths' plane.
+std::optional<Vector3> refine_by_light(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
+                                       const PlaneFit& plane, const Vector3& bias, const RingPrior& prior,
+                                       RingLightWorkspace& workspace, RingFit& fit) {
+  const PlaneAxes axes = axes_of(fit.model.normal);
+  const Matrix37 by_plane = plane_jacobian(fit.model, axes);
+  const Vector3 offset = without_bias(plane.plane, fit.model, bias).q - fit.model.plane().q;
+  const RingKnowledge known{by_plane.transpose() * plane.information * by_plane,
+                            by_plane.transpose() * (plane.information * offset)};
+  const auto light = fit_ring_light(frame, camera, rays, fit.model, prior, known, plane.margin_px, workspace);
+  if (!light) return std::nullopt;
+  const RingModel model = moved(fit.model, axes, light->step);
+  if (!is_sane(model)) return std::nullopt;
+  const Vector3 left = offset - by_plane * light->step;
+  fit.model = model;
+  fit.plane_chi2 = left.dot(plane.information * left);
+  fit.covariance = light->covariance * (fit.plane_chi2 > kDoubtful ? fit.plane_chi2 / 3.0 : 1.0);
+  fit.covariance += bias_noise(model, light->plane_bias);
+  return light->plane_bias;
+}
+
 // Points of an ellipse's contour on a plane, and the circle through them.
 struct PlanarCircle {
   Vector3 centre_m;
@@ -259,6 +293,12 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
     fit.edge_points = solved->edge_points;
     fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
     fit.plane_chi2 = solved->plane_chi2;
+  }
+  Vector3 bias = Vector3::Zero();
+  for (int round = 0; round < kLightRounds; ++round) {
+    const auto refined = refine_by_light(frame, camera, rays, plane, bias, prior, workspace.light, fit);
+    if (!refined) break;
+    bias = *refined;
   }
   fit.covariance += common_noise(fit.model, noise.common_sigma_m) + common_place(camera, fit.model);
   fit.plane_rms_m = plane.rms_m;

@@ -4,12 +4,10 @@
 #include <optional>
 
 #include "pharos/tof/ring_edges.hpp"
+#include "pharos/tof/ring_light.hpp"
 #include "pharos/tof/tof_settings.hpp"
 
 namespace pharos::tof {
-
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// The measured ring.
 struct RingFit {
@@ -33,6 +31,7 @@ using RingEdgeRows = std::array<Vector7, kMaxEdgePoints>;
 struct RingFitWorkspace {
   std::array<RingEdgePoints, 2> points;
   std::array<RingEdgeRows, 2> rows;
+  RingLightWorkspace light;
 };
 
 /// Two concentric circles in the plane of the depths: all measurements of the ring in one least-squares fit.

@@ -10,6 +10,9 @@
 
 namespace pharos::tof {
 
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+
 enum class RingEdge : std::uint8_t { kOuter = 0, kInner = 1 };
 inline constexpr std::array<RingEdge, 2> kRingEdges = {RingEdge::kOuter, RingEdge::kInner};
 inline constexpr std::size_t index_of(RingEdge edge) { return static_cast<std::size_t>(edge); }
