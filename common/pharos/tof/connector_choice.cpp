@@ -54,6 +54,8 @@ class Chooser {
     if (box.verdict != BoxVerdict::kConnector) return;
     const ConnectorFace face = fit_face(frame_, camera_, rays_, ring_, box);
     const SeenConnector seen{face, face.edge_points > 0};
+    // A thruster: its place counts as one that is not the plate's.
+    if (face.is_round()) return;
     if (seen.sure && face.rectangle.slenderness() > settings_.max_aspect) return;
     auto& list = result_.seen;
     if (!list.push_back(seen)) {
@@ -93,8 +95,8 @@ class Chooser {
     if (count < settings_.expected) {
       return nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
     }
-    // One of them may be a look-alike, and a connector hidden or not found.
-    if (count == 1 && face_is_hidden()) return ConnectorDoubt::kHidden;
+    // One of them may be a look-alike, a thruster for example, and a connector hidden or not found.
+    if ((count == 1 || !seen[0].face.is_square()) && face_is_hidden()) return ConnectorDoubt::kHidden;
     return something_stands_nearer() ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
   }
 

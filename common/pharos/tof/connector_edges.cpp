@@ -45,6 +45,9 @@ constexpr double kCorrelation = 2.0;
 constexpr double kSilhouetteSigma_px = 0.1;
 // Deviation of a box's centre in the depths, px: used where its edges are not fitted.
 constexpr double kCoarseSigma_px = 0.8;
+// A corner begins at this fraction of both half sides; a disc of the square's area has this radius in half sides.
+constexpr double kCorner = 0.6;
+constexpr double kDiscRadius = 1.1283791670955126;  // 2 / sqrt(pi)
 // Of a fit that follows the box: sides over those of the box, either way, and movement of the centre in pixels.
 constexpr double kMaxSideChange = 1.5;
 constexpr double kMaxMove_px = 2.5;
@@ -81,6 +84,7 @@ class FaceFitter {
     take_pixels(face);
     ConnectorFace refined = face;
     if (!refine(refined) || !follows_box(refined)) return face;
+    compare_with_disc(refined);
     return refined;
   }
 
@@ -278,9 +282,38 @@ class FaceFitter {
       const double common = kSilhouetteSigma_px * metres_per_px_;
       face.covariance = kCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
     }
+    brightness_ = brightness;
+    sigma_ = sigma;
     // An edge falls by 0.4 of the brightness over a blur's deviation.
     face.edge_rms_px = sigma / brightness * blur_px_ / 0.4;
     return sigma < kMaxScatter * brightness;
+  }
+
+  // How far the corners' light is that of the rectangle rather than of a disc of its area: least squares of one number.
+  void compare_with_disc(ConnectorFace& face) const {
+    const PlanarRectangle& r = face.rectangle;
+    const Sides sides = sides_of(r);
+    const double half = std::sqrt(r.half_sides_m.x() * r.half_sides_m.y());
+    const double blur = 0.5 * (sides.along.blur_m + sides.across.blur_m);
+    const auto beside_wall = [](const EdgeProfile& side, double place) {
+      return side.foot_m * place > 0.0 && std::fabs(side.foot_m) > 0.2 * side.blur_m;
+    };
+    double squares = 0.0, product = 0.0;
+    for (const FacePixel& p : pixels_) {
+      const Vector2 off = p.place_m - r.centre_m;
+      const double s = sides.first.dot(off), t = sides.second.dot(off);
+      const double across_s = std::fabs(s) / r.half_sides_m.x(), across_t = std::fabs(t) / r.half_sides_m.y();
+      if (std::min(across_s, across_t) < kCorner || beside_wall(sides.along, s) || beside_wall(sides.across, t))
+        continue;
+      const double rectangle = sides.along.at(s, 0.0).value * sides.across.at(t, 0.0).value;
+      const double disc = blurred_step(half * (kDiscRadius - std::hypot(across_s, across_t)), blur).value;
+      const double difference = rectangle - disc;
+      squares += difference * difference;
+      product += difference * (p.layer / brightness_ - disc);
+    }
+    if (!(squares > 0.0) || !(brightness_ > 0.0)) return;
+    face.squareness = product / squares;
+    face.sigma_squareness = sigma_ / brightness_ * std::sqrt(kCorrelation / squares);
   }
   static Vector2 limited(const Vector2& by, double most) {
     const double size = by.norm();
@@ -349,7 +382,7 @@ class FaceFitter {
   const RaisedBox& box_;
   double base_m_ = 0.0;
   double metres_per_px_ = 0.0;
-  double blur_px_ = kBlur_px;
+  double blur_px_ = kBlur_px, brightness_ = 0.0, sigma_ = 0.0;
   Vector2 middle_px_ = Vector2::Zero();
   Matrix2 per_pixel_ = Matrix2::Identity();  // d place in the top's plane / d pixel
   Vector2 foot_ = Vector2::Zero();

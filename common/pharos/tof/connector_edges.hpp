@@ -14,6 +14,13 @@ struct ConnectorFace {
   Matrix2 covariance = Matrix2::Zero();  ///< of the centre, in the ring's plane, m^2
   double edge_rms_px = 0.0;              ///< deviation of one pixel at an edge, as a displacement of it
   std::int32_t edge_points = 0;          ///< pixels used; 0: the fit failed
+  /// Light at the corners away from walls in sight: 1 a rectangle's, 0 that of a disc as large; and its deviation.
+  double squareness = 1.0, sigma_squareness = 1e9;
+
+  /// A thruster's rim, a cap: no connector's top, as far as so few pixels tell.
+  bool is_round() const { return squareness + 2.0 * sigma_squareness < 0.5; }
+  /// And no thruster's.
+  bool is_square() const { return squareness > 0.5 && squareness > 2.0 * sigma_squareness; }
 };
 
 /// Fits a rectangle to the pixels about the sides of a raised box.
