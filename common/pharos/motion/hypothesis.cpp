@@ -60,6 +60,10 @@ constexpr double kLinear_rad = 0.003;
 
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
 constexpr int kSettled = 16, kSettles = 4;
+// Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
+// only the tilt itself speaks for the side, later the motion before does too.
+constexpr double kMaxTiltAtStart_rad = kTiltAlone_rad, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
+
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
   return innovation_of(fit.information, prediction.gate_covariance, Vector6::Zero()).chi2 > kRateResetChi2;
@@ -164,6 +168,9 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
     station_state.systematic = systematic_covariance(station_state, corrected.t.norm(), noise);
   }
   state_estimate_ = with_systematics(filter_, observer);
+  const Matrix6 known = state_estimate_.covariance - systematic_of(observer);
+  const double max_tilt_rad = sweeps_ > kSettled ? kMaxTilt_rad : kMaxTiltAtStart_rad;
+  tilt_unknown_ = tilt_unknown_ && known.topLeftCorner<3, 3>().trace() > max_tilt_rad * max_tilt_rad;
   return fit_;
 }
 
@@ -193,12 +200,13 @@ void Hypothesis::follow(const lighthouse::SweepBearings& bearings, Axis axis, co
     offset = -shift;
     innovation = innovation_of(fit_.information, prediction.covariance, offset);
   }
+  tilt_unknown_ = false;
   if (!fit_.used.empty() && steady(filter_)) {
     const Matrix6 known = prediction.covariance - systematic_of(observer_);  // systematic errors do not shrink
     const Innovation of_known = innovation_of(fit_.information, known, offset);
     const Matrix3 attitude = corrected_covariance(known, fit_.information, of_known).topLeftCorner<3, 3>();
     if (attitude.trace() > kLinear_rad * kLinear_rad) {
-      count_second_order(fit_, attitude, noise);
+      tilt_unknown_ = count_second_order(fit_, attitude, noise);
       innovation = innovation_of(fit_.information, prediction.covariance, offset);
     }
   }

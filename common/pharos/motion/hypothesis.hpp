@@ -88,6 +88,9 @@ class Hypothesis {
   double dispute() const { return dispute_; }
   /// Sweeps since it began, or since one spoke strongly against the target.
   int undisputed() const { return undisputed_; }
+  /// The last sweep was of coplanar sensors, and to which side they are tilted is not known yet: the attitude is no
+  /// better than one cycle tells it, and mirrored it may fit as well.
+  bool tilt_unknown() const { return tilt_unknown_; }
   /// Consecutive sweeps most of whose hits were rejected.
   int consecutive_rejections() const { return consecutive_rejections_; }
   /// Own noise over the assumed one, as estimated.
@@ -137,6 +140,7 @@ class Hypothesis {
   int consecutive_rejections_ = 0;
   bool rates_reset_ = false;
   bool withheld_ = false;
+  bool tilt_unknown_ = false;
   double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;

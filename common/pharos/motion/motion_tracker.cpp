@@ -218,6 +218,7 @@ Result<LighthousePoseEstimate, pose::Refusal> MotionTracker::estimate(const Stat
     result.flags |= track::kEpochPrior;
   }
   if (!e.pose.is_finite() || !e.covariance.allFinite()) return pose::Refusal::kNotConverged;
+  if (best.tilt_unknown()) return pose::Refusal::kTooUncertain;
   if (e.sigma_rotation_rad() > options_.limits.rotation_rad || e.sigma_position_m() > options_.limits.position_m) {
     return pose::Refusal::kTooUncertain;
   }

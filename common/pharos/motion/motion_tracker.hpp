@@ -13,7 +13,8 @@
 namespace pharos::motion {
 
 /// Stated sigmas (square roots of the traces) beyond which no pose is reported (too_uncertain). With the defaults the
-/// body is as good as lost; a caller that needs every valid pose to be accurate sets smaller ones.
+/// body is as good as lost; a caller that needs every valid pose to be accurate sets smaller ones. Whatever the limits,
+/// none is reported of coplanar sensors that may be tilted to the other side as well (Hypothesis::tilt_unknown).
 struct UncertaintyLimits {
   double rotation_rad = 20.0 * kRadPerDeg;
   double position_m = 0.3;

@@ -27,8 +27,6 @@ constexpr double kForeign_m = 3e-3;
 constexpr double kSameErrorSweeps = 300.0;
 // Sensors with more relief show a tilt itself.
 constexpr double kCoplanar_m = 0.5e-3;
-// Sigma of an attitude that one cycle of four coplanar sensors tells alone: how large their tilt is, not where to.
-constexpr double kSolvedAlone_rad = 0.06;
 
 bool is_foreign(const HitFit& hit, double departure_rad) {
   return std::abs(departure_rad) * hit.point_m.norm() > kForeign_m;
@@ -171,6 +169,35 @@ std::size_t worst_of(const HitFits& hits, const SweepInformation& information, c
   return worst;
 }
 
+bool coplanar(const HitFits& hits, const Vector3& centre) {
+  pose::PlaneFit plane(centre);
+  for (const HitFit& hit : hits) plane.add(hit.point_m);
+  return plane.thickness_m(plane.normal()) <= kCoplanar_m;
+}
+
+// A rotation d moves a point at q from the centre by d x q + d x (d x q) / 2; the centre's own shift is the
+// translation's. The second part changes a bearing by q . w, w = (d (g . d) - g (d . d)) / 2 with the gradient g of the
+// bearing, one for all hits: each component is half a square d . A d. This is the covariance of w for d ~ N(0, P):
+// tr(A_k P A_l P) / 2.
+Matrix3 second_order_covariance(const Vector3& gradient, const Matrix3& attitude) {
+  std::array<Matrix3, 3> by_attitude;
+  for (int k = 0; k < 3; ++k) {
+    Matrix3 square = Matrix3::Zero();
+    square.row(k) += 0.5 * gradient.transpose();
+    square.col(k) += 0.5 * gradient;
+    square.diagonal().array() -= gradient[k];
+    by_attitude[static_cast<std::size_t>(k)] = square.lazyProduct(attitude);
+  }
+  Matrix3 covariance;
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) {
+      const Matrix3 &row = by_attitude[static_cast<std::size_t>(k)], &column = by_attitude[static_cast<std::size_t>(l)];
+      covariance(k, l) = 0.5 * row.lazyProduct(column).trace();
+    }
+  }
+  return covariance;
+}
+
 bool credible(const SweepInformation& information) {
   return information.residual_chi2 <= pose::chi2_threshold(information.hits - information.rank);
 }
@@ -215,27 +242,24 @@ SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const S
   return fit;
 }
 
-void count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
-  Vector3 centre = Vector3::Zero();
-  for (const HitFit& hit : fit.used) centre += hit.point_m;
-  centre /= static_cast<double>(fit.used.size());
-  pose::PlaneFit plane(centre);
-  for (const HitFit& hit : fit.used) plane.add(hit.point_m);
-  if (plane.thickness_m(plane.normal()) > kCoplanar_m) return;
-  const Matrix3 attitude =
-      attitude_covariance * std::min(1.0, kSolvedAlone_rad * kSolvedAlone_rad / attitude_covariance.trace());
-  for (HitFit& hit : fit.used) {
-    // A rotation d moves a point at q by d x q + d x (d x q) / 2; the shift of the centre is the translation's.
-    const Vector3 q = hit.point_m - centre;
-    const Vector3 gradient = hit.jacobian.tail<3>();
-    Matrix3 second = 0.5 * (gradient * q.transpose() + q * gradient.transpose());
-    second.diagonal().array() -= gradient.dot(q);
-    const Matrix3 product = second * attitude;
-    const double added = 0.5 * kSameErrorSweeps * (product * product).trace();
-    fit.log_density += std::log1p(added / hit.variance);
-    hit.variance += added;
+bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise) {
+  Vector3 centre = Vector3::Zero(), gradient = Vector3::Zero();
+  for (const HitFit& hit : fit.used) {
+    centre += hit.point_m;
+    gradient += hit.jacobian.tail<3>();
   }
-  fit.information = summed(fit.used, noise.common_rad * noise.common_rad);
+  centre /= static_cast<double>(fit.used.size());
+  gradient /= static_cast<double>(fit.used.size());
+  if (!coplanar(fit.used, centre)) return false;
+  const Matrix3 attitude =
+      attitude_covariance * std::min(1.0, kTiltAlone_rad * kTiltAlone_rad / attitude_covariance.trace());
+  SharedSums sums(kSameErrorSweeps * second_order_covariance(gradient, attitude), noise.common_rad * noise.common_rad);
+  for (const HitFit& hit : fit.used) {
+    sums.add(hit.jacobian, hit.residual_rad, 1.0 / hit.variance, hit.point_m - centre);
+  }
+  fit.information = sums.close();
+  fit.log_density += sums.log_determinant();
+  return true;
 }
 
 }  // namespace pharos::motion

@@ -64,10 +64,15 @@ inline constexpr double kHitGate = 5.0;
 SweepFit fit_sweep(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
                    const StateEstimate& state_estimate, std::int64_t time_ticks, const SweepNoise& noise);
 
-/// Where the hits are those of coplanar sensors: adds to each hit's own variance that of its bearing's second order in
-/// an attitude error with this covariance (after the sweep), and sums anew. Coplanar sensors seen from straight ahead
-/// show a tilt only in its square: linearised at an estimate that is off they seem to show it, sweep after sweep with
-/// the same error.
-void count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise);
+/// Sigma of the attitude (root of the trace, rad) to which one cycle of four coplanar sensors seen from straight ahead
+/// tells their tilt alone: how large it is, not to which side.
+inline constexpr double kTiltAlone_rad = 0.03;
+
+/// Where the hits are those of coplanar sensors: adds to their noise that of the bearings' second order in an attitude
+/// error with this covariance (after the sweep), and sums anew. Coplanar sensors seen from straight ahead show a tilt
+/// mainly in its square: linearised at an estimate that is off they seem to show it, sweep after sweep with the same
+/// error. That part stretches and shears the pattern of the hits; to which side they are tilted shows in its
+/// perspective, and stays as certain as it was. False where the sensors have relief: nothing was changed.
+bool count_second_order(SweepFit& fit, const Matrix3& attitude_covariance, const SweepNoise& noise);
 
 }  // namespace pharos::motion

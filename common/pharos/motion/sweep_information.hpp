@@ -36,4 +36,26 @@ class InformationSums {
   int hits_ = 0;
 };
 
+/// The same for hits whose noise also has a part that is linear in where they are, R = diag(own variance) + common
+/// variance x 1 1^T + Q W Q^T, a row of Q a hit's place. What is shared is eliminated as an unknown with a prior.
+class SharedSums {
+ public:
+  /// `place_covariance`: W, positive semidefinite.
+  SharedSums(const Matrix3& place_covariance, double common_variance);
+  void add(const Vector6& jacobian, double residual_rad, double weight, const Vector3& place);
+  SweepInformation close() const;
+  /// ln of the factor by which the part of the places makes the determinant of R larger.
+  double log_determinant() const;
+
+ private:
+  // Rows and columns: the six of the pose, the residual, the common part, three of the places.
+  static constexpr int kResidual = 6, kShared = 7, kPlaces = 8, kAll = 11;
+  using Sums = Eigen::Matrix<double, kAll, kAll>;
+
+  Sums sum_ = Sums::Zero();
+  Matrix3 place_root_;  // lower triangular
+  double common_root_;
+  int hits_ = 0;
+};
+
 }  // namespace pharos::motion

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <random>
 
 #include "pharos/base/units.hpp"
@@ -57,6 +58,36 @@ TEST(SweepInformation, SumsEqualTheDenseNoiseMatrixInverted) {
     EXPECT_NEAR(information.residual_chi2, residual_chi2, 1e-9 * (1.0 + residual_chi2));
     EXPECT_EQ(information.rank, 6);
     EXPECT_EQ(information.hits, 8);
+  }
+}
+
+// A part of the noise that is linear in where the hits are.
+TEST(SweepInformation, SumsWithSharedPlacesEqualTheDenseNoiseMatrixInverted) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Sweep sweep = random_sweep(seed);
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal;
+    Matrix3 root;
+    Eigen::Matrix<double, Eigen::Dynamic, 3> Q(8, 3);
+    for (int k = 0; k < 9; ++k) root(k / 3, k % 3) = normal(engine);
+    if (seed % 2 == 1) root.col(2).setZero();  // of rank two
+    for (int k = 0; k < 24; ++k) Q(k / 3, k % 3) = normal(engine);
+    const Matrix3 W = root * root.transpose();
+    SharedSums sums(W, sweep.common);
+    for (int i = 0; i < 8; ++i) {
+      sums.add(sweep.H.row(i).transpose(), sweep.r[i], 1.0 / (sweep.R(i, i) - sweep.common), Q.row(i).transpose());
+    }
+    const SweepInformation information = sums.close();
+    const double before = sweep.R.determinant();
+    sweep.R += Q * W * Q.transpose();
+    const Noise inverse = sweep.R.inverse();
+    const Matrix6 square = sweep.H.transpose() * inverse * sweep.H;
+    const Vector6 right = sweep.H.transpose() * inverse * sweep.r;
+    EXPECT_LT((information.factor * information.factor.transpose() - square).norm(), 1e-9 * square.norm());
+    EXPECT_LT((information.factor * information.whitened - right).norm(), 1e-9 * right.norm());
+    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - right.dot(square.ldlt().solve(right));
+    EXPECT_NEAR(information.residual_chi2, residual_chi2, 1e-8 * (1.0 + residual_chi2));
+    EXPECT_NEAR(sums.log_determinant(), std::log(sweep.R.determinant() / before), 1e-8);
   }
 }
 
