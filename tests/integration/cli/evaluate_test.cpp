@@ -82,6 +82,48 @@ TEST(CliEvaluate, FindsWhatMotionCaptureDoesNotShareAndThenTheSameErrors) {
   EXPECT_THAT(content_of(picture), StartsWith("<svg"));
 }
 
+// Its own row of an alignment read back: nothing is fitted again, and the errors are the same.
+TEST(CliEvaluate, AKnownTransformIsTakenAsItIs) {
+  const Experiment& e = Experiment::get();
+  const std::string command = "evaluate " + e.poses + " " + e.capture + " --time-offset auto ";
+  const Outcome fitted = pharos(command + "--align hand-eye");
+  ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
+  const Outcome known = pharos(command + "--transform " + e.folder.write("known.csv", fitted.out));
+  ASSERT_EQ(known.exit_code, 0) << known.err;
+  const Row one = rows_of(fitted.out).at(0), other = rows_of(known.out).at(0);
+  EXPECT_EQ(other.at("align"), "known");
+  EXPECT_EQ(other.at("compared"), one.at("compared"));
+  for (const char* column : {"rot_rms_deg", "pos_rms_mm"}) {
+    EXPECT_NEAR(number(other, column) / number(one, column), 1.0, 0.01) << column;
+  }
+}
+
+// Paper 002's own form, psi_0: of no turn and no shift it is no alignment; 30 mm along x are 30 mm of error.
+TEST(CliEvaluate, ATransformInThePapersFormIsPsi) {
+  const Experiment& e = Experiment::get();
+  const std::string command = "evaluate " + e.poses + " " + e.truth + " ";
+  const auto with = [&](const std::string& x_mm) {
+    const std::string psi =
+        e.folder.write("psi.csv", "phi_x_rad,phi_y_rad,phi_z_rad,x_mm,y_mm,z_mm\n0,0,0," + x_mm + ",0,0\n");
+    return rows_of(pharos(command + "--transform " + psi).out).at(0);
+  };
+  const Row none = rows_of(pharos(command + "--align none").out).at(0), same = with("0"), shifted = with("30");
+  for (const char* column : {"rot_rms_deg", "pos_rms_mm", "compared"}) EXPECT_EQ(same.at(column), none.at(column));
+  EXPECT_EQ(shifted.at("rot_rms_deg"), none.at("rot_rms_deg"));
+  EXPECT_NEAR(number(shifted, "pos_median_mm"), 30.0, 10.0);
+}
+
+TEST(CliEvaluate, ATransformThatIsNoneIsWrongInput) {
+  const Experiment& e = Experiment::get();
+  const std::string command = "evaluate " + e.poses + " " + e.truth + " --transform ";
+  const std::string header = "qw,qx,qy,qz,tx_m,ty_m,tz_m\n", row = "1,0,0,0,0,0,0\n";
+  EXPECT_EQ(pharos(command + e.folder.write("one.csv", header + row)).exit_code, 0);
+  for (const std::string& text : {header, header + row + row, header + "2,0,0,0,0,0,0\n", std::string("a,b\n1,2\n")}) {
+    EXPECT_EQ(pharos(command + e.folder.write("bad.csv", text)).exit_code, 2) << text;
+  }
+  EXPECT_EQ(pharos(command + e.folder.path("one.csv") + " --align se3").exit_code, 2);
+}
+
 TEST(CliEvaluate, CountsEveryRowOnce) {
   const Experiment& e = Experiment::get();
   const Row row = rows_of(pharos("evaluate " + e.poses + " " + e.truth).out).at(0);

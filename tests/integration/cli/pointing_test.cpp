@@ -153,5 +153,53 @@ TEST_F(CliPointing, OneImageNeedsItsDirectionInRange) {
   EXPECT_THAT(run.err, HasSubstr("median of 3"));
 }
 
+// Attitude 1 of paper 003's table 1 at 100 m: the panel is 400 px long.
+class CliPointingByPaper : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new Folder;
+    made_ =
+        new Outcome(pharos("sim line - --output " + folder_->path("still"),
+                           "[camera]\nwidth_px = 1024\nheight_px = 1024\nfocal_px = 4000.0\n[imaging]\nbits = 16\n"
+                           "[trajectory]\nkind = \"still\"\nattitudes = [[288.0, 52.0, 100.0, -33.7, 72.0, 15.0]]\n"));
+  }
+  static void TearDownTestSuite() {
+    delete made_;
+    delete folder_;
+  }
+  static Outcome line(const std::string& more) {
+    return pharos("line " + folder_->path("still/0000.png") + " --camera " + folder_->path("still/camera.toml") +
+                  " --azimuth-deg 288 --elevation-deg 52 " + more);
+  }
+  static Folder* folder_;
+  static Outcome* made_;
+};
+Folder* CliPointingByPaper::folder_ = nullptr;
+Outcome* CliPointingByPaper::made_ = nullptr;
+
+TEST_F(CliPointingByPaper, HasTheSameColumnsTheAxisAndNoSigma) {
+  ASSERT_EQ(made_->exit_code, 0) << made_->err;
+  const Outcome run = line("--method paper --stages " + folder_->path("steps"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(first_line(run.out), first_line(line("").out));
+  const Row row = rows_of(run.out).at(0), truth = rows_of(content_of(folder_->path("still/truth.csv"))).at(0);
+  EXPECT_EQ(row.at("status"), "ok");
+  EXPECT_EQ(row.at("sigma_deg"), "");
+  EXPECT_LT(between_deg(row, truth), 0.5);  // its figures at 100 m: 0.066 deg to 0.12, and 6.2 once
+  EXPECT_NEAR(std::stod(row.at("square_deg")), 90.0, 2.0);
+  for (const char* picture : {"steps/binary.png", "steps/segments.png"}) {
+    EXPECT_EQ(content_of(folder_->path(picture)).substr(1, 3), "PNG") << picture;
+  }
+}
+
+TEST_F(CliPointingByPaper, AGivenSlopeIsTakenAndOptionsOfTheOtherMethodAreRefused) {
+  const Outcome across = line("--method paper --paper-slope-deg 0");
+  const Outcome found = line("--method paper");
+  EXPECT_NE(across.out, found.out);
+  EXPECT_EQ(line("--stages " + folder_->path("none")).exit_code, 2);
+  EXPECT_EQ(line("--method paper --overlay " + folder_->path("x.png")).exit_code, 2);
+  EXPECT_EQ(line("--method paper --time 3").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace pharos::cli_test
