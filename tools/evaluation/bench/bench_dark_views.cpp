@@ -6,8 +6,8 @@
 #include <string>
 
 #include "host/vision/enhance/enhancer.hpp"
-#include "tools/evaluation/bench/low_light_peers.hpp"
-#include "tools/evaluation/bench/rim_halo.hpp"
+#include "tools/evaluation/low_light/low_light_peers.hpp"
+#include "tools/evaluation/low_light/rim_halo.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
 #include "tools/support/stopwatch.hpp"
 

@@ -13,7 +13,7 @@
 #include "host/vision/enhance/noise_level.hpp"
 #include "tools/evaluation/bench/bench_dark_views.hpp"
 #include "tools/evaluation/bench/exact_illumination.hpp"
-#include "tools/evaluation/bench/low_light_peers.hpp"
+#include "tools/evaluation/low_light/low_light_peers.hpp"
 #include "tools/support/stopwatch.hpp"
 
 namespace pharos::tools {

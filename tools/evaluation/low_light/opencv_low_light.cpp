@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/photo.hpp>
 
-#include "tools/evaluation/bench/low_light_peers.hpp"
+#include "tools/evaluation/low_light/low_light_peers.hpp"
 
 namespace pharos::tools {
 namespace {

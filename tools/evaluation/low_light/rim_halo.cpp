@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/evaluation/bench/rim_halo.hpp"
+#include "tools/evaluation/low_light/rim_halo.hpp"
 
 #include <algorithm>
 #include <array>

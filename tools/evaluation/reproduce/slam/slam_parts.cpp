@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "tools/evaluation/reproduce/slam/figure_four.hpp"
 #include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/support/progress.hpp"
 
@@ -63,7 +64,14 @@ report::Part part_of(const std::string& id, const Runs& runs, const std::string&
 
 std::vector<report::Part> slam_parts() {
   return {part_of("slam-good", {"good", "good-20-keyframes", "good-15-boards", "good-no-loops"}, "good light"),
-          part_of("slam-low", {"low-enhanced", "low-bm3d", "low-enhanced-no-loops", "low"}, "low light")};
+          part_of("slam-low", {"low-enhanced", "low-bm3d", "low-enhanced-no-loops", "low"}, "low light"),
+          {"slam-enhance",
+           [](const report::PartSettings& settings) {
+             return "pharos reproduce slam --figure4 --seed " + std::to_string(settings.seed);
+           },
+           [](const report::PartSettings& settings, const std::filesystem::path& folder) {
+             return reproduce_figure_four(settings.seed, folder);
+           }}};
 }
 
 }  // namespace pharos::tools

@@ -248,7 +248,7 @@ void write_view(ImageView<const std::uint8_t> view, const std::filesystem::path&
   host::write_grey_png(path.string(), {pixels.data(), view.width_px, view.height_px}, 8);
 }
 
-// Figure 2 in good light; in low light figure 4: as it is and enhanced.
+// Figure 2 in good light; in low light, beside figure 5, as it is and enhanced.
 void add_first_views(bool good_light, const Pictures& pictures, const std::filesystem::path& folder,
                      report::PartResult& result) {
   const std::string name = good_light ? "good.png" : "dark.png";
@@ -257,11 +257,11 @@ void add_first_views(bool good_light, const Pictures& pictures, const std::files
     result.pictures.push_back({"figure 2", "the rendered satellite, left camera, first frame", name});
     return;
   }
-  result.pictures.push_back({"figure 4", "in low light as it is", name});
+  result.pictures.push_back({"figure 5", "in low light as it is, first frame", name});
   const auto add = [&](Treatment treatment, const char* caption, const char* file) {
     if (!pictures.has(treatment)) return;
     write_view(pictures.view(treatment, 0), folder / file);
-    result.pictures.push_back({"figure 4", caption, file});
+    result.pictures.push_back({"figure 5", caption, file});
   };
   add(Treatment::kFast, "the same by LIME with our fast denoiser", "enhanced.png");
   add(Treatment::kBm3d, "the same by LIME with BM3D", "bm3d.png");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No halo at the rim of a target that is rendered in low light and enhanced: no glow around it, almost no edging
 // inside.
-#include "tools/evaluation/bench/rim_halo.hpp"
+#include "tools/evaluation/low_light/rim_halo.hpp"
 
 #include <gtest/gtest.h>
 
