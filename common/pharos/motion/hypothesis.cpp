@@ -61,8 +61,8 @@ constexpr double kLinear_rad = 0.003;
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
 constexpr int kSettled = 16, kSettles = 4;
 // Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
-// only the tilt itself speaks for the side, later the motion before does too.
-constexpr double kMaxTiltAtStart_rad = kTiltAlone_rad, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
+// only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too.
+constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
 
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
