@@ -30,8 +30,8 @@ TEST(IntegritySeeds, Ellipses) {
   expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934});
 }
 
-// A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster for a
-// connector behind a boom.
+// A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster for
+// a connector behind a boom.
 TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061}); }
 
 // The foot of a ring, the edge of a round body, a small ring beside it, a groove; two bodies with a second ring.
