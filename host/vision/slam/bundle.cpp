@@ -96,6 +96,7 @@ void add_observations(const Map& map, BundleProblem& problem, const std::set<Key
       const Keyframe& frame = map.keyframes.at(keyframe);
       const Feature& seen = frame.features[static_cast<std::size_t>(feature)];
       problem.poses[keyframe] = frame.pose;
+      problem.variance_factors[keyframe] = frame.variance_factor;
       problem.fixed[keyframe] = !moving.contains(keyframe);
       problem.observations.push_back({keyframe, id, observation_of(seen, Vector3::Zero())});
     }

@@ -22,6 +22,9 @@ struct BundleProblem {
   std::map<KeyframeId, bool> fixed;  ///< K_F: fixed poses
   std::map<PointId, Vector3> points;
   std::vector<BundleObservation> observations;  ///< grouped by point
+  /// Of the keyframes' observations (Frame::variance_factor): it changes no weight, only what is stated of the
+  /// solution.
+  std::map<KeyframeId, double> variance_factors;
 };
 
 /// `keyframe` and its covisible keyframes (K_L), their points, and the other keyframes that observe those (K_F).

@@ -35,6 +35,8 @@ struct Frame {
   FeatureGrid grid;
   std::vector<PointId> points;  ///< of the map, a feature each; kNone
   CameraFromTarget pose;
+  /// Variance of the residuals of aligned patches over that assumed of them, at least 1; robust, outliers included.
+  double variance_factor = 1.0;
 };
 
 }  // namespace pharos::slam

@@ -140,7 +140,9 @@ std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
     if (use[k] && place != places.end()) {
       const CameraFromTarget& pose = problem.poses.at(seen.keyframe);
       if ((pose * point_m).z() > kMinDepth_m) {
-        pose_terms.push_back({place->second, information_of(seen.seen, point_m, camera, pose)});
+        const auto factor = problem.variance_factors.find(seen.keyframe);
+        const double larger = factor == problem.variance_factors.end() ? 1.0 : factor->second;
+        pose_terms.push_back({place->second, information_of(seen.seen, point_m, camera, pose) / larger});
       }
     }
     const bool last = k + 1 == problem.observations.size() || problem.observations[k + 1].point != seen.point;

@@ -12,11 +12,11 @@ namespace pharos::slam {
 inline constexpr std::size_t kAllKeyframes = static_cast<std::size_t>(-1);
 
 /// Covariance of the keyframes of a solved problem relative to one of them, `root`: the inverse of (12)'s normal
-/// equations with the points eliminated and `root` fixed. Rejected observations do not count; of more than `most`
-/// keyframes only those that observe most of the points are used. Each covariance is that of zeta in T_camera_target
-/// exp(zeta), rotation (rad) before translation (m) about the target's axes: there, a common error of a part of the map
-/// has the same value for all its keyframes. A keyframe without shared points has 1 rad and 100 m. Some 12 ms for 40
-/// keyframes with 17,000 points in all, 0.35 s for 157.
+/// equations with the points eliminated and `root` fixed. Each keyframe's observations count with its variance_factors.
+/// Rejected observations do not count; of more than `most` keyframes only those that observe most of the points are
+/// used. Each covariance is that of zeta in T_camera_target exp(zeta), rotation (rad) before translation (m) about the
+/// target's axes: there, a common error of a part of the map has the same value for all its keyframes. A keyframe
+/// without shared points has 1 rad and 100 m. Some 12 ms for 40 keyframes with 17,000 points in all, 0.35 s for 157.
 std::map<KeyframeId, Matrix6> keyframe_covariances(const BundleProblem& problem,
                                                    const std::vector<std::size_t>& rejected, const StereoCamera& camera,
                                                    KeyframeId root, std::size_t maximum = kAllKeyframes);

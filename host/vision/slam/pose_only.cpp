@@ -2,6 +2,7 @@
 #include "host/vision/slam/pose_only.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "pharos/optimize/descent.hpp"
@@ -92,6 +93,22 @@ double rms_of(const std::vector<Observation>& observations, const StereoCamera& 
 }
 
 }  // namespace
+
+double variance_factor(const std::vector<Observation>& observations, const StereoCamera& camera,
+                       const CameraFromTarget& pose) {
+  constexpr std::size_t kMinObservations = 20;
+  constexpr double kMedianChi2Stereo = 2.366, kMedianChi2Mono = 1.386;  // three and two degrees of freedom
+  std::vector<double> factors;
+  for (const Observation& observation : observations) {
+    if ((pose * observation.point_m).z() < kMinDepth_m) continue;
+    const double chi2 = residual_of(observation, camera, pose).squaredNorm() / observation.variance_px2;
+    factors.push_back(chi2 / (observation.stereo() ? kMedianChi2Stereo : kMedianChi2Mono));
+  }
+  if (factors.size() < kMinObservations) return 1.0;
+  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
+  std::nth_element(factors.begin(), middle, factors.end());
+  return std::max(1.0, *middle);
+}
 
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,
                      const CameraFromTarget& start) {

@@ -44,6 +44,12 @@ struct PoseOnly {
   double rms_px = 0.0;  ///< of the inliers' residuals, a coordinate each
 };
 
+/// Factor by which residuals before the test of chi-squared exceed the assumed variances: the median of their
+/// chi-squared over that of the distribution, at least 1. The residuals that pass the test cannot tell: they are as
+/// assumed. 1 for fewer than 20 observations.
+double variance_factor(const std::vector<Observation>& observations, const StereoCamera& camera,
+                       const CameraFromTarget& pose);
+
 /// (10): least squares of the reprojections over the pose alone, Huber's cost; outliers are determined anew four times.
 /// Some 0.3 ms for 300 points.
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,

@@ -63,6 +63,12 @@ PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
     features.push_back(k);
   }
   PoseOnly placed = adjust_pose(observations, camera_, start);
+  std::vector<Observation> aligned;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (frame.features[features[k]].sigma_px < kCornerSigma_px) aligned.push_back(observations[k]);
+  }
+  frame.variance_factor = variance_factor(aligned, camera_, placed.pose);
+  placed.covariance *= frame.variance_factor;
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (!placed.inlier[k]) frame.points[features[k]] = kNone;
   }

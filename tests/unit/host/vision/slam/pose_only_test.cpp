@@ -59,6 +59,22 @@ TEST(PoseOnly, CovarianceDescribesItsErrors) {
   EXPECT_NEAR(sum / kRuns, 6.0, 1.0);
 }
 
+// Three times the assumed noise: the residuals that pass the test of chi-squared are as assumed, all of them are not.
+TEST(PoseOnly, VarianceFactorTellsNoiseThatTheTestOfChiSquaredHides) {
+  std::mt19937_64 random(6);
+  const CameraFromTarget truth = turned_pose(0.2);
+  std::vector<Observation> as_assumed, noisier;
+  for (const Vector3& point : random_points(random, 400)) {
+    as_assumed.push_back(seen(point, truth, 0.2, random));
+    noisier.push_back(seen(point, truth, 0.6, random));
+    noisier.back().variance_px2 = 0.2 * 0.2;
+  }
+  EXPECT_NEAR(variance_factor(as_assumed, kCamera, truth), 1.05, 0.15);
+  EXPECT_NEAR(variance_factor(noisier, kCamera, truth), 9.0, 1.5);
+  noisier.resize(10);
+  EXPECT_EQ(variance_factor(noisier, kCamera, truth), 1.0) << "too few to tell";
+}
+
 TEST(RigidFit, RecoversAMotionExactlyAndRefusesALine) {
   std::mt19937_64 random(4);
   const CameraFromTarget truth = turned_pose(2.5);
