@@ -292,7 +292,8 @@ TEST_F(StereoFeedTest, CamerasAreReplayedAsTheyWereRecorded) {
   record_cameras(folder, painted, kPairs);
   play();
   const std::vector<pose_t> first = poses();
-  EXPECT_EQ(counter("device.pairs") + counter("device.frames_no_clock") / 2, kPairs) << "as with the cameras themselves";
+  EXPECT_EQ(counter("device.pairs") + counter("device.frames_no_clock") / 2, kPairs)
+      << "as with the cameras themselves";
   EXPECT_EQ(counter("device.pairs"), static_cast<std::int64_t>(first.size())) << "at full speed none is left out";
   EXPECT_EQ(counter("left.recording.frames"), kPairs);
   EXPECT_EQ(counter("left.recording.frames_lost"), 0);
@@ -311,6 +312,7 @@ TEST_F(StereoFeedTest, CamerasAreReplayedAsTheyWereRecorded) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(second[k].position_m[i], first[k].position_m[i]) << "bit by bit";
     for (int i = 0; i < 4; ++i) EXPECT_EQ(second[k].orientation_wxyz[i], first[k].orientation_wxyz[i]);
   }
+  feed.reset();  // before the bench that it ran in
 }
 
 }  // namespace
