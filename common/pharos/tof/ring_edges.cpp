@@ -20,21 +20,6 @@ constexpr double kDarkFraction = 0.3;
 constexpr int kBaseDirections = 64;
 constexpr double kBaseQuantile = 0.7;
 
-// Whether two of three depths around a point of the model's plane lie on it.
-bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m) {
-  const auto pixel = project(camera.intrinsics, point);
-  if (!pixel) return false;
-  const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
-  const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
-  if (u < 1 || v < 0 || u >= frame.depth.width_px - 1 || v >= frame.depth.height_px) return false;
-  int good = 0;
-  for (std::int32_t step = -1; step <= 1; ++step) {
-    const std::uint16_t counts = frame.depth.at(u + step, v);
-    good += has_depth(counts) && std::fabs(depth_z_m(camera, counts) - point.z()) < gate_m ? 1 : 0;
-  }
-  return good >= 2;
-}
-
 void drop_weak(RingEdgePoints& points) {
   if (points.empty()) return;
   std::array<double, kMaxEdgePoints> strengths;
@@ -179,6 +164,20 @@ class EdgeFinder {
 };
 
 }  // namespace
+
+bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m) {
+  const auto pixel = project(camera.intrinsics, point);
+  if (!pixel) return false;
+  const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
+  const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
+  if (u < 1 || v < 0 || u >= frame.depth.width_px - 1 || v >= frame.depth.height_px) return false;
+  int good = 0;
+  for (std::int32_t step = -1; step <= 1; ++step) {
+    const std::uint16_t counts = frame.depth.at(u + step, v);
+    good += has_depth(counts) && std::fabs(depth_z_m(camera, counts) - point.z()) < gate_m ? 1 : 0;
+  }
+  return good >= 2;
+}
 
 Vector7 edge_row(const DepthCamera& camera, const RingModel& model, const PlaneAxes& axes, const Vector3& point_m,
                  const Vector2& normal_px, RingEdge edge) {

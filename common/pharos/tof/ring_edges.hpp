@@ -33,6 +33,9 @@ struct RingPrior {
   double min_step_m = 0.0;    ///< how far behind the plane the surroundings must lie
 };
 
+/// Whether two of three depths around a point of the model's plane lie on it, within gate_m.
+bool on_plane(const TofFrame& frame, const DepthCamera& camera, const Vector3& point, double gate_m);
+
 /// Edges of the ring's layer intensity (layer_intensity.hpp) across the image of one of its circles, `search_px` to
 /// either side.
 ///

@@ -78,23 +78,9 @@ class Gatherer {
       one.foot_px[e] = one.base_m[e] = one.base_light[e] = 0.0;
     }
     one.width_px = (model_.radius_m[0] - model_.radius_m[1]) * one.per_m[1];
-    one.seen = on_ring(model_.centre_m + 0.5 * (model_.radius_m[0] + model_.radius_m[1]) * outwards);
+    one.seen = on_plane(frame_, camera_, model_.centre_m + 0.5 * (model_.radius_m[0] + model_.radius_m[1]) * outwards,
+                        prior_.depth_gate_m);
     return one.per_m[0] > 0.0 && one.per_m[1] > 0.0;
-  }
-
-  // Whether two of three depths around a point of the ring's middle line lie on its plane.
-  bool on_ring(const Vector3& point) const {
-    const auto pixel = project(camera_.intrinsics, point);
-    if (!pixel) return false;
-    const auto u = static_cast<std::int32_t>(std::lround(pixel->x()));
-    const auto v = static_cast<std::int32_t>(std::lround(pixel->y()));
-    if (u < 1 || v < 0 || u >= frame_.depth.width_px - 1 || v >= frame_.depth.height_px) return false;
-    int good = 0;
-    for (std::int32_t along = -1; along <= 1; ++along) {
-      const std::uint16_t counts = frame_.depth.at(u + along, v);
-      good += has_depth(counts) && std::fabs(depth_z_m(camera_, counts) - point.z()) < prior_.depth_gate_m ? 1 : 0;
-    }
-    return good >= 2;
   }
 
   // Everything within reach of the ring, by rows; of a large image every second, third, ... row.
