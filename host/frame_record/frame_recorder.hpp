@@ -46,7 +46,7 @@ class FrameRecorder {
   void append(const DepthFrame& frame);
 
   FrameRecordingCounters counters() const;
-  /// Why nothing is recorded at the moment, or what was deleted last; one line for the user, empty where all is well.
+  /// Why nothing is recorded at the moment, one line for the user; empty when there is no error.
   std::string error() const;
 
  private:
@@ -68,7 +68,6 @@ class FrameRecorder {
   bool holds_frames_ = false;
   std::int64_t file_begun_ns_ = 0;
   std::int64_t retry_at_ns_ = 0;
-  std::vector<std::uint8_t> crc_bytes_;
 
   // Of the caller.
   std::uint64_t sequence_ = 0;
