@@ -77,8 +77,11 @@ struct TofConfig {
   DepthCamera camera;
   /// The camera on the network; its size is that of the camera file.
   CameraSettings device;
-  /// Recorded frames (a directory as `pharos sim tof` writes it) in place of a camera on the network; empty: none.
+  /// Recorded frames (a directory as `pharos sim tof` writes it, or what [recording] made of this camera) in place of a
+  /// camera on the network; empty: none.
   std::filesystem::path frames;
+  /// They are what [recording] made: with the camera's times, and checked as the camera's.
+  bool replays_camera = false;
   /// Description of ring and connectors, whose values are in `tof`; empty: none.
   std::filesystem::path target_file;
   tof::TofSettings tof;
@@ -86,6 +89,8 @@ struct TofConfig {
   int average_frames = 1;
 
   bool is_recorded() const { return !frames.empty(); }
+  /// Of any views, at times that are made up.
+  bool is_loose() const { return is_recorded() && !replays_camera; }
 };
 
 /// One telescope whose images arrive as files, and the panels that it observes.
@@ -133,12 +138,17 @@ struct StereoConfig {
   /// Maximum time difference of the frames of a pair. Times derived from arrivals differ by one or two milliseconds
   /// between cameras; a target that rotates at 10 deg/s rotates by 0.05 deg in 5 ms.
   double pairing_window_s = 5e-3;
-  /// Recorded pairs (a directory as `pharos sim stereo` writes it) in place of cameras on the network; empty: none.
+  /// Recorded pairs (a directory as `pharos sim stereo` writes it, or what [recording] made of these cameras) in place
+  /// of cameras on the network; empty: none.
   std::filesystem::path frames;
+  /// As TofConfig::replays_camera.
+  bool replays_camera = false;
   bool ring2 = false;
   std::optional<SlamConfig> slam;
 
   bool is_recorded() const { return !frames.empty(); }
+  /// Of any views, at times that are made up.
+  bool is_loose() const { return is_recorded() && !replays_camera; }
 };
 
 struct LcmConfig {

@@ -66,11 +66,11 @@ void check_frame_recording(const fs::path& place, const std::string& camera) {
 }
 
 // Checks the first pair that can be read: unreadable pairs are skipped during the replay.
-void check_pairs(const fs::path& directory, const RigFile& rig, const std::string& name) {
+bool check_pairs(const fs::path& directory, const RigFile& rig, const std::string& name) {
   if (is_frame_recording(directory, side_name(name, 0))) {
     check_frame_recording(directory, side_name(name, 0));
     check_frame_recording(directory, side_name(name, 1));
-    return;
+    return true;
   }
   std::optional<InputError> first_error;
   for (const PairName& pair : pair_names_in(directory.string(), 1.0)) {
@@ -83,17 +83,19 @@ void check_pairs(const fs::path& directory, const RigFile& rig, const std::strin
     }
     require_size(pair.left, images[0], rig.left.intrinsics);
     require_size(pair.right, images[1], rig.right.intrinsics);
-    return;
+    return false;
   }
   throw InputError(*first_error);
 }
 
-void check_frames(const fs::path& directory, const std::string& camera) {
-  if (is_frame_recording(directory, camera)) {
+bool check_frames(const fs::path& directory, const std::string& camera) {
+  const bool recorded = is_frame_recording(directory, camera);
+  if (recorded) {
     check_frame_recording(directory, camera);
   } else {
     static_cast<void>(FrameDirectory(directory.string()));
   }
+  return recorded;
 }
 
 std::string identity(const std::string& path) {

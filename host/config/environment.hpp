@@ -31,9 +31,10 @@ struct Environment {
 
   /// Reads a camera file; throws InputError. If not set, there is none.
   std::function<CameraFile(const std::string& path)> read_camera = no_camera;
-  /// Throws InputError unless there are recorded frames of the camera in the directory. If not set, there are.
-  std::function<void(const std::filesystem::path& directory, const std::string& camera)> check_frames =
-      [](const std::filesystem::path&, const std::string&) {};
+  /// Whether the frames are those of [recording]; throws InputError unless there are frames of the camera in the
+  /// directory. If not set, there are other ones.
+  std::function<bool(const std::filesystem::path& directory, const std::string& camera)> check_frames =
+      [](const std::filesystem::path&, const std::string&) { return false; };
 
   /// Reads a rig file; throws InputError. If not set, there is none.
   std::function<RigFile(const std::string& path)> read_rig = no_rig;
@@ -43,9 +44,10 @@ struct Environment {
   };
   /// `path` empty: the installed vocabulary.
   std::function<void(const std::string& path)> check_vocabulary = [](const std::string&) {};
-  /// Throws InputError unless there are recorded pairs of this rig in the directory; reads the first one.
-  std::function<void(const std::filesystem::path& directory, const RigFile& rig, const std::string& name)> check_pairs =
-      [](const std::filesystem::path&, const RigFile&, const std::string&) {};
+  /// Whether the pairs are those of [recording]; throws InputError unless there are pairs of this rig in the directory;
+  /// reads the first one.
+  std::function<bool(const std::filesystem::path& directory, const RigFile& rig, const std::string& name)> check_pairs =
+      [](const std::filesystem::path&, const RigFile&, const std::string&) { return false; };
   /// How a description of ring and connectors becomes one; throws InputError. Unless given, there is none.
   std::function<DockingTarget(const std::string& path)> read_docking_target = no_docking_target;
   /// The places of a configuration that cannot be used; see place_errors(). If not set, all can.

@@ -79,7 +79,7 @@ void check_vocabulary(const TomlTable& table, const Environment& environment, co
 void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, StereoConfig& stereo) {
   stereo.frames = read_path(table, "frames", folder);
   try {
-    environment.check_pairs(stereo.frames, stereo.rig, stereo.name);
+    stereo.replays_camera = environment.check_pairs(stereo.frames, stereo.rig, stereo.name);
   } catch (const InputError& error) {
     table.fail("frames", error.what());
   }

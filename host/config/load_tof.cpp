@@ -35,7 +35,7 @@ DepthCamera read_camera_of(const TomlTable& table, const fs::path& file, const E
 void read_frames(const TomlTable& table, const fs::path& folder, const Environment& environment, TofConfig& camera) {
   camera.frames = read_path(table, "frames", folder);
   try {
-    environment.check_frames(camera.frames, camera.name);
+    camera.replays_camera = environment.check_frames(camera.frames, camera.name);
   } catch (const InputError& error) {
     table.fail("frames", error.what());
   }

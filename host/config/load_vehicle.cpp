@@ -32,10 +32,10 @@ std::vector<Reporter> reporters_of(const SourceConfigs& configured) {
     out.push_back({SourceKind::kLighthouse, t.name, t.name, t.is_replay()});
   }
   for (const TofConfig& camera : configured.cameras)
-    out.push_back({SourceKind::kTof, camera.name, camera.target, false});
+    out.push_back({SourceKind::kTof, camera.name, camera.target, camera.replays_camera});
   for (const StereoConfig& rig : configured.stereos) {
-    if (rig.ring2) out.push_back({SourceKind::kRing2, rig.name, rig.target, false});
-    if (rig.slam) out.push_back({SourceKind::kSlam, rig.name, rig.target, false});
+    if (rig.ring2) out.push_back({SourceKind::kRing2, rig.name, rig.target, rig.replays_camera});
+    if (rig.slam) out.push_back({SourceKind::kSlam, rig.name, rig.target, rig.replays_camera});
   }
   return out;
 }
@@ -209,8 +209,8 @@ class VehicleReader {
     }
     if (replayed_ && live_) {
       table_.fail("mounting_file",
-                  "a recorded target (replay:) has its recording's times, the other sources today's: "
-                  "choose one kind with sources");
+                  "a recording (replay: of a target, frames of [recording]) has its own times, the other sources "
+                  "today's: choose one kind with sources");
     }
     try {
       static_cast<void>(checked_settings(mountings, vehicle_.fusion));

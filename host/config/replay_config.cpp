@@ -46,11 +46,13 @@ DaemonConfig replay_directory(const DaemonConfig& config, const std::string& dir
   for (TofConfig camera : config.cameras) {
     if (!is_frame_recording(directory, camera.name)) continue;
     camera.frames = directory;
+    camera.replays_camera = true;
     replay.cameras.push_back(camera);
   }
   for (StereoConfig stereo : config.stereos) {
     if (!is_frame_recording(directory, side_name(stereo.name, 0))) continue;
     stereo.frames = directory;
+    stereo.replays_camera = true;
     replay.stereos.push_back(stereo);
   }
   if (replay.targets.empty() && replay.cameras.empty() && replay.stereos.empty()) {

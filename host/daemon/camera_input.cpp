@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "host/camera_link/camera_source.hpp"
 #include "host/frame_record/recorded_camera.hpp"
 #include "host/frame_record/recording_camera.hpp"
 #include "host/record/recording_file.hpp"
+#include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
@@ -37,9 +39,9 @@ std::unique_ptr<FrameSource> open_recorded_camera(const SourceContext& context, 
 
 std::unique_ptr<FrameSource> replayed_camera(const SourceContext& context, const std::filesystem::path& frames,
                                              const CameraSettings& settings, const std::string& name) {
-  if (!is_frame_recording(frames, name)) return nullptr;
-  return std::make_unique<RecordedCamera>(recording_files(frames, name, kFramesSuffix), settings, context.replay,
-                                          context.replay_speed);
+  std::vector<std::filesystem::path> files = recording_files(frames, name, kFramesSuffix);
+  if (files.empty()) throw InputError(frames.string() + ": has no recording of camera \"" + name + "\"");
+  return std::make_unique<RecordedCamera>(std::move(files), settings, context.replay, context.replay_speed);
 }
 
 void add_recording(NamedCounts& counts, const std::string& head, const FrameSourceStatus& camera) {

@@ -15,8 +15,8 @@ namespace pharos::host {
 std::unique_ptr<FrameSource> open_recorded_camera(const SourceContext& context, const CameraSettings& settings,
                                                   const std::string& name);
 
-/// The camera's recordings in `frames` (a directory or a file), in step with all others; null where there are none.
-/// Throws InputError where they are not of this camera.
+/// The camera's recordings in `frames` (a directory or a file), in step with all others. Throws InputError where there
+/// are none, or of another camera.
 std::unique_ptr<FrameSource> replayed_camera(const SourceContext& context, const std::filesystem::path& frames,
                                              const CameraSettings& settings, const std::string& name);
 

@@ -5,7 +5,6 @@
 
 #include "host/daemon/camera_input.hpp"
 #include "host/device/recorded_source.hpp"
-#include "host/record/recording_file.hpp"
 
 namespace pharos::host {
 namespace {
@@ -15,7 +14,7 @@ constexpr double kUsualRate_hz = 30.0;
 
 std::unique_ptr<FrameSource> frames_of(const SourceContext& context, const TofConfig& config) {
   if (!config.is_recorded()) return open_recorded_camera(context, config.device, config.name);
-  if (auto replayed = replayed_camera(context, config.frames, config.device, config.name)) return replayed;
+  if (config.replays_camera) return replayed_camera(context, config.frames, config.device, config.name);
   const double asked_hz = config.device.frame_rate_hz;
   const double rate_hz = asked_hz > 0.0 ? asked_hz : kUsualRate_hz;
   return std::make_unique<RecordedSource>(config.frames.string(), config.device.width_px, config.device.height_px,
@@ -24,7 +23,7 @@ std::unique_ptr<FrameSource> frames_of(const SourceContext& context, const TofCo
 
 // Frames of a recording have its times.
 const Clock& clock_of(const SourceContext& context, const TofConfig& config) {
-  return is_frame_recording(config.frames, config.name) ? static_cast<const Clock&>(*context.replay) : context.clock;
+  return config.replays_camera ? static_cast<const Clock&>(*context.replay) : context.clock;
 }
 
 }  // namespace

@@ -112,9 +112,9 @@ bool TofPipeline::average(TofReport& report) {
   return true;
 }
 
-// Recorded frames are not checked: they cannot be from another sender, and may be of different views.
+// Loose frames are not checked: they cannot be from another sender, and may be of different views.
 void TofPipeline::refuse_jump(TofReport& report, const MappedTime& time) {
-  if (config_.is_recorded() || !report.answered() || report.ambiguous) return;
+  if (config_.is_loose() || !report.answered() || report.ambiguous) return;
   if (jump_check_.passes(report.pose, time.monotonic_ns)) return;
   report.refusal = kJumpRefusal;
   report.advice = kJumpAdvice;

@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                           [](const std::string& path) { return path; },
                                           pharos::host::Environment::no_calibration,
                                           [](const std::string&) { return a_camera(); },
-                                          [](const std::filesystem::path&, const std::string&) {},
+                                          [](const std::filesystem::path&, const std::string&) { return true; },
                                           [](const std::string&) { return pharos::host::RigFile{}; }};
   try {
     const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);

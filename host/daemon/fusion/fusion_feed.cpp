@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "host/record/recording_file.hpp"
 #include "host/support/time_units.hpp"
 #include "pharos/fusion/words.hpp"
 #include "pharos/pose_t.hpp"
@@ -19,10 +18,8 @@ constexpr std::int64_t kMaxSilence_ns = 20 * kNsPerSecond;
 
 bool is_recorded(const DaemonConfig& config) {
   return std::any_of(config.targets.begin(), config.targets.end(), [](const auto& t) { return t.is_replay(); }) ||
-         std::any_of(config.cameras.begin(), config.cameras.end(),
-                     [](const auto& c) { return is_frame_recording(c.frames, c.name); }) ||
-         std::any_of(config.stereos.begin(), config.stereos.end(),
-                     [](const auto& s) { return is_frame_recording(s.frames, side_name(s.name, 0)); });
+         std::any_of(config.cameras.begin(), config.cameras.end(), [](const auto& c) { return c.replays_camera; }) ||
+         std::any_of(config.stereos.begin(), config.stereos.end(), [](const auto& s) { return s.replays_camera; });
 }
 
 std::int64_t period_ns(const VehicleConfig& config) { return std::llround(1e9 / config.rate_hz); }

@@ -11,25 +11,19 @@
 #include "host/daemon/stereo/ring2_estimator.hpp"
 #include "host/daemon/stereo/slam_estimator.hpp"
 #include "host/record/recording_file.hpp"
-#include "host/support/input_error.hpp"
 
 namespace pharos::host {
 namespace {
 
-bool replays_cameras(const StereoConfig& config) {
-  return config.is_recorded() && is_frame_recording(config.frames, side_name(config.name, 0));
-}
-
 std::unique_ptr<PairSource> pairs_of(const SourceContext& context, const StereoConfig& config) {
-  if (!config.is_recorded() || replays_cameras(config)) {
+  if (!config.is_loose()) {
     CameraPairs::Cameras cameras;
     for (std::size_t side = 0; side < cameras.size(); ++side) {
       const std::string name = side_name(config.name, side);
       CameraSettings settings = config.devices[side];
-      if (config.is_recorded()) settings.format = CameraFormat::kMono16;  // grey of either depth is recorded so
-      cameras[side] = config.is_recorded() ? replayed_camera(context, config.frames, settings, name)
-                                           : open_recorded_camera(context, settings, name);
-      if (!cameras[side]) throw InputError(config.frames.string() + ": has no recording of " + name);
+      if (config.replays_camera) settings.format = CameraFormat::kMono16;  // grey of either depth is recorded so
+      cameras[side] = config.replays_camera ? replayed_camera(context, config.frames, settings, name)
+                                            : open_recorded_camera(context, settings, name);
     }
     return std::make_unique<CameraPairs>(std::move(cameras), std::llround(config.pairing_window_s * 1e9));
   }
@@ -48,7 +42,7 @@ StereoFeed::StereoFeed(const SourceContext& context, const StereoConfig& config)
     : context_(context),
       name_(config.name),
       state_log_(config.name),
-      clock_(replays_cameras(config) ? static_cast<const Clock&>(*context.replay) : context.clock),
+      clock_(config.replays_camera ? static_cast<const Clock&>(*context.replay) : context.clock),
       pairs_(pairs_of(context, config)) {
   if (config.ring2) add_system(config, "ring2/", std::make_shared<Ring2Estimator>(config.rig));
   if (config.slam) add_system(config, "slam/", std::make_shared<SlamEstimator>(config));

@@ -18,7 +18,7 @@ StereoPipeline::StereoPipeline(const StereoConfig& config, const PublishConfig& 
       target_(config.target),
       source_(source),
       clock_(clock),
-      is_recorded_(config.is_recorded()),
+      is_loose_(config.is_loose()),
       log_(source),
       gate_(publisher, counters_.pairs_not_finite, PublishGate::AgeLimit{publish.max_age_ns(), counters_.pairs_stale}),
       spin_gate_(publisher, counters_.spins_not_finite,
@@ -64,7 +64,7 @@ StereoReport StereoPipeline::report_of(const StereoPair& pair, const PairResult&
 // Ring2 only: slam has its own limit on motion. Recorded pairs are not checked, as they may be of different views.
 void StereoPipeline::refuse_jump(StereoReport& report, std::int64_t time_ns) {
   const auto* const pose = std::get_if<Ring2PoseEstimate>(&report.pose);
-  if (is_recorded_ || pose == nullptr || !report.answered() || report.ambiguous) return;
+  if (is_loose_ || pose == nullptr || !report.answered() || report.ambiguous) return;
   if (jump_check_.passes(*pose, time_ns)) return;
   report.refusal = kJumpRefusal;
   report.advice = kJumpAdvice;

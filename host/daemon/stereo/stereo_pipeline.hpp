@@ -62,7 +62,7 @@ class StereoPipeline {
   std::string target_;
   std::string source_;
   const Clock& clock_;
-  bool is_recorded_;
+  bool is_loose_;
   PoseJumpCheck jump_check_;
   RateLimitedLog log_;
   StereoCounters counters_;

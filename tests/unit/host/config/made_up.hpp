@@ -54,7 +54,8 @@ inline Mounting a_mounting(const std::string& path) {
 
 /// An environment without a disk. Names that contain "gone" do not exist, all others do; /dev/left and /dev/right are
 /// one device. A camera file has 640 x 480 pixels, or 1280 x 480 if its name contains "large". A docking target has
-/// two connectors, or nine if its name contains "many".
+/// two connectors, or nine if its name contains "many". What [recording] made of a camera or a rig is called
+/// "recorded".
 inline Environment made_up() {
   Environment environment{
       any_target,
@@ -76,12 +77,15 @@ inline Environment made_up() {
       },
       [](const std::filesystem::path& directory, const std::string&) {
         if (directory.filename() == "gone") throw InputError(directory.string() + ": holds no frames");
+        return directory.filename() == "recorded";
       },
       a_rig,
       [](const RigFile&) {},
       [](const RigFile&, const std::string&) {},
       [](const std::string&) {},
-      [](const std::filesystem::path&, const RigFile&, const std::string&) {},
+      [](const std::filesystem::path& directory, const RigFile&, const std::string&) {
+        return directory.filename() == "recorded";
+      },
       [](const std::string& path) { return a_docking_target(path, path.find("many") != std::string::npos ? 9 : 2); }};
   environment.read_mounting = a_mounting;
   return environment;

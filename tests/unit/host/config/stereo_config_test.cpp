@@ -140,6 +140,7 @@ TEST(StereoConfig, PassesOnWhatARigAVocabularyOrPairsAreNoGoodFor) {
   };
   environment.check_pairs = [&](const std::filesystem::path&, const RigFile&, const std::string&) {
     no("0000_left.png: has 2 x 2");
+    return false;
   };
   const auto refusal = [&](const std::string& text) -> std::string {
     try {

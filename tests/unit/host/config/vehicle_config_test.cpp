@@ -133,6 +133,22 @@ TEST(VehicleConfig, ARecordingAndACameraHaveNoCommonTime) {
               ElementsAre("lighthouse=lighthouse"));
 }
 
+TEST(VehicleConfig, RecordedCamerasGoWithRecordedTargetsOnly) {
+  std::string text = std::string(kSources) + kVehicle;
+  const auto put = [&text](std::string_view what, std::string_view in_place_of) {
+    text.replace(text.find(in_place_of), in_place_of.size(), what);
+  };
+  put("frames = 'recorded'", "serial = '1'");
+  put("frames = 'recorded'", "left.serial = '2'\nright.serial = '3'");
+  EXPECT_THAT(error_with({"lighthouse", "tof"}, text), HasSubstr("choose one kind with sources"));
+  EXPECT_THAT(error_with({"lighthouse", "ring2"}, text), HasSubstr("choose one kind with sources"));
+  put("replay:a", "/dev/a");
+  EXPECT_THAT(bound(parse_with({"lighthouse", "tof", "ring2", "slam"}, text)),
+              ElementsAre("lighthouse=lighthouse", "tof=tof/Helios", "ring2=ring2/bow", "slam=slam/bow"));
+  put("drawings", "recorded");
+  EXPECT_THAT(error_with({"lighthouse", "tof"}, text), HasSubstr("choose one kind with sources"));
+}
+
 TEST(VehicleConfig, TheRateChangesWhileRunningAndAMountingDoesNot) {
   const std::string text = std::string(kSources) + kVehicle;
   DaemonConfig config = parse_with({"lighthouse"}, text);

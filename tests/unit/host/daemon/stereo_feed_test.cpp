@@ -290,6 +290,7 @@ void record_cameras(const fs::path& folder, const pharos::test::PaintedRig& pain
 TEST_F(StereoFeedTest, CamerasAreReplayedAsTheyWereRecorded) {
   constexpr int kPairs = 12;
   record_cameras(folder, painted, kPairs);
+  config.replays_camera = true;
   play();
   const std::vector<pose_t> first = poses();
   EXPECT_EQ(counter("device.pairs") + counter("device.frames_no_clock") / 2, kPairs)
