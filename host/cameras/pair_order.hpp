@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "host/support/input_error.hpp"
 #include "pharos/base/image_view.hpp"
 
 namespace pharos::host {
@@ -14,6 +15,13 @@ enum class PairFault : std::uint8_t { kNone, kExchanged, kEqual };
 
 /// In words for people: what it is and how it shows; empty for none.
 std::string text_of(PairFault fault);
+
+/// Left and right images that were read and cannot be a rig's: exchanged, equal, or out of step. Commands end with 1,
+/// as no answer can be had of such images, where other invalid input ends them with 2.
+class NoPairError : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// kEqual where both images have the same pixels: noise alone makes two cameras' images differ.
 PairFault pair_fault(const std::array<ImageView<const std::uint16_t>, 2>& images);

@@ -56,7 +56,7 @@ void note_gap(const std::vector<host::PairName>& pairs) {
 
 std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& figures) {
   if (host::same_file(choice.left, choice.right)) {
-    throw host::InputError(choice.left + " and " + choice.right + ": " + host::text_of(host::PairFault::kEqual));
+    throw host::NoPairError(choice.left + " and " + choice.right + ": " + host::text_of(host::PairFault::kEqual));
   }
   std::vector<std::string> alone;
   std::vector<host::PairName> pairs = host::pair_names(choice.left, choice.right, choice.rate_hz, &alone);
@@ -85,7 +85,7 @@ void require_two_views(const host::PairName& pair, const PairImages& images) {
   if (least == most || *least == *most) return;  // of one value: a dark room, not a picture
   const host::PairFault fault = host::pair_fault({images.left.view(), images.right.view()});
   if (fault != host::PairFault::kNone) {
-    throw host::InputError(pair.left + " and " + pair.right + ": " + host::text_of(fault));
+    throw host::NoPairError(pair.left + " and " + pair.right + ": " + host::text_of(fault));
   }
 }
 

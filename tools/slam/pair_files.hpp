@@ -19,7 +19,8 @@ struct PairChoice {
 };
 
 /// The selected pairs, in order. Images without a partner are reported, counted and left out; numbers that are missing
-/// among names without times are reported. Throws InputError as host::pair_names does.
+/// among names without times are reported. Throws InputError as host::pair_names does, NoPairError
+/// where both folders are the same.
 std::vector<host::PairName> wanted_pairs(const PairChoice& choice, RunFigures& figures);
 
 struct PairImages {
@@ -32,7 +33,7 @@ PairImages read_pair(const host::PairName& pair);
 /// Throws InputError for other sizes than the rig's.
 void require_size(const host::PairName& pair, const PairImages& images, const host::RigFile& rig);
 
-/// Throws InputError where both images are the same picture of something: the left camera's twice.
+/// Throws NoPairError where both images are the same picture of something: the left camera's twice.
 void require_two_views(const host::PairName& pair, const PairImages& images);
 
 }  // namespace pharos::tools

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/cameras/pair_order.hpp"
 #include "host/cameras/rig_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/enhance/eight_bits.hpp"
@@ -149,6 +150,11 @@ int run(Options options) {
   return feeder.input().finish(rows > 0);
 }
 
+int run_or_refuse(const Options& options) try { return run(options); } catch (const host::NoPairError& error) {
+  note(error.what());
+  return kExitNoAnswer;
+}
+
 }  // namespace
 
 void add_slam(CLI::App& app, int& exit_code) {
@@ -201,7 +207,7 @@ void add_slam(CLI::App& app, int& exit_code) {
   command->add_flag("--threads", options->threads,
                     "Tracking, mapping and loop closing at once: faster, but no two runs are alike to the bit");
   command->footer(kExample);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_or_refuse(*options); });
 }
 
 }  // namespace pharos::tools

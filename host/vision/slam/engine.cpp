@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/cameras/pair_order.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/slam/bundle.hpp"
 #include "host/vision/slam/keyframe_covariance.hpp"
@@ -181,9 +182,9 @@ TrackedFrame Engine::push(double time_s, ImageView<const std::uint8_t> left, Ima
   if (out.placed) out.placed = in_left_frame(*out.placed, frontend_.R_left_rectified());
   last_ = std::move(frame);
   if (const auto late = skew_.frames_late(); late && std::abs(*late) > kOutOfStep) {
-    throw host::InputError("left and right images are out of step: the right ones are " +
-                           std::string(*late > 0.0 ? "late" : "early") + " by about " +
-                           std::to_string(std::max(1L, std::lround(std::abs(*late)))) + " frame(s)");
+    throw host::NoPairError("left and right images are out of step: the right ones are " +
+                            std::string(*late > 0.0 ? "late" : "early") + " by about " +
+                            std::to_string(std::max(1L, std::lround(std::abs(*late)))) + " frame(s)");
   }
   return out;
 }

@@ -2,7 +2,6 @@
 #include "host/vision/slam/pair_order.hpp"
 
 #include "host/cameras/pair_order.hpp"
-#include "host/support/input_error.hpp"
 
 namespace pharos::slam {
 namespace {
@@ -22,10 +21,10 @@ void PairOrder::add(std::size_t features, const StereoMatchStats& stats) {
   ++pairs_;
   if (!known()) return;
   if (sum_.swapped > 2 * sum_.matched) {
-    throw host::InputError(text_of(host::PairFault::kExchanged));
+    throw host::NoPairError(text_of(host::PairFault::kExchanged));
   }
   if (sum_.off_rows > 2 * sum_.matched) {
-    throw host::InputError(
+    throw host::NoPairError(
         "the images' rows do not agree: left and right are out of step, or the rig file is of other cameras");
   }
 }

@@ -10,7 +10,7 @@ namespace pharos::slam {
 /// Checks on the first pairs with enough features that left and right are not exchanged and that they belong together.
 class PairOrder {
  public:
-  /// Throws InputError where the pairs so far are exchanged or do not belong together.
+  /// Throws host::NoPairError where the pairs so far are exchanged or do not belong together.
   void add(std::size_t features, const StereoMatchStats& stats);
   /// Enough pairs were checked, without error.
   bool known() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `pharos slam` with wrong input of a user: one line that says what and where, and exit code 2 where there can be no
-// result. `pharos vocabulary`.
+// `pharos slam` with wrong input of a user: one line that says what and where, and exit code 2, or 1 where images that
+// can be read are no pairs. `pharos vocabulary`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ class CliSlam : public ::testing::Test {
   Outcome slam(const std::string& more = "") const {
     return pharos("slam " + folder_.path("left") + " " + folder_.path("right") + " --rig " + rig_ + more);
   }
-  static void expect_refused(const Outcome& run, const std::string& words) {
-    EXPECT_EQ(run.exit_code, 2);
+  static void expect_refused(const Outcome& run, const std::string& words, int exit_code = 2) {
+    EXPECT_EQ(run.exit_code, exit_code);
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(count_lines(run.err), 1U) << run.err;
     EXPECT_THAT(run.err, HasSubstr(words));
@@ -146,10 +146,11 @@ TEST_F(CliSlam, ColourIsSaidOnce) {
 
 TEST_F(CliSlam, TheLeftPicturesTwiceAreRefused) {
   const std::string same = "left and right image are the same picture";
-  expect_refused(pharos("slam " + folder_.path("left") + " " + folder_.path("left/../left") + " --rig " + rig_), same);
+  expect_refused(pharos("slam " + folder_.path("left") + " " + folder_.path("left/../left") + " --rig " + rig_), same,
+                 1);
   std::string picture = "P5\n64 48\n255\n" + std::string(64 * 48 - 1, '\0') + "x";
   for (const char* side : {"left", "right"}) folder_.write(side + std::string("/0.pgm"), picture);
-  expect_refused(slam(), same);
+  expect_refused(slam(), same, 1);
 }
 
 TEST_F(CliSlam, ATableNamesFramesWithoutAPose) {
@@ -271,6 +272,11 @@ TEST(CliSlamFiles, ATumblingTargetToPosesMapAndPictures) {
     EXPECT_NEAR(back[k], -of_target[k + 1], 1e-9) << "R t' = -t";
     EXPECT_NEAR(of_camera[k + 4], -of_target[k + 4], 1e-12);
   }
+
+  const Outcome exchanged = pharos("slam " + turn + "/right " + turn + "/left --rig " + turn + "/rig.toml");
+  EXPECT_EQ(exchanged.exit_code, 1);
+  EXPECT_EQ(exchanged.out, "");
+  EXPECT_THAT(exchanged.err, HasSubstr("exchanged"));
 
   const std::string text = content_of(report), cloud = content_of(map);
   std::smatch points;
