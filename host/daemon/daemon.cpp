@@ -20,6 +20,9 @@ namespace {
 
 // Ports limit their own attempts to two per second.
 constexpr std::chrono::milliseconds kAttendPeriod{100};
+// The configuration is read again at most so often, whatever number of SIGHUP comes: reading takes milliseconds, and
+// poses wait for it.
+constexpr std::int64_t kRereadPeriod_ns = 500'000'000;
 constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
 constexpr std::int64_t kNsPerMs = 1'000'000;
 
@@ -45,9 +48,11 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
                replay_speed,
                [this] { stop_when_all_finished(); },
                [this] { publish_health(); }},
-      started_ns_(clock.monotonic_ns()) {
+      started_ns_(clock.monotonic_ns()),
+      last_reread_ns_(started_ns_ - kRereadPeriod_ns) {
   for (const SourceRegistration& kind : kinds) counts_.emplace_back(kind.noun, kind.open(context_, sources_));
   loop_.watch(signals_.fd(), [this] { on_signal(); });
+  loop_.watch(reread_timer_.fd(), [this] { reread_config(); });
   loop_.watch(attend_timer_.fd(), [this] { attend(); });
   loop_.watch(status_timer_.fd(), [this] { publish_health(); });
 }
@@ -108,25 +113,35 @@ void Daemon::warn(const char* kind, const std::string& text, std::int64_t now_ns
   if (!text.empty() && log_limit_.pass(kind, now_ns)) spdlog::warn("{}", text);
 }
 
+// One signal a turn of the loop: where signals come faster than they are taken, poses must have their turn.
 void Daemon::on_signal() {
-  while (const auto signal = signals_.take()) {
-    if (*signal != SIGHUP) {
-      control_.on_stop();
-      loop_.stop();
-    }
+  const std::optional<int> signal = signals_.take();
+  if (!signal) return;
+  if (*signal != SIGHUP) {
+    control_.on_stop();
+    loop_.stop();
     spdlog::info("{} received", ::strsignal(*signal));
-    if (*signal == SIGHUP) reread_config();
+    return;
   }
+  if (reread_asked_) return;
+  reread_asked_ = true;
+  const std::int64_t wait_ns = last_reread_ns_ + kRereadPeriod_ns - clock_.monotonic_ns();
+  reread_timer_.start(std::chrono::nanoseconds(std::max<std::int64_t>(0, wait_ns)));
 }
 
 // After an error in the file the daemon continues with its current configuration.
 void Daemon::reread_config() try {
+  reread_timer_.take_expiries();
+  reread_asked_ = false;  // a signal from here on asks again: the file may change while it is read
+  last_reread_ns_ = clock_.monotonic_ns();
+  spdlog::info("{} received", ::strsignal(SIGHUP));
   const std::optional<DaemonConfig> fresh = control_.reread();
   if (!fresh) return;
+  const double status_period_s = config_.publish.status_period_s;
   const std::vector<std::string> not_taken = take_live_changes(*fresh, config_);
   control_.renew_log(config_.log);
   for (const auto& source : sources_) source->reconfigure();
-  start_status_timer();
+  if (config_.publish.status_period_s != status_period_s) start_status_timer();  // else a status that is due is put off
   spdlog::info(
       "configuration read again: the log's level, [publish], vehicle.rate_hz and calibrations of targets are in use; "
       "camera and rig "

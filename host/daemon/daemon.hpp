@@ -35,7 +35,8 @@ struct DaemonControl {
 class Daemon {
  public:
   /// Opens every source of every kind. Throws InputError for a source that cannot be opened as configured. `sink`,
-  /// `signals` and `clock` must outlive this. At SIGHUP the configuration is read again; all other `signals` end run().
+  /// `signals` and `clock` must outlive this. At SIGHUP the configuration is read again, twice a
+  /// second at most; all other `signals` end run().
   Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, ReplaySpeed replay_speed, const Clock& clock,
          const SourceKinds& kinds = source_kinds(), DaemonControl control = {});
 
@@ -59,6 +60,7 @@ class Daemon {
   EventLoop loop_;
   Signals& signals_;
   const Clock& clock_;
+  Timer reread_timer_;
   Timer attend_timer_;
   Timer status_timer_;
   Publisher publisher_;
@@ -68,6 +70,8 @@ class Daemon {
   std::vector<std::pair<std::string, std::size_t>> counts_;  // of sources by kind
   std::int64_t started_ns_ = 0;
   std::int64_t last_logged_failed_ = 0;
+  std::int64_t last_reread_ns_;
+  bool reread_asked_ = false;
   std::string message_;
 };
 

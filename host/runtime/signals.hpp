@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <vector>
 
 #include "host/support/unique_fd.hpp"
 
@@ -15,11 +16,13 @@ class Signals {
   /// Blocks `signals` for the calling thread and those it starts later. Throws std::system_error.
   explicit Signals(std::initializer_list<int> signals);
   int fd() const { return fd_.get(); }
-  /// The next pending signal, if any.
+  /// The next pending signal, if any: of several the one that was named first, so that no number of later ones holds it
+  /// up.
   std::optional<int> take();
 
  private:
-  UniqueFd fd_;
+  UniqueFd fd_;                    // readable when any is pending
+  std::vector<UniqueFd> each_fd_;  // one a signal, as named
 };
 
 }  // namespace pharos::host

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "integration/pharosd_fixture.hpp"
 
@@ -17,6 +20,11 @@ using ::testing::HasSubstr;
 
 // Limit of the time until the end after SIGTERM, with a margin for a busy machine.
 constexpr double kStop_s = 1.0 + 4.0;
+
+std::string content_of(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 // At level trace every message is a line: a blocked log delayed the poses.
 using PharosdBlockedLog = PharosdTest;
@@ -49,6 +57,56 @@ TEST_F(PharosdSignal, GoesOnThroughSignalsThatMeanNothingToIt) {
   EXPECT_EQ(stop(), 0);
 }
 
+// Sends signals without end, faster than the configuration can be read again.
+class SignalStorm {
+ public:
+  explicit SignalStorm(const ChildProcess& process)
+      : thread_([this, &process] {
+          while (!over_) {
+            for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGPIPE, SIGCHLD, SIGHUP}) {
+              process.signal(signal);
+              ++sent_;
+            }
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+          }
+        }) {}
+  ~SignalStorm() {
+    over_ = true;
+    thread_.join();
+  }
+  int sent() const { return sent_; }
+
+ private:
+  std::atomic<bool> over_ = false;
+  std::atomic<int> sent_ = 0;
+  std::thread thread_;
+};
+
+TEST_F(PharosdSignal, AStormOfSignalsCostsNoPoseAndHoldsUpNoEnd) {
+  constexpr int kSignals = 10'000;
+  daemon.plug_in(line);
+  const std::string config = daemon.write_config();
+  std::string text = content_of(config);
+  text.insert(text.find("status_rate_hz"), "max_age_s = 5.0\n");  // a busy machine is not what is tested
+  std::ofstream(config) << text;
+  daemon.start();
+  ASSERT_TRUE(poses_come(60));
+  daemon.wait([] { return false; }, 0.3);
+  const std::size_t before = daemon.valid_poses();
+  std::size_t sweeps = 0;
+  const SignalStorm storm(daemon.process());
+  const bool played = daemon.play(target, line, [&] {
+    if (storm.sent() >= kSignals) return true;
+    sweeps += 2;
+    return false;
+  });
+  EXPECT_TRUE(played) << storm.sent();
+  EXPECT_TRUE(daemon.wait([&] { return daemon.valid_poses() >= before + sweeps; }))
+      << daemon.valid_poses() - before << " of " << sweeps;
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_exit(kStop_s), 0) << daemon.process().text();
+}
+
 TEST_F(PharosdSignal, HangupTakesOverTheLogLevelAndSaysWhatNeedsARestart) {
   start();
   ASSERT_TRUE(poses_come(2));
@@ -63,8 +121,7 @@ TEST_F(PharosdSignal, HangupTakesOverTheLogLevelAndSaysWhatNeedsARestart) {
 TEST_F(PharosdSignal, HangupTakesOverThePublishLimits) {
   start();
   ASSERT_TRUE(poses_come(2));
-  std::ifstream in(daemon.folder() / "pharosd.toml");
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = content_of(daemon.folder() / "pharosd.toml");
   text.insert(text.find("status_rate_hz"), "max_age_s = 0.005\n");
   std::ofstream(daemon.folder() / "pharosd.toml") << text;
   const std::int64_t stale = daemon.counter("cycles_stale");

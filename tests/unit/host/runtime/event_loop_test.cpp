@@ -111,6 +111,14 @@ TEST(Signals, ArriveInLineInsteadOfInterrupting) {
   EXPECT_FALSE(signals.take().has_value());
 }
 
+TEST(Signals, TheOneNamedFirstIsNotHeldUpByOthers) {
+  Signals signals{SIGTERM, SIGHUP};  // of lower number is SIGHUP, which the kernel would give first
+  ASSERT_EQ(::raise(SIGHUP), 0);
+  ASSERT_EQ(::raise(SIGTERM), 0);
+  EXPECT_EQ(signals.take(), SIGTERM);
+  EXPECT_EQ(signals.take(), SIGHUP);
+}
+
 TEST(UniqueFd, ClosesOnceAndMoves) {
   Pipe pipe;
   const int number = pipe.read_end.get();
