@@ -116,6 +116,7 @@ class Hypothesis {
     return station_states_[static_cast<std::size_t>(observer)];
   }
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
+  void judge_tilt();
   void dispute(bool leapt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
               const StateEstimate& prediction, const SweepNoise& noise);
@@ -140,7 +141,9 @@ class Hypothesis {
   int consecutive_rejections_ = 0;
   bool rates_reset_ = false;
   bool withheld_ = false;
-  bool tilt_unknown_ = false;
+  bool coplanar_ = false;  // the last sweep's sensors, where their tilt is not known well
+  bool side_unknown_ = false, tilt_unknown_ = false;
+  int sweeps_of_relief_ = 0;  // in a row
   double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
   bool diverged_ = false;
