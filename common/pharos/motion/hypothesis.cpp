@@ -60,10 +60,9 @@ constexpr double kLinear_rad = 0.003;
 
 // A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
 constexpr int kSettled = 16, kSettles = 4;
-// Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start,
-// and once the side was lost, only the tilt itself speaks for the side (0.03 rad about each of two axes), else the
-// motion before does too. A tilt that grows makes its size known better, on whichever side the estimate is.
-constexpr double kMaxTiltAlone_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
+// Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
+// only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too.
+constexpr double kMaxTiltAtStart_rad = 0.042, kMaxTilt_rad = 2.0 * kTiltAlone_rad;
 
 bool exceeds_rate_reset_gate(const SweepFit& fit, const StateEstimate& prediction) {
   if (2 * static_cast<int>(fit.used.size()) < fit.sensors) return true;
@@ -173,22 +172,23 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   return fit_;
 }
 
-// Mirrored, coplanar sensors fit as well. Sensors with relief tell the side, once each rotor has seen them.
+// Mirrored, coplanar sensors fit as well. Sensors with relief tell the side, once each rotor has seen them: one alone
+// makes the attitude certain about its own axis, and leaves an error about the other that the stated sigma no longer
+// holds.
 void Hypothesis::judge_tilt() {
   tilt_unknown_ = false;
   if (fit_.used.empty() || !steady(filter_)) return;
-  if (coplanar_) {
-    const Matrix6 systematic = systematic_of(observer_);
-    const auto attitude_square = [](const Matrix6& covariance) { return covariance.topLeftCorner<3, 3>().trace(); };
-    // Where systematic errors alone are that large, what is stated holds either side.
-    const bool lost = side_unknown_ && attitude_square(systematic) < kMaxTilt_rad * kMaxTilt_rad;
-    const double max_rad = lost || sweeps_ <= kSettled ? kMaxTiltAlone_rad : kMaxTilt_rad;
-    side_unknown_ = attitude_square(state_estimate_.covariance - systematic) > max_rad * max_rad;
-    sweeps_of_relief_ = 0;
-  } else if (++sweeps_of_relief_ >= kConfirming) {
-    side_unknown_ = false;
+  if (!coplanar_) {
+    if (++sweeps_of_relief_ >= kConfirming) side_doubtful_ = false;
+    tilt_unknown_ = side_doubtful_;
+    return;
   }
-  tilt_unknown_ = side_unknown_;
+  sweeps_of_relief_ = 0;
+  const Matrix6 known = state_estimate_.covariance - systematic_of(observer_);
+  const double square = known.topLeftCorner<3, 3>().trace();
+  const double max_tilt_rad = sweeps_ > kSettled ? kMaxTilt_rad : kMaxTiltAtStart_rad;
+  tilt_unknown_ = square > max_tilt_rad * max_tilt_rad;
+  side_doubtful_ = square > kTiltAlone_rad * kTiltAlone_rad;
 }
 
 // How strongly the sweep speaks against the target, and for how long nothing did.

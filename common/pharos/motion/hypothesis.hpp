@@ -142,7 +142,7 @@ class Hypothesis {
   bool rates_reset_ = false;
   bool withheld_ = false;
   bool coplanar_ = false;  // the last sweep's sensors, where their tilt is not known well
-  bool side_unknown_ = false, tilt_unknown_ = false;
+  bool side_doubtful_ = false, tilt_unknown_ = false;
   int sweeps_of_relief_ = 0;  // in a row
   double dispute_ = 0.0;
   bool contradicted_ = false;  // by the last sweep
