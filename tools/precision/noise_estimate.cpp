@@ -16,6 +16,9 @@ constexpr std::size_t kMinCommon = 200;  // turns that hit both sensors of a pai
 // Means of blocks at rest scatter as their hits do over the square root of their number, with room for slow drifts of
 // a rotor; those of a target that is carried scatter by far more.
 constexpr double kMaxDrift = 30.0;
+// Sensors of a rotor at rest agree to a few percent; one of a recording that is hit by a reflection too has four times
+// their sigma.
+constexpr double kMaxSigmaRatio = 2.0;
 
 // Deviations from the mean of their block, by the turn's number.
 struct Deviations {
@@ -61,6 +64,18 @@ double drift_of(const Deviations& d) {
   return squares / (count - 1.0) * d.per_block / d.variance();
 }
 
+// Takes out the sensors whose sigma is far from the median of all; returns their number.
+int leave_out_suspects(std::vector<Deviations>& sensors) {
+  std::vector<double> variances;
+  for (const Deviations& sensor : sensors) variances.push_back(sensor.variance());
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
+  constexpr double kMax = kMaxSigmaRatio * kMaxSigmaRatio;
+  return static_cast<int>(std::erase_if(sensors, [median = *middle](const Deviations& sensor) {
+    return sensor.variance() > kMax * median || sensor.variance() * kMax < median;
+  }));
+}
+
 std::optional<double> correlation_of(const Deviations& a, const Deviations& b) {
   double ab = 0.0, aa = 0.0, bb = 0.0;
   std::size_t common = 0;
@@ -80,7 +95,10 @@ std::optional<double> correlation_of(const Deviations& a, const Deviations& b) {
 
 }  // namespace
 
-bool RotorNoise::moving() const { return !(drift <= kMaxDrift); }
+NoiseVerdict RotorNoise::verdict() const {
+  if (!(drift <= kMaxDrift)) return NoiseVerdict::kMoving;
+  return left_out > 0 && sensors <= std::max(left_out, 1) ? NoiseVerdict::kDisagree : NoiseVerdict::kOk;
+}
 
 void NoiseEstimator::push(const lighthouse::Sweep& sweep) {
   Rotor& rotor = rotors_[{sweep.flash.station, sweep.flash.axis}];
@@ -100,15 +118,16 @@ std::optional<RotorNoise> NoiseEstimator::noise_of(const Rotor& rotor) {
   for (const auto& [sensor, series] : rotor.sensors) {
     Deviations deviations = deviations_of(series);
     if (static_cast<int>(deviations.block_means.size()) < kMinBlocks || !(deviations.variance() > 0.0)) continue;
-    noise.turns = std::max(noise.turns, static_cast<int>(deviations.values.size()));
-    noise.drift = std::max(noise.drift, drift_of(deviations));
     sensors.push_back(std::move(deviations));
   }
   if (sensors.empty()) return std::nullopt;
+  noise.left_out = leave_out_suspects(sensors);
   noise.sensors = static_cast<int>(sensors.size());
   double variance = 0.0, rho = 0.0;
   int pairs = 0;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    noise.turns = std::max(noise.turns, static_cast<int>(sensors[i].values.size()));
+    noise.drift = std::max(noise.drift, drift_of(sensors[i]));
     variance += sensors[i].variance() / static_cast<double>(sensors.size());
     for (std::size_t j = i + 1; j < sensors.size(); ++j) {
       if (const auto correlation = correlation_of(sensors[i], sensors[j])) {

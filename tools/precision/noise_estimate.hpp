@@ -11,18 +11,26 @@
 
 namespace pharos::tools {
 
+/// What a rotor's figures are good for.
+enum class NoiseVerdict : std::uint8_t {
+  kOk,
+  kMoving,    ///< the angles wander: the target or the station moves
+  kDisagree,  ///< as many sensors are left out as agree, or but one agrees: which are right is not known
+};
+
 /// Noise of one rotor's angles at rest, as paper 002 models it: (18), (19).
 struct RotorNoise {
   std::uint8_t station = 0;
   Axis axis = Axis::kX;
-  int sensors = 0;         ///< hit often enough
+  int sensors = 0;         ///< hit often enough, with a sigma within a factor of two of the median sensor's
+  int left_out = 0;        ///< hit often enough, but noisier or quieter than that: a reflection, a partly hidden sensor
   int turns = 0;           ///< of the sensor that was hit most often
   double sigma_rad = 0.0;  ///< of one angle: root mean square over sensors
   /// Mean correlation between two sensors of the rotor, over the turns that hit both; nothing for a single sensor.
   std::optional<double> rho;
-  /// How much the angles of a block scatter about their mean over how much the blocks' means do: 1 at rest.
+  /// Variance of the blocks' means over that of means of independent angles, of the sensor with most: about 1 at rest.
   double drift = 0.0;
-  bool moving() const;
+  NoiseVerdict verdict() const;
 };
 
 /// Collects raw angles (no smoothing, no station model) of a recording and estimates their noise. Angles are taken

@@ -28,7 +28,9 @@ constexpr const char* kExample =
     "  pharos precision --estimate still.edges.csv.gz\n"
     "--estimate: sigma and rho of a recording in which nothing moves for at least 7 s, a row for each rotor: the "
     "noise\n"
-    "of one raw angle, and the correlation between the sensors of a rotor, (19). A rotor whose angles wander is "
+    "of one raw angle, and the correlation between the sensors of a rotor, (19). A sensor whose\n"
+    "sigma is twice or half the median sensor's is left out; a rotor whose angles wander, or whose sensors disagree, "
+    "is\n"
     "refused.";
 
 struct Options {
@@ -78,8 +80,20 @@ int run(const Options& options) {
   return kExitNoAnswer;
 }
 
-const std::vector<std::string> kNoiseColumns = {"station",      "axis", "sensors", "turns",
-                                                "sigma_arcsec", "rho",  "drift",   "status"};
+const std::vector<std::string> kNoiseColumns = {"station", "axis",  "sensors",  "turns", "sigma_arcsec",
+                                                "rho",     "drift", "left_out", "status"};
+
+const char* status_of(NoiseVerdict verdict) {
+  switch (verdict) {
+    case NoiseVerdict::kMoving:
+      return "refused_moving";
+    case NoiseVerdict::kDisagree:
+      return "refused_sensors_disagree";
+    case NoiseVerdict::kOk:
+      break;
+  }
+  return "ok";
+}
 
 int run_estimate(const Options& options) {
   Recording recording(options.estimate);
@@ -93,18 +107,21 @@ int run_estimate(const Options& options) {
   for (const RotorNoise& noise : rotors) {
     host::RowWriter& rows = output.rows();
     rows.integer(noise.station).text(noise.axis == Axis::kX ? "x" : "y").integer(noise.sensors).integer(noise.turns);
-    if (noise.moving()) {
-      rows.none(2).number(noise.drift).text("refused_moving").end_row();
-      continue;
+    const NoiseVerdict verdict = noise.verdict();
+    if (verdict == NoiseVerdict::kOk) {
+      answered = true;
+      rows.number(noise.sigma_rad * kArcsecPerRad).number(noise.rho);
+    } else {
+      rows.none(2);
     }
-    answered = true;
-    rows.number(noise.sigma_rad * kArcsecPerRad).number(noise.rho).number(noise.drift).text("ok").end_row();
+    rows.number(noise.drift).integer(noise.left_out).text(status_of(verdict)).end_row();
   }
   output.finish();
   recording.print_remarks();
   if (answered) return kExitAnswered;
-  note(options.estimate + (rotors.empty() ? ": no sensor was hit for 6 s by any rotor; record longer"
-                                          : ": the target or the station moves; record a target at rest"));
+  note(options.estimate + (rotors.empty()
+                               ? ": no sensor was hit for 6 s by any rotor; record longer"
+                               : ": no rotor with sensors at rest that agree (see status); record a target at rest"));
   return kExitNoAnswer;
 }
 
