@@ -25,17 +25,23 @@ std::vector<std::string> missing_of(const Exhibit& exhibit, const PartResult& re
     if (exhibit.remark.empty()) missing.emplace_back("neither computed nor a sentence why not");
     return missing;
   }
-  if (!exhibit.picture && exhibit.rows.empty())
+  if (!exhibit.picture && exhibit.rows.empty() && exhibit.pictures.empty())
     missing.emplace_back("neither a picture nor a row is asked of its parts");
   const bool shown = std::any_of(result.pictures.begin(), result.pictures.end(),
                                  [&](const Picture& picture) { return is_of(exhibit, picture.label); });
   if (exhibit.picture && !shown) missing.emplace_back("no picture");
-  for (const std::string_view words : exhibit.rows) {
+  for (const std::string& words : exhibit.pictures) {
+    const bool there = std::any_of(result.pictures.begin(), result.pictures.end(), [&](const Picture& picture) {
+      return is_of(exhibit, picture.label) && (picture.label + ": " + picture.caption).find(words) != std::string::npos;
+    });
+    if (!there) missing.push_back("no picture '" + words + "'");
+  }
+  for (const std::string& words : exhibit.rows) {
     const bool there = std::any_of(result.rows.begin(), result.rows.end(), [&](const ComparisonRow& row) {
       return is_of(exhibit, row.item) && shows_something(row) &&
              (row.item + ": " + row.what).find(words) != std::string::npos;
     });
-    if (!there) missing.push_back("no row '" + std::string(words) + "'");
+    if (!there) missing.push_back("no row '" + words + "'");
   }
   return missing;
 }

@@ -17,8 +17,10 @@ struct Exhibit {
   std::vector<std::string_view> parts;  ///< that compute it; empty: it has none, and `remark` says why
   std::string_view remark;              ///< what differs from the paper and why; or why there is nothing to compute
   bool picture = false;                 ///< it must come with a picture
-  /// Rows that must be there: each text is found in "ITEM: WHAT" of at least one row.
-  std::vector<std::string_view> rows = {};
+  /// Rows that must be there, one for each printed figure: each text is found in "ITEM: WHAT" of at least one row.
+  std::vector<std::string> rows = {};
+  /// Pictures that must be there: each text is found in "LABEL: CAPTION" of at least one.
+  std::vector<std::string> pictures = {};
 };
 
 struct Paper {

@@ -11,7 +11,9 @@ namespace pharos::tools::report {
 struct ReportOptions {
   std::string folder;
   PartSettings settings;
-  std::vector<std::string> only;  ///< ids of parts; empty: all
+  std::vector<std::string> only;   ///< ids of parts; empty: all
+  std::vector<std::string> quick;  ///< ids of parts that are quick where settings.quick is not set
+  std::string results;             ///< a Markdown file whose section takes the tables too (put_section); empty: none
 };
 
 /// Runs the parts one after the other, or takes what a former run with the same program and settings kept in the

@@ -63,6 +63,7 @@ FinishedPart part_of(const Json& json) {
   FinishedPart part;
   part.key = json.at("key").get<std::string>();
   part.command = json.at("command").get<std::string>();
+  part.quick = json.at("quick").get<bool>();
   part.seconds = json.at("seconds").get<double>();
   for (const Json& row : json.at("rows")) part.result.rows.push_back(row_of(row));
   for (const Json& picture : json.at("pictures")) {
@@ -86,7 +87,7 @@ void keep(const FinishedPart& part, const std::filesystem::path& folder) {
   for (const Picture& picture : part.result.pictures) {
     pictures.push_back({{"label", picture.label}, {"caption", picture.caption}, {"file", picture.file}});
   }
-  const Json json = {{"format", kFormat},       {"key", part.key}, {"command", part.command},
+  const Json json = {{"format", kFormat},       {"key", part.key}, {"command", part.command}, {"quick", part.quick},
                      {"seconds", part.seconds}, {"rows", rows},    {"pictures", pictures}};
   host::write_file((folder / kFile).string(), json.dump(1) + "\n");
 }

@@ -13,6 +13,7 @@ namespace pharos::tools::report {
 struct FinishedPart {
   std::string key;  ///< of what it was made: program, settings
   std::string command;
+  bool quick = false;
   double seconds = 0.0;
   PartResult result;
 };

@@ -23,7 +23,8 @@ constexpr const char* kAllExample =
     "settings is not run again: after an interruption the same command goes on where it was.\n\n"
     "Examples:\n"
     "  pharos reproduce all --output report --quick\n"
-    "  pharos reproduce all --output report --only ring2 line";
+    "  pharos reproduce all --output report --only ring2 line\n"
+    "  pharos reproduce all --output report --quick-parts slam-good slam-low --results RESULTS.md";
 
 // The shortest first: whoever waits sees something.
 std::vector<report::Part> all_parts() {
@@ -46,8 +47,15 @@ void add_reproduce_all(CLI::App& reproduce, int& exit_code) {
   CLI::App* command = reproduce.add_subcommand("all", "Every table and figure of the five papers, as one page");
   const auto options = std::make_shared<report::ReportOptions>();
   command->add_option("--output", options->folder, "Folder of the report")->required()->check(output_place());
-  command->add_flag("--quick", options->settings.quick, "Fewer and shorter runs");
-  command->add_option("--only", options->only, "These parts alone")->check(CLI::IsMember(ids_of(all_parts())));
+  const std::vector<std::string> ids = ids_of(all_parts());
+  CLI::Option* quick = command->add_flag("--quick", options->settings.quick, "Fewer and shorter runs");
+  command->add_option("--quick-parts", options->quick, "These parts quick, the others whole")
+      ->check(CLI::IsMember(ids))
+      ->excludes(quick);
+  command->add_option("--only", options->only, "These parts alone")->check(CLI::IsMember(ids));
+  command->add_option("--results", options->results,
+                      "A Markdown file that takes the tables too, between its lines '<!-- five papers: begin -->' and "
+                      "'<!-- five papers: end -->'");
   add_seed_option(*command, options->settings.seed, "Of everything that is drawn at random");
   command->footer(kAllExample);
   command->callback(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/stereo_tumbling/satellite_scene.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "tools/sim/stereo_tumbling/textures.hpp"
@@ -11,6 +12,9 @@ namespace {
 constexpr double kFacet_m = 0.045;  // of the foil: 6 px from 5 m
 constexpr double kCell_m = 0.12;    // of the solar panels
 constexpr double kThickness_m = 0.03;
+constexpr std::size_t kFoils = 6;  // the first textures
+// Albedo in red, green and blue, the brightest 1.
+constexpr std::array<float, 3> kGold = {1.0F, 0.78F, 0.36F}, kCells = {0.35F, 0.5F, 1.0F};
 
 }  // namespace
 
@@ -32,6 +36,14 @@ PanelScene satellite_scene(std::uint64_t seed) {
     }
   }
   return scene;
+}
+
+PanelScene through_filter(PanelScene satellite, int channel) {
+  for (std::size_t k = 0; k < satellite.textures.size(); ++k) {
+    const float tint = (k < kFoils ? kGold : kCells)[static_cast<std::size_t>(channel)];
+    for (float& albedo : satellite.textures[k].albedo) albedo *= tint;
+  }
+  return satellite;
 }
 
 std::vector<Star> star_field(int count, std::uint64_t seed) {

@@ -12,6 +12,9 @@ namespace pharos::sim {
 /// on its sides. Its frame: origin in the box's middle, z the spin axis, panels along x. 3.8 m across.
 PanelScene satellite_scene(std::uint64_t seed);
 
+/// What a camera behind a red, green or blue filter (channel 0 to 2) sees of satellite_scene: golden foil, blue cells.
+PanelScene through_filter(PanelScene satellite, int channel);
+
 /// `count` stars ahead of the cameras, brighter ones rarer.
 std::vector<Star> star_field(int count, std::uint64_t seed);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "tools/sim/optics/blur.hpp"
 #include "tools/sim/optics/image_sensor.hpp"
@@ -34,6 +35,10 @@ Matrix3 start_attitude() {
          rotation_exp(Vector3(0.5 * std::numbers::pi, 0.0, 0.0));
 }
 
+Lighting lighting_of(const TumblingScenario& scenario) {
+  return {scenario.ambient, scenario.good_light ? 0.9 : 0.0, kLamp_m};
+}
+
 }  // namespace
 
 struct TumblingSequence::Work {
@@ -53,6 +58,13 @@ struct TumblingSequence::Work {
     return render_scene(povray_preamble() + povray_camera(lens, T_rig_camera[side].R, T_rig_camera[side].t) +
                             povray_panels(scene, lighting, textures.path(), kGloss),
                         {lens.width_px, lens.height_px, kRaysPerSide, kAntialias, 1});
+  }
+
+  // With stars, through the optics.
+  LinearImage seen(const PanelScene& scene, const Lighting& lighting, std::size_t side, bool povray) const {
+    LinearImage image = render(scene, lighting, side, povray);
+    draw_stars(image, stars, lenses[side], T_rig_camera[side]);
+    return blurred(image, kBlur_px);
   }
 };
 
@@ -111,15 +123,28 @@ host::GreyImage TumblingSequence::image(int frame, int side) {
   const auto k = static_cast<std::size_t>(side);
   if (work.rendered_frame != frame || work.rendered_side != side) {
     const auto here = pose(frame);
-    const Lighting light{scenario_.ambient, scenario_.good_light ? 0.9 : 0.0, kLamp_m};
-    work.rendered = work.render(moved(work.satellite, here.R, here.t), light, k, scenario_.povray);
-    draw_stars(work.rendered, work.stars, work.lenses[k], work.T_rig_camera[k]);
-    work.rendered = blurred(work.rendered, kBlur_px);
+    const Lighting light = lighting_of(scenario_);
+    work.rendered = work.seen(moved(work.satellite, here.R, here.t), light, k, scenario_.povray);
     work.rendered_frame = frame;
     work.rendered_side = side;
   }
   RandomStream random(seed_, (side == 0 ? "left " : "right ") + std::to_string(frame));
   return expose(work.rendered, work.sensor, random);
+}
+
+std::array<host::GreyImage, 3> TumblingSequence::colour_image(int frame, int side) {
+  if (scenario_.povray) throw std::logic_error("colours are seen by rays of our own only");
+  const Work& work = *work_;
+  const auto here = pose(frame);
+  std::array<host::GreyImage, 3> planes;
+  for (int channel = 0; channel < 3; ++channel) {
+    const PanelScene scene = moved(through_filter(work.satellite, channel), here.R, here.t);
+    RandomStream random(seed_,
+                        (side == 0 ? "left " : "right ") + std::to_string(frame) + " of " + std::to_string(channel));
+    planes[static_cast<std::size_t>(channel)] =
+        expose(work.seen(scene, lighting_of(scenario_), static_cast<std::size_t>(side), false), work.sensor, random);
+  }
+  return planes;
 }
 
 void write_tumbling(const TumblingScenario& scenario, std::uint64_t seed, const std::string& directory,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -46,6 +47,9 @@ class TumblingSequence {
   Pose<frame::Camera, frame::Target> truth(int frame) const;
   /// 8 bits; side 0 is left. The same frame again is exposed anew from the same light.
   host::GreyImage image(int frame, int side);
+  /// Red, green and blue of the same moment: golden foil, blue cells, white stars; noise of each plane its own. By rays
+  /// of our own only: throws std::logic_error for a scenario with POV-Ray.
+  std::array<host::GreyImage, 3> colour_image(int frame, int side);
 
  private:
   struct Work;

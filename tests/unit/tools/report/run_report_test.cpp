@@ -52,7 +52,7 @@ class RunReport : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
   ReportOptions options(bool quick = true, std::uint64_t seed = 1) const {
-    return {folder_.string(), {quick, seed}, {}};
+    return {folder_.string(), {quick, seed}, {}, {}, {}};
   }
   fs::path folder_;
 };
@@ -82,6 +82,57 @@ TEST_F(RunReport, AnInterruptedRunLeavesTheFinishedPartsAndGoesOnThere) {
   EXPECT_EQ(first.runs, 1);
   EXPECT_EQ(second.runs, 2);
   EXPECT_THAT(text_of(folder_ / "report.html"), Not(HasSubstr("Part line was not run")));
+}
+
+TEST_F(RunReport, SaysOfEachPartWhetherItWasQuick) {
+  Planted first, second;
+  const std::vector<Part> parts = {first.part("ring2"), second.part("line")};
+  ReportOptions mixed = options(false);
+  mixed.quick = {"line"};
+  run_report(parts, mixed);
+  const std::string text = text_of(folder_ / "report.md");
+  EXPECT_THAT(text, HasSubstr("part line, quick:"));
+  EXPECT_THAT(text, HasSubstr("part ring2:"));
+  run_report({second.part("line")}, options(true));  // the same part with the same settings
+  EXPECT_EQ(second.runs, 1);
+}
+
+TEST_F(RunReport, TheSectionOfAMarkdownFileIsReplacedAndNothingElse) {
+  fs::create_directories(folder_);
+  const std::string file = (folder_ / "RESULTS.md").string();
+  const std::string before = "# Results\n\nWords.\n\n<!-- five papers: begin -->\n",
+                    after = "<!-- five papers: end -->\nend\n";
+  std::ofstream(file) << before << "stale\n" << after;
+  Planted planted;
+  ReportOptions with = options();
+  with.results = file;
+  run_report({planted.part("ring2")}, with);
+  const std::string text = text_of(file);
+  EXPECT_TRUE(text.starts_with(before));
+  EXPECT_TRUE(text.ends_with(after));
+  EXPECT_THAT(text, Not(HasSubstr("stale")));
+  EXPECT_THAT(text, HasSubstr("\n## Five papers"));
+  EXPECT_THAT(text, HasSubstr("| figure 8a: an angle | deg | < 1 | 0.75 | 0.3 | 0.4 | a < b & c |"));
+  EXPECT_THAT(text, HasSubstr("| noise: without an answer |"));
+  run_report({planted.part("ring2")}, with);
+  EXPECT_EQ(text_of(file), text);
+}
+
+TEST_F(RunReport, AFileWithoutTheSectionIsRefusedBeforeAnythingRuns) {
+  fs::create_directories(folder_);
+  const std::string file = (folder_ / "RESULTS.md").string();
+  const std::string begin = "<!-- five papers: begin -->\n", end = "<!-- five papers: end -->\n";
+  Planted planted;
+  ReportOptions with = options();
+  with.results = file;
+  for (const std::string& document : {std::string(), begin, end + begin, begin + begin + end, "x" + begin + end}) {
+    std::ofstream(file) << document;
+    EXPECT_THROW(run_report({planted.part("ring2")}, with), host::InputError);
+    EXPECT_EQ(text_of(file), document);
+  }
+  fs::remove(file);
+  EXPECT_THROW(run_report({planted.part("ring2")}, with), host::InputError);
+  EXPECT_EQ(planted.runs, 0);
 }
 
 TEST_F(RunReport, APartWhosePicturesOrTableAreGoneIsRunAgain) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "tools/evaluation/reproduce/slam/body_campaign.hpp"
+#include "tools/evaluation/reproduce/slam/colour_pairs.hpp"
 #include "tools/evaluation/reproduce/slam/figure_four.hpp"
 #include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/support/commands.hpp"
@@ -48,7 +49,9 @@ int run(Options options) {
   require_writable(options.output.path);
   if (options.bodies.bodies > 0) return run_over_bodies(options);
   if (options.figure4) {
-    write_comparison(reproduce_figure_four(options.table.seed).rows, options.markdown, options.output);
+    std::vector<ComparisonRow> rows = reproduce_figure_four(options.table.seed).rows;
+    for (const ComparisonRow& row : reproduce_colour_pairs(options.table.seed).rows) rows.push_back(row);
+    write_comparison(rows, options.markdown, options.output);
     return kExitAnswered;
   }
   options.table.povray = options.renderer == "povray";
@@ -84,8 +87,9 @@ void add_reproduce_slam(CLI::App& reproduce, int& exit_code) {
       ->check(CLI::Range(0.05, 30.0));
   add_seed_option(*command, options->table.seed,
                   "Of textures, stars and noise; with --bodies of the first, the next ones follow");
-  command->add_flag("--figure4", options->figure4,
-                    "Instead: figure 4, LIME beside BIMEF, Dong's method, MSRCR and SRIE in the dark");
+  command->add_flag(
+      "--figure4", options->figure4,
+      "Instead: figure 4, LIME beside BIMEF, Dong's method, MSRCR and SRIE in the dark, grey and in colour");
   command->add_flag("--markdown", options->markdown, "A Markdown table, rounded, instead of CSV");
   add_output_options(*command, options->output);
   command->footer(kExample);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "tools/evaluation/reproduce/slam/colour_pairs.hpp"
 #include "tools/evaluation/reproduce/slam/figure_four.hpp"
 #include "tools/evaluation/reproduce/slam/table_one.hpp"
 #include "tools/support/progress.hpp"
@@ -70,7 +71,11 @@ std::vector<report::Part> slam_parts() {
              return "pharos reproduce slam --figure4 --seed " + std::to_string(settings.seed);
            },
            [](const report::PartSettings& settings, const std::filesystem::path& folder) {
-             return reproduce_figure_four(settings.seed, folder);
+             report::PartResult result = reproduce_figure_four(settings.seed, folder);
+             const report::PartResult colour = reproduce_colour_pairs(settings.seed, folder);
+             result.rows.insert(result.rows.end(), colour.rows.begin(), colour.rows.end());
+             result.pictures.insert(result.pictures.end(), colour.pictures.begin(), colour.pictures.end());
+             return result;
            }}};
 }
 

@@ -172,6 +172,13 @@ Outcome outcome_of(const slam::SlamSystem& system, const sim::TumblingSequence& 
   return outcome;
 }
 
+// In percent, with two digits.
+std::string relative_error(double estimated_deg, double turn_deg) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", 100.0 * std::abs(estimated_deg / turn_deg - 1.0));
+  return text.data();
+}
+
 void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, std::vector<ComparisonRow>& rows) {
   const std::string item = "table 1, " + std::to_string(static_cast<int>(turn_deg)) + " deg, " + variant.name;
   std::string rmse, last, estimated, relative;
@@ -181,9 +188,7 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
     rmse = host::exact_number(values[0]);
     last = host::exact_number(values[1]);
     estimated = host::exact_number(values[2]);
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%.2g", 100.0 * std::abs(values[2] / turn_deg - 1.0));
-    relative = text.data();
+    relative = relative_error(values[2], turn_deg);
   }
   if (outcome.placed > 0) {
     const char* remark = outcome.last_placed ? "" : "of the last frame with a pose; later ones have none";
@@ -205,18 +210,28 @@ void add_rows(double turn_deg, const Variant& variant, const Outcome& outcome, s
   }
 }
 
+const char* figure_of(bool good_light) { return good_light ? "figure 3" : "figure 5"; }
+
 // Figures 3 and 5: the turn over the frames, and how far it is off.
 void add_picture(double turn_deg, const Variant& variant, const Outcome& outcome, const std::filesystem::path& folder,
                  report::PartResult& result) {
   const std::string turn = std::to_string(static_cast<int>(turn_deg));
   const std::string file = std::string(variant.key) + "_" + turn + ".svg";
   std::vector<PlotPoint> error = outcome.estimated;
-  for (std::size_t i = 0; i < error.size(); ++i) error[i].y -= outcome.truth[i].y;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    error[i].y -= outcome.truth[i].y;
+    largest = std::max(largest, std::abs(error[i].y));
+  }
   write_curves((folder / file).string(),
                {{"turn, deg", {{"truth", "#909090", outcome.truth}, {"ours", "#00a060", outcome.estimated, true}}},
                 {"error of the turn, deg", {{"", "#00a060", error}}}},
                "frame");
-  result.pictures.push_back({variant.good_light ? "figure 3" : "figure 5", turn + " deg, " + variant.name, file});
+  const std::string figure = figure_of(variant.good_light);
+  result.pictures.push_back({figure, turn + " deg, " + variant.name, file});
+  result.rows.push_back({figure, turn + " deg, " + variant.name + ": largest error of the turn", "deg", "",
+                         error.empty() ? std::nullopt : std::optional(largest),
+                         error.empty() ? "no frame has a pose" : ""});
 }
 
 // One variant while it processes a sequence.
@@ -324,13 +339,17 @@ std::vector<ComparisonRow> table_one_left_out(bool good_light, const std::vector
   std::vector<ComparisonRow> rows;
   for (const Published& published : kTable) {
     if (std::find(turns_deg.begin(), turns_deg.end(), published.turn_deg) != turns_deg.end()) continue;
-    const std::string item = "table 1, " + std::to_string(static_cast<int>(published.turn_deg)) + " deg, " +
-                             (good_light ? "good light" : "low light");
+    const std::string turn = std::to_string(static_cast<int>(published.turn_deg));
+    const std::string light = good_light ? "good light" : "low light, enhanced";
+    const std::string item = "table 1, " + turn + " deg, " + light;
     const std::array<double, 3>& values = good_light ? published.good : published.low;
     constexpr const char* kRemark = "left out by --quick";
+    rows.push_back({figure_of(good_light), turn + " deg, " + light + ": largest error of the turn", "deg", "",
+                    std::nullopt, kRemark});
     rows.push_back({item, "estimated turn", "deg", host::exact_number(values[2]), std::nullopt, kRemark});
     rows.push_back({item, "attitude RMSE", "deg", host::exact_number(values[0]), std::nullopt, kRemark});
     rows.push_back({item, "error of the last attitude", "deg", host::exact_number(values[1]), std::nullopt, kRemark});
+    rows.push_back({item, "relative error", "%", relative_error(values[2], published.turn_deg), std::nullopt, kRemark});
   }
   return rows;
 }
