@@ -20,6 +20,9 @@ constexpr Index kCoarsest_px = 4;
 // Two links lead from one group of 2 x 2 to the next, over twice the distance: 2 / 2 / 2.
 constexpr float kCoarseLink = 0.5F;
 
+// Rows that are treated together, because within a row each step depends on the value before.
+constexpr Index kTogether = 8;
+
 void resize(SmoothnessGrid& grid, Index width, Index height) {
   grid.width = width;
   grid.height = height;
@@ -29,6 +32,26 @@ void resize(SmoothnessGrid& grid, Index width, Index height) {
     values->resize(size);
   }
   grid.row.resize(static_cast<std::size_t>(width));
+}
+
+// The pivots of `rows` rows from v on, column by column: within a row each depends on the one before, by a division.
+template <std::size_t rows>
+void factor_rows(SmoothnessGrid& grid, Index v) {
+  const Index width = grid.width;
+  const float* right = grid.right.data() + v * width;
+  const float* down = grid.down.data() + v * width;
+  const float* mass = grid.mass.data() + v * width;
+  float* inverse = grid.along_row.data() + v * width;
+  std::array<float, rows> left{};
+  for (Index u = 0; u < width; ++u) {
+    for (std::size_t k = 0; k < rows; ++k) {
+      const Index at = static_cast<Index>(k) * width + u;
+      const float above = v > 0 || k > 0 ? down[at - width] : 0.0F;
+      const float s = mass[at] + down[at] + above + left[k];
+      inverse[at] = 1.0F / (s + right[at]);
+      left[k] = right[at] * s * inverse[at];
+    }
+  }
 }
 
 // Pivots m = s + link of the tridiagonal systems, s = (links aside + mass) + link_before s_before / m_before: a sum of
@@ -48,19 +71,9 @@ PHAROS_WIDE_VECTORS void factor(SmoothnessGrid& grid) {
       before[static_cast<std::size_t>(u)] = down[u] * s * inverse[u];
     }
   }
-  for (Index v = 0; v < height; ++v) {
-    const float* right = grid.right.data() + v * width;
-    const float* down = grid.down.data() + v * width;
-    const float* above = v > 0 ? down - width : nullptr;
-    const float* mass = grid.mass.data() + v * width;
-    float* inverse = grid.along_row.data() + v * width;
-    float left = 0.0F;
-    for (Index u = 0; u < width; ++u) {
-      const float s = mass[u] + down[u] + (above != nullptr ? above[u] : 0.0F) + left;
-      inverse[u] = 1.0F / (s + right[u]);
-      left = right[u] * s * inverse[u];
-    }
-  }
+  Index v = 0;
+  for (; v + kTogether <= height; v += kTogether) factor_rows<static_cast<std::size_t>(kTogether)>(grid, v);
+  for (; v < height; ++v) factor_rows<1>(grid, v);
 }
 
 void coarsen(const SmoothnessGrid& fine, SmoothnessGrid& coarse) {
@@ -237,9 +250,7 @@ class FourRows {
   Four last_{};
 };
 
-// Eight rows from v on together, because each step depends on the value before.
-constexpr Index kTogether = 8;
-
+// kTogether rows from v on.
 void solve_rows(SmoothnessGrid& grid, Index v) {
   std::array<FourRows, 2> halves = {FourRows(grid, v), FourRows(grid, v + kTogether / 2)};
   const auto both = [&halves](auto&& step) {

@@ -2,10 +2,12 @@
 #include "tools/evaluation/bench/bench_dark_views.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "host/vision/enhance/enhancer.hpp"
+#include "host/vision/slam/slam_system.hpp"
 #include "tools/evaluation/low_light/low_light_peers.hpp"
 #include "tools/evaluation/low_light/rim_halo.hpp"
 #include "tools/sim/stereo_tumbling/tumbling_sequence.hpp"
@@ -20,6 +22,7 @@ using Bytes = GreyBytes;
 
 constexpr int kApart = 10;  // frames of 0.5 deg
 constexpr int kSide = 0;    // left
+constexpr double kMs = 1e3;
 constexpr std::uint64_t kSeed = 1;
 
 constexpr double kEven = 0.8;  // ambient light in which the target is as bright as in good light
@@ -115,6 +118,41 @@ void add_rate(const char* name, Denoiser denoiser, const enhance::Bm3dSettings& 
                   false});
 }
 
+// A core a camera, then this thread tracks while another one maps: one over the processor time of both.
+void add_rate_to_pose(std::vector<BenchRow>& rows) {
+  sim::TumblingSequence dark(scenario(0.1), kSeed);
+  enhance::EnhanceSettings settings;
+  settings.denoiser = Denoiser::kFast;
+  settings.threads = 1;
+  std::array<Enhancer, 2> enhancers = {Enhancer(settings), Enhancer(settings)};
+  slam::SlamSettings tracking;
+  tracking.threads = true;
+  const auto system = slam::make_slam(dark.rig(), "the simulated rig", tracking);
+  constexpr int kPairs = 30, kBegin = 5;
+  std::vector<double> eye_s, track_s, whole_s;
+  for (int k = 0; k < kPairs; ++k) {
+    std::array<Bytes, 2> bytes;
+    const host::GreyImage first = dark.image(k, 0), second = dark.image(k, 1);
+    const double left_s = processor_seconds_of([&] { bytes[0] = enhanced(enhancers[0], first); });
+    const double right_s = processor_seconds_of([&] { bytes[1] = enhanced(enhancers[1], second); });
+    const auto view = [&first](const Bytes& of) {
+      return ImageView<const std::uint8_t>(of.data(), first.width_px, first.height_px);
+    };
+    const double push_s = processor_seconds_of([&] { system->push(0.05 * k, view(bytes[0]), view(bytes[1])); });
+    if (k < kBegin) continue;
+    eye_s.push_back(std::max(left_s, right_s));
+    track_s.push_back(push_s);
+    whole_s.push_back(eye_s.back() + push_s);
+  }
+  const auto add = [&rows](const char* what, const std::vector<double>& seconds) {
+    rows.push_back({what, kMs * middle_of(seconds), {}, "ms"});
+  };
+  add("a dark pair, slower camera: processor time of the enhancement, fast", eye_s);
+  add("the same pair: processor time of tracking", track_s);
+  rows.push_back(
+      {"enhanced pairs to their poses a second on two cores, fast", 1.0 / middle_of(whole_s), {}, "1/s", false});
+}
+
 }  // namespace
 
 void add_dark_views(int pairs, std::vector<BenchRow>& rows) {
@@ -122,6 +160,7 @@ void add_dark_views(int pairs, std::vector<BenchRow>& rows) {
   add_rate("BM3D", Denoiser::kBm3d, {}, rows);
   add_rate("BM3D for video", Denoiser::kBm3d, enhance::kVideoBm3d, rows);
   add_rate("fast", Denoiser::kFast, {}, rows);
+  add_rate_to_pose(rows);
 }
 
 }  // namespace pharos::tools
