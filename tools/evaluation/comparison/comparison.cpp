@@ -20,6 +20,23 @@ std::string rounded(double value) {
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
+std::string rounded_as(double value, const std::string& published) {
+  double number = 0.0;
+  const char* end = published.data() + published.size();
+  const auto result = std::from_chars(published.data(), end, number);
+  const std::size_t point = published.find('.');
+  const bool plain =
+      result.ec == std::errc() && result.ptr == end && published.find_first_of("eE") == std::string::npos;
+  if (!plain || point == std::string::npos || !(std::abs(value) < 1e7)) return rounded(value);
+  constexpr int kDigits = 3;
+  const int before = value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  const auto decimals = static_cast<int>(published.size() - point - 1);
+  if (before + decimals <= kDigits) return rounded(value);
+  std::array<char, 32> text;
+  const int size = std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
 namespace {
 
 bool any_theirs(const std::vector<ComparisonRow>& rows) {

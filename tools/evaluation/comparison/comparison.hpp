@@ -37,6 +37,9 @@ std::optional<double> ratio_to_theirs(const ComparisonRow& row);
 /// A figure with three digits, as in a README.
 std::string rounded(double value);
 
+/// The same, but with as many decimals as the published number beside it, where that has more.
+std::string rounded_as(double value, const std::string& published);
+
 /// Writes `item,what,unit,published,ours,ratio,remark`; after it, where any row has them, `calibrated,motion,both` and
 /// `theirs`.
 void write_rows(const std::vector<ComparisonRow>& rows, const OutputOptions& options);

@@ -65,6 +65,8 @@ std::string origin_of(const ReportContent& content) {
   return fmt::format("Commit {}, seed {}.", content.commit, content.seed);
 }
 
-std::string shown(const std::optional<double>& value) { return value ? rounded(*value) : ""; }
+std::string shown(const std::optional<double>& value, const std::string& published) {
+  return value ? rounded_as(*value, published) : "";
+}
 
 }  // namespace pharos::tools::report

@@ -36,7 +36,7 @@ std::string made_by(std::string_view id, const FinishedPart& part);
 /// Commit and seed.
 std::string origin_of(const ReportContent& content);
 
-/// Three digits, or nothing.
-std::string shown(const std::optional<double>& value);
+/// As rounded_as does, or nothing.
+std::string shown(const std::optional<double>& value, const std::string& published);
 
 }  // namespace pharos::tools::report

@@ -71,8 +71,8 @@ std::string table_of(const std::vector<ComparisonRow>& rows) {
     text += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td>"
         "<td>{}</td></tr>\n",
-        escaped(row.item + ": " + row.what), escaped(row.unit), escaped(row.expected), shown(row.theirs),
-        shown(row.ours), shown(ratio_to_theirs(row)), escaped(row.remark));
+        escaped(row.item + ": " + row.what), escaped(row.unit), escaped(row.expected), shown(row.theirs, row.expected),
+        shown(row.ours, row.expected), shown(ratio_to_theirs(row), ""), escaped(row.remark));
   }
   return text + "</table>\n";
 }

@@ -25,8 +25,8 @@ std::string table_in_markdown(const std::vector<ComparisonRow>& rows) {
       "\n| what | unit | published | theirs rerun | ours | ours / theirs | remark |\n|---|---|---|---|---|---|---|\n";
   for (const ComparisonRow& row : rows) {
     text += fmt::format("| {}: {} | {} | {} | {} | {} | {} | {} |\n", cell(row.item), cell(row.what), cell(row.unit),
-                        cell(row.expected), shown(row.theirs), shown(row.ours), shown(ratio_to_theirs(row)),
-                        cell(row.remark));
+                        cell(row.expected), shown(row.theirs, row.expected), shown(row.ours, row.expected),
+                        shown(ratio_to_theirs(row), ""), cell(row.remark));
   }
   return text;
 }

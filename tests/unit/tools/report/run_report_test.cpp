@@ -118,6 +118,15 @@ TEST_F(RunReport, TheSectionOfAMarkdownFileIsReplacedAndNothingElse) {
   EXPECT_EQ(text_of(file), text);
 }
 
+TEST(Comparison, AFigureHasAsManyDecimalsAsThePublishedOne) {
+  EXPECT_EQ(rounded_as(608.5804, "608.61"), "608.58");
+  EXPECT_EQ(rounded_as(4160.96, "4160.9610"), "4160.9600");
+  EXPECT_EQ(rounded_as(-0.19904, "-0.1991"), "-0.1990");
+  EXPECT_EQ(rounded_as(0.000123456, "0.1991"), "0.000123");
+  EXPECT_EQ(rounded_as(0.0, "0.12"), "0");
+  for (const char* words : {"", "< 0.50", "best", "1e-3", "12"}) EXPECT_EQ(rounded_as(30.00012, words), "30");
+}
+
 TEST_F(RunReport, AFileWithoutTheSectionIsRefusedBeforeAnythingRuns) {
   fs::create_directories(folder_);
   const std::string file = (folder_ / "RESULTS.md").string();
