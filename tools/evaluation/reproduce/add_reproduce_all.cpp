@@ -24,7 +24,7 @@ constexpr const char* kAllExample =
     "Examples:\n"
     "  pharos reproduce all --output report --quick\n"
     "  pharos reproduce all --output report --only ring2 line\n"
-    "  pharos reproduce all --output report --quick-parts slam-good slam-low --results RESULTS.md";
+    "  pharos reproduce all --output report --quick-parts slam-good slam-low-bm3d --results RESULTS.md";
 
 // The shortest first: whoever waits sees something.
 std::vector<report::Part> all_parts() {

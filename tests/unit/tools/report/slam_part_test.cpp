@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "tools/evaluation/report/exhibits.hpp"
 #include "tools/evaluation/reproduce/slam/slam_parts.hpp"
 
@@ -22,6 +26,32 @@ TEST(SlamParts, HaveEveryTableAndFigureOfPaperFour) {
       ADD_FAILURE() << one.label << ": " << words;
     }
   }
+}
+
+// What an interrupted run has rendered is read again by the next one: same rows.
+TEST(SlamParts, KeptFramesGiveTheSameRows) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "paper_four_again";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "part");
+  const Part part = slam_parts().front();
+  const PartResult rendered = part.run({true, 2}, folder / "part");
+  const auto count = [&folder] {
+    const std::filesystem::directory_iterator files(folder / "frames-good");
+    return std::distance(begin(files), end(files));
+  };
+  EXPECT_EQ(count(), 2 * 61 + 1);  // 30 deg, and the key
+  const PartResult read = part.run({true, 2}, folder / "part");
+  EXPECT_EQ(count(), 2 * 61 + 1);
+  ASSERT_EQ(read.rows.size(), rendered.rows.size());
+  for (std::size_t k = 0; k < read.rows.size(); ++k) {
+    EXPECT_EQ(read.rows[k].what, rendered.rows[k].what);
+    EXPECT_EQ(read.rows[k].ours, rendered.rows[k].ours) << read.rows[k].what;
+  }
+  std::ofstream(folder / "frames-good" / "key") << "of another program\n";
+  std::filesystem::remove(folder / "frames-good" / "7_left.png");
+  std::ofstream(folder / "frames-good" / "9_left.png") << "not an image";
+  EXPECT_EQ(part.run({true, 2}, folder / "part").rows.size(), rendered.rows.size());
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

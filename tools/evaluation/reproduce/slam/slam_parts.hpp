@@ -7,7 +7,9 @@
 
 namespace pharos::tools {
 
-/// The parts `slam-good` and `slam-low` of the report. Quick: own rays, the shortest turn.
+/// The parts of paper 004: `slam-RUN` for each of table_one_runs(), and `slam-enhance`. Quick: own rays, the shortest
+/// turn. Runs in one light share rendered images, which are kept beside the parts (`frames-good`, `frames-low`, some
+/// 400 MB each when whole): an interrupted run does not render them again.
 std::vector<report::Part> slam_parts();
 
 }  // namespace pharos::tools

@@ -82,6 +82,25 @@ sim::TumblingScenario scenario_of(double turn_deg, bool good_light, const TableO
 
 int last_frame(double turn_deg) { return static_cast<int>(std::lround(turn_deg / sim::TumblingScenario{}.step_deg)); }
 
+// Rendered images, kept in a folder: of the same scenario and seed they are read instead of rendered again. 8 bits, as
+// the sequence's own.
+class RenderedFrames {
+ public:
+  explicit RenderedFrames(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  host::GreyImage image(sim::TumblingSequence& sequence, int frame, int side) const {
+    if (folder_.empty()) return sequence.image(frame, side);
+    const std::string file = (folder_ / (std::to_string(frame) + (side == 0 ? "_left.png" : "_right.png"))).string();
+    if (std::filesystem::is_regular_file(file)) return host::read_grey_image(file);
+    host::GreyImage image = sequence.image(frame, side);
+    host::write_grey_png(file, image.view(), 8);
+    return image;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
 using EightBits = std::array<std::vector<std::uint8_t>, 2>;
 
 // A pair as rendered and as treated in each way that is wanted.
@@ -96,9 +115,9 @@ class Pictures {
       for (auto& enhancer : of(treatment).enhancers) enhancer = std::make_unique<enhance::Enhancer>(settings);
     }
   }
-  void take(sim::TumblingSequence& sequence, int frame) {
+  void take(sim::TumblingSequence& sequence, const RenderedFrames& frames, int frame) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const host::GreyImage image = sequence.image(frame, static_cast<int>(side));
+      const host::GreyImage image = frames.image(sequence, frame, static_cast<int>(side));
       width_px_ = image.width_px;
       height_px_ = image.height_px;
       std::vector<std::uint8_t>& raw = of(Treatment::kNone).pixels[side];
@@ -263,22 +282,25 @@ void write_view(ImageView<const std::uint8_t> view, const std::filesystem::path&
   host::write_grey_png(path.string(), {pixels.data(), view.width_px, view.height_px}, 8);
 }
 
-// Figure 2 in good light; in low light, beside figure 5, as it is and enhanced.
-void add_first_views(bool good_light, const Pictures& pictures, const std::filesystem::path& folder,
+// Figure 2 in good light; in low light, beside figure 5, as it is and enhanced. As it is in the first run of each.
+void add_first_views(const TableOneOptions& options, bool good_light, const Pictures& pictures,
                      report::PartResult& result) {
-  const std::string name = good_light ? "good.png" : "dark.png";
-  write_view(pictures.view(Treatment::kNone, 0), folder / name);
-  if (good_light) {
-    result.pictures.push_back({"figure 2", "the rendered satellite, left camera, first frame", name});
-    return;
+  const std::filesystem::path& folder = options.folder;
+  const std::string name = good_light ? "good.png" : "dark.png", first_run = good_light ? "good" : "low-enhanced";
+  const bool first = std::find(options.runs.begin(), options.runs.end(), first_run) != options.runs.end();
+  if (first) {
+    write_view(pictures.view(Treatment::kNone, 0), folder / name);
+    result.pictures.push_back(
+        {good_light ? "figure 2" : "figure 5",
+         good_light ? "the rendered satellite, left camera, first frame" : "in low light as it is, first frame", name});
   }
-  result.pictures.push_back({"figure 5", "in low light as it is, first frame", name});
+  if (good_light) return;
   const auto add = [&](Treatment treatment, const char* caption, const char* file) {
     if (!pictures.has(treatment)) return;
     write_view(pictures.view(treatment, 0), folder / file);
     result.pictures.push_back({"figure 5", caption, file});
   };
-  add(Treatment::kFast, "the same by LIME with our fast denoiser", "enhanced.png");
+  if (first) add(Treatment::kFast, "the same by LIME with our fast denoiser", "enhanced.png");
   add(Treatment::kBm3d, "the same by LIME with BM3D", "bm3d.png");
 }
 
@@ -312,9 +334,10 @@ void run_light(bool good_light, const TableOneOptions& options, report::PartResu
     run.system = slam::make_slam(rig_of(*run.variant, sequence, options, result), "the simulated rig", settings);
   }
   Pictures pictures(treatments, options.video_bm3d);
+  const RenderedFrames frames(options.frames);
   for (int frame = 0; frame < sequence.frames(); ++frame) {
-    pictures.take(sequence, frame);
-    if (frame == 0 && !options.folder.empty()) add_first_views(good_light, pictures, options.folder, result);
+    pictures.take(sequence, frames, frame);
+    if (frame == 0 && !options.folder.empty()) add_first_views(options, good_light, pictures, result);
     for (Run& run : runs) {
       run.push(pictures, sequence, frame);
       if (options.step && frame <= last_frame(run.turns.back())) options.step(1);

@@ -24,6 +24,7 @@ struct TableOneOptions {
   bool video_bm3d = false;  ///< the run with BM3D takes its profile for video: a fifth of the time, 0.2 dB less
   std::uint64_t seed = 1;
   std::filesystem::path folder;           ///< for the pictures of figures 3 and 5; empty: none
+  std::filesystem::path frames;           ///< of rendered images, of this scenario and seed alone; empty: not kept
   std::function<void(std::size_t)> step;  ///< called with the number of pairs done
 };
 
@@ -38,7 +39,8 @@ std::vector<ComparisonRow> table_one_left_out(bool good_light, const std::vector
 /// freedom), frames without a pose, loops closed.
 ///
 /// A shorter turn is the beginning of a longer one, image by image, so each run processes the longest once and is
-/// evaluated at the end of each (SlamSystem::optimised_trajectory). Runs in the same light use the same images.
+/// evaluated at the end of each (SlamSystem::optimised_trajectory). Runs in the same light use the same images; those
+/// that `frames` has are not rendered again, so give runs of one light alone with it.
 report::PartResult reproduce_table_one(const TableOneOptions& options);
 
 }  // namespace pharos::tools
