@@ -35,8 +35,9 @@ int fuse_points(Map& map, const std::vector<PointId>& points, KeyframeId into, c
 /// fewer than three keyframes observe three keyframes after their creation.
 void cull_points(Map& map, std::vector<PointId>& recent);
 
-/// Removes covisible keyframes of which nine in ten points are observed by three others at least as well; and the
-/// oldest of the covisible ones while the map has more than `most` (0: no limit). Returns how many.
+/// Removes covisible keyframes of which nine in ten points are observed by three others at least as well; and
+/// while the map has more than `maximum` (0: no limit) the one that most of whose points others observe, but the newest
+/// five. Returns how many.
 int cull_keyframes(Map& map, KeyframeId keyframe, KeyframeDatabase* keyframe_database, std::size_t maximum);
 
 }  // namespace pharos::slam

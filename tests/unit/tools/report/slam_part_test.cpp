@@ -7,6 +7,7 @@
 
 #include "tools/evaluation/report/exhibits.hpp"
 #include "tools/evaluation/reproduce/slam/slam_parts.hpp"
+#include "tools/evaluation/reproduce/slam/table_one.hpp"
 
 namespace pharos::tools::report {
 namespace {
@@ -26,6 +27,24 @@ TEST(SlamParts, HaveEveryTableAndFigureOfPaperFour) {
       ADD_FAILURE() << one.label << ": " << words;
     }
   }
+}
+
+// Half a turn with the paper's 20 keyframes: what is dropped must neither bend the rest nor leave its sigmas too small.
+TEST(SlamParts, TwentyKeyframesOverHalfATurnStateTheirError) {
+  TableOneOptions options;
+  options.turns_deg = {180.0};
+  options.runs = {"good-20-keyframes"};
+  options.povray = false;
+  const auto rows = reproduce_table_one(options).rows;
+  const auto figure = [&rows](const std::string& what) {
+    for (const ComparisonRow& row : rows) {
+      if (row.item.starts_with("table 1") && row.what.starts_with(what)) return row.ours.value_or(1e9);
+    }
+    return 1e9;
+  };
+  EXPECT_LT(figure("attitude RMSE"), 0.181);  // as printed
+  EXPECT_LT(figure("attitude errors over stated ones"), 4.0);
+  EXPECT_EQ(figure("frames without a pose"), 0.0);
 }
 
 // What an interrupted run has rendered is read again by the next one: same rows.
