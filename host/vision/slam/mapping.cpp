@@ -45,7 +45,7 @@ bool removable(const Keyframe& keyframe) { return keyframe.parent != kNone && ke
 // The one without which the map loses least: those that stay are spread over what was seen. Of equals the oldest.
 // Rejected: always the oldest but the first, whose window is then bound to the first by the few points that both see,
 // from directions 120 deg apart: 0.59 deg RMSE over 180 deg with sigmas 38 times too small, instead of 0.058 deg.
-KeyframeId least_needed(const Map& map, std::size_t newest_kept) {
+KeyframeId expendable_keyframe(const Map& map, std::size_t newest_kept) {
   KeyframeId best = kNone;
   double most = -1.0;
   std::size_t left = map.keyframes.size();
@@ -181,7 +181,7 @@ int cull_keyframes(Map& map, KeyframeId id, KeyframeDatabase* keyframe_database,
     if (fraction_seen_elsewhere(map, map.keyframes.at(near)) > kRedundantFraction) remove(near);
   }
   while (maximum > 0 && map.keyframes.size() > maximum) {
-    const KeyframeId gone = least_needed(map, std::min(kNewestKept, maximum / 2));
+    const KeyframeId gone = expendable_keyframe(map, std::min(kNewestKept, maximum / 2));
     if (gone == kNone) break;
     remove(gone);
   }
