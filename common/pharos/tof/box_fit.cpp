@@ -116,8 +116,12 @@ class Voter {
     const int left = std::max(0, static_cast<int>(u0 - wide) + 1), top = std::max(0, static_cast<int>(v0 - tall) + 1);
     const int right = std::min(grid_.side() - 1, static_cast<int>(u0 + wide));
     const int bottom = std::min(grid_.side() - 1, static_cast<int>(v0 + tall));
-    float sum = 0.0F;
-    std::array<float, static_cast<std::size_t>(kMaxGridSide)> of_row;
+    // Four sums side by side: one alone waits for each of its additions.
+    constexpr std::size_t kSums = 4;
+    std::array<float, kSums> sums{};
+    std::array<float, static_cast<std::size_t>(kMaxGridSide) + kSums> of_row;
+    const auto count = static_cast<std::size_t>(std::max(0, right - left + 1));
+    std::fill_n(of_row.begin() + static_cast<std::ptrdiff_t>(count), kSums, 0.0F);
     for (int row = top; row <= bottom; ++row) {
       const float dv = static_cast<float>(row) - v0;
       const float* weight = grid_.weights_of(row);
@@ -126,11 +130,13 @@ class Voter {
         const float du = static_cast<float>(column) - u0;
         const float model = along.height(c * du + s * dv) * across.height(c * dv - s * du);
         const float x = 0.5F * (1.0F + vote_at(height[column]));
-        of_row[static_cast<std::size_t>(column)] = weight[column] * model * (2.0F * x - model);
+        of_row[static_cast<std::size_t>(column - left)] = weight[column] * model * (2.0F * x - model);
       }
-      for (int column = left; column <= right; ++column) sum += of_row[static_cast<std::size_t>(column)];
+      for (std::size_t k = 0; k < count; k += kSums) {
+        for (std::size_t i = 0; i < kSums; ++i) sums[i] += of_row[k + i];
+      }
     }
-    return sum;
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
 
  private:

@@ -13,12 +13,10 @@
 namespace pharos::tof {
 namespace {
 
-using Matrix37 = Eigen::Matrix<double, 3, 7>;
-
-constexpr int kRounds = 3;
-// The ellipses' own edges are at most a pixel off; after the first round half of that is left.
-constexpr std::array<double, kRounds> kSearch_px = {3.0, 2.0, 2.0};
-constexpr int kLightRounds = 2;
+// The ellipses' own edges are at most a pixel off; after the first round half of that is left. Where all pixels have
+// the last word, two rounds are a good start for them.
+constexpr std::array<double, 2> kSearch_px = {3.0, 2.0};
+constexpr double kLastSearch_px = 2.0;
 // Error of what blur does to the plane, over itself: it comes from the tails of the blur, of which the edges show only
 // the width.
 constexpr double kBiasSigma = 1.0;
@@ -184,12 +182,17 @@ bool is_sane(const RingModel& model) {
          model.radius_m[1] > 0.0 && model.radius_m[1] < model.radius_m[0] && model.normal.dot(model.centre_m) < 0.0;
 }
 
-// The plane of the depths without what the light from behind does to it.
-DepthPlane without_bias(const DepthPlane& plane, const RingModel& model, const Vector3& bias) {
-  const PlaneAxes axes = axes_of(plane.normal());
-  const Vector3 normal = plane.normal() + bias.y() * axes.first + bias.z() * axes.second;
-  const Vector3 middle = model.centre_m / plane.q.dot(model.centre_m) - bias.x() * plane.normal();
-  return {normal / normal.dot(middle)};
+// By what the light from behind does to it (RingLight::plane_bias): how q changes once that is subtracted.
+Matrix3 q_by_bias(const DepthPlane& plane, const RingModel& model) {
+  const Vector3 normal = plane.normal();
+  const PlaneAxes axes = axes_of(normal);
+  const Vector3 middle = model.centre_m / plane.q.dot(model.centre_m);
+  const double distance = normal.dot(middle);
+  Matrix3 slope;
+  slope.col(0) = normal / (distance * distance);
+  slope.col(1) = axes.first / distance - normal * (axes.first.dot(middle) / (distance * distance));
+  slope.col(2) = axes.second / distance - normal * (axes.second.dot(middle) / (distance * distance));
+  return slope;
 }
 
 // Effect of an error of that correction: turns, and the centre along its ray.
@@ -204,25 +207,39 @@ Matrix7 bias_noise(const RingModel& model, const Vector3& bias) {
   return kBiasSigma * kBiasSigma * moves * moves.transpose();
 }
 
-// All pixels about both edges in place of the edges' steepest points; returns the bias of the depths' plane.
-std::optional<Vector3> refine_by_light(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
-                                       const PlaneFit& plane, const Vector3& bias, const RingPrior& prior,
-                                       RingLightWorkspace& workspace, RingFit& fit) {
+// The steepest points of both edges, searched about the model so far; false where they do not determine the ring.
+bool refine_by_edges(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const PlaneFit& plane,
+                     const RingPrior& prior, double search_px, RingFitWorkspace& workspace, RingFit& fit) {
+  for (const RingEdge edge : kRingEdges) {
+    fit.seen =
+        find_ring_edges(frame, camera, rays, fit.model, edge, search_px, prior, workspace.points[index_of(edge)]);
+  }
+  const auto solved = solve_round(camera, fit.model, plane, workspace);
+  if (!solved) return false;
+  fit.model = moved(fit.model, axes_of(fit.model.normal), solved->step);
+  if (!is_sane(fit.model)) return false;
+  fit.covariance = solved->covariance;
+  fit.edge_points = solved->edge_points;
+  fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
+  fit.plane_chi2 = solved->plane_chi2;
+  return true;
+}
+
+// All pixels about both edges in place of the edges' steepest points; false where too few are seen.
+bool refine_by_light(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays, const PlaneFit& plane,
+                     const RingPrior& prior, RingLightWorkspace& workspace, RingFit& fit) {
   const PlaneAxes axes = axes_of(fit.model.normal);
-  const Matrix37 by_plane = plane_jacobian(fit.model, axes);
-  const Vector3 offset = without_bias(plane.plane, fit.model, bias).q - fit.model.plane().q;
-  const RingKnowledge known{by_plane.transpose() * plane.information * by_plane,
-                            by_plane.transpose() * (plane.information * offset)};
+  const RingKnowledge known{plane_jacobian(fit.model, axes), plane.information, plane.plane.q - fit.model.plane().q,
+                            q_by_bias(plane.plane, fit.model)};
   const auto light = fit_ring_light(frame, camera, rays, fit.model, prior, known, plane.margin_px, workspace);
-  if (!light) return std::nullopt;
+  if (!light) return false;
   const RingModel model = moved(fit.model, axes, light->step);
-  if (!is_sane(model)) return std::nullopt;
-  const Vector3 left = offset - by_plane * light->step;
+  if (!is_sane(model)) return false;
   fit.model = model;
-  fit.plane_chi2 = left.dot(plane.information * left);
+  fit.plane_chi2 = light->plane_chi2;
   fit.covariance = light->covariance * (fit.plane_chi2 > kDoubtful ? fit.plane_chi2 / 3.0 : 1.0);
   fit.covariance += bias_noise(model, light->plane_bias);
-  return light->plane_bias;
+  return true;
 }
 
 // Points of an ellipse's contour on a plane, and the circle through them.
@@ -281,24 +298,11 @@ std::optional<RingFit> fit_ring(const TofFrame& frame, const DepthCamera& camera
   const double ratio = start.centre_m.z() / noise.range_m;
   const RingPrior prior{4.0 * std::max(plane.rms_m, noise.sigma_m * ratio * ratio), plane.amplitude, min_step_m};
   for (const double search_px : kSearch_px) {
-    for (const RingEdge edge : kRingEdges) {
-      fit.seen =
-          find_ring_edges(frame, camera, rays, fit.model, edge, search_px, prior, workspace.points[index_of(edge)]);
-    }
-    const auto solved = solve_round(camera, fit.model, plane, workspace);
-    if (!solved) return std::nullopt;
-    fit.model = moved(fit.model, axes_of(fit.model.normal), solved->step);
-    if (!is_sane(fit.model)) return std::nullopt;
-    fit.covariance = solved->covariance;
-    fit.edge_points = solved->edge_points;
-    fit.edge_rms_px = std::sqrt(solved->edge_squares / solved->edge_points);
-    fit.plane_chi2 = solved->plane_chi2;
+    if (!refine_by_edges(frame, camera, rays, plane, prior, search_px, workspace, fit)) return std::nullopt;
   }
-  Vector3 bias = Vector3::Zero();
-  for (int round = 0; round < kLightRounds; ++round) {
-    const auto refined = refine_by_light(frame, camera, rays, plane, bias, prior, workspace.light, fit);
-    if (!refined) break;
-    bias = *refined;
+  if (!refine_by_light(frame, camera, rays, plane, prior, workspace.light, fit) &&
+      !refine_by_edges(frame, camera, rays, plane, prior, kLastSearch_px, workspace, fit)) {
+    return std::nullopt;
   }
   fit.covariance += common_noise(fit.model, noise.common_sigma_m) + common_place(camera, fit.model);
   fit.plane_rms_m = plane.rms_m;

@@ -2,6 +2,7 @@
 #include "pharos/tof/ring_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pharos/geometry/positive_inverse.hpp"
@@ -13,16 +14,15 @@ namespace pharos::tof {
 namespace {
 
 using Vector10 = Eigen::Matrix<double, 10, 1>;
-using Vector5 = Eigen::Matrix<double, 5, 1>;
-using Matrix5 = Eigen::Matrix<double, 5, 5>;
-using RowsByProfile = Eigen::Matrix<double, 10, 5>;
 using Matrix10 = Eigen::Matrix<double, 10, 10>;
 
 // Of the unknowns, after the ring's seven: logarithm of the blur, brightness of the outer and the inner wall.
 constexpr int kBlurAt = 7;
 constexpr int kWallsAt = 8;
 
-constexpr int kLightSteps = 3;
+// Steps before the light from behind is subtracted from the plane, and after.
+constexpr int kFirstSteps = 2;
+constexpr int kLastSteps = 2;
 // Pixel and lens together blur an edge by this much (1 sigma): a pixel's own width is 0.29 px, lenses double or treble
 // that. The deviation is of its logarithm.
 constexpr double kRingBlur_px = 0.6;
@@ -37,13 +37,131 @@ constexpr double kBeyond_px = 3.0;
 constexpr double kWallLikeFace = 0.9;
 // Residuals larger than this many deviations count as much as one of that size (Huber).
 constexpr double kLightHuber = 2.0;
-// Per px of an edge: a pixel that says less of its place does not count for the noise that neighbours share.
-constexpr double kMinSlope = 0.05;
 // Pixels of a sector's face below which its light is that of the whole ring.
 constexpr double kMinSectorSquare = 4.0;
 // Scatter over the face's light before anything is fitted.
 constexpr double kFirstScatter = 0.2;
 constexpr std::size_t kMinLightPixels = 200;
+// The scatter is that of so many residuals at most: a fortieth of itself is uncertain.
+constexpr std::size_t kMaxScatterSizes = 1024;
+
+// Which pixels are fitted, and their light from the ring's height.
+class ColumnFiller {
+ public:
+  ColumnFiller(const RingPixels& pixels, const RingPrior& prior, RingLightColumns& columns)
+      : pixels_(pixels), prior_(prior), columns_(columns) {}
+
+  /// How many there are.
+  std::size_t fill() {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      columns_.begin[k] = static_cast<std::uint16_t>(next_);
+      for (const RingPixel& pixel : pixels_.of(k)) add(pixel, pixels_.directions[k]);
+      columns_.count[k] = static_cast<std::uint16_t>(next_ - columns_.begin[k]);
+      count += columns_.count[k];
+      while (next_ % kLightLanes != 0) {
+        columns_.beyond_px[next_] = kFarBeyond_px;
+        columns_.layer[next_++] = 0.0F;
+      }
+    }
+    return count;
+  }
+
+ private:
+  void add(const RingPixel& pixel, const RingDirection& one) {
+    const std::array<double, 2> beyond = {double{pixel.beyond_outer_px},
+                                          one.beyond_px(double{pixel.beyond_outer_px}, 1)};
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (one.foot_px[e] > 0.0 && one.wall[e] > kWallLikeFace && beyond[e] > -kFace_px) return;
+      if (beyond[e] > one.foot_px[e] + kBeyond_px) return;
+    }
+    const double base = base_of(one, beyond[0] > beyond[1] ? 0 : 1);
+    if (!(base < 0.0)) return;
+    columns_.beyond_px[next_] = pixel.beyond_outer_px;
+    columns_.layer[next_++] =
+        static_cast<float>(static_cast<double>(pixel.light) * std::max(-1.0, 1.0 - double{pixel.height_m} / base));
+  }
+
+  // Depth of what is beyond the edge that a pixel is nearer to; 0 where that is not known to lie behind the ring.
+  double base_of(const RingDirection& one, std::size_t e) const {
+    double base = one.base_m[e];
+    if (one.foot_px[e] > 0.0 || base == 0.0) base = std::min(base, -pixels_.base_m);
+    return base < -prior_.min_step_m ? base : 0.0;
+  }
+
+  const RingPixels& pixels_;
+  const RingPrior& prior_;
+  RingLightColumns& columns_;
+  std::size_t next_ = 0;
+};
+
+// Sums of the unknowns beside a sector's light, which is eliminated.
+struct LightOfSector {
+  Vector10 with = Vector10::Zero();
+  double square = 0.0, right = 0.0;
+
+  bool is_known() const { return square > kMinSectorSquare; }
+};
+
+// Normal equations of a pass; the lower triangle is filled.
+class LightEquations {
+ public:
+  Matrix10 normal = Matrix10::Zero();
+  Vector10 right = Vector10::Zero();
+  std::array<LightOfSector, kRingSectors> sectors;
+  std::array<SectorSums, 2> shared;
+
+  void add(const RingDirection& one, const RingLightSums& sums, LightOfSector& sector) {
+    if (!(sums.light_square > 0.0)) return;
+    const Vector7 &a = one.row[0], &b = one.row[1];
+    const Vector7 of_a = sums.normal_at(0, 0) * a + sums.normal_at(1, 0) * b,
+                  of_b = sums.normal_at(1, 0) * a + sums.normal_at(1, 1) * b;
+    const auto wall = static_cast<int>(wall_side(one)) + kWallsAt;
+    for (int i = 0; i < 7; ++i) {
+      for (int k = 0; k <= i; ++k) normal(i, k) += a[i] * of_a[k] + b[i] * of_b[k];
+      normal(kBlurAt, i) += sums.normal_at(2, 0) * a[i] + sums.normal_at(2, 1) * b[i];
+      normal(wall, i) += sums.normal_at(3, 0) * a[i] + sums.normal_at(3, 1) * b[i];
+    }
+    normal(kBlurAt, kBlurAt) += sums.normal_at(2, 2);
+    normal(wall, kBlurAt) += sums.normal_at(3, 2);
+    normal(wall, wall) += sums.normal_at(3, 3);
+    add_rows(one, sums.right, wall, right);
+    add_rows(one, sums.with_light, wall, sector.with);
+    sector.square += sums.light_square;
+    sector.right += sums.light_right;
+    for (std::size_t e = 0; e < 2; ++e) {
+      const RingLightSums::Shared& part = sums.shared[e];
+      shared[e].add_many(one.plan.x(), one.plan.y(), static_cast<int>(part.count + 0.5), part.weights, part.sum,
+                         part.squares);
+    }
+  }
+
+  // Once all directions are in.
+  void eliminate_light() {
+    for (const LightOfSector& sector : sectors) {
+      if (!sector.is_known()) continue;
+      for (int i = 0; i < 10; ++i) {
+        for (int k = 0; k <= i; ++k) normal(i, k) -= sector.with[i] * sector.with[k] / sector.square;
+      }
+      right -= (sector.right / sector.square) * sector.with;
+    }
+    for (int i = 0; i < 10; ++i) {
+      for (int k = 0; k < i; ++k) normal(k, i) = normal(i, k);
+    }
+  }
+
+  double variance_inflation() const {
+    return 0.5 * (shared[0].variance_inflation(4) + shared[1].variance_inflation(4));
+  }
+
+ private:
+  static void add_rows(const RingDirection& one, const std::array<double, RingLightSums::kUnknowns>& values, int wall,
+                       Vector10& to) {
+    to.head<7>() += values[0] * one.row[0] + values[1] * one.row[1];
+    to[kBlurAt] += values[2];
+    to[wall] += values[3];
+  }
+};
 
 class RingLightFitter {
  public:
@@ -53,147 +171,97 @@ class RingLightFitter {
 
   std::optional<RingLight> fit(double margin_px) {
     work_.blur_px = kRingBlur_px;
-    walls_ = {1.0, 1.0};
-    step_.setZero();
-    Matrix10 covariance = Matrix10::Zero();
-    double sigma = 0.0;
     for (RingDirection& one : work_.directions) {
       one.light = 0.0;
       one.moved_px = {0.0, 0.0};
     }
-    if (!pass(sigma) || !take_light()) return std::nullopt;
-    sigma = kFirstScatter * work_.directions[0].light;
-    for (int k = 0; k < kLightSteps; ++k) {
-      if (!solve(sigma, covariance)) return std::nullopt;
+    used_ = ColumnFiller(work_, prior_, work_.columns).fill();
+    if (used_ < kMinLightPixels || !take_light()) return std::nullopt;
+    RingLight result;
+    for (int k = 0; k < kFirstSteps + kLastSteps; ++k) {
+      if (k == kFirstSteps) result.plane_bias = plane_bias(margin_px);
+      if (!solve(known_.offset + known_.by_bias * result.plane_bias, result.covariance)) return std::nullopt;
     }
-    return RingLight{step_, covariance.topLeftCorner<7, 7>(), plane_bias(margin_px), used_};
+    result.plane_bias = plane_bias(margin_px);
+    result.step = step_;
+    const Vector3 left = known_.offset + known_.by_bias * result.plane_bias - known_.by_step * step_;
+    result.plane_chi2 = left.dot(known_.information * left);
+    return result;
   }
 
  private:
-  // Depth of what is beyond the edge that the pixel is nearer to; 0 where that is not known to lie behind the ring.
-  double base_of(const RingPixel& pixel, const RingDirection& one) const {
-    const std::size_t e = work_.beyond_px(pixel, 0) > work_.beyond_px(pixel, 1) ? 0 : 1;
-    double base = one.base_m[e];
-    if (one.foot_px[e] > 0.0 || base == 0.0) base = std::min(base, -work_.base_m);
-    return base < -prior_.min_step_m ? base : 0.0;
-  }
-
-  struct Observed {
-    double layer = 0.0;
-    EdgeProfile::Value profile;
-    std::array<double, 2> by_edge{};
-    std::array<double, 2> by_wall{};
-  };
-
-  // Across the direction's bar: place from its middle, with the wall of the side where one is in sight.
-  bool observe(const RingPixel& pixel, Observed& seen) const {
-    const RingDirection& one = work_.directions[pixel.direction];
-    for (std::size_t e = 0; e < 2; ++e) {
-      if (one.foot_px[e] > 0.0 && one.wall[e] > kWallLikeFace && work_.beyond_px(pixel, e) > -kFace_px) return false;
-      if (work_.beyond_px(pixel, e) > one.foot_px[e] + kBeyond_px) return false;
-    }
-    const double base = base_of(pixel, one);
-    if (!(base < 0.0)) return false;
-    seen.layer = static_cast<double>(pixel.light) * std::max(-1.0, 1.0 - double{pixel.height_m} / base);
-    const double outer = work_.beyond_px(pixel, 0) - one.moved_px[0],
-                 inner = -work_.beyond_px(pixel, 1) - one.moved_px[1];
-    const std::size_t side = one.foot_px[0] >= one.foot_px[1] ? 0 : 1;
-    const EdgeProfile across{0.5 * (inner - outer), work_.blur_px, side == 0 ? one.foot_px[0] : -one.foot_px[1]};
-    seen.profile = across.at(0.5 * (inner + outer), walls_[side] * one.wall[side]);
-    // An edge that moves outwards moves the middle and half of the width.
-    seen.by_edge = {0.5 * (seen.profile.by_half - seen.profile.by_place),
-                    0.5 * (-seen.profile.by_half - seen.profile.by_place)};
-    seen.by_wall = {0.0, 0.0};
-    seen.by_wall[side] = seen.profile.by_wall * one.wall[side];
-    return true;
-  }
-
-  // All pixels once: sums about the present profile, and the scatter for the next time. `sigma`: 0 for the first time,
-  // when only the face's light is wanted.
-  bool pass(double& sigma) {
-    for (RingDirectionSums& one : work_.sums) {
-      one.normal.setZero();
-      one.right.setZero();
-      one.with_light.setZero();
-      one.light_square = one.light_right = 0.0;
-    }
-    std::array<SectorSums, 2> shared;
-    std::size_t count = 0;
-    Observed seen;
-    for (const RingPixel& pixel : work_.pixels) {
-      if (!observe(pixel, seen)) continue;
-      const RingDirection& one = work_.directions[pixel.direction];
-      RingDirectionSums& sums = work_.sums[pixel.direction];
-      const double residual = seen.layer - one.light * seen.profile.value;
-      const double size = std::fabs(residual);
-      work_.sizes[count++] = static_cast<float>(size);
-      const double weight = sigma > 0.0 && size > kLightHuber * sigma ? kLightHuber * sigma / size : 1.0;
-      sums.light_square += weight * seen.profile.value * seen.profile.value;
-      sums.light_right += weight * residual * seen.profile.value;
-      if (!(sigma > 0.0)) continue;
-      Vector5 row;
-      row << seen.by_edge[0], seen.by_edge[1], seen.profile.by_blur, seen.by_wall[0], seen.by_wall[1];
-      row *= one.light;
-      add_outer<5>(sums.normal, row, weight);
-      sums.right += weight * residual * row;
-      sums.with_light += weight * seen.profile.value * row;
-      for (std::size_t e = 0; e < 2; ++e) {
-        if (std::fabs(seen.by_edge[e]) < kMinSlope) continue;
-        shared[e].add(one.plan.x(), one.plan.y(), row[static_cast<int>(e)] * row[static_cast<int>(e)],
-                      weight * residual / row[static_cast<int>(e)]);
-      }
-    }
-    used_ = static_cast<std::int32_t>(count);
-    if (count < kMinLightPixels) return false;
-    inflation_ = 0.5 * (shared[0].variance_inflation(4) + shared[1].variance_inflation(4));
-    const auto middle = work_.sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(work_.sizes.begin(), middle, work_.sizes.begin() + static_cast<std::ptrdiff_t>(count));
-    sigma = std::max(1e-3 * prior_.amplitude, kMedianToSigma * double{*middle});
-    return true;
-  }
-
-  // The sectors' light from the last pass alone, before edges and blur are fitted.
+  // The face's light over the whole ring, before edges and blur are fitted.
   bool take_light() {
     double square = 0.0, right = 0.0;
-    for (const RingDirectionSums& sums : work_.sums) {
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      const RingLightSums sums = light_sums(work_.directions[k], k, {work_.blur_px, walls_, 0.0}, work_.columns);
       square += sums.light_square;
       right += sums.light_right;
     }
     if (!(square > 0.0) || !(right > 0.0)) return false;
     for (RingDirection& one : work_.directions) one.light = right / square;
+    sigma_ = kFirstScatter * right / square;
     return true;
   }
 
-  // Expands the directions' sums to the unknowns and eliminates the sectors' light.
-  void expand(Matrix10& normal, Vector10& right) {
-    for (std::size_t s = 0; s < kRingSectors; ++s) {
-      Vector10 with_light = Vector10::Zero();
-      double square = 0.0, light_right = 0.0;
-      for (std::size_t k = s * kDirectionsTogether; k < (s + 1) * kDirectionsTogether; ++k) {
-        const RingDirectionSums& sums = work_.sums[k];
-        if (!(sums.light_square > 0.0)) continue;
-        const RowsByProfile rows = rows_of(work_.directions[k]);
-        const RowsByProfile half = rows.lazyProduct(sums.normal);
-        normal += half.lazyProduct(rows.transpose());
-        right += rows.lazyProduct(sums.right);
-        with_light += rows.lazyProduct(sums.with_light);
-        square += sums.light_square;
-        light_right += sums.light_right;
-      }
-      sector_with_light_[s] = with_light;
-      sector_square_[s] = square;
-      sector_right_[s] = light_right;
-      if (!(square > kMinSectorSquare)) continue;
-      add_outer<10>(normal, with_light, -1.0 / square);
-      right -= (light_right / square) * with_light;
+  // Scatter of the last pass, for the weights of the next.
+  double scatter() const {
+    std::array<float, kMaxScatterSizes> sizes;
+    const std::size_t every = 1 + used_ / kMaxScatterSizes;
+    std::size_t count = 0, skip = 0;
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      const std::size_t begin = work_.columns.begin[k], end = begin + work_.columns.count[k];
+      std::size_t i = begin + skip;
+      for (; i < end; i += every) sizes[count++] = work_.columns.size[i];
+      skip = i - end;
     }
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(sizes.begin(), middle, sizes.begin() + static_cast<std::ptrdiff_t>(count));
+    return std::max(1e-3 * prior_.amplitude, kMedianToSigma * double{*middle});
+  }
+
+  bool solve(const Vector3& plane_offset, Matrix7& covariance) {
+    LightEquations equations;
+    const RingProfile profile{work_.blur_px, walls_, kLightHuber * sigma_};
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      equations.add(work_.directions[k], light_sums(work_.directions[k], k, profile, work_.columns),
+                    equations.sectors[k / kDirectionsTogether]);
+    }
+    equations.eliminate_light();
+    const double unit = 1.0 / (sigma_ * sigma_ * equations.variance_inflation());
+    sigma_ = scatter();
+    Matrix10 normal = unit * equations.normal;
+    Vector10 right = unit * equations.right;
+    add_prior(plane_offset, normal, right);
+    const auto inverse = positive_inverse<10>(normal);
+    if (!inverse) return false;
+    const Vector10 change = inverse->lazyProduct(right);
+    if (!change.allFinite()) return false;
+    change_light(equations.sectors, change);
+    take(change);
+    covariance = inverse->topLeftCorner<7, 7>();
+    return true;
+  }
+
+  void add_prior(const Vector3& plane_offset, Matrix10& normal, Vector10& right) const {
+    constexpr double kOfBlur = 1.0 / (kRingBlurSigma * kRingBlurSigma),
+                     kOfWall = 1.0 / (kWallLightSigma * kWallLightSigma);
+    normal(kBlurAt, kBlurAt) += kOfBlur;
+    right[kBlurAt] -= kOfBlur * std::log(work_.blur_px / kRingBlur_px);
+    for (int e = 0; e < 2; ++e) {
+      normal(kWallsAt + e, kWallsAt + e) += kOfWall;
+      right[kWallsAt + e] += kOfWall * (1.0 - walls_[static_cast<std::size_t>(e)]);
+    }
+    const Matrix37 weighted = known_.information.lazyProduct(known_.by_step);
+    normal.topLeftCorner<7, 7>() += known_.by_step.transpose().lazyProduct(weighted);
+    right.head<7>() += weighted.transpose() * (plane_offset - known_.by_step * step_);
   }
 
   // The sectors' light that goes with a change of the other unknowns.
-  void change_light(const Vector10& change) {
+  void change_light(const std::array<LightOfSector, kRingSectors>& sectors, const Vector10& change) {
     for (std::size_t s = 0; s < kRingSectors; ++s) {
-      if (!(sector_square_[s] > kMinSectorSquare)) continue;
-      const double by = (sector_right_[s] - sector_with_light_[s].dot(change)) / sector_square_[s];
+      if (!sectors[s].is_known()) continue;
+      const double by = (sectors[s].right - sectors[s].with.dot(change)) / sectors[s].square;
       for (std::size_t k = s * kDirectionsTogether; k < (s + 1) * kDirectionsTogether; ++k) {
         double& light = work_.directions[k].light;
         light = std::clamp(light + by, 0.5 * light, 2.0 * light);
@@ -201,45 +269,14 @@ class RingLightFitter {
     }
   }
 
-  static RowsByProfile rows_of(const RingDirection& one) {
-    RowsByProfile rows = RowsByProfile::Zero();
-    rows.col(0).head<7>() = one.row[0];
-    rows.col(1).head<7>() = one.row[1];
-    for (int k = 2; k < 5; ++k) rows(5 + k, k) = 1.0;
-    return rows;
-  }
-
-  bool solve(double& sigma, Matrix10& covariance) {
-    Matrix10 normal = Matrix10::Zero();
-    Vector10 right = Vector10::Zero();
-    const double scatter = sigma;
-    if (!pass(sigma)) return false;
-    expand(normal, right);
-    const double unit = 1.0 / (scatter * scatter * inflation_);
-    normal *= unit;
-    right *= unit;
-    const double blurred = std::log(work_.blur_px / kRingBlur_px);
-    normal(kBlurAt, kBlurAt) += 1.0 / (kRingBlurSigma * kRingBlurSigma);
-    right[kBlurAt] -= blurred / (kRingBlurSigma * kRingBlurSigma);
-    for (int e = 0; e < 2; ++e) {
-      normal(kWallsAt + e, kWallsAt + e) += 1.0 / (kWallLightSigma * kWallLightSigma);
-      right[kWallsAt + e] += (1.0 - walls_[static_cast<std::size_t>(e)]) / (kWallLightSigma * kWallLightSigma);
-    }
-    normal.topLeftCorner<7, 7>() += known_.information;
-    right.head<7>() += known_.right - known_.information.lazyProduct(step_);
-    const auto inverse = positive_inverse<10>(normal);
-    if (!inverse) return false;
-    const Vector10 change = inverse->lazyProduct(right);
-    if (!change.allFinite()) return false;
-    change_light(change);
+  void take(const Vector10& change) {
     step_ += change.head<7>();
     for (RingDirection& one : work_.directions) one.moved_px = {one.row[0].dot(step_), one.row[1].dot(step_)};
-    work_.blur_px = kRingBlur_px * std::exp(std::clamp(blurred + change[kBlurAt], -1.0, 1.0));
+    const double blurred = std::log(work_.blur_px / kRingBlur_px) + change[kBlurAt];
+    work_.blur_px = kRingBlur_px * std::exp(std::clamp(blurred, -1.0, 1.0));
     for (std::size_t e = 0; e < 2; ++e) {
       walls_[e] = std::clamp(walls_[e] + change[kWallsAt + static_cast<int>(e)], 0.0, 1.5);
     }
-    covariance = *inverse;
-    return true;
   }
 
   // Light times height, counts m, that comes from beyond an edge: the surroundings from the foot of a wall in sight on,
@@ -262,18 +299,20 @@ class RingLightFitter {
     Matrix3 normal = Matrix3::Zero();
     Vector3 right = Vector3::Zero();
     const double scale = 1.0 / (prior_.amplitude * prior_.amplitude);
-    for (const RingPixel& pixel : work_.pixels) {
-      const RingDirection& one = work_.directions[pixel.direction];
-      const double outer = work_.beyond_px(pixel, 0) - one.moved_px[0],
-                   inner = work_.beyond_px(pixel, 1) + one.moved_px[1];
-      if (outer > -margin_px || inner > -margin_px || pixel.light == 0) continue;
-      const double light = pixel.light;
-      const double bias = (moment_from_behind(one, 0, outer) + moment_from_behind(one, 1, inner)) / light;
-      const double r = model_.radius_m[0] + double{pixel.beyond_outer_px} / one.per_m[0];
-      const Vector3 row(1.0, r * one.plan.x(), r * one.plan.y());
-      const double weight = std::clamp(light * light * scale, 0.25, 4.0);
-      normal += weight * row * row.transpose();
-      right += weight * bias * row;
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      const RingDirection& one = work_.directions[k];
+      for (const RingPixel& pixel : work_.of(k)) {
+        const double outer = double{pixel.beyond_outer_px} - one.moved_px[0],
+                     inner = one.beyond_px(double{pixel.beyond_outer_px}, 1) + one.moved_px[1];
+        if (outer > -margin_px || inner > -margin_px || pixel.light == 0) continue;
+        const double light = pixel.light;
+        const double bias = (moment_from_behind(one, 0, outer) + moment_from_behind(one, 1, inner)) / light;
+        const double r = model_.radius_m[0] + double{pixel.beyond_outer_px} / one.per_m[0];
+        const Vector3 row(1.0, r * one.plan.x(), r * one.plan.y());
+        const double weight = std::clamp(light * light * scale, 0.25, 4.0);
+        add_outer<3>(normal, row, weight);
+        right += (weight * bias) * row;
+      }
     }
     const auto inverse = positive_inverse<3>(normal);
     return inverse ? Vector3(*inverse * right) : Vector3(Vector3::Zero());
@@ -285,10 +324,8 @@ class RingLightFitter {
   RingLightWorkspace& work_;
   std::array<double, 2> walls_{1.0, 1.0};
   Vector7 step_ = Vector7::Zero();
-  std::array<Vector10, kRingSectors> sector_with_light_;
-  std::array<double, kRingSectors> sector_square_{}, sector_right_{};
-  double inflation_ = 1.0;
-  std::int32_t used_ = 0;
+  double sigma_ = 0.0;
+  std::size_t used_ = 0;
 };
 
 }  // namespace

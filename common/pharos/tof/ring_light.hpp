@@ -1,41 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 
-#include "pharos/tof/ring_pixels.hpp"
+#include "pharos/tof/ring_light_sums.hpp"
 
 namespace pharos::tof {
+
+using Matrix37 = Eigen::Matrix<double, 3, 7>;
+
+/// What is known of the step beforehand, by the plane of the depths: by_step * step = offset + by_bias * bias.
+struct RingKnowledge {
+  Matrix37 by_step = Matrix37::Zero();
+  Matrix3 information = Matrix3::Zero();
+  Vector3 offset = Vector3::Zero();
+  Matrix3 by_bias = Matrix3::Zero();
+};
 
 /// The most probable step of the ring's unknowns from a model, by the pixels about it and what was known before.
 struct RingLight {
   Vector7 step = Vector7::Zero();
   Matrix7 covariance = Matrix7::Zero();
   /// What the light from behind, that blur mixes into the ring's pixels, does to the plane of their depths: its height
-  /// over the true one is x + y X + z Y at (X, Y) along axes_of from the ring's middle, m and m/m.
+  /// over the true one is x + y X + z Y at (X, Y) along axes_of from the ring's middle, m and m/m. It is subtracted.
   Vector3 plane_bias = Vector3::Zero();
-  std::int32_t pixels = 0;
-};
-/// What is known of the step beforehand: information * step = right.
-struct RingKnowledge {
-  Matrix7 information = Matrix7::Zero();
-  Vector7 right = Vector7::Zero();
-};
-
-/// Sums over the pixels of one direction, of which only the profile differs. Unknowns: the two edges' places, the blur,
-/// the two walls' brightness; and the face's light, which sectors have of their own.
-struct RingDirectionSums {
-  Eigen::Matrix<double, 5, 5> normal;
-  Eigen::Matrix<double, 5, 1> right, with_light;
-  double light_square = 0.0, light_right = 0.0;
+  double plane_chi2 = 0.0;  ///< disagreement with what was known: three degrees of freedom
 };
 
 struct RingLightWorkspace : RingPixels {
-  std::array<RingDirectionSums, kRingDirections> sums;
+  RingLightColumns columns;
   double blur_px = 0.0;  ///< of lens and pixel together, standard deviation
-  std::array<float, kMaxRingPixels> sizes;
 };
 
 /// The pixels within some px of the ring's edges, by the light that comes from the ring's height (layer_intensity.hpp):

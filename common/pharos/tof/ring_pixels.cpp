@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pharos/tof/constants.hpp"
 #include "pharos/tof/ellipse_rows.hpp"
@@ -52,6 +53,7 @@ class Gatherer {
       if (!place_direction(k)) return false;
     }
     if (!take_pixels()) return false;
+    sort_pixels();
     take_surroundings();
     return true;
   }
@@ -78,6 +80,7 @@ class Gatherer {
       one.foot_px[e] = one.base_m[e] = one.base_light[e] = 0.0;
     }
     one.width_px = (model_.radius_m[0] - model_.radius_m[1]) * one.per_m[1];
+    one.inner_scale = one.per_m[1] / one.per_m[0];
     one.seen = on_plane(frame_, camera_, model_.centre_m + 0.5 * (model_.radius_m[0] + model_.radius_m[1]) * outwards,
                         prior_.depth_gate_m);
     return one.per_m[0] > 0.0 && one.per_m[1] > 0.0;
@@ -130,20 +133,40 @@ class Gatherer {
                                   static_cast<float>(height), bright, static_cast<std::uint16_t>(k)});
   }
 
+  void sort_pixels() {
+    work_.begin.fill(0);
+    for (const RingPixel& pixel : work_.pixels) ++work_.begin[pixel.direction + 1U];
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      work_.begin[k + 1] = static_cast<std::uint16_t>(work_.begin[k + 1] + work_.begin[k]);
+    }
+    // In place: whatever lies in a direction's part goes to its own, until one of this direction comes.
+    std::array<std::uint16_t, kRingDirections> next;
+    std::copy_n(work_.begin.begin(), kRingDirections, next.begin());
+    for (std::size_t k = 0; k < kRingDirections; ++k) {
+      while (next[k] < work_.begin[k + 1]) {
+        RingPixel& pixel = work_.pixels[next[k]];
+        std::swap(pixel, work_.pixels[next[pixel.direction]++]);
+      }
+    }
+  }
+
   // Height and light behind either edge: first without walls, for their feet; then beyond these.
   void take_surroundings() {
     std::array<double, 2 * kRingSectors> depths{};
     for (int pass = 0; pass < 2; ++pass) {
       std::array<std::array<double, kRingSectors>, 2> light{}, moment{};
       std::array<std::array<int, kRingSectors>, 2> count{};
-      for (const RingPixel& pixel : work_.pixels) {
-        const auto k = pixel.direction;
-        for (std::size_t e = 0; e < 2; ++e) {
-          const double away = work_.beyond_px(pixel, e) - work_.directions[k].foot_px[e];
-          if (away < kBehind_px || away > kLightReach_px) continue;
-          light[e][k / kDirectionsTogether] += static_cast<double>(pixel.light);
-          moment[e][k / kDirectionsTogether] += static_cast<double>(pixel.light) * double{pixel.height_m};
-          ++count[e][k / kDirectionsTogether];
+      for (std::size_t k = 0; k < kRingDirections; ++k) {
+        const RingDirection& one = work_.directions[k];
+        const std::size_t s = k / kDirectionsTogether;
+        for (const RingPixel& pixel : work_.of(k)) {
+          for (std::size_t e = 0; e < 2; ++e) {
+            const double away = one.beyond_px(double{pixel.beyond_outer_px}, e) - one.foot_px[e];
+            if (away < kBehind_px || away > kLightReach_px) continue;
+            light[e][s] += static_cast<double>(pixel.light);
+            moment[e][s] += static_cast<double>(pixel.light) * double{pixel.height_m};
+            ++count[e][s];
+          }
         }
       }
       std::size_t known = 0;

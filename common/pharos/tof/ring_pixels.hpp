@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "pharos/base/static_vector.hpp"
 #include "pharos/tof/ring_edges.hpp"
@@ -27,6 +28,7 @@ struct RingDirection {
   std::array<Vector7, 2> row;      ///< by RingEdge
   std::array<double, 2> per_m{};   ///< px per metre of radius
   double width_px = 0.0;           ///< between the edges, by the inner one's scale
+  double inner_scale = 1.0;        ///< of that scale over the outer edge's
   /// Of a wall in sight beyond the edge: width of its image, px (0: none), light over the face's by the cosine law.
   std::array<double, 2> foot_px{}, wall{};
   std::array<double, 2> base_m{};      ///< height behind the edge; 0: not known
@@ -34,6 +36,11 @@ struct RingDirection {
   double light = 0.0;                  ///< of the ring's face, counts
   std::array<double, 2> moved_px{};    ///< by the step so far
   bool seen = false;
+
+  /// How far beyond an edge, away from the ring's face, px; from how far beyond the outer one.
+  double beyond_px(double beyond_outer_px, std::size_t edge) const {
+    return edge == 0 ? beyond_outer_px : -(width_px + beyond_outer_px * inner_scale);
+  }
 };
 
 /// Directions whose surroundings, and whose face's light, are taken together.
@@ -41,16 +48,13 @@ inline constexpr std::size_t kDirectionsTogether = 4;
 inline constexpr std::size_t kRingSectors = kRingDirections / kDirectionsTogether;
 
 struct RingPixels {
-  StaticVector<RingPixel, kMaxRingPixels> pixels;
+  StaticVector<RingPixel, kMaxRingPixels> pixels;  ///< those of a direction together
+  std::array<std::uint16_t, kRingDirections + 1> begin{};
   std::array<RingDirection, kRingDirections> directions;
   double base_m = 0.0;  ///< how deep what lies behind the ring is, typically
 
-  /// How far beyond an edge, away from the ring's face, px.
-  double beyond_px(const RingPixel& pixel, std::size_t edge) const {
-    const double outer = pixel.beyond_outer_px;
-    if (edge == 0) return outer;
-    const RingDirection& one = directions[pixel.direction];
-    return -(one.width_px + outer * one.per_m[1] / one.per_m[0]);
+  std::span<const RingPixel> of(std::size_t direction) const {
+    return {pixels.data() + begin[direction], pixels.data() + begin[direction + 1]};
   }
 };
 

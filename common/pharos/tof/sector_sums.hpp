@@ -21,6 +21,13 @@ class SectorSums {
     sum_[k] += weight * residual;
     add(weight, residual);
   }
+  /// Many in one direction: their number, sums of the weights, of the weighted residuals and of weighted squares.
+  void add_many(double du, double dv, int count, double weights, double sum, double squares) {
+    sum_[sector_of(du, dv)] += sum;
+    weights_ += weights;
+    squares_ += squares;
+    count_ += count;
+  }
   /// Where only count() and variance() are needed.
   void add(double weight, double residual) {
     weights_ += weight;
