@@ -39,7 +39,7 @@ class FitCheck {
       : fit_(fit), support_(support), settings_(settings), noise_(static_cast<double>(workspace.noise)) {}
 
   std::optional<RefinedFit> run() {
-    if (support_.count == 0 || !is_plausible(fit_.ellipse, settings_) || fit_.rms_px > max_rms_px(fit_.ellipse)) {
+    if (support_.count == 0 || !is_plausible(fit_.ellipse, settings_) || is_too_rough()) {
       return std::nullopt;
     }
     const double rms_px = fit_.rms_px;
@@ -57,6 +57,14 @@ class FitCheck {
   }
 
  private:
+  // Corners scatter the points all around. Where half of them agree well, the others are a neighbour's edge or a dark
+  // spot beside it, which the fit does not follow.
+  bool is_too_rough() const {
+    constexpr double kAgree = 0.5, kMoreRough = 1.3;
+    const double limit = max_rms_px(fit_.ellipse);
+    return fit_.rms_px > limit * (fit_.sigma_px < kAgree * limit ? kMoreRough : 1.0);
+  }
+
   // What edges may scatter about an ellipse: by the image's noise, by what the scene itself is off (print, lens, JPEG),
   // and by a part of its size. A small polygon scatters by more: a square of half-side h by 0.03 h after blur and
   // gates, yet less than a fixed limit for rings allows.
