@@ -289,6 +289,7 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
   edge.cut = near_border(image, edge.extent.begin, kBorder_px + 1.5 * settings.reach_px) ||
              near_border(image, edge.extent.end, kBorder_px + 1.5 * settings.reach_px);
   const double corner = kCornerSigmas * settings.blur + 1.0;
+  edge.corner_px = corner;
   std::vector<double> darks, contrasts;
   std::array<ProfileStack, 2> halves;
   for (const Sample& one : samples_between(scan, target, first, last, settings)) {
@@ -304,7 +305,9 @@ MeasuredEdge measure_edge(ImageView<const std::uint16_t> image, const TargetMask
   }
   const double excess_px = std::max(halves[0].excess_px(), halves[1].excess_px());
   edge.structure_px = std::sqrt(kShiftOfExcess * settings.blur * excess_px);
-  if (!darks.empty()) edge.backing = (median(darks) - target.sky - kHalfNoise * target.noise) / median(contrasts);
+  if (darks.empty()) return edge;
+  edge.contrast = median(contrasts);
+  edge.backing = (median(darks) - target.sky - kHalfNoise * target.noise) / edge.contrast;
   return edge;
 }
 

@@ -14,6 +14,8 @@ struct MeasuredEdge {
   std::vector<pointing::EdgePoint> points;  ///< in order along the edge, in the distorted image
   Segment extent;                           ///< as far as the edge was followed, corners included
   double blur_px = 0.0;                     ///< sigma of the rise
+  double corner_px = 0.0;                   ///< from the extent's ends, within which no point was taken
+  double contrast = 0.0;                    ///< of target over sky, the points' median
   /// How far the dark side is brighter than the sky, of the edge's contrast: another face in the dark, not the sky.
   double backing = 0.0;
   /// How far what stands beside the edge all along it (cells, a wall, another part) could shift it: the shift that

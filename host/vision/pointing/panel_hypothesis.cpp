@@ -17,8 +17,6 @@ constexpr std::size_t kMaxPairs = 12;
 constexpr double kWingBonus = 1.6;  // a second panel in line is no accident
 // Beyond chance, and what lens and blur move edges by.
 constexpr double kMaxSigmas = 5.0;
-// From here on an axis is so uncertain that a wrong one lies within its sigmas: nothing needs to confirm it.
-constexpr double kUnsureSigma_rad = 90.0 * kRadPerDeg / kMaxSigmas;
 constexpr double kAngleSlack_rad = 0.3 * kRadPerDeg;
 // A test of right angles that could not have failed confirms nothing.
 constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
@@ -37,7 +35,7 @@ struct Hypothesis {
   PanelMeasurement measurement;
   AxisEstimate axis;  // in C
   double score = 0.0;
-  bool has_face_beyond = false;  // no panel's, if its sides are measured right: it competes and is no answer
+  bool is_of_faces = false;  // no panel's, if its sides are measured right: it competes and is no answer
 };
 
 double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
@@ -48,6 +46,10 @@ bool lies_along(const AxisPlane& plane, const AxisEstimate& axis) {
   const double sigma =
       std::hypot(plane.sigma_rad(axis.axis), std::sqrt(plane.normal.dot(axis.covariance * plane.normal)));
   return off < kMaxSigmas * sigma + kAngleSlack_rad;
+}
+
+bool lies_in(const AxisPlanes& planes, const AxisEstimate& axis) {
+  return std::all_of(planes.begin(), planes.end(), [&](const AxisPlane& plane) { return lies_along(plane, axis); });
 }
 
 // Angle between long sides and ends beyond a right one, where both ends are seen.
@@ -68,8 +70,7 @@ bool is_contradicted(const Hypothesis& h) {
   const auto square = square_of(h.measurement, h.axis);
   if (square && square->off_rad > kMaxSigmas * square->sigma_rad + kAngleSlack_rad) return true;
   // The sides of a wing's two panels are parallel in space.
-  return std::any_of(h.measurement.long_planes.begin(), h.measurement.long_planes.end(),
-                     [&](const AxisPlane& plane) { return !lies_along(plane, h.axis); });
+  return !lies_in(h.measurement.long_planes, h.axis);
 }
 
 std::optional<AxisEstimate> axis_of(const PanelMeasurement& panel) {
@@ -77,18 +78,29 @@ std::optional<AxisEstimate> axis_of(const PanelMeasurement& panel) {
   return axis ? std::optional(*axis) : std::nullopt;
 }
 
-// Long and short side by their lengths in space; false where it is no panel.
+// Long and short side by their lengths in space; false where it is no panel, or where it is not known which is longer.
 bool settle_sides(const EdgePair& pair, const PinholeCamera& camera, PanelMeasurement& panel) {
-  double aspect = pair.middle.length() / pair.separation;
-  if (const auto in_space = aspect_in_space(panel, camera)) {
-    aspect = std::max(*in_space, 1.0 / *in_space);
-    if (*in_space < 1.0) {
-      if (panel.short_planes.size() < 2) return false;
-      std::swap(panel.long_planes, panel.short_planes);
-      std::swap(panel.long_edges, panel.short_edges);
-    }
-  }
-  return aspect >= kMinAspect;
+  const auto in_space = aspect_in_space(panel, camera);
+  if (!in_space) return pair.middle.length() >= kMinAspect * pair.separation;
+  if (in_space->minimum >= kMinAspect) return true;
+  if (in_space->maximum * kMinAspect > 1.0 || panel.short_planes.size() < 2) return false;
+  std::swap(panel.long_planes, panel.short_planes);
+  std::swap(panel.long_edges, panel.short_edges);
+  return true;
+}
+
+// A panel that runs across the body leaves two pieces of its width on either side, as a wing's panels do. Its ends are
+// then the long sides. False where the wing is not longer than wide.
+bool settle_wing(Hypothesis& wing, const PinholeCamera& camera) {
+  const auto in_space = aspect_in_space(wing.measurement, camera);
+  if (!in_space || in_space->minimum >= kMinAspect) return true;
+  if (in_space->maximum * kMinAspect > 1.0 || wing.measurement.short_planes.size() < 2) return false;
+  std::swap(wing.measurement.long_planes, wing.measurement.short_planes);
+  std::swap(wing.measurement.long_edges, wing.measurement.short_edges);
+  const auto axis = axis_of(wing.measurement);
+  if (!axis) return false;
+  wing.axis = *axis;
+  return true;
 }
 
 class Chooser {
@@ -120,7 +132,7 @@ class Chooser {
                      [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
     std::erase_if(hypotheses, [](const Hypothesis& h) { return is_contradicted(h); });
     const auto confirmed = std::find_if(hypotheses.begin(), hypotheses.end(),
-                                        [&](const Hypothesis& h) { return !h.has_face_beyond && is_confirmed(h); });
+                                        [&](const Hypothesis& h) { return !h.is_of_faces && is_confirmed(h); });
     if (confirmed == hypotheses.end()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
     Hypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
@@ -130,7 +142,7 @@ class Chooser {
       // A body's outline is a rectangle as well, and a third edge may be an accident: alone they do not outweigh
       // another pair that nothing confirms, nor a longer one.
       const bool needs_proof = best.pairs.size() == 2 || (in_line && other.score < best.score);
-      if (needs_proof && (other.has_face_beyond || !is_confirmed(other))) continue;
+      if (needs_proof && (other.is_of_faces || !is_confirmed(other))) continue;
       best.measurement.other_planes = other.measurement.long_planes;
       break;
     }
@@ -145,11 +157,12 @@ class Chooser {
       for (std::size_t k = i + 1; k < measured_.size(); ++k) {
         const auto& [a, a_sides] = measured_[i];
         const auto& [b, b_sides] = measured_[k];
-        if (has_face_beyond(a_sides) || has_face_beyond(b_sides) || !is_wing(a, b)) continue;
+        if (is_of_faces(a_sides) || is_of_faces(b_sides) || !is_wing(a, b)) continue;
         Hypothesis wing{{a, b}, measurement_of({a_sides, b_sides}, camera_), {}, 0.0};
         const auto axis = axis_of(wing.measurement);
         if (!axis) continue;
         wing.axis = *axis;
+        if (!settle_wing(wing, camera_)) continue;
         wing.score = kWingBonus * (a.middle.length() + b.middle.length());
         wings.push_back(std::move(wing));
       }
@@ -163,7 +176,7 @@ class Chooser {
     const auto axis = axis_of(lone.measurement);
     if (!axis) return;
     lone.axis = *axis;
-    lone.has_face_beyond = has_face_beyond(sides);
+    lone.is_of_faces = is_of_faces(sides);
     hypotheses.push_back(std::move(lone));
   }
 
@@ -209,6 +222,8 @@ class Chooser {
 
   static bool is_rival(const Hypothesis& best, const Hypothesis& other) {
     if (other.score < kRivalLength * best.score || other.pairs.size() < best.pairs.size()) return false;
+    // An axis that is hardly known agrees with any other in the plane of its edges, which is known.
+    if (other.axis.sigma_rad() > kUnsureSigma_rad) return !lies_in(other.measurement.long_planes, best.axis);
     const double sigma = std::hypot(best.axis.sigma_rad(), other.axis.sigma_rad());
     return angle_of(best.axis.axis, other.axis.axis) > std::max(kOtherAxis_rad, kMaxSigmas * sigma);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/rotation.hpp"
 
 namespace pharos::pointing {
 namespace {
@@ -14,6 +15,7 @@ using pointing::EdgePoint;
 using pointing::LineFit;
 
 constexpr double kOneLineChi2 = 18.0;  // of two edges as one line, two degrees of freedom: 99.99 %
+// An axis within this is taken as measured.
 constexpr double kSureSigma_rad = 5.0 * kRadPerDeg;
 
 // Of the shift that the structure beside an edge could make, what bends the line at its ends: a strip of one width in
@@ -76,6 +78,26 @@ void add_long_sides(PanelMeasurement& result, const std::vector<PanelSides>& pan
   }
 }
 
+// Length over width of the panel, or of the whole wing, that has these edges if its long sides run along `axis`.
+double aspect_along(const Vector3& axis, const PanelMeasurement& panel, const PinholeCamera& camera) {
+  const Vector3& end = panel.short_planes[0].normal;
+  const Vector3 normal = axis.cross(axis.cross(end)).normalized();
+  const auto on_panel = [&](const Vector3& ray) { return Vector3(ray / normal.dot(ray)); };
+  const auto ray_of = [&](const Vector2& place) {
+    return Vector3((place.x() - camera.cx_px) / camera.fx_px, (place.y() - camera.cy_px) / camera.fy_px, 1.0);
+  };
+  // The first plane is of one side, the last of the other.
+  const Vector3 corner = on_panel(panel.long_planes[0].normal.cross(end));
+  const Vector3 other = on_panel(panel.long_planes[panel.long_planes.size() - 1].normal.cross(end));
+  double length = 0.0;
+  for (const Segment& edge : panel.long_edges) {
+    for (const Vector2& place : {edge.begin, edge.end}) {
+      length = std::max(length, std::abs(axis.dot(on_panel(ray_of(place)) - corner)));
+    }
+  }
+  return length / (other - corner).norm();
+}
+
 }  // namespace
 
 PanelMeasurement measurement_of(const std::vector<PanelSides>& panels, const PinholeCamera& camera) {
@@ -98,25 +120,24 @@ PanelMeasurement measurement_of(const std::vector<PanelSides>& panels, const Pin
   return result;
 }
 
-std::optional<double> aspect_in_space(const PanelMeasurement& panel, const PinholeCamera& camera) {
-  if (panel.short_planes.empty() || panel.long_planes.size() != 2) return std::nullopt;
-  const auto axis = pointing::estimate_axis({panel.long_planes.data(), 2});
-  if (!axis || axis->sigma_rad() > kSureSigma_rad) return std::nullopt;
-  const Vector3& end = panel.short_planes[0].normal;
-  const Vector3 normal = axis->axis.cross(axis->axis.cross(end)).normalized();
-  const auto on_panel = [&](const Vector3& ray) { return Vector3(ray / normal.dot(ray)); };
-  const auto ray_of = [&](const Vector2& place) {
-    return Vector3((place.x() - camera.cx_px) / camera.fx_px, (place.y() - camera.cy_px) / camera.fy_px, 1.0);
-  };
-  double length = 0.0;
-  std::array<Vector3, 2> corners;
-  for (std::size_t i = 0; i < 2; ++i) {
-    corners[i] = on_panel(panel.long_planes[i].normal.cross(end));
-    for (const Vector2& place : {panel.long_edges[i].begin, panel.long_edges[i].end}) {
-      length = std::max(length, (on_panel(ray_of(place)) - corners[i]).norm());
-    }
+std::optional<AspectRange> aspect_in_space(const PanelMeasurement& panel, const PinholeCamera& camera) {
+  if (panel.short_planes.empty()) return std::nullopt;
+  const auto axis = pointing::estimate_axis({panel.long_planes.data(), panel.long_planes.size()});
+  if (!axis || axis->sigma_rad() > kUnsureSigma_rad) return std::nullopt;
+  if (axis->sigma_rad() < kSureSigma_rad) {
+    const double aspect = aspect_along(axis->axis, panel, camera);
+    return AspectRange{aspect, aspect};
   }
-  return length / (corners[0] - corners[1]).norm();
+  constexpr int kHalf = 4;
+  constexpr double kSigmas = 2.0;
+  AspectRange range{1e9, 0.0};
+  for (int k = -kHalf; k <= kHalf; ++k) {
+    const double turn = kSigmas * axis->sigma_along_rad * k / kHalf;
+    const double aspect = aspect_along(rotation_exp(turn * axis->plane.normal) * axis->axis, panel, camera);
+    if (!std::isfinite(aspect)) return std::nullopt;
+    range = {std::min(range.minimum, aspect), std::max(range.maximum, aspect)};
+  }
+  return range;
 }
 
 }  // namespace pharos::pointing

@@ -18,6 +18,7 @@ struct Side {
   pointing::LineFit fit;
   Segment extent;  ///< in the image as it was taken
   double blur_px = 0.0;
+  double contrast = 0.0;      ///< see MeasuredEdge
   double backing = 0.0;       ///< see MeasuredEdge
   double structure_px = 0.0;  ///< see MeasuredEdge
   bool cut = false;
@@ -30,7 +31,7 @@ struct PanelSides {
 };
 
 /// Whether another face shows beyond one of the long sides: the pair is a body's, or a panel before one.
-bool has_face_beyond(const PanelSides& panel);
+bool is_of_faces(const PanelSides& panel);
 
 /// An edge of the outline as a side. kCutByBorder, kEdgeUnsure, kOutsideLens.
 Result<Side, PointingRefusal> measured_side(ImageView<const std::uint16_t> image, const TargetMask& target,
