@@ -30,6 +30,7 @@ fusion::Measurement measurement_of(const SourceRow& row, const SourceMounting& m
   out.source = source;
   out.pose = {row.pose.R, row.pose.t};
   out.covariance = row.covariance;
+  out.time_sigma_s = row.time_sigma_s;
   if (!row.has_turn) out.directions = fusion::Directions::without_rotation_about(row.pose.R.col(2));
   if (row.second) out.second = fusion::SensorPose{row.second->R, row.second->t};
   if (std::abs(time_s) < kMaxTime_s) {

@@ -25,6 +25,7 @@ struct SourceRow {
   Matrix6 covariance = Matrix6::Zero();
   /// False: the rotation about the feature's z axis (R.col(2)) was not measured: ring2, tof without connector.
   bool has_turn = true;
+  float time_sigma_s = 0.0F;                // of time_s, as the source states it; tables do not tell it
   std::optional<SensorFromFeature> second;  // of an ambiguous pose
   double delta_chi2 = 0.0;                  // of the second to the first
 };

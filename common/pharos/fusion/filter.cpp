@@ -230,10 +230,12 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
     }
   }
   Matrix6 noise = m.covariance;
-  if (source.time_sigma_s > 0.0) {
+  const double own_time_sigma_s = static_cast<double>(m.time_sigma_s);
+  const double time_variance = source.time_sigma_s * source.time_sigma_s + own_time_sigma_s * own_time_sigma_s;
+  if (time_variance > 0.0) {
     Vector6 motion;
     motion << mean_.rate_rad_s, mean_.velocity_m_s;
-    noise += motion * motion.transpose() * (source.time_sigma_s * source.time_sigma_s);
+    noise += motion * motion.transpose() * time_variance;
   }
   // Lazy products: the others of this size link the heap.
   const Eigen::Matrix<double, 6, kKinematic> seen = out.derivatives.lazyProduct(P);

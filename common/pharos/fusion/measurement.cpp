@@ -80,6 +80,7 @@ Directions Directions::without_rotation_about(const Vector3& axis) {
 Refusal check_measurement(const Measurement& m, std::size_t sources) {
   if (m.source >= sources) return Refusal::kUnknownSource;
   if (!usable(m.pose) || !m.covariance.allFinite()) return Refusal::kNotFinite;
+  if (!std::isfinite(m.time_sigma_s) || m.time_sigma_s < 0.0F) return Refusal::kNotFinite;
   if (m.second && !usable(*m.second)) return Refusal::kNotFinite;
   if (!orthonormal(m.directions)) return Refusal::kNotFinite;
   if (!symmetric(m.covariance) || !positive_definite(m.covariance, m.directions)) return Refusal::kCovariance;

@@ -33,6 +33,8 @@ struct Measurement {
   /// Time of validity, nanoseconds on the clock that all sources share.
   std::int64_t time_ns = 0;
   std::uint8_t source = 0;
+  /// One standard deviation of this measurement's time, s, beside SourceSettings::time_sigma_s.
+  float time_sigma_s = 0.0F;
   SensorPose pose;
   /// Of the error delta in S, rotation (rad) before translation (m); of directions not measured it is ignored.
   Matrix6 covariance = Matrix6::Identity();
@@ -44,6 +46,7 @@ struct Measurement {
 struct TargetMeasurement {
   std::int64_t time_ns = 0;
   std::uint8_t source = 0;
+  float time_sigma_s = 0.0F;
   TargetPose pose;
   Matrix6 covariance = Matrix6::Identity();
   Directions directions;

@@ -38,6 +38,7 @@ TargetMeasurement to_target(const Measurement& m, const SourceSettings& source,
   TargetMeasurement out;
   out.time_ns = m.time_ns;
   out.source = m.source;
+  out.time_sigma_s = m.time_sigma_s;
   out.pose = source.T_vehicle_sensor * pose * T_feature_target;
   if (m.second) out.second = source.T_vehicle_sensor * *m.second * T_feature_target;
   // Error in V of an error in S: the arm from the feature to the target turns with the rotation's error.

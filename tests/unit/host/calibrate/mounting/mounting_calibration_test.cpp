@@ -29,7 +29,8 @@ MountingCalibrationInput recorded(const sim::ApproachSimulator& simulator) {
     if (source.kind == host::SourceKind::kSlam) recording.slow_position_m = 1.5e-3;
     for (const sim::ApproachMeasurement& m : simulator.measure(i)) {
       if (m.seen)
-        recording.rows.push_back({m.time_s, m.arrival_s, m.pose, m.covariance, m.has_turn, m.second, m.delta_chi2});
+        recording.rows.push_back(
+            {m.time_s, m.arrival_s, m.pose, m.covariance, m.has_turn, 0.0F, m.second, m.delta_chi2});
     }
     input.recordings.push_back(recording);
   }
