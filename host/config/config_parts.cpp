@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxName = 32;  // short enough for log lines and file names
+constexpr std::size_t kMaxName = 32;     // short enough for log lines and file names
+constexpr std::size_t kMaxChannel = 63;  // of LCM
 
 }  // namespace
 
@@ -25,6 +26,13 @@ std::string read_name(const TomlTable& table, std::string_view key, const std::s
     table.fail(key, "must be 1 to " + std::to_string(kMaxName) + " letters, digits, - or _");
   }
   return name;
+}
+
+std::string read_channel(const TomlTable& table, std::string_view key, const std::string& channel) {
+  if (channel.empty() || channel.size() > kMaxChannel || !all_of_set(channel, "_")) {
+    table.fail(key, "must be 1 to " + std::to_string(kMaxChannel) + " letters, digits or _, as PHAROS_TOF_POSE");
+  }
+  return channel;
 }
 
 fs::path read_path(const TomlTable& table, std::string_view key, const fs::path& folder) {

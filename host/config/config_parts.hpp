@@ -18,6 +18,9 @@ bool all_of_set(const std::string& text, const char* punctuation);
 /// `name`, the value of `key`, if it is valid in messages, log lines and file names.
 std::string read_name(const TomlTable& table, std::string_view key, const std::string& name);
 
+/// `channel`, the value of `key`, if LCM takes it as a name and not as an expression.
+std::string read_channel(const TomlTable& table, std::string_view key, const std::string& channel);
+
 /// A path; relative paths start at `folder`.
 std::filesystem::path read_path(const TomlTable& table, std::string_view key, const std::filesystem::path& folder);
 

@@ -11,6 +11,7 @@
 
 #include "host/calibrate/calibration_file.hpp"
 #include "host/cameras/rig_file.hpp"
+#include "host/config/remote_config.hpp"
 #include "host/config/vehicle_config.hpp"
 #include "host/device/camera_settings.hpp"
 #include "host/vision/slam/slam_settings.hpp"
@@ -157,6 +158,10 @@ struct LcmConfig {
   /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, RING2_POSE, SLAM_POSE,
   /// LINE_POINTING, TARGET_STATE, STATUS.
   std::string channel_prefix = "PHAROS_";
+  /// On which daemons compare their clocks; the same for all of them.
+  std::string clock_channel = "PHAROS_CLOCK";
+  /// Answer other daemons that compare their clocks with this one's.
+  bool answer_clock = false;
 };
 
 struct PublishConfig {
@@ -194,6 +199,7 @@ struct SourceConfigs {
   std::vector<TofConfig> cameras;
   std::vector<PointingConfig> telescopes;
   std::vector<StereoConfig> stereos;
+  std::vector<RemoteConfig> remotes;
 };
 
 /// A folder, log file or port that cannot be used as configured.

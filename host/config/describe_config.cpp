@@ -165,6 +165,19 @@ void describe_telescope(std::ostream& out, const PointingConfig& telescope) {
   }
 }
 
+void describe_remote(std::ostream& out, const RemoteConfig& remote) {
+  out << "remote " << remote.name << " (target " << remote.target << "):\n  poses: " << remote.source << " in "
+      << remote.frame << " on " << remote.channel;
+  if (remote.rate_hz > 0.0) out << ", " << remote.rate_hz << " /s";
+  out << "\n  clock: ";
+  if (remote.clock_sigma_s) {
+    out << "held together elsewhere, sigma " << *remote.clock_sigma_s * 1e3 << " ms";
+  } else {
+    out << "compared with " << remote.daemon << "'s by round trips";
+  }
+  out << "\n  younger than " << remote.max_age_s << " s, silent after " << remote.silent_after_s << " s\n";
+}
+
 // Each fused source has a line of its own, so that a mounting that changed is seen in it.
 void describe_vehicle(std::ostream& out, const VehicleConfig& vehicle) {
   const FusionChoices& fusion = vehicle.fusion;
@@ -209,17 +222,20 @@ std::string describe(const DaemonConfig& config) {
   if (any([](const StereoConfig& stereo) { return stereo.slam.has_value(); })) out << prefix << "SLAM_POSE, ";
   if (!config.telescopes.empty()) out << prefix << "LINE_POINTING, ";
   if (config.vehicle) out << prefix << "TARGET_STATE, ";
+  if (config.lcm.answer_clock || !config.remotes.empty()) out << config.lcm.clock_channel << ", ";
   out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
       << config.publish.status_period_s << " s\nstate directory: "
       << (config.state_directory.empty() ? "none: calibrations are forgotten at a restart"
                                          : config.state_directory.string())
       << '\n';
+  if (config.lcm.answer_clock) out << "answers daemons that compare their clocks with this one's\n";
   describe_recording(out, config.recording);
   describe_log(out, config.log);
   for (const TargetConfig& target : config.targets) describe_target(out, target);
   for (const TofConfig& camera : config.cameras) describe_camera(out, camera);
   for (const StereoConfig& stereo : config.stereos) describe_stereo(out, stereo);
   for (const PointingConfig& telescope : config.telescopes) describe_telescope(out, telescope);
+  for (const RemoteConfig& remote : config.remotes) describe_remote(out, remote);
   if (config.vehicle) describe_vehicle(out, *config.vehicle);
   return out.str();
 }

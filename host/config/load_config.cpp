@@ -10,6 +10,7 @@
 #include "host/config/config_parts.hpp"
 #include "host/config/lcm_url.hpp"
 #include "host/config/load_pointing.hpp"
+#include "host/config/load_remote.hpp"
 #include "host/config/load_stereo.hpp"
 #include "host/config/load_tof.hpp"
 #include "host/config/load_vehicle.hpp"
@@ -36,6 +37,15 @@ LcmConfig read_lcm(const TomlTable& table, ConfigErrors& errors) {
     lcm.channel_prefix = table.text_or("channel_prefix", lcm.channel_prefix);
     if (lcm.channel_prefix.size() > kMaxPrefix || !all_of_set(lcm.channel_prefix, "_")) {
       table.fail("channel_prefix", "must be at most " + std::to_string(kMaxPrefix) + " letters, digits or _");
+    }
+  });
+  errors.attempt([&] {
+    lcm.clock_channel = read_channel(table, "clock_channel", table.text_or("clock_channel", lcm.clock_channel));
+  });
+  errors.attempt([&] {
+    lcm.answer_clock = table.boolean_or("answer_clock", lcm.answer_clock);
+    if (lcm.answer_clock && lcm.url.rfind("file:", 0) == 0) {
+      table.fail("answer_clock", "cannot be: with this url nothing is received");
     }
   });
   return lcm;
@@ -302,6 +312,7 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
   errors.attempt([&] { config.cameras = read_tof_cameras(root, folder, environment, errors); });
   errors.attempt([&] { config.telescopes = read_pointing(root, folder, environment, errors); });
   errors.attempt([&] { config.stereos = read_stereos(root, folder, environment, config.cameras, errors); });
+  errors.attempt([&] { config.remotes = read_remotes(root, config, errors); });
   errors.attempt([&] { config.vehicle = read_vehicle(root, folder, environment, config, errors); });
   errors.add_unknown_keys(root);
   config.place_errors = located(environment.check_places(config), root);
@@ -309,10 +320,11 @@ DaemonConfig read_root(const TomlTable& root, const fs::path& folder, const Envi
     for (const PlaceError& error : config.place_errors) errors.add(error.message);
   }
   errors.throw_all();
-  if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty()) {
+  if (config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty() &&
+      config.remotes.empty()) {
     root.fail("target",
               "is missing; add a [[target]] with name, port and target_file, or a [[camera]] with name, target, "
-              "camera_file and serial, or a [[stereo]] or [[telescope]]");
+              "camera_file and serial, or a [[stereo]], [[telescope]] or [[remote]]");
   }
   return config;
 }

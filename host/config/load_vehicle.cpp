@@ -18,12 +18,14 @@ struct Reporter {
   std::string name;
   std::string target;
   bool is_replay = false;
+  bool is_remote = false;
 
   std::string source() const {
+    if (is_remote) return "remote/" + name;
     const std::string kind_word(word_of(kind));
     return kind == SourceKind::kLighthouse ? kind_word : kind_word + '/' + name;
   }
-  std::string text() const { return std::string(word_of(kind)) + ' ' + name; }
+  std::string text() const { return (is_remote ? "remote " : "") + std::string(word_of(kind)) + ' ' + name; }
 };
 
 std::vector<Reporter> reporters_of(const SourceConfigs& configured) {
@@ -36,6 +38,9 @@ std::vector<Reporter> reporters_of(const SourceConfigs& configured) {
   for (const StereoConfig& rig : configured.stereos) {
     if (rig.ring2) out.push_back({SourceKind::kRing2, rig.name, rig.target, rig.replays_camera});
     if (rig.slam) out.push_back({SourceKind::kSlam, rig.name, rig.target, rig.replays_camera});
+  }
+  for (const RemoteConfig& remote : configured.remotes) {
+    out.push_back({remote.kind, remote.name, remote.target, false, true});
   }
   return out;
 }
@@ -179,7 +184,7 @@ class VehicleReader {
                                 "\", another source \"" + vehicle_.target + "\"; one state is of one target");
     }
     (reporter.is_replay ? replayed_ : live_) = true;
-    vehicle_.sources.push_back({mounting, reporter.source(), ""});
+    vehicle_.sources.push_back({mounting, reporter.source(), "", reporter.is_remote});
   }
 
   void take_station(const TomlTable& table, bool fits) {

@@ -66,6 +66,7 @@ DaemonConfig replay_directory(const DaemonConfig& config, const std::string& dir
 DaemonConfig replay_config(const DaemonConfig& config, const std::string& path) {
   std::error_code error;
   DaemonConfig replay = fs::is_directory(path, error) ? replay_directory(config, path) : replay_file(config, path);
+  replay.lcm.answer_clock = false;
   replay.recording.reset();  // what is played is recorded already
   return replay;
 }

@@ -55,6 +55,11 @@ void add_rows(const StereoConfig& stereo, const DaemonConfig& config, std::vecto
   }
 }
 
+TableRow row_of(const RemoteConfig& remote) {
+  return {"remote/" + remote.name, remote.target, remote.source + (remote.daemon.empty() ? "" : " of " + remote.daemon),
+          "nothing itself: another daemon's poses", remote.channel};
+}
+
 TableRow row_of(const VehicleConfig& vehicle, const DaemonConfig& config) {
   std::string input;
   for (const FusedSourceConfig& source : vehicle.sources) input += (input.empty() ? "" : " + ") + source.mounting.name;
@@ -72,6 +77,7 @@ std::vector<std::string> source_table(const DaemonConfig& config) {
   for (const TofConfig& camera : config.cameras) rows.push_back(row_of(camera, config));
   for (const StereoConfig& stereo : config.stereos) add_rows(stereo, config, rows);
   for (const PointingConfig& telescope : config.telescopes) rows.push_back(row_of(telescope, config));
+  for (const RemoteConfig& remote : config.remotes) rows.push_back(row_of(remote));
   if (config.vehicle) rows.push_back(row_of(*config.vehicle, config));
   std::array<std::size_t, kTableColumns> widths{};
   for (const TableRow& row : rows) {

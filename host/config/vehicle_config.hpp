@@ -13,10 +13,12 @@ namespace pharos::host {
 /// One source of the fused state: where it is mounted, and whose messages are its poses.
 struct FusedSourceConfig {
   SourceMounting mounting;
-  /// `source` of its messages without what the daemon's own name and a replay add: "lighthouse", "tof/NAME", …
+  /// `source` of its messages without what the daemon's own name and a replay add: "lighthouse", "tof/NAME", …; of
+  /// another daemon's "remote/NAME".
   std::string source;
   /// Lighthouse: the station in whose frame the mounting is, as eight hex digits; empty: the only one seen.
   std::string station;
+  bool is_remote = false;
 };
 
 /// The vehicle: all sources' poses of one target become one state in its frame.

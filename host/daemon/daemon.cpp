@@ -188,10 +188,10 @@ void Daemon::publish_health() {
 NamedCounts Daemon::named_counts() const {
   const PublishCounters& sent = publisher_.counters();
   const ProcessUsage usage = process_usage();
-  NamedCounts counts{{"published_poses", sent.poses},         {"published_bearings", sent.bearings},
-                     {"published_pointings", sent.pointings}, {"published_spins", sent.spins},
-                     {"published_states", sent.states},       {"published_status", sent.status},
-                     {"published_bytes", sent.bytes},         {"publish_failures", sent.failed}};
+  NamedCounts counts{
+      {"published_poses", sent.poses}, {"published_bearings", sent.bearings}, {"published_pointings", sent.pointings},
+      {"published_spins", sent.spins}, {"published_states", sent.states},     {"published_status", sent.status},
+      {"published_clock", sent.clock}, {"published_bytes", sent.bytes},       {"publish_failures", sent.failed}};
   for (const auto& source : sources_) {
     const NamedCounts own = source->daemon_counters();
     counts.insert(counts.end(), own.begin(), own.end());

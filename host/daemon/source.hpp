@@ -11,6 +11,7 @@
 #include "host/config/daemon_config.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/publisher.hpp"
+#include "host/receive/lcm_receiver.hpp"
 #include "host/runtime/clock.hpp"
 #include "host/runtime/event_loop.hpp"
 #include "host/runtime/replay_timeline.hpp"
@@ -61,6 +62,10 @@ struct SourceContext {
   std::function<void()> on_finished = [] {};
   /// To be called for a change that must be reported without delay: publishes the status at once.
   std::function<void()> on_state_change = [] {};
+  /// How messages of other programs are received; throws InputError.
+  std::function<std::unique_ptr<MessageReceiver>(const std::string& url)> open_receiver = [](const std::string& url) {
+    return std::make_unique<LcmReceiver>(url);
+  };
   /// Of all recordings that are played, so that they keep step.
   std::shared_ptr<ReplayTimeline> replay = std::make_shared<ReplayTimeline>(clock, replay_speed);
 };

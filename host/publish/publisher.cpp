@@ -4,14 +4,13 @@
 #include <utility>
 
 #include "host/publish/messages.hpp"
+#include "pharos/clock_exchange_t.hpp"
 
 namespace pharos::host {
 
 Publisher::Publisher(MessageSink& sink, std::string prefix) : sink_(sink), prefix_(std::move(prefix)) {}
 
-bool Publisher::send_buffer(const char* channel, bool encoded, std::int64_t& count) {
-  channel_ = prefix_;
-  channel_ += channel;
+bool Publisher::send_buffer(bool encoded, std::int64_t& count) {
   if (!encoded || !sink_.send(channel_, buffer_)) {
     ++counters_.failed;
     return false;
@@ -23,6 +22,11 @@ bool Publisher::send_buffer(const char* channel, bool encoded, std::int64_t& cou
 
 bool Publisher::publish_health(const DaemonHealth& health) {
   return send("STATUS", status_message(health, status_sequence_++));
+}
+
+bool Publisher::publish_clock(const std::string& channel, const clock_exchange_t& message) {
+  channel_ = channel;
+  return send_buffer(encode(message), counters_.clock);
 }
 
 }  // namespace pharos::host

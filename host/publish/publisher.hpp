@@ -12,6 +12,7 @@
 
 namespace pharos {
 class bearings_t;
+class clock_exchange_t;
 class pointing_t;
 class pose_t;
 class spin_t;
@@ -29,6 +30,7 @@ struct PublishCounters {
   std::int64_t spins = 0;
   std::int64_t states = 0;
   std::int64_t status = 0;
+  std::int64_t clock = 0;  // questions and answers
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink could not send
 
@@ -48,10 +50,14 @@ class Publisher {
 
   /// status_t.
   bool publish_health(const DaemonHealth& health);
+  /// On `channel` as it is, without the prefix.
+  bool publish_clock(const std::string& channel, const clock_exchange_t& message);
 
   /// Gets every pose after it was sent (or could not be), with its channel behind the prefix.
   using PoseListener = std::function<void(const char* channel, const pose_t& message)>;
   void set_pose_listener(PoseListener listener) { pose_listener_ = std::move(listener); }
+  /// Gives the listener a pose of another daemon, which is not sent again; with an empty channel.
+  void hand_over(const pose_t& message) const { announce("", message); }
 
   const PublishCounters& counters() const { return counters_; }
 
@@ -60,19 +66,25 @@ class Publisher {
 
   template <class Message>
   bool send(const char* channel, const Message& message) {
-    const int size = message.getEncodedSize();
-    buffer_.resize(static_cast<std::size_t>(size));
-    const bool encoded = message.encode(buffer_.data(), 0, size) == size;
-    const bool sent = send_buffer(channel, encoded, counters_.of(message));
+    channel_ = prefix_;
+    channel_ += channel;
+    const bool sent = send_buffer(encode(message), counters_.of(message));
     announce(channel, message);
     return sent;
+  }
+  template <class Message>
+  bool encode(const Message& message) {
+    const int size = message.getEncodedSize();
+    buffer_.resize(static_cast<std::size_t>(size));
+    return message.encode(buffer_.data(), 0, size) == size;
   }
   template <class Message>
   void announce(const char*, const Message&) const {}
   void announce(const char* channel, const pose_t& message) const {
     if (pose_listener_) pose_listener_(channel, message);
   }
-  bool send_buffer(const char* channel, bool encoded, std::int64_t& count);
+  // To channel_.
+  bool send_buffer(bool encoded, std::int64_t& count);
 
   MessageSink& sink_;
   std::string prefix_;

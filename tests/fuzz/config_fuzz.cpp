@@ -32,8 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                           [](const std::string&) { return pharos::host::RigFile{}; }};
   try {
     const auto config = pharos::host::parse_daemon_config(text, "fuzz.toml", "/nowhere", nothing);
-    const bool nothing_to_do =
-        config.targets.empty() && config.cameras.empty() && config.telescopes.empty() && config.stereos.empty();
+    const bool nothing_to_do = config.targets.empty() && config.cameras.empty() && config.telescopes.empty() &&
+                               config.stereos.empty() && config.remotes.empty();
     if (nothing_to_do || pharos::host::describe(config).empty()) std::abort();
   } catch (const pharos::host::InputError& error) {
     if (std::string_view(error.what()).rfind("fuzz.toml:", 0) != 0) std::abort();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
@@ -63,7 +64,7 @@ void McapExport::push(const LoggedMessage& message) {
   }
   if (take<pose_t>(Topic::kPose, channel, message) || take<status_t>(Topic::kStatus, channel, message) ||
       take<bearings_t>(Topic::kBearings, channel, message) || take<pointing_t>(Topic::kPointing, channel, message) ||
-      take<spin_t>(Topic::kSpin, channel, message)) {
+      take<spin_t>(Topic::kSpin, channel, message) || take_clock(channel, message)) {
     return;
   }
   ++counts.foreign;
@@ -85,6 +86,16 @@ bool McapExport::take(Topic topic, const std::string& channel, const LoggedMessa
   write(topic, channel, "", stamp, json);
   write_more(message, channel, stamp);
   ++counts.exported;
+  return true;
+}
+
+// Not a measurement: its time is that of the log.
+bool McapExport::take_clock(const std::string& channel, const LoggedMessage& logged) {
+  clock_exchange_t message{};
+  if (!decode(message, logged.data.data(), static_cast<int>(logged.data.size()))) return false;
+  const std::uint64_t log_ns = nanoseconds(logged.utime_us);
+  write(Topic::kClock, channel, "", {log_ns, log_ns, static_cast<std::uint32_t>(message.sequence)}, json_of(message));
+  ++counts_of(channel).exported;
   return true;
 }
 

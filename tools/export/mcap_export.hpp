@@ -53,6 +53,7 @@ class McapExport {
   ChannelCounts& counts_of(std::string_view channel);
   template <class Message>
   bool take(Topic topic, const std::string& channel, const LoggedMessage& message);
+  bool take_clock(const std::string& channel, const LoggedMessage& message);
   void write(Topic topic, const std::string& channel, const char* suffix, const Stamp& stamp, const Json& json);
   void write_more(const pose_t& pose, const std::string& channel, const Stamp& stamp);
   void write_more(const status_t& status, const std::string& channel, const Stamp& stamp);

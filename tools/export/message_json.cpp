@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
@@ -137,6 +138,12 @@ Json json_of(const bearings_t& m) {
           {"station", m.station}, {"target", m.target},
           {"flags", m.flags},     {"calibrated", m.calibrated != 0},
           {"bearings", bearings}};
+}
+
+Json json_of(const clock_exchange_t& m) {
+  return {{"sender", m.sender},           {"recipient", m.recipient},      {"session", m.session},
+          {"sequence", m.sequence},       {"is_answer", m.is_answer != 0}, {"asked_session", m.asked_session},
+          {"received_ns", m.received_ns}, {"answered_ns", m.answered_ns}};
 }
 
 Json counters_of(const status_t& m) {

@@ -5,6 +5,7 @@
 
 namespace pharos {
 class bearings_t;
+class clock_exchange_t;
 class pointing_t;
 class pose_t;
 class spin_t;
@@ -21,6 +22,7 @@ Json json_of(const pointing_t& message);
 Json json_of(const spin_t& message);
 Json json_of(const status_t& message);
 Json json_of(const bearings_t& message);
+Json json_of(const clock_exchange_t& message);
 
 /// The counters alone, by name, for plots: {"utime", "daemon": {...}, "sources": {SOURCE: {...}}}.
 Json counters_of(const status_t& message);

@@ -157,6 +157,17 @@ Json bearings_schema() {
                  {"bearings", list_of(bearing)}});
 }
 
+Json clock_schema() {
+  return object({{"sender", kText},
+                 {"recipient", kText},
+                 {"session", kInteger},
+                 {"sequence", kInteger},
+                 {"is_answer", kFlag},
+                 {"asked_session", kInteger},
+                 {"received_ns", kInteger},
+                 {"answered_ns", kInteger}});
+}
+
 // Foxglove's published messages, with their fields.
 Json time_schema() { return object({{"sec", kInteger}, {"nsec", kInteger}}); }
 Json vector_schema() { return object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}}); }
@@ -179,8 +190,8 @@ Json pose_in_frame_schema() {
 
 const char* schema_name(Topic topic) {
   constexpr std::array<const char*, kTopics> kNames = {
-      "pharos.pose", "foxglove.FrameTransform", "foxglove.PoseInFrame", "pharos.pointing",
-      "pharos.spin", "pharos.status",           "pharos.counters",      "pharos.bearings"};
+      "pharos.pose",   "foxglove.FrameTransform", "foxglove.PoseInFrame", "pharos.pointing",      "pharos.spin",
+      "pharos.status", "pharos.counters",         "pharos.bearings",      "pharos.clock_exchange"};
   return kNames[static_cast<std::size_t>(topic)];
 }
 
@@ -210,6 +221,9 @@ Json schema_of(Topic topic) {
       break;
     case Topic::kBearings:
       schema = bearings_schema();
+      break;
+    case Topic::kClock:
+      schema = clock_schema();
       break;
   }
   schema["title"] = schema_name(topic);

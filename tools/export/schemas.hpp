@@ -8,8 +8,18 @@
 namespace pharos::tools {
 
 /// Kinds of topics.
-enum class Topic : std::uint8_t { kPose, kTransform, kPoseInFrame, kPointing, kSpin, kStatus, kCounters, kBearings };
-inline constexpr std::size_t kTopics = 8;
+enum class Topic : std::uint8_t {
+  kPose,
+  kTransform,
+  kPoseInFrame,
+  kPointing,
+  kSpin,
+  kStatus,
+  kCounters,
+  kBearings,
+  kClock
+};
+inline constexpr std::size_t kTopics = 9;
 
 /// The schema's name: pharos.pose, ... or that of Foxglove's schema which readers know.
 const char* schema_name(Topic topic);

@@ -5,11 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
+#include "tools/listen/clock_rows.hpp"
 #include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
 #include "tools/listen/received_state.hpp"
@@ -48,6 +50,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   spin_t spin;
   status_t status;
   target_state_t state;
+  clock_exchange_t clock{};
   if (decode(pose, data, size)) {
     take_pose(received_pose(channel, pose, utc_ns), monotonic_ns);
   } else if (decode(state, data, size)) {
@@ -64,6 +67,8 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   } else if (decode(status, data, size)) {
     print_those_known(monotonic_ns);
     take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });
+  } else if (decode(clock, data, size)) {
+    take_other([&](bool json) { return json ? clock_json(clock) : clock_line(clock); });
   } else {
     ++other_types_;
   }

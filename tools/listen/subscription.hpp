@@ -4,7 +4,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <string>
 
-#include "tools/listen/message_shape.hpp"
+#include "host/receive/message_shape.hpp"
 
 namespace pharos::tools {
 
@@ -17,11 +17,6 @@ inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 void subscribe(lcm::LCM& lcm, const std::string& url, const std::string& channel, lcm_msg_handler_t handler, void* user,
                int queue = 0);
 
-/// Whether `data` is a message of this type, and whole; its fields then. Any bytes may come.
-template <class Message>
-bool decode(Message& message, const void* data, int size) {
-  static_assert(!kMessageShape<Message>.empty(), "write the type's shape into message_shape.hpp");
-  return has_shape(data, size, kMessageShape<Message>) && message.decode(data, 0, size) == size;
-}
+using host::decode;
 
 }  // namespace pharos::tools

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
@@ -93,7 +94,7 @@ void SourceTable::take(const std::string& channel, const void* data, int size, s
     add(channel, spin, utc_ns, now_ns);
   } else if (decode(status, data, size)) {
     add(status, now_ns);
-  } else {
+  } else if (clock_exchange_t clock; !decode(clock, data, size)) {  // between daemons: no row
     ++left_out_.foreign;
   }
 }

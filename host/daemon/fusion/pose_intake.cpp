@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/fusion/pose_intake.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "host/publish/words.hpp"
@@ -9,7 +10,6 @@
 namespace pharos::host {
 namespace {
 
-constexpr const char* kUncalibrated = "uncalibrated";
 constexpr const char* kNoConnector = "no_connector";
 
 bool has_word(const std::string& flags, const std::string& word) {
@@ -33,6 +33,7 @@ bool frames_fit(SourceKind kind, const pose_t& message) {
 SourceRow row_of(SourceKind kind, const pose_t& message) {
   SourceRow row;
   row.time_s = static_cast<double>(message.utime) * 1e-6;
+  row.time_sigma_s = static_cast<float>(message.utime_sigma_us) * 1e-6F;
   row.pose = pose_of(message.orientation_wxyz, message.position_m);
   row.has_turn = kind != SourceKind::kRing2 && !has_word(message.flags, kNoConnector);
   for (int i = 0; i < 6; ++i) {
@@ -47,6 +48,12 @@ SourceRow row_of(SourceKind kind, const pose_t& message) {
 
 }  // namespace
 
+bool is_doubtful(const pose_t& message) {
+  constexpr std::array kDoubtful = {"uncalibrated", kSuspectWord, kClockSetWord};
+  return std::any_of(kDoubtful.begin(), kDoubtful.end(),
+                     [&](const char* word) { return has_word(message.flags, word); });
+}
+
 PoseIntake::PoseIntake(const VehicleConfig& config)
     : target_(config.target), sources_(config.sources), stations_(config.sources.size()) {}
 
@@ -56,8 +63,9 @@ std::optional<std::size_t> PoseIntake::source_of(const pose_t& message) const {
   std::optional<std::size_t> found;
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const FusedSourceConfig& source = sources_[s];
-    const bool lighthouse = source.mounting.kind == SourceKind::kLighthouse;
-    const bool of_it = lighthouse ? message.source.rfind(source.source + '/', 0) == 0 : message.source == source.source;
+    const bool named_after_daemon = source.mounting.kind == SourceKind::kLighthouse && !source.is_remote;
+    const bool of_it =
+        named_after_daemon ? message.source.rfind(source.source + '/', 0) == 0 : message.source == source.source;
     if (!of_it) continue;
     if (!found || source.station == message.station_or_camera) found = s;
   }
@@ -96,8 +104,7 @@ std::optional<TakenPose> PoseIntake::take(const std::string& channel, const pose
     ++counters_.poses_other_frame;
     return std::nullopt;
   }
-  for (const char* word : {kUncalibrated, kSuspectWord, kClockSetWord}) {
-    if (!has_word(message.flags, word)) continue;
+  if (is_doubtful(message)) {
     ++counters_.poses_doubtful;
     return std::nullopt;
   }

@@ -69,6 +69,9 @@ class PoseIntake {
   std::string error_;
 };
 
+/// Flagged uncalibrated, suspect or clock_set: not to be fused.
+bool is_doubtful(const pose_t& message);
+
 NamedCounts named_counts(const IntakeCounters& counters);
 
 }  // namespace pharos::host

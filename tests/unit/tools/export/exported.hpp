@@ -33,6 +33,7 @@ inline std::string example_log() {
   pointing.status = "ok";
   log += logged(kSomeTime_us, "PHAROS_LINE_POINTING", encoded(pointing));
   log += logged(kSomeTime_us, "PHAROS_SLAM_SPIN", encoded(spin_t{}));
+  log += logged(kSomeTime_us, "PHAROS_CLOCK", encoded(clock_exchange_t{}));
   log += logged(kSomeTime_us, "PHAROS_LIGHTHOUSE_POSE", "a message of another system");
   log += logged(kSomeTime_us, "OTHER", "\xFF\xFE");
   pose_t not_finite = some_pose(0);
@@ -122,6 +123,7 @@ inline void expect_example(const ReadBack& read) {
   EXPECT_EQ(of_topic(read, "/PHAROS_LIGHTHOUSE_BEARINGS")[0]["data"]["bearings"][2]["raw_theta_rad"], 1.52);
   EXPECT_EQ(of_topic(read, "/PHAROS_LINE_POINTING").size(), 1U);
   EXPECT_EQ(of_topic(read, "/PHAROS_SLAM_SPIN").size(), 1U);
+  EXPECT_EQ(of_topic(read, "/PHAROS_CLOCK").size(), 1U);
 }
 
 }  // namespace pharos::test

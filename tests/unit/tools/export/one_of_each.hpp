@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"

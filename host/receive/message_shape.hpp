@@ -5,6 +5,7 @@
 
 namespace pharos {
 class bearings_t;
+class clock_exchange_t;
 class pointing_t;
 class pose_t;
 class spin_t;
@@ -12,7 +13,7 @@ class status_t;
 class target_state_t;
 }  // namespace pharos
 
-namespace pharos::tools {
+namespace pharos::host {
 
 /// The layout of an LCM type after its fingerprint, in the order of its .lcm file: a number is that many bytes, `s` a
 /// text, `( )` a list with its count in front.
@@ -36,7 +37,18 @@ template <>
 inline constexpr std::string_view kMessageShape<target_state_t> =
     "8 8 s s 1 24 32 24 24 1152 1 1 8 8 8 ( s s s 8 8 ) 1 s s 48 64";
 
+template <>
+inline constexpr std::string_view kMessageShape<clock_exchange_t> = "s s 8 8 1 8 8 8";
+
 /// Whether `size` bytes at `data` are a fingerprint and then exactly the fields of `shape`, each length within them.
 bool has_shape(const void* data, int size, std::string_view shape);
 
-}  // namespace pharos::tools
+/// Whether `data` is a message of this type, and whole; its fields then. Any bytes may come. The type's header from
+/// proto/ is the caller's.
+template <class Message>
+bool decode(Message& message, const void* data, int size) {
+  static_assert(!kMessageShape<Message>.empty(), "write the type's shape into message_shape.hpp");
+  return has_shape(data, size, kMessageShape<Message>) && message.decode(data, 0, size) == size;
+}
+
+}  // namespace pharos::host

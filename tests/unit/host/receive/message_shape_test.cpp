@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/listen/message_shape.hpp"
+#include "host/receive/message_shape.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
-#include "tools/listen/subscription.hpp"
 
-namespace pharos::tools {
+namespace pharos::host {
 namespace {
 
 template <class Message>
@@ -29,6 +29,14 @@ bearings_t example<bearings_t>() {
   message.source = "lighthouse/chaser";
   message.bearings.resize(3);
   message.count = 3;
+  return message;
+}
+template <>
+clock_exchange_t example<clock_exchange_t>() {
+  clock_exchange_t message{};
+  message.sender = "chaser";
+  message.recipient = "cameras";
+  message.received_ns = 1;
   return message;
 }
 template <>
@@ -70,7 +78,7 @@ class Shape : public ::testing::Test {
     return decode(message, bytes.data(), static_cast<int>(bytes.size()));
   }
 };
-using Types = ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t, target_state_t>;
+using Types = ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t, target_state_t, clock_exchange_t>;
 TYPED_TEST_SUITE(Shape, Types);
 
 TYPED_TEST(Shape, IsThatOfTheType) { EXPECT_TRUE(this->is_message(this->encoded())); }
@@ -99,4 +107,4 @@ TYPED_TEST(Shape, ALengthThatLiesIsRefused) {
 }
 
 }  // namespace
-}  // namespace pharos::tools
+}  // namespace pharos::host

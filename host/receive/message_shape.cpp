@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/listen/message_shape.hpp"
+#include "host/receive/message_shape.hpp"
 
 #include <cstdint>
 
-namespace pharos::tools {
+namespace pharos::host {
 namespace {
 
 constexpr std::size_t kFingerprint_bytes = 8;
@@ -75,4 +75,4 @@ bool has_shape(const void* data, int size, std::string_view shape) {
   return walk.ok && walk.left == 0;
 }
 
-}  // namespace pharos::tools
+}  // namespace pharos::host
