@@ -46,12 +46,16 @@ function(pharos_firmware_tree)
     message(STATUS "firmware is left out: ${skipped}")
     return()
   endif()
+  set(key "")
+  if(PHAROS_SIGNING_KEY)
+    set(key -DPHAROS_SIGNING_KEY=${PHAROS_SIGNING_KEY})
+  endif()
   ExternalProject_Add(firmware
     PREFIX ${CMAKE_BINARY_DIR}/firmware-steps
     SOURCE_DIR ${PROJECT_SOURCE_DIR}
     BINARY_DIR ${CMAKE_BINARY_DIR}/firmware
     CONFIGURE_COMMAND ${CMAKE_COMMAND} -S <SOURCE_DIR> -B <BINARY_DIR> --preset rv32im
-      -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
+      -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER} ${key}
     BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target firmware_images
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
@@ -64,7 +68,7 @@ function(pharos_firmware_tree)
     endif()
     add_custom_target(firmware_${part}
       COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_BINARY_DIR}/firmware --preset rv32im
-        -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER}
+        -DCMAKE_CXX_COMPILER_LAUNCHER=${PHAROS_GIVEN_LAUNCHER} ${key}
       COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR}/firmware --target ${target}
       USES_TERMINAL VERBATIM)
   endforeach()

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "firmware/boot/retained.hpp"
+#include "firmware/boot/verifier.hpp"
 #include "firmware/hal/flash.hpp"
 #include "pharos/boot_image/slot.hpp"
 
@@ -19,7 +20,8 @@ inline constexpr std::uint32_t kTicksPerSecond = 50'000'000;
 /// The loader's interface to a board: there is only one, so a type suffices. Only the flash blocks; start() and
 /// restart() do not return.
 template <class B>
-concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint32_t bytes) {
+concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint32_t bytes,
+                             std::span<const std::uint8_t> message, const std::uint8_t* signature) {
   { B::kName } -> std::same_as<const std::array<char, 24>&>;  // padded with zeros
   /// Once, before all else.
   B::prepare();
@@ -37,6 +39,12 @@ concept BootBoard = requires(std::uint8_t byte, std::uint32_t address, std::uint
   /// Memory that an image may be copied to; null where any of it is reserved.
   { B::memory(address, bytes) } -> std::same_as<std::uint8_t*>;
   { B::retained() } -> std::same_as<volatile Retained&>;
+  /// Where the floor of versions is recorded: a sector of its own (version_floor.hpp).
+  { B::kFloorOffset } -> std::convertible_to<std::uint32_t>;
+  /// Whether the jumper is set that allows images without signature.
+  { B::development() } -> std::same_as<bool>;
+  /// Whether the 64 bytes are a signature of the message with the key of this board. May overwrite memory of images.
+  { B::verify(message, signature) } -> std::same_as<Verdict>;
   B::start(address);
   B::restart();
 };

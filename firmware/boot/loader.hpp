@@ -65,6 +65,8 @@ class Loader {
   Reply begin(const BeginPayload& request);
   Reply take(std::uint32_t offset, std::span<const std::uint8_t> data);
   Reply verify();
+  /// Signature and version; done(0): may be marked.
+  Reply check_origin();
   bool write_head();
   void send_hello();
   void send_info();
@@ -96,6 +98,7 @@ class Loader {
 template <BootBoard Board>
 void Loader<Board>::prepare(bool stay) {
   slots_.find(boot_attempts_exhausted(Board::retained()));
+  if (take_confirmation(Board::retained())) slots_.raise_floor(taking_bytes());
   hello_.role = wire::Role::kLoader;
   hello_.reset_cause = static_cast<std::uint8_t>(Board::retained().last_cause);
   hello_.start_count = static_cast<std::uint16_t>(Board::retained().start_count);
@@ -224,8 +227,9 @@ auto Loader<Board>::take(std::uint32_t offset, std::span<const std::uint8_t> dat
   }
   if (offset == 0) {
     std::memcpy(page_.data(), data.data(), page_.size());
-    const bool good = boot_image::fault_of(head_.header) == boot_image::BootImageError::kNone &&
-                      head_.header.body_bytes == image_bytes_ - boot_image::kPageBytes && slots_.fits(head_.header);
+    const bool good = boot_image::fault_of(head_.image.header) == boot_image::BootImageError::kNone &&
+                      head_.image.header.body_bytes == image_bytes_ - boot_image::kPageBytes &&
+                      slots_.fits(head_.image.header);
     if (!good) return give_up(wire::NakReason::kBadPayload);
   } else if (!Board::flash().program(slot_offset() + offset, data, taking_bytes())) {
     return give_up(wire::NakReason::kWriteFailed, offset);
@@ -240,20 +244,34 @@ auto Loader<Board>::verify() -> Reply {
   if (expected_ != image_bytes_) return refused(wire::NakReason::kOutOfOrder, expected_);
   if (verified_) return done(image_crc32_);
   // As at every start: the data read back from the flash is checked.
-  const boot_image::BootImageHeader& header = head_.header;
-  const bool good_body = slots_.load(slots_.spare(), header);
+  const boot_image::BootImageHeader& header = head_.image.header;
+  const bool good_body = slots_.load(slots_.spare(), head_.image);
   const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
   const std::uint32_t crc = wire::crc32(body, wire::crc32(page_));
   if (crc != image_crc32_) return give_up(wire::NakReason::kBadCrc, crc);
   if (!good_body) return give_up(wire::NakReason::kBadPayload);
+  if (const Reply reply = check_origin(); reply.reason != 0) {
+    image_bytes_ = 0;
+    return reply;
+  }
   if (!write_head()) return give_up(wire::NakReason::kWriteFailed);
   verified_ = true;
   return done(crc);
 }
 
 template <BootBoard Board>
+[[gnu::noinline]] auto Loader<Board>::check_origin() -> Reply {
+  const bool development = Board::development();
+  if (!boot_image::is_signed(head_.image.seal)) return development ? done(0) : refused(wire::NakReason::kNotSigned);
+  const std::uint32_t floor = VersionFloor<Board>::read();
+  if (number_of(head_.image.header.version) < floor && !development) return refused(wire::NakReason::kTooOld, floor);
+  const Verdict verdict = Board::verify(boot_image::signed_bytes_of(head_.image), head_.image.seal.signature.data());
+  return {static_cast<std::uint32_t>(verdict), 0};
+}
+
+template <BootBoard Board>
 bool Loader<Board>::write_head() {
-  head_.mark = boot_image::make_mark(head_.header, slots_.next_sequence());
+  head_.mark = boot_image::make_mark(head_.image, slots_.next_sequence());
   return Board::flash().program(slot_offset(), std::span(page_).first(sizeof head_), taking_bytes()) &&
          slots_.read(slots_.spare(), head_) == slots_.next_sequence();
 }

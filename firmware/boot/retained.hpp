@@ -21,7 +21,8 @@ struct Retained {
 
   std::uint32_t mark = 0;
   std::uint32_t announced = 0;  // wire::ResetCause of the reset that follows; 0: not announced
-  std::uint32_t stay_in_loader = 0;
+  std::uint16_t stay_in_loader = 0;
+  std::uint16_t confirmed = 0;   // the newest image called confirm_start()
   std::uint32_t last_cause = 0;  // wire::ResetCause of the last reset, for Hello
   std::uint16_t start_count = 0;
   std::uint16_t unconfirmed_starts = 0;  // in a row without confirm_start()
@@ -44,6 +45,7 @@ inline void note_reset(volatile Retained& retained) {
   if (retained.mark != Retained::kMark) {
     retained.announced = static_cast<std::uint32_t>(wire::ResetCause::kPowerOn);
     retained.stay_in_loader = 0;
+    retained.confirmed = 0;
     retained.start_count = 0;
     retained.unconfirmed_starts = 0;
     retained.fault_cause = 0;
@@ -73,7 +75,9 @@ inline void reset_boot_attempts(volatile Retained& retained) { retained.unconfir
 
 /// Called by the application once it works. Confirming the fallback image does not bring back the other one.
 inline void confirm_start(volatile Retained& retained) {
-  if (!boot_attempts_exhausted(retained)) reset_boot_attempts(retained);
+  if (boot_attempts_exhausted(retained)) return;
+  reset_boot_attempts(retained);
+  retained.confirmed = 1;
 }
 
 /// Whether the previous program requested the loader. Cleared by the call: the next start is an ordinary one.
@@ -81,6 +85,13 @@ inline bool take_loader_request(volatile Retained& retained) {
   const bool asked = retained.stay_in_loader == 1;
   retained.stay_in_loader = 0;
   return asked;
+}
+
+/// Whether the newest image was confirmed since the loader last asked. Cleared by the call.
+inline bool take_confirmation(volatile Retained& retained) {
+  const bool confirmed = retained.confirmed == 1;
+  retained.confirmed = 0;
+  return confirmed;
 }
 
 /// Reason of the target's last start; unknown where no loader ran before.

@@ -9,8 +9,9 @@
 #include <span>
 
 #include "firmware/boot/boot_board.hpp"
+#include "firmware/boot/version_floor.hpp"
 #include "pharos/boot_image/slot.hpp"
-#include "pharos/wire/crc32.hpp"
+#include "pharos/signature/sha2.hpp"
 
 namespace pharos::boot {
 
@@ -29,6 +30,17 @@ class Slots {
 
   /// The image that was copied to its load address; null when no slot holds a whole one.
   const boot_image::BootImageHeader* loaded() const { return loaded_; }
+  /// After a start of the newest image that was confirmed: what is older than both is not written any more. Nothing
+  /// where there is no fallback, or where one of the two is not signed.
+  template <class Idle>
+  void raise_floor(Idle&& idle) const {
+    std::uint32_t oldest = UINT32_MAX;
+    for (const boot_image::SlotHead& head : heads_) {
+      if (head.mark.sequence == 0 || !boot_image::is_signed(head.image.seal)) return;
+      oldest = std::min(oldest, number_of(head.image.header.version));
+    }
+    (void)VersionFloor<Board>::raise(oldest, idle);  // failed: the next start tries again
+  }
   /// The slot that does not hold it.
   std::size_t spare() const { return spare_; }
   /// Greater than any in the slots.
@@ -46,21 +58,24 @@ class Slots {
   /// A slot's sequence number, 0 when it holds nothing that can run here.
   static std::uint32_t read(std::size_t slot, boot_image::SlotHead& head) {
     Board::flash().read(Board::slot_offset(slot), {reinterpret_cast<std::uint8_t*>(&head), sizeof head});
-    return fits(head.header) ? boot_image::sequence_of(head) : 0;
+    // A marked signature was verified; an image without one starts only where the jumper still says so.
+    const bool may_run = fits(head.image.header) && (boot_image::is_signed(head.image.seal) || Board::development());
+    return may_run ? boot_image::sequence_of(head) : 0;
   }
-  /// Copies the body to its load address and computes its CRC there: the checked copy is the one that runs, even where
-  /// the flash returns other bytes when read again.
-  static bool load(std::size_t slot, const boot_image::BootImageHeader& header) {
+  /// Copies the body to its load address and computes its SHA-256 there: the checked copy is the one that runs, even
+  /// where the flash returns other bytes when read again.
+  static bool load(std::size_t slot, const boot_image::SealedHeader& image) {
+    const boot_image::BootImageHeader& header = image.header;
     const std::span body(Board::memory(header.load_address, header.body_bytes), header.body_bytes);
     Board::flash().read(Board::slot_offset(slot) + boot_image::kPageBytes, body);
-    return wire::crc32(body) == header.body_crc32;
+    return signature::is_sha256(image.seal.body_sha256, body);
   }
 
  private:
   bool take(std::size_t slot) {
     const boot_image::SlotHead& head = heads_[slot];
-    if (head.mark.sequence == 0 || !load(slot, head.header)) return false;
-    loaded_ = &head.header;
+    if (head.mark.sequence == 0 || !load(slot, head.image)) return false;
+    loaded_ = &head.image.header;
     spare_ = 1 - slot;
     return true;
   }

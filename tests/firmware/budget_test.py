@@ -10,6 +10,8 @@ import sys
 RETAINED = 32
 LOADER = 4096  # its whole section
 CHIP = 36 * 1024
+UPPER = 2048  # of the loader's ROM, for SHA-256 and the checks of signature and version
+VERIFIER = 8192  # in flash
 SLOT = 256 * 1024
 # Most bytes of variables and stack, and of everything (code, constants, variables, stack, loader) together.
 LIMITS = {"decoder.ep4ce10": (12 * 1024, CHIP), "decoder_pose.ep4ce10": (CHIP, None)}
@@ -44,9 +46,15 @@ def main():
         if image.stat().st_size > SLOT:
             print(f"FAILED: {image.name} fits no slot of the loader's flash")
             failed = True
-    loader = images / "ep4ce10_loader.bin"
-    if loader.stat().st_size > LOADER:
-        print(f"FAILED: the loader has {loader.stat().st_size} bytes of {LOADER}")
+    upper = sections(images / "ep4ce10_loader.elf")[".upper"]
+    verifier = (images / "verifier.bin").stat().st_size
+    print(f"signatures, apart: {upper:,} bytes of the {UPPER:,} of ROM after the loader; {verifier:,} of the {VERIFIER:,} of the verifier in flash")
+    if upper > UPPER or verifier > VERIFIER:
+        print("FAILED: the signatures are over their budget")
+        failed = True
+    loader = images / "ep4ce10_loader.elf"
+    if sections(loader)[".text"] > LOADER:
+        print(f"FAILED: the loader has {sections(loader)['.text']} bytes of {LOADER}")
         failed = True
     return 1 if failed else 0
 

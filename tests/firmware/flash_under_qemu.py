@@ -12,11 +12,12 @@ import sys
 import tempfile
 import unittest
 
-from qemu_target import DECODER, LOADER, PoorLine, QemuTarget, have_qemu, raw_line
+from qemu_target import DECODER, LOADER, VERIFIER_OFFSET, PoorLine, QemuTarget, have_qemu, raw_line
 
 PHAROS = IMAGES = None
-LOADER_MOST_BYTES = 4096
+LOADER_MOST_BYTES = 4096 + 2048
 ON_CHIP = 0x80001000
+TEST_KEY = pathlib.Path(__file__).parents[2] / "firmware/boot/test_key/test_only_private_key.pem"
 RESET, CAUSE_COMMAND = 3, 2  # wire::CommandCode, wire::ResetCause
 BAUD = 460_800
 
@@ -89,6 +90,51 @@ class FlashUnderQemu(unittest.TestCase):
         self.refused(2, "for the board 'ep4ce10'", self.made("--board", "ep4ce10", "--version", "2.0.0"))
         self.assert_runs((1, 0, 1))
 
+    def test_refuses_what_is_not_signed_with_its_key(self):
+        self.target.switch_on()
+        self.flashed(self.first)
+        key = pathlib.Path(self.folder.name) / "other.pem"
+        subprocess.run(["openssl", "genpkey", "-algorithm", "ed25519", "-out", key], check=True)
+        words = "signature is not of the key"
+        new = ("--board", "qemu_virt", "--version", "2.0.0")
+        self.refused(1, words, self.made(*new, "--key", key))
+        self.refused(1, words, self.damaged(lambda data: data.__setitem__(100, data[100] ^ 1)))
+        self.refused(1, words, self.damaged(lambda data: data.__setitem__(150, data[150] ^ 1)))
+        # Another body with its digest and CRCs, under the signature of the first.
+        made = bytearray(self.made(*new).read_bytes())
+        made[96:160] = self.first.read_bytes()[96:160]
+        self.refused(1, words, self.damaged(lambda data: made))
+        self.assert_runs((1, 0, 1))
+        self.assertEqual(self.flashed(self.made("--board", "qemu_virt", "--version", "1.0.1"))["version"], "1.0.1")
+
+    def test_runs_an_unsigned_image_only_with_the_jumper(self):
+        self.target.switch_on()
+        self.flashed(self.first)
+        bare = self.made("--board", "qemu_virt", "--version", "1.0.1", "--unsigned")
+        self.refused(1, "is not signed, and the target's development jumper is not set", bare)
+        self.assert_runs((1, 0, 1))
+        self.target.switch_off()
+        self.target.jumper = True
+        self.target.switch_on()
+        self.assertEqual(self.flashed(bare)["version"], "1.0.1")
+        self.assert_runs((1, 0, 1))
+
+    def test_refuses_versions_below_its_floor(self):
+        self.target.switch_on()
+        for image in (self.first, self.second, self.large):
+            self.flashed(image)
+            self.target.forget()
+            for _ in range(3):
+                self.assertIsNotNone(self.target.hello())  # so long that the start is confirmed
+        self.refused(1, "older than 1.0.2, the oldest version", self.first, "--allow-older")
+        self.assert_runs((1, 0, 3))
+        self.assertEqual(self.flashed(self.second, "--allow-older")["version"], "1.0.2")
+
+    def test_verifies_nothing_with_a_changed_verifier(self):
+        self.target.write_flash(VERIFIER_OFFSET + 1000, b"\0")
+        self.target.switch_on()
+        self.refused(1, "verifier of signatures is missing or damaged", self.first)
+
     def test_takes_64_kib_over_a_line_of_460800_baud(self):
         self.target.switch_on()
         line = PoorLine(self.target.port, BAUD)
@@ -157,7 +203,9 @@ class FlashUnderQemu(unittest.TestCase):
     def made(self, *options):
         path = pathlib.Path(self.folder.name) / "made.image"
         maker = pathlib.Path(__file__).parents[2] / "firmware/boot/make_image.py"
-        subprocess.run([sys.executable, "-B", maker, *options, "--name", "made", IMAGES / "flash_probe_1.elf", path], check=True)
+        keys = () if "--key" in options or "--unsigned" in options else ("--key", TEST_KEY)
+        options = [option for option in options if option != "--unsigned"]
+        subprocess.run([sys.executable, "-B", maker, *keys, *options, "--name", "made", IMAGES / "flash_probe_1.elf", path], check=True)
         return path
 
     def test_a_held_port_is_told(self):
@@ -209,7 +257,7 @@ class FlashUnderQemu(unittest.TestCase):
         self.assertEqual(run.returncode, 0, shown)
         self.assertIn(b"writing", shown)
 
-    def test_the_loaders_keep_their_4_kib(self):
+    def test_the_loaders_keep_their_6_kib(self):
         for board in ("qemu_virt", "ep4ce10"):
             size = (IMAGES / f"{board}_loader.bin").stat().st_size
             print(f"loader of {board}, code and constants: {size} bytes")

@@ -21,6 +21,8 @@ import zlib
 from tape import unstuffed
 
 FLASH_BYTES = 32 << 20  # size of the machine's flash bank
+FLOOR_OFFSET = 0x80000
+VERIFIER_OFFSET = 0xC0000  # board/qemu_virt/loader_board.hpp
 HELLO, COMMAND = 1, 0x30
 RESIDUE = 0x2144DF1C
 DECODER, LOADER = 0, 1
@@ -46,6 +48,7 @@ class QemuTarget:
         self.loader = images / "qemu_virt_loader.elf"
         self.flash = flash
         self.edges = edges
+        self.jumper = False  # development
         self.machine = None
         self.line = -1
         self.port = None
@@ -53,6 +56,14 @@ class QemuTarget:
         if not flash.exists():
             flash.touch()
             os.truncate(flash, FLASH_BYTES)
+            self.write_flash(FLOOR_OFFSET, b"\xff" * 4096)
+            self.write_flash(VERIFIER_OFFSET, (images / "verifier.bin").read_bytes())
+
+    def write_flash(self, offset, data):
+        """As a programmer does; while the power is off."""
+        with self.flash.open("r+b") as file:
+            file.seek(offset)
+            file.write(data)
 
     def __enter__(self):
         return self
@@ -65,6 +76,8 @@ class QemuTarget:
         if self.edges:
             capture = ["-chardev", f"socket,id=edges,path={self.edges},server=on,wait=off", "-device", "virtio-serial-device",
                        "-device", "virtconsole,chardev=edges"]
+        if self.jumper:
+            capture += ["-device", "loader,addr=0x8070fffc,data=1,data-len=4"]
         self.machine = subprocess.Popen(
             ["qemu-system-riscv32", "-M", "virt", "-smp", "1", "-m", "32M", "-bios", "none", "-nodefaults", "-display", "none",
              "-serial", "pty", "-device", f"loader,file={self.loader},cpu-num=0",

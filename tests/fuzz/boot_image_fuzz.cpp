@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pharos/boot_image/slot.hpp"
+#include "pharos/signature/sha2.hpp"
 #include "support/require.hpp"
 
 namespace {
@@ -36,11 +37,12 @@ void check_sealed(Input input) {
   header.entry_address = header.load_address;
   header = sealed(header, body);
   std::vector<std::uint8_t> file(kPageBytes, 0xFF);
-  std::memcpy(file.data(), &header, sizeof header);
+  SealedHeader image{header, {pharos::signature::sha256(body), {}}};
+  std::memcpy(file.data(), &image, sizeof image);
   file.insert(file.end(), body.begin(), body.end());
   const BootImageError fault = check_image(file).error();
   require(fault == BootImageError::kNone || fault == BootImageError::kBadHeader);
-  SlotHead head{header, make_mark(header, 7)};
+  SlotHead head{image, make_mark(image, 7)};
   require(sequence_of(head) == 7);
   head.mark.sequence ^= 1;
   require(sequence_of(head) == 0);
@@ -51,7 +53,7 @@ void check_slot(Input input) {
   if (input.size() < sizeof head) return;
   std::memcpy(&head, input.data(), sizeof head);
   const std::uint32_t sequence = sequence_of(head);
-  if (sequence != 0) require(make_mark(head.header, sequence).check == head.mark.check);
+  if (sequence != 0) require(make_mark(head.image, sequence).check == head.mark.check);
 }
 
 }  // namespace

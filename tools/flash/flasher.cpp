@@ -35,6 +35,27 @@ bool has_image(const wire::Hello& hello) {
   return hello.role != wire::Role::kLoader || version_of(hello) != boot_image::Version{0, 0, 0};
 }
 
+/// Why the target does not accept an image that arrived whole; empty: another reason.
+std::string refusal_text(const Reply& reply) {
+  if (!reply.refusal) return {};
+  switch (*reply.refusal) {
+    case wire::NakReason::kNotSigned:
+      return "the image is not signed, and the target's development jumper is not set; sign it (make_image.py --key) "
+             "or set the jumper";
+    case wire::NakReason::kBadSignature:
+      return "the image's signature is not of the key that the target was built with: another key, or a changed image";
+    case wire::NakReason::kTooOld:
+      return "the image is older than " +
+             to_text({static_cast<std::uint8_t>(reply.value >> 16), static_cast<std::uint8_t>(reply.value >> 8),
+                      static_cast<std::uint8_t>(reply.value)}) +
+             ", the oldest version that this target still accepts";
+    case wire::NakReason::kNoVerifier:
+      return "the target's verifier of signatures is missing or damaged; write verifier.bin with a programmer";
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 Flasher::Flasher(FlashLine& line, const FlashReports& reports, const FlashOptions& options)
@@ -152,6 +173,10 @@ void Flasher::verify(const BootImageFile& image) {
   if (!reply->refusal && reply->value == wire::crc32(image.bytes)) return;
   if (reply->refusal == wire::NakReason::kWriteFailed) {
     throw FlashError("the target's flash cannot be written; what ran before is still there");
+  }
+  if (const std::string text = refusal_text(*reply); !text.empty()) {
+    (void)session_.request(wire::LoaderStart{}, kReplyTimeout_ns, kAttempts);  // of what was there before
+    throw FlashError(text + "; what ran before is still there");
   }
   if (reply->refusal == wire::NakReason::kBadPayload)
     throw FlashError("the target refuses the image; what ran before is still there");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "pharos/signature/sha2.hpp"
 #include "pharos/wire/crc32.hpp"
 #include "pharos/wire/text.hpp"
 
@@ -63,10 +64,15 @@ Result<BootImageHeader, BootImageError> check_image(std::span<const std::uint8_t
   if (!header) return header;
   if (file.size() < kPageBytes || file.size() - kPageBytes < header->body_bytes) return BootImageError::kCutShort;
   if (file.size() - kPageBytes > header->body_bytes) return BootImageError::kTooLong;
-  const auto rest_of_page = file.first(kPageBytes).subspan(sizeof(BootImageHeader));
+  const auto rest_of_page = file.first(kPageBytes).subspan(sizeof(SealedHeader));
   if (!std::ranges::all_of(rest_of_page, [](std::uint8_t byte) { return byte == 0xFF; }))
     return BootImageError::kBadHeader;
-  if (wire::crc32(file.subspan(kPageBytes)) != header->body_crc32) return BootImageError::kBadBody;
+  SealedHeader head;
+  std::memcpy(&head, file.data(), sizeof head);
+  const auto body = file.subspan(kPageBytes);
+  if (wire::crc32(body) != header->body_crc32 || signature::sha256(body) != head.seal.body_sha256) {
+    return BootImageError::kBadBody;
+  }
   return header;
 }
 

@@ -13,13 +13,13 @@
 
 namespace pharos::boot_image {
 
-// An image file is one page with the header, then the body: the bytes that are copied to `load_address`. The page has
-// the size of one NOR flash programming operation, so that the header can be written last.
+// An image file is one page with header and seal, then the body: the bytes that are copied to `load_address`. The page
+// has the size of one NOR flash programming operation, so that the header can be written last.
 
 /// Bytes before the body: the header, and FF to the end of the page.
 inline constexpr std::size_t kPageBytes = 256;
 /// Distinguishes images of this and other formats: the header's `format`.
-inline constexpr std::uint8_t kFormat = 1;
+inline constexpr std::uint8_t kFormat = 2;
 inline constexpr std::uint32_t kMagic = 0x474D4950;  // "PIMG"
 
 struct Version {
@@ -46,6 +46,19 @@ struct BootImageHeader {
   std::uint32_t header_crc32;  // of all before it
 };
 static_assert(sizeof(BootImageHeader) == 64 && std::is_trivial_v<BootImageHeader>);
+
+/// After the header, in a file and in a slot.
+struct Seal {
+  std::array<std::uint8_t, 32> body_sha256;
+  /// Ed25519, of the header's 64 bytes and the 32 of the digest; all FF: not signed.
+  std::array<std::uint8_t, 64> signature;
+};
+/// Header and seal together, without padding: the front of every image.
+struct SealedHeader {
+  BootImageHeader header;
+  Seal seal;
+};
+static_assert(sizeof(SealedHeader) == 160 && std::is_trivial_v<SealedHeader>);
 static_assert(std::endian::native == std::endian::little, "images are read as they lie in memory");
 
 /// Why bytes are not a valid image.
@@ -56,7 +69,7 @@ enum class BootImageError : std::uint8_t {
   kOtherFormat,  // another format than this program supports
   kBadHeader,    // the header's CRC is wrong, or a field is invalid
   kTooLong,      // bytes after the body
-  kBadBody,      // the body's CRC is wrong
+  kBadBody,      // the body's CRC or SHA-256 is wrong
 };
 
 /// Checks a header as read, without its texts: kNoImage, kOtherFormat, kBadHeader or kNone. For callers with little
@@ -70,7 +83,17 @@ Result<BootImageHeader, BootImageError> read_header(std::span<const std::uint8_t
 /// The header that `body` needs: magic, format, length and both CRCs filled in.
 BootImageHeader sealed(BootImageHeader header, std::span<const std::uint8_t> body);
 
-/// A whole image file: header, page and body in their form. Cost: one CRC over all of it.
+/// Whether there is a signature; not whether it is good. The last byte of a good one is below 0x20 (RFC 8032: S is
+/// below 2^253), so FF there is none.
+inline bool is_signed(const Seal& seal) { return seal.signature.back() != 0xFF; }
+
+/// What a signature is of: valid as long as `head`.
+inline std::span<const std::uint8_t, 96> signed_bytes_of(const SealedHeader& head) {
+  return std::span<const std::uint8_t, 96>(reinterpret_cast<const std::uint8_t*>(&head), 96);
+}
+
+/// A whole image file: header, page and body in their form. Not the signature: the target has the key. Cost: a CRC and
+/// a SHA-256 over all of it.
 Result<BootImageHeader, BootImageError> check_image(std::span<const std::uint8_t> file);
 
 /// The header as its bytes; valid as long as it.

@@ -2,6 +2,7 @@
 #include "pharos/signature/sha2.hpp"
 
 #include <bit>
+#include <cstring>
 
 namespace pharos::signature {
 namespace {
@@ -106,12 +107,12 @@ void Sha2<Word>::add(std::span<const std::uint8_t> part) {
 
 template <class Word>
 auto Sha2<Word>::finish() -> Digest {
-  const std::uint64_t bits = 8 * static_cast<std::uint64_t>(bytes_);
+  const std::uint32_t bits = 8 * bytes_;
   put(0x80);
-  // The length has two words, of SHA-512 the first is 0.
+  // The length has two words, of which the last four bytes are not 0 here.
   while (bytes_ % kBlockBytes != kBlockBytes - 2 * sizeof(Word)) put(0);
-  for (std::size_t i = 8; i < 2 * sizeof(Word); ++i) put(0);
-  for (int shift = 56; shift >= 0; shift -= 8) put(static_cast<std::uint8_t>(bits >> shift));
+  for (std::size_t i = 4; i < 2 * sizeof(Word); ++i) put(0);
+  for (int shift = 24; shift >= 0; shift -= 8) put(static_cast<std::uint8_t>(bits >> shift));
   Digest digest;
   for (std::size_t i = 0; i < digest.size(); ++i) {
     const std::size_t shift = 8 * (sizeof(Word) - 1 - i % sizeof(Word));
@@ -127,6 +128,13 @@ Sha256::Digest sha256(std::span<const std::uint8_t> message) {
   Sha256 hash;
   hash.add(message);
   return hash.finish();
+}
+
+bool is_sha256(std::span<const std::uint8_t, 32> digest, std::span<const std::uint8_t> message) {
+  Sha256 hash;
+  hash.add(message);
+  const Sha256::Digest found = hash.finish();
+  return std::memcmp(found.data(), digest.data(), found.size()) == 0;
 }
 
 }  // namespace pharos::signature

@@ -8,7 +8,7 @@
 
 namespace pharos::signature {
 
-/// SHA-256 (Word 32 bits) and SHA-512 (64 bits) of FIPS 180-4, for messages of less than 2^32 bytes given in any
+/// SHA-256 (Word 32 bits) and SHA-512 (64 bits) of FIPS 180-4, for messages of less than 2^29 bytes given in any
 /// parts. The constants of SHA-256 are the upper halves of those of SHA-512: one table.
 template <class Word>
 class Sha2 {
@@ -37,6 +37,8 @@ using Sha512 = Sha2<std::uint64_t>;
 extern template class Sha2<std::uint32_t>;
 extern template class Sha2<std::uint64_t>;
 
+/// Whether `digest` is the SHA-256 of one piece.
+bool is_sha256(std::span<const std::uint8_t, 32> digest, std::span<const std::uint8_t> message);
 /// SHA-256 of one piece.
 Sha256::Digest sha256(std::span<const std::uint8_t> message);
 

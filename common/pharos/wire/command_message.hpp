@@ -36,14 +36,18 @@ struct Ack {
 };
 
 enum class NakReason : std::uint8_t {
-  kUnsupported = 1,  // unknown command or type
-  kBadPayload = 2,   // the payload is invalid, or the image cannot run here
-  kOutOfOrder = 3,   // an offset that is not the next; value: the offset expected, or kNothingBegun
-  kTooLarge = 4,     // does not fit; value: bytes available
-  kWrongBoard = 5,   // an image for another board
-  kBadCrc = 6,       // the image does not verify; value: the CRC found
-  kWriteFailed = 7,  // writing the memory failed; value: the offset
-  kNotVerified = 8,  // start before a good verify
+  kUnsupported = 1,    // unknown command or type
+  kBadPayload = 2,     // the payload is invalid, or the image cannot run here
+  kOutOfOrder = 3,     // an offset that is not the next; value: the offset expected, or kNothingBegun
+  kTooLarge = 4,       // does not fit; value: bytes available
+  kWrongBoard = 5,     // an image for another board
+  kBadCrc = 6,         // the image does not verify; value: the CRC found
+  kWriteFailed = 7,    // writing the memory failed; value: the offset
+  kNotVerified = 8,    // start before a good verify
+  kNotSigned = 9,      // an image without signature, and no jumper says development
+  kBadSignature = 10,  // forged, changed, or signed with another key
+  kTooOld = 11,        // older than the floor; value: the floor, major << 16 | minor << 8 | patch
+  kNoVerifier = 12,    // the verifier in the target's flash is missing or damaged
 };
 
 /// Value of kOutOfOrder where no image was announced.

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "firmware/board/ep4ce10/addresses.hpp"
 #include "firmware/board/rv32/loader_memory.hpp"
 #include "firmware/board/rv32/mmio.hpp"
 #include "firmware/board/spi_nor_flash.hpp"
+#include "firmware/boot/verifier.hpp"
 #include "firmware/rtl/capture_registers.h"
 
 namespace pharos::board {
@@ -56,6 +58,15 @@ class LoaderBoard : public LoaderMemory {
   }
   static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? kFirstSlot : kFirstSlot + kSlotBytes; }
   static Flash flash() { return {}; }
+  static constexpr std::uint32_t kFloorOffset = 0x180000;
+  /// The last sector: what the flash's block protection covers first.
+  static constexpr std::uint32_t kVerifierOffset = 0x1F0000;
+  /// The jumper connects general pin 7 to ground; the chip's own pull-up holds it high otherwise.
+  static bool development() { return (mmio32(kPins + 4) & 0x80) == 0; }
+  static boot::Verdict verify(std::span<const std::uint8_t> message, const std::uint8_t* signature) {
+    return boot::verify_in_memory<Flash>(kVerifierOffset, boot::kVerifierSha256, boot::kVerifierBytes, message,
+                                         signature);
+  }
 
   static int receive() { return (mmio32(kUartLineStatus) & 0x01) != 0 ? static_cast<int>(mmio32(kUart) & 0xFF) : -1; }
   static bool transmit(std::uint8_t byte) {

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "firmware/board/qemu_virt/cfi_flash.hpp"
 #include "firmware/board/rv32/loader_memory.hpp"
 #include "firmware/board/rv32/mmio.hpp"
 #include "firmware/boot/retained.hpp"
+#include "firmware/boot/verifier.hpp"
 
 namespace pharos::board {
 
@@ -26,6 +28,14 @@ class LoaderBoard : public LoaderMemory {
 
   static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? 0 : kSlotBytes; }
   static Flash flash() { return {}; }
+  static constexpr std::uint32_t kFloorOffset = 2 * kSlotBytes;
+  static constexpr std::uint32_t kVerifierOffset = 3 * kSlotBytes;
+  /// The jumper: a word that the machine's command line sets (`-device loader,addr=0x8070fffc,data=1,data-len=4`).
+  static bool development() { return mmio32(0x8070FFFC) == 1; }
+  static boot::Verdict verify(std::span<const std::uint8_t> message, const std::uint8_t* signature) {
+    return boot::verify_in_memory<Flash>(kVerifierOffset, boot::kVerifierSha256, boot::kVerifierBytes, message,
+                                         signature);
+  }
 
   static int receive() { return (mmio8(kUartLineStatus) & 0x01) != 0 ? mmio8(kUart) : -1; }
   static bool transmit(std::uint8_t byte) {

@@ -97,7 +97,9 @@ module pharos_soc #(
     is_ram = page[31:17] == PAGE_OF_RAM[31:17] && page[16:12] != 5'd0 && page[16:12] <= LAST_RAM_PAGE;
   endfunction
 
-  wire i_rom = ibus_address[31:12] == PAGE_OF_ROM;
+  // The ROM is 1,024 words at one page and 512 at another.
+  wire i_upper = ibus_address[31:12] == PAGE_OF_ROM_UPPER && !ibus_address[11];
+  wire i_rom = ibus_address[31:12] == PAGE_OF_ROM || i_upper;
   wire i_ram = is_ram(ibus_address[31:12]);
   assign code_read = ibus_read && i_ram;
   assign code_address = ibus_address[16:2];
@@ -112,7 +114,8 @@ module pharos_soc #(
 
   // Data.
   wire [31:12] page = dbus_address[31:12];
-  wire d_rom = page == PAGE_OF_ROM;
+  wire d_upper = page == PAGE_OF_ROM_UPPER && !dbus_address[11];
+  wire d_rom = page == PAGE_OF_ROM || d_upper;
   wire d_ram = is_ram(page);
   wire d_uart = page == PAGE_OF_UART;
   wire d_capture = page == PAGE_OF_CAPTURE;
@@ -137,10 +140,10 @@ module pharos_soc #(
   ) rom (
       .clock(clock),
       .read_a(ibus_read),
-      .address_a(ibus_address[11:2]),
+      .address_a({i_upper, ibus_address[11:2]}),
       .data_a(rom_code),
       .read_b(dbus_read),
-      .address_b(dbus_address[11:2]),
+      .address_b({d_upper, dbus_address[11:2]}),
       .data_b(rom_data)
   );
 

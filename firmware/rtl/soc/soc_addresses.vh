@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Made by addresses.py of addresses.toml.
 localparam [31:12] PAGE_OF_ROM = 20'h80000;
+localparam [31:12] PAGE_OF_ROM_UPPER = 20'h80020;
 localparam [31:12] PAGE_OF_RAM = 20'h80001;
 localparam [31:12] PAGE_OF_UART = 20'h10000;
 localparam [31:12] PAGE_OF_CAPTURE = 20'h10001;

@@ -21,15 +21,15 @@ RTL = ROOT / "firmware" / "rtl"
 TOP = "pharos_chip"
 MAX_LOGIC_ELEMENTS = 5000
 MAX_M9K = 46
-# Black boxes: M9K and multipliers of 9 bits of one. A lane is 8,192 x 8 bits, the ROM 1,024 x 32, an M9K 1,024 x 8 or 256 x 32.
-BOXES = {"soc_ram_lane": (8, 0), "soc_rom": (4, 0), "core_multiplier": (0, 2)}
+# Black boxes: M9K and multipliers of 9 bits of one. A lane is 8,192 x 8 bits, the ROM 1,536 x 32, an M9K 1,024 x 8 or 256 x 32.
+BOXES = {"soc_ram_lane": (8, 0), "soc_rom": (6, 0), "core_multiplier": (0, 2)}
 
 
 def netlist():
     sources = [path for folder in (RTL, RTL / "core", RTL / "soc") for path in sorted(folder.glob("*.v"))]
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / "netlist.json"
-        (pathlib.Path(folder) / "loader.hex").write_text("0\n" * 1024)
+        (pathlib.Path(folder) / "loader.hex").write_text("0\n" * 1536)
         script = (f"read_verilog -I{RTL / 'soc'} {' '.join(map(str, sources))}",
                   f"hierarchy -check -top {TOP}", *(f"blackbox {name} *{name}*" for name in BOXES),
                   f"synth_intel -family cycloneive -top {TOP}", f"write_json {output}")

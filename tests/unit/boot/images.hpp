@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "pharos/boot_image/boot_image_header.hpp"
+#include "pharos/signature/sha2.hpp"
 #include "pharos/wire/text.hpp"
 #include "unit/boot/model_board.hpp"
 
@@ -21,6 +24,7 @@ struct ImageOptions {
   boot_image::Version version{1, 0, 0};
   std::string_view board = "model";
   std::uint32_t load_address = Machine::kMemoryAddress;
+  bool is_signed = true;
 };
 
 inline Bytes body_of(const Bytes& file) {
@@ -41,7 +45,10 @@ inline Bytes make_image(unsigned seed, const ImageOptions& options = {}) {
   header.name = wire::Text<12>("test").characters;
   header = boot_image::sealed(header, body);
   Bytes file(boot_image::kPageBytes + body.size(), 0xFF);
-  std::ranges::copy(boot_image::bytes_of(header), file.begin());
+  boot_image::SealedHeader head{header, {signature::sha256(body), {}}};
+  head.seal.signature.fill(0xFF);
+  if (options.is_signed) head.seal.signature = model_signature(boot_image::signed_bytes_of(head));
+  std::memcpy(file.data(), &head, sizeof head);
   std::ranges::copy(body, file.begin() + boot_image::kPageBytes);
   return file;
 }

@@ -12,9 +12,19 @@
 
 #include "firmware/boot/boot_board.hpp"
 #include "pharos/base/ticks.hpp"
+#include "pharos/signature/sha2.hpp"
 #include "unit/boot/model_flash.hpp"
 
 namespace pharos::boot::test {
+
+/// Stands for a signature on the model board: SHA-512 of what is signed. The real verification runs under QEMU.
+inline std::array<std::uint8_t, 64> model_signature(std::span<const std::uint8_t> message) {
+  signature::Sha512 hash;
+  hash.add(message);
+  auto signature = hash.finish();
+  signature.back() &= 0x1F;  // as in every signature
+  return signature;
+}
 
 /// A board without its power supply: memory, flash, and a serial line with transmission times.
 struct Machine {
@@ -24,6 +34,8 @@ struct Machine {
   ModelFlash flash;
   std::vector<std::uint8_t> memory = std::vector<std::uint8_t>(kMemoryBytes);
   Retained retained;
+  bool development = false;  // the jumper
+  bool has_verifier = true;
   std::int64_t now = 0;  // ticks
   std::int64_t byte_ticks = 10 * kTicksPerSecond / 460'800;
   /// Sizes of the UART's receive and transmit buffers, bytes.
@@ -85,7 +97,8 @@ struct ModelBoard {
   static constexpr std::array<char, 24> kName{"model"};
   using Flash = ModelFlash;
   static constexpr std::uint32_t kSlotBytes = 2 * ModelFlash::kSectorBytes;
-  static_assert(boot_image::kSlots * kSlotBytes == ModelFlash::kBytes);
+  static constexpr std::uint32_t kFloorOffset = boot_image::kSlots * kSlotBytes;
+  static_assert(kFloorOffset + ModelFlash::kSectorBytes == ModelFlash::kBytes);
 
   static void prepare() {}
   static Flash& flash() { return machine->flash; }
@@ -99,6 +112,11 @@ struct ModelBoard {
     return there ? machine->memory.data() + before : nullptr;
   }
   static volatile Retained& retained() { return machine->retained; }
+  static bool development() { return machine->development; }
+  static Verdict verify(std::span<const std::uint8_t> message, const std::uint8_t* signature) {
+    if (!machine->has_verifier) return Verdict::kNoVerifier;
+    return std::ranges::equal(model_signature(message), std::span(signature, 64)) ? Verdict::kGood : Verdict::kBad;
+  }
   static void start(std::uint32_t) {}
   static void restart() {}
 };

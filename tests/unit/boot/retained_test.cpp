@@ -7,7 +7,7 @@ namespace pharos::boot {
 namespace {
 
 /// Content of the memory after a power loss.
-Retained anything() { return {0x12345678, 0x9ABCDEF0, 1, 0xFFFFFFFF, 77, 1, 2, 3}; }
+Retained anything() { return {0x12345678, 0x9ABCDEF0, 1, 1, 0xFFFFFFFF, 77, 1, 2, 3}; }
 
 TEST(Retained, DistinguishesPowerOnFromAReset) {
   Retained retained = anything();

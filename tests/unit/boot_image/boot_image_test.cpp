@@ -43,6 +43,7 @@ TEST(Image, CutAnywhereIsCutShort) {
 
 TEST(Image, WithAnyBitFlippedIsNoImage) {
   for (std::size_t at = 0; at < kGood.size(); ++at) {
+    if (at >= 96 && at < sizeof(SealedHeader)) continue;  // the signature: the target verifies it
     for (int bit = 0; bit < 8; ++bit) {
       Bytes file = kGood;
       file[at] ^= static_cast<std::uint8_t>(1 << bit);
@@ -62,7 +63,7 @@ TEST(Image, WithBytesBehindItIsTooLong) {
 
 TEST(Image, SomethingElseIsReported) {
   EXPECT_EQ(check_image(Bytes(1000, 0x7F)).error(), BootImageError::kNoImage);
-  EXPECT_EQ(check_image(changed(kGood, [](BootImageHeader& h) { h.format = 2; })).error(),
+  EXPECT_EQ(check_image(changed(kGood, [](BootImageHeader& h) { h.format = 1; })).error(),
             BootImageError::kOtherFormat);
 }
 
@@ -82,21 +83,21 @@ TEST(Image, AFieldThatMeansNothingIsRefused) {
 
 TEST(Slot, AMarkHoldsForItsOwnHeaderOnly) {
   SlotHead head;
-  std::memcpy(&head.header, kGood.data(), sizeof head.header);
-  head.mark = make_mark(head.header, 41);
+  std::memcpy(&head.image, kGood.data(), sizeof head.image);
+  head.mark = make_mark(head.image, 41);
   EXPECT_EQ(sequence_of(head), 41u);
   SlotHead other = head;
   const Bytes image = make_image(2);
-  std::memcpy(&other.header, image.data(), sizeof other.header);
+  std::memcpy(&other.image, image.data(), sizeof other.image);
   EXPECT_EQ(sequence_of(other), 0u);
 }
 
 TEST(Slot, AMarkWithBitsNotYetWrittenIsNone) {
   SlotHead head;
-  std::memcpy(&head.header, kGood.data(), sizeof head.header);
+  std::memcpy(&head.image, kGood.data(), sizeof head.image);
   std::mt19937 random(1);
   for (std::uint32_t sequence = 1; sequence < 2000; ++sequence) {
-    const SlotMark whole = make_mark(head.header, sequence);
+    const SlotMark whole = make_mark(head.image, sequence);
     head.mark = {whole.sequence | static_cast<std::uint32_t>(random()),
                  whole.check | static_cast<std::uint32_t>(random())};
     const bool changed = head.mark.sequence != whole.sequence || head.mark.check != whole.check;

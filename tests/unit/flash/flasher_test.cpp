@@ -170,6 +170,23 @@ TEST_F(Flash, RefusesAnImageThatCannotRunThere) {
   expect_old_runs_after_power_cycle();
 }
 
+TEST_F(Flash, TellsEachRefusalOfOrigin) {
+  const auto newer = [](bool is_signed) { return make_image(6, {.version = {2, 0, 0}, .is_signed = is_signed}); };
+  EXPECT_THAT(error_of(file_of(newer(false))), HasSubstr("is not signed, and the target's development jumper"));
+  target.run(kTicksPerSecond);
+  EXPECT_TRUE(runs(old_image)) << "it was started again";
+  auto forged = newer(true);
+  forged[120] ^= 1;
+  EXPECT_THAT(error_of(file_of(forged)), HasSubstr("signature is not of the key"));
+  target.machine.has_verifier = false;
+  EXPECT_THAT(error_of(file_of(newer(true))), HasSubstr("verifier of signatures is missing"));
+  target.machine.has_verifier = true;
+  flash(file_of(newer(true)));
+  flash(file_of(make_image(7, {.version = {2, 0, 1}})));
+  allow_older = true;
+  EXPECT_THAT(error_of(old_image), HasSubstr("older than 2.0.0, the oldest version"));
+}
+
 TEST_F(Flash, ReportsThatTheFlashIsBroken) {
   line.meanwhile = [&] { target.machine.flash.broken = !target.runs_application() && !progress.empty(); };
   EXPECT_THAT(error_of(new_image), HasSubstr("flash cannot be written"));
