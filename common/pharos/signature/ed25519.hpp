@@ -14,7 +14,8 @@ using Signature = std::array<std::uint8_t, 64>;
 /// in its only encoding, and the encoding of S B - k A equal to that of R (without the cofactor). False for anything
 /// else.
 ///
-/// Time depends on the values, which are all public here. Cost: 4.3 million instructions of RV32IM, 1.4 kB of stack.
+/// Time depends on the values, which are all public here. Cost: some 4,500 products of two numbers; 2.1 kB of stack on
+/// RV32IM.
 bool verify(const Signature& signature, const PublicKey& key, std::span<const std::uint8_t> message);
 
 }  // namespace pharos::signature

@@ -19,7 +19,7 @@ bool subtract_words(Words& a, const Words& b);
 
 Words plus(const Words& a, const Words& b);
 Words minus(const Words& a, const Words& b);
-/// Cost: some 1,100 instructions of RV32IM.
+/// Cost: 72 products of two words.
 Words times(const Words& a, const Words& b);
 /// a to the power whose binary digits are ones from `top` down to 5, then the 5 of `low`.
 Words power(const Words& a, int top, std::uint32_t low);

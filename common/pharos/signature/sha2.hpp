@@ -17,7 +17,7 @@ class Sha2 {
   using Digest = std::array<std::uint8_t, 8 * sizeof(Word)>;
 
   Sha2();
-  /// The next part of the message. Cost: some 5,000 instructions of RV32IM a block of 64 bytes (SHA-256).
+  /// The next part of the message.
   void add(std::span<const std::uint8_t> part);
   /// Ends the message; the object is of no further use.
   Digest finish();

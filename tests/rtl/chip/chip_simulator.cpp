@@ -29,7 +29,7 @@ struct Arguments {
 constexpr std::uint32_t kFirstSlot = 0x100000;  // board/ep4ce10/loader_board.hpp
 /// The program must be ready before the first light; after the last, its frames are still to be sent.
 constexpr std::int64_t kLead_ticks = 10 * kTicksPerSecond / 1000;
-constexpr std::int64_t kLoaderLead_ticks = 7 * kTicksPerSecond / 10;  // copies the image, waits 0.2 s for a host
+constexpr std::int64_t kLoaderLead_ticks = 4 * kTicksPerSecond / 10;  // copies the image, waits 0.2 s for a host
 constexpr std::int64_t kTail_ticks = 60 * kTicksPerSecond / 1000;
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
