@@ -53,7 +53,9 @@ inside dpkg-query --show --showformat='${Conffiles}' pharos | grep -q /etc/pharo
 [ "$(stat -c %a "$root/var/spool/pharos" 2>/dev/null || echo none)" != none ] ||
   inside command -v systemd-tmpfiles >/dev/null 2>&1 || echo "no systemd-tmpfiles there: /var/spool/pharos comes at boot"
 inside pharosd --check /etc/pharos/pharosd.toml | grep -q 'target target12' || fail "/etc/pharos/pharosd.toml is refused"
-[ -s "$root/usr/share/pharos/firmware/decoder.ep4ce10.image" ] || fail "no image for the board"
+for file in decoder.ep4ce10.image ep4ce10_loader.elf verifier.bin; do
+  [ -s "$root/usr/share/pharos/firmware/$file" ] || fail "no $file for the board"
+done
 
 say "a recording to poses, read by Python"
 examples=/usr/share/pharos/examples/lighthouse
