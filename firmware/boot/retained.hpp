@@ -15,7 +15,7 @@ namespace pharos::boot {
 struct Retained {
   static constexpr std::uint32_t kMark = 0x50485254;  // valid after the first note_reset() since power on
 
-  /// Starts in which an image has to confirm itself; then the other slot's is started until the next power on or until
+  /// Starts in which an image has to confirm itself; then the one before it is started until the next power on or until
   /// the loader is requested.
   static constexpr std::uint16_t kMaxBootAttempts = 3;
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include "firmware/boot/boot_board.hpp"
 #include "firmware/boot/version_floor.hpp"
@@ -19,13 +20,23 @@ namespace pharos::boot {
 template <BootBoard Board>
 class Slots {
  public:
-  /// Reads the slots, and copies the newest whole image to its load address; `older`: the other one, if it is whole.
+  /// Reads the slots, and copies the newest whole image to its load address; `older`: the one before it, if that is
+  /// whole.
   void find(bool older) {
-    for (std::size_t slot = 0; slot < boot_image::kSlots; ++slot) heads_[slot].mark.sequence = read(slot, heads_[slot]);
-    const std::size_t newest = heads_[1].mark.sequence > heads_[0].mark.sequence ? 1 : 0;
-    next_sequence_ = heads_[newest].mark.sequence + 1;
-    const std::size_t first = older ? 1 - newest : newest;
-    if (!take(first)) (void)take(1 - first);
+    for (std::size_t slot = 0; slot < boot_image::kSlots; ++slot) sequences_[slot] = read(slot, head_);
+    const std::size_t newest = extreme(true);
+    next_sequence_ = sequences_[newest] + 2;
+    if (older) sequences_[newest] = 1;  // after all others
+    std::size_t first = extreme(true);
+    for (; sequences_[first] != 0; first = extreme(true)) {
+      if (read(first, head_) != 0 && load(first, head_.image)) {
+        loaded_ = &head_.image.header;
+        break;
+      }
+      sequences_[first] = 0;  // no fallback either
+    }
+    // What stays silent is no fallback: it is written over.
+    spare_ = older && first != newest ? newest : extreme(false);
   }
 
   /// The image that was copied to its load address; null when no slot holds a whole one.
@@ -35,13 +46,15 @@ class Slots {
   template <class Idle>
   void raise_floor(Idle&& idle) const {
     std::uint32_t oldest = UINT32_MAX;
-    for (const boot_image::SlotHead& head : heads_) {
-      if (head.mark.sequence == 0 || !boot_image::is_signed(head.image.seal)) return;
+    for (std::size_t slot = 0; slot < boot_image::kSlots; ++slot) {
+      boot_image::SlotHead head;
+      if (slot == spare_) continue;
+      if (read(slot, head) == 0 || !boot_image::is_signed(head.image.seal)) return;
       oldest = std::min(oldest, number_of(head.image.header.version));
     }
-    (void)VersionFloor<Board>::raise(oldest, idle);  // failed: the next start tries again
+    (void)VersionFloor<Board>::raise(oldest, std::forward<Idle>(idle));  // failed: the next start tries again
   }
-  /// The slot that does not hold it.
+  /// The slot that is to be written: neither of the image that was copied nor of its fallback.
   std::size_t spare() const { return spare_; }
   /// Greater than any in the slots.
   std::uint32_t next_sequence() const { return next_sequence_; }
@@ -72,15 +85,17 @@ class Slots {
   }
 
  private:
-  bool take(std::size_t slot) {
-    const boot_image::SlotHead& head = heads_[slot];
-    if (head.mark.sequence == 0 || !load(slot, head.image)) return false;
-    loaded_ = &head.image.header;
-    spare_ = 1 - slot;
-    return true;
+  /// The slot of the greatest or least sequence number; 0, of nothing that can run, is the least.
+  [[gnu::noinline]] std::size_t extreme(bool greatest) const {
+    std::size_t best = 0;
+    for (std::size_t slot = 1; slot < boot_image::kSlots; ++slot) {
+      if ((sequences_[slot] > sequences_[best]) == greatest) best = slot;
+    }
+    return best;
   }
 
-  std::array<boot_image::SlotHead, boot_image::kSlots> heads_{};  // sequence 0: nothing that can run
+  std::array<std::uint32_t, boot_image::kSlots> sequences_{};  // 0: nothing that can run
+  boot_image::SlotHead head_{};                                // of the image that was copied
   const boot_image::BootImageHeader* loaded_ = nullptr;
   std::size_t spare_ = 0;
   std::uint32_t next_sequence_ = 0;

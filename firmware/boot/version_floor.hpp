@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "firmware/boot/boot_board.hpp"
 #include "pharos/wire/crc32.hpp"
@@ -32,7 +33,8 @@ class VersionFloor {
     if (state.records == kMaxRecords) return false;
     const Record record{version, check_of(version)};
     return Board::flash().program(offset_of(state.records),
-                                  {reinterpret_cast<const std::uint8_t*>(&record), sizeof record}, idle);
+                                  {reinterpret_cast<const std::uint8_t*>(&record), sizeof record},
+                                  std::forward<Idle>(idle));
   }
 
  private:

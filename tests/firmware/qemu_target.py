@@ -21,8 +21,8 @@ import zlib
 from tape import unstuffed
 
 FLASH_BYTES = 32 << 20  # size of the machine's flash bank
-FLOOR_OFFSET = 0x80000
-VERIFIER_OFFSET = 0xC0000  # board/qemu_virt/loader_board.hpp
+FLOOR_OFFSET = 0xC0000
+VERIFIER_OFFSET = 0x100000  # board/qemu_virt/loader_board.hpp
 HELLO, COMMAND = 1, 0x30
 RESIDUE = 0x2144DF1C
 DECODER, LOADER = 0, 1

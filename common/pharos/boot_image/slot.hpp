@@ -13,12 +13,12 @@ namespace pharos::boot_image {
 // was verified has a mark. NOR flash only changes ones to zeros and power may fail at any bit of it: CRCs, never a
 // single bit, show that mark and header belong together and are whole.
 
-/// Two: one keeps the last running image while the other is written.
-inline constexpr std::size_t kSlots = 2;
+/// Three: the newest image, the one before it as its fallback, and one that is written: what is refused costs neither.
+inline constexpr std::size_t kSlots = 3;
 
 /// Determines the newer of two whole images.
 struct SlotMark {
-  std::uint32_t sequence;  // from 1 on, one more each time: no flash lasts until it wraps
+  std::uint32_t sequence;  // even, two more each time: no flash lasts until it wraps
   std::uint32_t check;     // CRC-32 of header, seal and `sequence`
 };
 

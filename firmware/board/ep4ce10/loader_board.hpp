@@ -52,13 +52,13 @@ class LoaderBoard : public LoaderMemory {
   static void prepare() {
     mmio32(kUartLineControl) = kEightBits | kDivisorLatch;
     mmio32(kUart) = kUartDivisor;
-    mmio32(kUart + 4) = 0;
+    mmio32(kUart + 4) = kUartDivisor >> 8;
     mmio32(kUartLineControl) = kEightBits;
     mmio32(kUart + 8) = 1;  // FIFOs on
   }
-  static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? kFirstSlot : kFirstSlot + kSlotBytes; }
+  static std::uint32_t slot_offset(std::size_t slot) { return kFirstSlot + slot * kSlotBytes; }
   static Flash flash() { return {}; }
-  static constexpr std::uint32_t kFloorOffset = 0x180000;
+  static constexpr std::uint32_t kFloorOffset = 0x1C0000;
   /// The last sector: what the flash's block protection covers first.
   static constexpr std::uint32_t kVerifierOffset = 0x1F0000;
   /// The jumper connects general pin 7 to ground; the chip's own pull-up holds it high otherwise.

@@ -26,10 +26,10 @@ class LoaderBoard : public LoaderMemory {
     (void)static_cast<std::uint8_t>(mmio8(kUart));  // QEMU drops earlier bytes, and receives none until read once
   }
 
-  static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? 0 : kSlotBytes; }
+  static std::uint32_t slot_offset(std::size_t slot) { return slot * kSlotBytes; }
   static Flash flash() { return {}; }
-  static constexpr std::uint32_t kFloorOffset = 2 * kSlotBytes;
-  static constexpr std::uint32_t kVerifierOffset = 3 * kSlotBytes;
+  static constexpr std::uint32_t kFloorOffset = 3 * kSlotBytes;
+  static constexpr std::uint32_t kVerifierOffset = 4 * kSlotBytes;
   /// The jumper: a word that the machine's command line sets (`-device loader,addr=0x8070fffc,data=1,data-len=4`).
   static bool development() { return mmio32(0x8070FFFC) == 1; }
   static boot::Verdict verify(std::span<const std::uint8_t> message, const std::uint8_t* signature) {

@@ -102,7 +102,7 @@ struct ModelBoard {
 
   static void prepare() {}
   static Flash& flash() { return machine->flash; }
-  static std::uint32_t slot_offset(std::size_t slot) { return slot == 0 ? 0 : kSlotBytes; }
+  static std::uint32_t slot_offset(std::size_t slot) { return static_cast<std::uint32_t>(slot) * kSlotBytes; }
   static int receive() { return machine->receive(); }
   static bool transmit(std::uint8_t byte) { return machine->transmit(byte); }
   static std::uint32_t ticks() { return static_cast<std::uint32_t>(machine->now); }

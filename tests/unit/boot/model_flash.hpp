@@ -22,7 +22,7 @@ struct PowerCut {};
 class ModelFlash {
  public:
   static constexpr std::uint32_t kSectorBytes = 64 * 1024;
-  static constexpr std::uint32_t kBytes = 5 * kSectorBytes;
+  static constexpr std::uint32_t kBytes = 7 * kSectorBytes;
 
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(kBytes, 0xFF);
   /// Steps until power is lost.

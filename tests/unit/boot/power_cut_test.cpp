@@ -77,14 +77,17 @@ TEST(PowerCut, AtAnyStepLeavesAWholeImage) {
   const Bytes first = make_image(1, {.body_bytes = 600});
   const Bytes second = make_image(2, {.body_bytes = 500});
   const Bytes third = make_image(3, {.body_bytes = 700});
+  const Bytes fourth = make_image(4, {.body_bytes = 560});
   VirtualTarget target;
   Host host(target);
   start_with(target, host, first);
   const Bytes with_one_slot = target.machine.flash.bytes;
   ASSERT_TRUE(host.flash(second));
-  const Bytes with_two_slots = target.machine.flash.bytes;
+  target.run(kTicksPerSecond);
+  ASSERT_TRUE(host.flash(third));
+  const Bytes with_all_slots = target.machine.flash.bytes;
   cut_at_every_step(100, with_one_slot, first, second);
-  cut_at_every_step(200, with_two_slots, second, third);
+  cut_at_every_step(200, with_all_slots, third, fourth);
 }
 
 TEST(PowerCut, OverAnInterruptedFlashingLeavesAWholeImage) {

@@ -43,6 +43,26 @@ TEST_F(Signing, RefusesAForgedImageAndOneChangedAfterItWasSigned) {
   EXPECT_TRUE(is_running(old_image));
 }
 
+TEST_F(Signing, ARefusedImageCostsTheFallbackNothing) {
+  start_with(target, host, old_image);
+  ASSERT_TRUE(host.flash(new_image));
+  target.run(kTicksPerSecond);
+  Bytes forged = make_image(3, {.body_bytes = 3000, .version = {1, 4, 0}});
+  forged[100] ^= 1;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    EXPECT_EQ(verified(host, forged).nak, wire::NakReason::kBadSignature);
+    target.reset();
+    target.run(kTicksPerSecond);
+    EXPECT_TRUE(is_running(new_image));
+  }
+  // The newest image rots: the one before it is still there.
+  target.power_off();
+  target.machine.flash.bytes[ModelBoard::slot_offset(1) + 2000] ^= 0x10;
+  target.power_on();
+  target.run(kTicksPerSecond);
+  EXPECT_TRUE(is_running(old_image));
+}
+
 TEST_F(Signing, TakesAnImageWithoutSignatureOnlyWithTheJumper) {
   start_with(target, host, old_image);
   const Bytes bare = make_image(3, {.version = {1, 4, 0}, .is_signed = false});
