@@ -57,6 +57,10 @@ void ChipBench::run_until(std::int64_t ticks) {
   while (device_->ticks() < ticks) tick();
 }
 
+void ChipBench::run(std::int64_t ticks) {
+  for (; ticks > 0; --ticks) tick();
+}
+
 std::vector<std::uint8_t> ChipBench::take_received() { return std::exchange(received_, {}); }
 
 ChipCounts ChipBench::take_counts() { return std::exchange(counts_, {}); }

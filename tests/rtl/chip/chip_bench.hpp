@@ -40,7 +40,8 @@ class ChipBench {
   void set_light(std::span<const lighthouse::RawPulse> pulses);
   /// Runs until the capture block's counter has this value.
   void run_until(std::int64_t ticks);
-  void run(std::int64_t ticks) { run_until(device_->ticks() + ticks); }
+  /// Runs for so many ticks, also where a reset of the chip clears that counter.
+  void run(std::int64_t ticks);
 
   /// Bytes that the chip sent since the last call.
   std::vector<std::uint8_t> take_received();

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// `pharos flash` into the simulated chip: loader, verifier and flash as on a board, every tick of its clock.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "host/support/input_error.hpp"
+#include "pharos/base/ticks.hpp"
+#include "pharos/wire/codec.hpp"
+#include "pharos/wire/frame_decoder.hpp"
+#include "pharos/wire/hello_message.hpp"
+#include "rtl/chip/chip_bench.hpp"
+#include "tools/flash/flasher.hpp"
+
+namespace pharos::rtl {
+namespace {
+
+constexpr std::uint32_t kVerifierOffset = 0x1F0000;  // board/ep4ce10/loader_board.hpp
+constexpr std::int64_t kNsPerTick = 20;
+
+/// The chip's serial line, in the chip's time; and the longest time that the chip took for an answer.
+class ChipFlashLine final : public tools::FlashLine {
+ public:
+  explicit ChipFlashLine(ChipBench& bench) : bench_(bench) {}
+
+  void write(std::span<const std::uint8_t> bytes) override {
+    bench_.line().send(bytes);
+    while (!bench_.line().sent()) run();
+    asked_ = true;
+    (void)bench_.take_counts();
+  }
+  std::size_t read(std::span<std::uint8_t> out, std::int64_t deadline_ns) override {
+    while (waiting_.empty() && now_ns() < deadline_ns) run();
+    const std::size_t count = std::min(out.size(), waiting_.size());
+    std::copy_n(waiting_.begin(), count, out.begin());
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+    return count;
+  }
+  std::int64_t now_ns() override { return now_ticks_ * kNsPerTick; }
+
+  /// Between the last bit of a request and the end of the first byte of what came next.
+  ChipCounts longest_answer;
+
+ private:
+  void run() {
+    constexpr std::int64_t kStep_ticks = 50;
+    bench_.run(kStep_ticks);
+    now_ticks_ += kStep_ticks;
+    const auto received = bench_.take_received();
+    waiting_.insert(waiting_.end(), received.begin(), received.end());
+    if (received.empty() || !asked_) return;
+    asked_ = false;
+    const ChipCounts counts = bench_.take_counts();
+    if (counts.ticks > longest_answer.ticks) longest_answer = counts;
+  }
+
+  ChipBench& bench_;
+  std::vector<std::uint8_t> waiting_;
+  std::int64_t now_ticks_ = 0;
+  bool asked_ = false;  // nothing came since
+};
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw host::InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What says Hello first after power on, and the seconds until its first byte.
+struct Start {
+  double seconds = 0.0;
+  std::string runs;  // version of a program; else empty
+};
+
+Start start(ChipBench& bench) {
+  bench.power_on();
+  (void)bench.take_received();
+  Start start;
+  wire::FrameDecoder decoder;
+  constexpr std::int64_t kStep_ticks = 500;
+  for (std::int64_t ticks = kStep_ticks; ticks < kTicksPerSecond; ticks += kStep_ticks) {
+    bench.run(kStep_ticks);
+    for (const std::uint8_t byte : bench.take_received()) {
+      if (start.seconds == 0.0) start.seconds = ticks_to_seconds(ticks);
+      const auto frame = decoder.push(byte);
+      if (!frame || frame->type != wire::MessageType::kHello) continue;
+      const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
+      if (!hello || hello->role == wire::Role::kLoader) return start;
+      start.runs = tools::to_text({hello->firmware_major, hello->firmware_minor, hello->firmware_patch});
+      return start;
+    }
+  }
+  return start;
+}
+
+int run(const std::vector<std::string>& images, const std::string& loader, const std::string& verifier) {
+  ChipBench bench;
+  bench.device().set_rom(bytes_of(loader));
+  std::ranges::copy(bytes_of(verifier), bench.flash().content().begin() + kVerifierOffset);
+  bench.device().set_ticks(0);
+  bench.power_on();
+  int refused = 0;
+  std::printf("image,image_bytes,version,transfer_s,verify_s,verify_cycles,verify_instructions,start_s,runs,refusal\n");
+  for (const std::string& path : images) {
+    const tools::BootImageFile image = tools::read_image(path);
+    ChipFlashLine line(bench);
+    const tools::FlashReports reports{[](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); },
+                                      [](std::size_t) {}, [](const boot_image::Version&) { return true; }};
+    std::string refusal;
+    tools::FlashResult result;
+    try {
+      result = tools::Flasher(line, reports, {}).flash(image);
+    } catch (const tools::FlashError& error) {
+      refusal = error.what();
+      ++refused;
+    }
+    const Start started = start(bench);
+    std::printf("%s,%zu,%s,%.3f,%.4f,%llu,%llu,%.4f,%s,\"%s\"\n", path.substr(path.rfind('/') + 1).c_str(),
+                image.bytes.size(), tools::to_text(image.header.version).c_str(),
+                static_cast<double>(result.line_ns) * 1e-9,
+                ticks_to_seconds(static_cast<std::int64_t>(line.longest_answer.ticks)),
+                static_cast<unsigned long long>(line.longest_answer.ticks),
+                static_cast<unsigned long long>(line.longest_answer.instructions), started.seconds,
+                started.runs.c_str(), refusal.c_str());
+    std::fflush(stdout);
+  }
+  return refused == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace pharos::rtl
+
+int main(int count, char** values) {
+  std::vector<std::string> images;
+  std::string loader;
+  std::string verifier;
+  CLI::App app{
+      "Flashes images one after the other into the simulated chip by its loader, and starts each: a row each.\n"
+      "Exit code: 1 where one was refused.\n"
+      "Example: chip_flash decoder.ep4ce10.image --loader ep4ce10_loader.bin --verifier verifier.bin"};
+  app.add_option("IMAGE", images, "images of `pharos flash`")->required();
+  app.add_option("--loader", loader, "bytes of the boot ROM")->required();
+  app.add_option("--verifier", verifier, "the verifier in flash")->required();
+  CLI11_PARSE(app, count, values);
+  try {
+    return pharos::rtl::run(images, loader, verifier);
+  } catch (const pharos::host::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
