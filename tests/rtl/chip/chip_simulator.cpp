@@ -12,6 +12,10 @@
 #include "host/table/edges_reader.hpp"
 #include "pharos/base/ticks.hpp"
 #include "pharos/boot_image/slot.hpp"
+#include "pharos/wire/codec.hpp"
+#include "pharos/wire/counters_message.hpp"
+#include "pharos/wire/frame_decoder.hpp"
+#include "pharos/wire/sweep_message.hpp"
 #include "rtl/chip/chip_bench.hpp"
 
 namespace pharos::rtl {
@@ -60,6 +64,59 @@ std::vector<lighthouse::RawPulse> pulses_of(const Arguments& arguments) {
   return pulses;
 }
 
+/// What arrives on the line, and how long after the light.
+class LineLog {
+ public:
+  /// Bytes that have arrived until `now_ticks`.
+  void add(std::span<const std::uint8_t> bytes, std::int64_t now_ticks) {
+    for (const std::uint8_t byte : bytes) {
+      bytes_.push_back(byte);
+      const auto frame = decoder_.push(byte);
+      if (frame && frame->type == wire::MessageType::kCounters) add_counters(frame->payload);
+      if (!frame || frame->type != wire::MessageType::kSweep) continue;
+      const auto sweep = wire::decode_payload<wire::Sweep>(frame->payload);
+      if (!sweep || sweep->hits.empty()) continue;
+      std::int64_t last_edge = 0;
+      for (const wire::SweepHit& hit : sweep->hits) {
+        const std::int64_t fall = sweep->flash_start_ticks + (hit.centre_half_ticks + hit.width_ticks) / 2;
+        last_edge = std::max(last_edge, fall);
+      }
+      const std::int64_t latency = now_ticks - last_edge;
+      worst_ = std::max(worst_, latency);
+      sum_ += latency;
+      ++sweeps_;
+    }
+  }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  /// Of the seconds that ended while it ran; 0 before the first.
+  unsigned worst_busy_permille() const { return worst_busy_permille_; }
+  double worst_s() const { return ticks_to_seconds(worst_); }
+  double mean_s() const { return sweeps_ == 0 ? 0.0 : ticks_to_seconds(sum_ / sweeps_); }
+
+ private:
+  void add_counters(std::span<const std::uint8_t> payload) {
+    constexpr std::size_t kBusy = 7;  // busy_permille in PHAROS_DEVICE_COUNTERS
+    const auto counters = wire::decode_payload<wire::Counters>(payload);
+    if (!counters || counters->group != wire::CounterGroup::kDevice || counters->values.size() <= kBusy) return;
+    worst_busy_permille_ = std::max<unsigned>(worst_busy_permille_, counters->values[kBusy]);
+  }
+
+  std::vector<std::uint8_t> bytes_;
+  wire::FrameDecoder decoder_;
+  unsigned worst_busy_permille_ = 0;
+  std::int64_t worst_ = 0;
+  std::int64_t sum_ = 0;
+  std::int64_t sweeps_ = 0;
+};
+
+void run_until(ChipBench& bench, std::int64_t end_ticks, LineLog& log) {
+  constexpr std::int64_t kStep_ticks = 500;  // 10 us
+  while (bench.device().ticks() < end_ticks) {
+    bench.run_until(std::min(end_ticks, bench.device().ticks() + kStep_ticks));
+    log.add(bench.take_received(), bench.device().ticks());
+  }
+}
+
 int run(const Arguments& arguments) {
   const auto pulses = pulses_of(arguments);
   const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
@@ -79,10 +136,11 @@ int run(const Arguments& arguments) {
   bench.set_light(pulses);
   bench.run_until(first);
   (void)bench.take_counts();
-  bench.run_until(last);
+  LineLog log;
+  run_until(bench, last, log);
   const ChipCounts counts = bench.take_counts();
-  bench.run(kTail_ticks);
-  const auto frames = bench.take_received();
+  run_until(bench, last + kTail_ticks, log);
+  const auto& frames = log.bytes();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::ofstream file(arguments.output, std::ios::binary);
   file.write(reinterpret_cast<const char*>(frames.data()), static_cast<std::streamsize>(frames.size()));
@@ -90,11 +148,12 @@ int run(const Arguments& arguments) {
   if (!file) throw host::InputError(arguments.output + ": cannot be written");
   std::fprintf(stderr,
                "%zu pulses in %.3f s, %zu bytes sent, %u framing errors; %.3f M instructions, %.3f cycles each, "
-               "at most %u records in the FIFO; %.2f M ticks a second\n",
+               "at most %u records in the FIFO; last edge of a sweep to the end of its frame %.2f ms at worst, %.2f ms "
+               "mean; at most %.1f %% busy in a second; %.2f M ticks a second\n",
                pulses.size(), ticks_to_seconds(last - first), frames.size(), bench.line().framing_errors(),
                static_cast<double>(counts.instructions) * 1e-6,
                static_cast<double>(counts.ticks) / static_cast<double>(std::max<std::uint64_t>(counts.instructions, 1)),
-               counts.worst_fill,
+               counts.worst_fill, log.worst_s() * 1e3, log.mean_s() * 1e3, 0.1 * log.worst_busy_permille(),
                static_cast<double>(last - first + lead + kTail_ticks) * 1e-6 / std::max(seconds, 1e-9));
   return frames.empty() ? 1 : 0;
 }
