@@ -62,8 +62,8 @@ int crazyflie(const std::string& path, const std::string& config, const std::str
   out.events = std::move(log.events);
   convert::write_folder(output, out);
   note(named(path) + ": " + std::to_string(out.hits.size()) + " hits, " + std::to_string(sweeps.repeated) +
-       " logged again, " + std::to_string(log.unusable) + " unusable; its clock runs at " +
-       std::to_string(sweeps.clock_rate) + " of the rotors'");
+       " logged again, " + std::to_string(sweeps.untimed) + " of an unknown time, " + std::to_string(log.unusable) +
+       " unusable; its clock runs at " + std::to_string(sweeps.clock_rate) + " of the rotors'");
   return out.hits.empty() ? kExitNoAnswer : kExitAnswered;
 }
 

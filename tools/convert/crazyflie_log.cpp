@@ -21,6 +21,7 @@ constexpr double kMicrosecond_s = 1e-6;
 constexpr double kStandardGravity_m_s2 = 9.80665;
 constexpr double kLargestAngle_rad = 1.5;
 constexpr double kLargestBeam_m = 1e4;
+constexpr double kTicks = 4294967296.0;  // a counter of 32 bits wraps
 constexpr int kMaxSensorNumber = 31;
 constexpr int kMaxStationNumber = 15;
 
@@ -172,12 +173,14 @@ class CrazyflieReader {
     const Columns beam(types_, "lhCrossingBeam", {"x", "y", "z", "delta"}, name_);
     const Columns imu(types_, "fixedFrequency", {"gyro.x", "gyro.y", "gyro.z", "acc.x", "acc.y", "acc.z"}, name_,
                       false);
+    const Columns frame(types_, "lhUartFrame", {"sensor", "timestamp2FPGA"}, name_, false);
     const Columns marker(types_, "activeMarkerModeChanged", {"mode"}, name_);
     while (!in_.ended()) {
       const auto id = static_cast<std::uint16_t>(in_.integer(2));
       const LoggedEvent event = read_event(id);
       if (angle.is(id)) take_angle(angle, event);
       if (beam.is(id)) take_beam(beam, event);
+      if (frame.is(id)) take_frame(frame, event);
       if (imu.is(id)) take_imu(imu, event);
       if (marker.is(id)) log_.events.push_back({event.time_s, marker(event, 0) > 0.0 ? "markers_on" : "markers_off"});
     }
@@ -229,6 +232,11 @@ class CrazyflieReader {
     } else {
       ++log_.unusable;
     }
+  }
+  void take_frame(const Columns& column, const LoggedEvent& event) {
+    const double sensor = column(event, 0), stamp = column(event, 1);
+    if (!(sensor >= 0 && sensor <= kMaxSensorNumber && stamp >= 0 && stamp < kTicks)) return;
+    log_.frames.push_back({event.time_s, static_cast<std::uint8_t>(sensor), static_cast<std::uint32_t>(stamp)});
   }
   void take_imu(const Columns& column, const LoggedEvent& event) {
     ImuSample sample;

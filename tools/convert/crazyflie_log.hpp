@@ -20,9 +20,17 @@ struct LoggedAngle {
   double angle_rad = 0.0;  // 0 straight ahead
 };
 
+/// A pulse of light as the decoder board told it: event lhUartFrame.
+struct LightFrame {
+  double time_s = 0.0;  // when it was logged
+  std::uint8_t sensor = 0;
+  std::uint32_t stamp_ticks = 0;  // 24 MHz, when the light came, on the board's clock; wraps
+};
+
 /// What Pharos uses of a log of a Crazyflie's memory card.
 struct CrazyflieLog {
   std::vector<LoggedAngle> angles;
+  std::vector<LightFrame> frames;  // none in some logs
   std::vector<ImuSample> imu;
   std::vector<CrossingBeam> crossing_beams;
   std::vector<LogEvent> events;  // markers_on, markers_off

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -122,6 +123,88 @@ TEST(CrazyflieSweeps, FindsWhenHitsWereInSpiteOfDelays) {
   ASSERT_EQ(sweeps.hits.size(), truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(sweeps.hits[i].time_s, truth[i], 0.7e-3) << i;
   EXPECT_NEAR(sweeps.hits[0].theta_rad, kPi / 2, 0.2);
+}
+
+// A group of station 0 is lost: its angles come first with the next group, which is station 1's, a turn late.
+TEST(CrazyflieSweeps, TakesAnglesThatCameWithTheOtherStationsGroupForLateOnes) {
+  constexpr double kTurn_s = 1.0 / 60.0;
+  CrazyflieLog log;
+  double angle_rad[2] = {0.0, 0.0};
+  for (int k = 0; k < 200; ++k) {
+    const int station = k % 2;
+    angle_rad[station] = 0.001 * k;
+    if (k == 100) continue;
+    const double logged_s = 2.0 + (k + 1) * kTurn_s + 0.0003;
+    for (std::uint8_t sensor = 0; sensor < 4; ++sensor) {
+      for (std::uint8_t b = 0; b < 2; ++b) {
+        for (std::uint8_t plane = 0; plane < 2; ++plane) {
+          log.angles.push_back({logged_s + 1e-5 * (4 * sensor + 2 * b + plane), sensor, b, plane, angle_rad[b]});
+        }
+      }
+    }
+  }
+  const CrazyflieSweeps sweeps = sweeps_of(log, 1);
+  for (const LightHit& hit : sweeps.hits) {
+    const double angle = hit.theta_rad - kPi / 2;
+    const double turn = std::round(1000.0 * angle);
+    if (turn < 2.0) continue;  // both stations' first angles are told at once
+    const double truth_s = 2.0 + (turn + 0.5 * hit.plane + (angle + kPi / 2) / kTwoPi) * kTurn_s;
+    EXPECT_NEAR(hit.time_s, truth_s, 1e-3) << turn;
+  }
+}
+
+// Two LH2 stations, the second logged up to 10 ms later than it might be; every light has a frame of the decoder board.
+// In the second half the target stands still, so that its angles repeat.
+TEST(CrazyflieSweeps, TakesTimesOfLighthouse2FromTheDecoderBoard) {
+  constexpr double kBoard_s = 1.0 / 24e6, kRate = 0.99;
+  CrazyflieLog log;
+  std::vector<std::pair<double, LightFrame>> frames;  // by the board's time
+  std::vector<double> truth_s;
+  struct Group {
+    double logged_s;
+    std::uint8_t station;
+    std::array<double, 8> angle_rad;
+  };
+  std::vector<Group> groups;
+  for (std::uint8_t station = 0; station < 2; ++station) {
+    const double period_s = rotor_period_s(2, station);
+    for (int k = 0; k < 300; ++k) {
+      const double begin_s = 0.3 + 0.004 * station + k * period_s;
+      Group group{0.0, station, {}};
+      double last_s = 0.0;
+      for (std::uint8_t key = 0; key < 8; ++key) {
+        const std::uint8_t sensor = key / 2, plane = key % 2;
+        const double angle =
+            0.1 * std::sin(0.03 * std::min(k, 150) + station) + 0.003 * sensor - 0.002 * plane * sensor;
+        group.angle_rad[key] = angle;
+        const double light_s = begin_s + (angle + kPi + (plane == 0 ? -kPi / 3 : kPi / 3)) / kTwoPi * period_s;
+        last_s = std::max(last_s, light_s);
+        truth_s.push_back(kRate * light_s);
+        const auto ticks = static_cast<std::uint32_t>(std::llround(light_s / kBoard_s) + 4'294'000'000LL);
+        frames.push_back({light_s, {kRate * light_s, sensor, ticks}});
+      }
+      group.logged_s = kRate * (last_s + 0.001 + station * 0.009);
+      groups.push_back(group);
+    }
+  }
+  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& frame : frames) log.frames.push_back(frame.second);
+  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.logged_s < b.logged_s; });
+  for (const Group& group : groups) {
+    for (std::uint8_t key = 0; key < 8; ++key) {
+      log.angles.push_back({group.logged_s + 1e-5 * key, static_cast<std::uint8_t>(key / 2), group.station,
+                            static_cast<std::uint8_t>(key % 2), group.angle_rad[key]});
+    }
+  }
+  const CrazyflieSweeps sweeps = sweeps_of(log, 2);
+  ASSERT_GT(sweeps.hits.size(), 8U * 300U);
+  EXPECT_NEAR(sweeps.clock_rate, kRate, 1e-4);
+  std::sort(truth_s.begin(), truth_s.end());
+  for (const LightHit& hit : sweeps.hits) {
+    const auto near = std::lower_bound(truth_s.begin(), truth_s.end(), hit.time_s - 20e-6);
+    ASSERT_NE(near, truth_s.end());
+    EXPECT_NEAR(hit.time_s, *near, 20e-6);
+  }
 }
 
 TEST(CrazyflieSweeps, LeavesOutWhatASensorDidNotSeeAgain) {
