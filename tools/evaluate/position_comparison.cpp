@@ -17,6 +17,7 @@ constexpr double kStationary_m = 0.01;
 constexpr double kMaxTruthGap_s = 0.05;
 constexpr double kNearEpoch_s = 0.05;
 constexpr double kEpoch_s = 0.1;
+constexpr double kBeyond_sigmas = 5.0;
 constexpr std::size_t kMinCompared = 10;
 // The coarse search: speeds over 0.2 s at steps of 0.05 s.
 constexpr double kSpeedStep_s = 0.05, kSpeedSpan_s = 0.2, kSpeedGap_s = 0.5;
@@ -295,18 +296,16 @@ double spread_of_positions(const std::vector<const PositionSample*>& samples) {
 
 void fill_figures(const Matched& m, const Fit& fit, PositionComparison& out) {
   std::vector<double> norms;
-  double squares = 0.0, nees = 0.0;
-  std::size_t judged = 0;
+  double squares = 0.0, nees = 0.0, judged = 0.0;
   for (std::size_t i = 0; i < m.truth.size(); ++i) {
     const Vector3 error = fit.error(*m.estimate[i], m.truth[i]);
     norms.push_back(error.norm());
     out.mean_m += error.norm() / static_cast<double>(m.truth.size());
     squares += error.squaredNorm();
-    if (!m.estimate[i]->covariance_m2) continue;
-    const Eigen::LLT<Matrix3> factor(*m.estimate[i]->covariance_m2);
-    if (factor.info() != Eigen::Success) continue;
-    nees += error.dot(factor.solve(error)) / 3.0;
-    ++judged;
+    if (const auto square = normalised_square(*m.estimate[i], error)) {
+      nees += *square / 3.0;
+      judged += 1.0;
+    }
   }
   std::sort(norms.begin(), norms.end());
   const auto quantile = [&norms](double fraction) {
@@ -318,7 +317,18 @@ void fill_figures(const Matched& m, const Fit& fit, PositionComparison& out) {
   out.median_m = quantile(0.5);
   out.p95_m = quantile(0.95);
   out.max_m = norms.back();
-  if (judged == norms.size()) out.nees_per_dof = nees / static_cast<double>(judged);
+  if (judged == static_cast<double>(norms.size())) out.nees_per_dof = nees / judged;
+}
+
+void count_beyond(const Samples& samples, const Samples& truth, const Clock& clock, const Fit& fit,
+                  PositionComparison& out) {
+  for (const PositionSample& sample : samples) {
+    const auto at = position_at(truth, clock(sample.time_s), kMaxTruthGap_s);
+    const auto square = at ? normalised_square(sample, fit.error(sample, *at)) : std::nullopt;
+    if (!square) continue;
+    ++out.judged;
+    out.beyond_5_sigmas += *square <= kBeyond_sigmas * kBeyond_sigmas ? 0U : 1U;
+  }
 }
 
 PositionComparison refused_positions(const char* word, std::string why) {
@@ -383,6 +393,7 @@ PositionComparison compare_positions(const PositionTrack& estimate, const Positi
   out.spread_m = spread_of_positions(m.estimate);
   count_epochs(estimate.samples, truth.samples, *clock, options, out);
   fill_figures(m, fit, out);
+  count_beyond(estimate.samples, truth.samples, *clock, fit, out);
   return out;
 }
 

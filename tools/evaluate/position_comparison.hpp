@@ -35,6 +35,9 @@ struct PositionComparison {
   double mean_m = 0.0, median_m = 0.0, rms_m = 0.0, p95_m = 0.0, max_m = 0.0;
   double spread_m = 0.0;  // RMS of ESTIMATE about its own mean
   std::optional<double> nees_per_dof;
+  /// Of all rows of ESTIMATE with a covariance where TRUTH knows a position, epochs or not: those beyond five of their
+  /// own sigmas (Mahalanobis distance).
+  std::size_t judged = 0, beyond_5_sigmas = 0;
 };
 
 PositionComparison compare_positions(const PositionTrack& estimate, const PositionTrack& truth,

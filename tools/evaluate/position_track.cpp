@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluate/position_track.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,6 +95,13 @@ std::string_view header_of(host::ByteSource& source) {
 }
 
 }  // namespace
+
+std::optional<double> normalised_square(const PositionSample& estimate, const Vector3& error_m) {
+  if (!estimate.covariance_m2) return std::nullopt;
+  const Eigen::LLT<Matrix3> factor(*estimate.covariance_m2);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return error_m.dot(factor.solve(error_m));
+}
 
 bool is_position_table(const std::string& path) {
   host::ByteSource source(path);

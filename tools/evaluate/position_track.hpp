@@ -24,6 +24,9 @@ struct PositionTrack {
   std::size_t refused = 0;  // without a position, or with another status than ok
 };
 
+/// Square of the Mahalanobis distance of an error; empty where the sample states no covariance.
+std::optional<double> normalised_square(const PositionSample& estimate, const Vector3& error_m);
+
 /// Whether a file is a table of positions alone: its header has x_m and no qw.
 bool is_position_table(const std::string& path);
 

@@ -58,6 +58,8 @@ void add_rows(const PositioningLog& log, const PositionComparison& logged, const
                       ours.*figure.value * kMmPerM, remark});
     }
     if (ours.nees_per_dof) rows.push_back({log.name, geometry + ": NEES / 3", "", "1", *ours.nees_per_dof, remark});
+    rows.push_back({log.name, geometry + ": rows beyond 5 of their sigmas", "", "<= 0",
+                    static_cast<double>(ours.beyond_5_sigmas), "of " + std::to_string(ours.judged)});
   }
   const double answered =
       100.0 * static_cast<double>(ours.epochs_answered) / static_cast<double>(std::max<std::size_t>(1, ours.epochs));
