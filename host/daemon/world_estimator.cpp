@@ -43,7 +43,7 @@ void WorldEstimator::push(const lighthouse::Lh2Sweep& sweep) {
 
 void WorldEstimator::flush() {
   use_until(std::numeric_limits<double>::infinity());
-  if (const auto result = tracker_->flush()) results_.push_back(*result);
+  while (const auto result = tracker_->flush()) results_.push_back(*result);
 }
 
 void WorldEstimator::use_until(double time_s) {

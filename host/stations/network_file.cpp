@@ -24,6 +24,7 @@ constexpr Range kCircle{-6.3, 6.3};
 constexpr Range kPosition_m{-1000.0, 1000.0};
 constexpr Range kSigma_m{0.0, 10.0};
 constexpr Range kSigma_deg{0.0, 90.0};
+constexpr Range kSigmaScale{0.0, 1.0};
 constexpr Range kQuaternion{-1.01, 1.01};
 constexpr double kUnitTolerance = 0.01;
 
@@ -64,7 +65,11 @@ void read_sigmas(const TomlTable& table, Station& station) {
   sigmas.rotation_rad = table.number_or("sigma_rotation_deg", 0.0, kSigma_deg) * kRadPerDeg;
   sigmas.position_m = table.number_or("sigma_position_m", 0.0, kSigma_m);
   sigmas.plane_rad = table.number_or("sigma_plane_rad", 0.0, kSmallAngle);
-  if (table.has("sigma_rotation_deg") || table.has("sigma_position_m") || table.has("sigma_plane_rad")) {
+  sigmas.turn_rad = table.number_or("sigma_turn_deg", 0.0, kSigma_deg) * kRadPerDeg;
+  sigmas.scale = table.number_or("sigma_scale", 0.0, kSigmaScale);
+  sigmas.anchor_m = table.vector_or<3>("anchor_m", {}, kPosition_m);
+  if (table.has("sigma_turn_deg") || table.has("sigma_scale") || table.has("sigma_rotation_deg") ||
+      table.has("sigma_position_m") || table.has("sigma_plane_rad")) {
     station.sigmas = sigmas;
   }
 }
@@ -126,6 +131,9 @@ std::string network_text(const network::Stations& stations) {
       out += "sigma_position_m = " + exact_number(station.sigmas->position_m) + "\n";
       out += "sigma_rotation_deg = " + exact_number(station.sigmas->rotation_rad * kDegPerRad) + "\n";
       out += "sigma_plane_rad = " + exact_number(station.sigmas->plane_rad) + "\n";
+      out += "sigma_turn_deg = " + exact_number(station.sigmas->turn_rad * kDegPerRad) + "\n";
+      out += "sigma_scale = " + exact_number(station.sigmas->scale) + "\n";
+      out += "anchor_m = " + exact_list(station.sigmas->anchor_m) + "\n";
     }
   }
   return out;

@@ -36,7 +36,7 @@ constexpr std::size_t kMaxHits = 4'000'000;
 
 struct StationOptions {
   std::string sweeps, target, stations, up, output;
-  double sensor_sigma_mm = 0.1;
+  double sensor_sigma_mm = 0.2;
   bool json = false;
 };
 

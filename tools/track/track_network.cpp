@@ -107,7 +107,7 @@ int track_network(const NetworkFiles& files, const OutputOptions& output_options
     if (station != nullptr) sweeps.require(station->generation);
     take(tracker->push(sweeps.station(), sweeps.plane(), sweeps.hit()));
   }
-  take(tracker->flush());
+  while (const auto last = tracker->flush()) take(last);
   output.finish();
   const network::NetworkCounters& c = tracker->counters();
   if (files.stats) {

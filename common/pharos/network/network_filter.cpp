@@ -179,6 +179,16 @@ void NetworkFilter::reset_rates() {
   merge();
 }
 
+void NetworkFilter::place(const PositionFix& fix) {
+  for (std::size_t m = 0; m < kModels; ++m)
+    model_[m].place(fix.position_m, fix.velocity_m_s, fix.acceleration_m_s2, fix.covariance);
+  clear_rates(model_[0]);
+  probability_ = {0.1, 0.2, 0.35, 0.35};
+  const auto speed2 = fix.velocity_m_s.dot(fix.covariance.block<3, 3>(3, 3).inverse() * fix.velocity_m_s);
+  probability_[0] *= std::exp(-0.5 * std::min(40.0, speed2));
+  merge();
+}
+
 void NetworkFilter::merge() {
   const auto top =
       static_cast<std::size_t>(std::max_element(probability_.begin(), probability_.end()) - probability_.begin());

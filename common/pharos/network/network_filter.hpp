@@ -6,6 +6,7 @@
 
 #include "pharos/network/linearised_sweep.hpp"
 #include "pharos/network/network_state.hpp"
+#include "pharos/network/position_fix.hpp"
 
 namespace pharos::network {
 
@@ -18,6 +19,8 @@ class NetworkFilter {
 
   /// At a pose that one station's sweeps gave, good to half a radian and 0.3 m.
   void start(const WorldFromBody& pose);
+  /// Position and its rates are known anew; attitude and its rate stay as they are.
+  void place(const PositionFix& fix);
   void predict(double dt_s);
   /// No model explains the last sweeps: the one of most jerk forgets its rates.
   void reset_rates();

@@ -9,7 +9,9 @@ namespace pharos::network {
 namespace {
 
 constexpr double kUnseen_m = 0.1;
-constexpr double kFastest_m_s = 3.0;
+constexpr double kAgreesChi2 = 9.0;
+// A sweep that is left so far off was taken by a state that knows hardly anything.
+constexpr double kWorstResidual_rad = 0.015;
 // How long a small target is followed without two stations that agree.
 constexpr double kCoast_s = 0.05;
 
@@ -23,25 +25,28 @@ NetworkResult NetworkTracker::refused(const PlaneSweep& sweep, pose::Refusal why
   return out;
 }
 
-// Just after a start the filter's rates are not known: what two stations tell at once is the position then.
-NetworkResult NetworkTracker::unconfirmed(const PlaneSweep& sweep) const {
+// Just after a start, and where the filter had strayed: what two stations tell at once is the position then. The
+// attitude is the filter's, off by `doubt_rad` more.
+NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad) const {
   NetworkResult out = refused(sweep, pose::Refusal::kUnconfirmed);
-  if (!position_) return out;
+  // Stations that contradict each other tell nothing at once.
+  if (!fix_ || contradictions_ > 0) return out;
   const NetworkState& state = filter_.mean();
-  out.pose = WorldFromBody{state.pose.R, *position_};
-  out.covariance = state.covariance.topLeftCorner<6, 6>();
-  out.covariance.topRightCorner<3, 3>().setZero();
-  out.covariance.bottomLeftCorner<3, 3>().setZero();
-  // The rates are hardly known here: what they may be counts as what they are.
-  const double spread_m_s = std::sqrt(state.covariance.block<3, 3>(kRateAt + 3, kRateAt + 3).trace());
-  const double moved_m = kTriangulation_s * std::min(kFastest_m_s, state.rate.tail<3>().norm() + spread_m_s);
-  out.covariance.bottomRightCorner<3, 3>() =
-      station_covariance(out.time_s) + Matrix3::Identity() * (moved_m * moved_m / 3.0);
+  const Vector3& position_m = fix_->position_m;
+  out.pose = WorldFromBody{state.pose.R, position_m};
+  out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
+  out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
+  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
   out.flags = kFused;
+  if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
+    out.flags |= kStationExcluded;
+  }
   out.ambiguous = ambiguous_;
   out.second = second_;
   out.delta_chi2 = delta_chi2_;
-  if (out.covariance.topLeftCorner<3, 3>().trace() > std::pow(options_.max_rotation_rad, 2)) {
+  const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());
+  const double position = std::sqrt(out.covariance.bottomRightCorner<3, 3>().trace());
+  if (!(rotation <= options_.max_rotation_rad && position <= options_.max_position_m)) {
     out.pose = pose::Refusal::kTooUncertain;
   }
   return out;
@@ -72,17 +77,22 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
     if (!station.excluded && sweep.time_s - station.seen_s < kFresh_s) ++fresh;
   }
   if (fresh > 1) out.flags |= kFused;
-  out.covariance.bottomRightCorner<3, 3>() += station_covariance(sweep.time_s);
-  // Where the filter differs from what two stations tell at once, one of them is wrong by that.
-  if (position_) {
-    const Vector3 apart = state.pose.t - *position_;
-    out.covariance.bottomRightCorner<3, 3>() += apart * apart.transpose();
+  out.covariance.bottomRightCorner<3, 3>() += station_covariance(sweep.time_s, state.pose.t);
+  // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
+  if (fix_) {
+    const Vector3 apart = state.pose.t - fix_->position_m;
+    const double excess = 1.0 - kAgreesChi2 / std::max(kAgreesChi2, apart_chi2(*fix_));
+    out.covariance.bottomRightCorner<3, 3>() += excess * apart * apart.transpose();
   }
   const double rotation = std::sqrt(out.covariance.topLeftCorner<3, 3>().trace());
   const double position = std::sqrt(out.covariance.bottomRightCorner<3, 3>().trace());
   // One station does not tell the range of a small target.
-  const bool ranged = sweep.time_s - triangulated_s_ < kCoast_s || tells_range(target_, options_.noise);
+  const bool ranged = sweep.time_s - fixed_s_ < kCoast_s || tells_range(target_, options_.noise);
   const bool certain = ranged && rotation <= options_.max_rotation_rad && position <= options_.max_position_m;
+  if (!(out.residual_rms_rad < kWorstResidual_rad)) {
+    out.pose = pose::Refusal::kPoorFit;
+    return out;
+  }
   if (!certain) {
     out.pose = pose::Refusal::kTooUncertain;
     return out;
@@ -95,10 +105,17 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
 }
 
 // What stations and planes are wrong by is the same in every sweep: it does not average out. Of the planes that saw the
-// body within a tenth of a second, each off by its own sigma, a position's share of it: (J^T W J)^-1.
-Matrix3 NetworkTracker::station_covariance(double time_s) const {
-  Matrix3 information = Matrix3::Zero();
-  for (const StationWatch& station : watch_) {
+// body within a tenth of a second, each off by its own sigma, a position's part of it: (J^T W J)^-1. And what the room
+// that these stations span is deformed by at that place.
+Matrix3 NetworkTracker::station_covariance(double time_s, const Vector3& body_m) const {
+  Matrix3 information = Matrix3::Zero(), deformation = Matrix3::Zero();
+  double seeing = 0.0;
+  for (std::size_t s = 0; s < stations_.size(); ++s) {
+    const StationWatch& station = watch_[s];
+    if (!station.excluded && time_s - std::max(station.plane_s[0], station.plane_s[1]) <= kFresh_s) {
+      deformation += stations_[s].sigmas.value_or(options_.noise.unstated).deformation(body_m);
+      seeing += 1.0;
+    }
     for (std::size_t k = 0; k < kPlanes; ++k) {
       if (station.excluded || time_s - station.plane_s[k] > kFresh_s) continue;
       information +=
@@ -107,7 +124,7 @@ Matrix3 NetworkTracker::station_covariance(double time_s) const {
   }
   // Along what no plane sees now, the limits of a result hold.
   information.diagonal().array() += 1.0 / (kUnseen_m * kUnseen_m);
-  return information.inverse();
+  return information.inverse() + deformation / std::max(1.0, seeing);
 }
 
 }  // namespace pharos::network

@@ -36,8 +36,11 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
     filter_.correct(linearised);
     saw(linearised);
   }
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
+  if (fix_) filter_.place(*fix_);
   accepted_s_ = checked_s_ = started_s_ = time_s;
   refused_in_row_ = 0;
+  left_out_ = 0.0;
 }
 
 bool NetworkTracker::try_start(double time_s) {
@@ -46,7 +49,9 @@ bool NetworkTracker::try_start(double time_s) {
   const Choice choice = best_start(starts);
   if (!(choice.cost < 1e299)) return false;
   WorldFromBody pose = choice.pose;
-  if (const auto position = triangulate(used_recent(), stations_, target_, pose)) pose.t = *position;
+  NetworkState near;
+  near.pose = pose;
+  if (const auto fix = fix_of(used_recent(), stations_, target_, near, options_.noise)) pose.t = fix->position_m;
   for (StationWatch& station : watch_) station.refused = station.accepted = 0;
   start_at(pose, time_s);
   ambiguous_ = choice.second_cost - choice.cost < kAmbiguousDeltaChi2;
@@ -119,8 +124,7 @@ void NetworkTracker::check_alternatives(double time_s) {
   if (!(choice.cost < 1e299)) return;
   const bool other = !same_pose(choice.pose, own);
   if (other && choice.cost < own_cost - kSwitchCost) {
-    filter_.start(choice.pose);
-    ++counters_.starts;
+    start_at(choice.pose, time_s);
     ambiguous_ = false;
     return;
   }

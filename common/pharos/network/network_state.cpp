@@ -73,6 +73,24 @@ void NetworkState::predict_at_rest(double dt_s) {
   for (Eigen::Index k = 0; k < 6; ++k) covariance(k, k) += kCreep * dt_s;
 }
 
+void NetworkState::place(const Vector3& position_m, const Vector3& velocity_m_s, const Vector3& acceleration_m_s2,
+                         const Eigen::Matrix<double, 9, 9>& position_covariance) {
+  constexpr std::array<Eigen::Index, 3> kAt = {kPoseAt + 3, kRateAt + 3, kAccelerationAt + 3};
+  pose.t = position_m;
+  rate.tail<3>() = velocity_m_s;
+  acceleration.tail<3>() = acceleration_m_s2;
+  for (const Eigen::Index at : kAt) {
+    covariance.middleRows<3>(at).setZero();
+    covariance.middleCols<3>(at).setZero();
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      covariance.block<3, 3>(kAt[static_cast<std::size_t>(i)], kAt[static_cast<std::size_t>(k)]) =
+          position_covariance.block<3, 3>(3 * i, 3 * k);
+    }
+  }
+}
+
 void NetworkState::reset_rates(const std::array<double, 4>& sigmas) {
   rate.setZero();
   acceleration.setZero();

@@ -29,6 +29,9 @@ struct NetworkState {
   void predict(double dt_s, double jerk_rotation, double jerk_translation);
   /// A body at rest: rates are zero and known; the pose creeps.
   void predict_at_rest(double dt_s);
+  /// Position, velocity and acceleration are these, with this covariance and none with the attitude.
+  void place(const Vector3& position_m, const Vector3& velocity_m_s, const Vector3& acceleration_m_s2,
+             const Eigen::Matrix<double, 9, 9>& position_covariance);
   /// Forgets rates and acceleration: zero, with these sigmas (rad/s, m/s, rad/s^2, m/s^2).
   void reset_rates(const std::array<double, 4>& sigmas);
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pharos/network/station_consensus.hpp"
 
@@ -16,20 +17,34 @@ constexpr double kGateSigmas = 8.0, kMinGate = 25.0;
 // Sweeps refused in a row until the rates are forgotten, and time without one that fits until the body is lost.
 constexpr int kRefusedForReset = 2;
 constexpr double kLost_s = 0.4;
+constexpr double kFastest_m_s = 20.0, kLost_m = 2.0;
 // A result waits this long after a start, until the rates are known.
 constexpr double kConfirmed_s = 0.06;
-// How far the filter may be from what two stations tell at once.
-constexpr double kStrayed_m = 0.06;
+// Chi-squared of what lies between the filter's position or velocity and what two stations tell at once.
+constexpr double kStrayedChi2 = 25.0;
+constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
+// What an attitude of less than 60 ms may be off by: its rate is not known, and a flat target's tilt least of all.
+constexpr double kUnconfirmed_rad = 0.15;
+// A lone hit of a target of several sensors cannot be told from a reflection.
+constexpr std::size_t kSensorsForPair = 3;
+// Hits that do not fit the others of their sweep: an attitude that leaves out so many is wrong. Averaged over so many.
+constexpr double kAttitudeDoubted = 0.25, kLeftOutSweeps = 8.0;
 // Sweeps in a row that exclude a station while another one fits, and that readmit it.
 constexpr int kForExclusion = 25, kForReadmission = 50;
 // How often all stations are asked whether one contradicts the others, and how often more than not in favour it is
 // excluded.
 constexpr double kConsensus_s = 0.02;
 // Until one is excluded, contradictions in so many checks end the answers.
-constexpr int kDissents = 6, kContradictions = 10;
+constexpr int kDissents = 6, kContradictions = 10, kContradictionWeight = 3;
 // How long sweeps are kept for a start, and how often the present pose is compared with what stations alone say.
 constexpr double kRecent_s = 0.12;
 constexpr double kCheck_s = 0.5, kCheckAmbiguous_s = 0.1;
+
+// A state that no body has: followed without light that fits, its rates run away.
+bool holds_a_body(const NetworkState& state) {
+  return state.pose.is_finite() && state.rate.tail<3>().norm() < kFastest_m_s &&
+         state.covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace() < kLost_m * kLost_m;
+}
 
 double gate_of(int hits) { return std::max(kMinGate, hits + kGateSigmas * std::sqrt(2.0 * hits)); }
 
@@ -45,25 +60,35 @@ std::optional<NetworkResult> NetworkTracker::push(std::uint8_t number, std::size
     return std::nullopt;
   }
   const auto place = static_cast<std::size_t>(station - stations_.begin());
-  std::optional<NetworkResult> out;
-  const bool same = !open_.hits.empty() && open_.station == place && open_.plane == plane &&
-                    std::abs(hit.time_s - open_.hits[0].time_s) < kSweep_s && !open_.hits.full();
-  if (!same) {
-    out = close();
-    open_.station = place;
-    open_.plane = plane;
-  }
-  open_.hits.push_back(hit);
+  PlaneSweep& own = open_[place];
+  const bool same = own.hits.empty() ||
+                    (own.plane == plane && std::abs(hit.time_s - own.hits[0].time_s) < kSweep_s && !own.hits.full());
+  // Light of another station may fall between this sweep's: each is closed when it is over.
+  const std::optional<NetworkResult> out = close(same ? oldest_open(hit.time_s - kSweep_s) : &own);
+  own.station = place;
+  own.plane = plane;
+  own.hits.push_back(hit);
   ++counters_.hits;
   return out;
 }
 
-std::optional<NetworkResult> NetworkTracker::flush() { return close(); }
+std::optional<NetworkResult> NetworkTracker::flush() {
+  return close(oldest_open(std::numeric_limits<double>::infinity()));
+}
 
-std::optional<NetworkResult> NetworkTracker::close() {
-  if (open_.hits.empty()) return std::nullopt;
-  const PlaneSweep sweep = open_;
-  open_.hits.clear();
+PlaneSweep* NetworkTracker::oldest_open(double before_s) {
+  PlaneSweep* oldest = nullptr;
+  for (PlaneSweep& open : open_) {
+    if (open.hits.empty() || !(open.time_s() < before_s)) continue;
+    if (oldest == nullptr || open.time_s() < oldest->time_s()) oldest = &open;
+  }
+  return oldest;
+}
+
+std::optional<NetworkResult> NetworkTracker::close(PlaneSweep* open) {
+  if (open == nullptr) return std::nullopt;
+  const PlaneSweep sweep = *open;
+  open->hits.clear();
   ++counters_.sweeps;
   const double now_s = sweep.time_s();
   // Sweeps of two stations may overlap: out of order by less than one of them.
@@ -86,15 +111,25 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
   }
   if (!running_) {
     if (!try_start(now_s)) return refused(sweep, pose::Refusal::kTooFewSensors);
-    position_ = triangulate(used_recent(), stations_, target_, filter_.mean().pose);
-    return unconfirmed(sweep);
+    return from_fix(sweep, kUnconfirmed_rad);
   }
   if (now_s - consensus_s_ > kConsensus_s) check_consensus(now_s);
   LinearisedSweep linearised;
   const bool taken = take(sweep, linearised);
-  const bool settled = !strayed() && now_s - started_s_ >= kConfirmed_s;
-  if (!settled && contradictions_ < kContradictions) return unconfirmed(sweep);
-  if (!taken || contradictions_ >= kContradictions) {
+  if (!holds_a_body(filter_.mean())) {
+    running_ = false;
+    ++counters_.losses;
+    return refused(sweep, pose::Refusal::kPoorFit);
+  }
+  const bool settled = !strayed() && confirmed(now_s);
+  // A small target is followed without two stations only as long as all light fits.
+  if (!fix_ && (!taken || left_out_ > kAttitudeDoubted)) fixed_s_ = -1e9;
+  if (contradicted_) {
+    ++counters_.sweeps_refused;
+    return refused(sweep, pose::Refusal::kPoorFit);
+  }
+  if (!settled) return from_fix(sweep, confirmed(now_s) ? 0.0 : kUnconfirmed_rad);
+  if (!taken) {
     ++counters_.sweeps_refused;
     return refused(sweep, pose::Refusal::kPoorFit);
   }
@@ -104,7 +139,9 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
 }
 
 bool NetworkTracker::fits(const LinearisedSweep& sweep) const {
-  return sweep.hits() > 0 && 2 * sweep.hits() >= sweep.sensors && filter_.widest_chi2(sweep) < gate_of(sweep.hits());
+  const int min_hits = target_.size() >= kSensorsForPair ? 2 : 1;
+  return sweep.hits() >= min_hits && 2 * sweep.hits() >= sweep.sensors &&
+         filter_.widest_chi2(sweep) < gate_of(sweep.hits());
 }
 
 // Predicts to the sweep and adds it where it fits. False where it was not added.
@@ -115,6 +152,10 @@ bool NetworkTracker::take(const PlaneSweep& sweep, LinearisedSweep& linearised) 
   linearised = linearise(sweep, stations_, target_, filter_.mean(), now_s, options_.noise);
   counters_.hits_left_out += sweep.hits.size() - static_cast<std::size_t>(linearised.hits());
   StationWatch& station = watch_[sweep.station];
+  if (linearised.sensors > 0) {
+    const double left = 1.0 - static_cast<double>(linearised.hits()) / linearised.sensors;
+    left_out_ += (left - left_out_) / kLeftOutSweeps;
+  }
   bool good = fits(linearised);
   if (!good && !station.excluded && ++refused_in_row_ >= kRefusedForReset) {
     filter_.reset_rates();
@@ -155,7 +196,10 @@ void NetworkTracker::check_consensus(double time_s) {
   consensus_s_ = time_s;
   const Consensus consensus =
       consensus_of(used_recent(), stations_, target_, filter_.mean().pose, options_.noise.unstated);
-  contradictions_ = std::clamp(contradictions_ + (consensus.contradiction ? 1 : -1), 0, kContradictions);
+  contradictions_ =
+      std::clamp(contradictions_ + (consensus.contradiction ? kContradictionWeight : -1), 0, kContradictions);
+  if (contradictions_ == kContradictions) contradicted_ = true;
+  if (contradictions_ == 0) contradicted_ = false;
   for (std::size_t s = 0; s < stations_.size(); ++s) {
     StationWatch& station = watch_[s];
     station.dissents = consensus.dissenting == s ? station.dissents + 1 : std::max(0, station.dissents - 1);
@@ -163,25 +207,33 @@ void NetworkTracker::check_consensus(double time_s) {
     station.excluded = true;
     station.dissents = station.accepted = 0;
     contradictions_ = 0;
+    contradicted_ = false;
     ++counters_.exclusions;
   }
 }
 
-// Where two stations see the body they tell at once where it is: a state that is elsewhere, as after a time with one
-// station alone, whose range of a small target drifts, starts there.
-bool NetworkTracker::strayed() {
+double NetworkTracker::apart_chi2(const PositionFix& fix) const {
   const NetworkState& state = filter_.mean();
-  position_ = triangulate(used_recent(), stations_, target_, state.pose);
-  if (!position_) return false;
-  const double allowed_m = kStrayed_m + kTriangulation_s * state.rate.tail<3>().norm();
-  if ((*position_ - state.pose.t).norm() < allowed_m) {
-    triangulated_s_ = time_s_;
-    return false;
-  }
-  start_at({state.pose.R, *position_}, time_s_);
+  const StateMatrix& P = state.covariance;
+  const Vector3 p = fix.position_m - state.pose.t, v = fix.velocity_m_s - state.rate.tail<3>();
+  const Matrix3 Sp = P.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + fix.position_covariance();
+  const Matrix3 Sv = P.block<3, 3>(kRateAt + 3, kRateAt + 3) + fix.covariance.block<3, 3>(3, 3);
+  return std::max(p.dot(Sp.inverse() * p), v.dot(Sv.inverse() * v));
+}
+
+// Where two stations see the body they tell at once where it is: a state that is elsewhere, as after a time with one
+// station alone, whose range of a small target drifts, goes on from there.
+bool NetworkTracker::strayed() {
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
+  if (!fix_) return false;
+  if (fix_->position_covariance().trace() < kConfirming_m * kConfirming_m) fixed_s_ = time_s_;
+  if (apart_chi2(*fix_) < kStrayedChi2) return false;
+  filter_.place(*fix_);
   ++counters_.strays;
   return true;
 }
+
+bool NetworkTracker::confirmed(double time_s) const { return time_s - started_s_ >= kConfirmed_s; }
 
 // The recent sweeps of stations that are not excluded.
 RecentSweeps NetworkTracker::used_recent() const {

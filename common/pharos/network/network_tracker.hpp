@@ -7,6 +7,7 @@
 
 #include "pharos/network/network_filter.hpp"
 #include "pharos/network/network_start.hpp"
+#include "pharos/network/position_fix.hpp"
 #include "pharos/pose/solve.hpp"
 
 namespace pharos::network {
@@ -21,7 +22,7 @@ enum NetworkFlag : std::uint8_t {
 struct NetworkOptions {
   HitNoise noise{40e-6, 40e-6, 0.2e-3, 0.3e-3};
   double max_rotation_rad = 1.0;  // stated sigmas beyond which no pose is reported
-  double max_position_m = 0.3;
+  double max_position_m = 0.1;
 };
 
 /// The body after a sweep.
@@ -55,7 +56,7 @@ class NetworkTracker {
 
   /// `station`: its number; hits of unknown ones are counted and left out.
   std::optional<NetworkResult> push(std::uint8_t station, std::size_t plane, const Hit& hit);
-  /// The end: the sweep still open.
+  /// The end: a sweep still open, the oldest first; empty when none is.
   std::optional<NetworkResult> flush();
 
   const NetworkCounters& counters() const { return counters_; }
@@ -64,8 +65,7 @@ class NetworkTracker {
   bool excluded(std::size_t station) const { return watch_[station].excluded; }
 
  private:
-  static constexpr double kFresh_s = 0.1;           // light is of now
-  static constexpr double kTriangulation_s = 0.04;  // what a body moves in it while two stations tell its position
+  static constexpr double kFresh_s = 0.1;  // light is of now
 
   struct StationWatch {
     bool excluded = false;
@@ -84,20 +84,23 @@ class NetworkTracker {
     WorldFromBody second;
   };
 
-  std::optional<NetworkResult> close();
+  PlaneSweep* oldest_open(double before_s);
+  std::optional<NetworkResult> close(PlaneSweep* open);
   NetworkResult process(const PlaneSweep& sweep);
   NetworkResult refused(const PlaneSweep& sweep, pose::Refusal why) const;
   NetworkResult result(const LinearisedSweep& sweep);
-  NetworkResult unconfirmed(const PlaneSweep& sweep) const;
+  NetworkResult from_fix(const PlaneSweep& sweep, double doubt_rad) const;
   void saw(const LinearisedSweep& sweep);
-  Matrix3 station_covariance(double time_s) const;
+  Matrix3 station_covariance(double time_s, const Vector3& body_m) const;
   bool take(const PlaneSweep& sweep, LinearisedSweep& linearised);
   bool fits(const LinearisedSweep& sweep) const;
   void watch(std::size_t station, bool fits, double time_s);
   void check_consensus(double time_s);
   bool try_start(double time_s);
   void start_at(const WorldFromBody& pose, double time_s);
+  bool confirmed(double time_s) const;
   bool strayed();
+  double apart_chi2(const PositionFix& fix) const;
   RecentSweeps used_recent() const;
   Choice best_start(const Starts& starts);
   double cost_of(const WorldFromBody& start, WorldFromBody& refined);
@@ -110,17 +113,19 @@ class NetworkTracker {
   NetworkFilter trial_;
   RecentSweeps recent_;
   std::array<StationWatch, kMaxNetworkStations> watch_;
-  PlaneSweep open_;
+  std::array<PlaneSweep, kMaxNetworkStations> open_;  // of each station: sweeps of several may overlap
   bool running_ = false;
   double time_s_ = 0.0;
   double accepted_s_ = 0.0;
   double checked_s_ = 0.0;
   double started_s_ = 0.0;
   double consensus_s_ = 0.0;
-  std::optional<Vector3> position_;  // what two stations tell at once, now
-  double triangulated_s_ = -1e9;     // when two stations last agreed with the filter
+  std::optional<PositionFix> fix_;  // what two stations tell at once, now
+  double fixed_s_ = -1e9;           // when two stations last agreed with the filter
+  double left_out_ = 0.0;           // fraction of the last sweeps' hits that did not fit the others of theirs
   int refused_in_row_ = 0;
-  int contradictions_ = 0;  // checks more than not in which no position fits all stations
+  int contradictions_ = 0;     // checks more than not in which no position fits all stations
+  bool contradicted_ = false;  // from many contradictions until they are gone
   bool ambiguous_ = false;
   WorldFromBody second_;
   double delta_chi2_ = 0.0;

@@ -30,9 +30,25 @@ struct StationSigmas {
   double rotation_rad = 0.0;
   double position_m = 0.0;  // of each component, beside that
   double plane_rad = 0.0;   // of each laser plane's angle: what calibration, model and geometry leave
+  /// A geometry that was found from a target is right where the target was, and the less the further from there: each
+  /// station alone may be turned about that place, and all lengths of the room from it may be wrong by a fraction.
+  double turn_rad = 0.0;
+  double scale = 0.0;
+  std::array<double, 3> anchor_m{};  // that place, world frame
 
-  /// What is common to a plane's angles of one body at this range.
+  Vector3 from_anchor(const Vector3& body_m) const { return body_m - Vector3(anchor_m[0], anchor_m[1], anchor_m[2]); }
+  /// What is common to a plane's angles of one body at this range, wherever it is.
   double bearing_rad(double range_m) const { return std::hypot(plane_rad, position_m / range_m); }
+  /// What stations may contradict each other by in a plane's angle of a body at this place.
+  double contradiction_rad(double range_m, const Vector3& body_m) const {
+    return std::hypot(bearing_rad(range_m), turn_rad * from_anchor(body_m).norm() / range_m);
+  }
+  /// Covariance of a body's position from turn and scale, m^2.
+  Matrix3 deformation(const Vector3& body_m) const {
+    const Vector3 d = from_anchor(body_m);
+    return (turn_rad * turn_rad + scale * scale) * d.squaredNorm() * Matrix3::Identity() -
+           turn_rad * turn_rad * d * d.transpose();
+  }
 };
 
 /// A base station of a room: what it is, where it stands, how its planes depart from ideal ones.

@@ -43,7 +43,7 @@ std::optional<MeanAngle> mean_angle(const PlaneSweep& sweep, const Station& stat
   if (count == 0) return std::nullopt;
   out.residual_rad /= count;
   out.gradient /= count;
-  out.sigma_rad = std::hypot(station.sigmas.value_or(unstated).bearing_rad(range_m), kMotion_rad);
+  out.sigma_rad = std::hypot(station.sigmas.value_or(unstated).contradiction_rad(range_m, body.t), kMotion_rad);
   return out;
 }
 

@@ -15,6 +15,7 @@ using network::WorldFromBody;
 constexpr double kMinPiece_s = 0.3, kMaxPiece_s = 1.0, kGap_s = 0.15;
 // Between control points: a hand moves by less than a millimetre otherwise within it.
 constexpr double kStep_s = 0.04;
+constexpr double kStart_m = 0.3;  // a start for an adjustment may be known less well than an answer
 
 struct Tracked {
   double time_s = 0.0;
@@ -43,6 +44,7 @@ double TrackedMotion::seconds() const {
 TrackedMotion track_motion(const std::vector<network::PlaneSweep>& sweeps, const network::Stations& stations,
                            const Target& target, const network::StationSigmas& unstated) {
   network::NetworkOptions options;
+  options.max_position_m = kStart_m;
   options.noise.unstated = unstated;
   network::Stations uncertain = stations;
   for (network::Station& station : uncertain) station.sigmas.reset();
@@ -67,7 +69,7 @@ TrackedMotion track_motion(const std::vector<network::PlaneSweep>& sweeps, const
   for (const network::PlaneSweep& sweep : sweeps) {
     for (const network::Hit& hit : sweep.hits) take(tracker->push(stations[sweep.station].number, sweep.plane, hit));
   }
-  take(tracker->flush());
+  while (const auto last = tracker->flush()) take(last);
   end_piece();
   return out;
 }

@@ -23,7 +23,7 @@ struct JerkDensity {
 };
 
 struct StationBundleOptions {
-  double sensor_sigma_m = 0.1e-3;  // how well the target was built, 1 sigma of each coordinate
+  double sensor_sigma_m = 0.2e-3;  // where light meets each sensor, 1 sigma of each coordinate
   JerkDensity jerk;
   int max_steps = 60;
 };

@@ -16,8 +16,8 @@ namespace {
 using network::Stations;
 using network::StationSigmas;
 
-// What the tracker is told of stations that were given, found (station_start), and adjusted before.
-constexpr StationSigmas kGiven = network::kUnstatedSigmas, kFound{0.05, 0.0, 0.006}, kAdjusted{0.01, 0.0, 0.001};
+// What the tracker is told of stations that were given or found (station_start), and of adjusted ones.
+constexpr StationSigmas kStart{0.05, 0.0, 0.006}, kAdjusted{0.01, 0.0, 0.001};
 constexpr std::size_t kMinHits = 200;  // of a station
 constexpr double kMinMotion_s = 3.0;   // with two stations at once
 constexpr double kMinSpread_m = 0.05;  // of the target's positions, the second of three, 1 sigma
@@ -53,11 +53,11 @@ void start(const std::vector<network::PlaneSweep>& sweeps, const StationCalibrat
   const bool posed = std::all_of(at.stations.begin(), at.stations.end(),
                                  [](const network::Station& station) { return station.T_world_station.has_value(); });
   TrackedMotion motion;
-  if (posed) motion = track_motion(sweeps, at.stations, at.target, kGiven);
+  if (posed) motion = track_motion(sweeps, at.stations, at.target, kStart);
   from_scratch = motion.seconds() < kMinMotion_s;
   if (from_scratch) {
     start_stations(sweeps, at.target, input.log.name, at.stations);
-    motion = track_motion(sweeps, at.stations, at.target, kFound);
+    motion = track_motion(sweeps, at.stations, at.target, kStart);
   }
   if (motion.seconds() < kMinMotion_s) {
     throw host::InputError(input.log.name + ": two stations and the target agree for " + motion_text(motion.seconds()) +
@@ -94,6 +94,12 @@ void turn_up(const std::vector<Acceleration>& samples, const std::string& name, 
   for (network::Station& station : at.stations) {
     const auto T = *station.T_world_station;
     station.T_world_station = network::WorldFromStation{R * T.R, centre + R * (T.t - centre)};
+  }
+  for (network::Station& station : out.stations) {
+    if (!station.sigmas) continue;
+    auto& anchor = station.sigmas->anchor_m;
+    const Vector3 turned = centre + R * (Vector3(anchor[0], anchor[1], anchor[2]) - centre);
+    anchor = {turned.x(), turned.y(), turned.z()};
   }
   out.up_sigma_rad = up.sigma_rad;
 }

@@ -16,7 +16,7 @@ struct StationCalibrationInput {
   NetworkLog log;
   network::Stations stations;  // calibration as sent or zero, poses where they are known
   Target target;               // nominal
-  double sensor_sigma_m = 0.1e-3;
+  double sensor_sigma_m = 0.2e-3;
   std::vector<Acceleration> accelerations;  // not empty: the world's z is turned up
 };
 

@@ -98,11 +98,9 @@ void add_sensors(const Target& nominal, const Target& target, double prior_sigma
   }
 }
 
-// Within the space where the target was, as a bearing: residuals, and the scale, whose error grows from its centre.
-double plane_sigma(const PlaneFit& fit, const network::Station& station, const Spread& spread, double scale_sigma) {
-  const double range_m = std::max(0.5, (spread.centre_m - station.T_world_station->t).norm());
-  return std::hypot(fit.mean_rad, scale_sigma * spread.sigma_m.norm() / range_m);
-}
+// What the model of a plane leaves and the adjustment hides in the other unknowns: the `workshop` errors of
+// DESIGN, all terms together.
+constexpr double kHidden_rad = 0.7e-3;
 
 // What hits of a sweep leave about their mean, as if the station were turned against the body.
 double turned_sigma(const PlaneFit& fit, const network::Station& station, const Target& target, const Spread& spread) {
@@ -157,8 +155,10 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
     }
     for (const PlaneFit& fit : fits) {
       sigmas.rotation_rad = std::max(sigmas.rotation_rad, turned_sigma(fit, at.stations[s], at.target, spread));
-      sigmas.plane_rad = std::max(sigmas.plane_rad, plane_sigma(fit, at.stations[s], spread, out.scale_sigma));
+      sigmas.plane_rad = std::max(sigmas.plane_rad, std::hypot(fit.mean_rad, kHidden_rad));
     }
+    sigmas.scale = out.scale_sigma;
+    sigmas.anchor_m = {spread.centre_m.x(), spread.centre_m.y(), spread.centre_m.z()};
     out.stations[s].sigmas = sigmas;
     out.fits.push_back(fits);
     add_station(prior[s], at.stations[s], result.covariance, s * kStationColumns, s == 0, out.parameters);

@@ -96,7 +96,7 @@ evaluate::PositionTrack tracked_positions(const PositioningLog& log, const netwo
     out.samples.push_back({result->time_s, pose.t, pose.R, Matrix3(result->covariance.bottomRightCorner<3, 3>())});
   };
   for (const calibrate::NetworkHit& one : log.light.hits) take(tracker->push(one.station, one.plane, one.hit));
-  take(tracker->flush());
+  while (const auto last = tracker->flush()) take(last);
   std::stable_sort(out.samples.begin(), out.samples.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   return out;
