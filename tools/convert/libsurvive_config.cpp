@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -116,7 +117,7 @@ class LighthouseEntry {
     std::vector<double> out;
     for (const std::string& text : found->second) {
       std::size_t used = 0;
-      double value = NAN;
+      double value = std::numeric_limits<double>::quiet_NaN();
       try {
         value = std::stod(text, &used);
       } catch (const std::exception&) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -45,7 +46,7 @@ class Words {
   std::string_view rest() const { return rest_; }
   double number() {
     const std::string_view word = next();
-    double value = NAN;
+    double value = std::numeric_limits<double>::quiet_NaN();
     const char* begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
     const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
     if (word.empty() || error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
