@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/mounting/mounting_covariance.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "host/linear/dense.hpp"
 
 namespace pharos::host {
 namespace {
@@ -38,8 +39,7 @@ std::optional<std::string> error_of(const Eigen::Matrix<double, N, N>& covarianc
         return "the correlation in " + element(i, j) + " is above 1";
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(scaled, Eigen::EigenvaluesOnly);
-  if (!(solver.eigenvalues()[0] >= kMinEigenvalue)) return "is no covariance: it has a negative eigenvalue";
+  if (!(dense_eigen(scaled).values[0] >= kMinEigenvalue)) return "is no covariance: it has a negative eigenvalue";
   return std::nullopt;
 }
 

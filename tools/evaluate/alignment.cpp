@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluate/alignment.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "host/linear/dense.hpp"
 #include "pharos/base/units.hpp"
 
 namespace pharos::evaluate {
@@ -138,14 +138,16 @@ Step step_of(const Normal& normal, FreeParts free) {
   const std::vector<int> indices = parameters_of(free);
   const Eigen::MatrixXd N = normal.N(indices, indices);
   const Eigen::VectorXd g = normal.g(indices);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(N);
+  const host::DenseEigen eigen = host::dense_eigen(N);
   Step step;
   for (Eigen::Index k = 0; k < g.size(); ++k) {
     Vector13 direction = Vector13::Zero();
-    direction(indices) = eigen.eigenvectors().col(k);
-    const double information = eigen.eigenvalues()[k];
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      direction[indices[i]] = eigen.vectors(static_cast<Eigen::Index>(i), k);
+    }
+    const double information = eigen.values[k];
     if (information >= 1.0) {
-      step.delta += direction * (eigen.eigenvectors().col(k).dot(g) / information);
+      step.delta += direction * (eigen.vectors.col(k).dot(g) / information);
     } else {
       step.open.push_back({direction.segment<3>(0), direction.segment<3>(3), direction.segment<3>(6),
                            direction.segment<3>(9), direction[kTime]});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed-form starts.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "host/linear/dense.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "tools/evaluate/alignment.hpp"
 
 namespace pharos::evaluate {
@@ -34,13 +35,6 @@ std::vector<double> trimmed(const std::vector<double>& residuals) {
   return weights;
 }
 
-/// The rotation R that makes sum trace(R^T C) greatest.
-Matrix3 nearest_rotation(const Matrix3& C) {
-  const Eigen::JacobiSVD<Matrix3> svd(C, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * Vector3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
-}
-
 /// R with a_i = R b_i for most i.
 Matrix3 rotation_between(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
   std::vector<double> weights(a.size(), 1.0);
@@ -48,7 +42,7 @@ Matrix3 rotation_between(const std::vector<Vector3>& a, const std::vector<Vector
   for (int round = 0; round < kTrimRounds && !a.empty(); ++round) {
     Matrix3 C = Matrix3::Zero();
     for (std::size_t i = 0; i < a.size(); ++i) C += weights[i] * a[i] * b[i].transpose();
-    R = nearest_rotation(C);
+    R = host::nearest_rotation(C).R;
     std::vector<double> residuals;
     for (std::size_t i = 0; i < a.size(); ++i) residuals.push_back((a[i] - R * b[i]).norm());
     weights = trimmed(residuals);
@@ -63,7 +57,7 @@ Matrix3 mean_rotation(const std::vector<Matrix3>& rotations) {
   for (int round = 0; round < kTrimRounds && !rotations.empty(); ++round) {
     Matrix3 C = Matrix3::Zero();
     for (std::size_t i = 0; i < rotations.size(); ++i) C += weights[i] * rotations[i];
-    mean = nearest_rotation(C);
+    mean = host::nearest_rotation(C).R;
     std::vector<double> residuals;
     for (const Matrix3& R : rotations) residuals.push_back(rotation_angle_between(R, mean));
     weights = trimmed(residuals);
@@ -106,12 +100,12 @@ void fill_offsets(const std::vector<Pair>& key, Alignment& alignment) {
       const Matrix3 A = A_of(key[i]) - mean_A;
       N += weights[i] / n * A.transpose() * A, g += weights[i] / n * A.transpose() * (b_of(key[i]) - mean_b);
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(N);
+    const SymmetricEigen<3> eigen = symmetric_eigen<3>(N);
     alignment.body.t.setZero();
     for (int k = 0; k < 3; ++k) {
-      if (eigen.eigenvalues()[k] < kMinSwing * kMinSwing) continue;
-      const Vector3 axis = eigen.eigenvectors().col(k);
-      alignment.body.t += axis * (axis.dot(g) / eigen.eigenvalues()[k]);
+      if (eigen.values[k] < kMinSwing * kMinSwing) continue;
+      const Vector3 axis = eigen.vectors.col(k);
+      alignment.body.t += axis * (axis.dot(g) / eigen.values[k]);
     }
     alignment.world.t = mean_b - mean_A * alignment.body.t;
     std::vector<double> residuals;
@@ -158,9 +152,9 @@ PositionFit se3_of_positions(const std::vector<Pair>& pairs, const Alignment& pr
     extent += d * d.transpose() / n;
   }
   PositionFit fit;
-  fit.world.R = nearest_rotation(C);
+  fit.world.R = host::nearest_rotation(C).R;
   fit.world.t = mean_e - fit.world.R * mean_t;
-  fit.second_extent_m = std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix3>(extent).eigenvalues()[1]));
+  fit.second_extent_m = std::sqrt(std::max(0.0, symmetric_eigen<3>(extent).values[1]));
   return fit;
 }
 

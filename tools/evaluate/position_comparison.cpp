@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluate/position_comparison.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "host/linear/dense.hpp"
+#include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/geometry/rotation.hpp"
 
 namespace pharos::evaluate {
@@ -146,9 +147,7 @@ void fit_world(const Matched& m, Fit& fit) {
   }
   Matrix3 H = Matrix3::Zero();
   for (std::size_t i = 0; i < moved.size(); ++i) H += (moved[i] - ce) * (m.truth[i] - ct).transpose();
-  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  fit.R = svd.matrixU() * Vector3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  fit.R = host::nearest_rotation(H).R;
   fit.t = ce - fit.R * ct;
 }
 
@@ -168,7 +167,7 @@ void fit_lever(const Matched& m, Fit& fit) {
       b -= J.transpose() * fit.error(e, m.truth[i]);
     }
     A.diagonal().array() += 1e-9 * A.trace();
-    const Vector9 d = A.ldlt().solve(b);
+    const Vector9 d = host::dense_solve(A, b);
     fit.R = rotation_exp(d.head<3>()) * fit.R;
     fit.t += d.segment<3>(3);
     fit.lever += d.tail<3>();

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "tools/evaluate/trajectory_file.hpp"
 
 namespace pharos::tools {
@@ -28,7 +29,7 @@ std::optional<StateError> TruthErrors::add(const fusion::TargetState& state) {
   StateError out;
   out.rotation_rad = delta.head<3>().norm();
   out.position_m = delta.tail<3>().norm();
-  out.nees = delta.dot(covariance.ldlt().solve(delta)) / 6.0;
+  out.nees = mahalanobis_squared<6>(delta, covariance) / 6.0;
   const fusion::ProtectionLevel& level = state.protection;
   out.outside = (level.position_available && out.position_m > level.position_m) ||
                 (level.rotation_available && out.rotation_rad > level.rotation_rad);

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/geometry/rotation.hpp"
 
 namespace pharos::tools {
@@ -42,10 +42,10 @@ PoseError pose_error(const LighthouseFromBody& measured, const LighthouseFromBod
 
 std::optional<double> pose_nees(const LighthouseFromBody& measured, const LighthouseFromBody& truth,
                                 const Matrix6& covariance) {
-  const Eigen::LLT<Matrix6> factor(covariance);
-  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto information = positive_inverse<6>(covariance);
+  if (!information) return std::nullopt;
   const Vector6 delta = pose_difference(truth, measured);
-  return delta.dot(factor.solve(delta)) / static_cast<double>(delta.size());
+  return delta.dot(*information * delta) / static_cast<double>(delta.size());
 }
 
 void ErrorSums::add(const PoseError& error) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pharos/fusion/fusion_core.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::fusion {
 namespace {
@@ -14,7 +15,7 @@ double distance(const Filter& a, const Filter& b, int at) {
   const Vector6 apart = pose_difference(a.mean().pose, b.mean().pose);
   const Matrix3 P = (a.pose_covariance() + b.pose_covariance()).block<3, 3>(at, at);
   const Vector3 d = apart.segment<3>(at);
-  return d.dot(P.ldlt().solve(d));
+  return mahalanobis_squared<3>(d, P);
 }
 
 // How badly the measurements of sources that are not suspect fit the solution without one of the suspects.

@@ -6,6 +6,7 @@
 
 #include "pharos/fusion/chi_squared.hpp"
 #include "pharos/fusion/source_view.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::fusion {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kMaxHalvings = 24;
 // Norm of a correction in the standard deviations before it, the larger of rotation and position.
 double sigmas_moved(const Matrix6& before, const Vector6& moved) {
   const auto part = [](const Matrix3& P, const Vector3& d) {
-    return std::sqrt(std::max(0.0, d.dot(P.ldlt().solve(d))));
+    return std::sqrt(std::max(0.0, mahalanobis_squared<3>(d, P)));
   };
   return std::max(part(before.topLeftCorner<3, 3>(), moved.head<3>()),
                   part(before.bottomRightCorner<3, 3>(), moved.tail<3>()));

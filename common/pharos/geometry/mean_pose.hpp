@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "pharos/geometry/pose.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos {
 
@@ -42,7 +42,7 @@ auto mean_of_poses(const Estimates& estimates) {
   for (const auto& one : estimates) {
     result.covariance += one.covariance / (count * count);
     const Vector6 delta = pose_difference(one.pose, result.pose);
-    squares += delta.dot(one.covariance.ldlt().solve(delta));
+    squares += mahalanobis_squared<6>(delta, one.covariance);
   }
   if (count > 1.0) result.reduced_chi2 = squares / (6.0 * (count - 1.0));
   if (std::isfinite(result.reduced_chi2)) result.covariance *= std::max(1.0, result.reduced_chi2);

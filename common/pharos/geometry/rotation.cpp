@@ -62,6 +62,19 @@ Quaternion canonical_quaternion(const Matrix3& R) { return canonical(Quaternion(
 
 double rotation_angle_between(const Matrix3& a, const Matrix3& b) { return rotation_log(a * b.transpose()).norm(); }
 
+Matrix3 rotation_between(const Vector3& from, const Vector3& to) {
+  const Vector3 a = from.normalized(), b = to.normalized();
+  const Vector3 axis = a.cross(b);
+  const double cosine = a.dot(b);
+  // 1 + cos: near a half turn by the sine, without the rounding of the sum.
+  const double sum = cosine > 0.0 ? 1.0 + cosine : axis.squaredNorm() / (1.0 - cosine);
+  if (sum < 1e-15) {
+    const Vector3 across = a.unitOrthogonal();
+    return 2.0 * across * across.transpose() - Matrix3::Identity();
+  }
+  return cosine * Matrix3::Identity() + skew(axis) + axis * axis.transpose() / sum;
+}
+
 Matrix3 orthonormalised(const Matrix3& R) {
   Matrix3 result = R;
   for (int step = 0; step < 2; ++step) {

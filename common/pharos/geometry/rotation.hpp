@@ -32,6 +32,10 @@ Quaternion canonical(const Quaternion& q);
 /// Angle in rad, [0, pi], of the rotation from b to a.
 double rotation_angle_between(const Matrix3& a, const Matrix3& b);
 
+/// The smallest rotation that turns `from` to the direction of `to`; of opposite ones, a half turn about one of the
+/// axes across them. Neither is zero.
+Matrix3 rotation_between(const Vector3& from, const Vector3& to);
+
 /// Nearest rotation to R in the Frobenius sense when R is already nearly one (two Newton steps of the polar
 /// decomposition); keeps long chains of products orthonormal.
 Matrix3 orthonormalised(const Matrix3& R);

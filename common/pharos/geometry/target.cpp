@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/geometry/target.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos {
 namespace {
@@ -17,9 +18,8 @@ Vector3 principal_deviations(const Target& target) {
   mean /= static_cast<double>(target.size());
   Matrix3 scatter = Matrix3::Zero();
   for (const SensorPlacement& s : target) scatter += (s.position_m - mean) * (s.position_m - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(scatter / static_cast<double>(target.size()),
-                                                      Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  const SymmetricEigen<3> eigen = symmetric_eigen<3>(scatter / static_cast<double>(target.size()));
+  return eigen.values.reverse().cwiseMax(0.0).cwiseSqrt();
 }
 
 TargetError check_pairs(const Target& target) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/network/station_consensus.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::network {
 namespace {
@@ -74,7 +75,7 @@ std::optional<double> left_without(std::size_t without, const RecentSweeps& rece
       ++count;
     }
     if (count < 4) return std::nullopt;
-    const Vector6 d = A.ldlt().solve(b);
+    const Vector6 d = solve_symmetric<6>(A, b);
     if (!d.allFinite()) return std::nullopt;
     const double part = std::min(1.0, kLargestStep_m / std::max(1e-12, d.head<3>().norm()));
     t += part * d.head<3>();

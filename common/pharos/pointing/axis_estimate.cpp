@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/pointing/axis_estimate.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/pointing/tangent.hpp"
 
 namespace pharos::pointing {
@@ -61,8 +61,8 @@ CommonPlane common_plane(std::span<const AxisPlane> planes) {
       const double variance = round == 0 ? std::max(kMinVariance, worst * worst) : variance_of(plane, direction);
       sum += plane.normal * plane.normal.transpose() / variance;
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(sum / sum.trace());
-    common = {eigen.eigenvectors().col(2), eigen.eigenvectors().col(0), eigen.eigenvectors().col(1)};
+    const SymmetricEigen<3> eigen = symmetric_eigen<3>(sum / sum.trace());
+    common = {eigen.vectors.col(2), eigen.vectors.col(0), eigen.vectors.col(1)};
     direction = common.first;
   }
   return common;

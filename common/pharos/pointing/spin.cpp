@@ -2,7 +2,6 @@
 #include "pharos/pointing/spin.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/optimize/descent.hpp"
 #include "pharos/optimize/least_squares.hpp"
 #include "pharos/pointing/axis_estimate.hpp"
@@ -62,8 +62,8 @@ Start best_axis(const SpinProblem& problem, const Vector3& spin, double rate) {
     const Vector3 back = c * n + s * spin.cross(n) + (1.0 - c) * spin.dot(n) * spin;
     sum += back * back.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(sum);
-  return {{eigen.eigenvectors().col(0), spin, rate}, eigen.eigenvalues()[0]};
+  const SymmetricEigen<3> eigen = symmetric_eigen<3>(sum);
+  return {{eigen.vectors.col(0), spin, rate}, eigen.values[0]};
 }
 
 Starts search(const SpinProblem& problem, double max_rate) {

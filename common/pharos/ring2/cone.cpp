@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pharos/ring2/cone.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "pharos/ellipse/matrix.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::ring2 {
 namespace {
@@ -68,11 +68,11 @@ std::optional<Cone> cone_of(const ellipse::Ellipse& e, const RigView& view) {
 }
 
 std::optional<std::array<CirclePose, 2>> circle_poses(const Cone& cone) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(cone.Q);
+  const SymmetricEigen<3> axes = symmetric_eigen<3>(cone.Q);
   // Ascending: the first is the cone's axis.
-  const double l3 = axes.eigenvalues()[0];
-  const double l2 = axes.eigenvalues()[1];
-  const double l1 = axes.eigenvalues()[2];
+  const double l3 = axes.values[0];
+  const double l2 = axes.values[1];
+  const double l1 = axes.values[2];
   if (!(l3 < 0.0 && l2 > 0.0)) return std::nullopt;
   const double g = std::sqrt((l2 - l3) / (l1 - l3));
   const double h = std::sqrt((l1 - l2) / (l1 - l3));
@@ -80,8 +80,8 @@ std::optional<std::array<CirclePose, 2>> circle_poses(const Cone& cone) {
   std::array<CirclePose, 2> poses;
   for (std::size_t k = 0; k < 2; ++k) {
     const double side = k == 0 ? h : -h;
-    Vector3 normal = side * axes.eigenvectors().col(2) + g * axes.eigenvectors().col(0);
-    Vector3 centre = range * (side * l3 / l2 * axes.eigenvectors().col(2) + g * l1 / l2 * axes.eigenvectors().col(0));
+    Vector3 normal = side * axes.vectors.col(2) + g * axes.vectors.col(0);
+    Vector3 centre = range * (side * l3 / l2 * axes.vectors.col(2) + g * l1 / l2 * axes.vectors.col(0));
     if (centre.dot(cone.forward) < 0.0) centre = -centre;
     if (normal.dot(centre) > 0.0) normal = -normal;
     poses[k] = {normal, centre};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/camera/fit_dot.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "pharos/geometry/positive_inverse.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -119,17 +119,18 @@ Vector start_of(const Blob& blob, const std::vector<Sample>& samples) {
   return x;
 }
 
-DotFit fit_of(const Vector& x, const Normal& normal, std::size_t samples) {
-  Matrix2 shape;
-  shape << x[kUU], x[kUV], x[kUV], x[kVV];
-  const double largest = Eigen::SelfAdjointEigenSolver<Matrix2>(shape).eigenvalues()[1];
+std::optional<DotFit> fit_of(const Vector& x, const Normal& normal, std::size_t samples) {
+  // The largest eigenvalue of the shape, and its determinant.
+  const double largest = 0.5 * (x[kUU] + x[kVV]) + std::hypot(0.5 * (x[kUU] - x[kVV]), x[kUV]);
+  const double determinant = x[kUU] * x[kVV] - x[kUV] * x[kUV];
   const double variance = normal.squares / static_cast<double>(samples - kUnknowns);
-  const Matrix covariance = normal.information.inverse();
+  const auto covariance = positive_inverse<kUnknowns>(normal.information);
+  if (!covariance) return std::nullopt;
   DotFit fit;
   fit.centre_px = x.head<2>();
-  fit.sigma_px = std::sqrt(0.5 * variance * (covariance(kU, kU) + covariance(kV, kV)));
+  fit.sigma_px = std::sqrt(0.5 * variance * ((*covariance)(kU, kU) + (*covariance)(kV, kV)));
   fit.minor_px = 1.0 / std::sqrt(largest);
-  fit.area_px2 = std::numbers::pi / std::sqrt(shape.determinant());
+  fit.area_px2 = std::numbers::pi / std::sqrt(determinant);
   fit.blur_px = x[kBlur];
   fit.misfit = std::sqrt(variance) / std::abs(x[kContrast]);
   return fit;
@@ -147,10 +148,11 @@ std::optional<DotFit> fit_dot(GreyView image, const Blob& blob, double reach) {
   for (int step = 0; step < kMaxSteps; ++step) {
     Matrix damped = normal.information;
     damped.diagonal() *= 1.0 + damping;
-    const Vector move = damped.ldlt().solve(normal.gradient);
+    const auto covariance = positive_inverse<kUnknowns>(damped);
+    const Vector move = covariance ? Vector(*covariance * normal.gradient) : Vector::Zero();
     Vector moved = x + move;
     moved[kBlur] = std::max(moved[kBlur], kMinBlur_px);
-    const bool sound = is_sound(moved);
+    const bool sound = covariance && is_sound(moved);
     const Normal next = sound ? normal_at(moved, samples) : Normal{};
     if (sound && next.squares <= normal.squares) {
       x = moved;
@@ -162,9 +164,10 @@ std::optional<DotFit> fit_dot(GreyView image, const Blob& blob, double reach) {
       if (damping > 1e6) break;
     }
   }
-  const DotFit fit = fit_of(x, normal, samples.size());
-  const bool near = (fit.centre_px - blob.centre_px).norm() < 2.0 * std::sqrt(blob.covariance_px2.trace());
-  if (!near || !std::isfinite(fit.sigma_px) || fit.sigma_px <= 0.0) return std::nullopt;
+  const std::optional<DotFit> fit = fit_of(x, normal, samples.size());
+  if (!fit) return std::nullopt;
+  const bool near = (fit->centre_px - blob.centre_px).norm() < 2.0 * std::sqrt(blob.covariance_px2.trace());
+  if (!near || !std::isfinite(fit->sigma_px) || fit->sigma_px <= 0.0) return std::nullopt;
   return fit;
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/mounting/hand_eye_start.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "host/linear/dense.hpp"
+#include "pharos/geometry/rotation.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -39,14 +42,6 @@ std::vector<Pair> pairs_of(const std::vector<TimedTarget>& target, const std::ve
   return pairs;
 }
 
-Matrix3 nearest_rotation(const Matrix3& matrix) {
-  const Eigen::JacobiSVD<Matrix3> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Matrix3 turn = svd.matrixU() * svd.matrixV().transpose();
-  Matrix3 sign = Matrix3::Identity();
-  sign(2, 2) = turn.determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
-}
-
 struct Rotations {
   Matrix3 vehicle_sensor, target_feature;
 };
@@ -63,15 +58,15 @@ std::optional<Rotations> full_rotations(const std::vector<Pair>& pairs) {
     }
     normal += row.transpose() * row;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix18> solver(normal);
-  if (!(solver.eigenvalues()[1] > kMinSeparation * solver.eigenvalues()[17])) return std::nullopt;
-  const Eigen::Matrix<double, 18, 1> v = solver.eigenvectors().col(0);
+  const host::DenseEigen eigen = host::dense_eigen(normal);
+  if (!(eigen.values[1] > kMinSeparation * eigen.values[17])) return std::nullopt;
+  const Eigen::Matrix<double, 18, 1> v = eigen.vectors.col(0);
   Matrix3 Y = Eigen::Map<const Matrix3>(v.data()), X = Eigen::Map<const Matrix3>(v.data() + 9);
   if (X.determinant() < 0.0) {
     X = -X;
     Y = -Y;
   }
-  return Rotations{nearest_rotation(X), nearest_rotation(Y)};
+  return Rotations{host::nearest_rotation(X).R, host::nearest_rotation(Y).R};
 }
 
 // [R_A, -(n_B^T (x) I)] [y; vec R_X] = 0, y the feature's axis in the target frame: 3 rows a pose.
@@ -84,17 +79,17 @@ std::optional<Rotations> axis_rotations(const std::vector<Pair>& pairs) {
     for (int k = 0; k < 3; ++k) row.block<3, 3>(0, 3 + 3 * k) = -pair.row->pose.R(k, 2) * Matrix3::Identity();
     normal += row.transpose() * row;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(normal);
-  if (!(solver.eigenvalues()[1] > kMinSeparation * solver.eigenvalues()[11])) return std::nullopt;
-  const Eigen::Matrix<double, 12, 1> v = solver.eigenvectors().col(0);
+  const host::DenseEigen eigen = host::dense_eigen(normal);
+  if (!(eigen.values[1] > kMinSeparation * eigen.values[11])) return std::nullopt;
+  const Eigen::Matrix<double, 12, 1> v = eigen.vectors.col(0);
   Matrix3 X = Eigen::Map<const Matrix3>(v.data() + 3);
   Vector3 axis = v.head<3>();
   if (X.determinant() < 0.0) {
     X = -X;
     axis = -axis;
   }
-  const Matrix3 turn = Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
-  return Rotations{nearest_rotation(X), turn};
+  const Matrix3 turn = rotation_between(Vector3::UnitZ(), axis);
+  return Rotations{host::nearest_rotation(X).R, turn};
 }
 
 }  // namespace
@@ -127,7 +122,7 @@ std::optional<HandEyeStart> hand_eye_start(const std::vector<TimedTarget>& targe
     normal += row.transpose() * row;
     right += row.transpose() * (rotations->vehicle_sensor * pair.row->pose.t - pair.target.t);
   }
-  const Vector6 shift = normal.ldlt().solve(right);
+  const Vector6 shift = solve_symmetric<6>(normal, right);
   if (!shift.allFinite()) return std::nullopt;
   HandEyeStart start{
       {rotations->vehicle_sensor, shift.tail<3>()}, {rotations->target_feature, shift.head<3>()}, time_offset_s, 0.0};
@@ -154,14 +149,13 @@ Vector3 excitation_rad(const std::vector<TimedTarget>& target) {
   if (target.empty()) return Vector3::Zero();
   Matrix3 mean = Matrix3::Zero();
   for (const TimedTarget& pose : target) mean += pose.pose.R;
-  const Matrix3 centre = nearest_rotation(mean);
+  const Matrix3 centre = host::nearest_rotation(mean).R;
   Matrix3 scatter = Matrix3::Zero();
   for (const TimedTarget& pose : target) {
     const Vector3 turn = rotation_log(pose.pose.R * centre.transpose());
     scatter += turn * turn.transpose() / static_cast<double>(target.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(scatter);
-  return solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  return symmetric_eigen<3>(scatter).values.reverse().cwiseMax(0.0).cwiseSqrt();
 }
 
 }  // namespace pharos::calibrate

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/mounting/unobservable_directions.hpp"
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 
+#include "host/linear/dense.hpp"
 #include "host/support/rounded_number.hpp"
 
 namespace pharos::calibrate {
@@ -50,13 +50,13 @@ std::vector<std::string> unobservable_directions(const UnknownSource& source, co
   Matrix12 prior = Matrix12::Zero();
   prior.topLeftCorner<6, 6>() = source.prior_sensor_covariance;
   prior.bottomRightCorner<6, 6>() = source.prior_feature_covariance;
-  const Eigen::SelfAdjointEigenSolver<Matrix12> root(prior);
-  const Vector12 sigma = root.eigenvalues().cwiseMax(1e-18).cwiseSqrt();
-  const Matrix12 whiten = root.eigenvectors() * sigma.cwiseInverse().asDiagonal() * root.eigenvectors().transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(whiten * covariance.topLeftCorner<12, 12>() * whiten);
+  const host::DenseEigen root = host::dense_eigen(prior);
+  const Vector12 sigma = root.values.cwiseMax(1e-18).cwiseSqrt();
+  const Matrix12 whiten = root.vectors * sigma.cwiseInverse().asDiagonal() * root.vectors.transpose();
+  const host::DenseEigen eigen = host::dense_eigen(whiten * covariance.topLeftCorner<12, 12>() * whiten);
   std::vector<std::string> out;
-  for (int i = 11; i >= 0 && solver.eigenvalues()[i] > kHardlyTold; --i) {
-    out.push_back(direction_text(solver.eigenvectors().col(i)));
+  for (int i = 11; i >= 0 && eigen.values[i] > kHardlyTold; --i) {
+    out.push_back(direction_text(eigen.vectors.col(i)));
   }
   if (covariance(12, 12) > kHardlyTold * source.prior_offset_sigma_s * source.prior_offset_sigma_s) {
     out.emplace_back("time offset");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/stations/gravity.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "pharos/geometry/positive_inverse.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -70,10 +71,12 @@ Up up_of(const std::vector<BodySpline>& motion, const std::vector<Acceleration>&
       N += weight * A.transpose() * A;
       b += weight * A.transpose() * means[k].force;
     }
-    const Vector6 x = N.ldlt().solve(b);
+    const auto inverse = positive_inverse<6>(N);
+    if (!inverse) return up;
+    const Vector6 x = *inverse * b;
     gravity = x.head<3>();
     bias = x.tail<3>();
-    covariance = sigma * sigma * N.inverse();
+    covariance = sigma * sigma * *inverse;
   }
   if (!(gravity.norm() > 0.0)) return up;
   up.direction = gravity.normalized();

@@ -9,6 +9,7 @@
 #include "host/calibrate/stations/station_start.hpp"
 #include "host/calibrate/stations/sweep_selection.hpp"
 #include "host/support/input_error.hpp"
+#include "pharos/geometry/rotation.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -88,7 +89,7 @@ void turn_up(const std::vector<Acceleration>& samples, const std::string& name, 
              StationCalibration& out) {
   const Up up = up_of(at.motion, samples);
   if (up.direction.isZero()) throw host::InputError(name + ": the accelerations and the light have no time in common");
-  const Matrix3 R = Quaternion::FromTwoVectors(up.direction, Vector3::UnitZ()).toRotationMatrix();
+  const Matrix3 R = rotation_between(up.direction, Vector3::UnitZ());
   // About the first station, which keeps its place.
   const Vector3 centre = at.stations[0].T_world_station->t;
   for (network::Station& station : at.stations) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/stations/station_report.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::calibrate {
 namespace {
@@ -128,7 +129,7 @@ Spread spread_of(const StationUnknowns& unknowns) {
       C += d * d.transpose() / count;
     }
   }
-  const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(C, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector3 values = symmetric_eigen<3>(C).values;
   out.sigma_m = values.reverse().cwiseMax(0.0).cwiseSqrt();
   return out;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/calibrate/stations/station_start.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "host/linear/dense.hpp"
 #include "host/support/input_error.hpp"
 #include "pharos/network/network_start.hpp"
 
@@ -90,12 +90,11 @@ Alignment align(const Common& common, const std::vector<std::size_t>& use) {
   }
   Matrix3 H = Matrix3::Zero();
   for (const std::size_t i : use) H += (common.a[i] - ca) * (common.b[i] - cb).transpose() / n;
-  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  const host::NearestRotation turn = host::nearest_rotation(H);
   Alignment out;
-  out.R = svd.matrixU() * Vector3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  out.R = turn.R;
   out.t = ca - out.R * cb;
-  out.spread_m = std::sqrt(svd.singularValues()[1]);
+  out.spread_m = std::sqrt(turn.singular_values[1]);
   return out;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/rigid_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "host/linear/dense.hpp"
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::slam {
 namespace {
@@ -34,7 +35,7 @@ CameraFromTarget polished(const std::vector<Observation>& three, const StereoCam
       H += J.transpose() * J / at.variance_px2;
       gradient += J.transpose() * residual_of(at, camera, pose) / at.variance_px2;
     }
-    const Vector6 move = H.ldlt().solve(gradient);
+    const Vector6 move = solve_symmetric<6>(H, gradient);
     if (!move.allFinite()) return pose;
     pose = pose.moved_by(-move);
   }
@@ -59,13 +60,10 @@ std::optional<CameraFromTarget> rigid_fit(const std::vector<Vector3>& points, co
   from /= static_cast<double>(points.size());
   to /= static_cast<double>(points.size());
   Matrix3 H = Matrix3::Zero();
-  for (std::size_t k = 0; k < points.size(); ++k) H += (points[k] - from) * (seen[k] - to).transpose();
-  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(svd.singularValues()[1] > 1e-9 * svd.singularValues()[0])) return std::nullopt;
-  Matrix3 mirror = Matrix3::Identity();
-  mirror(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Matrix3 R = svd.matrixV() * mirror * svd.matrixU().transpose();
-  return CameraFromTarget{R, to - R * from};
+  for (std::size_t k = 0; k < points.size(); ++k) H += (seen[k] - to) * (points[k] - from).transpose();
+  const host::NearestRotation turn = host::nearest_rotation(H);
+  if (!(turn.singular_values[1] > 1e-9 * turn.singular_values[0])) return std::nullopt;
+  return CameraFromTarget{turn.R, to - turn.R * from};
 }
 
 std::optional<PoseOnly> robust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,

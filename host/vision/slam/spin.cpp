@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/vision/slam/spin.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/optimize/descent.hpp"
 #include "pharos/optimize/least_squares.hpp"
 
@@ -99,8 +99,8 @@ double Spin::sigma_rate_rad_s() const { return std::sqrt(std::max(0.0, axis().do
 
 double Spin::sigma_axis_rad() const {
   const Matrix3 across = Matrix3::Identity() - axis() * axis().transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(across * covariance * across);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2])) / rate();
+  const double largest = symmetric_eigen<3>(across * covariance * across).values[2];
+  return std::sqrt(std::max(0.0, largest)) / rate();
 }
 
 std::optional<Spin> fit_spin(const std::vector<TrackedFrame>& frames) {

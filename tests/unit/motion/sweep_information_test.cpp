@@ -8,6 +8,7 @@
 #include <random>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/motion/sweep_fit.hpp"
 
 namespace pharos::motion {
@@ -54,7 +55,7 @@ TEST(SweepInformation, SumsEqualTheDenseNoiseMatrixInverted) {
     const Vector6 right = sweep.H.transpose() * inverse * sweep.r;
     EXPECT_LT((information.factor * information.factor.transpose() - square).norm(), 1e-9 * square.norm());
     EXPECT_LT((information.factor * information.whitened - right).norm(), 1e-9 * right.norm());
-    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - right.dot(square.ldlt().solve(right));
+    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - mahalanobis_squared<6>(right, square);
     EXPECT_NEAR(information.residual_chi2, residual_chi2, 1e-9 * (1.0 + residual_chi2));
     EXPECT_EQ(information.rank, 6);
     EXPECT_EQ(information.hits, 8);
@@ -85,7 +86,7 @@ TEST(SweepInformation, SumsWithSharedPlacesEqualTheDenseNoiseMatrixInverted) {
     const Vector6 right = sweep.H.transpose() * inverse * sweep.r;
     EXPECT_LT((information.factor * information.factor.transpose() - square).norm(), 1e-9 * square.norm());
     EXPECT_LT((information.factor * information.whitened - right).norm(), 1e-9 * right.norm());
-    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - right.dot(square.ldlt().solve(right));
+    const double residual_chi2 = sweep.r.dot(inverse * sweep.r) - mahalanobis_squared<6>(right, square);
     EXPECT_NEAR(information.residual_chi2, residual_chi2, 1e-8 * (1.0 + residual_chi2));
     EXPECT_NEAR(sums.log_determinant(), std::log(sweep.R.determinant() / before), 1e-8);
   }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "pharos/geometry/symmetric.hpp"
 #include "tools/evaluation/problems/pnp_problems.hpp"
 
 namespace pharos::pose {
@@ -28,7 +29,7 @@ test::PnpSet relief() {
 
 double sigmas_between(const LighthousePoseEstimate& a, const LighthousePoseEstimate& b) {
   const Vector6 d = pose_difference(a.pose, b.pose);
-  return std::sqrt(d.dot(b.covariance.ldlt().solve(d)));
+  return std::sqrt(mahalanobis_squared<6>(d, b.covariance));
 }
 
 struct Comparison {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/geometry/target.hpp"
 #include "pharos/pose/precision.hpp"
 #include "pharos/pose/solve.hpp"
@@ -137,7 +138,7 @@ class PnpGenerator {
 /// Normalised estimation error squared: delta^T C^-1 delta, 6 in the mean where the covariance is consistent.
 inline double nees_of(const LighthouseFromBody& truth, const LighthousePoseEstimate& estimate) {
   const Vector6 delta = pose_difference(truth, estimate.pose);
-  return delta.dot(estimate.covariance.ldlt().solve(delta));
+  return mahalanobis_squared<6>(delta, estimate.covariance);
 }
 
 /// Errors of many solutions relative to the truth, compared with the Cramer-Rao bound (angles with white noise, at the

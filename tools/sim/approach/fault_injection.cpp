@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/approach/fault_injection.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "host/linear/dense.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/sim/approach/source_errors.hpp"
 
@@ -19,9 +19,9 @@ constexpr double kOtherTargetSpeed_m_s = 0.005;
 
 // A vector of `sigmas` in the metric of the covariance, in a random direction of those that were measured.
 Vector6 error_of(const ApproachMeasurement& m, double sigmas, const Vector6& direction) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(m.covariance);
-  const Vector6 root = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return solver.eigenvectors() * root.cwiseProduct(sigmas * (solver.eigenvectors().transpose() * direction));
+  const host::DenseEigen eigen = host::dense_eigen(m.covariance);
+  const Vector6 root = eigen.values.cwiseMax(0.0).cwiseSqrt();
+  return eigen.vectors * root.cwiseProduct(sigmas * (eigen.vectors.transpose() * direction));
 }
 
 class Injection {

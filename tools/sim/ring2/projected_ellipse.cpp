@@ -2,10 +2,11 @@
 #include "tools/sim/ring2/projected_ellipse.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -131,7 +132,7 @@ ImageEllipse fitted_ellipse(const ImageEllipse& start, std::span<const Vector2> 
       normal += row * row.transpose();
       right += row * distance;
     }
-    const Vector5 step = normal.ldlt().solve(right);
+    const Vector5 step = solve_symmetric<5>(normal, right);
     now.centre += step.head<2>();
     now.L(0, 0) += step[2];
     now.L(1, 0) += step[3];

@@ -8,6 +8,7 @@
 
 #include "host/support/input_error.hpp"
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/rotation.hpp"
 
 namespace pharos::sim {
 namespace {
@@ -57,8 +58,7 @@ CameraFromTarget draw(const RandomPoses& limits, const PixelRays& rays, RandomSt
   CameraFromTarget pose;
   pose.t = sight * random.uniform(limits.min_range_m, limits.max_range_m);
   // Facing along the line of sight, turned about it, then tilted about a random axis square to it.
-  const Matrix3 facing =
-      Quaternion::FromTwoVectors(Vector3::UnitZ(), sight).toRotationMatrix() * Vector3(1.0, -1.0, -1.0).asDiagonal();
+  const Matrix3 facing = rotation_between(Vector3::UnitZ(), sight) * Vector3(1.0, -1.0, -1.0).asDiagonal();
   const double heading = random.uniform(0.0, 2.0 * std::numbers::pi);
   const Vector3 axis = facing * Vector3(std::cos(heading), std::sin(heading), 0.0);
   pose.R = about(axis, random.uniform(0.0, limits.max_tilt_deg) * kRadPerDeg) * facing *

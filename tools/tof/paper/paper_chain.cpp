@@ -2,12 +2,13 @@
 // Section 2.3 of paper 000: the target's frame from ring and connector.
 #include "tools/tof/paper/paper_chain.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <utility>
+
+#include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::tools::paper000 {
 namespace {
@@ -75,7 +76,7 @@ std::optional<Vector3> plane_of(DepthView depth, const DepthCamera& camera, cons
     squares += *point * point->transpose();
     right += *point;
   }
-  return Vector3(squares.ldlt().solve(right));
+  return solve_symmetric<3>(squares, right);
 }
 
 const Region* nearest(const std::vector<Region>& regions, const PaperEllipse& ring) {

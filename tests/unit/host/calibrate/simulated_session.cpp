@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/host/calibrate/simulated_session.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "host/linear/dense.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/lighthouse/decoder.hpp"
 
@@ -19,7 +19,7 @@ constexpr double kDark_s = 0.2;
 double nees_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& error, const Eigen::MatrixXd& basis) {
   const Eigen::VectorXd e = basis.transpose() * error;
   const Eigen::MatrixXd c = basis.transpose() * covariance * basis;
-  return e.dot(c.ldlt().solve(e)) / static_cast<double>(e.size());
+  return host::dense_mahalanobis_squared(e, c) / static_cast<double>(e.size());
 }
 
 }  // namespace
@@ -106,25 +106,29 @@ Truth compare(const LighthouseCalibration& calibration, const sim::LighthouseSim
   Truth out;
   Eigen::VectorXd error = Eigen::VectorXd::Zero(3 * n + rotors);
   Vector3 middle = Vector3::Zero();
-  Eigen::Matrix3Xd built(3, n);
-  Eigen::Matrix3Xd found(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  Vector3 built_middle = Vector3::Zero(), found_middle = Vector3::Zero();
+  for (std::size_t k = 0; k < nominal.size(); ++k) {
     middle += nominal[k].position_m / static_cast<double>(n);
-    built.col(i) = simulator.true_target()[k].position_m;
-    found.col(i) = bundle.unknowns.target[k].position_m;
+    built_middle += simulator.true_target()[k].position_m / static_cast<double>(n);
+    found_middle += bundle.unknowns.target[k].position_m / static_cast<double>(n);
   }
+  Matrix3 C = Matrix3::Zero();
+  const auto built = [&](std::size_t k) { return Vector3(simulator.true_target()[k].position_m - built_middle); };
+  const auto found = [&](std::size_t k) { return Vector3(bundle.unknowns.target[k].position_m - found_middle); };
+  for (std::size_t k = 0; k < nominal.size(); ++k) C += found(k) * built(k).transpose();
   // The true body frame is rotated by milliradians relative to the nominal one: too much for a linear comparison.
-  const Eigen::Matrix4d T_found_built = Eigen::umeyama(built, found, false);
+  const Matrix3 R_found_built = host::nearest_rotation(C).R;
   Eigen::MatrixXd motions(3 * n, 6);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    error.segment<3>(3 * i) =
-        found.col(i) - T_found_built.topLeftCorner<3, 3>() * built.col(i) - T_found_built.topRightCorner<3, 1>();
+    error.segment<3>(3 * i) = found(k) - R_found_built * built(k);
     motions.block<3, 3>(3 * i, 0) = Matrix3::Identity();
     motions.block<3, 3>(3 * i, 3) = -skew(nominal[k].position_m - middle);
   }
-  error.head(3 * n) -= motions * motions.colPivHouseholderQr().solve(error.head(3 * n));
+  // Of its columns the first six span the rigid motions, the others every change of shape.
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ();
+  const Eigen::VectorXd moved = q.leftCols(6).transpose() * error.head(3 * n);
+  error.head(3 * n) -= q.leftCols(6) * moved;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double size = error.segment<3>(3 * i).norm();
     out.shape_rms_m += size * size / static_cast<double>(n);
@@ -146,7 +150,6 @@ Truth compare(const LighthouseCalibration& calibration, const sim::LighthouseSim
     }
   }
   // Basis of the compared space: every change of shape that is not a rigid motion, and every rotor parameter.
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ();
   const Eigen::Index all = 3 * n + rotors;
   const Eigen::MatrixXd covariance = bundle.covariance.topLeftCorner(all, all);
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(all, all - 6);

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "host/linear/dense.hpp"
 #include "host/mounting/mounting_file.hpp"
 #include "host/mounting/source_table.hpp"
 #include "pharos/base/units.hpp"
@@ -39,11 +39,11 @@ double normalised_square(const ApproachMeasurement& m, const host::SensorFromFea
     const Vector3 n = m.pose.R.col(2), n_true = truth.R.col(2);
     error.head<3>() = n.cross(n_true);
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(m.covariance);
+  const host::DenseEigen eigen = host::dense_eigen(m.covariance);
   double sum = 0.0;
   for (int i = 0; i < 6; ++i) {
-    if (solver.eigenvalues()[i] < 1e-16) continue;
-    sum += std::pow(solver.eigenvectors().col(i).dot(error), 2) / solver.eigenvalues()[i];
+    if (eigen.values[i] < 1e-16) continue;
+    sum += std::pow(eigen.vectors.col(i).dot(error), 2) / eigen.values[i];
     ++freedom;
   }
   return sum;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "pharos/geometry/symmetric.hpp"
 #include "tools/evaluation/reproduce/fusion/fusion_scenario.hpp"
 
 namespace pharos::tools {
@@ -45,8 +46,8 @@ class Judge {
     rates << truth.rate_rad_s - state.kinematics.rate_rad_s, truth.velocity_m_s - state.kinematics.velocity_m_s;
     const Matrix6 P = state.covariance.topLeftCorner<6, 6>();
     const Matrix6 Q = state.covariance.bottomRightCorner<6, 6>();
-    out.pose_nees += error.dot(P.ldlt().solve(error));
-    out.rate_nees += rates.dot(Q.ldlt().solve(rates));
+    out.pose_nees += mahalanobis_squared<6>(error, P);
+    out.rate_nees += mahalanobis_squared<6>(rates, Q);
     out.position_m2 += position * position;
     out.rotation_rad2 += rotation * rotation;
     out.rate_rad2_s2 += rates.head<3>().squaredNorm();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/reproduce/lighthouse/paper_pose.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "pharos/geometry/rotation.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/pose/dlt.hpp"
 #include "pharos/pose/paper.hpp"
 #include "pharos/pose/rpnp.hpp"
@@ -80,7 +80,7 @@ std::optional<PaperPose> descend(const Target& target, const std::vector<SensorA
   while (result.iterations < kMaxIterations && damping < kMaxDamping) {
     Matrix6 damped = normal.squares;
     damped.diagonal() *= 1.0 + damping;
-    const Vector6 step = -damped.ldlt().solve(normal.right);
+    const Vector6 step = -solve_symmetric<6>(damped, normal.right);
     const Psi next{psi.phi_rad + step.head<3>(), psi.t_m + step.tail<3>()};
     const Normal there = normal_of(target, angles, next);
     if (!(there.cost < normal.cost)) {

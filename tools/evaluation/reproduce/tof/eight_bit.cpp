@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "pharos/geometry/symmetric.hpp"
 #include "pharos/tof/ring_extent.hpp"
 #include "tools/tof/paper/paper_chain.hpp"
 
@@ -81,7 +82,7 @@ std::optional<tof::CameraFromTarget> paper_pose(const sim::TofPixels& pixels, co
     normal += *point * point->transpose();
     right += *point;
   }
-  const Vector3 q = normal.ldlt().solve(right);  // q . point = 1
+  const Vector3 q = solve_symmetric<3>(normal, right);  // q . point = 1
   const Result<Vector2, CameraFailure> centre_ray = undistort(camera.intrinsics, {ring.cx_px, ring.cy_px});
   if (!centre_ray) return std::nullopt;
   const Vector3 sight(centre_ray->x(), centre_ray->y(), 1.0);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "pharos/base/units.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "tools/evaluation/reproduce/tof/depth_camera_of.hpp"
 #include "tools/support/progress.hpp"
 
@@ -36,7 +37,7 @@ CampaignFrame judge(const tof::TofPose& measured, const tof::CameraFromTarget& t
   const Matrix6& covariance = measured.target.covariance;
   frame.error_mm = error.tail<3>().norm() * kMmPerM;
   frame.error_deg = error.head<3>().norm() / kRadPerDeg;
-  frame.nees = error.dot(covariance.ldlt().solve(error));
+  frame.nees = mahalanobis_squared<6>(error, covariance);
   if (!measured.has_turn()) {
     // The turn about Z' was not measured: only where Z' points can be wrong.
     const Vector3 cross = truth.R.col(2).cross(measured.target.pose.R.col(2));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board_truth.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "host/linear/dense.hpp"
 #include "tools/sim/random_stream.hpp"
 
 namespace pharos::calibrate {
@@ -80,7 +80,7 @@ Errors errors_of(const BundleOutcome& outcome, const sim::Lens& lens, bool fix_k
     errors.largest = std::max(errors.largest, std::abs(error[i]) / std::sqrt(outcome.covariance(i, i)));
   }
   const Eigen::MatrixXd covariance = outcome.covariance.topLeftCorner(size, size);
-  errors.nees = error.dot(covariance.ldlt().solve(error)) / static_cast<double>(size);
+  errors.nees = host::dense_mahalanobis_squared(error, covariance) / static_cast<double>(size);
   return errors;
 }
 

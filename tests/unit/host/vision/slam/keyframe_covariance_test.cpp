@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "host/vision/slam/trajectory_log.hpp"
+#include "pharos/geometry/symmetric.hpp"
 #include "simulated_views.hpp"
 
 namespace pharos::slam {
@@ -47,7 +48,7 @@ Vector6 error_of(const CameraFromTarget& pose, const CameraFromTarget& truth) {
   return zeta;
 }
 
-double square_of(const Vector6& error, const Matrix6& covariance) { return error.dot(covariance.ldlt().solve(error)); }
+double square_of(const Vector6& error, const Matrix6& covariance) { return mahalanobis_squared<6>(error, covariance); }
 
 TEST(KeyframeCovariances, AreWhatManySolutionsScatterBy) {
   double sum = 0.0, last = 0.0;
