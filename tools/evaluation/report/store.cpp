@@ -77,8 +77,8 @@ FinishedPart part_of(const Json& json) {
 
 std::string key_of(const std::string& part, const PartSettings& settings) {
   static const std::uint64_t program = hash_of_program();
-  return part + (settings.quick ? " quick" : " whole") + " seed " + std::to_string(settings.seed) + " program " +
-         std::to_string(program);
+  return part + (settings.quick ? " quick" : " whole") + (settings.rays ? " rays" : "") + " seed " +
+         std::to_string(settings.seed) + " program " + std::to_string(program);
 }
 
 void keep(const FinishedPart& part, const std::filesystem::path& folder) {

@@ -39,7 +39,8 @@ const char* light_of(const SlamRun& run) { return run.good_light ? "good light" 
 
 std::string command(const SlamRun& run, const report::PartSettings& settings) {
   std::string text = "pharos reproduce slam --seed " + std::to_string(settings.seed);
-  if (settings.quick) text += " --turns 30 --renderer rays";
+  if (settings.quick) text += " --turns 30";
+  if (settings.quick || settings.rays) text += " --renderer rays";
   return text + " --runs " + run.key;
 }
 
@@ -71,9 +72,9 @@ report::PartResult run_part(const SlamRun& run, const report::PartSettings& sett
   options.seed = settings.seed;
   options.folder = folder;
   options.frames = frames_of(run, settings, folder);
+  options.povray = !settings.quick && !settings.rays;
   if (settings.quick) {
     options.turns_deg = {kQuickTurn_deg};
-    options.povray = false;
     options.video_bm3d = true;
   }
   Progress progress("paper 004, " + std::string(run.key), "pairs", table_one_pairs(options));
