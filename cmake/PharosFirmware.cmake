@@ -2,14 +2,16 @@
 # Programs for the soft core, in the tree of the preset rv32im.
 #
 # pharos_firmware_image(NAME BOARD board LAYOUT chip|external STACK bytes [CHIP_BYTES bytes] SOURCES files… LIBS libraries…)
+#   [LONG]
 #   -> bin/NAME.elf, NAME.bin (its bytes) and NAME.map, part of the target firmware_images. Layouts are firmware/board/<board>/memory_<layout>.ld.
+#   LONG: an image that only tests with the label long run, part of firmware_long_images instead.
 #   CHIP_BYTES: more memory for variables than the board has, for test programs under QEMU.
 #   The handling of faults is a library: pharos_<board>_test reports the fault and ends the emulator.
 #
 # A test program: pharos_firmware_image(my_test BOARD qemu_virt LAYOUT external STACK 65536 CHIP_BYTES 1048576
 #   SOURCES my_test.cpp LIBS pharos_qemu_virt_test pharos_wire), run by tests/firmware/run_in_qemu.sh.
 function(pharos_firmware_image name)
-  cmake_parse_arguments(ARG "" "BOARD;LAYOUT;STACK;CHIP_BYTES" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "BOARD;LAYOUT;STACK;CHIP_BYTES" "SOURCES;LIBS" ${ARGN})
   set(boards ${PROJECT_SOURCE_DIR}/firmware/board)
   set(script ${boards}/${ARG_BOARD}/memory_${ARG_LAYOUT}.ld)
   set(map ${CMAKE_BINARY_DIR}/bin/${name}.map)
@@ -23,7 +25,12 @@ function(pharos_firmware_image name)
   if(ARG_CHIP_BYTES)
     target_link_options(${name} PRIVATE -Wl,--defsym=__chip_bytes=${ARG_CHIP_BYTES})
   endif()
-  add_dependencies(firmware_images ${name})
+  if(ARG_LONG)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(firmware_long_images ${name})
+  else()
+    add_dependencies(firmware_images ${name})
+  endif()
   add_custom_command(TARGET ${name} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${name}> ${CMAKE_BINARY_DIR}/bin/${name}.bin VERBATIM)
 endfunction()
@@ -60,8 +67,9 @@ function(pharos_firmware_tree)
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
     USES_TERMINAL_BUILD ON)
-  # Without the test programs: only the decoder for the emulator, for tools/demo; what is installed, for tools/package.
-  foreach(part decoder installed)
+  # Without the test programs: only the decoder for the emulator, for tools/demo; what is installed, for tools/package;
+  # the images of long tests (dependency of the target long_tests).
+  foreach(part decoder installed long_images)
     set(target firmware_${part})
     if(part STREQUAL "decoder")
       set(target decoder.qemu_virt)

@@ -152,7 +152,8 @@ class FlashUnderQemu(unittest.TestCase):
         self.target.switch_on()
         self.flashed(self.first)
         codes = []
-        for round, lost_of in enumerate((20_000, 5_000, 1_000, 200)):
+        rates = (20_000, 5_000, 1_000, 200) if "PHAROS_LONG" in os.environ else (20_000, 200)
+        for round, lost_of in enumerate(rates):
             line = PoorLine(self.target.port, 10 * BAUD, lost_of, seed=round)
             run = flash(line.port, self.second if round % 2 == 0 else self.first, "--allow-older")
             line.close()
@@ -161,7 +162,7 @@ class FlashUnderQemu(unittest.TestCase):
             self.target.switch_off()
             self.target.switch_on()
             self.assertIn(self.target.hello().version, ((1, 0, 1), (1, 0, 2)))
-        self.assertEqual(codes[:2], [0, 0])
+        self.assertTrue(all(code == 0 for code, lost_of in zip(codes, rates) if lost_of >= 5_000), codes)
         self.flashed(self.first, "--allow-older")
 
     def comes_back(self, name):
