@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "host/images/jpeg_format.hpp"
 #include "host/images/png_format.hpp"
 
 namespace pharos::host {
@@ -181,6 +182,8 @@ void Canvas::text(Place at, std::string_view words, Colour colour, int size) {
     cv::putText(pixels, line, {left, top + height}, kFont, scale, scalar(colour), pen, cv::LINE_AA);
   });
 }
+
+std::vector<std::uint8_t> Canvas::jpeg(int quality) const { return encode_jpeg(width_, height_, rgb_, quality); }
 
 void Canvas::write_png(const std::string& path) const {
   host::write_png(path, width_, height_, PngPixels::kRgb8, rgb_);

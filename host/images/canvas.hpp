@@ -55,6 +55,8 @@ class Canvas {
   std::int32_t height() const { return height_; }
   int zoom() const { return zoom_; }
   Colour pixel(std::int32_t x, std::int32_t y) const;
+  /// As a JPEG; see encode_jpeg.
+  std::vector<std::uint8_t> jpeg(int quality) const;
   /// Throws InputError where the file cannot be written.
   void write_png(const std::string& path) const;
 

@@ -22,7 +22,10 @@ constexpr std::size_t kMaxPixelsPerByte = 8 * 64;
 constexpr std::uint8_t kMarker = 0xFF, kStartOfScan = 0xDA;
 
 struct Destroy {
-  void operator()(void* decoder) const { tjDestroy(decoder); }
+  void operator()(void* codec) const { tjDestroy(codec); }
+};
+struct FreeFile {
+  void operator()(unsigned char* bytes) const { tjFree(bytes); }
 };
 
 // Within a scan's data a byte of 0xFF is followed by 0 or a restart: each 0xFF 0xDA begins a scan (or one of a small
@@ -68,6 +71,18 @@ Picture decode_jpeg(Bytes bytes, const std::string& name) {
   }
   picture.values = widened(rows);
   return picture;
+}
+
+std::vector<std::uint8_t> encode_jpeg(std::int32_t width_px, std::int32_t height_px, Bytes rgb, int quality) {
+  const std::unique_ptr<void, Destroy> encoder(tjInitCompress());
+  unsigned char* file = nullptr;
+  unsigned long size = 0;
+  const int failed = encoder ? tjCompress2(encoder.get(), rgb.data(), width_px, 0, height_px, TJPF_RGB, &file, &size,
+                                           TJSAMP_444, quality, 0)
+                             : -1;
+  const std::unique_ptr<unsigned char, FreeFile> owner(file);
+  if (failed != 0) return {};
+  return {file, file + size};
 }
 
 }  // namespace pharos::host

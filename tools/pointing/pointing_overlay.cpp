@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "host/images/canvas.hpp"
+#include "host/preview/pointing_drawing.hpp"
 #include "host/support/flag_text.hpp"
 #include "pharos/base/units.hpp"
 
@@ -13,32 +12,14 @@ namespace pharos::tools {
 namespace {
 
 using host::Canvas;
-using host::Place;
 namespace colours = host::colours;
-
-// A line of the ideal image as the lens bends it.
-void draw_ideal(Canvas& canvas, const PinholeCamera& camera, const pointing::Segment& segment, host::Colour colour) {
-  constexpr int kPieces = 32;
-  std::vector<Place> places;
-  for (int k = 0; k <= kPieces; ++k) {
-    const Vector2 at = segment.begin + static_cast<double>(k) / kPieces * (segment.end - segment.begin);
-    const Vector2 pixel =
-        distort(camera, {(at.x() - camera.cx_px) / camera.fx_px, (at.y() - camera.cy_px) / camera.fy_px});
-    places.push_back({pixel.x(), pixel.y()});
-  }
-  canvas.polyline(places, colour, 1.5);
-}
 
 }  // namespace
 
 void write_pointing_overlay(const std::string& path, ImageView<const std::uint16_t> image, const PinholeCamera& camera,
                             const pointing::PanelMeasurement& panel, const pointing::PointingResult& answer) {
   Canvas canvas(image, Canvas::zoom_for(image.width_px));
-  for (const pointing::Segment& edge : panel.outline) {
-    canvas.line({edge.begin.x(), edge.begin.y()}, {edge.end.x(), edge.end.y()}, colours::kGrey, 3.0);
-  }
-  for (const pointing::Segment& edge : panel.short_edges) draw_ideal(canvas, camera, edge, colours::kSky);
-  for (const pointing::Segment& edge : panel.long_edges) draw_ideal(canvas, camera, edge, colours::kGreen);
+  host::pointing_drawing(panel, camera).draw(canvas);
   const pointing::PitchYaw angles = pointing::pitch_yaw(answer.axis.axis);
   const double line_px = 20.0 / canvas.zoom();
   canvas.text({line_px, line_px},

@@ -10,6 +10,7 @@
 
 #include "host/files/atomic_file.hpp"
 #include "host/images/canvas.hpp"
+#include "host/preview/slam_drawing.hpp"
 #include "host/runtime/process_usage.hpp"
 #include "host/support/exact_number.hpp"
 #include "host/support/input_error.hpp"
@@ -144,9 +145,7 @@ void write_slam_overlay(const std::string& folder, const std::string& stem, cons
       if (mask.at(u, v) == 0) canvas.tint(u, v, host::colours::kBlue, 0.15);
     }
   }
-  for (const auto& [u, v, kind] : system.last_features()) {
-    canvas.dot({u, v}, kind > 1.5 ? host::colours::kGreen : kind > 0.5 ? host::colours::kYellow : host::colours::kRed);
-  }
+  host::slam_drawing(system).draw(canvas);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw host::InputError(folder + ": cannot be made: " + error.message());

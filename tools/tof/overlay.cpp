@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <vector>
 
 #include "host/images/canvas.hpp"
+#include "host/preview/tof_drawing.hpp"
 #include "host/support/flag_text.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/tof/pose_summary.hpp"
@@ -19,12 +18,6 @@ using host::Canvas;
 using host::Place;
 namespace colours = host::colours;
 
-std::optional<Place> place_of(const DepthCamera& camera, const Vector3& point_camera_m) {
-  const auto pixel = project(camera.intrinsics, point_camera_m);
-  if (!pixel) return std::nullopt;
-  return Place{pixel->x(), pixel->y()};
-}
-
 void draw_arcs(Canvas& canvas, const ellipse::EllipseWorkspace& found) {
   for (const ellipse::Arc& arc : found.arcs) {
     std::vector<Place> places;
@@ -35,30 +28,10 @@ void draw_arcs(Canvas& canvas, const ellipse::EllipseWorkspace& found) {
   }
 }
 
-void draw_ellipses(Canvas& canvas, const ellipse::EllipseWorkspace& found) {
-  for (const ellipse::DetectedEllipse& one : found.found) {
-    const ellipse::Ellipse& e = one.ellipse;
-    canvas.ellipse({e.cx_px, e.cy_px}, e.a_px, e.b_px, e.theta_rad, colours::kBlue, 1.0, true);
-  }
-}
-
-void draw_circle(Canvas& canvas, const DepthCamera& camera, const tof::RingModel& ring, tof::RingEdge edge) {
-  constexpr int kPieces = 180;
-  const tof::PlaneAxes axes = tof::axes_of(ring.normal);
-  std::vector<Place> places;
-  for (int k = 0; k <= kPieces; ++k) {
-    const double angle = kTwoPi * k / kPieces;
-    const Vector3 point =
-        ring.centre_m + ring.radius(edge) * (std::cos(angle) * axes.first + std::sin(angle) * axes.second);
-    if (const auto place = place_of(camera, point)) places.push_back(*place);
-  }
-  canvas.polyline(places, colours::kGreen, 2.0);
-}
-
 void draw_edge_points(Canvas& canvas, const DepthCamera& camera, const tof::TofWorkspace& workspace) {
   for (const tof::RingEdgePoints& points : workspace.edges.points) {
     for (std::size_t i = 0; i < points.size(); i += 4) {
-      const auto place = place_of(camera, points[i].point_m);
+      const auto place = host::place_of(camera.intrinsics, points[i].point_m);
       if (!place) continue;
       const Vector2 off = points[i].offset_px * points[i].normal_px;
       canvas.dot({place->u_px + off.x(), place->v_px + off.y()}, colours::kYellow, 1.5);
@@ -66,50 +39,16 @@ void draw_edge_points(Canvas& canvas, const DepthCamera& camera, const tof::TofW
   }
 }
 
-void draw_rectangle(Canvas& canvas, const DepthCamera& camera, const tof::RingModel& ring,
-                    const tof::PlanarRectangle& rectangle, double height_m, host::Colour colour, double width) {
-  const tof::PlaneAxes axes = tof::axes_of(ring.normal);
-  const Vector2 along(std::cos(rectangle.angle_rad), std::sin(rectangle.angle_rad));
-  const Vector2 across(-along.y(), along.x());
-  constexpr std::array<std::array<int, 2>, 5> kCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
-  std::vector<Place> places;
-  for (const auto& [s, t] : kCorners) {
-    const Vector2 plan =
-        rectangle.centre_m + s * rectangle.half_sides_m.x() * along + t * rectangle.half_sides_m.y() * across;
-    const auto place =
-        place_of(camera, ring.centre_m + plan.x() * axes.first + plan.y() * axes.second + height_m * ring.normal);
-    if (place) places.push_back(*place);
-  }
-  canvas.polyline(places, colour, width);
-}
-
-// What stands on the plate: connectors' shapes, others, and the one that gives the turn.
-void draw_boxes(Canvas& canvas, const DepthCamera& camera, const tof::TofPose& pose,
+// What stands on the plate: connectors' shapes, and others.
+void draw_boxes(Canvas& canvas, const DepthCamera& camera, const tof::RingModel& ring,
                 const tof::RaisedWorkspace& found) {
-  const tof::RingModel& ring = pose.ring.fit.model;
+  host::Drawing drawing;
   for (const tof::RaisedBox& box : found.boxes) {
     const bool connector = box.verdict == tof::BoxVerdict::kConnector;
-    draw_rectangle(canvas, camera, ring, box.rectangle, box.height_m, connector ? colours::kPink : colours::kSky, 1.5);
+    host::add_rectangle(drawing, camera, ring, box.rectangle, box.height_m, connector ? colours::kPink : colours::kSky,
+                        1.5);
   }
-  if (pose.has_turn()) {
-    draw_rectangle(canvas, camera, ring, pose.connector.rectangle, pose.connector.height_m, colours::kOrange, 2.5);
-  }
-}
-
-void draw_axes(Canvas& canvas, const DepthCamera& camera, const tof::TofPose& pose) {
-  const auto origin = place_of(camera, pose.target.pose.t);
-  if (!origin) return;
-  const double length = 0.6 * pose.ring.fit.model.radius_m[0];
-  constexpr std::array kColours = {colours::kRed, colours::kGreen, colours::kSky};
-  constexpr std::array kNames = {"X'", "Y'", "Z'"};
-  for (int axis = pose.has_turn() ? 0 : 2; axis < 3; ++axis) {
-    const auto tip = place_of(camera, pose.target.pose * Vector3(length * Vector3::Unit(axis)));
-    if (!tip) continue;
-    const auto k = static_cast<std::size_t>(axis);
-    canvas.arrow(*origin, *tip, kColours[k], 3.0);
-    canvas.text(*tip, kNames[k], kColours[k]);
-  }
-  canvas.cross(*origin, colours::kWhite);
+  drawing.draw(canvas);
 }
 
 std::vector<std::string> words_of(const tof::TofPose& pose) {
@@ -139,14 +78,13 @@ std::vector<std::string> words_of(const tof::TofPose& pose) {
 void write_overlay(const std::string& path, const tof::TofFrame& frame, const DepthCamera& camera,
                    const Result<tof::TofPose, tof::TofFailure>& pose, const tof::TofWorkspace& workspace) {
   Canvas canvas(frame.intensity, Canvas::zoom_for(frame.intensity.width_px));
-  if (pose) draw_boxes(canvas, camera, *pose, workspace.raised);
+  if (pose) draw_boxes(canvas, camera, pose->ring.fit.model, workspace.raised);
   draw_arcs(canvas, workspace.ellipse);
-  draw_ellipses(canvas, workspace.ellipse);
+  host::ellipses_drawing(workspace.ellipse).draw(canvas);
   std::vector<std::string> words;
   if (pose) {
-    for (const tof::RingEdge edge : tof::kRingEdges) draw_circle(canvas, camera, pose->ring.fit.model, edge);
+    host::tof_drawing(*pose, camera).draw(canvas);
     draw_edge_points(canvas, camera, workspace);
-    draw_axes(canvas, camera, *pose);
     words = words_of(*pose);
   } else {
     words.push_back(std::string("refused at stage ") + tof::stage_of(pose.error()) + ": " +
