@@ -156,7 +156,7 @@ struct LcmConfig {
   /// Default: multicast that never leaves this computer (ttl 0).
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   /// Channels are prefix + LIGHTHOUSE_POSE, LIGHTHOUSE_BEARINGS, TOF_POSE, RING2_POSE, SLAM_POSE,
-  /// LINE_POINTING, TARGET_STATE, STATUS.
+  /// LINE_POINTING, TARGET_STATE, PREVIEW, STATUS.
   std::string channel_prefix = "PHAROS_";
   /// On which daemons compare their clocks; the same for all of them.
   std::string clock_channel = "PHAROS_CLOCK";
@@ -170,6 +170,8 @@ struct PublishConfig {
   std::int64_t max_age_ns() const { return std::llround(max_age_s * 1e9); }
   double status_period_s = 1.0;
   bool bearings = true;
+  /// Pictures of cameras, telescopes and rigs, with what was found drawn in, for people.
+  bool previews = false;
 };
 
 /// Recording of raw serial streams and of cameras' frames, one series of files per target and camera.

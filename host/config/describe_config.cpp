@@ -222,6 +222,7 @@ std::string describe(const DaemonConfig& config) {
   if (any([](const StereoConfig& stereo) { return stereo.slam.has_value(); })) out << prefix << "SLAM_POSE, ";
   if (!config.telescopes.empty()) out << prefix << "LINE_POINTING, ";
   if (config.vehicle) out << prefix << "TARGET_STATE, ";
+  if (config.publish.previews) out << prefix << "PREVIEW, ";
   if (config.lcm.answer_clock || !config.remotes.empty()) out << config.lcm.clock_channel << ", ";
   out << prefix << "STATUS\npublish: poses younger than " << config.publish.max_age_s << " s, status every "
       << config.publish.status_period_s << " s\nstate directory: "

@@ -58,6 +58,7 @@ PublishConfig read_publish(const TomlTable& table, ConfigErrors& errors) {
     publish.status_period_s = 1.0 / table.number_or("status_rate_hz", 1.0 / publish.status_period_s, {0.1, 10.0});
   });
   errors.attempt([&] { publish.bearings = table.boolean_or("bearings", publish.bearings); });
+  errors.attempt([&] { publish.previews = table.boolean_or("previews", publish.previews); });
   return publish;
 }
 

@@ -40,6 +40,7 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
       signals_(signals),
       clock_(clock),
       publisher_(sink, config.lcm.channel_prefix),
+      previews_(loop_, publisher_, config_.publish, clock),
       log_limit_(kLogPeriod_ns),
       context_{loop_,
                clock,
@@ -50,6 +51,7 @@ Daemon::Daemon(const DaemonConfig& config, MessageSink& sink, Signals& signals, 
                [this] { publish_health(); }},
       started_ns_(clock.monotonic_ns()),
       last_reread_ns_(started_ns_ - kRereadPeriod_ns) {
+  context_.previews = &previews_;
   for (const SourceRegistration& kind : kinds) counts_.emplace_back(kind.noun, kind.open(context_, sources_));
   loop_.watch(signals_.fd(), [this] { on_signal(); });
   loop_.watch(reread_timer_.fd(), [this] { reread_config(); });
@@ -192,6 +194,8 @@ NamedCounts Daemon::named_counts() const {
       {"published_poses", sent.poses}, {"published_bearings", sent.bearings}, {"published_pointings", sent.pointings},
       {"published_spins", sent.spins}, {"published_states", sent.states},     {"published_status", sent.status},
       {"published_clock", sent.clock}, {"published_bytes", sent.bytes},       {"publish_failures", sent.failed}};
+  const NamedCounts previews = previews_.named_counts();
+  counts.insert(counts.end(), previews.begin(), previews.end());
   for (const auto& source : sources_) {
     const NamedCounts own = source->daemon_counters();
     counts.insert(counts.end(), own.begin(), own.end());

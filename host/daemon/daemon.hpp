@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/preview_stage.hpp"
 #include "host/daemon/source.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/runtime/event_loop.hpp"
@@ -64,6 +65,7 @@ class Daemon {
   Timer attend_timer_;
   Timer status_timer_;
   Publisher publisher_;
+  PreviewStage previews_;
   LogRateLimiter log_limit_;
   SourceContext context_;
   SourceList sources_;

@@ -42,7 +42,10 @@ void PointingFeed::match(bool always) {
   try {
     const pointing::TrackFile track =
         pointing::read_track(ByteSource(config_.track_file.string()), LastLine::kDropUnfinished);
-    for (ImageJob& job : pipeline_.match(track, now_ns)) post(std::move(job));
+    for (ImageJob& job : pipeline_.match(track, now_ns)) {
+      job.with_picture = context_.preview_due(pipeline_.source());
+      post(std::move(job));
+    }
   } catch (const InputError& error) {
     pipeline_.track_failed(error.what(), now_ns);
   }
@@ -62,7 +65,13 @@ void PointingFeed::on_files() {
 
 void PointingFeed::on_results() {
   while (auto done = worker_.take()) {
-    std::visit([this](const auto& result) { pipeline_.done(result, context_.clock.monotonic_ns()); }, done->answer);
+    const std::int64_t now_ns = context_.clock.monotonic_ns();
+    if (auto* image = std::get_if<ImageResult>(&done->answer)) {
+      const std::optional<PointingReport> report = pipeline_.done(*image, now_ns);
+      if (report && context_.previews != nullptr) context_.previews->take(*report, std::move(image->pictures));
+    } else {
+      pipeline_.done(std::get<PassResult>(done->answer), now_ns);
+    }
   }
   attend();
 }

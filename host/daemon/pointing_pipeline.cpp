@@ -79,13 +79,13 @@ PointingReport PointingPipeline::report_of(const MeasurementOutcome& outcome, do
   PointingReport report;
   static_cast<MeasurementOutcome&>(report) = outcome;
   report.utc_ns = std::llround(std::clamp(time_s, -kMaxTime_s, kMaxTime_s) * static_cast<double>(kNsPerSecond));
-  report.source = "line/" + config_.name;
+  report.source = source();
   report.sensor = config_.name;
   report.target = config_.target;
   return report;
 }
 
-void PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_ns) {
+PointingReport PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_ns) {
   ++counters_.images_refused;
   delivery_.on_answer(false, monotonic_ns);
   ++counters_.refused[result.refusal];
@@ -93,29 +93,28 @@ void PointingPipeline::refuse(const ImageResult& result, std::int64_t monotonic_
   log_.warn(result.refusal.c_str(), "refused_" + result.refusal + ": " + result.advice, monotonic_ns);
   PointingReport refused = report_of(result, result.observation.time_s);
   gate_.publish(refused);
+  return refused;
 }
 
-void PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns) {
+std::optional<PointingReport> PointingPipeline::done(const ImageResult& result, std::int64_t monotonic_ns) {
   last_result_ns_ = monotonic_ns;
   if (!result.remark.empty() && !remarked_) log_.info("remark", result.remark, monotonic_ns);
   remarked_ = remarked_ || !result.remark.empty();
-  if (!result.answered()) {
-    refuse(result, monotonic_ns);
-    return;
-  }
+  if (!result.answered()) return refuse(result, monotonic_ns);
   PointingReport report = report_of(result, result.observation.time_s);
   report.axis_station = result.axis.axis;
   report.axis_earth = R_earth_station_ * result.axis.axis;
   report.covariance_station = result.axis.covariance;
   report.plane_normal_station = pointing::signed_axis(result.axis.plane.normal);
   report.sigma_plane_rad = result.axis.sigma_plane_rad;
-  if (!gate_.passes(report)) return;
+  if (!gate_.passes(report)) return std::nullopt;
   ++counters_.images_ok;
   delivery_.on_answer(true, monotonic_ns);
   last_error_.clear();
   rate_.on_pose(monotonic_ns);
   if (config_.law) keep_for_pass(result);
   gate_.publish(report);
+  return report;
 }
 
 void PointingPipeline::keep_for_pass(const ImageResult& result) {
@@ -166,7 +165,7 @@ void PointingPipeline::done(const PassResult& result, std::int64_t monotonic_ns)
 
 SourceHealth PointingPipeline::health(std::int64_t monotonic_ns) {
   SourceHealth health;
-  health.source = "line/" + config_.name;
+  health.source = source();
   health.target = config_.target;
   rate_.report(health, monotonic_ns);
   // No images between passes is normal for a telescope, and not an error.

@@ -54,18 +54,21 @@ class PointingPipeline {
   /// Counts a job that was dropped for newer ones.
   void dropped(const PointingJob& job);
 
-  void done(const ImageResult& result, std::int64_t monotonic_ns);
+  /// Takes the result of an image, which is published before this returns. Its report; empty if it is not fit to be
+  /// sent.
+  std::optional<PointingReport> done(const ImageResult& result, std::int64_t monotonic_ns);
   /// A pass that has ended: no image for pass_gap_s, or the next image is later by more than that.
   std::optional<PassJob> take_finished_pass(std::int64_t monotonic_ns);
   void done(const PassResult& result, std::int64_t monotonic_ns);
 
   const PointingCounters& counters() const { return counters_; }
+  std::string source() const { return "line/" + config_.name; }
   SourceHealth health(std::int64_t monotonic_ns);
 
  private:
   PointingReport report_of(const MeasurementOutcome& outcome, double time_s) const;
   void keep_for_pass(const ImageResult& result);
-  void refuse(const ImageResult& result, std::int64_t monotonic_ns);
+  PointingReport refuse(const ImageResult& result, std::int64_t monotonic_ns);
 
   PointingConfig config_;
   const Clock& clock_;

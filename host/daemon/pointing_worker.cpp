@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/images/grey_image.hpp"
+#include "host/preview/pointing_drawing.hpp"
 #include "host/support/flag_text.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/pointing/measure_panel.hpp"
@@ -20,6 +21,9 @@ ImageResult measured(const ImageJob& job, const PinholeCamera& camera) {
     const GreyImage image = read_grey_image(job.file.string());
     if (image.from_colour) result.remark = colour_remark(job.file.string());
     const auto panel = pointing::measure_panel(image.view(), camera);
+    if (job.with_picture) {
+      result.pictures.push_back(annotated_image(image.view(), panel ? pointing_drawing(*panel, camera) : Drawing()));
+    }
     if (!panel) {
       result.refusal = pointing::name_of(panel.error());
       result.advice = job.file.string() + ": " + pointing::advice_of(panel.error());

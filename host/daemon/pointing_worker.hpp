@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "host/preview/preview_picture.hpp"
 #include "host/publish/measurement_header.hpp"
 #include "host/runtime/job_worker.hpp"
 #include "pharos/pointing/axis_estimate.hpp"
@@ -16,6 +17,7 @@ namespace pharos::host {
 struct ImageJob {
   std::filesystem::path file;
   pointing::Observation observation;
+  bool with_picture = false;  ///< of what is found in it, for people
 };
 /// Result of an image; the advice names the file.
 struct ImageResult : MeasurementOutcome {
@@ -23,6 +25,7 @@ struct ImageResult : MeasurementOutcome {
   std::string remark;  ///< how the image was converted; mostly empty
   pointing::AxisEstimate axis;
   pointing::AxisPlanes planes_station;
+  std::vector<AnnotatedImage> pictures;  ///< one, if the job asks for it and the image is readable
 };
 
 /// A pass to be solved.

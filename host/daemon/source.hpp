@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/config/daemon_config.hpp"
+#include "host/daemon/preview_stage.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/publisher.hpp"
 #include "host/receive/lcm_receiver.hpp"
@@ -68,6 +69,10 @@ struct SourceContext {
   };
   /// Of all recordings that are played, so that they keep step.
   std::shared_ptr<ReplayTimeline> replay = std::make_shared<ReplayTimeline>(clock, replay_speed);
+  /// Pictures of cameras for people; null: nobody takes them.
+  PreviewStage* previews = nullptr;
+
+  bool preview_due(const std::string& source) const { return previews != nullptr && previews->due(source); }
 };
 
 /// A kind of source.

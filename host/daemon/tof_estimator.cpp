@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/tof_estimator.hpp"
 
+#include "host/preview/tof_drawing.hpp"
 #include "host/runtime/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "pharos/tof/tof_pose.hpp"
@@ -47,6 +48,7 @@ TofResult TofEstimator::measure(const DepthFrame& frame) {
   StageClock clock(answer.stage_ns);
   const auto pose = tof::measure_tof_pose({frame.intensity_view(), frame.depth_view()}, camera_of(frame, camera_),
                                           settings_, *workspace_, &clock);
+  last_ = pose ? std::make_unique<tof::TofPose>(*pose) : nullptr;
   if (!pose) {
     answer.refusal = tof::name_of(pose.error());
     answer.advice = tof::describe(pose.error());
@@ -60,6 +62,10 @@ TofResult TofEstimator::measure(const DepthFrame& frame) {
   // Two connectors are equally near, and neither fits the frame worse.
   if (pose->second) answer.estimate.second = {pose->second->pose, pose->delta_chi2};
   return answer;
+}
+
+Drawing TofEstimator::drawing() const {
+  return last_ ? tof_drawing(*last_, camera_) : ellipses_drawing(workspace_->ellipse);
 }
 
 }  // namespace pharos::host

@@ -6,14 +6,16 @@
 #include <memory>
 
 #include "host/device/depth_frame.hpp"
+#include "host/preview/drawing.hpp"
 #include "host/publish/tof_report.hpp"
 #include "pharos/camera/depth_camera.hpp"
 #include "pharos/tof/tof_settings.hpp"
 #include "pharos/tof/tof_stages.hpp"
 
 namespace pharos::tof {
+struct TofPose;
 struct TofWorkspace;
-}
+}  // namespace pharos::tof
 
 namespace pharos::host {
 
@@ -32,11 +34,14 @@ class TofEstimator {
 
   /// Scale and offset of the frame take precedence over those of the camera file.
   TofResult measure(const DepthFrame& frame);
+  /// What the last measure() found in its frame: ring, connector and axes, or all ellipses.
+  Drawing drawing() const;
 
  private:
   DepthCamera camera_;
   tof::TofSettings settings_;
   std::unique_ptr<tof::TofWorkspace> workspace_;
+  std::unique_ptr<tof::TofPose> last_;  // of the last frame; null where it has none
 };
 
 /// The camera with the scale of this frame.

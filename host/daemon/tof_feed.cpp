@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/daemon/tof_feed.hpp"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "host/daemon/camera_input.hpp"
 #include "host/device/recorded_source.hpp"
@@ -45,7 +47,11 @@ TofFeed::~TofFeed() { context_.loop.forget(frames_->fd()); }
 // One frame per iteration of the event loop, so that lighthouse cycles never wait for two.
 void TofFeed::on_readable() {
   if (DepthFramePtr frame = frames_->take()) {
-    pipeline_.take(*frame);
+    const std::optional<TofReport> report = pipeline_.take(*frame);
+    if (report && context_.preview_due(report->source)) {
+      std::vector<AnnotatedImage> picture(1, annotated_image(frame->intensity_view(), estimator_.drawing()));
+      context_.previews->take(*report, std::move(picture));
+    }
     frames_->recycle(std::move(frame));
   } else if (!finished_ && frames_->status().finished) {
     finished_ = true;

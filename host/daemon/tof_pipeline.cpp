@@ -49,7 +49,7 @@ std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
   return time;
 }
 
-void TofPipeline::take(const DepthFrame& frame) {
+std::optional<TofReport> TofPipeline::take(const DepthFrame& frame) {
   const std::int64_t began_ns = host_clock_.monotonic_ns();
   rate_.on_data(frame.complete_monotonic_ns);
   transport_.add(frame.complete_monotonic_ns - frame.arrival_monotonic_ns);
@@ -57,13 +57,13 @@ void TofPipeline::take(const DepthFrame& frame) {
   const PinholeCamera& intrinsics = config_.camera.intrinsics;
   if (frame.width_px != intrinsics.width_px || frame.height_px != intrinsics.height_px) {
     ++counters_.frames_wrong_size;
-    return;
+    return std::nullopt;
   }
   const std::optional<MappedTime> time = time_of(frame);
-  if (!time) return;
+  if (!time) return std::nullopt;
   if (!gate_.fresh(began_ns - time->monotonic_ns)) {  // waited too long: the estimator has newer ones to work on
     delivery_.on_answer(false, began_ns);
-    return;
+    return std::nullopt;
   }
   TofResult answered = measure_(frame);
   estimator_.add(host_clock_.monotonic_ns() - began_ns);
@@ -71,7 +71,7 @@ void TofPipeline::take(const DepthFrame& frame) {
     if (answered.stage_ns[k] > 0) estimator_stages_[k].add(answered.stage_ns[k]);
   }
   if (frame.taken_in_turns) add_flag_word(answered.flags, "in_turns");
-  answer(answered, *time);
+  return answer(answered, *time);
 }
 
 void TofPipeline::count(const TofReport& report) {
@@ -121,15 +121,16 @@ void TofPipeline::refuse_jump(TofReport& report, const MappedTime& time) {
   report.pose = {};
 }
 
-void TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
+std::optional<TofReport> TofPipeline::answer(const TofResult& answer, const MappedTime& time) {
   TofReport report = report_of(answer, time);
   const bool passes = gate_.passes(report);
   if (passes) refuse_jump(report, time);
   delivery_.on_answer(passes && report.answered(), host_clock_.monotonic_ns());
-  if (!passes) return;
+  if (!passes) return std::nullopt;
   count(report);
-  if (report.answered() && config_.average_frames > 1 && !average(report)) return;
+  if (report.answered() && config_.average_frames > 1 && !average(report)) return report;
   publish(report);
+  return report;
 }
 
 void TofPipeline::publish(TofReport& report) {

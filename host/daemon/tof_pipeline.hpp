@@ -34,8 +34,9 @@ class TofPipeline {
   TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
               const Clock& clock, Measure measure);
 
-  /// Takes a complete new frame. Its result is published before this returns.
-  void take(const DepthFrame& frame);
+  /// Takes a complete new frame. Its result is published before this returns. Its report; empty if the frame was
+  /// not measured, or its result is not fit to be sent.
+  std::optional<TofReport> take(const DepthFrame& frame);
 
   /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) { gate_.set_max_age(publish.max_age_ns()); }
@@ -52,7 +53,7 @@ class TofPipeline {
  private:
   std::optional<MappedTime> time_of(const DepthFrame& frame);
   void refuse_jump(TofReport& report, const MappedTime& time);
-  void answer(const TofResult& answer, const MappedTime& time);
+  std::optional<TofReport> answer(const TofResult& answer, const MappedTime& time);
   void count(const TofReport& report);
   TofReport report_of(const TofResult& answer, const MappedTime& time) const;
   bool average(TofReport& report);

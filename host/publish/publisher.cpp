@@ -5,6 +5,7 @@
 
 #include "host/publish/messages.hpp"
 #include "pharos/clock_exchange_t.hpp"
+#include "pharos/preview_t.hpp"
 
 namespace pharos::host {
 
@@ -28,5 +29,7 @@ bool Publisher::publish_clock(const std::string& channel, const clock_exchange_t
   channel_ = channel;
   return send_buffer(encode(message), counters_.clock);
 }
+
+bool Publisher::publish_preview(const preview_t& message) { return send("PREVIEW", message); }
 
 }  // namespace pharos::host

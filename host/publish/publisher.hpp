@@ -15,6 +15,7 @@ class bearings_t;
 class clock_exchange_t;
 class pointing_t;
 class pose_t;
+class preview_t;
 class spin_t;
 class status_t;
 class target_state_t;
@@ -31,6 +32,7 @@ struct PublishCounters {
   std::int64_t states = 0;
   std::int64_t status = 0;
   std::int64_t clock = 0;  // questions and answers
+  std::int64_t previews = 0;
   std::int64_t bytes = 0;
   std::int64_t failed = 0;  // messages that the sink could not send
 
@@ -40,6 +42,7 @@ struct PublishCounters {
   std::int64_t& of(const spin_t&) { return spins; }
   std::int64_t& of(const target_state_t&) { return states; }
   std::int64_t& of(const status_t&) { return status; }
+  std::int64_t& of(const preview_t&) { return previews; }
 };
 
 /// Sends LCM messages at once and counts them. Measurements go through a PublishGate.
@@ -52,6 +55,8 @@ class Publisher {
   bool publish_health(const DaemonHealth& health);
   /// On `channel` as it is, without the prefix.
   bool publish_clock(const std::string& channel, const clock_exchange_t& message);
+  /// A picture for people: no measurement, so that no gate checks it.
+  bool publish_preview(const preview_t& message);
 
   /// Gets every pose after it was sent (or could not be), with its channel behind the prefix.
   using PoseListener = std::function<void(const char* channel, const pose_t& message)>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/receive/message_shape.hpp"
 
+#include <charconv>
 #include <cstdint>
 
 namespace pharos::host {
@@ -34,6 +35,15 @@ struct Walk {
   }
 };
 
+// Bytes of an entry that is a single number; 0 for any other.
+std::size_t single_number(std::string_view entry) {
+  const std::size_t first = entry.find_first_not_of(' '), last = entry.find_last_not_of(' ');
+  if (first == std::string_view::npos) return 0;
+  std::size_t bytes = 0;
+  const char* const end = entry.data() + last + 1;
+  return std::from_chars(entry.data() + first, end, bytes).ptr == end ? bytes : 0;
+}
+
 std::size_t end_of_list(std::string_view shape) {
   std::size_t depth = 1, at = 0;
   while (depth > 0) {
@@ -60,7 +70,11 @@ void follow(Walk& walk, std::string_view shape) {
       const std::string_view entry = shape.substr(at + 1, size - 1);
       const std::int32_t count = walk.length();
       walk.ok = walk.ok && count >= 0;
-      for (std::int32_t i = 0; i < count && walk.ok; ++i) follow(walk, entry);
+      if (const std::size_t bytes = single_number(entry); bytes > 0 && walk.ok) {
+        walk.skip(bytes * static_cast<std::size_t>(count));
+      } else {
+        for (std::int32_t i = 0; i < count && walk.ok; ++i) follow(walk, entry);
+      }
       at += size;
     }
   }

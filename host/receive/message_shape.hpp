@@ -8,6 +8,7 @@ class bearings_t;
 class clock_exchange_t;
 class pointing_t;
 class pose_t;
+class preview_t;
 class spin_t;
 class status_t;
 class target_state_t;
@@ -39,6 +40,9 @@ inline constexpr std::string_view kMessageShape<target_state_t> =
 
 template <>
 inline constexpr std::string_view kMessageShape<clock_exchange_t> = "s s 8 8 1 8 8 8";
+
+template <>
+inline constexpr std::string_view kMessageShape<preview_t> = "8 8 s s s s s 4 4 s ( 1 )";
 
 /// Whether `size` bytes at `data` are a fingerprint and then exactly the fields of `shape`, each length within them.
 bool has_shape(const void* data, int size, std::string_view shape);

@@ -36,8 +36,17 @@ def bearings():
     return message
 
 
+def preview():
+    message = pharos.preview_t()
+    message.source, message.view, message.status = "ring2/bow", "left", "ok"
+    message.width_px, message.height_px, message.format = 640, 480, "jpeg"
+    message.data = bytes(range(200))
+    message.size = len(message.data)
+    return message
+
+
 def every_type():
-    return [pose(), status(), bearings(), pharos.spin_t(), pharos.pointing_t()]
+    return [pose(), status(), bearings(), pharos.spin_t(), pharos.pointing_t(), preview()]
 
 
 def fields(message):

@@ -7,6 +7,7 @@
 
 #include "host/daemon/stereo/spin_window.hpp"
 #include "host/daemon/stereo/stereo_pair.hpp"
+#include "host/preview/preview_picture.hpp"
 #include "host/publish/health.hpp"
 #include "host/publish/stereo_report.hpp"
 
@@ -23,7 +24,8 @@ struct PairResult : MeasurementOutcome {
   Ring2Pose pose;
   std::optional<SpinResult> spin;  // if one is due
   std::vector<StageTime> stages;
-  NamedCounts figures;  // of the estimator so far; empty if it has none
+  NamedCounts figures;                   // of the estimator so far; empty if it has none
+  std::vector<AnnotatedImage> pictures;  // if the pair asks for them
 };
 
 /// Computes poses from pairs, in a thread of its own; pairs come in the order of their times.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "host/preview/ring2_drawing.hpp"
 #include "host/support/flag_text.hpp"
 #include "host/vision/ring2/ring2_pose.hpp"
 #include "host/vision/ring2/ring2_rig.hpp"
@@ -40,6 +41,11 @@ Ring2Estimator::Ring2Estimator(const RigFile& rig)
 PairResult Ring2Estimator::measure(const StereoPair& pair) {
   PairResult answer;
   const Ring2Detection circles = finder_.find({pair.frames[0]->intensity_view(), pair.frames[1]->intensity_view()});
+  for (std::size_t side = 0; pair.with_pictures && side < pair.frames.size(); ++side) {
+    answer.pictures.push_back(annotated_image(pair.frames[side]->intensity_view(),
+                                              ring2_drawing(circles, finder_.rig(), side),
+                                              side == 0 ? "left" : "right"));
+  }
   answer.refusal = circles.refusal;
   answer.advice = circles.refusal.empty() ? "" : advice_of(circles.refusal);
   answer.pose = Ring2PoseEstimate{};

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "host/preview/slam_drawing.hpp"
 #include "host/runtime/now.hpp"
 #include "host/support/flag_text.hpp"
 #include "host/support/input_error.hpp"
@@ -57,6 +58,9 @@ PairResult SlamEstimator::measure(const StereoPair& pair) {
   const std::int64_t lit_ns = monotonic_now_ns();
   try {
     const slam::TrackedFrame frame = system_->push(time_s, left, right);
+    if (pair.with_pictures) {
+      answer.pictures.push_back(annotated_image(system_->last_image(), slam_drawing(*system_), "left"));
+    }
     answer.observations = frame.inliers;
     answer.spin = spin_.push(frame);
     if (frame.placed) {

@@ -81,6 +81,9 @@ void StereoFeed::add_system(const StereoConfig& config, const char* word,
 
 void StereoFeed::on_readable() {
   if (StereoPairPtr pair = pairs_->take()) {
+    pair->with_pictures = std::any_of(systems_.begin(), systems_.end(), [this](const auto& system) {
+      return context_.preview_due(system->pipeline.source());
+    });
     for (const auto& system : systems_) {
       if (!system->pipeline.take(*pair)) continue;
       if (auto discarded = system->worker.post(pair)) {
@@ -101,7 +104,8 @@ void StereoFeed::on_readable() {
 
 void StereoFeed::on_results(System& system) {
   while (auto done = system.worker.take()) {
-    system.pipeline.done(*done, !clock_notice().empty());
+    const std::optional<StereoReport> report = system.pipeline.done(*done, !clock_notice().empty());
+    if (report && context_.previews != nullptr) context_.previews->take(*report, std::move(done->answer.pictures));
     release(std::move(done->job));
   }
   if (!watched_ && idle()) {

@@ -18,6 +18,7 @@ struct StereoPair {
   std::int64_t steady_ns = 0;
   std::int64_t offset_ns = 0;  // right frame's time minus the left frame's
   std::int64_t complete_monotonic_ns = 0;
+  bool with_pictures = false;  // of what is found in them, for people
 };
 
 /// Several estimators may share a pair.

@@ -80,7 +80,7 @@ void StereoPipeline::publish_spin(const StereoReport& report, const SpinResult& 
   spin_gate_.publish(spin);
 }
 
-void StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
+std::optional<StereoReport> StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
   const PairResult& answer = done.answer;
   waiting_.add(done.waited_ns);
   estimator_.add(done.took_ns);
@@ -91,13 +91,14 @@ void StereoPipeline::done(const PairWorker::Done& done, bool clock_was_set) {
   const bool passes = gate_.passes(report);
   if (passes) refuse_jump(report, done.job->time.monotonic_ns);
   delivery_.on_answer(passes && report.answered(), now_ns);
-  if (!passes) return;
+  if (!passes) return std::nullopt;
   count(report, now_ns);
   if (clock_was_set) add_flag_word(report.flags, kClockSetWord);
   if (answer.spin) publish_spin(report, *answer.spin);
-  if (!gate_.publish(report) || !report.answered()) return;
+  if (!gate_.publish(report) || !report.answered()) return report;
   rate_.on_pose(now_ns);
   latency_.add(report.age_ns);
+  return report;
 }
 
 }  // namespace pharos::host

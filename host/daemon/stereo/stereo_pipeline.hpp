@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "host/config/daemon_config.hpp"
@@ -34,8 +35,8 @@ class StereoPipeline {
   /// Counts a pair that was dropped for a newer one before it was measured.
   void dropped() { ++counters_.pairs_dropped; }
   /// Takes the result of a pair, which is published before this returns. `clock_was_set`: this computer's clock,
-  /// recently.
-  void done(const PairWorker::Done& done, bool clock_was_set);
+  /// recently. Its report; empty if it is not fit to be sent.
+  std::optional<StereoReport> done(const PairWorker::Done& done, bool clock_was_set);
 
   /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) {
@@ -49,6 +50,7 @@ class StereoPipeline {
 
   SourceHealth health(const std::string& device, const PairSourceStatus& pairs, std::int64_t monotonic_ns);
   const StereoCounters& counters() const { return counters_; }
+  const std::string& source() const { return source_; }
 
  private:
   StereoReport report_of(const StereoPair& pair, const PairResult& answer) const;

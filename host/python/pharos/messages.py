@@ -27,6 +27,8 @@ def decode(data):
         message = kind.decode(stream)
     except (struct.error, IndexError, OverflowError) as error:
         raise ValueError(f"{kind.__name__}: cut off or damaged: {error}") from None
+    if kind is TYPES["preview_t"] and len(message.data) != message.size:  # lcm-gen takes what is there
+        raise ValueError("preview_t: cut off or damaged: its picture is not as long as it says")
     if stream.tell() != len(data):
         raise ValueError(f"{kind.__name__}: {len(data) - stream.tell()} bytes too many")
     return message

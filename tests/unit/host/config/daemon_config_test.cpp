@@ -189,6 +189,7 @@ TEST(DaemonConfig, UnderstandsEveryKeyOfTheShippedExample) {
   EXPECT_EQ(config.publish.max_age_s, defaults.publish.max_age_s);
   EXPECT_EQ(config.publish.status_period_s, defaults.publish.status_period_s);
   EXPECT_EQ(config.publish.bearings, defaults.publish.bearings);
+  EXPECT_EQ(config.publish.previews, defaults.publish.previews);
   EXPECT_EQ(config.source, defaults.source);
   EXPECT_EQ(config.log.level, defaults.log.level);
   const TargetConfig& target = config.targets.at(0);

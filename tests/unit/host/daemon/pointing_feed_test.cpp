@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/publish/messages.hpp"
+#include "pharos/preview_t.hpp"
 #include "support/painted_panel.hpp"
 #include "unit/host/daemon/source_bench.hpp"
 
@@ -74,6 +75,28 @@ TEST_F(PointingFeedTest, ReportsTheAxisOfAnImageThatArrives) {
   EXPECT_NEAR(Vector3(message.axis_earth).norm(), 1.0, 1e-12);
   EXPECT_GT(message.sigma_axis_rad, 0.0);
   EXPECT_EQ(health().state, SourceState::kOk);
+}
+
+TEST_F(PointingFeedTest, SendsAPictureOfAnImageWithItsAnswerAndOfOneWithout) {
+  bench.config.publish.previews = true;
+  PreviewStage previews(bench.loop, bench.publisher, bench.config.publish, bench.clock);
+  bench.context.previews = &previews;
+  start();
+  const auto pictures = [this] { return bench.sink.all<preview_t>("PHAROS_PREVIEW"); };
+  add_row("a.png", 1.7e9);
+  write_image("a.png");
+  until([&] { return pictures().size() == 1; });
+  EXPECT_EQ(pictures()[0].source, "line/dome");
+  EXPECT_EQ(pictures()[0].status, "ok");
+  EXPECT_EQ(pictures()[0].utime, messages()[0].utime);
+  bench.clock.advance(PreviewStage::kPeriod_ns);
+  const GreyImage dark{64, 48, 16, std::vector<std::uint16_t>(std::size_t{64} * 48, 100)};
+  add_row("dark.png", 1.7e9 + 1);
+  write_grey_png((folder / "dark.png").string(), dark.view(), 16);
+  until([&] { return pictures().size() == 2; });
+  EXPECT_EQ(pictures()[1].status, messages()[1].status);
+  EXPECT_EQ(pictures()[1].status.rfind("refused_", 0), 0u);
+  EXPECT_EQ(pictures()[1].width_px, 64);
 }
 
 TEST_F(PointingFeedTest, AwaitsTheRestOfAFileAndTheRowOfAnImage) {

@@ -12,10 +12,12 @@
 #include <optional>
 
 #include "host/frame_record/frame_recorder.hpp"
+#include "host/images/picture.hpp"
 #include "host/record/recording_file.hpp"
 #include "host/support/input_error.hpp"
 #include "host/vision/ring2/ring2_pose.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "support/painted_ring_pair.hpp"
 #include "unit/host/daemon/source_bench.hpp"
 
@@ -122,6 +124,48 @@ TEST_F(StereoFeedTest, CountsRefusalsByTheirReasonAndPassesOverWhatIsNoPair) {
   EXPECT_EQ(counter("pairs_refused"), 1);
   EXPECT_EQ(counter("device.pairs_unreadable"), 1);
   EXPECT_EQ(health().state, SourceState::kStale) << "come to its end";
+}
+
+// The ring's circle is green in both pictures where the truth's points are, which the estimator did not draw.
+TEST_F(StereoFeedTest, PicturesOfBothViewsShowTheRingWhereItIs) {
+  bench.config.publish.previews = true;
+  PreviewStage previews(bench.loop, bench.publisher, bench.config.publish, bench.clock);
+  bench.context.previews = &previews;
+  const sim::RingAndNozzle truth = pharos::test::ring_at({0.03, -0.02, 2.6}, 9.0 * kDeg, -11.0 * kDeg);
+  write("0001", truth);
+  play();
+  const auto pictures = [this] { return bench.sink.all<preview_t>("PHAROS_PREVIEW"); };
+  bench.run_until(*feed, [&] { return pictures().size() >= 2; });
+  for (std::size_t side = 0; side < 2; ++side) {
+    const preview_t message = pictures()[side];
+    EXPECT_EQ(message.source, "ring2/bow");
+    EXPECT_EQ(message.view, side == 0 ? "left" : "right");
+    EXPECT_EQ(message.utime, poses()[0].utime);
+    EXPECT_EQ(message.status, "ok");
+    const Picture picture = decode_picture(message.data, "preview");
+    ASSERT_EQ(picture.width_px, 640);
+    ASSERT_EQ(picture.height_px, 512);
+    const RigCamera& camera = side == 0 ? config.rig.left : config.rig.right;
+    const Vector3 first = truth.normal.unitOrthogonal(), second = truth.normal.cross(first);
+    int green = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double angle = 6.0 * k * kDeg;
+      const Vector3 point =
+          truth.ring_centre_m + truth.ring_radius_m * (std::cos(angle) * first + std::sin(angle) * second);
+      const auto pixel = project(camera.intrinsics, camera.pose().inverse() * point);
+      ASSERT_TRUE(static_cast<bool>(pixel));
+      bool near = false;
+      for (int v = -2; v <= 2; ++v) {
+        for (int u = -2; u <= 2; ++u) {
+          const std::uint16_t* rgb = &picture.values[3 * (static_cast<std::size_t>(std::lround(pixel->y()) + v) * 640 +
+                                                          static_cast<std::size_t>(std::lround(pixel->x()) + u))];
+          near = near || (rgb[1] > rgb[0] + 60 * 257 && rgb[1] > rgb[2] + 15 * 257);  // not the contour, light blue
+        }
+      }
+      green += near ? 1 : 0;
+    }
+    EXPECT_GE(green, 57) << "of 60";
+  }
 }
 
 TEST_F(StereoFeedTest, RefusesADirectoryWithoutPairs) { EXPECT_THROW(StereoFeed(bench.context, config), InputError); }

@@ -9,6 +9,7 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
@@ -37,6 +38,15 @@ clock_exchange_t example<clock_exchange_t>() {
   message.sender = "chaser";
   message.recipient = "cameras";
   message.received_ns = 1;
+  return message;
+}
+template <>
+preview_t example<preview_t>() {
+  preview_t message{};
+  message.source = "tof/helios";
+  message.format = "jpeg";
+  message.data = {0xFF, 0xD8, 1, 2, 3, 0xFF, 0xD9};
+  message.size = 7;
   return message;
 }
 template <>
@@ -78,7 +88,8 @@ class Shape : public ::testing::Test {
     return decode(message, bytes.data(), static_cast<int>(bytes.size()));
   }
 };
-using Types = ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t, target_state_t, clock_exchange_t>;
+using Types =
+    ::testing::Types<pose_t, pointing_t, spin_t, bearings_t, status_t, target_state_t, clock_exchange_t, preview_t>;
 TYPED_TEST_SUITE(Shape, Types);
 
 TYPED_TEST(Shape, IsThatOfTheType) { EXPECT_TRUE(this->is_message(this->encoded())); }
@@ -104,6 +115,22 @@ TYPED_TEST(Shape, ALengthThatLiesIsRefused) {
       EXPECT_NO_THROW(this->is_message(bytes)) << at;
     }
   }
+}
+
+// A list of single bytes is skipped as a whole: its count must fit what is left.
+TEST(PreviewShape, ASizeThatLiesIsRefused) {
+  const preview_t message = example<preview_t>();
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const std::size_t at = bytes.size() - message.data.size() - 4;
+  preview_t read;
+  for (const std::uint32_t size : {0U, 6U, 8U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFFU}) {
+    for (std::size_t k = 0; k < 4; ++k) bytes[at + k] = static_cast<unsigned char>(size >> (24U - 8U * k));
+    EXPECT_FALSE(decode(read, bytes.data(), static_cast<int>(bytes.size()))) << size;
+  }
+  bytes[at] = bytes[at + 1] = bytes[at + 2] = 0;
+  bytes[at + 3] = 7;
+  EXPECT_TRUE(decode(read, bytes.data(), static_cast<int>(bytes.size())));
 }
 
 }  // namespace
