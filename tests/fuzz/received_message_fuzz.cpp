@@ -17,5 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text = state_json(table, context);
   pharos::test::require(nlohmann::json::accept(text) && text.find('\n') == std::string::npos);
   pharos::test::require(table.rows().size() <= 1);
+  pharos::test::require(table.previews().size() <= 1);
+  for (const CameraPreview& preview : table.previews()) pharos::test::require(preview.jpeg->size() <= 32 * 1024);
   return 0;
 }

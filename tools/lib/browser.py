@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""usage: browser.py ADDRESS PICTURE SECONDS: the page at ADDRESS after so many seconds as a PNG.
+"""usage: browser.py ADDRESS PICTURE SECONDS: the page at ADDRESS after so many seconds as a PNG, or as a JPEG where
+PICTURE ends in .jpg.
 
 A headless Chromium, driven over its debugging pipe (DevTools protocol, without further packages)."""
 
@@ -102,11 +103,12 @@ class Browser:
         return [p["exceptionDetails"].get("exception", {}).get("description", str(p)) for p in self.log if "exceptionDetails" in p]
 
     def screenshot(self, path=None):
-        png = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
+        form = {"format": "jpeg", "quality": 85} if str(path).endswith(".jpg") else {"format": "png"}
+        picture = base64.b64decode(self.call("Page.captureScreenshot", **form)["data"])
         if path:
             with open(path, "wb") as file:
-                file.write(png)
-        return png
+                file.write(picture)
+        return picture
 
     def close(self):
         self.process.kill()

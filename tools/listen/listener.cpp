@@ -8,12 +8,14 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
 #include "tools/listen/clock_rows.hpp"
 #include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
+#include "tools/listen/preview_rows.hpp"
 #include "tools/listen/received_state.hpp"
 #include "tools/listen/spin_rows.hpp"
 #include "tools/listen/status_rows.hpp"
@@ -51,6 +53,7 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
   status_t status;
   target_state_t state;
   clock_exchange_t clock{};
+  preview_t preview{};
   if (decode(pose, data, size)) {
     take_pose(received_pose(channel, pose, utc_ns), monotonic_ns);
   } else if (decode(state, data, size)) {
@@ -69,6 +72,8 @@ void Listener::take(const std::string& channel, const void* data, int size, std:
     take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });
   } else if (decode(clock, data, size)) {
     take_other([&](bool json) { return json ? clock_json(clock) : clock_line(clock); });
+  } else if (decode(preview, data, size)) {
+    take_other([&](bool json) { return json ? preview_json(preview) : preview_line(preview); });
   } else {
     ++other_types_;
   }

@@ -29,8 +29,9 @@ class Listener {
 
   /// Printed before the first message: the header row of a CSV table.
   void begin();
-  /// Any message of a channel listened to: pose_t, target_state_t, pointing_t, spin_t, status_t and clock_exchange_t
-  /// are printed (the last four not as CSV or TUM, which have no place for them), others counted as foreign.
+  /// Any message of a channel listened to: pose_t, target_state_t, pointing_t, spin_t, status_t, clock_exchange_t
+  /// and preview_t are printed (the last five not as CSV or TUM, which have no place for them; of a preview all but its
+  /// picture), others counted as foreign.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Several times a second: prints a row LOST for each source whose poses have stopped (lines only).
   void tick(std::int64_t utc_ns, std::int64_t monotonic_ns);
@@ -42,7 +43,7 @@ class Listener {
 
   const ListenSummary& summary() const { return summary_; }
   std::int64_t other_types() const { return other_types_; }
-  /// Status, spin, pointing and clock messages.
+  /// Status, spin, pointing, clock and preview messages.
   std::int64_t other_messages() const { return other_messages_; }
 
  private:

@@ -9,6 +9,7 @@
 #include "pharos/bearings_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/target_state_t.hpp"
 
@@ -24,6 +25,8 @@ constexpr std::int64_t kMaxTime_us = 7'258'118'400'000'000;
 constexpr int kMaxSensors = 32;
 // Names are kept as keys.
 constexpr std::size_t kMaxName = 200;
+// As pharosd limits them.
+constexpr std::size_t kMaxPreviewBytes = 32 * 1024;
 constexpr std::int64_t kMaxSequence = std::int64_t{1} << 53U;
 
 bool is_value(double value) { return std::abs(value) <= kMaxValue; }  // false for nan
@@ -85,6 +88,13 @@ bool is_possible(const target_state_t& message) {
          (are_values(message.position_m) && is_unit(message.orientation_wxyz) && are_values(message.velocity_m_s) &&
           are_values(message.angular_rate_rad_s) && are_values(message.covariance) &&
           is_value(message.position_protection_m) && is_value(message.rotation_protection_rad));
+}
+
+bool is_possible(const preview_t& message) {
+  const std::vector<std::uint8_t>& data = message.data;
+  return has_header(message) && message.view.size() <= kMaxName && message.format == "jpeg" && message.width_px > 0 &&
+         message.height_px > 0 && data.size() >= 4 && data.size() <= kMaxPreviewBytes && data[0] == 0xFF &&
+         data[1] == 0xD8 && data[data.size() - 2] == 0xFF && data.back() == 0xD9;
 }
 
 }  // namespace pharos::tools

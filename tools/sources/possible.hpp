@@ -5,6 +5,7 @@ namespace pharos {
 class bearings_t;
 class pointing_t;
 class pose_t;
+class preview_t;
 class spin_t;
 class target_state_t;
 }  // namespace pharos
@@ -18,5 +19,7 @@ bool is_possible(const bearings_t& message);
 bool is_possible(const pointing_t& message);
 bool is_possible(const spin_t& message);
 bool is_possible(const target_state_t& message);
+/// Also whether its bytes begin and end as a JPEG; they are not decoded.
+bool is_possible(const preview_t& message);
 
 }  // namespace pharos::tools

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -87,6 +88,23 @@ struct SourceRow {
   double age_s(std::int64_t now_ns) const { return age_at_arrival_s + static_cast<double>(now_ns - valid_ns) * 1e-9; }
   /// A value that is no longer current must not look as if it were: true for 1.5 s.
   bool current(std::int64_t now_ns) const { return any() && now_ns - valid_ns < 1'500'000'000; }
+};
+
+/// The newest picture of one camera, of a rig of one of its views.
+struct CameraPreview {
+  std::string channel, source, camera, view, target;
+  std::string status;  // of the measurement made from it
+  std::int64_t utime_us = 0;
+  double age_at_arrival_s = 0.0;
+  std::int64_t heard_ns = 0;
+  std::int64_t received = 0;
+  std::int64_t lost = 0;
+  std::int64_t sequence = 0;
+  std::shared_ptr<const std::vector<std::uint8_t>> jpeg;  // shared with whoever sends it on
+
+  double age_s(std::int64_t now_ns) const { return age_at_arrival_s + static_cast<double>(now_ns - heard_ns) * 1e-9; }
+  /// They come twice a second.
+  bool current(std::int64_t now_ns) const { return now_ns - heard_ns < 1'500'000'000; }
 };
 
 /// What a daemon tells of one of its sources.

@@ -10,6 +10,7 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
@@ -25,6 +26,8 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 // 32 targets with two stations each and five cameras are 69 rows; whoever sends more names than this is not a daemon.
 constexpr std::size_t kMaxRows = 128;
 constexpr std::size_t kMaxDaemons = 16;
+// Five cameras or rigs with two systems and two views each; 32 KiB each.
+constexpr std::size_t kMaxPreviews = 32;
 constexpr std::size_t kMaxEvents = 50;
 // More arrivals a second than any source has: the rate shown is this at most.
 constexpr std::size_t kMaxArrivals = 4096;
@@ -82,6 +85,7 @@ void SourceTable::take(const std::string& channel, const void* data, int size, s
   spin_t spin;
   status_t status;
   target_state_t state;
+  preview_t preview;
   if (decode(pose, data, size)) {
     add(channel, pose, utc_ns, now_ns);
   } else if (decode(state, data, size)) {
@@ -94,6 +98,8 @@ void SourceTable::take(const std::string& channel, const void* data, int size, s
     add(channel, spin, utc_ns, now_ns);
   } else if (decode(status, data, size)) {
     add(status, now_ns);
+  } else if (decode(preview, data, size)) {
+    add(channel, preview, utc_ns, now_ns);
   } else if (clock_exchange_t clock; !decode(clock, data, size)) {  // between daemons: no row
     ++left_out_.foreign;
   }
@@ -253,6 +259,39 @@ void SourceTable::add(const status_t& message, std::int64_t now_ns) {
         kept(source.state), kept(source.message),
         source.data_age_us < 0 ? -1.0 : static_cast<double>(source.data_age_us) * 1e-6};
   }
+}
+
+void SourceTable::add(const std::string& channel, preview_t& message, std::int64_t utc_ns, std::int64_t now_ns) {
+  if (!is_possible(message)) {
+    ++left_out_.impossible;
+    return;
+  }
+  auto at = std::find_if(previews_.begin(), previews_.end(), [&](const CameraPreview& one) {
+    return one.channel == channel && one.source == message.source && one.view == message.view &&
+           one.target == message.target;
+  });
+  if (at == previews_.end()) {
+    if (previews_.size() >= kMaxPreviews) {
+      ++left_out_.too_many;
+      return;
+    }
+    previews_.push_back({});
+    at = previews_.end() - 1;
+    at->channel = channel;
+    at->source = message.source;
+    at->view = message.view;
+    at->target = message.target;
+  } else if (message.sequence > at->sequence) {
+    at->lost += message.sequence - at->sequence - 1;
+  }
+  at->camera = kept(message.station_or_camera);
+  at->status = kept(message.status);
+  at->utime_us = message.utime;
+  at->age_at_arrival_s = age_of(utc_ns, message.utime);
+  at->heard_ns = now_ns;
+  at->sequence = message.sequence;
+  ++at->received;
+  at->jpeg = std::make_shared<const std::vector<std::uint8_t>>(std::move(message.data));
 }
 
 void SourceTable::tick(std::int64_t utc_ns, std::int64_t now_ns) {

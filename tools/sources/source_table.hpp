@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tools/listen/sight_monitor.hpp"
 #include "tools/sources/source_row.hpp"
@@ -14,6 +15,7 @@ namespace pharos {
 class bearings_t;
 class pointing_t;
 class pose_t;
+class preview_t;
 class spin_t;
 class status_t;
 class target_state_t;
@@ -30,9 +32,9 @@ struct LeftOut {
   std::int64_t sum() const { return foreign + impossible + too_many; }
 };
 
-/// Every source that tells poses, axes or spins: a row each; the daemons' states; the newest events. Its size is
-/// bounded whatever comes. `utc_ns` is the time of arrival, `now_ns` the same on the clock of ages (both of the log
-/// where one is replayed).
+/// Every source that tells poses, axes or spins: a row each; the daemons' states; cameras' pictures; the newest events.
+/// Its size is bounded whatever comes. `utc_ns` is the time of arrival, `now_ns` the same on the clock of ages (both of
+/// the log where one is replayed).
 class SourceTable {
  public:
   using Rows = std::map<SourceKey, SourceRow>;
@@ -50,10 +52,13 @@ class SourceTable {
   void add(const std::string& channel, const target_state_t& state, std::int64_t utc_ns, std::int64_t now_ns);
   void add(const bearings_t& bearings, std::int64_t now_ns);
   void add(const status_t& status, std::int64_t now_ns);
+  void add(const std::string& channel, preview_t& preview, std::int64_t utc_ns, std::int64_t now_ns);
 
   const Rows& rows() const { return rows_; }
   const Daemons& daemons() const { return daemons_; }
   const std::deque<SourceEvent>& events() const { return events_; }
+  /// Of each camera the newest, in the order in which cameras came; a camera keeps its place.
+  const std::vector<CameraPreview>& previews() const { return previews_; }
   const LeftOut& left_out() const { return left_out_; }
   /// Valid poses, axes and spins, and status messages.
   std::int64_t received() const { return received_; }
@@ -71,6 +76,7 @@ class SourceTable {
   Rows rows_;
   SightsOf sights_;
   Daemons daemons_;
+  std::vector<CameraPreview> previews_;
   std::map<SourceKey, std::int64_t> sequences_;  // newest of each source on each target, all stations
   std::deque<SourceEvent> events_;
   std::int64_t events_told_ = 0;

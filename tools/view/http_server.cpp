@@ -98,8 +98,11 @@ struct HttpServer::Callbacks {
   }
 };
 
-HttpServer::HttpServer(const Settings& settings, OnControl on_control)
-    : connections_(settings.address, settings.port), targets_(settings.targets), on_control_(std::move(on_control)) {
+HttpServer::HttpServer(const Settings& settings, OnControl on_control, OnPreview on_preview)
+    : connections_(settings.address, settings.port),
+      targets_(settings.targets),
+      on_control_(std::move(on_control)),
+      on_preview_(std::move(on_preview)) {
   access_ = {connections_.port(), connections_.is_loopback(), settings.token, settings.has_controls};
   daemon_ = MHD_start_daemon(MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_NO_LISTEN_SOCKET, 0, nullptr, nullptr,
                              &Callbacks::handle, this, MHD_OPTION_CONNECTION_LIMIT,
@@ -158,6 +161,8 @@ int HttpServer::answer(MHD_Connection* connection, const char* path, const char*
       return send_text(connection, 200, "application/json", targets_);
     case Answer::kControl:
       return answer_control(connection);
+    case Answer::kPreview:
+      return answer_preview(connection, route.preview);
     case Answer::kRefused:
       break;
   }
@@ -206,6 +211,12 @@ int HttpServer::answer_control(MHD_Connection* connection) {
   if (!control) return answer_refusal(connection, {Answer::kRefused, 400, "seek, speed or playing is out of range"});
   on_control_(*control);
   return send_text(connection, 204, "text/plain", "");
+}
+
+int HttpServer::answer_preview(MHD_Connection* connection, std::size_t number) {
+  const Picture picture = on_preview_(number);
+  if (picture == nullptr) return answer_refusal(connection, {Answer::kRefused, 404, "no such picture"});
+  return send_text(connection, 200, "image/jpeg", {reinterpret_cast<const char*>(picture->data()), picture->size()});
 }
 
 std::int64_t HttpServer::read_states(Viewer& viewer, char* buffer, std::size_t size) {

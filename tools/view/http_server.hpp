@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/view/connections.hpp"
 #include "tools/view/page_files.hpp"
@@ -31,9 +32,12 @@ class HttpServer {
     std::string targets;  // what /targets answers
   };
   using OnControl = std::function<void(const ControlRequest&)>;
+  /// A JPEG; null: there is none of this number.
+  using Picture = std::shared_ptr<const std::vector<std::uint8_t>>;
+  using OnPreview = std::function<Picture(std::size_t number)>;
 
   /// Throws host::InputError where the address cannot be listened on.
-  HttpServer(const Settings& settings, OnControl on_control);
+  HttpServer(const Settings& settings, OnControl on_control, OnPreview on_preview);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
@@ -64,6 +68,7 @@ class HttpServer {
   int answer_file(MHD_Connection* connection, const PageFile& file, bool give_cookie);
   int answer_states(MHD_Connection* connection);
   int answer_control(MHD_Connection* connection);
+  int answer_preview(MHD_Connection* connection, std::size_t number);
   std::int64_t read_states(Viewer& viewer, char* buffer, std::size_t size);
   std::string cookie_name() const;
 
@@ -71,6 +76,7 @@ class HttpServer {
   Access access_;
   std::string targets_;
   OnControl on_control_;
+  OnPreview on_preview_;
   std::shared_ptr<const std::string> state_;
   std::int64_t version_ = 0;
   std::map<MHD_Connection*, std::unique_ptr<Viewer>> viewers_;

@@ -40,6 +40,17 @@ bool is_our_origin(std::string_view origin, std::string_view host) {
 
 Route refused(int status, const char* reason) { return {Answer::kRefused, status, reason, false}; }
 
+// /preview/0 to /preview/99.
+std::optional<std::size_t> preview_number(std::string_view path) {
+  constexpr std::string_view kFolder = "/preview/";
+  if (!path.starts_with(kFolder)) return std::nullopt;
+  const std::string_view number = path.substr(kFolder.size());
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  const bool whole = error == std::errc{} && end == number.data() + number.size() && number.size() <= 2;
+  return whole ? std::optional(value) : std::nullopt;
+}
+
 Route route_of_path(const Request& request, const Access& access) {
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (request.path == "/control" && access.has_controls) {
@@ -49,6 +60,7 @@ Route route_of_path(const Request& request, const Access& access) {
   if (request.path == "/states")
     return request.method == "GET" ? Route{Answer::kStates, 200, "", false} : refused(405, "only GET");
   if (request.path == "/targets") return {Answer::kTargets, 200, "", false};
+  if (const auto preview = preview_number(request.path)) return {Answer::kPreview, 200, "", false, *preview};
   if (find_page_file(request.path) != nullptr) return {Answer::kFile, 200, "", false};
   return refused(404, "no such page");
 }

@@ -27,13 +27,14 @@ struct Request {
   std::string_view query_token;   // ?token=
 };
 
-enum class Answer : std::uint8_t { kRefused, kFile, kStates, kTargets, kControl };
+enum class Answer : std::uint8_t { kRefused, kFile, kStates, kTargets, kControl, kPreview };
 
 struct Route {
   Answer answer = Answer::kRefused;
   int status = 200;  // of HTTP
   const char* reason = "";
   bool give_cookie = false;  // a good token came in the address: the page's own requests send it as a cookie
+  std::size_t preview = 0;   // which one
 };
 
 /// The answer to a request. Refused are: other methods; a Host that is a name (a foreign page whose name was made to

@@ -152,6 +152,21 @@ Json events_json(const SourceTable& table) {
   return out;
 }
 
+// Without the pictures: the page asks for each when it has changed (utime).
+Json previews_json(const SourceTable& table, std::int64_t now_ns) {
+  Json out = Json::array();
+  for (const CameraPreview& preview : table.previews()) {
+    out.push_back({{"source", preview.source},
+                   {"view", preview.view},
+                   {"target", preview.target},
+                   {"status", preview.status},
+                   {"utime", preview.utime_us},
+                   {"age_s", rounded(preview.age_s(now_ns), 1e2)},
+                   {"current", preview.current(now_ns)}});
+  }
+  return out;
+}
+
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
@@ -164,6 +179,7 @@ std::string state_json(const SourceTable& table, const ViewContext& context) {
                 {"rows", std::move(rows)},
                 {"daemons", daemons_json(table, context.now_ns)},
                 {"events", events_json(table)},
+                {"previews", previews_json(table, context.now_ns)},
                 {"counters",
                  {{"received", table.received()},
                   {"foreign", left_out.foreign},

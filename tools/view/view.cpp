@@ -157,6 +157,11 @@ class Feed {
     return state_json(player_->table(), context);
   }
 
+  HttpServer::Picture preview(std::size_t number) const {
+    const std::vector<CameraPreview>& previews = (player_ ? player_->table() : live_).previews();
+    return number < previews.size() ? previews[number].jpeg : nullptr;
+  }
+
   std::int64_t received() const { return player_ ? player_->table().received() : live_.received(); }
 
  private:
@@ -203,7 +208,9 @@ int view(const ViewOptions& options) {
   std::signal(SIGPIPE, SIG_IGN);  // a viewer that goes is no reason to end
   Feed feed(options);
   const HttpServer::Settings settings = settings_of(options, is_loopback(options.listen));
-  HttpServer server(settings, [&feed](const ControlRequest& request) { feed.control(request); });
+  HttpServer server(
+      settings, [&feed](const ControlRequest& request) { feed.control(request); },
+      [&feed](std::size_t number) { return feed.preview(number); });
   print_address(options, server, settings.token);
   serve(feed, server, signals, options.duration_s);
   return feed.received() > 0 ? kExitAnswered : kExitNoAnswer;

@@ -67,6 +67,20 @@ void add_daemon(std::vector<std::string>& out, const std::string& host, const Da
   }
 }
 
+std::string previews_text(const std::vector<CameraPreview>& previews, std::int64_t now_ns) {
+  std::int64_t received = 0, lost = 0;
+  std::string late;
+  for (const CameraPreview& preview : previews) {
+    received += preview.received;
+    lost += preview.lost;
+    if (preview.current(now_ns)) continue;
+    late += (late.empty() ? "; none from " : ", ") +
+            printable(preview.source + (preview.view.empty() ? "" : ' ' + preview.view), 40) + " for " +
+            age_text(static_cast<double>(now_ns - preview.heard_ns) * kSPerNs);
+  }
+  return fmt::format("pictures: {} of {} cameras, {} lost{}", received, previews.size(), lost, late);
+}
+
 }  // namespace
 
 std::string printable(std::string_view text, std::size_t size) {
@@ -86,6 +100,7 @@ std::vector<std::string> watch_lines(const SourceTable& table, std::int64_t now_
   out.emplace_back();
   for (const auto& [host, daemon] : table.daemons()) add_daemon(out, host, daemon, now_ns);
   if (table.daemons().empty()) out.emplace_back("no pharosd has told its state yet");
+  if (!table.previews().empty()) out.push_back(previews_text(table.previews(), now_ns));
   const LeftOut& left_out = table.left_out();
   if (left_out.sum() > 0) {
     out.push_back(

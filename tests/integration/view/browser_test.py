@@ -3,9 +3,10 @@
 """usage: browser_test.py PHAROS LCM_GEN [SCREENSHOT]
 
 `pharos view` in a real Chromium with software rendering: the page is drawn, a pose moves its target, a source that stops
-turns its light red, foreign messages are counted, dark and light differ, a phone's width needs no sideways scrolling, a
+turns its light red, foreign messages are counted, a camera's picture is shown and marked when it is old, dark and light differ, a phone's width needs no sideways scrolling, a
 replay jumps. 77 (skipped) without Chromium."""
 
+import base64
 import json
 import pathlib
 import struct
@@ -17,7 +18,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools/lib"))
 from browser import Browser, chromium
-from running_view import RunningView, load_types, pose, target_state
+from running_view import RunningView, load_types, pose, preview, target_state
 
 PROGRAM, LCM_GEN = sys.argv[1:3]
 SCREENSHOT = sys.argv[3] if len(sys.argv) > 3 else None
@@ -85,6 +86,9 @@ class ViewInChromium(unittest.TestCase):
         self.browser.screenshot(SCREENSHOT)
         paint = self.browser.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
         print(f"first contentful paint after {paint:.0f} ms")
+        frames = self.browser.evaluate("pharosFigures.frames")
+        time.sleep(3)
+        print(f"{(self.browser.evaluate('pharosFigures.frames') - frames) / 3:.0f} frames/s")
 
     def test_2_a_pose_moves_its_target(self):
         before = self.place("dock")
@@ -145,6 +149,32 @@ class ViewInChromium(unittest.TestCase):
         self.assertTrue(self.browser.wait_for(f"{level} === '0.25,0.1,-0.2,2.5'"), self.browser.evaluate(level))
         self.assertTrue(self.browser.wait_for(f"{fused}.includes('no message for')"), "it stopped")
         self.assertFalse(self.browser.evaluate(f"{level} !== null"))
+        self.assertEqual(self.browser.exceptions(), [])
+
+    def test_5c_a_picture_is_shown_as_it_came_and_marked_when_it_is_old(self):
+        self.assertTrue(self.browser.evaluate("document.getElementById('cameras').hidden"), "no camera, no pane")
+        made = self.browser.evaluate("""(() => { const canvas = document.createElement('canvas'); canvas.width = 160; canvas.height = 120;
+            const pen = canvas.getContext('2d'); pen.fillStyle = '#f00'; pen.fillRect(0, 0, 80, 120); pen.fillStyle = '#00f'; pen.fillRect(80, 0, 80, 120);
+            return canvas.toDataURL('image/jpeg', 0.9); })()""")
+        jpeg = base64.b64decode(made.split(",")[1])
+        for sequence in range(4):
+            self.view.publish("PHAROS_PREVIEW", preview(self.types, "tof/helios", jpeg, sequence))
+            time.sleep(0.2)
+        image = "document.querySelector('#cameras .camera img')"
+        self.assertTrue(self.browser.wait_for(f"{image}?.naturalWidth === 160 && {image}.complete"))
+        colours = json.loads(self.browser.evaluate(f"""(() => {{ const canvas = document.createElement('canvas'); canvas.width = 160; canvas.height = 120;
+            const pen = canvas.getContext('2d'); pen.drawImage({image}, 0, 0);
+            return JSON.stringify([...pen.getImageData(40, 60, 1, 1).data, ...pen.getImageData(120, 60, 1, 1).data]); }})()"""))
+        for value, asked in zip(colours, (255, 0, 0, 255, 0, 0, 255, 255)):
+            self.assertAlmostEqual(value, asked, delta=8)
+        caption = "document.querySelector('#cameras figcaption').textContent"
+        self.assertTrue(self.browser.wait_for(f"{caption}.startsWith('tof/helios: ')"))
+        self.browser.evaluate("document.querySelector('#cameras .camera').click()")
+        self.view.publish("PHAROS_PREVIEW", preview(self.types, "tof/helios", jpeg, 4))
+        self.assertTrue(self.browser.wait_for("document.querySelector('#picture img').naturalWidth === 160"), "large")
+        self.browser.evaluate("document.getElementById('picture').close()")
+        self.assertTrue(self.browser.wait_for(f"document.querySelector('#cameras .camera.stale') !== null && {caption}.includes('old')"), "it stopped")
+        self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 1280)
         self.assertEqual(self.browser.exceptions(), [])
 
     def test_6_keys_work_and_dark_and_light_differ(self):

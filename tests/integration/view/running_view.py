@@ -67,6 +67,15 @@ def target_state(types, target, position, sequence):
     return made
 
 
+def preview(types, source, jpeg, sequence):
+    made = types.preview_t()
+    made.utime = int(time.time() * 1e6)
+    made.sequence, made.source, made.station_or_camera, made.target = sequence, source, source.split("/")[1], "client"
+    made.status, made.width_px, made.height_px, made.format = "ok", 160, 120, "jpeg"
+    made.data, made.size = jpeg, len(jpeg)
+    return made
+
+
 def pose(types, target, position, sequence, source="lighthouse/chaser", **fields):
     made = types.pose_t()
     made.utime = int(time.time() * 1e6)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: view_load SECONDS [TARGETS [VIEWERS]]: the load of `pharos view`: two stations' poses and bearings of each
-// target at 60 Hz, five cameras at 10 Hz, and viewers that take every state.
+// target at 60 Hz, five cameras at 10 Hz with two pictures a second each, and viewers that take every state and
+// picture.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -21,6 +23,7 @@
 #include "integration/child_process.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 
 namespace {
 
@@ -46,16 +49,52 @@ Usage usage_of(int pid) {
           pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0};
 }
 
-UniqueFd viewer(int port) {
+UniqueFd connected(int port) {
   UniqueFd client(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (::connect(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) std::exit(2);
-  const std::string text = "GET /states HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n";
-  if (::send(client.get(), text.data(), text.size(), 0) < 0) std::exit(2);
   return client;
+}
+
+bool ask(const UniqueFd& client, int port, const std::string& path) {
+  const std::string text = "GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n";
+  return ::send(client.get(), text.data(), text.size(), MSG_NOSIGNAL) >= 0;
+}
+
+UniqueFd viewer(int port) {
+  UniqueFd client = connected(port);
+  if (!ask(client, port, "/states")) std::exit(2);
+  return client;
+}
+
+// Reads one answer with a picture; false where it is none or the connection ended.
+bool take_picture(const UniqueFd& client) {
+  std::string text;
+  std::vector<char> buffer(1 << 16);
+  for (std::size_t whole = 0; whole == 0 || text.size() < whole;) {
+    const ssize_t count = ::recv(client.get(), buffer.data(), buffer.size(), 0);
+    if (count <= 0) return false;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+    const std::size_t head = text.find("\r\n\r\n"), length = text.find("Content-Length: ");
+    if (head != std::string::npos && length != std::string::npos) {
+      whole = head + 4 + static_cast<std::size_t>(std::atol(text.c_str() + length + 16));
+    }
+  }
+  return text.find("image/jpeg") != std::string::npos;
+}
+
+// As a page: the picture of every camera twice a second.
+void take_pictures(const UniqueFd& client, int port, const std::atomic<bool>& stopping, std::atomic<int>& pictures) {
+  while (!stopping) {
+    for (int camera = 0; camera < 5; ++camera) {
+      if (!ask(client, port, "/preview/" + std::to_string(camera))) return;
+      pictures += take_picture(client) ? 1 : 0;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
 }
 
 pharos::pose_t pose_of(int target, int station, std::int64_t k) {
@@ -100,6 +139,25 @@ pharos::bearings_t bearings_of(const pharos::pose_t& pose) {
   return bearings;
 }
 
+// As large as pictures are at most.
+pharos::preview_t preview_of(const pharos::pose_t& pose) {
+  pharos::preview_t preview{};
+  preview.utime = pose.utime;
+  preview.sequence = pose.sequence / 3;
+  preview.source = pose.source;
+  preview.target = pose.target;
+  preview.status = "ok";
+  preview.width_px = 640;
+  preview.height_px = 480;
+  preview.format = "jpeg";
+  preview.data.assign(32 * 1024, 0x55);
+  preview.data[0] = preview.data[preview.data.size() - 2] = 0xFF;
+  preview.data[1] = 0xD8;
+  preview.data.back() = 0xD9;
+  preview.size = static_cast<std::int32_t>(preview.data.size());
+  return preview;
+}
+
 void publish_cycle(lcm::LCM& lcm, int targets, std::int64_t k) {
   for (int target = 0; target < targets; ++target) {
     for (int station = 0; station < 2; ++station) {
@@ -114,6 +172,9 @@ void publish_cycle(lcm::LCM& lcm, int targets, std::int64_t k) {
     pose.source = "tof/camera" + std::to_string(camera);
     pose.sequence = k / 6;
     lcm.publish("PHAROS_TOF_POSE", &pose);
+    if (k % 30 != 0) continue;
+    const pharos::preview_t preview = preview_of(pose);
+    lcm.publish("PHAROS_PREVIEW", &preview);
   }
 }
 
@@ -142,6 +203,16 @@ int main(int argc, char** argv) {
       }
     });
   }
+  std::atomic<bool> stopping = false;
+  std::atomic<int> pictures = 0;
+  std::vector<std::thread> page_threads;
+  std::vector<UniqueFd> page_connections;
+  const auto open_pages = [&] {
+    for (int k = 0; k < viewer_count; ++k) page_connections.push_back(connected(port));
+    for (const UniqueFd& connection : page_connections) {
+      page_threads.emplace_back([&] { take_pictures(connection, port, stopping, pictures); });
+    }
+  };
   const auto play = [&](double duration_s) {
     const auto start = Clock::now();
     for (std::int64_t k = 0; std::chrono::duration<double>(Clock::now() - start).count() < duration_s; ++k) {
@@ -149,22 +220,31 @@ int main(int argc, char** argv) {
       std::this_thread::sleep_until(start + std::chrono::microseconds(k * 1'000'000 / 60));
     }
   };
-  play(3.0);  // all rows are there
+  play(3.0);  // all rows and pictures are there
+  open_pages();
   const Usage before = usage_of(view.pid());
   const auto bytes_before = bytes;
   const auto states_before = states;
-  play(seconds);
+  std::array<double, 4> quarters{};  // resident after each, MiB
+  for (double& resident_mib : quarters) {
+    play(seconds / 4);
+    resident_mib = usage_of(view.pid()).resident_mib;
+    std::fprintf(stderr, "resident %.2f MiB\n", resident_mib);
+  }
   const Usage after = usage_of(view.pid());
-  std::printf("%d targets, two stations each, five cameras; %d viewers; %.0f s\n", targets, viewer_count, seconds);
-  std::printf("processor: %.1f %% of one core; resident %.1f MiB, %+.1f MiB meanwhile\n",
-              100.0 * (after.processor_s - before.processor_s) / seconds, after.resident_mib,
-              after.resident_mib - before.resident_mib);
+  std::printf("%d targets, two stations each, five cameras; %d viewers; %.0f s; %.1f pictures/s taken\n", targets,
+              viewer_count, seconds, pictures / seconds);
+  std::printf("processor: %.1f %% of one core; resident %.2f MiB, after each quarter %.2f %.2f %.2f %.2f\n",
+              100.0 * (after.processor_s - before.processor_s) / seconds, before.resident_mib, quarters[0], quarters[1],
+              quarters[2], quarters[3]);
   for (std::size_t k = 0; k < viewers.size(); ++k) {
     std::printf("viewer %zu: %.1f states/s, %.0f kB/s\n", k,
                 static_cast<double>(states[k] - states_before[k]) / seconds,
                 static_cast<double>(bytes[k] - bytes_before[k]) / seconds / 1e3);
     ::shutdown(viewers[k].get(), SHUT_RDWR);
   }
+  stopping = true;
+  for (std::thread& page : page_threads) page.join();
   for (std::thread& reader : readers) reader.join();
   return 0;
 }

@@ -3,6 +3,7 @@
 import { Scene } from "./scene.js";
 import { Table } from "./table.js";
 import { Plots } from "./plots.js";
+import { Cameras } from "./cameras.js";
 import { Replay } from "./replay.js";
 
 const TABLE_MS = 200; // the eye reads no faster
@@ -15,6 +16,7 @@ window.pharosFigures = figures;
 
 const table = new Table(() => redraw());
 const plots = new Plots(element("plots"));
+const cameras = new Cameras(element("cameras"), element("picture"));
 const replay = new Replay();
 let scene = null;
 let newest = null;
@@ -99,6 +101,7 @@ function frame(now) {
     showLink();
     if (newest && fresh) {
       table.show(newest);
+      cameras.show(newest.previews);
       replay.show(newest.replay);
       fresh = false;
     }

@@ -10,6 +10,7 @@
 
 #include "pharos/bearings_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
@@ -66,6 +67,71 @@ TEST(SourceTable, ValuesThatNoPharosdSendsAreLeftOutAndCounted) {
   for (const pose_t& pose : bad) add(table, pose);
   EXPECT_TRUE(table.rows().empty());
   EXPECT_EQ(table.left_out().impossible, 6);
+}
+
+preview_t preview_of(std::int64_t sequence, const std::string& view = "") {
+  preview_t preview{};
+  preview.utime = 500'000;
+  preview.sequence = sequence;
+  preview.source = "ring2/bow";
+  preview.station_or_camera = "bow";
+  preview.view = view;
+  preview.target = "dock";
+  preview.status = "ok";
+  preview.width_px = 640;
+  preview.height_px = 480;
+  preview.format = "jpeg";
+  preview.data = {0xFF, 0xD8, static_cast<std::uint8_t>(sequence), 0xFF, 0xD9};
+  preview.size = static_cast<std::int32_t>(preview.data.size());
+  return preview;
+}
+
+void add(SourceTable& table, preview_t preview, std::int64_t now_ns = kSecond_ns) {
+  table.add("PHAROS_PREVIEW", preview, now_ns, now_ns);
+}
+
+TEST(SourceTable, OfEachCameraTheNewestPictureIsKeptAndSaysHowOldItIs) {
+  SourceTable table;
+  add(table, preview_of(0, "left"));
+  add(table, preview_of(0, "right"));
+  add(table, preview_of(4, "left"), 2 * kSecond_ns);
+  ASSERT_EQ(table.previews().size(), 2u);
+  const CameraPreview& left = table.previews()[0];
+  EXPECT_EQ(left.view, "left");
+  EXPECT_EQ(left.received, 2);
+  EXPECT_EQ(left.lost, 3);
+  EXPECT_EQ(left.jpeg->at(2), 4);
+  EXPECT_NEAR(left.age_s(3 * kSecond_ns), 2.5, 1e-9);
+  EXPECT_TRUE(left.current(3 * kSecond_ns));
+  EXPECT_FALSE(table.previews()[1].current(3 * kSecond_ns));
+  EXPECT_TRUE(table.rows().empty()) << "a picture measures nothing";
+}
+
+TEST(SourceTable, WhatIsNoPictureOrTooLargeIsLeftOut) {
+  SourceTable table;
+  std::vector<preview_t> bad(6, preview_of(0));
+  bad[0].format = "png";
+  bad[1].data = {'<', 's', 'v', 'g', '>'};
+  bad[2].data.clear();
+  bad[3].data.insert(bad[3].data.begin() + 2, 32 * 1024, 0);
+  bad[4].width_px = 0;
+  bad[5].view = std::string(1000, 'x');
+  for (const preview_t& preview : bad) add(table, preview);
+  EXPECT_EQ(table.left_out().impossible, 6);
+  for (int k = 0; k < 100; ++k) add(table, preview_of(0, std::to_string(k)));
+  EXPECT_EQ(table.previews().size(), 32u);
+  EXPECT_EQ(table.left_out().too_many, 68);
+}
+
+TEST(SourceTable, AWholePreviewIsNoForeignMessage) {
+  SourceTable table;
+  const preview_t preview = preview_of(7);
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(preview.getEncodedSize()));
+  preview.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  table.take("PHAROS_PREVIEW", bytes.data(), static_cast<int>(bytes.size()), kSecond_ns, kSecond_ns);
+  EXPECT_EQ(table.left_out().sum(), 0);
+  ASSERT_EQ(table.previews().size(), 1u);
+  EXPECT_EQ(*table.previews()[0].jpeg, preview.data);
 }
 
 TEST(SourceTable, ForeignBytesUnderAKnownChannelAreCounted) {

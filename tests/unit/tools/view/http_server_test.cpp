@@ -30,7 +30,9 @@ class Server : public ::testing::Test {
   void start(const HttpServer::Settings& settings) {
     server_.reset();
     loop_ = std::make_unique<host::EventLoop>();
-    server_ = std::make_unique<HttpServer>(settings, [this](const ControlRequest& request) { control_ = request; });
+    server_ = std::make_unique<HttpServer>(
+        settings, [this](const ControlRequest& request) { control_ = request; },
+        [this](std::size_t number) { return number == 3 ? picture_ : nullptr; });
     loop_->watch(server_->listen_fd(), [this] { server_->accept(); });
     loop_->watch(server_->work_fd(), [this] { server_->work(); });
   }
@@ -91,7 +93,16 @@ class Server : public ::testing::Test {
   std::unique_ptr<host::EventLoop> loop_;
   std::unique_ptr<HttpServer> server_;
   std::optional<ControlRequest> control_;
+  HttpServer::Picture picture_ = std::make_shared<const std::vector<std::uint8_t>>(
+      std::initializer_list<std::uint8_t>{0xFF, 0xD8, 'j', 0xFF, 0xD9});
 };
+
+TEST_F(Server, APictureIsAnsweredAndAMissingOneIsNot) {
+  EXPECT_THAT(get("/preview/3?v=17"), AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("Content-Type: image/jpeg"),
+                                            HasSubstr("nosniff"), HasSubstr("\xFF\xD8j\xFF\xD9")));
+  EXPECT_THAT(get("/preview/4"), StartsWith("HTTP/1.1 404"));
+  EXPECT_EQ(server_->refused(), 1);
+}
 
 TEST_F(Server, ServesThePageWithHeadersThatKeepItToItself) {
   EXPECT_THAT(get("/"),

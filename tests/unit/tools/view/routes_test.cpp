@@ -29,6 +29,22 @@ TEST(Route, LeadsToThePageAndItsStates) {
   EXPECT_EQ(route_of(get("/targets"), kHere).answer, Answer::kTargets);
 }
 
+TEST(Route, LeadsToPicturesByTheirNumber) {
+  const Route route = route_of(get("/preview/12"), kHere);
+  EXPECT_EQ(route.answer, Answer::kPreview);
+  EXPECT_EQ(route.preview, 12u);
+  for (const char* path : {"/preview", "/preview/", "/preview/x", "/preview/-1", "/preview/1/..", "/preview/100",
+                           "/preview/4294967297", "/preview/ 1", "/preview/+1", "/preview/0x1"}) {
+    EXPECT_EQ(route_of(get(path), kHere).status, 404) << path;
+  }
+  Request request = get("/preview/1");
+  request.fetch_site = "cross-site";
+  EXPECT_EQ(route_of(request, kHere).status, 403);
+  request.fetch_site = "";
+  request.host = "192.168.1.7:7668";
+  EXPECT_EQ(route_of(request, elsewhere()).status, 401) << "with a token alone";
+}
+
 TEST(Route, NoOtherPathIsServedHoweverItIsWritten) {
   for (const char* path :
        {"", "/index.html", "//", "/../etc/passwd", "/..%2f..%2fetc/passwd", "/view.js/", "/view.js%00", "/VIEW.JS",

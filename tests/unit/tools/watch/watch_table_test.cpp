@@ -6,6 +6,7 @@
 
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/status_t.hpp"
 
 namespace pharos::tools {
@@ -51,6 +52,24 @@ TEST(WatchTable, ARowTellsRateAgePoseAndWhatWasRefusedOrLost) {
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("lighthouse/chaser"), HasSubstr("dock"), HasSubstr("C33B4DE1"),
                                     HasSubstr("refused_poor_f"), HasSubstr("   60    14 ms      1     2"),
                                     HasSubstr("500.00   -250.00   2000.00 mm"), HasSubstr("1.00 mm"))));
+}
+
+TEST(WatchTable, PicturesAreCountedAndACameraWithoutIsNamed) {
+  SourceTable table;
+  for (const char* source : {"tof/helios", "line/dome"}) {
+    preview_t preview{};
+    preview.source = source;
+    preview.width_px = preview.height_px = 8;
+    preview.format = "jpeg";
+    preview.data = {0xFF, 0xD8, 0xFF, 0xD9};
+    for (std::int64_t k = 0; k < 3; ++k) {
+      preview.sequence = k;
+      table.add("PHAROS_PREVIEW", preview, 0, source[0] == 't' ? 5 * kSecond_ns : kSecond_ns);
+      preview.data = {0xFF, 0xD8, 0xFF, 0xD9};
+    }
+  }
+  EXPECT_THAT(watch_lines(table, 5 * kSecond_ns, kWide),
+              Contains("pictures: 6 of 2 cameras, 0 lost; none from line/dome for 4.0 s"));
 }
 
 TEST(WatchTable, APoseThatStoppedIsLostAndItsValueIsGone) {
