@@ -8,9 +8,11 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
-#include "tools/listen/received_pose.hpp"
+#include "pharos/target_state_t.hpp"
+#include "tools/listen/received_state.hpp"
 #include "tools/listen/subscription.hpp"
 
 namespace pharos::tools {
@@ -64,7 +66,8 @@ void McapExport::push(const LoggedMessage& message) {
   }
   if (take<pose_t>(Topic::kPose, channel, message) || take<status_t>(Topic::kStatus, channel, message) ||
       take<bearings_t>(Topic::kBearings, channel, message) || take<pointing_t>(Topic::kPointing, channel, message) ||
-      take<spin_t>(Topic::kSpin, channel, message) || take_clock(channel, message)) {
+      take<spin_t>(Topic::kSpin, channel, message) || take<target_state_t>(Topic::kTargetState, channel, message) ||
+      take<preview_t>(Topic::kPreview, channel, message) || take_clock(channel, message)) {
     return;
   }
   ++counts.foreign;
@@ -99,7 +102,7 @@ bool McapExport::take_clock(const std::string& channel, const LoggedMessage& log
   return true;
 }
 
-void McapExport::write(Topic topic, const std::string& channel, const char* suffix, const Stamp& stamp,
+void McapExport::write(Topic topic, const std::string& channel, const std::string& suffix, const Stamp& stamp,
                        const Json& json) {
   // A channel may hold several types: each has a topic of its own, with the type behind the first one's name.
   std::uint16_t& schema = schemas_[static_cast<std::size_t>(topic)];
@@ -117,9 +120,21 @@ void McapExport::write_more(const pose_t& pose, const std::string& channel, cons
   const ReceivedPose received = received_pose(channel, pose, 0);
   if (!received.pose || grade_of(received) != host::PoseGrade::kGood || !is_time(pose.utime)) return;
   const std::string prefix = frame_prefix(pose);
-  const std::string parent = prefix + pose.parent_frame, child = prefix + pose.target + '/' + pose.child_frame;
-  const Json time = time_json(pose.utime), t = vector_json(received.pose->t),
-             q = quaternion_json(received.pose->quaternion());
+  write_pose(channel, stamp, pose.utime, prefix + pose.parent_frame, prefix + pose.target + '/' + pose.child_frame,
+             *received.pose);
+}
+
+void McapExport::write_more(const target_state_t& state, const std::string& channel, const Stamp& stamp) {
+  if (state.valid == 0 || state.has_conflict != 0) return;
+  if (!is_rotation(state.orientation_wxyz) || !is_time(state.utime)) return;
+  const std::string prefix = std::string(kFusionSource) + '/';
+  write_pose(channel, stamp, state.utime, prefix + "vehicle", prefix + state.target + "/target",
+             *received_state(channel, state, 0).pose);
+}
+
+void McapExport::write_pose(const std::string& channel, const Stamp& stamp, std::int64_t utime_us,
+                            const std::string& parent, const std::string& child, const LighthouseFromBody& pose) {
+  const Json time = time_json(utime_us), t = vector_json(pose.t), q = quaternion_json(pose.quaternion());
   write(Topic::kTransform, channel, "/transform", stamp,
         {{"timestamp", time},
          {"parent_frame_id", parent},
@@ -132,6 +147,18 @@ void McapExport::write_more(const pose_t& pose, const std::string& channel, cons
 
 void McapExport::write_more(const status_t& status, const std::string& channel, const Stamp& stamp) {
   write(Topic::kCounters, channel, "/counters", stamp, counters_of(status));
+}
+
+void McapExport::write_more(const preview_t& preview, const std::string& channel, const Stamp& stamp) {
+  if (!is_time(preview.utime)) return;
+  const std::string camera = preview.source + (preview.view.empty() ? "" : '/' + preview.view);
+  if (cameras_.size() < kMaxCameras) cameras_.insert(camera);
+  const std::string suffix = cameras_.contains(camera) ? topic_of(camera) + "/image" : "/image";
+  write(Topic::kImage, channel, suffix, stamp,
+        {{"timestamp", time_json(preview.utime)},
+         {"frame_id", preview.source + (preview.view.empty() ? "/camera" : '/' + preview.view)},
+         {"data", base64(preview.data)},
+         {"format", preview.format}});
 }
 
 std::int64_t McapExport::exported() const {

@@ -5,16 +5,20 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "tools/export/mcap_writer.hpp"
 #include "tools/export/schemas.hpp"
 #include "tools/lcm_log/lcm_log.hpp"
+#include "tools/listen/received_pose.hpp"
 
 namespace pharos {
 class pose_t;
+class preview_t;
 class status_t;
+class target_state_t;
 }  // namespace pharos
 
 namespace pharos::tools {
@@ -28,13 +32,14 @@ struct ChannelCounts {
 };
 
 /// Messages of a log into an MCAP file. Every message becomes JSON with all its fields on the topic /CHANNEL; a good
-/// pose also a transform and a pose of Foxglove's schemas (/CHANNEL/transform, /CHANNEL/pose), a status its counters by
-/// name
-/// (/CHANNEL/counters).
+/// pose or state also a transform and a pose of Foxglove's schemas (/CHANNEL/transform, /CHANNEL/pose), a status its
+/// counters by name (/CHANNEL/counters), a preview its picture (/CHANNEL/SOURCE[/VIEW]/image).
 class McapExport {
  public:
   /// Counts of further channels are summed up under "...": a log's channel names come from anyone.
   static constexpr std::size_t kMaxChannels = 1000;
+  /// Pictures of further cameras are on one topic, /CHANNEL/image.
+  static constexpr std::size_t kMaxCameras = 64;
 
   McapExport(std::FILE* stream, std::string_view library) : writer_(stream, library) {}
 
@@ -54,9 +59,13 @@ class McapExport {
   template <class Message>
   bool take(Topic topic, const std::string& channel, const LoggedMessage& message);
   bool take_clock(const std::string& channel, const LoggedMessage& message);
-  void write(Topic topic, const std::string& channel, const char* suffix, const Stamp& stamp, const Json& json);
+  void write(Topic topic, const std::string& channel, const std::string& suffix, const Stamp& stamp, const Json& json);
+  void write_pose(const std::string& channel, const Stamp& stamp, std::int64_t utime_us, const std::string& parent,
+                  const std::string& child, const LighthouseFromBody& pose);
   void write_more(const pose_t& pose, const std::string& channel, const Stamp& stamp);
   void write_more(const status_t& status, const std::string& channel, const Stamp& stamp);
+  void write_more(const target_state_t& state, const std::string& channel, const Stamp& stamp);
+  void write_more(const preview_t& preview, const std::string& channel, const Stamp& stamp);
   template <class Other>
   void write_more(const Other&, const std::string&, const Stamp&) {}
 
@@ -64,6 +73,7 @@ class McapExport {
   std::array<std::uint16_t, kTopics> schemas_{};  // 0: not written yet
   std::map<std::string, std::uint16_t> topics_;
   std::map<std::string, ChannelCounts> channels_;
+  std::set<std::string> cameras_;
 };
 
 }  // namespace pharos::tools

@@ -8,8 +8,10 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -144,6 +146,59 @@ Json json_of(const clock_exchange_t& m) {
   return {{"sender", m.sender},           {"recipient", m.recipient},      {"session", m.session},
           {"sequence", m.sequence},       {"is_answer", m.is_answer != 0}, {"asked_session", m.asked_session},
           {"received_ns", m.received_ns}, {"answered_ns", m.answered_ns}};
+}
+
+Json json_of(const target_state_t& m) {
+  Json sources = Json::array();
+  for (const fused_source_t& source : m.sources) {
+    sources.push_back({{"name", source.name},
+                       {"state", source.state},
+                       {"reason", source.reason},
+                       {"age_us", source.age_us},
+                       {"normalised_innovation", source.normalised_innovation}});
+  }
+  return {{"utime", m.utime},
+          {"sequence", m.sequence},
+          {"target", m.target},
+          {"mode", m.mode},
+          {"valid", m.valid != 0},
+          {"position_m", m.position_m},
+          {"orientation_wxyz", m.orientation_wxyz},
+          {"velocity_m_s", m.velocity_m_s},
+          {"angular_rate_rad_s", m.angular_rate_rad_s},
+          {"covariance", m.covariance},
+          {"position_protection_available", m.position_protection_available != 0},
+          {"rotation_protection_available", m.rotation_protection_available != 0},
+          {"position_protection_m", m.position_protection_m},
+          {"rotation_protection_rad", m.rotation_protection_rad},
+          {"risk_per_hour", m.risk_per_hour},
+          {"sources", std::move(sources)},
+          {"has_conflict", m.has_conflict != 0},
+          {"conflict_without", m.conflict_without},
+          {"conflict_position_m", m.conflict_position_m},
+          {"conflict_orientation_wxyz", m.conflict_orientation_wxyz}};
+}
+
+Json json_of(const preview_t& m) {
+  return {{"utime", m.utime},         {"sequence", m.sequence},
+          {"source", m.source},       {"station_or_camera", m.station_or_camera},
+          {"view", m.view},           {"target", m.target},
+          {"status", m.status},       {"width_px", m.width_px},
+          {"height_px", m.height_px}, {"format", m.format},
+          {"size", m.data.size()}};
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8U | (k < count ? bytes[at + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= count ? kDigits[bits >> (18U - 6U * k) & 63U] : '=';
+  }
+  return out;
 }
 
 Json counters_of(const status_t& m) {

@@ -168,6 +168,46 @@ Json clock_schema() {
                  {"answered_ns", kInteger}});
 }
 
+Json target_state_schema() {
+  const Json source = object(
+      {{"name", kText}, {"state", kText}, {"reason", kText}, {"age_us", kInteger}, {"normalised_innovation", kNumber}});
+  return object(
+      {{"utime", kUtime},
+       {"sequence", kInteger},
+       {"target", kText},
+       {"mode", kText},
+       {"valid", kFlag},
+       {"position_m", numbers(3)},
+       {"orientation_wxyz", numbers(4)},
+       {"velocity_m_s", numbers(3)},
+       {"angular_rate_rad_s", numbers(3)},
+       {"covariance", with_words(numbers(144), "12x12, row by row: rotation, position, angular rate, velocity")},
+       {"position_protection_available", kFlag},
+       {"rotation_protection_available", kFlag},
+       {"position_protection_m", kNumber},
+       {"rotation_protection_rad", kNumber},
+       {"risk_per_hour", kNumber},
+       {"sources", list_of(source)},
+       {"has_conflict", kFlag},
+       {"conflict_without", list_of(kText)},
+       {"conflict_position_m", list_of(numbers(3))},
+       {"conflict_orientation_wxyz", list_of(numbers(4))}});
+}
+
+Json preview_schema() {
+  return object({{"utime", kUtime},
+                 {"sequence", kInteger},
+                 {"source", kText},
+                 {"station_or_camera", kText},
+                 {"view", kText},
+                 {"target", kText},
+                 {"status", kText},
+                 {"width_px", kInteger},
+                 {"height_px", kInteger},
+                 {"format", kText},
+                 {"size", with_words(kInteger, "bytes of the picture, which is on the topic .../image")}});
+}
+
 // Foxglove's published messages, with their fields.
 Json time_schema() { return object({{"sec", kInteger}, {"nsec", kInteger}}); }
 Json vector_schema() { return object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}}); }
@@ -186,12 +226,20 @@ Json pose_in_frame_schema() {
                  {"pose", object({{"position", vector_schema()}, {"orientation", quaternion_schema()}})}});
 }
 
+Json image_schema() {
+  return object({{"timestamp", time_schema()},
+                 {"frame_id", kText},
+                 {"data", {{"type", "string"}, {"contentEncoding", "base64"}}},
+                 {"format", kText}});
+}
+
 }  // namespace
 
 const char* schema_name(Topic topic) {
   constexpr std::array<const char*, kTopics> kNames = {
-      "pharos.pose",   "foxglove.FrameTransform", "foxglove.PoseInFrame", "pharos.pointing",      "pharos.spin",
-      "pharos.status", "pharos.counters",         "pharos.bearings",      "pharos.clock_exchange"};
+      "pharos.pose",           "foxglove.FrameTransform", "foxglove.PoseInFrame", "pharos.pointing",
+      "pharos.spin",           "pharos.status",           "pharos.counters",      "pharos.bearings",
+      "pharos.clock_exchange", "pharos.target_state",     "pharos.preview",       "foxglove.CompressedImage"};
   return kNames[static_cast<std::size_t>(topic)];
 }
 
@@ -224,6 +272,15 @@ Json schema_of(Topic topic) {
       break;
     case Topic::kClock:
       schema = clock_schema();
+      break;
+    case Topic::kTargetState:
+      schema = target_state_schema();
+      break;
+    case Topic::kPreview:
+      schema = preview_schema();
+      break;
+    case Topic::kImage:
+      schema = image_schema();
       break;
   }
   schema["title"] = schema_name(topic);

@@ -17,9 +17,12 @@ enum class Topic : std::uint8_t {
   kStatus,
   kCounters,
   kBearings,
-  kClock
+  kClock,
+  kTargetState,
+  kPreview,
+  kImage
 };
-inline constexpr std::size_t kTopics = 9;
+inline constexpr std::size_t kTopics = 12;
 
 /// The schema's name: pharos.pose, ... or that of Foxglove's schema which readers know.
 const char* schema_name(Topic topic);

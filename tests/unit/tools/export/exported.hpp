@@ -34,6 +34,12 @@ inline std::string example_log() {
   log += logged(kSomeTime_us, "PHAROS_LINE_POINTING", encoded(pointing));
   log += logged(kSomeTime_us, "PHAROS_SLAM_SPIN", encoded(spin_t{}));
   log += logged(kSomeTime_us, "PHAROS_CLOCK", encoded(clock_exchange_t{}));
+  log += logged(kSomeTime_us, "PHAROS_TARGET_STATE", encoded(some_state()));
+  target_state_t conflict = some_state();
+  conflict.has_conflict = 1;
+  log += logged(kSomeTime_us, "PHAROS_TARGET_STATE", encoded(conflict));
+  log += logged(kSomeTime_us, "PHAROS_PREVIEW", encoded(some_preview("tof/helios", "")));
+  log += logged(kSomeTime_us, "PHAROS_PREVIEW", encoded(some_preview("ring2/bow", "left")));
   log += logged(kSomeTime_us, "PHAROS_LIGHTHOUSE_POSE", "a message of another system");
   log += logged(kSomeTime_us, "OTHER", "\xFF\xFE");
   pose_t not_finite = some_pose(0);
@@ -83,6 +89,37 @@ inline std::vector<nlohmann::ordered_json> of_topic(const ReadBack& read, const 
   return out;
 }
 
+/// Bytes of base64 by the alphabet of RFC 4648; of anything else none.
+inline std::vector<std::uint8_t> from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string::npos) return {};
+    bits = bits << 6U | static_cast<std::uint32_t>(digit);
+    count += 6;
+    if (count >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (count -= 8) & 255U));
+  }
+  return bytes;
+}
+
+inline void expect_pictures(const ReadBack& read) {
+  EXPECT_EQ(of_topic(read, "/PHAROS_PREVIEW").size(), 2U);
+  for (const auto& [topic, frame] : {std::pair("/PHAROS_PREVIEW/tof/helios/image", "tof/helios/camera"),
+                                     std::pair("/PHAROS_PREVIEW/ring2/bow/left/image", "ring2/bow/left")}) {
+    const auto images = of_topic(read, topic);
+    ASSERT_EQ(images.size(), 1U) << topic;
+    EXPECT_EQ(images[0]["schema"], "foxglove.CompressedImage");
+    EXPECT_EQ(images[0]["data"]["format"], "jpeg");
+    EXPECT_EQ(images[0]["data"]["frame_id"], frame);
+    EXPECT_EQ(images[0]["data"]["timestamp"]["nsec"], 123'456'000);
+    EXPECT_EQ(from_base64(images[0]["data"]["data"]), some_preview("", "").data);
+  }
+}
+
 /// The example's messages as they must come back from any reader.
 inline void expect_example(const ReadBack& read) {
   ASSERT_FALSE(read.failed) << read.text;
@@ -124,6 +161,15 @@ inline void expect_example(const ReadBack& read) {
   EXPECT_EQ(of_topic(read, "/PHAROS_LINE_POINTING").size(), 1U);
   EXPECT_EQ(of_topic(read, "/PHAROS_SLAM_SPIN").size(), 1U);
   EXPECT_EQ(of_topic(read, "/PHAROS_CLOCK").size(), 1U);
+  const auto states = of_topic(read, "/PHAROS_TARGET_STATE");
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_EQ(states[0]["data"]["covariance"][143], some_state().covariance[143]);
+  EXPECT_EQ(states[0]["data"]["sources"][0]["reason"], "step");
+  const auto of_states = of_topic(read, "/PHAROS_TARGET_STATE/transform");
+  ASSERT_EQ(of_states.size(), 1U) << "without the conflict";
+  EXPECT_EQ(of_states[0]["data"]["parent_frame_id"], "fusion/vehicle");
+  EXPECT_EQ(of_states[0]["data"]["translation"]["z"], 2.5);
+  expect_pictures(read);
 }
 
 }  // namespace pharos::test

@@ -25,6 +25,32 @@ TEST(Mcap, ReadBackIsEqualAndForeignMessagesAreCounted) {
   EXPECT_EQ(channels.at("OTHER").foreign, 1);
 }
 
+// The examples of RFC 4648.
+TEST(Mcap, PicturesAreBase64) {
+  const auto text = [](const std::string& bytes) {
+    return base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  };
+  EXPECT_EQ(text(""), "");
+  EXPECT_EQ(text("f"), "Zg==");
+  EXPECT_EQ(text("fo"), "Zm8=");
+  EXPECT_EQ(text("foo"), "Zm9v");
+  EXPECT_EQ(text("foobar"), "Zm9vYmFy");
+}
+
+TEST(Mcap, ManyCamerasShareATopicInTheEnd) {
+  const test::TemporaryFolder folder;
+  std::string log;
+  for (int k = 0; k < 70; ++k) {
+    log += test::logged(1000 + k, "P", test::encoded(test::some_preview("tof/" + std::to_string(k), "")));
+  }
+  const std::string path = folder.path("log.mcap");
+  test::export_log(folder, log, path);
+  const test::ReadBack read = read_mcap(folder, path);
+  ASSERT_FALSE(read.failed) << read.text;
+  EXPECT_EQ(test::of_topic(read, "/P/tof/63/image").size(), 1U);
+  EXPECT_EQ(test::of_topic(read, "/P/image").size(), 6U);
+}
+
 TEST(Mcap, SeveralChunksAreIndexed) {
   const test::TemporaryFolder folder;
   std::string log;

@@ -10,8 +10,10 @@
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
 #include "pharos/status_t.hpp"
+#include "pharos/target_state_t.hpp"
 #include "tests/support/lcm_log.hpp"
 
 namespace pharos::test {
@@ -71,6 +73,40 @@ inline bearings_t some_bearings() {
   }
   bearings.count = 3;
   return bearings;
+}
+
+inline target_state_t some_state() {
+  target_state_t state{};
+  state.utime = kSomeTime_us;
+  state.sequence = 5;
+  state.target = "dock";
+  state.mode = "fused";
+  state.valid = 1;
+  state.position_m[2] = 2.5;
+  state.orientation_wxyz[0] = 0.8;
+  state.orientation_wxyz[2] = -0.6;
+  for (int k = 0; k < 144; ++k) state.covariance[k] = 1e-9 * k;
+  state.sources.resize(1);
+  state.sources[0].name = "tof";
+  state.sources[0].reason = "step";
+  state.source_count = 1;
+  return state;
+}
+
+/// Every byte there is, as the picture.
+inline preview_t some_preview(const std::string& source, const std::string& view) {
+  preview_t preview{};
+  preview.utime = kSomeTime_us;
+  preview.sequence = 9;
+  preview.source = source;
+  preview.view = view;
+  preview.status = "ok";
+  preview.width_px = 640;
+  preview.height_px = 480;
+  preview.format = "jpeg";
+  for (int k = 0; k < 256; ++k) preview.data.push_back(static_cast<std::uint8_t>(k));
+  preview.size = 256;
+  return preview;
 }
 
 }  // namespace pharos::test
