@@ -45,8 +45,10 @@ mkdir "$root/given"
 cp "$packages"/*.deb "$root/given/"
 
 say "installation"
+began=$SECONDS
 mapfile -t wanted < <(given pharos pharos-firmware python3-pharos)
 install_packages "${wanted[@]}"
+installation_s=$((SECONDS - began))
 inside getent passwd pharosd >/dev/null || fail "the user pharosd was not made"
 inside dpkg-query --show --showformat='${Conffiles}' pharos | grep -q /etc/pharos/pharosd.toml ||
   fail "the configuration is no conffile"
@@ -74,6 +76,7 @@ port=$((20000 + RANDOM % 10000)) # not that of other daemons on this computer
 url=udpm://239.255.76.67:$port?ttl=0
 { cat "$root/usr/share/pharos/examples/demo.toml"; echo "[lcm]"; echo "url = \"$url\""; } |
   sed 's|^max_age_s = .*|max_age_s = 5.0|' >"$root/usr/share/pharos/examples/of_this_test.toml"
+began=$SECONDS
 "${in_chroot[@]}" pharos sim serial /usr/share/pharos/scenarios/demo.toml --seed 1 --link /tmp/pharos-demo-target \
   --truth /tmp/pharos-demo-truth.csv 2>"$root/given/sim.log" &
 children+=($!)
@@ -81,6 +84,18 @@ for _ in $(seq 100); do [ -L "$root/tmp/pharos-demo-target" ] && break; sleep 0.
 "${in_chroot[@]}" pharosd /usr/share/pharos/examples/of_this_test.toml 2>"$root/given/pharosd.log" &
 daemon=$!
 children+=($daemon)
+"${in_chroot[@]}" pharos view --port 0 --url "$url" >"$root/given/view.txt" 2>"$root/given/view.log" &
+children+=($!)
+for _ in $(seq 100); do [ -s "$root/given/view.txt" ] && break; sleep 0.1; done
+# The page's states, as a browser receives them, up to the first with a pose.
+"${PYTHON:-/usr/bin/python3}" -c '
+import json, sys, urllib.request
+for line in urllib.request.urlopen(sys.argv[1] + "states", timeout=120):
+    rows = json.loads(line[6:])["rows"] if line.startswith(b"data: ") else []
+    if any("p" in row for row in rows):
+        sys.exit(0)
+sys.exit("the page shows no pose")' "$(cat "$root/given/view.txt")" || fail "no pose on the page"
+echo "installation $installation_s s; then a simulated target, pharosd, pharos view: first pose on the page after $((SECONDS - began)) s"
 inside pharos listen PHAROS_LIGHTHOUSE_POSE --url "$url" --truth /tmp/pharos-demo-truth.csv --duration 20 \
   >"$root/given/lines.txt" 2>"$root/given/summary.txt" ||
   { cat "$root/given"/*.log "$root/given/summary.txt" >&2; fail "no pose came"; }
@@ -88,7 +103,7 @@ cat "$root/given/summary.txt"
 grep -q 'error against truth' "$root/given/summary.txt" || fail "nothing was compared with the truth"
 kill "$daemon"
 wait "$daemon" || fail "pharosd did not stop cleanly"
-kill "${children[0]}" 2>/dev/null || true # the simulated target
+kill "${children[0]}" "${children[2]}" 2>/dev/null || true # the simulated target, the page
 rm "$root/usr/share/pharos/examples/of_this_test.toml"
 
 say "programs built against the packages"
