@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/receive/message_shape.hpp"
 
-#include <charconv>
 #include <cstdint>
 
 namespace pharos::host {
@@ -35,13 +34,18 @@ struct Walk {
   }
 };
 
-// Bytes of an entry that is a single number; 0 for any other.
-std::size_t single_number(std::string_view entry) {
-  const std::size_t first = entry.find_first_not_of(' '), last = entry.find_last_not_of(' ');
-  if (first == std::string_view::npos) return 0;
-  std::size_t bytes = 0;
-  const char* const end = entry.data() + last + 1;
-  return std::from_chars(entry.data() + first, end, bytes).ptr == end ? bytes : 0;
+// Bytes of an entry that has numbers alone; 0 for any other.
+std::size_t fixed_size(std::string_view entry) {
+  std::size_t sum = 0, number = 0;
+  for (const char c : entry) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit && c != ' ') return 0;
+    if (digit) number = 10 * number + static_cast<std::size_t>(c - '0');
+    if (digit) continue;
+    sum += number;
+    number = 0;
+  }
+  return sum + number;
 }
 
 std::size_t end_of_list(std::string_view shape) {
@@ -70,7 +74,7 @@ void follow(Walk& walk, std::string_view shape) {
       const std::string_view entry = shape.substr(at + 1, size - 1);
       const std::int32_t count = walk.length();
       walk.ok = walk.ok && count >= 0;
-      if (const std::size_t bytes = single_number(entry); bytes > 0 && walk.ok) {
+      if (const std::size_t bytes = fixed_size(entry); bytes > 0 && walk.ok) {
         walk.skip(bytes * static_cast<std::size_t>(count));
       } else {
         for (std::int32_t i = 0; i < count && walk.ok; ++i) follow(walk, entry);
@@ -81,6 +85,14 @@ void follow(Walk& walk, std::string_view shape) {
 }
 
 }  // namespace
+
+bool has_fingerprint(const void* data, int size, std::int64_t fingerprint) {
+  if (size < static_cast<int>(kFingerprint_bytes)) return false;
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::uint64_t read = 0;
+  for (std::size_t k = 0; k < kFingerprint_bytes; ++k) read = read << 8U | bytes[k];
+  return read == static_cast<std::uint64_t>(fingerprint);
+}
 
 bool has_shape(const void* data, int size, std::string_view shape) {
   Walk walk{static_cast<const unsigned char*>(data), static_cast<std::size_t>(size < 0 ? 0 : size)};

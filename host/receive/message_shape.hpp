@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 namespace pharos {
@@ -44,6 +45,9 @@ inline constexpr std::string_view kMessageShape<clock_exchange_t> = "s s 8 8 1 8
 template <>
 inline constexpr std::string_view kMessageShape<preview_t> = "8 8 s s s s s 4 4 s ( 1 )";
 
+/// Whether the bytes begin as a message of the type with this fingerprint.
+bool has_fingerprint(const void* data, int size, std::int64_t fingerprint);
+
 /// Whether `size` bytes at `data` are a fingerprint and then exactly the fields of `shape`, each length within them.
 bool has_shape(const void* data, int size, std::string_view shape);
 
@@ -52,7 +56,8 @@ bool has_shape(const void* data, int size, std::string_view shape);
 template <class Message>
 bool decode(Message& message, const void* data, int size) {
   static_assert(!kMessageShape<Message>.empty(), "write the type's shape into message_shape.hpp");
-  return has_shape(data, size, kMessageShape<Message>) && message.decode(data, 0, size) == size;
+  return has_fingerprint(data, size, Message::getHash()) && has_shape(data, size, kMessageShape<Message>) &&
+         message.decode(data, 0, size) == size;
 }
 
 }  // namespace pharos::host

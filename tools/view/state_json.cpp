@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/state_json.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -42,19 +44,31 @@ Json json_of(const Lights& lights) {
   return out;
 }
 
-// A list for each sensor that is lit: number, used, x/z, y/z (null where one plane alone hit it).
-Json json_of(const Sights& sights) {
-  constexpr double kDirection = 1e5;
-  Json out = Json::array();
+void add_number(std::string& text, double value) {
+  constexpr int kDigits = 5;
+  std::array<char, 32> digits{};  // a ratio is at most 1000: see is_possible
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, kDigits);
+  text.append(digits.data(), error == std::errc{} ? end : digits.data());
+}
+
+// A list for each sensor that is lit: number, used, x/z, y/z (null where one plane alone hit it). As text at once: of
+// 32 targets these are most of a state's values.
+void add_sensors(std::string& text, const Sights& sights) {
+  text += '[';
   for (std::size_t number = 0; number < sights.sensors.size(); ++number) {
     const auto& sensor = sights.sensors[number];
     if (!sensor) continue;
-    const auto ratio = [](const std::optional<double>& value) {
-      return value ? Json(rounded(*value, kDirection)) : Json();
-    };
-    out.push_back({number, sensor->used, ratio(sensor->x_over_z), ratio(sensor->y_over_z)});
+    if (text.back() != '[') text += ',';
+    text += '[' + std::to_string(number) + (sensor->used ? ",true" : ",false");
+    for (const std::optional<double>& ratio : {sensor->x_over_z, sensor->y_over_z}) {
+      text += ',';
+      if (ratio) add_number(text, *ratio);
+      if (!ratio) text += "null";
+    }
+    text += ']';
   }
-  return out;
+  text += ']';
 }
 
 void add_value(Json& out, const SourceRow& row) {
@@ -122,9 +136,6 @@ Json row_json(const SourceTable& table, const SourceKey& key, const SourceRow& r
   out["lights"] = json_of(lights_of(table, key, row, context.now_ns));
   if (current) add_value(out, row);
   if (row.fused) out["fused"] = fused_json(*row.fused);
-  const Sights* sights = table.sights_of(key);
-  // As long as a value stays current; then the sensors are dark.
-  if (sights != nullptr && context.now_ns - sights->arrived_ns < 1'500'000'000) out["sensors"] = json_of(*sights);
   return out;
 }
 
@@ -169,14 +180,34 @@ Json previews_json(const SourceTable& table, std::int64_t now_ns) {
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+// An object's text, to which a last field can be added; close it with '}'.
+std::string open_text_of(const Json& object) {
+  std::string text = text_of(object);
+  text.pop_back();
+  return text;
+}
+
+std::string rows_text(const SourceTable& table, const ViewContext& context) {
+  std::string text = "[";
+  for (const auto& [key, row] : table.rows()) {
+    if (text.size() > 1) text += ',';
+    text += open_text_of(row_json(table, key, row, context));
+    const Sights* sights = table.sights_of(key);
+    // As long as a value stays current; then the sensors are dark.
+    if (sights != nullptr && context.now_ns - sights->arrived_ns < 1'500'000'000) {
+      text += ",\"sensors\":";
+      add_sensors(text, *sights);
+    }
+    text += '}';
+  }
+  return text + ']';
+}
+
 }  // namespace
 
 std::string state_json(const SourceTable& table, const ViewContext& context) {
-  Json rows = Json::array();
-  for (const auto& [key, row] : table.rows()) rows.push_back(row_json(table, key, row, context));
   const LeftOut& left_out = table.left_out();
   Json state = {{"utc_ms", context.utc_ns / 1'000'000},
-                {"rows", std::move(rows)},
                 {"daemons", daemons_json(table, context.now_ns)},
                 {"events", events_json(table)},
                 {"previews", previews_json(table, context.now_ns)},
@@ -195,7 +226,7 @@ std::string state_json(const SourceTable& table, const ViewContext& context) {
                        {"playing", replay.playing},
                        {"skipped", replay.skipped}};
   }
-  return text_of(state);
+  return open_text_of(state) + ",\"rows\":" + rows_text(table, context) + '}';
 }
 
 std::string targets_json(const std::map<std::string, Target>& targets) {
