@@ -68,7 +68,10 @@ void LowerEnvelope::add(double time_s, double delay_ns) {
     bin->minimum = point;
   } else if (!bin->second || delay_ns < bin->second->delay_ns) {
     bin->second = point;
+  } else {
+    return;
   }
+  line_.reset();
   while (bins_.front().number <= bins_.back().number - kWindowBins) bins_.pop_front();
 }
 
@@ -87,7 +90,12 @@ std::vector<LowerEnvelope::Point> LowerEnvelope::points() const {
   return points;
 }
 
-std::optional<LowerEnvelope::Line> LowerEnvelope::fit() const {
+const std::optional<LowerEnvelope::Line>& LowerEnvelope::fit() {
+  if (!line_) line_ = fitted();
+  return line_;
+}
+
+std::optional<LowerEnvelope::Line> LowerEnvelope::fitted() const {
   const std::vector<Point> all = points();
   if (all.empty()) return std::nullopt;
   Line line;

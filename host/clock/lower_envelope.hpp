@@ -30,8 +30,13 @@ class LowerEnvelope {
   };
 
   void add(double time_s, double delay_ns);
-  std::optional<Line> fit() const;
-  void clear() { bins_.clear(); }
+  /// Empty without points. Computed anew only where a bin's two smallest delays have changed since the last call: a
+  /// tenth of all points do that.
+  const std::optional<Line>& fit();
+  void clear() {
+    bins_.clear();
+    line_.reset();
+  }
 
  private:
   struct Point {
@@ -45,8 +50,10 @@ class LowerEnvelope {
   };
 
   std::vector<Point> points() const;
+  std::optional<Line> fitted() const;
 
-  std::deque<Bin> bins_;  // by number
+  std::deque<Bin> bins_;      // by number
+  std::optional<Line> line_;  // of the bins as they are; empty: to be computed
 };
 
 }  // namespace pharos::host
