@@ -36,26 +36,57 @@ TofFeed::TofFeed(const SourceContext& context, const TofConfig& config)
       state_log_(config.name),
       clock_(clock_of(context, config)),
       frames_(frames_of(context, config)),
+      pipeline_(config, context.config.publish, "tof/" + config.name, context.publisher, clock_),
       estimator_(config.camera, config.tof),
-      pipeline_(config, context.config.publish, "tof/" + config.name, context.publisher, clock_,
-                [this](const DepthFrame& frame) { return estimator_.measure(frame); }) {
+      worker_(tof_worker(estimator_)) {
+  context_.loop.watch(worker_.fd(), [this] { on_results(); });
+  watch_frames();
+}
+
+TofFeed::~TofFeed() {
+  forget_frames();
+  context_.loop.forget(worker_.fd());
+}
+
+void TofFeed::watch_frames() {
+  if (watched_) return;
+  watched_ = true;
   context_.loop.watch(frames_->fd(), [this] { on_readable(); });
 }
 
-TofFeed::~TofFeed() { context_.loop.forget(frames_->fd()); }
+void TofFeed::forget_frames() {
+  if (!watched_) return;
+  watched_ = false;
+  context_.loop.forget(frames_->fd());
+}
 
-// One frame per iteration of the event loop, so that lighthouse cycles never wait for two.
+// While one frame is measured the source keeps the newest that come. At full speed all recordings wait: the frame would
+// be dropped for a newer one, and its pose would come among other poses in another order each time.
 void TofFeed::on_readable() {
   if (DepthFramePtr frame = frames_->take()) {
-    const std::optional<TofReport> report = pipeline_.take(*frame);
-    if (report && context_.preview_due(report->source)) {
-      std::vector<AnnotatedImage> picture(1, annotated_image(frame->intensity_view(), estimator_.drawing()));
-      context_.previews->take(*report, std::move(picture));
+    if (const auto time = pipeline_.take(*frame)) {
+      forget_frames();
+      if (context_.replay_speed == ReplaySpeed::kFastest) context_.replay->hold();
+      worker_.post({std::move(frame), *time});
+    } else {
+      frames_->recycle(std::move(frame));
     }
-    frames_->recycle(std::move(frame));
   } else if (!finished_ && frames_->status().finished) {
     finished_ = true;
     context_.on_finished();
+  }
+}
+
+void TofFeed::on_results() {
+  while (auto done = worker_.take()) {
+    const std::optional<TofReport> report = pipeline_.done(*done);
+    if (report && context_.preview_due(report->source)) {  // the estimator rests: it still holds what it found
+      std::vector<AnnotatedImage> picture(1, annotated_image(done->job.frame->intensity_view(), estimator_.drawing()));
+      context_.previews->take(*report, std::move(picture));
+    }
+    frames_->recycle(std::move(done->job.frame));
+    if (context_.replay_speed == ReplaySpeed::kFastest) context_.replay->go_on();
+    watch_frames();
   }
 }
 

@@ -8,11 +8,13 @@
 #include "host/daemon/source_state_log.hpp"
 #include "host/daemon/tof_estimator.hpp"
 #include "host/daemon/tof_pipeline.hpp"
+#include "host/daemon/tof_worker.hpp"
 #include "host/device/frame_source.hpp"
 
 namespace pharos::host {
 
-/// One depth camera of the configuration: passes its frames to its pipeline and logs its errors.
+/// One depth camera of the configuration: passes its frames to a worker and the results to its pipeline, and logs its
+/// errors.
 class TofFeed final : public Source {
  public:
   /// Throws InputError if recorded frames cannot be used.
@@ -28,16 +30,21 @@ class TofFeed final : public Source {
   StorageError storage_error() const override { return {"recording", frames_->storage_error()}; }
 
  private:
+  void watch_frames();
+  void forget_frames();
   void on_readable();
+  void on_results();
 
   const SourceContext& context_;
   std::string name_;
   SourceStateLog state_log_;
   const Clock& clock_;
   std::unique_ptr<FrameSource> frames_;
-  TofEstimator estimator_;
+  bool watched_ = false;  // the frames' descriptor by the loop
   TofPipeline pipeline_;
   bool finished_ = false;
+  TofEstimator estimator_;
+  TofWorker worker_;
 };
 
 /// Opens every [[camera]].

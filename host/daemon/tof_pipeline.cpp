@@ -17,11 +17,10 @@ std::int64_t first_wait_ns(const TofConfig& config) { return kSilence_ns + confi
 }  // namespace
 
 TofPipeline::TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source,
-                         Publisher& publisher, const Clock& clock, Measure measure)
+                         Publisher& publisher, const Clock& clock)
     : config_(config),
       source_(source),
       host_clock_(clock),
-      measure_(std::move(measure)),
       log_(config.name),
       average_(config.average_frames),
       gate_(publisher, counters_.frames_not_finite,
@@ -49,7 +48,7 @@ std::optional<MappedTime> TofPipeline::time_of(const DepthFrame& frame) {
   return time;
 }
 
-std::optional<TofReport> TofPipeline::take(const DepthFrame& frame) {
+std::optional<MappedTime> TofPipeline::take(const DepthFrame& frame) {
   const std::int64_t began_ns = host_clock_.monotonic_ns();
   rate_.on_data(frame.complete_monotonic_ns);
   transport_.add(frame.complete_monotonic_ns - frame.arrival_monotonic_ns);
@@ -65,13 +64,17 @@ std::optional<TofReport> TofPipeline::take(const DepthFrame& frame) {
     delivery_.on_answer(false, began_ns);
     return std::nullopt;
   }
-  TofResult answered = measure_(frame);
-  estimator_.add(host_clock_.monotonic_ns() - began_ns);
+  return time;
+}
+
+std::optional<TofReport> TofPipeline::done(const TofWorker::Done& done) {
+  estimator_.add(done.took_ns);
   for (std::size_t k = 0; k < tof::kTofStages; ++k) {
-    if (answered.stage_ns[k] > 0) estimator_stages_[k].add(answered.stage_ns[k]);
+    if (done.answer.stage_ns[k] > 0) estimator_stages_[k].add(done.answer.stage_ns[k]);
   }
-  if (frame.taken_in_turns) add_flag_word(answered.flags, "in_turns");
-  return answer(answered, *time);
+  TofResult result = done.answer;
+  if (done.job.frame->taken_in_turns) add_flag_word(result.flags, "in_turns");
+  return answer(result, done.job.time);
 }
 
 void TofPipeline::count(const TofReport& report) {

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 
 #include "host/config/daemon_config.hpp"
@@ -16,7 +16,7 @@
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/source_changes.hpp"
 #include "host/daemon/tof_counters.hpp"
-#include "host/daemon/tof_estimator.hpp"
+#include "host/daemon/tof_worker.hpp"
 #include "host/device/frame_source.hpp"
 #include "host/publish/publish_gate.hpp"
 #include "host/runtime/clock.hpp"
@@ -24,19 +24,19 @@
 
 namespace pharos::host {
 
-/// One depth camera's frames to poses on LCM: time -> estimator -> mean -> gate. Independent of cameras and files.
+/// One depth camera's frames to poses on LCM: time -> (estimator) -> mean -> gate. Independent of cameras, files and
+/// threads.
 class TofPipeline {
  public:
-  using Measure = std::function<TofResult(const DepthFrame&)>;
-
-  /// `publisher` and `clock` must outlive this. `source` is part of every message. `measure`: TofEstimator::measure, or
-  /// a function of a test.
+  /// `publisher` and `clock` must outlive this. `source` is part of every message.
   TofPipeline(const TofConfig& config, const PublishConfig& publish, const std::string& source, Publisher& publisher,
-              const Clock& clock, Measure measure);
+              const Clock& clock);
 
-  /// Takes a complete new frame. Its result is published before this returns. Its report; empty if the frame was
-  /// not measured, or its result is not fit to be sent.
-  std::optional<TofReport> take(const DepthFrame& frame);
+  /// Takes a complete new frame; its exposure time if it is to be measured, else empty, and counted.
+  std::optional<MappedTime> take(const DepthFrame& frame);
+  /// Takes the result of a frame, which is published before this returns. Its report; empty if the result is not fit to
+  /// be sent.
+  std::optional<TofReport> done(const TofWorker::Done& done);
 
   /// Sets the limits for publishing, from now on.
   void set_publish(const PublishConfig& publish) { gate_.set_max_age(publish.max_age_ns()); }
@@ -64,7 +64,6 @@ class TofPipeline {
   TofConfig config_;
   std::string source_;
   const Clock& host_clock_;
-  Measure measure_;
   RateLimitedLog log_;
   FrameClock clock_;
   PoseJumpCheck jump_check_;
@@ -77,7 +76,8 @@ class TofPipeline {
   RateMonitor rate_;
   FrameDelivery delivery_;
   SourceChanges changes_;
-  // Stages of a frame: first packet to last, waiting for the loop, estimator; and from its first packet to LCM.
+  // Stages of a frame: first packet to last, waiting for the loop and for the frame before, estimator; and from its
+  // first packet to LCM.
   LatencyHistogram transport_;
   LatencyHistogram waiting_;
   LatencyHistogram estimator_;

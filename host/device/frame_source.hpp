@@ -20,7 +20,7 @@ namespace pharos::host {
   X(frames_wrong_time, "frames whose time is not the camera's clock's: another sender's")             \
   X(datagrams_discarded, "datagrams to the stream's port that were not the camera's, or had no room") \
   X(frames_unpaired, "depth frames whose intensity frame did not come, or the reverse")               \
-  X(frames_dropped, "whole frames that gave way to newer ones: the loop was busy")                    \
+  X(frames_dropped, "whole frames that gave way to newer ones: the one before was still measured")    \
   X(camera_opened, "times the camera was opened")                                                     \
   X(camera_lost, "times it was lost")                                                                 \
   X(camera_silences, "times it was opened anew because no frame came")                                \

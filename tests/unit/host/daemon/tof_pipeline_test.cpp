@@ -34,12 +34,13 @@ class TofPipelineTest : public ::testing::Test {
  protected:
   TofPipelineTest() { make(camera_config()); }
 
-  void make(const TofConfig& config) {
-    pipeline.emplace(config, PublishConfig{}, "tof/helios", publisher, clock, [this](const DepthFrame& frame) {
-      measured.push_back(frame.camera_ns);
-      clock.advance(busy_ns);
-      return next_answer;
-    });
+  void make(const TofConfig& config) { pipeline.emplace(config, PublishConfig{}, "tof/helios", publisher, clock); }
+  void take(const DepthFrame& frame) {
+    const auto time = pipeline->take(frame);
+    if (!time) return;
+    measured.push_back(frame.camera_ns);
+    clock.advance(busy_ns);
+    pipeline->done({{std::make_unique<DepthFrame>(frame), *time}, next_answer, 0, busy_ns});
   }
   DepthFrame frame_now(CameraClock camera_clock = CameraClock::kHost) {
     clock.advance(kFramePeriod_ns);
@@ -77,7 +78,7 @@ class TofPipelineTest : public ::testing::Test {
 
 TEST_F(TofPipelineTest, PublishesAPoseForAFrame) {
   const DepthFrame frame = frame_now();
-  pipeline->take(frame);
+  take(frame);
   ASSERT_EQ(poses().size(), 1u);
   const pose_t pose = poses()[0];
   EXPECT_EQ(pose.source, "tof/helios");
@@ -99,7 +100,7 @@ TEST_F(TofPipelineTest, ReportsRefusedFramesWithTheirReason) {
   next_answer = {};
   next_answer.refusal = "no_ring_plane";
   next_answer.advice = "look at a ring";
-  pipeline->take(frame_now());
+  take(frame_now());
   ASSERT_EQ(poses().size(), 1u);
   EXPECT_EQ(poses()[0].status, "refused_no_ring_plane");
   EXPECT_FALSE(poses()[0].valid);
@@ -113,7 +114,7 @@ TEST_F(TofPipelineTest, ReportsRefusedFramesWithTheirReason) {
 
 TEST_F(TofPipelineTest, ReportsTheTimeOfEachStageThatAFrameCameTo) {
   next_answer.stage_ns[static_cast<std::size_t>(tof::TofStage::kEdges)] = 2'000'000;
-  for (int k = 0; k < 3; ++k) pipeline->take(frame_now());
+  for (int k = 0; k < 3; ++k) take(frame_now());
   EXPECT_EQ(counter("estimator.edges_max_us"), 2000);
   EXPECT_EQ(counter("estimator.edges_p50_us"), 2000);
   EXPECT_EQ(counter("estimator.face_max_us"), 0) << "no frame came to it";
@@ -124,7 +125,7 @@ TEST_F(TofPipelineTest, NeitherMeasuresNorSendsWhatIsStale) {
   const std::int64_t second = 1'000'000'000;
   frame.camera_ns -= second;
   frame.arrival_monotonic_ns -= second;
-  pipeline->take(frame);
+  take(frame);
   EXPECT_TRUE(poses().empty());
   EXPECT_TRUE(measured.empty());
   EXPECT_EQ(counter("frames_stale"), 1);
@@ -135,7 +136,7 @@ TEST_F(TofPipelineTest, SendsNothingThatBecameStaleWhileItWasMeasured) {
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   for (const std::int64_t work_ms : {150, 250}) {
     busy_ns = work_ms * kMillisecond_ns;
-    pipeline->take(frame_now());
+    take(frame_now());
   }
   ASSERT_EQ(poses().size(), 1u);
   EXPECT_EQ(poses()[0].latency_us, 150'000);
@@ -146,10 +147,10 @@ TEST_F(TofPipelineTest, SendsNothingThatBecameStaleWhileItWasMeasured) {
 
 TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
   DepthFrame frame = frame_now();
-  pipeline->take(frame);
-  pipeline->take(frame);
+  take(frame);
+  take(frame);
   frame.camera_ns -= kFramePeriod_ns;
-  pipeline->take(frame);
+  take(frame);
   EXPECT_EQ(poses().size(), 1u);
   EXPECT_EQ(counter("frames_time_back"), 2);
 }
@@ -157,7 +158,7 @@ TEST_F(TofPipelineTest, CountsFramesWhoseTimeStandsOrGoesBack) {
 TEST_F(TofPipelineTest, CountsFramesOfAnotherSize) {
   DepthFrame frame = frame_now();
   frame.resize(2, 2);
-  pipeline->take(frame);
+  take(frame);
   EXPECT_TRUE(poses().empty());
   EXPECT_EQ(counter("frames_wrong_size"), 1);
 }
@@ -168,7 +169,7 @@ TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
   for (int i = 0; i < kFrames; ++i) {
     DepthFrame frame = frame_now(CameraClock::kOwn);
     frame.camera_ns = i == 30 ? 5 : 1'000'000'000'000 + i * kFramePeriod_ns;
-    pipeline->take(frame);
+    take(frame);
   }
   const TofCounters& counters = pipeline->counters();
   EXPECT_EQ(counters.frames_time_back, 1);
@@ -181,14 +182,14 @@ TEST_F(TofPipelineTest, CountsEveryFrameOfACameraWithAClockOfItsOwn) {
 
 TEST_F(TofPipelineTest, NeverSendsWhatIsNotFinite) {
   next_answer.estimate.covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();
-  pipeline->take(frame_now());
+  take(frame_now());
   EXPECT_TRUE(poses().empty());
   EXPECT_EQ(counter("frames_not_finite"), 1);
 }
 
 TEST_F(TofPipelineTest, SaysAmbiguousAndBothPoses) {
   next_answer.estimate.second = {next_answer.estimate.pose, 0.0};
-  pipeline->take(frame_now());
+  take(frame_now());
   ASSERT_EQ(poses().size(), 1u);
   EXPECT_EQ(poses()[0].status, "ambiguous");
   EXPECT_TRUE(poses()[0].has_second);
@@ -196,11 +197,11 @@ TEST_F(TofPipelineTest, SaysAmbiguousAndBothPoses) {
 }
 
 TEST_F(TofPipelineTest, RefusesAPoseThatTheLastOnesCannotHaveComeTo) {
-  for (int i = 0; i < 5; ++i) pipeline->take(frame_now());
+  for (int i = 0; i < 5; ++i) take(frame_now());
   next_answer.estimate.pose.t.x() += 0.398;
-  pipeline->take(frame_now());
+  take(frame_now());
   next_answer = good_answer();
-  pipeline->take(frame_now());
+  take(frame_now());
   ASSERT_EQ(poses().size(), 7u);
   EXPECT_EQ(poses()[5].status, "refused_jump");
   EXPECT_FALSE(poses()[5].valid);
@@ -214,7 +215,7 @@ TEST_F(TofPipelineTest, RecordedFramesMayShowDifferentViews) {
   make(config);
   for (int i = 0; i < 5; ++i) {
     next_answer.estimate.pose.t.x() = i;
-    pipeline->take(frame_now());
+    take(frame_now());
   }
   EXPECT_EQ(counter("frames_ok"), 5);
 }
@@ -223,7 +224,7 @@ TEST_F(TofPipelineTest, SendsOneMeanForAWindowOfFrames) {
   TofConfig config = camera_config();
   config.average_frames = 5;
   make(config);
-  for (int i = 0; i < 11; ++i) pipeline->take(frame_now());
+  for (int i = 0; i < 11; ++i) take(frame_now());
   ASSERT_EQ(poses().size(), 2u);
   EXPECT_EQ(poses()[0].sequence, 0);
   EXPECT_EQ(poses()[1].sequence, 1);
@@ -252,7 +253,7 @@ TEST_F(TofPipelineTest, AFifthOfTheFramesLostIsDegradedAndMostPosesRefusedAnErro
     for (int i = 0; i < kFrames; ++i) {
       next_answer = good_answer();
       if (i % of < refused) next_answer.refusal = "no_ring_plane";
-      pipeline->take(frame_now());
+      take(frame_now());
       ++camera.counters.frames_received;
       lost += i % 4 == 0 ? 1 : 0;
       pipeline->state_changed(camera, clock.monotonic_ns());
@@ -269,7 +270,7 @@ TEST_F(TofPipelineTest, AFifthOfTheFramesLostIsDegradedAndMostPosesRefusedAnErro
 }
 
 TEST_F(TofPipelineTest, IsNotOkHalfASecondAfterTheLastFrame) {
-  for (int i = 0; i < 30; ++i) pipeline->take(frame_now());
+  for (int i = 0; i < 30; ++i) take(frame_now());
   EXPECT_TRUE(pipeline->state_changed(open_camera(), clock.monotonic_ns())) << "found";
   EXPECT_EQ(pipeline->health("dev", open_camera(), clock.monotonic_ns()).state, SourceState::kOk);
   clock.advance(400'000'000);
