@@ -58,7 +58,8 @@ constexpr int kFollowed = 3;
 // An attitude known better than this after a sweep makes the bearings' second order negligible.
 constexpr double kLinear_rad = 0.003;
 
-// A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many.
+// A body that is pushed after so many sweeps is not one that has just been found: it must be confirmed anew by so many,
+// two of each rotor.
 constexpr int kSettled = 16, kSettles = 4;
 // Coplanar sensors whose attitude is known no better than this may be tilted to the other side as well. After a start
 // only the tilt itself speaks for the side (0.03 rad about each of two axes), later the motion before does too.
@@ -129,6 +130,7 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   bool& rotor_contradicted = station_state.contradicted[axis_index];
   const bool leapt = leaps(fit_, prediction, now, leaps_of_rotor.since_taken_s(time)) &&
                      !leaps_of_rotor.go_on(fit_, !quiet && rotor_contradicted);
+  const bool improbable = shift_is_improbable(fit_, prediction, now);
   leaps_of_rotor.set(leapt, fit_);
   withheld_ = leapt || (quiet && surprises && !contradicted_ && !rotor_contradicted);
   const bool pushed = quiet && surprises && !withheld_ && sweeps_ > kSettled;
@@ -143,7 +145,8 @@ const SweepFit& Hypothesis::push(const lighthouse::SweepBearings& bearings, Axis
   withheld_ = withheld_ || hits_disagree(fit_);
   diverged_ = diverged_ || withheld_;
   const int used = static_cast<int>(fit_.used.size());
-  dispute(leapt, pushed);
+  // A shaken body's state may be that of wrong sweeps before the leap.
+  dispute(leapt, (leapt && !quiet) || (improbable && shifts_far(fit_)), pushed);
   if (used > 0 && !diverged_) leaps_of_rotor.taken(time);
   consecutive_rejections_ = contradicts || used == 0 || 2 * used < fit_.sensors ? consecutive_rejections_ + 1 : 0;
   // How badly a withheld sweep fits decides nothing between two hypotheses that both withhold it.
@@ -192,13 +195,14 @@ void Hypothesis::judge_tilt() {
 }
 
 // How strongly the sweep speaks against the target, and for how long nothing did.
-void Hypothesis::dispute(bool leapt, bool pushed) {
+void Hypothesis::dispute(bool leapt, bool in_doubt, bool pushed) {
   dispute_ = leapt ? 1.0 : dispute_of(fit_, withheld_, nis_);
   undisputed_ = dispute_ > kSomeDispute ? 0 : undisputed_ + 1;
-  if (!pushed) return;
-  undisputed_ = -kSettles;
-  dispute_ = std::max(dispute_, kSomeDispute);
+  if (in_doubt || pushed) confirm_anew();
+  if (pushed) dispute_ = std::max(dispute_, kSomeDispute);
 }
+
+void Hypothesis::confirm_anew() { undisputed_ = -kSettles; }
 
 // Innovation of a sweep. One that rotates the estimate far is linearised again at the corrected pose (iterated extended
 // Kalman filter): at a tenth of a radian a bearing's second-order part is many times its noise.

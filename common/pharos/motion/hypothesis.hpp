@@ -86,8 +86,10 @@ class Hypothesis {
   bool withheld() const { return withheld_; }
   /// How strongly the last sweep speaks against the target, 0 to 1: no body moved so, or its hits are not of one body.
   double dispute() const { return dispute_; }
-  /// Sweeps since it began, or since one spoke strongly against the target.
+  /// Sweeps since it began, or since one spoke strongly against the target; negative where its state is in doubt.
   int undisputed() const { return undisputed_; }
+  /// It takes over from one that withheld what it took: its state is in doubt.
+  void confirm_anew();
   /// The last sweep was of coplanar sensors, and to which side they are tilted is not known yet: the attitude is no
   /// better than one cycle tells it, and mirrored it may fit as well.
   bool tilt_unknown() const { return tilt_unknown_; }
@@ -117,7 +119,7 @@ class Hypothesis {
   }
   Matrix6 systematic_covariance(const StationState& station_state, double range_m, const AssumedNoise& noise) const;
   void judge_tilt();
-  void dispute(bool leapt, bool pushed);
+  void dispute(bool leapt, bool in_doubt, bool pushed);
   void follow(const lighthouse::SweepBearings& bearings, Axis axis, const StationView& view,
               const StateEstimate& prediction, const SweepNoise& noise);
   void learn_noise(StationState& station_state, const CycleInformation::ResidualChi2& cycle) const;

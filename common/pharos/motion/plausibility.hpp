@@ -14,6 +14,12 @@ inline constexpr int kMinSensorsToJudge = 4;
 /// the time since the rotor's last sweep that was taken.
 bool leaps(const SweepFit& fit, const StateEstimate& prediction, const SweepNoise& noise, double since_s);
 
+/// That shift is improbable for the motion that is predicted: the body was pushed, or the sweep is wrong.
+bool shift_is_improbable(const SweepFit& fit, const StateEstimate& prediction, const SweepNoise& noise);
+/// That shift is large where the sweep was linearised. A hand that pushes a body turns it as well: linearised again at
+/// the attitude that the hits show, little of the shift is left. Of hits that are all shifted alike it stays.
+bool shifts_far(const SweepFit& fit);
+
 /// Two hits and a third of them are foreign: they are not those of one body.
 bool hits_disagree(const SweepFit& fit);
 

@@ -94,7 +94,10 @@ void StationTrack::decide() {
     alternative_->reset_cost();
     return;
   }
-  if (alternative_->cost() < best_->cost()) std::swap(best_, alternative_);
+  if (alternative_->cost() < best_->cost()) {
+    std::swap(best_, alternative_);
+    if (alternative_->withheld()) best_->confirm_anew();
+  }
   if (delta_chi2() > kDecided || same_pose(*best_, *alternative_)) alternative_.reset();
 }
 

@@ -26,13 +26,11 @@ TEST(FaultyTargetCampaign, AFaultFromTheStartGivesNothingThatIsFarOff) {
 }
 
 // The first sweeps of a fault meet a target that was sound for long.
-TEST(FaultyTargetCampaign, AFaultThatBeginsInFlightGivesLittleThatIsFarOff) {
-  for (const Fault fault : {Fault::kWrongTimes, Fault::kShiftedSweeps, Fault::kShiftedHits, Fault::kSteadyOffset}) {
-    for (const double fraction : {0.1, 0.5, 1.0}) {
-      const Count count = campaign(fault, fraction, 2.0);
-      EXPECT_LT(1000 * count.wrong, count.answers);
-    }
+TEST(FaultyTargetCampaign, AFaultThatBeginsInFlightGivesNothingThatIsFarOff) {
+  for (const Fault fault : {Fault::kWrongTimes, Fault::kShiftedSweeps, Fault::kShiftedHits}) {
+    for (const double fraction : {0.1, 0.5, 1.0}) EXPECT_EQ(campaign(fault, fraction, 2.0).wrong, 0);
   }
+  for (const double fraction : {0.1, 0.5, 1.0}) EXPECT_LE(campaign(Fault::kSteadyOffset, fraction, 2.0).wrong, 5);
 }
 
 }  // namespace
