@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/vision/slam/point_groups.hpp"
 #include "pharos/optimize/descent.hpp"
 #include "pharos/optimize/least_squares.hpp"
 
@@ -108,6 +109,33 @@ double variance_factor(const std::vector<Observation>& observations, const Stere
   const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
   std::nth_element(factors.begin(), middle, factors.end());
   return std::max(1.0, *middle);
+}
+
+double correlation_factor(const std::vector<Observation>& observations, const StereoCamera& camera,
+                          const PoseOnly& placed) {
+  constexpr std::size_t kGroup = 15, kMinGroups = 6;
+  std::vector<const Observation*> inliers;
+  std::vector<Vector3> places;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (!placed.inlier[k] || (placed.pose * observations[k].point_m).z() < kMinDepth_m) continue;
+    inliers.push_back(&observations[k]);
+    places.push_back(observations[k].point_m);
+  }
+  const std::vector<std::size_t> groups = point_groups(places, kGroup);
+  std::vector<Vector6> pulls(groups.empty() ? 0 : 1 + *std::max_element(groups.begin(), groups.end()), Vector6::Zero());
+  if (pulls.size() < kMinGroups) return 1.0;
+  Matrix6 information = Matrix6::Zero();
+  for (std::size_t k = 0; k < inliers.size(); ++k) {
+    const Eigen::Matrix<double, 3, 6> J = residual_jacobian(*inliers[k], camera, placed.pose);
+    information += J.transpose() * J / inliers[k]->variance_px2;
+    pulls[groups[k]] += J.transpose() * residual_of(*inliers[k], camera, placed.pose) / inliers[k]->variance_px2;
+  }
+  const Eigen::LDLT<Matrix6> factor(information);
+  double sum = 0.0;
+  for (const Vector6& pull : pulls) sum += pull.dot(factor.solve(pull)) / 6.0;
+  const auto count = static_cast<double>(pulls.size());
+  sum *= count / (count - 2.0);  // the pose follows the pulls: each group fixes three of its six coordinates
+  return std::isfinite(sum) ? std::max(1.0, sum) : 1.0;
 }
 
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,

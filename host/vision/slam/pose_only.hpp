@@ -50,6 +50,13 @@ struct PoseOnly {
 double variance_factor(const std::vector<Observation>& observations, const StereoCamera& camera,
                        const CameraFromTarget& pose);
 
+/// Factor by which the inliers' errors move the pose further than independent ones would, at least 1: neighbouring
+/// points have errors in common (light, gloss, stereo), which no residual alone shows. From the pulls of groups of
+/// neighbours at the pose (the sandwich estimator; trace over that of the inverse normal equations). 1 for fewer than
+/// six groups, of 15 inliers at least.
+double correlation_factor(const std::vector<Observation>& observations, const StereoCamera& camera,
+                          const PoseOnly& placed);
+
 /// (10): least squares of the reprojections over the pose alone, Huber's cost; outliers are determined anew four times.
 /// Some 0.3 ms for 300 points.
 PoseOnly adjust_pose(const std::vector<Observation>& observations, const StereoCamera& camera,

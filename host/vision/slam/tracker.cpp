@@ -68,7 +68,7 @@ PoseOnly Tracker::adjust(Frame& frame, const CameraFromTarget& start) const {
     if (frame.features[features[k]].sigma_px < kCornerSigma_px) aligned.push_back(observations[k]);
   }
   frame.variance_factor = variance_factor(aligned, camera_, placed.pose);
-  placed.covariance *= frame.variance_factor;
+  placed.covariance *= frame.variance_factor * correlation_factor(observations, camera_, placed);
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (!placed.inlier[k]) frame.points[features[k]] = kNone;
   }

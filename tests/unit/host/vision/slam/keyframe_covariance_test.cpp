@@ -57,7 +57,7 @@ TEST(KeyframeCovariances, AreWhatManySolutionsScatterBy) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
     BundleProblem problem = chained_views(random);
     const auto rejected = adjust_bundle(problem, kCamera, 20);
-    const auto covariances = keyframe_covariances(problem, rejected, kCamera, 0);
+    const auto covariances = keyframe_covariances(problem, rejected, kCamera, 0).independent;
     EXPECT_TRUE(covariances.at(0).isZero(0.0));
     for (int k = 1; k < kKeyframes; ++k) {
       const double square = square_of(error_of(problem.poses.at(k), pose_at(k)), covariances.at(k)) / 6.0;
@@ -73,11 +73,51 @@ TEST(KeyframeCovariances, AreWhatManySolutionsScatterBy) {
   EXPECT_LT(last, 1.4);
 }
 
+// Ten neighbours each have an error in common in each keyframe, as by light and gloss: three quarters of the variance.
+TEST(KeyframeCovariances, GrowWithErrorsThatNeighboursShare) {
+  double correlated = 0.0, independent = 0.0;
+  constexpr int kSeeds = 10, kTogether = 10;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::normal_distribution<double> noise(0.0, 0.5);
+    BundleProblem problem;
+    for (int k = 0; k < kKeyframes; ++k) {
+      problem.poses[k] = pose_at(k);
+      problem.fixed[k] = k == 0;
+    }
+    for (const Vector3& middle : random_points(random, 40)) {
+      std::map<int, Vector2> common;
+      for (int k = 0; k < kKeyframes; ++k) common[k] = {noise(random), noise(random)};
+      for (int n = 0; n < kTogether; ++n) {
+        const auto id = static_cast<PointId>(problem.points.size());
+        problem.points[id] = middle + random_vector(random, 0.05);
+        for (int k = 0; k < kKeyframes; ++k) {
+          Observation at = seen(problem.points.at(id), pose_at(k), 0.29, random);
+          at.pixel += common.at(k);
+          at.right_u_px += common.at(k).x();
+          at.variance_px2 = 0.29 * 0.29 + 0.5 * 0.5;
+          problem.observations.push_back({k, id, at});
+        }
+      }
+    }
+    const auto rejected = adjust_bundle(problem, kCamera, 20);
+    const auto covariances = keyframe_covariances(problem, rejected, kCamera, 0);
+    for (int k = 1; k < kKeyframes; ++k) {
+      const double square = square_of(error_of(problem.poses.at(k), pose_at(k)), covariances.independent.at(k));
+      independent += square / (6.0 * kSeeds * (kKeyframes - 1));
+      correlated += square / covariances.correlation_factor / (6.0 * kSeeds * (kKeyframes - 1));
+    }
+  }
+  EXPECT_GT(independent, 4.0) << "ten times three quarters, and one";
+  EXPECT_GT(correlated, 0.7);
+  EXPECT_LT(correlated, 1.6);
+}
+
 TEST(KeyframeCovariances, AreTheSameSeenFromEitherEnd) {
   std::mt19937_64 random(3);
   const BundleProblem problem = chained_views(random);
-  const Matrix6 there = keyframe_covariances(problem, {}, kCamera, 0).at(kKeyframes - 1);
-  const Matrix6 back = keyframe_covariances(problem, {}, kCamera, kKeyframes - 1).at(0);
+  const Matrix6 there = keyframe_covariances(problem, {}, kCamera, 0).independent.at(kKeyframes - 1);
+  const Matrix6 back = keyframe_covariances(problem, {}, kCamera, kKeyframes - 1).independent.at(0);
   EXPECT_LT((there - back).norm(), 1e-4 * there.norm());
 }
 
@@ -86,16 +126,16 @@ TEST(KeyframeCovariances, GrowWithWhatIsRejected) {
   const BundleProblem problem = chained_views(random);
   std::vector<std::size_t> half;
   for (std::size_t k = 0; k < problem.observations.size(); k += 2) half.push_back(k);
-  const Matrix6 all = keyframe_covariances(problem, {}, kCamera, 0).at(5);
-  const Matrix6 less = keyframe_covariances(problem, half, kCamera, 0).at(5);
+  const Matrix6 all = keyframe_covariances(problem, {}, kCamera, 0).independent.at(5);
+  const Matrix6 less = keyframe_covariances(problem, half, kCamera, 0).independent.at(5);
   EXPECT_GT((less - all).ldlt().vectorD().minCoeff(), 0.0);
 }
 
 TEST(KeyframeCovariances, AreOfThoseThatSeeMostWhereTheyAreTooMany) {
   std::mt19937_64 random(3);
   const BundleProblem problem = chained_views(random);
-  const auto all = keyframe_covariances(problem, {}, kCamera, 0);
-  const auto few = keyframe_covariances(problem, {}, kCamera, 0, 4);
+  const auto all = keyframe_covariances(problem, {}, kCamera, 0).independent;
+  const auto few = keyframe_covariances(problem, {}, kCamera, 0, 4).independent;
   ASSERT_EQ(few.size(), 4U);
   EXPECT_TRUE(few.contains(0));
   for (const auto& [id, covariance] : few) {
@@ -108,16 +148,16 @@ TEST(KeyframeCovariances, SayNothingOfAKeyframeThatSharesNothing) {
   BundleProblem problem = chained_views(random);
   problem.poses[99] = pose_at(0);
   problem.fixed[99] = false;
-  const Matrix6 alone = keyframe_covariances(problem, {}, kCamera, 0).at(99);
+  const Matrix6 alone = keyframe_covariances(problem, {}, kCamera, 0).independent.at(99);
   EXPECT_NEAR(alone(0, 0), 1.0, 1e-9);
   EXPECT_NEAR(alone(5, 5), 1e4, 1e-5);
 }
 
 TEST(KeyframeCovariances, OfAProblemWithoutPointsOrKeyframesAreNone) {
-  EXPECT_TRUE(keyframe_covariances({}, {}, kCamera, 0).empty());
+  EXPECT_TRUE(keyframe_covariances({}, {}, kCamera, 0).independent.empty());
   BundleProblem one;
   one.poses[0] = pose_at(0);
-  EXPECT_EQ(keyframe_covariances(one, {}, kCamera, 0).size(), 1U);
+  EXPECT_EQ(keyframe_covariances(one, {}, kCamera, 0).independent.size(), 1U);
 }
 
 Map map_of(int keyframes) {
@@ -136,7 +176,8 @@ TEST(ChainedCovariance, GoesByTheBestKeyframe) {
   map.keyframes.at(2).covariance = 1.0 * Matrix6::Identity();
   chain_covariance(
       map, 3,
-      {{1, 0.5 * Matrix6::Identity()}, {2, 2.0 * Matrix6::Identity()}, {3, Matrix6::Zero()}, {77, Matrix6::Zero()}});
+      {{{1, 0.25 * Matrix6::Identity()}, {2, 1.0 * Matrix6::Identity()}, {3, Matrix6::Zero()}, {77, Matrix6::Zero()}},
+       2.0});
   EXPECT_EQ(map.keyframes.at(3).covariance, Matrix6(3.0 * Matrix6::Identity()));
   chain_covariance(map, 3, {});
   EXPECT_EQ(map.keyframes.at(3).covariance, Matrix6(3.0 * Matrix6::Identity()));

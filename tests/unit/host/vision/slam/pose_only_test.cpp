@@ -75,6 +75,44 @@ TEST(PoseOnly, VarianceFactorTellsNoiseThatTheTestOfChiSquaredHides) {
   EXPECT_EQ(variance_factor(noisier, kCamera, truth), 1.0) << "too few to tell";
 }
 
+// Errors that neighbours have in common move the pose further than independent ones of that size do.
+TEST(PoseOnly, CorrelationFactorTellsErrorsThatNeighboursShare) {
+  constexpr int kRuns = 60, kTogether = 15;
+  constexpr double kOwn_px = 0.2, kShared_px = 0.1;
+  double independent = 0.0, shared = 0.0, stated = 0.0, as_independent = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(run));
+    std::normal_distribution<double> noise(0.0, kShared_px);
+    const CameraFromTarget truth = turned_pose(0.2);
+    std::vector<Observation> own, moved;
+    for (const Vector3& middle : random_points(random, 30)) {
+      const Vector2 move(noise(random), noise(random));
+      for (int n = 0; n < kTogether; ++n) {
+        own.push_back(seen(middle + random_vector(random, 0.05), truth, kOwn_px, random));
+        moved.push_back(own.back());
+        moved.back().pixel += move;
+        moved.back().right_u_px += move.x();
+        moved.back().variance_px2 = kOwn_px * kOwn_px + kShared_px * kShared_px;
+      }
+    }
+    independent += correlation_factor(own, kCamera, adjust_pose(own, kCamera, truth)) / kRuns;
+    const PoseOnly placed = adjust_pose(moved, kCamera, truth);
+    const double factor = correlation_factor(moved, kCamera, placed);
+    shared += factor / kRuns;
+    const Vector6 error = pose_difference(truth, placed.pose);
+    const double square = error.dot(placed.covariance.inverse() * error) / (6.0 * kRuns);
+    as_independent += square;
+    stated += square / factor;
+  }
+  EXPECT_GE(independent, 1.0);
+  EXPECT_LT(independent, 1.2);
+  EXPECT_GT(as_independent, 3.0);
+  // The groups found are not those that share an error: some of it stays unseen.
+  EXPECT_GT(shared, 1.6);
+  EXPECT_GT(stated, 0.7);
+  EXPECT_LT(stated, 0.7 * as_independent);
+}
+
 TEST(RigidFit, RecoversAMotionExactlyAndRefusesALine) {
   std::mt19937_64 random(4);
   const CameraFromTarget truth = turned_pose(2.5);
