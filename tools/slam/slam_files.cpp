@@ -107,6 +107,7 @@ void write_slam_report(const std::string& path, const slam::SlamReport& report,
   json["points"] = report.points;
   json["loops"] = report.loops;
   json["loops_refused"] = report.loops_refused;
+  json["loops_taken_back"] = report.loop_candidates.taken_back;
   const slam::LoopCounts& candidates = report.loop_candidates;
   json["loop_candidates"] = candidates.candidates;
   json["loop_candidates_refused"] = {{"geometry", candidates.geometry},

@@ -105,6 +105,7 @@ void SlamEstimator::add_figures(PairResult& answer) {
                     {"slam.points", report.points},
                     {"slam.loops", report.loops},
                     {"slam.loops_refused", report.loops_refused},
+                    {"slam.loops_taken_back", report.loop_candidates.taken_back},
                     {"slam.relocalised", report.relocalised},
                     {"slam.frames_dark", report.dark},
                     {"slam.frames_saturated", report.saturated},

@@ -235,11 +235,15 @@ void Engine::close_loop(KeyframeId id) {
   KeyframeId first = kNone;
   {
     const std::lock_guard lock(mutex_);
-    const auto loop = closer_.find(id);
+    const LoopDecision decision = closer_.decide(id);
     figures_.set_loops_refused(closer_.refused(), closer_.counts());
-    if (!loop) return;
-    loops_.push_back(in_left_camera(*loop));
-    closer_.correct(*loop);
+    if (decision.taken_back) {
+      loops_.push_back(in_left_camera(*decision.taken_back));
+      loops_.back().taken_back = true;
+    }
+    if (!decision.close) return;
+    loops_.push_back(in_left_camera(*decision.close));
+    closer_.correct(*decision.close);
     ++corrections_;
     problem = global_problem(map_);
     first = map_.keyframes.begin()->first;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kMaxKeyframes = 40;
 constexpr std::size_t kNeighbours = 5;
-constexpr double kCosMaxTurn = 0.5;  // from a direction 60 deg apart a point looks different
 constexpr double kCosFacing = 0.998;
 constexpr double kFacingRadius_px = 2.5, kRadius_px = 4.0;
 

@@ -14,6 +14,9 @@ struct LocalMap {
   std::vector<PointId> points;  ///< in order
 };
 
+/// Cosine of 60 deg: from a direction farther from the mean one of its observations a point looks different.
+inline constexpr double kCosMaxTurn = 0.5;
+
 LocalMap local_map(const Map& map, const Frame& frame);
 
 /// Points of the local map that should be visible in a frame at `pose` and are not matched yet, with search positions;

@@ -61,6 +61,22 @@ std::optional<Loop> LoopCloser::find(KeyframeId id) {
   return found;
 }
 
+LoopDecision LoopCloser::decide(KeyframeId id) {
+  LoopDecision out;
+  if (!provisional_) {
+    if (auto loop = find(id)) provisional_.emplace(std::move(*loop));
+    return out;
+  }
+  const ProvisionalLoop::Verdict verdict = provisional_->hear(map_, id, camera_);
+  if (verdict == ProvisionalLoop::Verdict::kConfirmed) out.close = provisional_->loop();
+  if (verdict == ProvisionalLoop::Verdict::kContradicted) {
+    out.taken_back = provisional_->loop();
+    ++counts_.taken_back;
+  }
+  if (verdict != ProvisionalLoop::Verdict::kOpen) provisional_.reset();
+  return out;
+}
+
 std::optional<Loop> LoopCloser::check(const Keyframe& here, KeyframeId candidate) {
   ++counts_.candidates;
   std::optional<Loop> loop = fit(here, candidate);

@@ -9,17 +9,13 @@
 #include "host/vision/slam/loop_counts.hpp"
 #include "host/vision/slam/map.hpp"
 #include "host/vision/slam/pose_graph.hpp"
+#include "host/vision/slam/provisional_loop.hpp"
 
 namespace pharos::slam {
 
-/// A keyframe that shows another part of the map: a loop.
-struct Loop {
-  KeyframeId here = kNone;
-  KeyframeId there = kNone;
-  CameraFromTarget corrected;            ///< pose of `here` if that of `there` is right
-  Matrix6 covariance = Matrix6::Zero();  ///< of `corrected`, as a covariance of zeta (place_gate.hpp)
-  /// Features of `here` and the matching points of `there`'s side.
-  std::vector<std::pair<int, PointId>> seen;
+/// What a keyframe changed about loops.
+struct LoopDecision {
+  std::optional<Loop> close, taken_back;
 };
 
 /// Section 2.4: detects a loop and corrects the map by it (Mur-Artal 2017: with a stereo camera the error has six
@@ -34,6 +30,9 @@ class LoopCloser {
   /// agrees with the trajectory (place_gate.hpp), the points are not on one plane, neighbours of the keyframe find the
   /// place too (loop_evidence.hpp), and no other candidate asks for another pose.
   std::optional<Loop> find(KeyframeId keyframe);
+  /// For every keyframe, in order: find(), or, where a loop was found, whether this keyframe confirms it
+  /// (provisional_loop.hpp). A loop to close has to be given to correct().
+  LoopDecision decide(KeyframeId keyframe);
   /// Moves the keyframe and its neighbours to the corrected poses, fuses duplicate points, and distributes the
   /// remaining error over all others by the essential graph (spanning tree, strong covisibility, loops).
   void correct(const Loop& loop);
@@ -50,6 +49,7 @@ class LoopCloser {
   Map& map_;
   const KeyframeDatabase& keyframe_database_;
   KeyframeId closed_at_ = kNone;
+  std::optional<ProvisionalLoop> provisional_;
   int refused_ = 0;
   LoopCounts counts_;
 };

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kSurroundings = 10;
 constexpr std::size_t kNeighboursAsked = 3;
-constexpr int kMinAgreed = 20;    // half of what the keyframe of the loop needs: its neighbours see less of the place
-constexpr int kMinOffPlane = 10;  // a quarter of the same
+constexpr int kMinOffPlane = 10;  // a quarter of the inliers that a loop needs
 constexpr int kPlanes = 100;      // trials: three of them are on a plane of three quarters in 42 % each
 constexpr double kPlaneSigmas = 3.0;
 

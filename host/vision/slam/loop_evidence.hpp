@@ -12,6 +12,10 @@ namespace pharos::slam {
 
 inline constexpr double kLoopRadius_px = 5.0;  ///< of the search for points of the other side of a loop
 
+/// Inliers by which another keyframe confirms a loop: half of what its own keyframe needs, because it sees less of the
+/// place.
+inline constexpr int kMinAgreed = 20;
+
 /// A feature's observation of a point with whose patch it was not aligned: it counts as a corner.
 Observation corner_of(const Feature& feature, const Vector3& point_m);
 

@@ -36,7 +36,7 @@ struct SlamPoint {
   int observers = 0;
 };
 
-/// A loop that was closed, as it was measured.
+/// A loop that was closed or, accepted at first, taken back before the map was changed by it; as it was measured.
 struct ClosedLoop {
   std::int64_t here = 0, there = 0;                 ///< numbers of the two pairs
   Pose<frame::Camera, frame::Camera> T_here_there;  ///< from the left camera of the one to that of the other

@@ -20,6 +20,7 @@ constexpr int kSeenAgain = 5;  // beyond it
 constexpr int kLandmarks = 900;
 constexpr double kSigma_px = 0.1;
 constexpr double kMinFacing = 0.4;
+constexpr double kAlikePart_rad = 0.35;
 
 struct Landmark {
   Vector3 place;
@@ -28,16 +29,19 @@ struct Landmark {
 
 class LoopOfATurn : public ::testing::Test {
  protected:
-  explicit LoopOfATurn(bool two_alike_halves = false)
-      : landmarks_(ball(two_alike_halves)), keyframe_database_(words()), closer_(kCamera, map_, keyframe_database_) {}
+  // What of the body stands once more half a turn away.
+  enum class Alike { kNothing, kAPart, kAll };
+  explicit LoopOfATurn(Alike alike = Alike::kNothing)
+      : landmarks_(ball(alike)), keyframe_database_(words()), closer_(kCamera, map_, keyframe_database_) {}
 
-  std::vector<Landmark> ball(bool two_alike_halves) {
+  std::vector<Landmark> ball(Alike alike) {
     std::vector<Landmark> out;
     while (out.size() < kLandmarks) {
       const Vector3 place = random_vector(random_, 1.0);
       if (!(place.norm() > 0.3 && place.norm() < 1.0)) continue;
       out.push_back({place.normalized(), descriptor_of(random_)});
-      if (!two_alike_halves) continue;
+      const bool faces_first = landmark_turn(out.back()) < kAlikePart_rad;
+      if (alike == Alike::kNothing || (alike == Alike::kAPart && !faces_first)) continue;
       const Matrix3 half_a_turn = truth(kAround / 2).R.transpose() * truth(0).R;
       out.push_back({half_a_turn * out.back().place, out.back().descriptor});
     }
@@ -48,6 +52,12 @@ class LoopOfATurn : public ::testing::Test {
   static bool faces(const Landmark& landmark, const CameraFromTarget& pose) {
     const Vector3 to_eye = (pose.inverse().t - landmark.place).normalized();
     return landmark.place.dot(to_eye) > kMinFacing;
+  }
+
+  // How far from the middle of the first view, about the axis of the turn.
+  static double landmark_turn(const Landmark& landmark) {
+    const Vector3 p = truth(0).R * landmark.place;
+    return std::abs(std::atan2(p.x(), -p.z()));
   }
 
   // In each view of a landmark five bits of its descriptor are flipped.
@@ -175,7 +185,7 @@ TEST_F(LoopOfATurn, NoLoopFollowsAnotherAtOnce) {
 
 class LoopOfTwoAlikeHalves : public LoopOfATurn {
  protected:
-  LoopOfTwoAlikeHalves() : LoopOfATurn(true) {}
+  LoopOfTwoAlikeHalves() : LoopOfATurn(Alike::kAll) {}
 };
 
 // After half a turn the views of the start return, on the other side of the body: geometry cannot tell them apart, the
@@ -200,6 +210,56 @@ TEST_F(LoopOfTwoAlikeHalves, WithAnUncertainTrajectoryNeitherPlaceIsALoop) {
   EXPECT_FALSE(closer_.find(here));
   EXPECT_EQ(closer_.counts().rival, 1);
   EXPECT_EQ(closer_.counts().trajectory, 0);
+}
+
+TEST_F(LoopOfATurn, IsClosedOnceTheNextKeyframesConfirmIt) {
+  LoopDecision decision;
+  int k = 0;
+  for (; k < kAround + kSeenAgain && !decision.close; ++k) {
+    decision = closer_.decide(add_keyframe(k));
+    EXPECT_FALSE(decision.taken_back);
+  }
+  ASSERT_TRUE(decision.close);
+  EXPECT_GE(k - 1, decision.close->here + 2) << "two keyframes later";
+  EXPECT_EQ(closer_.counts().taken_back, 0);
+}
+
+// Keyframes that look elsewhere say nothing; the loop does not stay in the way of others for ever.
+TEST_F(LoopOfATurn, ThatNoKeyframeDecidesIsDropped) {
+  for (int k = 0; k < kAround / 2; ++k) add_keyframe(k);
+  Loop elsewhere;
+  elsewhere.here = kAround / 2 - 1;
+  elsewhere.there = 0;
+  elsewhere.corrected = map_.keyframes.at(elsewhere.here).pose;  // half a turn from the keyframes around the place
+  ProvisionalLoop loop(elsewhere);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_EQ(loop.hear(map_, elsewhere.here, kCamera), ProvisionalLoop::Verdict::kOpen) << k;
+  }
+  EXPECT_EQ(loop.hear(map_, elsewhere.here, kCamera), ProvisionalLoop::Verdict::kDropped);
+  map_.remove_keyframe(elsewhere.here);
+  EXPECT_EQ(ProvisionalLoop(elsewhere).hear(map_, 3, kCamera), ProvisionalLoop::Verdict::kDropped);
+}
+
+class LoopOfAnAlikePart : public LoopOfATurn {
+ protected:
+  LoopOfAnAlikePart() : LoopOfATurn(Alike::kAPart) {}
+};
+
+// Half a turn on, a part fits that of the start and the trajectory cannot tell: it is accepted, and what lies beside
+// it, in the next keyframes, is not what lay beside it at the start.
+TEST_F(LoopOfAnAlikePart, IsTakenBackByWhatTheNextKeyframesShowBesideIt) {
+  std::optional<LoopDecision> last;
+  for (int k = 0; k < kAround / 2 + 6 && !(last && last->taken_back); ++k) {
+    const KeyframeId id = add_keyframe(k);
+    if (k >= kAround / 2 - 1) map_.keyframes.at(id).covariance = 10.0 * Matrix6::Identity();
+    const Map before = map_;
+    last = closer_.decide(id);
+    EXPECT_FALSE(last->close) << k;
+    EXPECT_EQ(before.keyframes.at(id).pose.t, map_.keyframes.at(id).pose.t);
+  }
+  ASSERT_TRUE(last && last->taken_back);
+  EXPECT_GE(last->taken_back->seen.size(), 40U) << "as good as a right one";
+  EXPECT_EQ(closer_.counts().taken_back, 1);
 }
 
 // Words of known views at positions that fit no rigid motion: similarity alone closes no loop.
