@@ -18,9 +18,9 @@ constexpr double kOutOfStep = 0.6;  // delay of right images, frames: simultaneo
 constexpr std::size_t kLocalKeyframes = 20;
 constexpr int kLocalSteps = 6;
 constexpr std::size_t kChainedKeyframes = 40;  // near a new one, from which its covariance is computed
-constexpr std::int64_t kMappingFrames = 4;
-constexpr std::size_t kMaxWaiting = 3;  // keyframes, as in ORB-SLAM2
-constexpr int kGlobalSteps = 12;        // while tracking continues
+constexpr double kMapping_s = 0.19;            // of a keyframe: 0.2, so that four pairs at 20 Hz are enough
+constexpr std::size_t kMaxWaiting = 3;         // keyframes, as in ORB-SLAM2
+constexpr int kGlobalSteps = 12;               // while tracking continues
 constexpr int kFinalSteps = 40;
 
 }  // namespace
@@ -100,7 +100,7 @@ KeyframeId Engine::make_keyframe(Frame& frame) {
   }
   keyframe_database_.add(keyframe);
   tracker_.became_keyframe(keyframe);
-  last_keyframe_frame_ = frame.number;
+  last_keyframe_s_ = frame.time_s;
   figures_.add_keyframe();
   return id;
 }
@@ -125,8 +125,8 @@ TrackedFrame Engine::place(Frame& frame, const StereoFrontend::Result& seen, Key
       out.placed = TrackedPose{frame.pose, Matrix6::Zero()};
     }
   } else {
-    // Without threads mapping takes no time; it counts as busy for the number of frames it would take.
-    const bool idle = mapping_ ? mapping_->idle() : frame.number >= last_keyframe_frame_ + kMappingFrames;
+    // Without threads mapping takes no time; it counts as busy for the time it would take.
+    const bool idle = mapping_ ? mapping_->idle() : frame.time_s >= last_keyframe_s_ + kMapping_s;
     const Tracked tracked = tracker_.track(frame, idle, frontend_.pyramid());
     out.inliers = tracked.inliers;
     out.relocalised = tracked.relocalised;

@@ -62,7 +62,7 @@ class Engine final : public SlamSystem {
   TrajectoryLog log_;
   Frame last_;
   std::vector<PointId> recent_;
-  std::int64_t last_keyframe_frame_ = 0;
+  double last_keyframe_s_ = 0.0;
   PairOrder order_;
   PairSkew skew_;
 
