@@ -21,6 +21,7 @@ NetworkResult NetworkTracker::refused(const PlaneSweep& sweep, pose::Refusal why
   NetworkResult out;
   out.time_s = sweep.time_s();
   out.station = static_cast<std::uint8_t>(sweep.station);
+  out.plane = static_cast<std::uint8_t>(sweep.plane);
   out.pose = why;
   return out;
 }
@@ -36,7 +37,8 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
   out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
-  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
+  out.covariance.bottomRightCorner<3, 3>() =
+      station_covariance(out.time_s, position_m) + contradiction_covariance(out.time_s) + fix_->position_covariance();
   out.flags = kFused;
   if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
     out.flags |= kStationExcluded;
@@ -56,9 +58,30 @@ void NetworkTracker::saw(const LinearisedSweep& sweep) {
   StationWatch& station = watch_[sweep.station];
   station.plane_s[sweep.plane] = sweep.time_s;
   station.gradient[sweep.plane] = sweep.gradient;
+  station.contradicted_s[sweep.plane] = -1e9;
   const double range_m = (sweep.at.pose.t - stations_[sweep.station].T_world_station->t).norm();
   station.sigma_rad[sweep.plane] =
       std::max(1e-6, stations_[sweep.station].sigmas.value_or(options_.noise.unstated).bearing_rad(range_m));
+}
+
+// A plane whose light does not fit: the body may be where it says.
+void NetworkTracker::refuse(const LinearisedSweep& sweep) {
+  if (sweep.hits() == 0) return;
+  const double square = std::max(1e-9, sweep.gradient.squaredNorm());
+  StationWatch& station = watch_[sweep.station];
+  station.contradiction_m[sweep.plane] = sweep.residual.mean() / square * sweep.gradient;
+  station.contradicted_s[sweep.plane] = sweep.time_s;
+}
+
+Matrix3 NetworkTracker::contradiction_covariance(double time_s) const {
+  Matrix3 sum = Matrix3::Zero();
+  for (const StationWatch& station : watch_) {
+    for (std::size_t k = 0; k < kPlanes; ++k) {
+      if (station.excluded || time_s - station.contradicted_s[k] > kFresh_s) continue;
+      sum += station.contradiction_m[k] * station.contradiction_m[k].transpose();
+    }
+  }
+  return sum;
 }
 
 NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
@@ -66,6 +89,7 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   NetworkResult out;
   out.time_s = sweep.time_s;
   out.station = static_cast<std::uint8_t>(sweep.station);
+  out.plane = static_cast<std::uint8_t>(sweep.plane);
   out.observations = sweep.hits();
   out.covariance = state.covariance.topLeftCorner<6, 6>();
   const HitVector left = sweep.residual - sweep.rows.lazyProduct(state.difference(sweep.at).head<kObserved>());
@@ -77,7 +101,8 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
     if (!station.excluded && sweep.time_s - station.seen_s < kFresh_s) ++fresh;
   }
   if (fresh > 1) out.flags |= kFused;
-  out.covariance.bottomRightCorner<3, 3>() += station_covariance(sweep.time_s, state.pose.t);
+  out.covariance.bottomRightCorner<3, 3>() +=
+      station_covariance(sweep.time_s, state.pose.t) + contradiction_covariance(sweep.time_s);
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;
@@ -106,9 +131,12 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
 
 // What stations and planes are wrong by is the same in every sweep: it does not average out. Of the planes that saw the
 // body within a tenth of a second, each off by its own sigma, a position's part of it: (J^T W J)^-1. And what the room
-// that these stations span is deformed by at that place.
+// that these stations span is deformed by at that place; or, where their joint errors are known, what each of those
+// moves the position by.
 Matrix3 NetworkTracker::station_covariance(double time_s, const Vector3& body_m) const {
   Matrix3 information = Matrix3::Zero(), deformation = Matrix3::Zero();
+  Eigen::Matrix<double, 3, static_cast<int>(kMaxErrorModes)> pulled;  // by each mode
+  pulled.setZero();
   double seeing = 0.0;
   for (std::size_t s = 0; s < stations_.size(); ++s) {
     const StationWatch& station = watch_[s];
@@ -118,13 +146,22 @@ Matrix3 NetworkTracker::station_covariance(double time_s, const Vector3& body_m)
     }
     for (std::size_t k = 0; k < kPlanes; ++k) {
       if (station.excluded || time_s - station.plane_s[k] > kFresh_s) continue;
-      information +=
-          station.gradient[k] * station.gradient[k].transpose() / (station.sigma_rad[k] * station.sigma_rad[k]);
+      const Vector3& gradient = station.gradient[k];
+      const Vector3 weighted = gradient / (station.sigma_rad[k] * station.sigma_rad[k]);
+      information += weighted * gradient.transpose();
+      const Vector3 by_turn = (body_m - stations_[s].T_world_station->t).cross(gradient);
+      const ErrorModes& modes = stations_[s].modes;
+      for (std::size_t m = 0; m < modes.size(); ++m) {
+        pulled.col(static_cast<Eigen::Index>(m)) +=
+            weighted * (by_turn.dot(modes[m].head<3>()) + gradient.dot(modes[m].tail<3>()));
+      }
     }
   }
   // Along what no plane sees now, the limits of a result hold.
   information.diagonal().array() += 1.0 / (kUnseen_m * kUnseen_m);
-  return information.inverse() + deformation / std::max(1.0, seeing);
+  const Matrix3 covariance = information.inverse();
+  pulled = covariance.lazyProduct(pulled).eval();
+  return covariance + deformation / std::max(1.0, seeing) + pulled.lazyProduct(pulled.transpose());
 }
 
 }  // namespace pharos::network

@@ -26,7 +26,8 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
   running_ = true;
   ++counters_.starts;
   time_s_ = recent_[0].time_s();
-  for (const PlaneSweep& sweep : recent_) {
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    const PlaneSweep& sweep = recent_[i];
     const double now_s = std::max(time_s_, sweep.time_s());
     filter_.predict(now_s - time_s_);
     time_s_ = now_s;
@@ -44,7 +45,7 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
 }
 
 bool NetworkTracker::try_start(double time_s) {
-  const Starts starts = starts_of(recent_, stations_, target_);
+  const Starts starts = starts_of(all_recent(), stations_, target_);
   if (starts.empty()) return false;
   const Choice choice = best_start(starts);
   if (!(choice.cost < 1e299)) return false;
@@ -69,7 +70,8 @@ double NetworkTracker::cost_of(const WorldFromBody& start, WorldFromBody& refine
     trial_.start(pose);
     cost = 0.0;
     double at_s = recent_[0].time_s();
-    for (const PlaneSweep& sweep : recent_) {
+    for (std::size_t i = 0; i < recent_.size(); ++i) {
+      const PlaneSweep& sweep = recent_[i];
       if (watch_[sweep.station].excluded) continue;
       const double now_s = std::max(at_s, sweep.time_s());
       trial_.predict(now_s - at_s);
@@ -116,11 +118,20 @@ NetworkTracker::Choice NetworkTracker::best_start(const Starts& starts) {
 // A wrong minimum of a flat target may live on: stations alone, and the mirror that they tell, are asked now and then.
 void NetworkTracker::check_alternatives(double time_s) {
   checked_s_ = time_s;
-  Starts starts = starts_of(recent_, stations_, target_);
+  const Starts starts = starts_of(all_recent(), stations_, target_);
   if (starts.empty()) return;
+  // A start at the present pose leads to it again.
+  Starts others;
+  for (const WorldFromBody& start : starts) {
+    if (!same_pose(start, filter_.mean().pose)) others.push_back(start);
+  }
+  if (others.empty()) {
+    ambiguous_ = false;
+    return;
+  }
   WorldFromBody own;
   const double own_cost = cost_of(filter_.mean().pose, own);
-  const Choice choice = best_start(starts);
+  const Choice choice = best_start(others);
   if (!(choice.cost < 1e299)) return;
   const bool other = !same_pose(choice.pose, own);
   if (other && choice.cost < own_cost - kSwitchCost) {

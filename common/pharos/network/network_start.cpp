@@ -12,9 +12,9 @@ namespace {
 // Sweeps of a station's two planes that make one picture of the body.
 constexpr double kPair_s = 0.03;
 
-const PlaneSweep* last_of(const RecentSweeps& recent, std::size_t station, std::size_t plane) {
+const PlaneSweep* last_of(const SweepView& recent, std::size_t station, std::size_t plane) {
   for (std::size_t i = recent.size(); i-- > 0;) {
-    if (recent[i].station == station && recent[i].plane == plane) return &recent[i];
+    if (recent[i]->station == station && recent[i]->plane == plane) return recent[i];
   }
   return nullptr;
 }
@@ -40,7 +40,7 @@ WorldFromBody in_world(const WorldFromStation& station, const LighthouseFromBody
 
 }  // namespace
 
-Starts starts_of(const RecentSweeps& recent, const Stations& stations, const Target& target) {
+Starts starts_of(const SweepView& recent, const Stations& stations, const Target& target) {
   Starts starts;
   for (std::size_t s = 0; s < stations.size(); ++s) {
     const PlaneSweep* a = last_of(recent, s, 0);

@@ -21,7 +21,9 @@ constexpr double kFastest_m_s = 20.0, kLost_m = 2.0;
 // A result waits this long after a start, until the rates are known.
 constexpr double kConfirmed_s = 0.06;
 // Chi-squared of what lies between the filter's position or velocity and what two stations tell at once.
-constexpr double kStrayedChi2 = 25.0;
+constexpr double kStrayedChi2 = 14.0;
+// A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
+constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
 // What an attitude of less than 60 ms may be off by: its rate is not known, and a flat target's tilt least of all.
 constexpr double kUnconfirmed_rad = 0.15;
@@ -38,7 +40,7 @@ constexpr double kConsensus_s = 0.02;
 constexpr int kDissents = 6, kContradictions = 10, kContradictionWeight = 3;
 // How long sweeps are kept for a start, and how often the present pose is compared with what stations alone say.
 constexpr double kRecent_s = 0.12;
-constexpr double kCheck_s = 0.5, kCheckAmbiguous_s = 0.1;
+constexpr double kCheck_s = 0.5, kCheckAmbiguous_s = 0.03;
 
 // A state that no body has: followed without light that fits, its rates run away.
 bool holds_a_body(const NetworkState& state) {
@@ -87,20 +89,13 @@ PlaneSweep* NetworkTracker::oldest_open(double before_s) {
 
 std::optional<NetworkResult> NetworkTracker::close(PlaneSweep* open) {
   if (open == nullptr) return std::nullopt;
-  const PlaneSweep sweep = *open;
-  open->hits.clear();
   ++counters_.sweeps;
-  const double now_s = sweep.time_s();
+  const double now_s = open->time_s();
   // Sweeps of two stations may overlap: out of order by less than one of them.
-  std::size_t old = 0;
-  while (old < recent_.size() && (recent_[old].time_s() < now_s - kRecent_s || recent_.size() - old >= kRecentSweeps))
-    ++old;
-  if (old > 0) {
-    std::copy(recent_.begin() + old, recent_.end(), recent_.begin());
-    recent_.resize(recent_.size() - old);
-  }
-  recent_.push_back(sweep);
-  return process(sweep);
+  while (!recent_.empty() && (recent_.full() || recent_.front().time_s() < now_s - kRecent_s)) recent_.drop();
+  recent_.push(*open);
+  open->hits.clear();
+  return process(recent_[recent_.size() - 1]);
 }
 
 NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
@@ -121,7 +116,7 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
     ++counters_.losses;
     return refused(sweep, pose::Refusal::kPoorFit);
   }
-  const bool settled = !strayed() && confirmed(now_s);
+  const bool settled = !strayed(taken) && confirmed(now_s);
   // A small target is followed without two stations only as long as all light fits.
   if (!fix_ && (!taken || left_out_ > kAttitudeDoubted)) fixed_s_ = -1e9;
   if (contradicted_) {
@@ -165,7 +160,10 @@ bool NetworkTracker::take(const PlaneSweep& sweep, LinearisedSweep& linearised) 
     good = fits(linearised);
   }
   watch(sweep.station, good, now_s);
-  if (!good || station.excluded) return false;
+  if (!good || station.excluded) {
+    refuse(linearised);
+    return false;
+  }
   filter_.correct(linearised);
   saw(linearised);
   accepted_s_ = now_s;
@@ -223,7 +221,11 @@ double NetworkTracker::apart_chi2(const PositionFix& fix) const {
 
 // Where two stations see the body they tell at once where it is: a state that is elsewhere, as after a time with one
 // station alone, whose range of a small target drifts, goes on from there.
-bool NetworkTracker::strayed() {
+bool NetworkTracker::strayed(bool taken) {
+  fix_.reset();
+  const bool sure = taken && confirmed(time_s_) && tells_range(target_, options_.noise);
+  if (sure && time_s_ - asked_s_ < kAsk_s) return false;
+  asked_s_ = time_s_;
   fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
   if (!fix_) return false;
   if (fix_->position_covariance().trace() < kConfirming_m * kConfirming_m) fixed_s_ = time_s_;
@@ -236,11 +238,17 @@ bool NetworkTracker::strayed() {
 bool NetworkTracker::confirmed(double time_s) const { return time_s - started_s_ >= kConfirmed_s; }
 
 // The recent sweeps of stations that are not excluded.
-RecentSweeps NetworkTracker::used_recent() const {
-  RecentSweeps out;
-  for (const PlaneSweep& sweep : recent_) {
-    if (!watch_[sweep.station].excluded) out.push_back(sweep);
+SweepView NetworkTracker::used_recent() const {
+  SweepView out;
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    if (!watch_[recent_[i].station].excluded) out.push_back(&recent_[i]);
   }
+  return out;
+}
+
+SweepView NetworkTracker::all_recent() const {
+  SweepView out;
+  for (std::size_t i = 0; i < recent_.size(); ++i) out.push_back(&recent_[i]);
   return out;
 }
 

@@ -29,6 +29,7 @@ struct NetworkOptions {
 struct NetworkResult {
   double time_s = 0.0;       // of the sweep's last hit
   std::uint8_t station = 0;  // whose sweep, its place among the stations
+  std::uint8_t plane = 0;
   Result<WorldFromBody, pose::Refusal> pose = pose::Refusal::kNone;
   Matrix6 covariance = Matrix6::Zero();  // world frame, stations' uncertainty included
   double residual_rms_rad = 0.0;         // of this sweep's hits
@@ -76,6 +77,9 @@ class NetworkTracker {
     std::array<double, kPlanes> plane_s = {-1e9, -1e9};  // of each plane's last sweep
     std::array<Vector3, kPlanes> gradient;               // of its angle by the position then
     std::array<double, kPlanes> sigma_rad{};             // of what station and plane are wrong by
+    // How far along its gradient each plane's last sweep puts the body, where it did not fit the filter, and when.
+    std::array<Vector3, kPlanes> contradiction_m;
+    std::array<double, kPlanes> contradicted_s = {-1e9, -1e9};
   };
   struct Choice {
     WorldFromBody pose;
@@ -91,6 +95,8 @@ class NetworkTracker {
   NetworkResult result(const LinearisedSweep& sweep);
   NetworkResult from_fix(const PlaneSweep& sweep, double doubt_rad) const;
   void saw(const LinearisedSweep& sweep);
+  void refuse(const LinearisedSweep& sweep);
+  Matrix3 contradiction_covariance(double time_s) const;
   Matrix3 station_covariance(double time_s, const Vector3& body_m) const;
   bool take(const PlaneSweep& sweep, LinearisedSweep& linearised);
   bool fits(const LinearisedSweep& sweep) const;
@@ -99,9 +105,10 @@ class NetworkTracker {
   bool try_start(double time_s);
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;
-  bool strayed();
+  bool strayed(bool taken);
   double apart_chi2(const PositionFix& fix) const;
-  RecentSweeps used_recent() const;
+  SweepView used_recent() const;
+  SweepView all_recent() const;
   Choice best_start(const Starts& starts);
   double cost_of(const WorldFromBody& start, WorldFromBody& refined);
   void check_alternatives(double time_s);
@@ -121,6 +128,7 @@ class NetworkTracker {
   double started_s_ = 0.0;
   double consensus_s_ = 0.0;
   std::optional<PositionFix> fix_;  // what two stations tell at once, now
+  double asked_s_ = -1e9;           // when that was looked for
   double fixed_s_ = -1e9;           // when two stations last agreed with the filter
   double left_out_ = 0.0;           // fraction of the last sweeps' hits that did not fit the others of theirs
   int refused_in_row_ = 0;

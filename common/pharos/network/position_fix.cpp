@@ -23,13 +23,26 @@ constexpr int kMaxFarRows = 6;
 constexpr std::size_t kMinRows = 6;
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
+// A displacement of less than this part of the range leaves an angle linear to 2 urad.
+constexpr double kLinearPart = 2e-3;
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
+/// A sweep as one angle of the body's position, linearised where the body was taken to be then.
 struct Row {
+  const PlaneSweep* sweep = nullptr;
+  double dt_s = 0.0;
+  Vector3 at_m = Vector3::Zero();
+  double range_m = 0.0;
   double residual_rad = 0.0;
   double variance = 1.0;
-  Vector9 gradient = Vector9::Zero();
+  Vector3 gradient = Vector3::Zero();
+
+  Vector9 by_motion() const {
+    Vector9 out;
+    out << gradient, dt_s * gradient, 0.5 * dt_s * dt_s * gradient;
+    return out;
+  }
 };
 
 struct Motion {
@@ -39,6 +52,7 @@ struct Motion {
     return v.squaredNorm() / (kVelocity_m_s * kVelocity_m_s) +
            a.squaredNorm() / (kAcceleration_m_s2 * kAcceleration_m_s2);
   }
+  Vector3 at(double dt_s) const { return p + dt_s * v + 0.5 * dt_s * dt_s * a; }
   void add(const Vector9& d) {
     p += d.head<3>();
     v += d.segment<3>(3);
@@ -73,44 +87,64 @@ double diameter_of(const Target& target) {
   return std::sqrt(square);
 }
 
-/// The mean of a sweep's hits as one angle of the body's position. Empty where it holds none of the target's, or, of a
-/// target of several sensors, one alone.
-std::optional<Row> row_of(const PlaneSweep& sweep, const Station& station, const Target& target,
-                          const NetworkState& near, const Motion& motion, double now_s, const HitNoise& noise) {
+/// What the rows share.
+struct Scene {
+  const Stations& stations;
+  const Target& target;
+  const NetworkState& near;
+  const HitNoise& noise;
+  double diameter_m;
+};
+
+/// The mean of a sweep's hits, with the body at `t`. False where it holds none of the target's, or, of a target of
+/// several sensors, one alone.
+bool linearise_at(const Vector3& t, const Scene& scene, Row& row) {
+  const PlaneSweep& sweep = *row.sweep;
+  const Station& station = scene.stations[sweep.station];
   const WorldFromStation& T = *station.T_world_station;
-  const double dt_s = sweep.time_s() - now_s;
-  const Vector3 t = motion.p + dt_s * motion.v + 0.5 * dt_s * dt_s * motion.a;
-  const Matrix3 R = rotation_exp(dt_s * near.rate.head<3>()) * near.pose.R;
-  Row out;
-  Vector3 gradient = Vector3::Zero(), arm = Vector3::Zero();
+  const HitNoise& noise = scene.noise;
+  const Matrix3 R = rotation_exp(row.dt_s * scene.near.rate.head<3>()) * scene.near.pose.R;
+  Vector3 arm = Vector3::Zero();
   int count = 0;
-  const double range_m = std::max(kFixNearest_m, (t - T.t).norm());
-  for (const Hit* hit : within_target(sweep, target, 1.1 * diameter_of(target) / range_m + kLoss * noise.own_rad)) {
-    const Vector3 b = R * find_sensor(target, hit->sensor)->position_m;
+  row.at_m = t;
+  row.range_m = std::max(kFixNearest_m, (t - T.t).norm());
+  row.residual_rad = 0.0;
+  row.gradient.setZero();
+  const double limit_rad = 1.1 * scene.diameter_m / row.range_m + kLoss * noise.own_rad;
+  for (const Hit* hit : within_target(sweep, scene.target, limit_rad)) {
+    const Vector3 b = R * find_sensor(scene.target, hit->sensor)->position_m;
     const Vector3 p = T.R.transpose() * (t + b - T.t);
-    if (!(p.z() > kFixNearest_m)) return std::nullopt;
-    out.residual_rad += hit->angle_rad - raw_angle(station, sweep.plane, p);
-    gradient += T.R * ideal_gradient(station.generation, sweep.plane, p);
+    if (!(p.z() > kFixNearest_m)) return false;
+    row.residual_rad += hit->angle_rad - raw_angle(station, sweep.plane, p);
+    row.gradient += T.R * ideal_gradient(station.generation, sweep.plane, p);
     arm += b;
     ++count;
   }
-  if (count < (target.size() > 2 ? 2 : 1)) return std::nullopt;
-  out.residual_rad /= count;
-  if (!std::isfinite(out.residual_rad)) return std::nullopt;
-  gradient /= count;
-  arm /= count;
-  const Vector3 by_turn = arm.cross(gradient);
+  if (count < (scene.target.size() > 2 ? 2 : 1)) return false;
+  row.residual_rad /= count;
+  row.gradient /= count;
+  const Vector3 by_turn = arm.cross(row.gradient) / count;
   const double contradiction_rad =
-      kContradictingPart * station.sigmas.value_or(noise.unstated).contradiction_rad(range_m, t);
-  const double jerk_rad = kJerk_m_s3 * std::abs(dt_s * dt_s * dt_s) / 6.0 * gradient.norm();
-  out.variance = contradiction_rad * contradiction_rad + jerk_rad * jerk_rad +
-                 (noise.own_rad * noise.own_rad + std::pow(noise.sensor_m / range_m, 2)) / count +
-                 by_turn.dot(near.covariance.topLeftCorner<3, 3>() * by_turn);
-  out.gradient << gradient, dt_s * gradient, 0.5 * dt_s * dt_s * gradient;
-  return out;
+      kContradictingPart * station.sigmas.value_or(noise.unstated).contradiction_rad(row.range_m, t);
+  const double jerk_rad = kJerk_m_s3 * std::abs(row.dt_s * row.dt_s * row.dt_s) / 6.0 * row.gradient.norm();
+  row.variance = contradiction_rad * contradiction_rad + jerk_rad * jerk_rad +
+                 (noise.own_rad * noise.own_rad + std::pow(noise.sensor_m / row.range_m, 2)) / count +
+                 by_turn.dot(scene.near.covariance.topLeftCorner<3, 3>() * by_turn);
+  return std::isfinite(row.residual_rad);
 }
 
-using Window = StaticVector<const PlaneSweep*, kRecentSweeps>;
+/// What the row leaves with the body at `t`; anew where that is far from where it was linearised.
+std::optional<double> residual_at(const Vector3& t, const Scene& scene, Row& row) {
+  if (row.range_m == 0.0 || !((t - row.at_m).norm() < kLinearPart * row.range_m)) {
+    if (!linearise_at(t, scene, row)) {
+      row.range_m = 0.0;
+      return std::nullopt;
+    }
+  }
+  return row.residual_rad - row.gradient.dot(t - row.at_m);
+}
+
+using Window = StaticVector<Row, kRecentSweeps>;
 
 // Of a sensor that was hit twice one hit is a reflection. A lone hit of several sensors cannot be told from one.
 bool is_clear(const PlaneSweep& sweep, const Target& target) {
@@ -124,13 +158,17 @@ bool is_clear(const PlaneSweep& sweep, const Target& target) {
 }
 
 /// The sweeps of the window. Empty where fewer than two stations showed both planes.
-Window window_of(const RecentSweeps& recent, const Target& target, double now_s) {
+Window window_of(const SweepView& recent, const Target& target, double now_s) {
   Window window;
   std::array<std::array<bool, kPlanes>, kMaxNetworkStations> seen{};
-  for (const PlaneSweep& sweep : recent) {
-    if (sweep.time_s() < now_s - kWindow_s || !is_clear(sweep, target)) continue;
-    window.push_back(&sweep);
-    seen[sweep.station][sweep.plane] = true;
+  for (const PlaneSweep* sweep : recent) {
+    const double time_s = sweep->time_s();
+    if (time_s < now_s - kWindow_s || !is_clear(*sweep, target)) continue;
+    Row row;
+    row.sweep = sweep;
+    row.dt_s = time_s - now_s;
+    window.push_back(row);
+    seen[sweep->station][sweep->plane] = true;
   }
   const auto both = std::count_if(seen.begin(), seen.end(), [](const auto& planes) { return planes[0] && planes[1]; });
   if (both < 2 || window.size() < kMinRows) window.clear();
@@ -139,12 +177,12 @@ Window window_of(const RecentSweeps& recent, const Target& target, double now_s)
 
 }  // namespace
 
-std::optional<PositionFix> fix_of(const RecentSweeps& recent, const Stations& stations, const Target& target,
+std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
                                   const NetworkState& near, const HitNoise& noise) {
   if (recent.empty()) return std::nullopt;
-  const double now_s = recent[recent.size() - 1].time_s();
-  const Window window = window_of(recent, target, now_s);
+  Window window = window_of(recent, target, recent.back()->time_s());
   if (window.empty()) return std::nullopt;
+  const Scene scene{stations, target, near, noise, diameter_of(target)};
   Motion motion{near.pose.t};
   for (int step = 0; step < kSteps; ++step) {
     FixMatrix A = FixMatrix::Zero();
@@ -157,17 +195,18 @@ std::optional<PositionFix> fix_of(const RecentSweeps& recent, const Stations& st
     std::array<std::array<double, kPlanes>, kMaxNetworkStations> last_rad{};
     int rows = 0, far_rows = 0;
     double square = 0.0;
-    for (const PlaneSweep* sweep : window) {
-      const auto row = row_of(*sweep, stations[sweep->station], target, near, motion, now_s, noise);
-      if (!row) continue;
-      const double far = row->residual_rad * row->residual_rad / (row->variance * kLoss * kLoss);
-      const double weight = 1.0 / (row->variance * (step == 0 ? 1.0 : 1.0 + far));
+    for (Row& row : window) {
+      const std::optional<double> residual_rad = residual_at(motion.at(row.dt_s), scene, row);
+      if (!residual_rad) continue;
+      const double far = *residual_rad * *residual_rad / (row.variance * kLoss * kLoss);
+      const double weight = 1.0 / (row.variance * (step == 0 ? 1.0 : 1.0 + far));
+      const Vector9 gradient = row.by_motion();
       ++rows;
       if (far > 1.0) ++far_rows;
-      square += weight * row->residual_rad * row->residual_rad;
-      add_outer<9>(A, row->gradient, weight);
-      b += weight * row->residual_rad * row->gradient;
-      last_rad[sweep->station][sweep->plane] = std::abs(row->residual_rad);
+      square += weight * *residual_rad * *residual_rad;
+      add_outer<9>(A, gradient, weight);
+      b += weight * *residual_rad * gradient;
+      last_rad[row.sweep->station][row.sweep->plane] = std::abs(*residual_rad);
     }
     const std::optional<FixMatrix> covariance = positive_inverse<9>(A);
     if (!covariance) return std::nullopt;

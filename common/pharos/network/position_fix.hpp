@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "pharos/network/network_start.hpp"
+#include "pharos/geometry/target.hpp"
 #include "pharos/network/network_state.hpp"
+#include "pharos/network/recent_sweeps.hpp"
 
 namespace pharos::network {
 
@@ -27,7 +28,7 @@ struct PositionFix {
 /// some plane's last sweep departs by more than 15 mrad.
 ///
 /// Cost: a 9x9 solution a step, some 10 us on a host.
-std::optional<PositionFix> fix_of(const RecentSweeps& recent, const Stations& stations, const Target& target,
+std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
                                   const NetworkState& near, const HitNoise& noise);
 
 }  // namespace pharos::network

@@ -51,6 +51,12 @@ struct StationSigmas {
   }
 };
 
+/// Independent errors of a geometry: all that four stations can have.
+inline constexpr std::size_t kMaxErrorModes = 24;
+/// A station's part of each at 1 sigma: rotation (rad) and position (m), as Pose::moved_by. The k-th of all stations
+/// belong together, so that the covariance of all poses is the sum over k of their outer products.
+using ErrorModes = StaticVector<Vector6, kMaxErrorModes>;
+
 /// A base station of a room: what it is, where it stands, how its planes depart from ideal ones.
 struct Station {
   std::uint8_t number = 0;  // LH1: 0 or 1; LH2: its channel, 0..15
@@ -60,6 +66,7 @@ struct Station {
   /// Of both generations; the ogee terms are zero for LH1. LH1: plane 0 = axis x, 1 = axis y; LH2: a, b.
   std::array<lighthouse::PlaneCalibration, kPlanes> plane;
   std::optional<StationSigmas> sigmas;
+  ErrorModes modes;  // beside `sigmas`
 };
 
 using Stations = StaticVector<Station, kMaxNetworkStations>;

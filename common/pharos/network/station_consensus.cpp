@@ -49,9 +49,9 @@ std::optional<MeanAngle> mean_angle(const PlaneSweep& sweep, const Station& stat
 }
 
 // RMS of what the sweeps of all stations but `without` leave, in sigmas. Empty where there is no solution.
-std::optional<double> left_without(std::size_t without, const RecentSweeps& recent, const Stations& stations,
+std::optional<double> left_without(std::size_t without, const SweepView& recent, const Stations& stations,
                                    const Target& target, const WorldFromBody& near, const StationSigmas& unstated) {
-  const double now_s = recent[recent.size() - 1].time_s();
+  const double now_s = recent.back()->time_s();
   Vector3 t = near.t, v = Vector3::Zero();
   for (int step = 0; step < kSteps; ++step) {
     Matrix6 A = Matrix6::Zero();
@@ -61,10 +61,10 @@ std::optional<double> left_without(std::size_t without, const RecentSweeps& rece
     b.tail<3>() = -v / (kVelocity_m_s * kVelocity_m_s);
     double square = 0.0;
     int count = 0;
-    for (const PlaneSweep& sweep : recent) {
-      if (sweep.station == without) continue;
-      const double dt_s = sweep.time_s() - now_s;
-      const auto angle = mean_angle(sweep, stations[sweep.station], target, {near.R, t + dt_s * v}, unstated);
+    for (const PlaneSweep* sweep : recent) {
+      if (sweep->station == without) continue;
+      const double dt_s = sweep->time_s() - now_s;
+      const auto angle = mean_angle(*sweep, stations[sweep->station], target, {near.R, t + dt_s * v}, unstated);
       if (!angle || !std::isfinite(angle->residual_rad)) continue;
       Vector6 h;
       h << angle->gradient, dt_s * angle->gradient;
@@ -87,10 +87,10 @@ std::optional<double> left_without(std::size_t without, const RecentSweeps& rece
 
 }  // namespace
 
-Consensus consensus_of(const RecentSweeps& recent, const Stations& stations, const Target& target,
+Consensus consensus_of(const SweepView& recent, const Stations& stations, const Target& target,
                        const WorldFromBody& near, const StationSigmas& unstated) {
   std::array<int, kMaxNetworkStations> sweeps{};
-  for (const PlaneSweep& sweep : recent) ++sweeps[sweep.station];
+  for (const PlaneSweep* sweep : recent) ++sweeps[sweep->station];
   const auto heard = std::count_if(sweeps.begin(), sweeps.end(), [](int count) { return count > 1; });
   if (heard < static_cast<std::ptrdiff_t>(kMinStations)) return {};
   const auto without = [&](std::size_t s) { return left_without(s, recent, stations, target, near, unstated); };

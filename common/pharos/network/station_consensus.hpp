@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "pharos/geometry/target.hpp"
-#include "pharos/network/network_start.hpp"
+#include "pharos/network/recent_sweeps.hpp"
 #include "pharos/network/station.hpp"
 
 namespace pharos::network {
@@ -23,7 +23,7 @@ struct Consensus {
 /// stations that state none.
 ///
 /// Cost: a 6x6 solution for each station and one, some 20 us with three stations on a host.
-Consensus consensus_of(const RecentSweeps& recent, const Stations& stations, const Target& target,
+Consensus consensus_of(const SweepView& recent, const Stations& stations, const Target& target,
                        const WorldFromBody& near, const StationSigmas& unstated);
 
 }  // namespace pharos::network

@@ -2,6 +2,7 @@
 #include "host/calibrate/stations/station_start.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/linear/dense.hpp"
@@ -37,10 +38,12 @@ std::vector<Seen> positions_of(const std::vector<PlaneSweep>& sweeps, std::size_
   for (const PlaneSweep& sweep : sweeps) {
     if (sweep.station != place) continue;
     if (before != nullptr && before->plane != sweep.plane && sweep.time_s() - before->time_s() < kPair_s) {
-      network::RecentSweeps pair;
-      pair.push_back(*before);
-      pair.push_back(sweep);
-      for (PlaneSweep& one : pair) one.station = 0;
+      std::array<PlaneSweep, 2> both = {*before, sweep};
+      network::SweepView pair;
+      for (PlaneSweep& one : both) {
+        one.station = 0;
+        pair.push_back(&one);
+      }
       const network::Starts starts = network::starts_of(pair, alone, target);
       if (!starts.empty()) out.push_back({0.5 * (before->time_s() + sweep.time_s()), starts[0].t});
     }

@@ -135,6 +135,48 @@ TEST(NetworkTracker, StatesWhatAGeometryFoundFromATargetOnTheFloorLeaves) {
   EXPECT_LT(nees / ok, 2.0);
 }
 
+// A room that is too large by a percent about its middle: beyond five sigmas unless the stations' joint error says so.
+TEST(NetworkTracker, StatesWhatTheJointErrorOfItsStationsMovesAPositionBy) {
+  const Vector3 middle(0.0, 0.0, 0.9);
+  for (const bool stated : {false, true}) {
+    const Stations real = two_stations(Generation::kLighthouse2);
+    Stations known = real;
+    for (Station& station : known) {
+      const Vector3 shift = 0.01 * (station.T_world_station->t - middle);
+      station.T_world_station->t += shift;
+      station.sigmas = StationSigmas{0.002, 0.0, 0.1e-3};
+      if (stated) station.modes.push_back((Vector6() << Vector3::Zero(), shift).finished());
+    }
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0.0, 20e-6);
+    const Target target = deck();
+    const auto tracker = std::make_unique<NetworkTracker>(known, target, NetworkOptions{});
+    int ok = 0, beyond = 0;
+    const auto at = [](double t) { return WorldFromBody{body_at(t).R, 1.5 * body_at(t).t}; };
+    const auto take = [&](const std::optional<NetworkResult>& result) {
+      if (!result || !result->pose.ok() || result->ambiguous) return;
+      const Vector3 error = result->pose.value().t - at(result->time_s).t;
+      ++ok;
+      if (error.dot(result->covariance.bottomRightCorner<3, 3>().inverse() * error) > 25.0) ++beyond;
+    };
+    for (int k = 0; k < 1200; ++k) {
+      const std::size_t plane = static_cast<std::size_t>(k % 2), station = static_cast<std::size_t>(k / 2 % 2);
+      for (const SensorPlacement& sensor : target) {
+        const double t = k / 120.0 + 0.002 + 1e-5 * sensor.sensor;
+        const Vector3 p = real[station].T_world_station->inverse() * (at(t) * sensor.position_m);
+        const double angle = raw_angle(real[station], plane, p) + noise(random);
+        take(tracker->push(static_cast<std::uint8_t>(station), plane, {t, sensor.sensor, angle}));
+      }
+    }
+    EXPECT_GT(ok, 1000) << stated;
+    if (stated) {
+      EXPECT_EQ(beyond, 0);
+    } else {
+      EXPECT_GT(beyond, ok / 4);
+    }
+  }
+}
+
 // What a tracker makes of a station that somebody moves at half time.
 struct Moved {
   std::uint64_t exclusions = 0;
