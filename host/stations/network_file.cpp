@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stations/network_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -25,6 +26,7 @@ constexpr Range kPosition_m{-1000.0, 1000.0};
 constexpr Range kSigma_m{0.0, 10.0};
 constexpr Range kSigma_deg{0.0, 90.0};
 constexpr Range kSigmaScale{0.0, 1.0};
+constexpr Range kMode{-10.0, 10.0};  // rad, m
 constexpr Range kQuaternion{-1.01, 1.01};
 constexpr double kUnitTolerance = 0.01;
 
@@ -74,6 +76,19 @@ void read_sigmas(const TomlTable& table, Station& station) {
   }
 }
 
+void read_modes(const TomlTable& table, Station& station) {
+  if (!table.has("error_modes")) return;
+  const auto rows = table.rows("error_modes", 6, kMode);
+  if (rows.size() > network::kMaxErrorModes) {
+    table.fail("error_modes", "has more than " + std::to_string(network::kMaxErrorModes) + " rows");
+  }
+  for (const std::vector<double>& row : rows) {
+    Vector6 mode;
+    std::copy(row.begin(), row.end(), mode.data());
+    station.modes.push_back(mode);
+  }
+}
+
 Station read_station(const TomlTable& table) {
   Station station;
   station.number = static_cast<std::uint8_t>(table.integer("number", 0, network::kMaxNetworkStations - 1));
@@ -87,7 +102,18 @@ Station read_station(const TomlTable& table) {
   }
   read_pose(table, station);
   read_sigmas(table, station);
+  read_modes(table, station);
   return station;
+}
+
+std::string modes_text(const network::ErrorModes& modes) {
+  std::string out = "error_modes = [\n";
+  for (const Vector6& mode : modes) {
+    std::array<double, 6> row{};
+    std::copy(mode.begin(), mode.end(), row.begin());
+    out += "  " + exact_list(row) + ",\n";
+  }
+  return out + "]\n";
 }
 
 }  // namespace
@@ -135,6 +161,7 @@ std::string network_text(const network::Stations& stations) {
       out += "sigma_scale = " + exact_number(station.sigmas->scale) + "\n";
       out += "anchor_m = " + exact_list(station.sigmas->anchor_m) + "\n";
     }
+    if (!station.modes.empty()) out += modes_text(station.modes);
   }
   return out;
 }

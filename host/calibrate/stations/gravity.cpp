@@ -42,7 +42,7 @@ std::vector<PieceMean> means_of(const std::vector<BodySpline>& motion, const std
   return means;
 }
 
-double median_of(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
   const auto half = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), half, values.end());
   return *half;
@@ -60,7 +60,7 @@ Up up_of(const std::vector<BodySpline>& motion, const std::vector<Acceleration>&
     std::vector<double> left;
     for (const PieceMean& m : means) left.push_back((m.force - gravity - m.attitude * bias).norm());
     // The median of the norm of three equal sigmas is 1.54 of them.
-    const double sigma = std::max(1e-6, median_of(left) / 1.54);
+    const double sigma = std::max(1e-6, middle_of(left) / 1.54);
     Matrix6 N = Matrix6::Zero();
     N.bottomRightCorner<3, 3>().diagonal().setConstant(sigma * sigma / (kBias_m_s2 * kBias_m_s2));
     Vector6 b = Vector6::Zero();

@@ -101,6 +101,7 @@ void turn_up(const std::vector<Acceleration>& samples, const std::string& name, 
     auto& anchor = station.sigmas->anchor_m;
     const Vector3 turned = centre + R * (Vector3(anchor[0], anchor[1], anchor[2]) - centre);
     anchor = {turned.x(), turned.y(), turned.z()};
+    for (Vector6& mode : station.modes) mode << R * mode.head<3>().eval(), R * mode.tail<3>().eval();
   }
   out.up_sigma_rad = up.sigma_rad;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/calibrate/stations/error_modes.hpp"
 #include "pharos/geometry/symmetric.hpp"
 
 namespace pharos::calibrate {
@@ -147,6 +148,7 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
   for (const BodySpline& piece : at.motion) out.seconds += piece.end_s() - piece.begin_s();
   out.scale_sigma = scale_sigma_of(at.stations, result.covariance);
   const Spread spread = spread_of(at);
+  const StationErrors errors = station_errors(at, result.covariance);
   for (std::size_t s = 0; s < at.stations.size(); ++s) {
     std::array<PlaneFit, network::kPlanes> fits;
     for (std::size_t p = 0; p < network::kPlanes; ++p) fits[p] = fit_of(s, p, sweeps, result.residuals);
@@ -154,13 +156,16 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
     for (std::size_t k = 0; k < 3; ++k) {
       sigmas.rotation_rad = std::max(sigmas.rotation_rad, sigma_of(result.covariance, s * kStationColumns + k));
     }
-    for (const PlaneFit& fit : fits) {
-      sigmas.rotation_rad = std::max(sigmas.rotation_rad, turned_sigma(fit, at.stations[s], at.target, spread));
-      sigmas.plane_rad = std::max(sigmas.plane_rad, std::hypot(fit.mean_rad, kHidden_rad));
+    for (std::size_t p = 0; p < network::kPlanes; ++p) {
+      sigmas.rotation_rad = std::max(sigmas.rotation_rad, turned_sigma(fits[p], at.stations[s], at.target, spread));
+      sigmas.plane_rad = std::max(sigmas.plane_rad, std::hypot(fits[p].mean_rad, errors.left_rad[s][p], kHidden_rad));
     }
+    // What the model of the planes leaves deforms the room by as much again as the scale, in all directions: beside
+    // motion capture the joint errors alone are too small by a half (README).
     sigmas.scale = out.scale_sigma;
     sigmas.anchor_m = {spread.centre_m.x(), spread.centre_m.y(), spread.centre_m.z()};
     out.stations[s].sigmas = sigmas;
+    out.stations[s].modes = errors.modes[s];
     out.fits.push_back(fits);
     add_station(prior[s], at.stations[s], result.covariance, s * kStationColumns, s == 0, out.parameters);
   }

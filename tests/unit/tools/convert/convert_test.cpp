@@ -261,6 +261,8 @@ TEST(SystemConfig, SaysWhatIsWrong) {
 TEST(NetworkFile, ReadsBackWhatItWrote) {
   network::Stations stations = read_system_config(kConfig, "config");
   stations[0].sigmas = network::StationSigmas{0.01, 0.02, 0.0003};
+  stations[0].modes.push_back((Vector6() << 1e-3, -2e-3, 0.0, 0.1, 1.0 / 3.0, -4.0).finished());
+  stations[0].modes.push_back(Vector6::Constant(0.5));
   const std::string text = host::network_text(stations);
   const test::MemoryFile file(text.data(), text.size());
   const network::Stations again = host::read_network_file(file.path());
@@ -270,6 +272,8 @@ TEST(NetworkFile, ReadsBackWhatItWrote) {
   EXPECT_TRUE(again[0].T_world_station->R.isApprox(stations[0].T_world_station->R, 1e-14));
   EXPECT_EQ(again[0].T_world_station->t, stations[0].T_world_station->t);
   EXPECT_NEAR(again[0].sigmas->rotation_rad, 0.01, 1e-15);
+  ASSERT_EQ(again[0].modes.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(again[0].modes[k], stations[0].modes[k]);
 }
 
 constexpr const char* kLibsurvive =
