@@ -18,11 +18,11 @@
 #include "host/daemon/rate_monitor.hpp"
 #include "host/daemon/source_changes.hpp"
 #include "host/daemon/unwrapped_counters.hpp"
-#include "host/daemon/world_estimator.hpp"
 #include "host/publish/cycle_report.hpp"
 #include "host/publish/publish_gate.hpp"
 #include "host/runtime/clock.hpp"
 #include "host/runtime/latency_histogram.hpp"
+#include "host/stations/world_estimator.hpp"
 #include "pharos/report/link_decoder.hpp"
 #include "pharos/tracking/calibrated_tracker.hpp"
 

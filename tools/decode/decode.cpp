@@ -27,10 +27,10 @@ constexpr const char* kExample =
     "theta_rad is the raw angle 2 pi (hit - flash) / turn, before the station's model; a quarter turn is straight\n"
     "ahead. station is 0 for the first flash of a slot (or a lone station), 1 for the second. flags: period_nominal,\n"
     "flash_weak, lock_poor, several (the sensor was hit more than once in this sweep: reflections).\n"
-    "--lh2-light: station is the channel, axis a or b the laser plane, theta_rad 0 straight ahead, growing to the\n"
-    "station's left; the rows are those of pharos track --sweeps. sync_s and offset_bits: the turn's sync, and the "
-    "light's\n"
-    "middle in bits of 6 Mbit/s after it. --bits: each burst alone, with its bits (x: unclear).";
+    "Of a target of Lighthouse 2.0 (its recorded serial stream, or --lh2-light): station is the channel, axis a or b\n"
+    "the laser plane, theta_rad 0 straight ahead, growing to the station's left; the rows are those of pharos track\n"
+    "--sweeps. sync_s and offset_bits: the turn's sync, and the light's middle in bits of 6 Mbit/s after it.\n"
+    "--bits: each burst alone, with its bits (x: unclear).";
 
 const std::vector<std::string> kBearingColumns = {"time_s", "station",   "station_id",  "axis",
                                                   "sensor", "theta_rad", "width_ticks", "flags"};
@@ -124,11 +124,17 @@ int run(const Options& options) {
   if (options.bits) throw host::InputError("--bits needs --lh2-light");
   Stations stations = options.ootx ? Stations{} : read_ahead(options.edges);
   Recording recording(options.edges);
+  std::optional<RecordingEvent> event = recording.next();
+  if (event && is_lh2(*event)) {
+    if (options.smooth) throw host::InputError("--smooth is for the flashes of Lighthouse 1.0; leave it out");
+    return decode_lh2_stream(recording, *event, options.ootx ? Lh2Rows::kOotx : Lh2Rows::kHits, options.stats,
+                             options.output);
+  }
   Output output(options.output, options.ootx ? kOotxColumns : kBearingColumns);
   Progress progress("decode", "sweeps");
   Smoothers smoothers;
   recording.on_pause([&output] { output.rows().flush(); });
-  while (const std::optional<RecordingEvent> event = recording.next()) {
+  for (; event; event = recording.next()) {
     if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&*event)) {
       stations.push(*payload);
       if (options.ootx) write_payload(*payload, output.rows());

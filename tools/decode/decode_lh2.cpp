@@ -99,6 +99,13 @@ void finish(const host::Lh2LightReader& reader, Output& output, const lighthouse
   if (statistics) print_statistics(counters);
 }
 
+// A hit table or an OOTX table without a row.
+int no_row(const std::string& name, bool ootx) {
+  note(name + (ootx ? ": no OOTX frame; it takes 10 s of light of one station, record longer"
+                    : ": no hit; --bits shows each burst, --stats what became of the light"));
+  return kExitNoAnswer;
+}
+
 int write_bits(host::Lh2LightReader& reader, bool statistics, const OutputOptions& options) {
   Output output(options, kBitColumns);
   const auto writer = std::make_unique<BitWriter>(output.rows());
@@ -134,13 +141,34 @@ int write_decoded(host::Lh2LightReader& reader, bool ootx, bool statistics, cons
   take();
   hits.flush();
   finish(reader, output, decoder->counters(), statistics);
-  if (output.rows().rows() > 0) return kExitAnswered;
-  note(reader.name() + (ootx ? ": no OOTX frame; it takes 10 s of light of one station, record longer"
-                             : ": no hit; --bits shows each burst, --stats what became of the light"));
-  return kExitNoAnswer;
+  return output.rows().rows() > 0 ? kExitAnswered : no_row(reader.name(), ootx);
 }
 
 }  // namespace
+
+int decode_lh2_stream(Recording& recording, const RecordingEvent& first, Lh2Rows what, bool statistics,
+                      const OutputOptions& options) {
+  const bool ootx = what == Lh2Rows::kOotx;
+  Output output(options, ootx ? lh2_ootx_columns() : lh2_hit_columns());
+  Progress progress("decode", "sweeps");
+  Lh2HitRows hits(output.rows());
+  recording.on_pause([&output] { output.rows().flush(); });
+  for (std::optional<RecordingEvent> event = first; event; event = recording.next()) {
+    if (const auto* report = std::get_if<report::Lh2OotxReport>(&*event)) {
+      hits.name_station(report->payload);
+      if (ootx) write_lh2_payload(report->payload, output.rows());
+    } else if (const auto* sweep = std::get_if<lighthouse::Lh2Sweep>(&*event)) {
+      progress.step();
+      if (!ootx) hits.push(*sweep);
+    }
+  }
+  recording.on_pause({});
+  hits.flush();
+  output.finish();
+  recording.print_remarks();
+  if (statistics) recording.print_statistics();
+  return output.rows().rows() > 0 ? kExitAnswered : no_row(recording.name(), ootx);
+}
 
 int decode_lh2_light(const std::string& path, Lh2Rows what, bool statistics, const OutputOptions& output) {
   host::Lh2LightReader reader{host::ByteSource(path)};

@@ -7,15 +7,23 @@
 #include <string>
 #include <variant>
 
+#include "pharos/lighthouse/lh2_sweep.hpp"
 #include "pharos/lighthouse/ootx_payload.hpp"
 #include "pharos/lighthouse/sweep.hpp"
+#include "pharos/report/reports.hpp"
 
 namespace pharos::tools {
 
 class RecordingSource;
 
-/// One event of a decoded recording.
-using RecordingEvent = std::variant<lighthouse::Sweep, lighthouse::OotxPayload>;
+/// One event of a decoded recording; of a target of Lighthouse 2.0 the last two.
+using RecordingEvent =
+    std::variant<lighthouse::Sweep, lighthouse::OotxPayload, lighthouse::Lh2Sweep, report::Lh2OotxReport>;
+
+/// Whether an event is of Lighthouse 2.0.
+inline bool is_lh2(const RecordingEvent& event) {
+  return std::holds_alternative<lighthouse::Lh2Sweep>(event) || std::holds_alternative<report::Lh2OotxReport>(event);
+}
 
 /// A recording from start to end: a table of light pulses, which is decoded here, or a recorded serial stream, with
 /// sweeps decoded by the target (or raw edges, in the diagnostic mode). The content determines the format.

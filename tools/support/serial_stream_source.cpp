@@ -96,6 +96,10 @@ class SerialStreamSource final : public RecordingSource {
       if (is(Content::kDecoded)) ready_.emplace_back(*sweep);
     } else if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&event)) {
       if (is(Content::kDecoded)) ready_.emplace_back(*payload);
+    } else if (const auto* lh2_sweep = std::get_if<lighthouse::Lh2Sweep>(&event)) {
+      if (is(Content::kDecoded)) ready_.emplace_back(*lh2_sweep);
+    } else if (const auto* lh2_payload = std::get_if<report::Lh2OotxReport>(&event)) {
+      if (is(Content::kDecoded)) ready_.emplace_back(*lh2_payload);
     } else if (const auto* edges = std::get_if<report::EdgesReport>(&event)) {
       if (is(Content::kRawEdges)) take_edges(*edges);
     } else if (const auto* counters = std::get_if<report::DecoderReport>(&event)) {

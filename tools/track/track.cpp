@@ -30,6 +30,7 @@ constexpr const char* kExample =
     "Example:\n"
     "  pharos track hmd_static.edges.csv.gz --target hmd_static.target.csv --sensors sensors.csv > poses.csv\n"
     "  pharos track --sweeps sweeps.csv --stations stations.toml --target target.csv > poses.csv\n"
+    "  pharos track dock.phraw --stations stations.toml --target target.csv > poses.csv   (Lighthouse 2.0)\n"
     "Each row is T_lighthouse_body in the frame of the station in the column station.\n"
     "--method motion: a row a sweep, time_s of the last hit used, the body's motion estimated, both stations' hits in\n"
     "one estimate where both see it (flag fused); noise shared by all hits of a sweep is taken as 0.87 of a bearing's\n"
@@ -118,6 +119,9 @@ class Tracking {
   }
 
   void push(const RecordingEvent& event) {
+    if (is_lh2(event)) {
+      throw host::InputError("a target of Lighthouse 2.0: give --stations, the file of where its stations stand");
+    }
     if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&event)) {
       tracker_.push(*payload);
     } else if (const auto* sweep = std::get_if<lighthouse::Sweep>(&event)) {
@@ -185,10 +189,11 @@ int run(Options options) {
     options.output.series = std::to_string(*options.station);
   }
   if (!options.sweeps.empty() || !options.stations.empty()) {
-    if (options.sweeps.empty() || options.stations.empty() || !options.edges.empty()) {
-      throw host::InputError("give --sweeps and --stations together, and no EDGES");
+    if (options.stations.empty() || options.sweeps.empty() == options.edges.empty()) {
+      throw host::InputError("give --stations with either --sweeps or a recorded stream of Lighthouse 2.0");
     }
-    return track_network({options.sweeps, options.stations, options.target, options.stats}, options.output);
+    return track_network({options.sweeps, options.edges, options.stations, options.target, options.stats},
+                         options.output);
   }
   if (options.edges.empty()) throw host::InputError("give EDGES, or --sweeps and --stations");
   check_files(options);
@@ -224,7 +229,9 @@ void add_track(CLI::App& app, int& exit_code) {
       "--sweeps", options->sweeps,
       "In place of EDGES: hits of one to 16 stations, as `pharos convert` writes them; experimental (poses of a "
       "quickly moved target can be off by more than their sigmas say); poses are T_world_body");
-  command->add_option("--stations", options->stations, "With --sweeps: stations.toml, where they stand");
+  command->add_option(
+      "--stations", options->stations,
+      "Where the stations of --sweeps, or of a recorded stream of Lighthouse 2.0, stand (stations.toml)");
   command->add_option("--target", options->target, "Table sensor,x_m,y_m,z_m[,nx,ny,nz]")->required();
   command
       ->add_option("--method", options->method,

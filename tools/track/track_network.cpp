@@ -6,12 +6,14 @@
 
 #include "host/stations/network_file.hpp"
 #include "host/stations/sweep_table.hpp"
+#include "host/stations/world_estimator.hpp"
 #include "host/support/input_error.hpp"
 #include "host/table/target_file.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/network/network_tracker.hpp"
 #include "tools/support/commands.hpp"
 #include "tools/support/pose_columns.hpp"
+#include "tools/support/recording.hpp"
 #include "tools/support/standard_input.hpp"
 #include "tools/support/target_notes.hpp"
 
@@ -85,41 +87,90 @@ void require_poses(const network::Stations& stations, const std::string& path) {
   }
 }
 
+// Results as rows.
+class NetworkTracking {
+ public:
+  NetworkTracking(const network::Stations& stations, const OutputOptions& options)
+      : stations_(stations), output_(options, network_columns()) {}
+
+  void take(const std::optional<network::NetworkResult>& result) {
+    if (!result) return;
+    write_result(*result, stations_, output_.rows());
+    if (result->pose.ok()) ++poses_;
+  }
+  void show() { output_.rows().flush(); }
+  void finish() { output_.finish(); }
+  std::size_t poses() const { return poses_; }
+
+ private:
+  const network::Stations& stations_;
+  Output output_;
+  std::size_t poses_ = 0;
+};
+
+network::NetworkCounters track_table(const std::string& path, const network::Stations& stations, const Target& target,
+                                     NetworkTracking& out) {
+  const auto tracker = std::make_unique<network::NetworkTracker>(stations, target, network::NetworkOptions{});
+  host::SweepTable sweeps(path);
+  while (sweeps.next()) {
+    const network::Station* station = network::find_station(stations, sweeps.station());
+    if (station != nullptr) sweeps.require(station->generation);
+    out.take(tracker->push(sweeps.station(), sweeps.plane(), sweeps.hit()));
+  }
+  while (const auto last = tracker->flush()) out.take(last);
+  return tracker->counters();
+}
+
+network::NetworkCounters track_stream(const std::string& path, const network::Stations& stations, const Target& target,
+                                      NetworkTracking& out) {
+  Recording recording(path);
+  recording.on_pause([&out] { out.show(); });
+  host::WorldEstimator estimator(stations, target);
+  const auto take = [&] {
+    while (const auto result = estimator.next()) out.take(result);
+  };
+  while (const std::optional<RecordingEvent> event = recording.next()) {
+    if (!is_lh2(*event)) {
+      throw host::InputError(recording.name() + ": light of Lighthouse 1.0; leave out --stations, or give --sweeps");
+    }
+    const auto* sweep = std::get_if<lighthouse::Lh2Sweep>(&*event);
+    if (sweep == nullptr) continue;
+    estimator.push(*sweep);
+    take();
+  }
+  estimator.flush();
+  take();
+  recording.print_remarks();
+  return estimator.counters();
+}
+
+void print_counters(const network::NetworkCounters& c) {
+  note("hits " + std::to_string(c.hits) + ", of unknown stations " + std::to_string(c.hits_unknown) + ", left out " +
+       std::to_string(c.hits_left_out) + "; sweeps " + std::to_string(c.sweeps) + ", refused " +
+       std::to_string(c.sweeps_refused) + "; starts " + std::to_string(c.starts) + ", losses " +
+       std::to_string(c.losses) + ", strays " + std::to_string(c.strays) + ", stations excluded " +
+       std::to_string(c.exclusions) + ", readmitted " + std::to_string(c.readmissions));
+}
+
 }  // namespace
 
 int track_network(const NetworkFiles& files, const OutputOptions& output_options) {
-  require_one_standard_input({{"--sweeps", files.sweeps}, {"--stations", files.stations}, {"--target", files.target}});
+  const bool table = !files.sweeps.empty();
+  const std::string& light = table ? files.sweeps : files.stream;
+  require_one_standard_input(
+      {{table ? "--sweeps" : "EDGES", light}, {"--stations", files.stations}, {"--target", files.target}});
   const network::Stations stations = host::read_network_file(files.stations);
   require_poses(stations, files.stations);
   const host::TargetFile target = host::read_target(files.target);
   note_target_shape(files.target, target.shape);
-  const auto tracker = std::make_unique<network::NetworkTracker>(stations, target.target, network::NetworkOptions{});
-  host::SweepTable sweeps(files.sweeps);
-  Output output(output_options, network_columns());
-  std::size_t poses = 0;
-  const auto take = [&](const std::optional<network::NetworkResult>& result) {
-    if (!result) return;
-    write_result(*result, stations, output.rows());
-    if (result->pose.ok()) ++poses;
-  };
-  while (sweeps.next()) {
-    const network::Station* station = network::find_station(stations, sweeps.station());
-    if (station != nullptr) sweeps.require(station->generation);
-    take(tracker->push(sweeps.station(), sweeps.plane(), sweeps.hit()));
-  }
-  while (const auto last = tracker->flush()) take(last);
-  output.finish();
-  const network::NetworkCounters& c = tracker->counters();
-  if (files.stats) {
-    note("hits " + std::to_string(c.hits) + ", of unknown stations " + std::to_string(c.hits_unknown) + ", left out " +
-         std::to_string(c.hits_left_out) + "; sweeps " + std::to_string(c.sweeps) + ", refused " +
-         std::to_string(c.sweeps_refused) + "; starts " + std::to_string(c.starts) + ", losses " +
-         std::to_string(c.losses) + ", strays " + std::to_string(c.strays) + ", stations excluded " +
-         std::to_string(c.exclusions) + ", readmitted " + std::to_string(c.readmissions));
-  }
+  NetworkTracking out(stations, output_options);
+  const network::NetworkCounters c =
+      table ? track_table(light, stations, target.target, out) : track_stream(light, stations, target.target, out);
+  out.finish();
+  if (files.stats) print_counters(c);
   if (c.exclusions > 0) note(files.stations + ": a station contradicts the others and was left out: was it moved?");
-  if (poses == 0) note(files.sweeps + ": no pose; see the column status");
-  return poses > 0 ? kExitAnswered : kExitNoAnswer;
+  if (out.poses() == 0) note(light + ": no pose; see the column status");
+  return out.poses() > 0 ? kExitAnswered : kExitNoAnswer;
 }
 
 }  // namespace pharos::tools

@@ -5,8 +5,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
+#include "host/record/stream_format.hpp"
+#include "host/table/lh2_light_reader.hpp"
+#include "pharos/lighthouse/lh2_light_decoder.hpp"
+#include "pharos/report/reporter.hpp"
 #include "tests/integration/cli/program.hpp"
 
 namespace pharos::cli_test {
@@ -52,6 +57,49 @@ TEST(CliLh2, LightBecomesSweepsAndPoses) {
   std::size_t ok = 0;
   for (const Row& row : rows_of(tracked.out)) ok += row.at("status") == "ok" ? 1U : 0U;
   EXPECT_GE(ok, 350U);  // 2 stations, 2 planes, 50 turns/s, 2 s
+}
+
+// The recorded serial stream of a target that decoded this light.
+std::string stream_of(const std::string& light) {
+  std::vector<std::uint8_t> bytes = host::stream_format::encode_head({"dock", 460'800, 0, 0});
+  report::Reporter reporter;
+  const auto sequences = std::make_unique<lighthouse::Lh2Sequences>();
+  const auto decoder = std::make_unique<lighthouse::Lh2LightDecoder>(*sequences);
+  const auto send = [&](report::Reporter::Bytes frame) {
+    if (!frame.empty()) host::stream_format::append_chunk({0, 0, 0, frame}, bytes);
+  };
+  const auto send_all = [&] {
+    while (const auto payload = decoder->take_ootx()) send(reporter.report(report::Lh2OotxReport{*payload}));
+    while (const auto sweep = decoder->take_sweep()) send(reporter.report(*sweep));
+  };
+  host::Lh2LightReader reader{host::ByteSource(light)};
+  while (const auto edge = reader.next()) {
+    decoder->push(*edge);
+    send_all();
+  }
+  decoder->flush();
+  send_all();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(CliLh2, ARecordedStreamGivesTheRowsOfItsLight) {
+  const Folder folder;
+  const std::string out = folder.path("r"), stream = folder.path("dock.phraw");
+  ASSERT_EQ(pharos("sim lighthouse " + short_scenario(folder) + " --seed 3 --output " + out).exit_code, 0);
+  std::ofstream(stream, std::ios::binary) << stream_of(out + "/light.csv.gz");
+  const Outcome of_light = pharos("decode --lh2-light " + out + "/light.csv.gz");
+  const Outcome of_stream = pharos("decode " + stream);
+  ASSERT_EQ(of_stream.exit_code, 0) << of_stream.err;
+  EXPECT_EQ(of_stream.out, of_light.out);
+  std::ofstream(folder.path("sweeps.csv")) << of_light.out;
+  const std::string rest = " --stations " + out + "/stations.toml --target " + out + "/target.csv";
+  const Outcome tracked = pharos("track " + stream + rest);
+  ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
+  EXPECT_EQ(tracked.out, pharos("track --sweeps " + folder.path("sweeps.csv") + rest).out);
+  EXPECT_EQ(pharos("track " + stream + " --sweeps " + folder.path("sweeps.csv") + rest).exit_code, 2);
+  const Outcome without = pharos("track " + stream + " --target " + out + "/target.csv");
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, HasSubstr("--stations"));
 }
 
 TEST(CliLh2, EachBurstsBitsAreShown) {

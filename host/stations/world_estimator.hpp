@@ -45,7 +45,7 @@ class WorldEstimator {
 
   network::Stations stations_;
   Target target_;
-  std::unique_ptr<network::NetworkTracker> tracker_;  // 4 MB
+  std::unique_ptr<network::NetworkTracker> tracker_;
   std::multiset<PlacedHit> waiting_;
   std::deque<network::NetworkResult> results_;
   double newest_s_ = 0.0;

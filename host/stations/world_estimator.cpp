@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/daemon/world_estimator.hpp"
+#include "host/stations/world_estimator.hpp"
 
 #include <algorithm>
 #include <limits>
