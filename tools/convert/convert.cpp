@@ -105,6 +105,7 @@ int libsurvive(const std::string& path, std::string config, const std::string& w
   convert::ConvertedLog out;
   out.generation = 2;
   out.stations = stations_of(config, device);
+  convert::place_stations(record, out.stations);
   out.hits = device.hits;
   out.target = device.target;
   out.imu = device.imu;

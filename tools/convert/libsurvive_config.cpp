@@ -134,17 +134,13 @@ class LighthouseEntry {
     if (value < 0.0 || value != std::floor(value)) in_.fail(name_ + ": " + key + ": a whole number is expected");
     return value;
   }
-  // The maker's frame (X right, Y up, looking along -Z) is ours turned by pi about X.
   void read_pose(network::Station& station) const {
     const auto set = values_.find("PositionSet");
     if (set == values_.end() || set->second != Values{"1"}) return;
     const std::vector<double> v = numbers("pose", 7, 1000.0);
     const Quaternion q(v[3], v[4], v[5], v[6]);
     if (!(std::abs(q.norm() - 1.0) < 0.01)) in_.fail(name_ + ": pose: the quaternion must have length 1");
-    const Matrix3 R = q.normalized().toRotationMatrix();
-    Matrix3 ours;
-    ours << R.col(0), -R.col(1), -R.col(2);
-    station.T_world_station = network::WorldFromStation{ours, Vector3(v[0], v[1], v[2])};
+    station.T_world_station = station_pose(q, Vector3(v[0], v[1], v[2]));
   }
 
   Tokens& in_;
@@ -153,6 +149,13 @@ class LighthouseEntry {
 };
 
 }  // namespace
+
+network::WorldFromStation station_pose(const Quaternion& q, const Vector3& t) {
+  const Matrix3 R = q.normalized().toRotationMatrix();
+  Matrix3 ours;
+  ours << R.col(0), -R.col(1), -R.col(2);
+  return {ours, t};
+}
 
 network::Stations read_libsurvive_config(const std::string& text, const std::string& name) {
   if (text.size() > kLargestConfigFile)

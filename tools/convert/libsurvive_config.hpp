@@ -7,6 +7,9 @@
 
 namespace pharos::convert {
 
+/// T_world_station of a pose of libsurvive, whose stations look along -Z with Y up.
+network::WorldFromStation station_pose(const Quaternion& q, const Vector3& t);
+
 /// Reads libsurvive's configuration file, the `.json` beside a record: objects `lighthouseN` with mode (the channel),
 /// id, pose (x, y, z, then quaternion w, x, y, z of the station, which looks along -Z with Y up, in the world),
 /// PositionSet and the fields fcal*. It is not JSON (no outer braces, commas missing), but its values are.

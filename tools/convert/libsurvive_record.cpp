@@ -15,6 +15,7 @@
 #include "host/table/table_reader.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/convert/crazyflie_sweeps.hpp"
+#include "tools/convert/libsurvive_config.hpp"
 #include "tools/convert/lower_envelope.hpp"
 
 namespace pharos::convert {
@@ -293,5 +294,14 @@ class RecordReader {
 }  // namespace
 
 LibsurviveRecord read_libsurvive_record(host::ByteSource source) { return RecordReader(std::move(source)).read(); }
+
+void place_stations(const LibsurviveRecord& record, network::Stations& stations) {
+  for (const ExternalPose& pose : record.external) {
+    for (network::Station& station : stations) {
+      if (pose.device != "previous_LH" + std::to_string(station.number)) continue;
+      station.T_world_station = station_pose(pose.q, pose.t);
+    }
+  }
+}
 
 }  // namespace pharos::convert

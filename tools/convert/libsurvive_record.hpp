@@ -9,6 +9,7 @@
 
 #include "host/table/byte_source.hpp"
 #include "pharos/geometry/target.hpp"
+#include "pharos/network/station.hpp"
 #include "tools/convert/light_hit.hpp"
 
 namespace pharos::convert {
@@ -42,5 +43,9 @@ struct LibsurviveRecord {
 ///
 /// Throws InputError of one line: no line of such a record, a broken line, light of LH1 alone.
 LibsurviveRecord read_libsurvive_record(host::ByteSource source);
+
+/// Puts stations where the record says that they stood (EXTERNAL_POSE of previous_LH and the channel): a configuration
+/// beside it may be of another day.
+void place_stations(const LibsurviveRecord& record, network::Stations& stations);
 
 }  // namespace pharos::convert

@@ -27,17 +27,6 @@ constexpr double kMinCorrelation = 0.6, kMinOverlap = 0.4;
 
 using Samples = std::vector<PositionSample>;
 
-std::optional<Vector3> position_at(const Samples& samples, double time_s, double max_gap_s) {
-  const auto after = std::lower_bound(samples.begin(), samples.end(), time_s,
-                                      [](const PositionSample& s, double t) { return s.time_s < t; });
-  if (after == samples.end() || after == samples.begin()) return std::nullopt;
-  const PositionSample& a = *(after - 1);
-  const PositionSample& b = *after;
-  const double step_s = b.time_s - a.time_s;
-  if (step_s > max_gap_s || !(step_s > 0.0)) return std::nullopt;
-  return a.position_m + (time_s - a.time_s) / step_s * (b.position_m - a.position_m);
-}
-
 /// TRUTH's time at ESTIMATE's.
 struct Clock {
   double offset_s = 0.0;
@@ -385,7 +374,8 @@ PositionComparison compare_positions(const PositionTrack& estimate, const Positi
     fit_lever(m, fit);
   }
   out.rate = clock->rate;
-  out.offset_s = (*clock)(wanted.front()->time_s) - wanted.front()->time_s;
+  out.reference_s = wanted.front()->time_s;
+  out.offset_s = (*clock)(out.reference_s) - out.reference_s;
   out.R_estimate_truth = fit.R;
   out.t_estimate_truth_m = fit.t;
   out.lever_m = fit.lever;

@@ -28,7 +28,9 @@ struct PositionComparison {
   std::size_t epochs = 0, epochs_answered = 0;
   bool stationary = false;  // TRUTH stands still: frames and clocks are open, positions are compared about their mean
   double rate = 1.0;
-  double offset_s = 0.0;
+  double offset_s = 0.0;     // of TRUTH's clock at reference_s
+  double reference_s = 0.0;  // on ESTIMATE's clock
+  double truth_time(double time_s) const { return reference_s + offset_s + rate * (time_s - reference_s); }
   Matrix3 R_estimate_truth = Matrix3::Identity();
   Vector3 t_estimate_truth_m = Vector3::Zero();
   Vector3 lever_m = Vector3::Zero();  // of what TRUTH follows, in ESTIMATE's body

@@ -103,6 +103,17 @@ std::optional<double> normalised_square(const PositionSample& estimate, const Ve
   return error_m.dot(factor.solve(error_m));
 }
 
+std::optional<Vector3> position_at(const std::vector<PositionSample>& samples, double time_s, double max_gap_s) {
+  const auto after = std::lower_bound(samples.begin(), samples.end(), time_s,
+                                      [](const PositionSample& s, double t) { return s.time_s < t; });
+  if (after == samples.end() || after == samples.begin()) return std::nullopt;
+  const PositionSample& a = *(after - 1);
+  const PositionSample& b = *after;
+  const double step_s = b.time_s - a.time_s;
+  if (step_s > max_gap_s || !(step_s > 0.0)) return std::nullopt;
+  return a.position_m + (time_s - a.time_s) / step_s * (b.position_m - a.position_m);
+}
+
 bool is_position_table(const std::string& path) {
   host::ByteSource source(path);
   const std::string_view header = header_of(source);

@@ -24,6 +24,9 @@ struct PositionTrack {
   std::size_t refused = 0;  // without a position, or with another status than ok
 };
 
+/// Position at a time between two samples at most `max_gap_s` apart.
+std::optional<Vector3> position_at(const std::vector<PositionSample>& samples, double time_s, double max_gap_s);
+
 /// Square of the Mahalanobis distance of an error; empty where the sample states no covariance.
 std::optional<double> normalised_square(const PositionSample& estimate, const Vector3& error_m);
 

@@ -4,28 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <span>
-#include <sstream>
 
 #include "host/support/input_error.hpp"
 #include "pharos/network/network_tracker.hpp"
 #include "tools/convert/crazyflie_sweeps.hpp"
 #include "tools/convert/system_config.hpp"
+#include "tools/evaluation/reproduce/stations/file_content.hpp"
 
 namespace pharos::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw host::InputError(path.string() + ": cannot be read");
-  return text.str();
-}
 
 std::vector<fs::path> sorted(const fs::path& folder) {
   std::error_code error;

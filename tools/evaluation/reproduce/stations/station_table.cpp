@@ -88,24 +88,30 @@ std::map<int, OwnGeometry> own_geometries(const std::vector<PositioningLog>& log
 
 }  // namespace
 
-std::vector<ComparisonRow> reproduce_stations(const std::string& folder) {
+StationTable reproduce_stations(const std::string& folder) {
   const std::vector<PositioningLog> logs = read_positioning_logs(folder);
   const std::map<int, OwnGeometry> own = own_geometries(logs);
-  std::vector<ComparisonRow> rows;
+  StationTable out;
   Progress progress("reproduce stations", "logs", logs.size());
   for (const PositioningLog& log : logs) {
     const PositionComparison logged = compared(log, log.crossing_beams, false);
-    add_rows(log, logged, compared(log, tracked_positions(log, log.stations), false), "geometry as logged", "", rows);
+    const auto add = [&](const std::string& name, const network::Stations& stations, bool lever_arm,
+                         const std::string& remark) {
+      const evaluate::PositionTrack track = tracked_positions(log, stations);
+      const PositionComparison ours = compared(log, track, lever_arm);
+      add_rows(log, logged, ours, name, remark, out.rows);
+      const std::vector<ResidualCell> cells = residual_map(log, name, stations, track, ours);
+      out.residuals.insert(out.residuals.end(), cells.begin(), cells.end());
+    };
+    add("geometry as logged", log.stations, false, "");
     const auto geometry = own.find(log.generation);
     if (geometry != own.end()) {
-      const std::string remark =
-          geometry->second.from == log.name ? "learnt from this log" : "learnt from " + geometry->second.from;
-      const evaluate::PositionTrack track = tracked_positions(log, geometry->second.stations);
-      add_rows(log, logged, compared(log, track, true), "own geometry", remark, rows);
+      add("own geometry", geometry->second.stations, true,
+          geometry->second.from == log.name ? "learnt from this log" : "learnt from " + geometry->second.from);
     }
     progress.step();
   }
-  return rows;
+  return out;
 }
 
 }  // namespace pharos::tools
