@@ -9,6 +9,7 @@
 #include "tools/evaluation/bench/bench_enhance.hpp"
 #include "tools/evaluation/bench/bench_fusion.hpp"
 #include "tools/evaluation/bench/bench_motion.hpp"
+#include "tools/evaluation/bench/bench_network.hpp"
 #include "tools/evaluation/bench/bench_pose.hpp"
 #include "tools/evaluation/bench/bench_target.hpp"
 #include "tools/evaluation/bench/bench_tof.hpp"
@@ -79,6 +80,7 @@ int run(const Options& options) {
   if (wanted("ellipses")) append(bench_ellipses(options.problems.value_or(kImages), load_edge_drawing()));
   if (wanted("decode")) append(bench_decode(options.edges));
   if (wanted("motion")) append(bench_motion());
+  if (wanted("network")) append(bench_network());
   if (wanted("fusion")) append(bench_fusion());
   write_rows(rows, form_of(options));
   return kExitAnswered;
@@ -90,11 +92,12 @@ void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Speed and accuracy, ours and peers', as ratios in one run");
   const auto options = std::make_shared<Options>();
   command
-      ->add_option(
-          "what", options->what,
-          "pose, ellipses, decode, motion, fusion, all of these (default), enhance, tof: a depth frame's stages, or "
-          "target: the soft core")
-      ->check(CLI::IsMember({"all", "pose", "ellipses", "decode", "motion", "fusion", "enhance", "tof", "target"}));
+      ->add_option("what", options->what,
+                   "pose, ellipses, decode, motion, network, fusion, all of these (default), enhance, tof: a depth "
+                   "frame's stages, or "
+                   "target: the soft core")
+      ->check(CLI::IsMember(
+          {"all", "pose", "ellipses", "decode", "motion", "network", "fusion", "enhance", "tof", "target"}));
   command->add_option("--edges", options->edges, "Recording to decode; default: a simulated minute of twelve sensors");
   command
       ->add_option("--problems", options->problems,
