@@ -28,6 +28,8 @@ struct SyntheticRing {
   double plate_side_m = 0.12;
   std::vector<Vector2> plates{Vector2(0.66, 0.0)};  ///< centres, in T
   std::vector<Vector2> sides;                       ///< of the first plates, along x and y; the others are square
+  double wall_light = 1.0;                          ///< of upright walls, over the cosine law's
+  bool has_ring_walls = false;  ///< from the ring's edges down to the wall behind it; without: a sheet
 
   Vector2 half_sides(std::size_t plate) const {
     return 0.5 * (plate < sides.size() ? sides[plate] : Vector2(plate_side_m, plate_side_m));
@@ -65,6 +67,13 @@ struct Light {
   double z_m = 0.0;
 };
 
+// Where a line in T meets a cylinder about z: the nearer or the farther place; NaN where it does not.
+inline double meet_cylinder(const Vector3& eye, const Vector3& d, double radius_m, bool farther) {
+  const double a = d.head<2>().squaredNorm(), b = eye.head<2>().dot(d.head<2>());
+  const double root = std::sqrt(b * b - a * (eye.head<2>().squaredNorm() - radius_m * radius_m));
+  return (-b + (farther ? root : -root)) / a;
+}
+
 // Intersection of a ray: the nearest of ring, plates and wall.
 inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_camera, const Vector3& ray) {
   const Vector3& eye = T_target_camera.t;
@@ -75,6 +84,14 @@ inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_
   const double radius = plan(ring).norm();
   if (radius <= scene.outer_radius_m && radius >= scene.inner_radius_m) {
     return {scene.ring_grey, scene.wall_z_m == 0.0 ? at(0.0) : ring};
+  }
+  for (const bool is_inner : {false, true}) {
+    if (!scene.has_ring_walls) break;
+    const double radius_m = is_inner ? scene.inner_radius_m : scene.outer_radius_m;
+    const double s = meet_cylinder(eye, d, radius_m, is_inner), z = eye.z() + s * d.z();
+    if (!(z < 0.0 && z > scene.wall_z_m)) continue;
+    const double cosine = std::fabs(plan(s).dot(d.head<2>())) / (radius_m * std::fabs(d.z()));
+    return {scene.ring_grey * scene.wall_light * cosine, s};
   }
   const double plate = at(scene.wall_z_m == 0.0 ? 0.0 : scene.plate_z_m);
   for (std::size_t k = 0; k < scene.plates.size(); ++k) {
@@ -87,7 +104,7 @@ inline Light trace(const SyntheticRing& scene, const CameraFromTarget& T_target_
       const double z = eye.z() + s * d.z();
       if (s > 0.0 && z < scene.plate_z_m && z > scene.wall_z_m &&
           std::fabs(plan(s)[1 - axis] - middle[1 - axis]) <= half[1 - axis]) {
-        return {scene.plate_grey * std::fabs(d[axis] / d.z()), s};
+        return {scene.plate_grey * scene.wall_light * std::fabs(d[axis] / d.z()), s};
       }
     }
   }

@@ -34,7 +34,7 @@ constexpr std::size_t kMaxFacePixels = 3000;
 constexpr double kDarkFraction = 0.3;
 // Residuals larger than this many deviations count as much as one of that size (Huber).
 constexpr double kHuber = 1.5;
-// A wall's brightness over the top's follows the cosine of incidence to this fraction.
+// A wall's brightness over the cosine law's is that of the ring's walls to within this.
 constexpr double kWallSigma = 0.3;
 // Sides differ by this fraction (1 sigma): the paper's limits of 0.7 and 1.5 are 2.5 such deviations.
 constexpr double kSquareSigma = 0.15;
@@ -71,6 +71,7 @@ class FaceFitter {
         axes_(axes_of(ring.model.normal)),
         plane_(ring.model.plane()),
         dark_counts_(kDarkFraction * ring.amplitude),
+        wall_light_(ring.walls),
         box_(box) {}
 
   ConnectorFace fit() {
@@ -222,7 +223,8 @@ class FaceFitter {
 
   bool refine(ConnectorFace& face) {
     PlanarRectangle& r = face.rectangle;
-    Vector2 walls = cosine_ratio(r);
+    Vector2 walls = wall_light_.ratio * cosine_ratio(r);
+    const double wall_sigma = std::sqrt(kWallSigma * kWallSigma + wall_light_.variance);
     double brightness = starting_brightness(r);
     if (!(brightness > 0.0)) return false;
     double sigma = 0.3 * brightness;
@@ -246,11 +248,11 @@ class FaceFitter {
       const double unit = 1.0 / (sigma * sigma);
       normal *= unit;
       right *= unit;
-      const Vector2 expected = cosine_ratio(r);
+      const Vector2 cosine = cosine_ratio(r);
       for (int k = 0; k < 2; ++k) {
-        const double known = 1.0 / std::pow(kWallSigma * expected[k] + 0.02, 2);
+        const double known = 1.0 / std::pow(wall_sigma * cosine[k] + 0.02, 2);
         normal(kWalls + k, kWalls + k) += known;
-        right[kWalls + k] += known * (expected[k] - walls[k]);
+        right[kWalls + k] += known * (wall_light_.ratio * cosine[k] - walls[k]);
       }
       const double blurred = std::log(blur_px_ / kBlur_px);
       normal(kBlur, kBlur) += 1.0 / (kBlurSigma * kBlurSigma);
@@ -379,6 +381,7 @@ class FaceFitter {
   PlaneAxes axes_;
   DepthPlane plane_;
   double dark_counts_;
+  WallLight wall_light_;
   const RaisedBox& box_;
   double base_m_ = 0.0;
   double metres_per_px_ = 0.0;

@@ -29,8 +29,8 @@ struct ConnectorFace {
 /// top, linear in the part of the pixel that the top covers (depths mix weighted by amplitude), whatever the brightness
 /// of what lies beside it. Model: the rectangle's area within the pixel, blurred, and the upright walls in sight, whose
 /// part falls linearly to zero at their foot. Unknowns are centre, turn, sides, the top's brightness and the walls'
-/// brightness over it, the latter with the cosine law as prior; robust Gauss-Newton. The top's inner part is left out:
-/// it may have any pattern.
+/// brightness over it, the latter with that of the ring's walls as prior; robust Gauss-Newton. The top's inner part is
+/// left out: it may have any pattern.
 ///
 /// `edge_points` is 0 where that does not converge to a rectangle near the box: centre and deviation are then those of
 /// the box in the depths.

@@ -239,6 +239,7 @@ bool refine_by_light(const TofFrame& frame, const DepthCamera& camera, const Ray
   fit.plane_chi2 = light->plane_chi2;
   fit.covariance = light->covariance * (fit.plane_chi2 > kDoubtful ? fit.plane_chi2 / 3.0 : 1.0);
   fit.covariance += bias_noise(model, light->plane_bias);
+  fit.walls = light->walls;
   return true;
 }
 

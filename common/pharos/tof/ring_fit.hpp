@@ -22,6 +22,7 @@ struct RingFit {
   double seen = 0.0;  /// fraction of the circumference with depth on the plane
   /// Disagreement of edges and depths about the plane: chi-squared of three degrees of freedom.
   double plane_chi2 = 0.0;
+  WallLight walls;
 };
 
 /// Derivatives of the positions of a circle's edge points by the fit's unknowns, px.

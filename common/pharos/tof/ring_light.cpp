@@ -27,8 +27,6 @@ constexpr int kLastSteps = 2;
 // that. The deviation is of its logarithm.
 constexpr double kRingBlur_px = 0.6;
 constexpr double kRingBlurSigma = 0.5;
-// A wall's light over that of the face by the cosine law: another paint, another finish.
-constexpr double kWallLightSigma = 0.5;
 // Pixels farther within the ring than this are its face only; so far beyond an edge, or its wall's foot, there is none
 // of the ring's light.
 constexpr double kFace_px = 3.0;
@@ -180,7 +178,7 @@ class RingLightFitter {
     RingLight result;
     for (int k = 0; k < kFirstSteps + kLastSteps; ++k) {
       if (k == kFirstSteps) result.plane_bias = plane_bias(margin_px);
-      if (!solve(known_.offset + known_.by_bias * result.plane_bias, result.covariance)) return std::nullopt;
+      if (!solve(known_.offset + known_.by_bias * result.plane_bias, result)) return std::nullopt;
     }
     result.plane_bias = plane_bias(margin_px);
     result.step = step_;
@@ -220,7 +218,7 @@ class RingLightFitter {
     return std::max(1e-3 * prior_.amplitude, kMedianToSigma * double{*middle});
   }
 
-  bool solve(const Vector3& plane_offset, Matrix7& covariance) {
+  bool solve(const Vector3& plane_offset, RingLight& result) {
     LightEquations equations;
     const RingProfile profile{work_.blur_px, walls_, kLightHuber * sigma_};
     for (std::size_t k = 0; k < kRingDirections; ++k) {
@@ -239,13 +237,13 @@ class RingLightFitter {
     if (!change.allFinite()) return false;
     change_light(equations.sectors, change);
     take(change);
-    covariance = inverse->topLeftCorner<7, 7>();
+    result.covariance = inverse->topLeftCorner<7, 7>();
+    result.walls = both_walls(inverse->diagonal().tail<2>());
     return true;
   }
 
   void add_prior(const Vector3& plane_offset, Matrix10& normal, Vector10& right) const {
-    constexpr double kOfBlur = 1.0 / (kRingBlurSigma * kRingBlurSigma),
-                     kOfWall = 1.0 / (kWallLightSigma * kWallLightSigma);
+    constexpr double kOfBlur = 1.0 / (kRingBlurSigma * kRingBlurSigma), kOfWall = 1.0 / WallLight{}.variance;
     normal(kBlurAt, kBlurAt) += kOfBlur;
     right[kBlurAt] -= kOfBlur * std::log(work_.blur_px / kRingBlur_px);
     for (int e = 0; e < 2; ++e) {
@@ -255,6 +253,19 @@ class RingLightFitter {
     const Matrix37 weighted = known_.information.lazyProduct(known_.by_step);
     normal.topLeftCorner<7, 7>() += known_.by_step.transpose().lazyProduct(weighted);
     right.head<7>() += weighted.transpose() * (plane_offset - known_.by_step * step_);
+  }
+
+  // One number for both walls: what either adds to what is known beforehand.
+  WallLight both_walls(const Vector2& variances) const {
+    WallLight both;
+    const double before = 1.0 / both.variance;
+    double information = before, sum = before * both.ratio;
+    for (int e = 0; e < 2; ++e) {
+      const double added = std::max(0.0, 1.0 / variances[e] - before);
+      information += added;
+      sum += added > 0.0 ? walls_[static_cast<std::size_t>(e)] / variances[e] - before * both.ratio : 0.0;
+    }
+    return {std::clamp(sum / information, 0.0, 1.5), 1.0 / information};
   }
 
   // The sectors' light that goes with a change of the other unknowns.

@@ -17,6 +17,13 @@ struct RingKnowledge {
   Matrix3 by_bias = Matrix3::Zero();
 };
 
+/// Light of upright walls over that of the face by the cosine law, both walls of the ring together. Another paint,
+/// another finish: before anything is seen it is 1 +- 0.5.
+struct WallLight {
+  double ratio = 1.0;
+  double variance = 0.25;
+};
+
 /// The most probable step of the ring's unknowns from a model, by the pixels about it and what was known before.
 struct RingLight {
   Vector7 step = Vector7::Zero();
@@ -25,6 +32,7 @@ struct RingLight {
   /// over the true one is x + y X + z Y at (X, Y) along axes_of from the ring's middle, m and m/m. It is subtracted.
   Vector3 plane_bias = Vector3::Zero();
   double plane_chi2 = 0.0;  ///< disagreement with what was known: three degrees of freedom
+  WallLight walls;
 };
 
 struct RingLightWorkspace : RingPixels {

@@ -80,6 +80,8 @@ class RingLightTest : public testing::Test {
       mean.model.centre_m += fit->model.centre_m / kFrames;
       for (std::size_t e = 0; e < 2; ++e) mean.model.radius_m[e] += fit->model.radius_m[e] / kFrames;
       mean.covariance = fit->covariance;
+      mean.walls.ratio += (fit->walls.ratio - mean.walls.ratio) / seed;
+      mean.walls.variance = fit->walls.variance;
     }
     return mean;
   }
@@ -111,6 +113,17 @@ TEST_F(RingLightTest, ALensOutOfFocusMovesNeitherEdge) {
     EXPECT_NEAR(radius_px(fit.model, e), radius_px(truth_, e), 0.05) << e;
   }
   EXPECT_NEAR(workspace_->light.blur_px, 1.04, 0.1);  // the pixel's own 0.29 px included
+}
+
+// What connectors a few pixels wide do not show of their own walls.
+TEST_F(RingLightTest, TellsHowBrightItsWallsAre) {
+  scene_.has_ring_walls = true;
+  for (const double light : {0.3, 1.0}) {
+    scene_.wall_light = light;
+    const RingFit fit = mean_fit(0.49, 0.0);
+    EXPECT_NEAR(fit.walls.ratio, light, 0.15);
+    EXPECT_LT(std::sqrt(fit.walls.variance), 0.2);
+  }
 }
 
 }  // namespace
