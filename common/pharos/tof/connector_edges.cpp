@@ -21,6 +21,10 @@ constexpr int kWalls = 6;
 constexpr int kBlur = 8;
 
 constexpr int kRounds = 6;
+// A box of a few cells does not tell its turn, and from half-way between two sides' directions a descent takes more
+// rounds than these to leave: below this half side, px, the best of several turns is taken.
+constexpr double kTurnTold_px = 6.0;
+constexpr int kStartTurns = 3;  // over a right angle
 // Pixel and lens together blur an edge by this much (1 sigma): a pixel's own width is 0.29 px, lenses double or treble
 // that. The deviation is of its logarithm.
 constexpr double kBlur_px = 0.6;
@@ -83,10 +87,7 @@ class FaceFitter {
     face.covariance = coarse * coarse * Matrix2::Identity();
     if (!prepare(face)) return face;
     take_pixels(face);
-    ConnectorFace refined = face;
-    if (!refine(refined) || !follows_box(refined)) return face;
-    compare_with_disc(refined);
-    return refined;
+    return refine_from_turns(face) ? best_ : face;
   }
 
  private:
@@ -219,6 +220,34 @@ class FaceFitter {
     const double step = box_.step_m();
     return {std::min(1.0, std::fabs(foot_.dot(r.outward(0))) / step),
             std::min(1.0, std::fabs(foot_.dot(r.outward(1))) / step)};
+  }
+
+  // Fits from the box's turn, or from several; the fit whose pixels are least off goes to best_.
+  bool refine_from_turns(const ConnectorFace& face) {
+    const bool is_told = face.rectangle.half_sides_m.maxCoeff() > kTurnTold_px * metres_per_px_;
+    double least = 0.0, unit = 0.0;
+    for (int k = 0; k < (is_told ? 1 : kStartTurns); ++k) {
+      ConnectorFace one = face;
+      one.rectangle.angle_rad += k * 0.5 * kPi / kStartTurns;
+      blur_px_ = kBlur_px;
+      if (!refine(one) || !follows_box(one)) continue;
+      if (unit == 0.0) unit = sigma_;
+      const double loss = mean_loss(static_cast<std::size_t>(one.edge_points), unit);
+      if (least > 0.0 && loss >= least) continue;
+      least = loss;
+      compare_with_disc(one);
+      best_ = one;
+    }
+    return least > 0.0;
+  }
+  // Huber's, of the last round's residuals.
+  double mean_loss(std::size_t used, double unit) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < used; ++i) {
+      const double size = residuals_[i] / unit;
+      sum += size < kHuber ? size * size : kHuber * (2.0 * size - kHuber);
+    }
+    return sum / static_cast<double>(used);
   }
 
   bool refine(ConnectorFace& face) {
@@ -391,6 +420,7 @@ class FaceFitter {
   Vector2 foot_ = Vector2::Zero();
   StaticVector<FacePixel, kMaxFacePixels> pixels_;
   std::array<double, kMaxFacePixels> residuals_;
+  ConnectorFace best_;
 };
 
 }  // namespace
