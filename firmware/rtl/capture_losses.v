@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts edges that were lost because the FIFO was full, and marks where in the stream of records they are missing.
+// Counts edges that were lost, because the FIFO was full or on their way here, and marks where in the stream of records they
+// are missing.
 `default_nettype none
 
 module capture_losses #(
@@ -9,6 +10,7 @@ module capture_losses #(
     input  wire                  clock,
     input  wire                  reset,
     input  wire [    INPUTS-1:0] changed,         // edges of this tick
+    input  wire [LOST_WIDTH-1:0] lost_before,     // edges that got lost before this block; then there are none in this tick
     input  wire                  full,            // they do not fit
     input  wire                  interrupted,     // for another reason records do not continue those before
     input  wire                  clear_overflow,
@@ -26,8 +28,10 @@ module capture_losses #(
   endfunction
 
   wire any = |changed;
-  wire lose = any && full;
-  wire [LOST_WIDTH:0] sum = {1'b0, lost} + {{(LOST_WIDTH - 5) {1'b0}}, ones(changed)};
+  wire elsewhere = |lost_before;
+  wire lose = (any && full) || elsewhere;
+  wire [LOST_WIDTH:0] number = elsewhere ? {1'b0, lost_before} : {{(LOST_WIDTH - 5) {1'b0}}, ones(changed)};
+  wire [LOST_WIDTH:0] sum = {1'b0, lost} + number;
 
   always @(posedge clock)
     if (reset) begin

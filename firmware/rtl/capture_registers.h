@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Register map of the capture block (pharos_capture.v): byte offsets from its base, 32-bit words, read and written
+// Register map of the capture block (capture_queue.v): byte offsets from its base, 32-bit words, read and written
 // whole. The only definition for both board code and tests; tests/rtl/register_map.py checks Verilog and README against
 // it.
 #ifndef PHAROS_FIRMWARE_RTL_CAPTURE_REGISTERS_H

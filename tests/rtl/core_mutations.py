@@ -50,7 +50,7 @@ MUTATIONS = (
   ("store_not_rotated_by_two", "core_lanes.v", "offset[1] ? {by_one[15:0], by_one[31:16]}", "1'b0 ? {by_one[15:0], by_one[31:16]}"),
   ("crossing_load_forgets_lower_word", "core_lanes.v", "(crosses && bytes[i])", "1'b0"),
   ("crossing_not_seen", "core_lanes.v", "crosses = bytes[7:4] != 4'd0", "crosses = 1'b0"),
-  ("upper_word_is_the_lower_again", CORE, "sum[31:2] + 30'd1", "sum[31:2]"),
+  ("upper_word_is_the_lower_again", CORE, "data_address[31:2] + 30'd1", "data_address[31:2]"),
   ("lower_word_not_kept", CORE, "if (lower_fresh) lower_lanes", "lower_lanes"),
   ("upper_word_of_store_left_out", CORE, "!(x_store && !last_accepted)", "!(x_store && !accepted)"),
   # Registers.

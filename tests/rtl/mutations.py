@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults to plant in the capture logic: name, file, a text that is unique there, its replacement."""
 
-RECORD = "{gap, ticks[31:0], changed, levels}"
+RECORD = "{gap, stamp, changed, levels}"
 CHANGED = "changed <= taken & watched;"
 
 FEW = ("full_seen_too_late", "gap_not_marked", "records_counted_not_edges", "falling_edges_dropped")
@@ -26,16 +26,16 @@ MUTATIONS = (
   ("records_counted_not_edges", "capture_losses.v", "ones(changed)", "6'd1"),
   ("losses_counted_once", "capture_losses.v", "if (lose) lost", "if (lose && !overflow) lost"),
   ("overflow_cleared_with_new_loss", "capture_losses.v", "if (lose) overflow", "if (lose && !clear_overflow) overflow"),
-  ("stamp_without_top_bit", "pharos_capture.v", RECORD, "{gap, 1'b0, ticks[30:0], changed, levels}"),
-  ("stamp_a_tick_late", "pharos_capture.v", RECORD, "{gap, ticks[31:0] + 32'd1, changed, levels}"),
-  ("changed_and_levels_swapped", "pharos_capture.v", RECORD, "{gap, ticks[31:0], levels, changed}"),
-  ("time_high_not_latched", "pharos_capture.v", "answer = ticks_high_latched", "answer = ticks[63:32]"),
-  ("interrupt_a_record_late", "pharos_capture.v", "count >= threshold", "count > threshold"),
-  ("pop_without_read", "pharos_capture.v", "bus_read && bus_address == ADDRESS_FIFO_LEVELS",
+  ("stamp_without_top_bit", "capture_queue.v", RECORD, "{gap, 1'b0, stamp[30:0], changed, levels}"),
+  ("stamp_a_tick_late", "capture_queue.v", RECORD, "{gap, stamp + 32'd1, changed, levels}"),
+  ("changed_and_levels_swapped", "capture_queue.v", RECORD, "{gap, stamp, levels, changed}"),
+  ("time_high_not_latched", "capture_queue.v", "answer = now_high", "answer = now[63:32]"),
+  ("interrupt_a_record_late", "capture_queue.v", "count >= threshold", "count > threshold"),
+  ("pop_without_read", "capture_queue.v", "bus_read && bus_address == ADDRESS_FIFO_LEVELS",
     "bus_address == ADDRESS_FIFO_LEVELS"),
-  ("clear_unmarked", "pharos_capture.v", "!enabled || clear_fifo || write_input_enable", "!enabled || write_input_enable"),
-  ("enabling_unmarked", "pharos_capture.v", "!enabled || clear_fifo ||", "clear_fifo ||"),
-  ("empty_fifo_shows_old_record", "pharos_capture.v", "ADDRESS_FIFO_CHANGED: if (some)", "ADDRESS_FIFO_CHANGED:"),
-  ("glitch_counter_wraps", "pharos_capture.v", "glitch && !(&glitches)", "glitch"),
-  ("registers_swapped", "pharos_capture.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"),
+  ("clear_unmarked", "capture_queue.v", "!enabled || clear_fifo || write_input_enable", "!enabled || write_input_enable"),
+  ("enabling_unmarked", "capture_queue.v", "!enabled || clear_fifo ||", "clear_fifo ||"),
+  ("empty_fifo_shows_old_record", "capture_queue.v", "ADDRESS_FIFO_CHANGED: if (some)", "ADDRESS_FIFO_CHANGED:"),
+  ("glitch_counter_wraps", "capture_queue.v", "glitch && !(&glitches)", "glitch"),
+  ("registers_swapped", "capture_queue.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"),
 )

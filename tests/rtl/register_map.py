@@ -36,7 +36,7 @@ def table(header):
 
 def objections(folder):
     header = (folder / "capture_registers.h").read_text()
-    verilog = (folder / "pharos_capture.v").read_text()
+    verilog = (folder / "capture_queue.v").read_text()
     of_header = {name: offset for name, (offset, _, _) in registers(header).items()}
     of_verilog = {match["name"]: 4 * int(match["address"], 16) for match in ADDRESS.finditer(verilog)}
     if len(of_header) < 2:
@@ -53,10 +53,10 @@ def objections(folder):
 def planted_faults_are_found(folder):
     """A change in any of the three files must be reported."""
     faults = (("capture_registers.h", "LOST_OFFSET 0x20", "LOST_OFFSET 0x3C"), ("README.md", "| 0x20 |", "| 0x24 |"),
-      ("pharos_capture.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"))
+      ("capture_queue.v", "ADDRESS_LOST = 4'h8", "ADDRESS_LOST = 4'hF"))
     for file, original, replacement in faults:
         with tempfile.TemporaryDirectory() as copy:
-            for name in ("capture_registers.h", "pharos_capture.v", "README.md"):
+            for name in ("capture_registers.h", "capture_queue.v", "README.md"):
                 text = (folder / name).read_text()
                 (pathlib.Path(copy) / name).write_text(text.replace(original, replacement) if name == file else text)
             if not list(objections(pathlib.Path(copy))):

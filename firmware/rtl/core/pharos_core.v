@@ -7,7 +7,8 @@
 `default_nettype none
 
 module pharos_core #(
-    parameter [31:0] RESET_ADDRESS = 32'h80000000
+    parameter [31:0] RESET_ADDRESS = 32'h80000000,
+    parameter ADDRESS_TICK = 0  // 1: loads and stores spend a tick on their address; a shorter path for a slower chip
 ) (
     input  wire        clock,
     input  wire        reset,
@@ -218,12 +219,15 @@ module pharos_core #(
   wire crosses;
   wire [3:0] lower_bytes, upper_bytes;
   reg [31:2] upper_address;
+  reg [31:0] kept_address;  // with ADDRESS_TICK
+  reg x_addressed;          // it holds the address of this instruction
+  wire [31:0] data_address = ADDRESS_TICK != 0 ? kept_address : sum;
   reg [31:0] lower_lanes;
   reg lower_fresh;  // the bus shows the lower word
   wire [31:0] load_value;
   core_lanes lanes (
       .width(x_funct3),
-      .offset(sum[1:0]),
+      .offset(data_address[1:0]),
       .store_value(operand_2),
       .crosses(crosses),
       .lower_bytes(lower_bytes),
@@ -234,11 +238,11 @@ module pharos_core #(
       .load_value(load_value)
   );
   wire interrupt;
-  wire first = x_valid && !x_second && !x_upper;
+  wire first = x_valid && !x_second && !x_upper && !x_addressed;
   wire interrupted = first && !x_waiting && interrupt;
   wire works = first && !interrupted;
-  wire requests = works || (x_valid && x_upper && !x_second);
-  assign dbus_address = x_upper ? upper_address : sum[31:2];
+  wire requests = (ADDRESS_TICK != 0 ? x_addressed : works) || (x_valid && x_upper && !x_second);
+  assign dbus_address = x_upper ? upper_address : data_address[31:2];
   assign dbus_bytes = x_upper ? upper_bytes : lower_bytes;
   assign dbus_read = requests && x_load;
   assign dbus_write = requests && x_store;
@@ -249,7 +253,9 @@ module pharos_core #(
 
   always @(posedge clock) begin
     x_upper       <= !reset && x_stays && (x_upper || (accepted && crosses));
-    upper_address <= sum[31:2] + 30'd1;
+    upper_address <= data_address[31:2] + 30'd1;
+    kept_address  <= sum;
+    x_addressed   <= ADDRESS_TICK != 0 && !reset && ((works && (x_load || x_store)) || (x_addressed && !accepted));
     lower_fresh   <= accepted;
     if (lower_fresh) lower_lanes <= dbus_readdata;
   end
@@ -316,7 +322,8 @@ module pharos_core #(
   // Exceptions, all in the first tick but a refused access to the upper word.
   wire illegal = x_illegal || (x_control_register && csr_illegal);
   wire off_target = jumps && target[1];
-  assign trapped = (works && (x_fault || illegal || x_breakpoint || x_environment_call || off_target)) || refused;
+  wire trapped_at_once = (works && (x_fault || illegal || x_breakpoint || x_environment_call)) || refused;
+  assign trapped = trapped_at_once || (works && off_target);
   always @* begin
     cause = x_store ? STORE_FAULT : LOAD_FAULT;
     trap_value = sum;
@@ -348,7 +355,8 @@ module pharos_core #(
 
   // End of an instruction.
   wire several_ticks = x_load || x_multiply || x_divide;
-  assign ends = interrupted || trapped || (x_second ? x_load || x_multiply || divide_done
+  // A jump ends in its first tick, also one to nowhere: so the end does not wait for a comparison.
+  assign ends = interrupted || trapped_at_once || (x_second ? x_load || x_multiply || divide_done
                                                     : !several_ticks && !(x_store && !last_accepted));
   assign redirect = x_valid && ends &&
                     (interrupted || trapped || jumps || x_trap_return || x_fence_instructions);

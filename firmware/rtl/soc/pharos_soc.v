@@ -6,7 +6,10 @@
 module pharos_soc #(
     parameter CLOCK_HZ = 50000000,
     parameter ROM_FILE = "loader.hex",
-    parameter [4:0] LAST_RAM_PAGE = 5'd8  // RAM is the pages of 4 KiB from 1 to this one, after the ROM
+    parameter ROM_PORTS = 2,  // 1: a fetch from the ROM waits while data are read there
+    parameter [4:0] LAST_RAM_PAGE = 5'd8,  // RAM is the pages of 4 KiB from 1 to this one, after the ROM
+    parameter TIMER_COMPARE = 1,
+    parameter ADDRESS_TICK = 0  // of the core
 ) (
     input  wire        clock,
     input  wire        power_on_reset,
@@ -68,7 +71,9 @@ module pharos_soc #(
   wire [63:0] cycle;
   wire [31:0] trace_address;
   wire trace_trapped, trace_interrupted;
-  pharos_core core (
+  pharos_core #(
+      .ADDRESS_TICK(ADDRESS_TICK)
+  ) core (
       .clock(clock),
       .reset(reset),
       .ibus_read(ibus_read),
@@ -93,9 +98,11 @@ module pharos_soc #(
   );
 
   // Instructions: ROM, RAM.
+  /* verilator lint_off CMPCONST */  // the last page may be the last of all
   function is_ram(input [31:12] page);
     is_ram = page[31:17] == PAGE_OF_RAM[31:17] && page[16:12] != 5'd0 && page[16:12] <= LAST_RAM_PAGE;
   endfunction
+  /* verilator lint_on CMPCONST */
 
   // The ROM is 1,024 words at one page and 512 at another.
   wire i_upper = ibus_address[31:12] == PAGE_OF_ROM_UPPER && !ibus_address[11];
@@ -103,7 +110,8 @@ module pharos_soc #(
   wire i_ram = is_ram(ibus_address[31:12]);
   assign code_read = ibus_read && i_ram;
   assign code_address = ibus_address[16:2];
-  assign ibus_wait = i_ram && code_wait;
+  wire rom_taken;
+  assign ibus_wait = (i_ram && code_wait) || (i_rom && rom_taken);
   reg i_from_ram;
   wire [31:0] rom_code, rom_data;
   always @(posedge clock) begin
@@ -135,14 +143,16 @@ module pharos_soc #(
   assign capture_address = dbus_address[5:2];
   assign capture_write_data = dbus_writedata;
 
+  assign rom_taken = ROM_PORTS == 1 && dbus_read && d_rom;
   soc_rom #(
-      .FILE(ROM_FILE)
+      .FILE(ROM_FILE),
+      .PORTS(ROM_PORTS)
   ) rom (
       .clock(clock),
       .read_a(ibus_read),
       .address_a({i_upper, ibus_address[11:2]}),
       .data_a(rom_code),
-      .read_b(dbus_read),
+      .read_b(dbus_read && d_rom),
       .address_b({d_upper, dbus_address[11:2]}),
       .data_b(rom_data)
   );
@@ -187,7 +197,9 @@ module pharos_soc #(
   );
 
   wire [31:0] timer_data;
-  soc_timer timer (
+  soc_timer #(
+      .COMPARE(TIMER_COMPARE)
+  ) timer (
       .clock(clock),
       .reset(reset),
       .now(cycle),

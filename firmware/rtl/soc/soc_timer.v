@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The machine timer: mtime, which is the core's cycle counter, at 0 and 4, mtimecmp at 8 and 12; the interrupt is high while
-// mtime >= mtimecmp.
+// mtime >= mtimecmp. Without COMPARE there is mtime only, and no interrupt.
 `default_nettype none
 
-module soc_timer (
+module soc_timer #(
+    parameter COMPARE = 1
+) (
     input  wire        clock,
     input  wire        reset,
     input  wire [63:0] now,
@@ -16,7 +18,7 @@ module soc_timer (
 
   reg [63:0] compare;
   always @(posedge clock)
-    if (reset) begin
+    if (reset || COMPARE == 0) begin
       compare   <= {64{1'b1}};
       interrupt <= 1'b0;
     end else begin

@@ -23,16 +23,23 @@ struct ChipOutputs {
   bool spi_out = false;
   bool instruction_ended = false;
   bool reset = false;
+  bool core_ticked = true;      // the core's clock rose too
   std::uint32_t fifo_fill = 0;  // records in the capture block
+  std::uint32_t changed = 0;    // inputs whose edges were stamped
+  std::uint32_t levels = 0;     // after that
+  std::int64_t stamp_ticks = 0;
 };
 
-/// The Verilated chip (firmware/rtl/soc/pharos_chip.v), one clock tick at a time.
+/// A Verilated chip (firmware/rtl/soc/pharos_chip.v, firmware/rtl/up5k/up5k_chip.v), one tick of its fastest clock at a
+/// time.
 class ChipDevice {
  public:
   virtual ~ChipDevice() = default;
+  virtual double tick_hz() const = 0;
+  virtual std::uint32_t inputs() const = 0;
   /// One rising edge of the clock with these inputs before it; outputs before it.
   virtual ChipOutputs tick(const ChipInputs& inputs) = 0;
-  /// The capture block's counter.
+  /// The capture block's counter, in 20 ns.
   virtual std::int64_t ticks() const = 0;
   virtual void set_ticks(std::int64_t ticks) = 0;
   /// Words of the boot ROM.
@@ -43,5 +50,6 @@ class ChipDevice {
 };
 
 std::unique_ptr<ChipDevice> make_chip_device();
+std::unique_ptr<ChipDevice> make_up5k_device();
 
 }  // namespace pharos::rtl
