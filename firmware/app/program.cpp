@@ -204,7 +204,9 @@ report::Reporter::Bytes Program::device_counters() {
   counters.commands_refused = commands_.refused();
   counters.receive_errors = board_.line.receive_errors() + commands_.damaged();
   const auto elapsed = static_cast<std::uint32_t>(now_ticks_ - busy_since_ticks_);
-  if (elapsed >= 1000) counters.busy_permille = busy_cycles_ / (elapsed / 1000);
+  constexpr std::uint32_t kTicksPerMillisecond = kTicksPerSecond / 1000;
+  const std::uint32_t thousandth_cycles = elapsed / kTicksPerMillisecond * (board_.system.clock_hz() / 1000) / 1000;
+  if (thousandth_cycles != 0) counters.busy_permille = busy_cycles_ / thousandth_cycles;
   counters.stack_free_bytes = board_.system.stack_never_used_bytes();
   busy_cycles_ = 0;
   busy_since_ticks_ = now_ticks_;

@@ -11,8 +11,10 @@ namespace pharos::hal {
 /// The processor and its surroundings.
 class System {
  public:
-  /// Processor clocks, 50 MHz, 32 bits that wrap: the cost of work. Where they cannot be counted, an estimate.
+  /// Processor clocks, 32 bits that wrap: the cost of work. Where they cannot be counted, instructions.
   virtual std::uint32_t cycles() = 0;
+  /// Of them in a second.
+  virtual std::uint32_t clock_hz() = 0;
   /// Restarts the program unless called again within the watchdog's time (about a second).
   virtual void feed_watchdog() = 0;
   /// The program works: the loader need not fall back on the previous image.

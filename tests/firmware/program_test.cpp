@@ -48,7 +48,8 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
   }
   std::uint32_t receive_errors() override { return 0; }
 
-  std::uint32_t cycles() override { return 0; }
+  std::uint32_t cycles() override { return cycles_now += cycles_a_call; }
+  std::uint32_t clock_hz() override { return clock; }
   void feed_watchdog() override { ++fed; }
   void confirm_start() override { ++confirmed; }
   void restart(bool stay_in_loader) override { throw Restarted{stay_in_loader}; }
@@ -80,6 +81,9 @@ class TestBoard final : public hal::EdgeCapture, public hal::SerialLine, public 
   std::int64_t now = 5 * kTicksPerSecond;
   std::uint32_t lost = 0;
   bool overflow = false;
+  std::uint32_t cycles_now = 0;
+  std::uint32_t cycles_a_call = 0;
+  std::uint32_t clock = 50'000'000;
   int fed = 0;
   int confirmed = 0;
   report::LinkDecoder host;
@@ -132,6 +136,23 @@ TEST_F(ProgramTest, ReportsTimeTenTimesAndCountersOnceASecond) {
   EXPECT_EQ(board.all<wire::Time>().size(), 50u);
   EXPECT_EQ(board.all<report::DeviceReport>().back().counters.stack_free_bytes, 321u);
   EXPECT_EQ(board.host.counters().frames_lost, 0u);
+}
+
+// A thousand passes a second, each of 4,000 cycles.
+TEST_F(ProgramTest, ReportsItsShareOfTheBoardsOwnClock) {
+  for (const std::uint32_t clock : {50'000'000u, 16'000'000u}) {
+    TestBoard any;
+    any.clock = clock;
+    any.cycles_a_call = 4000;
+    Program busy{hal::Board{any, any, any}, nullptr};
+    for (int pass = 0; pass < 3000; ++pass, any.now += kTicksPerSecond / 1000) {
+      any.records.push_back({.time_ticks = static_cast<std::uint32_t>(any.now), .changed = 1, .levels = pass % 2 == 0});
+      busy.poll();
+    }
+    const auto reports = any.all<report::DeviceReport>();
+    ASSERT_GE(reports.size(), 2u);
+    EXPECT_NEAR(reports.back().counters.busy_permille, 4e9 / clock, 0.01 * 4e9 / clock);
+  }
 }
 
 TEST_F(ProgramTest, ReportsSweepsThatNoPoseWasMadeOf) {

@@ -13,14 +13,12 @@ namespace pharos::tools {
 namespace {
 
 constexpr int kSensors = 12;
-/// The program assumes three cycles an instruction in its clock, whatever the emulated core has (board/qemu_virt).
-constexpr double kReportedCycles = 3.0;
 /// Left out of the mean: until both stations are found, the load is lower.
 constexpr std::int64_t kStart_ticks = 2 * kTicksPerSecond;
 
 }  // namespace
 
-CpuLoad cpu_load(const std::filesystem::path& images, int cycles) {
+CpuLoad cpu_load(const std::filesystem::path& images, double cycles) {
   const std::string line = run_image_live(images, "decoder.qemu_virt", simulated_words(kSensors, cycles));
   report::LinkDecoder link;
   std::int64_t first_ticks = -1;
@@ -33,7 +31,7 @@ CpuLoad cpu_load(const std::filesystem::path& images, int cycles) {
     if (first_ticks < 0) first_ticks = device->time_ticks;
     if (device->time_ticks - first_ticks < kStart_ticks) continue;
     ++seconds;
-    fraction.percent += 0.1 * device->counters.busy_permille * cycles / kReportedCycles;
+    fraction.percent += 0.1 * device->counters.busy_permille;  // of a core of this speed (board/qemu_virt)
     fraction.lost = static_cast<double>(device->counters.edges_lost) + device->counters.frames_skipped;
   }
   if (seconds == 0) throw host::InputError("decoder.qemu_virt.elf: told no counters on its line; build it anew");

@@ -13,6 +13,6 @@ struct CpuLoad {
 
 /// For a core of so many cycles an instruction; time advances with the instructions (capture_replay.hpp). Throws
 /// host::InputError when QEMU or the image is missing.
-CpuLoad cpu_load(const std::filesystem::path& images, int cycles);
+CpuLoad cpu_load(const std::filesystem::path& images, double cycles);
 
 }  // namespace pharos::tools

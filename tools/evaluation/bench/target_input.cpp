@@ -179,7 +179,7 @@ std::vector<char> simulated_light(int sensors) {
   return bytes;
 }
 
-std::vector<char> simulated_words(int sensors, int cycles) {
+std::vector<char> simulated_words(int sensors, double cycles) {
   constexpr std::uint32_t kSpeed = 0xFFFFFFFE;  // firmware/board/qemu_virt/capture_replay.hpp
   sim::LighthouseSimulator simulator(full_rate(sensors), kInputSeed);
   std::vector<lighthouse::RawPulse> pulses = pulses_of(simulator);
@@ -194,7 +194,7 @@ std::vector<char> simulated_words(int sensors, int cycles) {
   feed.advance(now_ticks + kTicksPerSecond / 10);
   feed.end();
   std::vector<char> words;
-  append(words, std::array<std::uint32_t, 4>{kSpeed, 1024U * static_cast<std::uint32_t>(cycles)});
+  append(words, std::array<std::uint32_t, 4>{kSpeed, static_cast<std::uint32_t>(std::lround(1024 * cycles))});
   words.insert(words.end(), feed.bytes().begin(), feed.bytes().end());
   return words;
 }

@@ -22,7 +22,7 @@ std::vector<char> simulated_light(int sensors);
 
 /// The same light in the form of the emulated capture block (sim::CaptureFeed), to a core of so many cycles an
 /// instruction.
-std::vector<char> simulated_words(int sensors, int cycles);
+std::vector<char> simulated_words(int sensors, double cycles);
 
 /// Pose problems in the format of measure_pose, with a prior of a cycle's motion and the host's result. The last
 /// `from_nothing` are also solved without the prior. `host_..._us`: medians of the host's time per solve.
