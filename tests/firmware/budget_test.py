@@ -13,6 +13,7 @@ CHIP = 36 * 1024
 UPPER = 2048  # of the loader's ROM, for SHA-256 and the checks of signature and version
 VERIFIER = 8192  # in flash
 SLOT = 256 * 1024
+UP5K_SLOT = 128 * 1024
 # Most bytes of variables and stack, and of everything (code, constants, variables, stack, loader) together.
 LIMITS = {"decoder.ep4ce10": (12 * 1024, CHIP), "decoder_pose.ep4ce10": (CHIP, None)}
 
@@ -42,19 +43,21 @@ def main():
             print(f"FAILED: {name} is over its budget of {max_ram:,} variables and stack, {max_all or CHIP:,} in all")
             failed = True
     for image in sorted(images.glob("decoder*.image")):
-        print(f"{image.name}: {image.stat().st_size:,} bytes of the {SLOT:,} of a slot")
-        if image.stat().st_size > SLOT:
+        slot = UP5K_SLOT if ".up5k" in image.name else SLOT
+        print(f"{image.name}: {image.stat().st_size:,} bytes of the {slot:,} of a slot")
+        if image.stat().st_size > slot:
             print(f"FAILED: {image.name} fits no slot of the loader's flash")
             failed = True
-    upper = sections(images / "ep4ce10_loader.elf")[".upper"]
+    loaders = [sections(images / f"{board}_loader.elf") for board in ("ep4ce10", "up5k")]
+    upper = max(loader[".upper"] for loader in loaders)
     verifier = (images / "verifier.bin").stat().st_size
     print(f"signatures, apart: {upper:,} bytes of the {UPPER:,} of ROM after the loader; {verifier:,} of the {VERIFIER:,} of the verifier in flash")
     if upper > UPPER or verifier > VERIFIER:
         print("FAILED: the signatures are over their budget")
         failed = True
-    loader = images / "ep4ce10_loader.elf"
-    if sections(loader)[".text"] > LOADER:
-        print(f"FAILED: the loader has {sections(loader)['.text']} bytes of {LOADER}")
+    largest = max(loader[".text"] for loader in loaders)
+    if largest > LOADER:
+        print(f"FAILED: a loader has {largest} bytes of {LOADER}")
         failed = True
     return 1 if failed else 0
 

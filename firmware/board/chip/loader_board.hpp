@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware/board/ep4ce10/addresses.hpp"
+#include "firmware/board/chip/addresses.hpp"
 #include "firmware/board/rv32/loader_memory.hpp"
 #include "firmware/board/rv32/mmio.hpp"
 #include "firmware/board/spi_nor_flash.hpp"
 #include "firmware/boot/verifier.hpp"
 #include "firmware/rtl/capture_registers.h"
+#include PHAROS_CHIP_CONSTANTS
 
 namespace pharos::board {
 
@@ -41,13 +42,13 @@ class ChipSpi {
   static constexpr std::uint32_t kForceSelect = 0x400;
 };
 
-/// The EP4CE10 board's interface for the loader (boot/boot_board.hpp). The slots lie after the FPGA's configuration
-/// (368,011 bytes) in its EPCS16. Runs on the simulated chip; has not run on a board.
+/// The interface for the loader (boot/boot_board.hpp) of a board whose constants.hpp is PHAROS_CHIP_CONSTANTS. Runs on
+/// the simulated chip; has not run on a board.
 class LoaderBoard : public LoaderMemory {
  public:
-  alignas(4) static constexpr std::array<char, 24> kName{"ep4ce10"};
+  static constexpr const std::array<char, 24>& kName = kNameOfBoard;
   using Flash = SpiNorFlash<ChipSpi>;
-  static constexpr std::uint32_t kSlotBytes = 4 * Flash::kSectorBytes;
+  static constexpr std::uint32_t kSlotBytes = kSlotSectors * Flash::kSectorBytes;
 
   static void prepare() {
     mmio32(kUartLineControl) = kEightBits | kDivisorLatch;
@@ -58,13 +59,11 @@ class LoaderBoard : public LoaderMemory {
   }
   static std::uint32_t slot_offset(std::size_t slot) { return kFirstSlot + slot * kSlotBytes; }
   static Flash flash() { return {}; }
-  static constexpr std::uint32_t kFloorOffset = 0x1C0000;
-  /// The last sector: what the flash's block protection covers first.
-  static constexpr std::uint32_t kVerifierOffset = 0x1F0000;
+  static constexpr std::uint32_t kFloorOffset = kFloorSector;
   /// The jumper connects general pin 7 to ground; the chip's own pull-up holds it high otherwise.
   static bool development() { return (mmio32(kPins + 4) & 0x80) == 0; }
   static boot::Verdict verify(std::span<const std::uint8_t> message, const std::uint8_t* signature) {
-    return boot::verify_in_memory<Flash>(kVerifierOffset, boot::kVerifierSha256, boot::kVerifierBytes, message,
+    return boot::verify_in_memory<Flash>(kVerifierSector, boot::kVerifierSha256, boot::kVerifierBytes, message,
                                          signature);
   }
 
@@ -84,7 +83,6 @@ class LoaderBoard : public LoaderMemory {
   [[noreturn]] static void restart() { LoaderMemory::start(reinterpret_cast<std::uintptr_t>(__loader)); }
 
  private:
-  static constexpr std::uint32_t kFirstSlot = 0x100000;
   static constexpr std::uintptr_t kUartLineControl = kUart + 12;
   static constexpr std::uintptr_t kUartLineStatus = kUart + 20;
   static constexpr std::uint32_t kEightBits = 0x03;

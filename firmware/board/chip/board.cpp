@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chip of firmware/rtl/soc on an EP4CE10. Runs on the simulated chip (tests/rtl/chip); has not run on a board.
+// The chip of firmware/rtl/soc, on a board whose constants.hpp is PHAROS_CHIP_CONSTANTS. Runs on the simulated chip
+// (tests/rtl/chip); has not run on a board.
 #include "firmware/hal/board.hpp"
 
-#include "firmware/board/ep4ce10/addresses.hpp"
-#include "firmware/board/ep4ce10/capture_block.hpp"
+#include "firmware/board/chip/addresses.hpp"
+#include "firmware/board/chip/capture_block.hpp"
 #include "firmware/board/rv32/common_system.hpp"
 #include "firmware/board/rv32/processor.hpp"
 #include "firmware/board/rv32/restart.hpp"
 #include "firmware/board/rv32/trap.hpp"
 #include "firmware/board/uart16550.hpp"
+#include PHAROS_CHIP_CONSTANTS
 
 namespace pharos::board {
 namespace {
 
 constexpr std::size_t kUartFifo = 128;
-constexpr std::uint32_t kMillisecond = 50'000;  // of the machine timer, which counts the core's 50 MHz
+constexpr std::uint32_t kMillisecond = kClockHz / 1000;  // of the machine timer, which counts the core's clock
 // Watchdog of one second: it is stopped until started, and writing its period restarts its time.
 constexpr std::uintptr_t kWatchdogControl = kWatchdog + 4;
 constexpr std::uintptr_t kWatchdogPeriod = kWatchdog + 8;
 constexpr std::uint32_t kWatchdogStart = 4;
+constexpr std::uintptr_t kTimerCompare = kTimer + 8;
 
 CaptureBlock capture(kCapture);
 
@@ -37,9 +40,10 @@ Line line;
 
 class System final : public CommonSystem {
  public:
-  std::uint32_t cycles() override { return mmio32(kMachineTimer); }
+  std::uint32_t cycles() override { return mmio32(kTimer); }
+  std::uint32_t clock_hz() override { return kClockHz; }
   void feed_watchdog() override { mmio32(kWatchdogPeriod) = 0; }
-  std::string_view board_name() override { return "ep4ce10"; }
+  std::string_view board_name() override { return kNameOfBoard.data(); }
 };
 System system;
 
@@ -47,13 +51,13 @@ void (*millisecond_handler)(void*) = nullptr;
 void* millisecond_context = nullptr;
 
 void set_timer_in(std::uint32_t ticks) {
-  const std::uint32_t high = mmio32(kMachineTimer + 4);
-  const std::uint32_t now = mmio32(kMachineTimer);
-  const std::uint32_t carry = mmio32(kMachineTimer + 4) - high;  // it passed a low word of 0 in between
+  const std::uint32_t high = mmio32(kTimer + 4);
+  const std::uint32_t now = mmio32(kTimer);
+  const std::uint32_t carry = mmio32(kTimer + 4) - high;  // it passed a low word of 0 in between
   const std::uint64_t next = (std::uint64_t{high + carry} << 32 | now) + ticks;
-  mmio32(kMachineTimerCompare + 4) = UINT32_MAX;
-  mmio32(kMachineTimerCompare) = static_cast<std::uint32_t>(next);
-  mmio32(kMachineTimerCompare + 4) = static_cast<std::uint32_t>(next >> 32);
+  mmio32(kTimerCompare + 4) = UINT32_MAX;
+  mmio32(kTimerCompare) = static_cast<std::uint32_t>(next);
+  mmio32(kTimerCompare + 4) = static_cast<std::uint32_t>(next >> 32);
 }
 
 }  // namespace
