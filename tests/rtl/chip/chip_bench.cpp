@@ -30,8 +30,9 @@ void ChipBench::start_in_ram(std::span<const std::uint8_t> program) {
 void ChipBench::set_light(std::span<const lighthouse::RawPulse> pulses) {
   edges_.clear();
   next_edge_ = 0;
+  stamped_.clear();
   for (const lighthouse::RawPulse& pulse : pulses) {
-    if (pulse.sensor >= kInputs || pulse.fall_ticks <= pulse.rise_ticks) continue;
+    if (pulse.sensor >= device_->inputs() || pulse.fall_ticks <= pulse.rise_ticks) continue;
     for (const std::int64_t at : {pulse.rise_ticks, pulse.fall_ticks}) {
       edges_.push_back({at - PHAROS_CAPTURE_LATENCY_TICKS, 1U << pulse.sensor});
     }
@@ -48,9 +49,26 @@ void ChipBench::tick() {
   inputs_.spi_in = flash_.tick(outputs.spi_select_n, outputs.spi_clock, outputs.spi_out);
   if (outputs.reset || inputs_.power_on_reset) return;  // its pins may show anything
   if (const auto byte = line_.receive(outputs.uart_transmit)) received_.push_back(*byte);
+  if (outputs.changed != 0) note_stamps(outputs);
+  if (!outputs.core_ticked) return;
   ++counts_.ticks;
   counts_.instructions += outputs.instruction_ended ? 1 : 0;
   counts_.worst_fill = std::max(counts_.worst_fill, outputs.fifo_fill);
+}
+
+void ChipBench::note_stamps(const ChipOutputs& outputs) {
+  for (std::uint32_t sensor = 0; sensor < device_->inputs(); ++sensor) {
+    if ((outputs.changed >> sensor & 1U) == 0) continue;
+    if ((outputs.levels >> sensor & 1U) != 0) {
+      rises_[sensor] = outputs.stamp_ticks;
+    } else {
+      lighthouse::RawPulse pulse;
+      pulse.sensor = static_cast<decltype(pulse.sensor)>(sensor);
+      pulse.rise_ticks = rises_[sensor];
+      pulse.fall_ticks = outputs.stamp_ticks;
+      stamped_.push_back(pulse);
+    }
+  }
 }
 
 void ChipBench::run_until(std::int64_t ticks) {

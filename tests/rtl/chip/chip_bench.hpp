@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pharos/lighthouse/pulse.hpp"
@@ -14,7 +17,7 @@ namespace pharos::rtl {
 
 /// What was counted while the chip ran.
 struct ChipCounts {
-  std::uint64_t ticks = 0;  // with the core out of reset
+  std::uint64_t ticks = 0;  // of the core's clock, out of reset
   std::uint64_t instructions = 0;
   std::uint32_t worst_fill = 0;  // records in the capture block
 };
@@ -22,10 +25,10 @@ struct ChipCounts {
 /// The chip with everything around it: photodiodes, configuration flash, serial line.
 class ChipBench {
  public:
-  static constexpr std::uint32_t kInputs = 12;
   static constexpr std::size_t kFlashBytes = 2 << 20;  // EPCS16
 
-  ChipBench() : flash_(kFlashBytes) {}
+  explicit ChipBench(std::unique_ptr<ChipDevice> device = make_chip_device())
+      : device_(std::move(device)), flash_(kFlashBytes), line_(device_->tick_hz()) {}
 
   ChipDevice& device() { return *device_; }
   SpiFlashModel& flash() { return flash_; }
@@ -43,6 +46,8 @@ class ChipBench {
   /// Runs for so many ticks, also where a reset of the chip clears that counter.
   void run(std::int64_t ticks);
 
+  /// The pulses as the capture block stamped them, in the order of their ends, since the light was set.
+  const std::vector<lighthouse::RawPulse>& stamped() const { return stamped_; }
   /// Bytes that the chip sent since the last call.
   std::vector<std::uint8_t> take_received();
   /// Counts since the last call.
@@ -54,13 +59,16 @@ class ChipBench {
     std::uint32_t bit;
   };
   void tick();
+  void note_stamps(const ChipOutputs& outputs);
 
-  std::unique_ptr<ChipDevice> device_ = make_chip_device();
+  std::unique_ptr<ChipDevice> device_;
   SpiFlashModel flash_;
   UartLine line_;
   ChipInputs inputs_;
   std::vector<PinEdge> edges_;
   std::size_t next_edge_ = 0;
+  std::vector<lighthouse::RawPulse> stamped_;
+  std::array<std::int64_t, 32> rises_{};
   std::vector<std::uint8_t> received_;
   ChipCounts counts_;
 };

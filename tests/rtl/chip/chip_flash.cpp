@@ -12,55 +12,12 @@
 #include "pharos/wire/frame_decoder.hpp"
 #include "pharos/wire/hello_message.hpp"
 #include "rtl/chip/chip_bench.hpp"
+#include "rtl/chip/chip_flash_line.hpp"
+#include "rtl/chip/chip_kinds.hpp"
 #include "tools/flash/flasher.hpp"
 
 namespace pharos::rtl {
 namespace {
-
-constexpr std::uint32_t kVerifierOffset = 0x1F0000;  // board/ep4ce10/loader_board.hpp
-constexpr std::int64_t kNsPerTick = 20;
-
-/// The chip's serial line, in the chip's time; and the longest time that the chip took for an answer.
-class ChipFlashLine final : public tools::FlashLine {
- public:
-  explicit ChipFlashLine(ChipBench& bench) : bench_(bench) {}
-
-  void write(std::span<const std::uint8_t> bytes) override {
-    bench_.line().send(bytes);
-    while (!bench_.line().sent()) run();
-    asked_ = true;
-    (void)bench_.take_counts();
-  }
-  std::size_t read(std::span<std::uint8_t> out, std::int64_t deadline_ns) override {
-    while (waiting_.empty() && now_ns() < deadline_ns) run();
-    const std::size_t count = std::min(out.size(), waiting_.size());
-    std::copy_n(waiting_.begin(), count, out.begin());
-    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
-    return count;
-  }
-  std::int64_t now_ns() override { return now_ticks_ * kNsPerTick; }
-
-  /// Between the last bit of a request and the end of the first byte of what came next.
-  ChipCounts longest_answer;
-
- private:
-  void run() {
-    constexpr std::int64_t kStep_ticks = 50;
-    bench_.run(kStep_ticks);
-    now_ticks_ += kStep_ticks;
-    const auto received = bench_.take_received();
-    waiting_.insert(waiting_.end(), received.begin(), received.end());
-    if (received.empty() || !asked_) return;
-    asked_ = false;
-    const ChipCounts counts = bench_.take_counts();
-    if (counts.ticks > longest_answer.ticks) longest_answer = counts;
-  }
-
-  ChipBench& bench_;
-  std::vector<std::uint8_t> waiting_;
-  std::int64_t now_ticks_ = 0;
-  bool asked_ = false;  // nothing came since
-};
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -80,10 +37,11 @@ Start start(ChipBench& bench) {
   Start start;
   wire::FrameDecoder decoder;
   constexpr std::int64_t kStep_ticks = 500;
-  for (std::int64_t ticks = kStep_ticks; ticks < kTicksPerSecond; ticks += kStep_ticks) {
+  const double tick_hz = bench.device().tick_hz();
+  for (std::int64_t ticks = kStep_ticks; static_cast<double>(ticks) < 2.0 * tick_hz; ticks += kStep_ticks) {
     bench.run(kStep_ticks);
     for (const std::uint8_t byte : bench.take_received()) {
-      if (start.seconds == 0.0) start.seconds = ticks_to_seconds(ticks);
+      if (start.seconds == 0.0) start.seconds = static_cast<double>(ticks) / tick_hz;
       const auto frame = decoder.push(byte);
       if (!frame || frame->type != wire::MessageType::kHello) continue;
       const auto hello = wire::decode_payload<wire::Hello>(frame->payload);
@@ -95,10 +53,11 @@ Start start(ChipBench& bench) {
   return start;
 }
 
-int run(const std::vector<std::string>& images, const std::string& loader, const std::string& verifier) {
-  ChipBench bench;
+int run(const ChipKind& chip, const std::vector<std::string>& images, const std::string& loader,
+        const std::string& verifier) {
+  ChipBench bench(chip.make());
   bench.device().set_rom(bytes_of(loader));
-  std::ranges::copy(bytes_of(verifier), bench.flash().content().begin() + kVerifierOffset);
+  std::ranges::copy(bytes_of(verifier), bench.flash().content().begin() + chip.verifier);
   bench.device().set_ticks(0);
   bench.power_on();
   int refused = 0;
@@ -120,7 +79,7 @@ int run(const std::vector<std::string>& images, const std::string& loader, const
     std::printf("%s,%zu,%s,%.3f,%.4f,%llu,%llu,%.4f,%s,\"%s\"\n", path.substr(path.rfind('/') + 1).c_str(),
                 image.bytes.size(), tools::to_text(image.header.version).c_str(),
                 static_cast<double>(result.line_ns) * 1e-9,
-                ticks_to_seconds(static_cast<std::int64_t>(line.longest_answer.ticks)),
+                static_cast<double>(line.longest_answer.ticks) / chip.core_hz,
                 static_cast<unsigned long long>(line.longest_answer.ticks),
                 static_cast<unsigned long long>(line.longest_answer.instructions), started.seconds,
                 started.runs.c_str(), refusal.c_str());
@@ -136,6 +95,7 @@ int main(int count, char** values) {
   std::vector<std::string> images;
   std::string loader;
   std::string verifier;
+  std::string chip = pharos::rtl::kChips.front().name;
   CLI::App app{
       "Flashes images one after the other into the simulated chip by its loader, and starts each: a row each.\n"
       "Exit code: 1 where one was refused.\n"
@@ -143,9 +103,10 @@ int main(int count, char** values) {
   app.add_option("IMAGE", images, "images of `pharos flash`")->required();
   app.add_option("--loader", loader, "bytes of the boot ROM")->required();
   app.add_option("--verifier", verifier, "the verifier in flash")->required();
+  app.add_option("--chip", chip, "ep4ce10 or up5k")->check(CLI::IsMember({"ep4ce10", "up5k"}));
   CLI11_PARSE(app, count, values);
   try {
-    return pharos::rtl::run(images, loader, verifier);
+    return pharos::rtl::run(pharos::rtl::chip_named(chip), images, loader, verifier);
   } catch (const pharos::host::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

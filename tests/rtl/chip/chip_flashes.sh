@@ -1,18 +1,18 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: chip_flashes.sh BUILD: `pharos flash`'s own sender writes the decoder into the simulated chip, whose loader verifies, marks and
+# usage: chip_flashes.sh BUILD [up5k]: `pharos flash`'s own sender writes the decoder into the simulated chip, whose loader verifies, marks and
 # starts it; then a forged image is refused and a power cycle starts the decoder. Prints the times of README. 77 = skipped.
 set -euo pipefail
-build=$1
+build=$1 chip=${2:-ep4ce10}
 images=$build/firmware/bin
-[ -r "$images/decoder.ep4ce10.image" ] || { echo "skipped: the images are not built (target firmware)"; exit 77; }
+[ -r "$images/decoder.$chip.image" ] || { echo "skipped: the images are not built (target firmware)"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp "$images/decoder.ep4ce10.image" "$work/forged.image"
+cp "$images/decoder.$chip.image" "$work/forged.image"
 printf '\377' | cmp -s -n1 -i 100:0 "$work/forged.image" - && byte='\0' || byte='\377'
 printf "$byte" | dd of="$work/forged.image" bs=1 seek=100 conv=notrunc status=none # in the signature
 code=0
-"$build/tests/chip_flash" "$images/decoder.ep4ce10.image" "$work/forged.image" --loader "$images/ep4ce10_loader.bin" \
+"$build/tests/chip_flash" "$images/decoder.$chip.image" "$work/forged.image" --loader "$images/${chip}_loader.bin" --chip "$chip" \
   --verifier "$images/verifier.bin" >"$work/rows" || code=$?
 cat "$work/rows"
 [ $code -eq 1 ] || { echo "FAILED: exit code $code"; exit 1; }

@@ -17,6 +17,7 @@
 #include "pharos/wire/frame_decoder.hpp"
 #include "pharos/wire/sweep_message.hpp"
 #include "rtl/chip/chip_bench.hpp"
+#include "rtl/chip/chip_kinds.hpp"
 
 namespace pharos::rtl {
 namespace {
@@ -27,10 +28,11 @@ struct Arguments {
   std::string loader;
   std::string image;
   std::string output;
+  std::string stamped;
+  std::string chip = kChips.front().name;
   double seconds = 1e9;
 };
 
-constexpr std::uint32_t kFirstSlot = 0x100000;  // board/ep4ce10/loader_board.hpp
 /// The program must be ready before the first light; after the last, its frames are still to be sent.
 constexpr std::int64_t kLead_ticks = 10 * kTicksPerSecond / 1000;
 constexpr std::int64_t kLoaderLead_ticks = 4 * kTicksPerSecond / 10;  // copies the image, waits 0.2 s for a host
@@ -117,14 +119,25 @@ void run_until(ChipBench& bench, std::int64_t end_ticks, LineLog& log) {
   }
 }
 
+void write_pulses(const std::string& path, const std::vector<lighthouse::RawPulse>& pulses) {
+  std::ofstream file(path);
+  file << "sensor,rise_ticks,fall_ticks\n";
+  for (const lighthouse::RawPulse& pulse : pulses) {
+    file << int{pulse.sensor} << ',' << pulse.rise_ticks << ',' << pulse.fall_ticks << '\n';
+  }
+  file.close();
+  if (!file) throw host::InputError(path + ": cannot be written");
+}
+
 int run(const Arguments& arguments) {
   const auto pulses = pulses_of(arguments);
   const auto first = std::ranges::min(pulses, {}, &lighthouse::RawPulse::rise_ticks).rise_ticks;
   const auto last = std::ranges::max(pulses, {}, &lighthouse::RawPulse::fall_ticks).fall_ticks;
-  ChipBench bench;
+  const ChipKind& chip = chip_named(arguments.chip);
+  ChipBench bench(chip.make());
   if (arguments.program.empty()) {
     const auto image = marked(bytes_of(arguments.image));
-    std::ranges::copy(image, bench.flash().content().begin() + kFirstSlot);
+    std::ranges::copy(image, bench.flash().content().begin() + chip.first_slot);
     bench.device().set_rom(bytes_of(arguments.loader));
   } else {
     bench.start_in_ram(bytes_of(arguments.program));
@@ -146,6 +159,7 @@ int run(const Arguments& arguments) {
   file.write(reinterpret_cast<const char*>(frames.data()), static_cast<std::streamsize>(frames.size()));
   file.close();
   if (!file) throw host::InputError(arguments.output + ": cannot be written");
+  if (!arguments.stamped.empty()) write_pulses(arguments.stamped, bench.stamped());
   std::fprintf(stderr,
                "%zu pulses in %.3f s, %zu bytes sent, %u framing errors; %.3f M instructions, %.3f cycles each, "
                "at most %u records in the FIFO; last edge of a sweep to the end of its frame %.2f ms at worst, %.2f ms "
@@ -175,6 +189,10 @@ int main(int count, char** values) {
   app.add_option("--loader", arguments.loader, "bytes of the boot ROM")->needs(image);
   program->excludes(image);
   app.add_option("--output", arguments.output, "file for the bytes of the serial line")->required();
+  app.add_option("--chip", arguments.chip, "ep4ce10, or up5k with four inputs")
+      ->check(CLI::IsMember({"ep4ce10", "up5k"}));
+  app.add_option("--stamped", arguments.stamped,
+                 "file for the pulses as the capture block stamped them, a table as EDGES");
   app.add_option("--seconds", arguments.seconds, "seconds of light to simulate");
   CLI11_PARSE(app, count, values);
   try {

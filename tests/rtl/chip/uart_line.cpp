@@ -8,7 +8,7 @@ std::optional<std::uint8_t> UartLine::receive(bool level) {
     if (last_ && !level) {
       receiving_ = true;
       now_ = 0.0;
-      next_sample_ = 1.5 * kBit_ticks;
+      next_sample_ = 1.5 * bit_ticks_;
       sampled_ = 0;
       bits_ = 0;
     }
@@ -18,7 +18,7 @@ std::optional<std::uint8_t> UartLine::receive(bool level) {
   last_ = level;
   now_ += 1.0;
   if (now_ < next_sample_) return std::nullopt;
-  next_sample_ += kBit_ticks;
+  next_sample_ += bit_ticks_;
   if (sampled_ < 8) {
     bits_ |= static_cast<std::uint32_t>(level) << sampled_++;
     return std::nullopt;
@@ -37,14 +37,14 @@ bool UartLine::transmit() {
     out_ = 0x200U | std::uint32_t{waiting_.front()} << 1;
     waiting_.pop_front();
     bits_left_ = 10;
-    bit_time_ += kBit_ticks;
+    bit_time_ += bit_ticks_;
   }
   const bool level = (out_ & 1) != 0;
   bit_time_ -= 1.0;
   if (bit_time_ < 0.0) {
     out_ >>= 1;
     --bits_left_;
-    bit_time_ = bits_left_ == 0 ? 0.0 : bit_time_ + kBit_ticks;
+    bit_time_ = bits_left_ == 0 ? 0.0 : bit_time_ + bit_ticks_;
   }
   return level;
 }

@@ -8,9 +8,11 @@
 
 namespace pharos::rtl {
 
-/// The other end of the chip's serial line: 8N1 at 460,800 baud, in ticks of 20 ns.
+/// The other end of the chip's serial line: 8N1 at 460,800 baud.
 class UartLine {
  public:
+  explicit UartLine(double tick_hz) : bit_ticks_(tick_hz / 460'800) {}
+
   /// One tick: level of the chip's transmitter; a byte when its stop bit was seen.
   std::optional<std::uint8_t> receive(bool level);
   /// One tick: the level that the chip's receiver sees.
@@ -21,7 +23,7 @@ class UartLine {
   std::uint32_t framing_errors() const { return framing_errors_; }
 
  private:
-  static constexpr double kBit_ticks = 50e6 / 460'800;
+  double bit_ticks_;
 
   // From the chip.
   bool last_ = true;

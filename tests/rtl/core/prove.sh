@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: prove.sh RTL PROPERTIES TICKS [PLANT-FILE PLANT-SED]: proves the properties in formal/PROPERTIES.v of the core's Verilog in
-# the folder RTL for every input: TICKS 0: of combinational logic, by yosys' own solver; else up to so many ticks after start, by
-# yosys-smtbmc with z3. With a planted fault (a sed command on one file): fails when it is not found. 77: a tool is missing.
+# usage: prove.sh RTL PROPERTIES TICKS [PLANT-FILE PLANT-SED]: proves the properties in formal/PROPERTIES.v of the Verilog in the folder
+# RTL for every input: TICKS 0: of combinational logic, by yosys' own solver; else up to so many ticks after start, by yosys-smtbmc
+# with z3; CLOCKS:STEPS: of logic on several clocks whose edges come in any order, from registers that are 0, by yosys' solver. With a planted fault
+# (a sed command on one file): fails when it is not found. 77: a tool is missing.
 set -euo pipefail
 rtl=$1 properties=$2 ticks=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -17,6 +18,9 @@ prove() {
   local read="read_verilog -formal -sv $work/*.v $here/formal/$properties.v; prep -flatten -top $properties"
   if [ "$ticks" = 0 ]; then
     yosys -p "$read; sat -verify -prove-asserts -show-inputs $properties" >"$work/log" 2>&1
+  elif [ "${ticks%%:*}" = CLOCKS ]; then
+    yosys -p "$read; memory_map; clk2fflogic; opt -full; sat -verify -prove-asserts -set-init-zero -tempinduct-baseonly -maxsteps ${ticks#*:} $properties" \
+      >"$work/log" 2>&1
   else
     yosys -q -p "$read; async2sync; dffunmap; write_smt2 -wires $work/properties.smt2" >"$work/log" 2>&1 || return 2
     yosys-smtbmc -s z3 --noincr -t "$ticks" "$work/properties.smt2" >"$work/log" 2>&1
