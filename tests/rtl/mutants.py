@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plants one fault at a time in a copy of some logic; the test bench must fail on every one of them, and only then.
 
-A mutant that lives means that the bench has a hole. `--few` takes those that stand for the bench's main promises.
+A mutant that lives means that the bench has a hole. `--few` takes those that stand for the bench's main promises, `--part 2/4` every
+fourth from the second on.
 """
 
 import argparse
@@ -73,6 +74,7 @@ def main():
     parser.add_argument("--device", default="tests/rtl/verilated_device.cpp.in", help="the bench's view of it")
     parser.add_argument("--mutations", default="mutations", help="the module with the faults")
     parser.add_argument("--few", action="store_true")
+    parser.add_argument("--part", default="1/1", metavar="I/N")
     parser.add_argument("bench", nargs="+", help="objects and libraries of the bench, built for these parameters")
     arguments = parser.parse_args()
     arguments.build = arguments.build / ("few" if arguments.few else "all")
@@ -81,7 +83,8 @@ def main():
 
     if workshop.bench_on("unharmed", "", "", "") != 0:
         sys.exit("the bench fails on the logic as it is")
-    chosen = [mutation for mutation in faults.MUTATIONS if not arguments.few or mutation[0] in faults.FEW]
+    part, parts = map(int, arguments.part.split("/"))
+    chosen = [mutation for mutation in faults.MUTATIONS if not arguments.few or mutation[0] in faults.FEW][part - 1 :: parts]
     alive = []
     for name, *mutation in chosen:
         killed = workshop.bench_on(name, *mutation) != 0
