@@ -48,7 +48,7 @@ struct NetworkCounters {
 /// A target among 1 to 16 stations of known poses, LH1 or LH2: each sweep at its own instant in one motion model,
 /// stations that contradict the others left out.
 ///
-/// Fixed size; about 4 MB. push() takes hits in the order of time, gathers them to sweeps and gives the result of the
+/// Fixed size; 160 kB. push() takes hits in the order of time, gathers them to sweeps and gives the result of the
 /// sweep before when a new one begins.
 class NetworkTracker {
  public:
