@@ -9,6 +9,9 @@ namespace {
 // A relative source's slow error is a random walk: what slam gains within one time constant.
 constexpr double kRelativeBias_rad = 0.3 / kDegPerRad;
 constexpr double kRelativeBias_m = 5e-3;
+// What is left of a source whose slow error is stated and whose mounting is given: no error at all makes no covariance.
+constexpr double kMinBias_rad = 1e-6;
+constexpr double kMinBias_m = 1e-6;
 
 fusion::MotionKind motion_kind(const std::string& word) {
   if (word == "orbit") return fusion::MotionKind::kClohessyWiltshire;
@@ -23,8 +26,21 @@ Matrix6 diagonal(double rotation, double position) {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-Matrix6 own_bias(const FusionChoices& choices) {
+// Where a source states its own slow error the estimator adds it to each measurement's.
+Matrix6 own_bias(const SourceMounting& mounting, const FusionChoices& choices) {
+  if (mounting.slow_error) return diagonal(kMinBias_rad, kMinBias_m);
   return diagonal(choices.bias_deg / kDegPerRad, choices.bias_mm / kMmPerM);
+}
+
+void set_slow_error(const SourceMounting& mounting, fusion::SourceSettings& out) {
+  const SlowError& slow = *mounting.slow_error;
+  out.own_rotation_ratio = slow.rotation_ratio;
+  out.own_position_ratio = slow.position_ratio;
+  out.bias_time_constant_s = slow.time_constant_s;
+  // Without an error of its mounting only the source's own is left, and that is one of the pose: no lever arm.
+  const bool exact =
+      mounting.T_vehicle_sensor.covariance.isZero(0.0) && mounting.T_target_feature->covariance.isZero(0.0);
+  if (exact) out.bias_frame = fusion::BiasFrame::kFeature;
 }
 
 // Errors of both fixed poses as one error of T_vehicle_sensor: e_sensor + A e_feature at the target's present pose.
@@ -76,12 +92,13 @@ fusion::SourceSettings source_settings(const SourceMounting& mounting, const Fus
     return out;
   }
   out.T_target_feature = {feature->R, feature->t};
-  out.bias_covariance = own_bias(choices);
+  out.bias_covariance = own_bias(mounting, choices);
+  if (mounting.slow_error) set_slow_error(mounting, out);
   return out;
 }
 
 Matrix6 source_bias(const SourceMounting& mounting, const SensorFromFeature& first, const FusionChoices& choices) {
-  return own_bias(choices) + mounting_covariance(mounting, *mounting.target_from_feature(), first);
+  return own_bias(mounting, choices) + mounting_covariance(mounting, *mounting.target_from_feature(), first);
 }
 
 const char* words_of(fusion::SettingsError error) {

@@ -16,7 +16,7 @@ struct FusionChoices {
   std::array<double, 3> inertia{1.0, 1.0, 1.0};
   double acceleration_density = 1e-6;
   double angular_acceleration_density = 1e-8;
-  double bias_deg = 0.05;  // of every source beside its mounting
+  double bias_deg = 0.05;  // of a source whose mounting file states no slow_error, beside its mounting
   double bias_mm = 1.0;
   double bias_time_s = 60.0;
   double risk_per_hour = 1e-5;
@@ -40,7 +40,8 @@ inline constexpr ChoiceRange kFaultsRange{0.0, 1e3};
 /// Settings without sources.
 fusion::Settings fusion_settings(const FusionChoices& choices);
 
-/// One source of the mounting file. Its bias is the source's own; an unknown feature makes it a relative source.
+/// One source of the mounting file. Its bias is the source's own: what the file states as slow_error, otherwise the
+/// choices. An unknown feature makes it a relative source.
 fusion::SourceSettings source_settings(const SourceMounting& mounting, const FusionChoices& choices);
 
 /// The bias of a source whose feature is known: its own, and what the mounting's covariance leaves at `first`, a pose

@@ -62,6 +62,16 @@ struct MountingPose {
   }
 };
 
+/// A source's own error that lasts for seconds and minutes, as a ratio to the noise that it states: so it grows with
+/// range and geometry as the noise does.
+struct SlowError {
+  /// 1 sigma of each axis over the sigma of an axis that the source states for its rotation (root mean square of those
+  /// that it measures), and over that of its position.
+  double rotation_ratio = 0.0;
+  double position_ratio = 0.0;
+  double time_constant_s = 30.0;  // first-order Gauss-Markov
+};
+
 /// One source of poses on the vehicle: T_vehicle_target = T_vehicle_sensor T_sensor_feature T_target_feature^-1, where
 /// T_sensor_feature is what the source reports.
 struct SourceMounting {
@@ -80,6 +90,8 @@ struct SourceMounting {
   MountingOrigin time_offset_origin = MountingOrigin::kPrior;
   /// 1 sigma of the source's unit of length, as a ratio: its positions are true * (1 + e).
   double scale_sigma = 0.0;
+  /// Empty: not known.
+  std::optional<SlowError> slow_error;
   /// What the calibration could not tell, as text; these directions are at their prior.
   std::vector<std::string> unobservable;
 

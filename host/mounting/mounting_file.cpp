@@ -21,6 +21,9 @@ constexpr double kLengthTolerance = 1e-3;
 constexpr Range kTimeOffset_s{-1e5, 1e5};
 constexpr Range kTimeSigma_s{0.0, 1e5};
 constexpr Range kScaleSigma{0.0, 1.0};
+// Beyond a hundred times its noise a source needs another covariance, not a slow error.
+constexpr Range kSlowRatio{0.0, 100.0};
+constexpr Range kSlowTime_s{0.1, 1e6};
 // Squares of 10 km: no covariance of a mounting has more, and products of sums stay finite.
 constexpr Range kCovariance{-1e8, 1e8};
 
@@ -79,6 +82,16 @@ void read_time_offset(const TomlTable& table, SourceMounting& source) {
   }
 }
 
+std::optional<SlowError> read_slow_error(const TomlTable& source) {
+  if (!source.has("slow_error")) return std::nullopt;
+  const TomlTable table = source.table("slow_error");
+  SlowError slow;
+  slow.rotation_ratio = table.number("rotation_ratio", kSlowRatio);
+  slow.position_ratio = table.number("position_ratio", kSlowRatio);
+  slow.time_constant_s = table.number("time_constant_s", kSlowTime_s);
+  return slow;
+}
+
 SourceMounting read_source(const TomlTable& table) {
   SourceMounting source;
   source.name = table.text("name");
@@ -86,6 +99,7 @@ SourceMounting read_source(const TomlTable& table) {
   source.kind = *source_kind(table.choice("kind", {"lighthouse", "tof", "ring2", "slam"}));
   read_time_offset(table, source);
   source.scale_sigma = table.number_or("scale_sigma", 0.0, kScaleSigma);
+  source.slow_error = read_slow_error(table);
   source.unobservable = table.texts("unobservable");
   source.T_vehicle_sensor = read_pose(table.table("T_vehicle_sensor"));
   if (table.has("T_target_feature")) source.T_target_feature = read_pose(table.table("T_target_feature"));
@@ -125,6 +139,12 @@ std::string pose_text(const char* name, const MountingPose& pose) {
   return pose.covariance.isZero(0.0) ? out : out + matrix_text("covariance", pose.covariance);
 }
 
+std::string slow_error_text(const SlowError& slow) {
+  return "\n[source.slow_error]\nrotation_ratio = " + exact_number(slow.rotation_ratio) +
+         "\nposition_ratio = " + exact_number(slow.position_ratio) +
+         "\ntime_constant_s = " + exact_number(slow.time_constant_s) + "\n";
+}
+
 std::string source_text(const SourceMounting& source) {
   std::string out =
       "\n[[source]]\nname = \"" + source.name + "\"\nkind = \"" + std::string(word_of(source.kind)) + "\"\n";
@@ -136,6 +156,7 @@ std::string source_text(const SourceMounting& source) {
   if (!source.cross_covariance.isZero(0.0)) out += matrix_text("cross_covariance", source.cross_covariance);
   out += pose_text("T_vehicle_sensor", source.T_vehicle_sensor);
   if (source.T_target_feature) out += pose_text("T_target_feature", *source.T_target_feature);
+  if (source.slow_error) out += slow_error_text(*source.slow_error);
   return out;
 }
 

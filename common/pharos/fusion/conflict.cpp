@@ -34,6 +34,7 @@ double side_misfit(const FusionState& state, std::uint8_t without) {
 void FusionCore::enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const {
   ++state.counters.conflicts;
   state.suspects = Suspects{true, first, second, 0};
+  for (SourceMonitor& monitor : state.monitors) monitor.note_proof(state.time_ns, false);  // it was beside the main one
   for (const std::uint8_t s : {first, second}) {
     state.monitors[s].contributed = true;  // the level covers the fault of either
     state.monitors[s].gated_run = 0;
@@ -54,7 +55,8 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
   }
   const std::uint8_t other = m.source == suspects.first ? suspects.second : suspects.first;
   Filter& side = state.without[other];
-  if (!side.valid()) {
+  const bool whole = m.directions.rank == 6 && !settings_.sources[m.source].relative;
+  if (!side.valid() || (whole && !side.complete())) {
     if (!settings_.sources[m.source].relative) side.start(m, settings_, &state.main.mean().pose);
     monitor.gated_run = 0;
     return Use::kConflict;
@@ -83,6 +85,11 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
   return Use::kConflict;
 }
 
+void FusionCore::end_conflict(FusionState& state, std::uint8_t wrong, FaultKind why) const {
+  state.suspects.active = false;
+  exclude(state, wrong, why);
+}
+
 void FusionCore::examine_conflict(FusionState& state) const {
   Suspects& suspects = state.suspects;
   const Filter& without_first = state.without[suspects.first];
@@ -94,8 +101,12 @@ void FusionCore::examine_conflict(FusionState& state) const {
   const double misfit_of_second = side_misfit(state, suspects.first);
   if (std::abs(misfit_of_first - misfit_of_second) > settings_.detection.attribution_chi2) {
     const std::uint8_t wrong = misfit_of_first > misfit_of_second ? suspects.first : suspects.second;
-    suspects.active = false;
-    exclude(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
+    // What contradicts both sides does not make the better one right.
+    if (std::min(misfit_of_first, misfit_of_second) > settings_.detection.attribution_chi2) {
+      restart(state);
+    } else {
+      end_conflict(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
+    }
     return;
   }
   const bool agree = distance(without_first, without_second, 0) < kAgree_probability_chi2 &&
@@ -107,8 +118,10 @@ void FusionCore::examine_conflict(FusionState& state) const {
   if (suspects.agree_since_ns == 0) suspects.agree_since_ns = state.time_ns;
   if (seconds(state.time_ns, suspects.agree_since_ns) < settings_.detection.proof_s) return;
   // Both again: the main solution goes on from the better one, which holds the other suspect's measurements.
+  if (!without_first.complete() && !without_second.complete()) return;
   const bool first_better =
-      without_first.pose_covariance().diagonal().sum() < without_second.pose_covariance().diagonal().sum();
+      without_first.complete() && (!without_second.complete() || without_first.pose_covariance().diagonal().sum() <
+                                                                     without_second.pose_covariance().diagonal().sum());
   const std::uint8_t left_out = first_better ? suspects.first : suspects.second;
   const std::uint8_t held = first_better ? suspects.second : suspects.first;
   suspects.active = false;

@@ -22,8 +22,8 @@ void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why)
   const bool contributed = state.monitors[source].contributed;
   state.monitors[source].exclude(why);
   if (!state.tracking || !contributed) return;
-  if (!state.without[source].valid()) {
-    restart(state);
+  if (!state.without[source].valid() || !state.without[source].complete()) {
+    restart(state);  // nothing is left that knows the whole pose
     return;
   }
   // The solution without it never held the fault. All others did: they start anew from the next measurements.
@@ -36,33 +36,6 @@ void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why)
     }
   }
   state.suspects = Suspects{};
-}
-
-// A measurement of an excluded source beside the state, with its bias as unknown as before its first one.
-Use FusionCore::prove(FusionState& state, const TargetMeasurement& m) const {
-  SourceMonitor& monitor = state.monitors[m.source];
-  Filter probe = state.main;
-  probe.reset_bias(m.source, settings_);
-  bool agrees = true;
-  if (!settings_.sources[m.source].relative) {
-    const Innovation in = probe.innovation(m, settings_);
-    monitor.nis = in.nis;
-    monitor.rank = in.rank;
-    agrees = in.ok && in.nis < gate(in.rank);
-  }
-  if (state.suspects.active) agrees = false;
-  monitor.note_proof(m.time_ns, agrees);
-  if (monitor.proved(m.time_ns, settings_.detection)) {
-    monitor.excluded = false;
-    monitor.gated_run = 0;
-    state.main.reset_bias(m.source, settings_);
-    for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
-      if (state.without[k].valid()) state.without[k].reset_bias(m.source, settings_);
-    }
-    state.without[m.source] = state.main;
-    ++state.counters.readmissions;
-  }
-  return Use::kExcluded;
 }
 
 void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, const Innovation& in) const {
@@ -122,7 +95,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
 // measurements (Blanch et al. 2015, equation 10). 0 where it says nothing.
 double FusionCore::separation(const FusionState& state, std::size_t source, bool rotation) const {
   const Filter& other = state.without[source];
-  if (!state.monitors[source].contributed || !other.valid()) return 0.0;
+  if (!state.monitors[source].contributed || !other.valid() || !other.complete()) return 0.0;
   const int at = rotation ? 0 : 3;
   const Vector6 apart = pose_difference(state.main.mean().pose, other.mean().pose);
   const Matrix3 P_other = other.pose_covariance().block<3, 3>(at, at);
@@ -156,7 +129,7 @@ void FusionCore::examine_separations(FusionState& state) const {
   std::array<std::uint8_t, 2> who{};
   int candidates = 0;
   for (std::uint8_t s = 0; s < settings_.sources.size(); ++s) {
-    if (!state.monitors[s].contributed || !state.without[s].valid()) continue;
+    if (!state.monitors[s].contributed || !state.without[s].valid() || !state.without[s].complete()) continue;
     largest = std::fmax(largest, std::fmax(separation(state, s, true), separation(state, s, false)));
     const double fit = misfit(state, s);
     ++candidates;

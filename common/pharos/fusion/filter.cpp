@@ -15,6 +15,7 @@ constexpr double kFillPosition_m = 1.0;
 std::size_t bias_row(std::size_t source) { return static_cast<std::size_t>(kKinematic) + 6 * source; }
 
 using Kinematic12 = Eigen::Matrix<double, kKinematic, kKinematic>;
+using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 struct Derivatives {
   Matrix6 by_pose, by_bias;
@@ -70,6 +71,32 @@ bool factorise(const Matrix6& a, int rank, Matrix6& lower) {
   return true;
 }
 
+// X lower^-T, of the leading `rank` columns; the others are zero.
+void divide_by_transpose(const Matrix6& lower, int rank, Matrix6& X) {
+  for (int i = 0; i < rank; ++i) {
+    for (int k = 0; k < i; ++k) X.col(i) -= lower(i, k) * X.col(k);
+    X.col(i) /= lower(i, i);
+  }
+  for (int i = rank; i < 6; ++i) X.col(i).setZero();
+}
+
+// Six rows and columns of a covariance.
+Matrix6 block_of(const Covariance& P, std::size_t row, std::size_t column) {
+  if (row < column) return block_of(P, column, row).transpose();
+  Matrix6 out;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double* const from = P.lower.data() + Covariance::index(row + i, column);
+    for (std::size_t j = 0; j < (row == column ? i + 1 : 6); ++j)
+      out(static_cast<int>(i), static_cast<int>(j)) = from[j];
+  }
+  if (row == column) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i + 1; j < 6; ++j) out(i, j) = out(j, i);
+    }
+  }
+  return out;
+}
+
 Vector6 solve_lower(const Matrix6& lower, int rank, Vector6 x) {
   for (int i = 0; i < rank; ++i) {
     for (int k = 0; k < i; ++k) x[i] -= lower(i, k) * x[k];
@@ -115,7 +142,53 @@ void Filter::set_bias_block(std::uint8_t source, const Matrix6& block) {
 void Filter::reset_bias(std::uint8_t source, const Settings& settings) {
   bias_[source] = BiasMean{};
   active_[source] = false;
-  set_bias_block(source, settings.sources[source].bias_covariance);
+  set_bias_block(source, stationary_bias(source, settings.sources[source]));
+}
+
+// What the mounting leaves and the source's own error. The latter is one of the pose that the source sees: as a bias of
+// the sensor's mounting, whose rotation acts about the sensor, its translation makes up for the lever arm.
+Matrix6 Filter::stationary_bias(std::uint8_t source, const SourceSettings& settings) const {
+  const auto rotation = static_cast<double>(own_[source].rotation);
+  const auto position = static_cast<double>(own_[source].position);
+  Matrix6 out = settings.bias_covariance;
+  out.diagonal().head<3>().array() += rotation;
+  out.diagonal().tail<3>().array() += position;
+  if (settings.bias_frame == BiasFrame::kSensor && rotation > 0.0) {
+    const Matrix3 arm = skew(mean_.pose.t - settings.T_vehicle_sensor.t);
+    out.bottomLeftCorner<3, 3>() += rotation * arm;
+    out.topRightCorner<3, 3>() += rotation * arm.transpose();
+    out.bottomRightCorner<3, 3>() += rotation * Matrix3(arm * arm.transpose());
+  }
+  return out;
+}
+
+void Filter::set_own_variance(std::uint8_t source, const OwnVariance& variance, const Settings& settings) {
+  const OwnVariance before = own_[source];
+  own_[source] = variance;
+  if (!valid_) return;
+  const Matrix6& rest = settings.sources[source].bias_covariance;
+  if (!active_[source]) {
+    set_bias_block(source, stationary_bias(source, settings.sources[source]));
+    return;
+  }
+  const auto ratio = [](double mounting, float now, float then) {
+    return std::sqrt((mounting + 3.0 * static_cast<double>(now)) / (mounting + 3.0 * static_cast<double>(then)));
+  };
+  scale_bias(source, ratio(rest.topLeftCorner<3, 3>().trace(), variance.rotation, before.rotation),
+             ratio(rest.bottomRightCorner<3, 3>().trace(), variance.position, before.position));
+}
+
+void Filter::scale_bias(std::uint8_t source, double rotation, double position) {
+  bias_[source].R = rotation_exp(rotation * rotation_log(bias_[source].R));
+  bias_[source].t *= position;
+  const std::size_t first = bias_row(source);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double factor = i < 3 ? rotation : position;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(kStates); ++j) {
+      if (j != first + i) covariance_(first + i, j) *= factor;
+    }
+    covariance_(first + i, first + i) *= factor * factor;
+  }
 }
 
 void Filter::start(const TargetMeasurement& measurement, const Settings& settings, const TargetPose* fill) {
@@ -134,6 +207,7 @@ void Filter::start(const TargetMeasurement& measurement, const Settings& setting
   for (std::size_t i = 9; i < 12; ++i) covariance_(i, i) = start.sigma_velocity_m_s * start.sigma_velocity_m_s;
   for (std::uint8_t s = 0; s < settings.sources.size(); ++s) reset_bias(s, settings);
   valid_ = true;
+  complete_ = measurement.directions.rank == 6;
   const Innovation first = innovation(measurement, settings);
   if (first.ok) correct(first, measurement.source, settings);
 }
@@ -187,6 +261,7 @@ void Filter::predict_biases(double dt_s, const Settings& settings) {
     const SourceSettings& source = settings.sources[s];
     const double gained =
         source.relative ? 2.0 * std::abs(dt_s) / source.bias_time_constant_s : 1.0 - kept[s] * kept[s];
+    const Matrix6 stationary = stationary_bias(static_cast<std::uint8_t>(s), source);
     const std::size_t first = bias_row(s);
     for (std::size_t i = first; i < first + 6; ++i) {
       for (std::size_t j = 0; j < kKinematic; ++j) covariance_(i, j) *= kept[s];
@@ -195,7 +270,7 @@ void Filter::predict_biases(double dt_s, const Settings& settings) {
         for (std::size_t j = begin; j < std::min(begin + 6, i + 1); ++j) covariance_(i, j) *= kept[s] * kept[other];
       }
       for (std::size_t j = first; j <= i; ++j) {
-        covariance_(i, j) += gained * source.bias_covariance(static_cast<int>(i - first), static_cast<int>(j - first));
+        covariance_(i, j) += gained * stationary(static_cast<int>(i - first), static_cast<int>(j - first));
       }
     }
     if (!source.relative) {
@@ -220,15 +295,8 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
   out.derivatives << rows * d.by_pose, rows * d.by_bias;
   Kinematic12 P;  // of pose and this bias
   const std::size_t first = bias_row(m.source);
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      const auto a = static_cast<int>(i);
-      const auto b = static_cast<int>(j);
-      P(a, b) = covariance_(i, j);
-      P(a + 6, b) = P(b, a + 6) = covariance_(first + i, j);
-      P(a + 6, b + 6) = covariance_(first + i, first + j);
-    }
-  }
+  const Matrix6 cross = block_of(covariance_, first, 0);
+  P << block_of(covariance_, 0, 0), cross.transpose(), cross, block_of(covariance_, first, first);
   Matrix6 noise = m.covariance;
   const double own_time_sigma_s = static_cast<double>(m.time_sigma_s);
   const double time_variance = source.time_sigma_s * source.time_sigma_s + own_time_sigma_s * own_time_sigma_s;
@@ -250,33 +318,34 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
   return out;
 }
 
+// T = P H^T C^-T, P -= T T^T, state += T whitened, in blocks of six rows: rows of the packed lower triangle are
+// contiguous.
 void Filter::correct(const Innovation& in, std::uint8_t source, const Settings& settings) {
   active_[source] = true;
-  const std::size_t first = bias_row(source);
-  // Rows that a correction changes: the kinematic states and the biases that are part of the state.
-  std::array<std::size_t, kStates> rows;
+  // Blocks that a correction changes: the kinematic states and the biases that are part of the state.
+  std::array<std::size_t, kStates / 6> begin;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < kKinematic; ++i) rows[count++] = i;
+  for (std::size_t i = 0; i < kKinematic; i += 6) begin[count++] = i;
   for (std::size_t s = 0; s < settings.sources.size(); ++s) {
-    if (!active_[s]) continue;
-    for (std::size_t i = bias_row(s); i < bias_row(s) + 6; ++i) rows[count++] = i;
+    if (active_[s]) begin[count++] = bias_row(s);
   }
-  // T = P H^T C^-T, row by row; P -= T T^T, state += T whitened.
-  std::array<Vector6, kStates> T;
+  std::array<Matrix6, kStates / 6> T;
   std::array<double, kStates> delta{};
-  const Eigen::Matrix<double, 12, 6> by_state = in.derivatives.transpose();
+  const Matrix6 by_pose = in.derivatives.leftCols<6>().transpose();
+  const Matrix6 by_bias = in.derivatives.rightCols<6>().transpose();
   for (std::size_t k = 0; k < count; ++k) {
-    Eigen::Matrix<double, 1, 12> seen;
-    for (std::size_t j = 0; j < 6; ++j) {
-      seen[static_cast<int>(j)] = covariance_(rows[k], j);
-      seen[static_cast<int>(j) + 6] = covariance_(rows[k], first + j);
-    }
-    T[k] = solve_lower(in.factor, in.rank, seen.lazyProduct(by_state).transpose());
-    for (int r = in.rank; r < 6; ++r) T[k][r] = 0.0;
-    delta[rows[k]] = T[k].dot(in.whitened);
+    T[k] = block_of(covariance_, begin[k], 0).lazyProduct(by_pose);
+    T[k] += block_of(covariance_, begin[k], bias_row(source)).lazyProduct(by_bias);
+    divide_by_transpose(in.factor, in.rank, T[k]);
+    Vector6::Map(&delta[begin[k]]) = T[k].lazyProduct(in.whitened);
   }
   for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t l = 0; l <= k; ++l) covariance_(rows[k], rows[l]) -= T[k].dot(T[l]);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const RowVector6 row = T[k].row(static_cast<int>(i));
+      double* const to = &covariance_(begin[k] + i, 0);
+      for (std::size_t l = 0; l < k; ++l) RowVector6::Map(to + begin[l]) -= row.lazyProduct(T[l].transpose());
+      for (std::size_t j = 0; j <= i; ++j) to[begin[k] + j] -= row.dot(T[k].row(static_cast<int>(j)));
+    }
   }
   shift(delta);
 }
@@ -294,19 +363,12 @@ void Filter::shift(const std::array<double, kStates>& delta) {
   }
 }
 
-Matrix6 Filter::pose_covariance() const {
-  Matrix6 out;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) out(static_cast<int>(i), static_cast<int>(j)) = covariance_(i, j);
-  }
-  return out;
-}
+Matrix6 Filter::pose_covariance() const { return block_of(covariance_, 0, 0); }
 
 Kinematic12 Filter::kinematic_covariance() const {
+  const Matrix6 cross = block_of(covariance_, 6, 0);
   Kinematic12 out;
-  for (std::size_t i = 0; i < kKinematic; ++i) {
-    for (std::size_t j = 0; j < kKinematic; ++j) out(static_cast<int>(i), static_cast<int>(j)) = covariance_(i, j);
-  }
+  out << block_of(covariance_, 0, 0), cross.transpose(), cross, block_of(covariance_, 6, 6);
   return out;
 }
 

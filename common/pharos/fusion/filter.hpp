@@ -28,6 +28,12 @@ struct BiasMean {
   Vector3 t = Vector3::Zero();
 };
 
+/// Variances of one axis of a source's own slow error, rotation (rad^2) and position (m^2).
+struct OwnVariance {
+  float rotation = 0.0F;
+  float position = 0.0F;
+};
+
 /// Error-state Kalman filter of the target with a multiplicative attitude error (Lefferts, Markley, Shuster, "Kalman
 /// filtering for spacecraft attitude estimation", J. Guidance 5 (1982); here in the vehicle frame: R_true = exp([d]x)
 /// R) and a first-order Gauss-Markov bias of every source (augmented state, as in Bar-Shalom, Li, Kirubarajan,
@@ -38,6 +44,9 @@ struct BiasMean {
 class Filter {
  public:
   bool valid() const { return valid_; }
+  /// Whether it began with a pose of all directions. Otherwise what the first one left out is 1 rad wide, and a filter
+  /// that linearises about such a guess gains knowledge of it that no measurement gave.
+  bool complete() const { return complete_; }
   void invalidate() { valid_ = false; }
 
   /// Starts from a pose with wide rates; directions that it does not measure are taken from `fill` (1 rad and 1 m
@@ -52,6 +61,9 @@ class Filter {
   /// Makes the bias of a relative source what explains this pose.
   void align(const TargetMeasurement& measurement, const Settings& settings);
   bool aligned(std::uint8_t source) const { return active_[source]; }
+  /// Of a source's own slow error from now on (SourceSettings::own_rotation_ratio): the bias grows or shrinks with it.
+  void set_own_variance(std::uint8_t source, const OwnVariance& variance, const Settings& settings);
+  const OwnVariance& own_variance(std::uint8_t source) const { return own_[source]; }
   /// The source's bias is unknown again, as before its first measurement.
   void reset_bias(std::uint8_t source, const Settings& settings);
 
@@ -66,14 +78,18 @@ class Filter {
  private:
   void predict_step(double dt_s, const Settings& settings);
   void predict_biases(double dt_s, const Settings& settings);
+  Matrix6 stationary_bias(std::uint8_t source, const SourceSettings& settings) const;
+  void scale_bias(std::uint8_t source, double rotation, double position);
   void set_bias_block(std::uint8_t source, const Matrix6& block);
   void shift(const std::array<double, kStates>& delta);
 
   Kinematics mean_;
   std::array<BiasMean, kMaxSources> bias_{};
   std::array<bool, kMaxSources> active_{};  // its bias is part of the state (has been corrected)
+  std::array<OwnVariance, kMaxSources> own_{};
   Covariance covariance_{};
   bool valid_ = false;
+  bool complete_ = false;
 };
 
 /// `pose` moved along the directions that were not measured, to where it is nearest to `reference`.

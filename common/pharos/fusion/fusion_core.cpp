@@ -15,6 +15,7 @@ constexpr int kFrozenRepeats = 2;        // the third equal pose: noise repeats 
 constexpr double kJoining_s = 1.0;       // how long a source that came moves the state by one sigma at most
 constexpr double kContradicted_s = 1.0;  // measurements, but none that fits: the track is wrong
 constexpr int kMaxHalvings = 24;
+constexpr double kOwnErrorKept = 0.9;  // of the variance of a source's own error, a measurement
 
 // Norm of a correction in the standard deviations before it, the larger of rotation and position.
 double sigmas_moved(const Matrix6& before, const Vector6& moved) {
@@ -57,7 +58,6 @@ Use FusionCore::push(FusionState& state, const Measurement& m) const {
   const bool repeated = monitor.repeats_pose(m.pose);
   monitor.seen = true;
   monitor.last_ns = m.time_ns;
-  monitor.directions = m.directions;
   // A gap that no prediction bridges: without this, a wrong clock would cost one step per 50 ms of it.
   if (seconds(m.time_ns, state.time_ns) > settings_.detection.coasting_s) {
     if (state.tracking) restart(state);
@@ -73,11 +73,34 @@ Use FusionCore::push(FusionState& state, const Measurement& m) const {
     if (monitor.excluded) monitor.note_proof(m.time_ns, false);
     return Use::kFrozen;
   }
+  note_own_error(state, m);
   return state.tracking ? track(state, m) : search(state, m);
 }
 
+// The source's own slow error follows the noise that it states, smoothed: stated covariances have noise themselves.
+void FusionCore::note_own_error(FusionState& state, const Measurement& m) const {
+  const SourceSettings& source = settings_.sources[m.source];
+  if (source.own_rotation_ratio == 0.0 && source.own_position_ratio == 0.0) return;
+  const auto rows = m.directions.rows.topRows(m.directions.rank);
+  const Matrix3 measured = rows.leftCols<3>().transpose().lazyProduct(rows.leftCols<3>());  // projector
+  const Matrix3 rotation = measured.lazyProduct(m.covariance.topLeftCorner<3, 3>());
+  const double axes = std::max(measured.trace(), 1.0);
+  const double rotation_sigma = source.own_rotation_ratio * std::sqrt(rotation.trace() / axes);
+  const double position_sigma =
+      source.own_position_ratio * std::sqrt(m.covariance.bottomRightCorner<3, 3>().trace() / 3.0);
+  const OwnVariance last = state.main.own_variance(m.source);
+  const double kept = last.rotation == 0.0F && last.position == 0.0F ? 0.0 : kOwnErrorKept;
+  const auto smoothed = [kept](float before, double now) {
+    return static_cast<float>(kept * static_cast<double>(before) + (1.0 - kept) * now);
+  };
+  const OwnVariance own{smoothed(last.rotation, rotation_sigma * rotation_sigma),
+                        smoothed(last.position, position_sigma * position_sigma)};
+  state.main.set_own_variance(m.source, own, settings_);
+  for (Filter& filter : state.without) filter.set_own_variance(m.source, own, settings_);
+}
+
 Use FusionCore::track(FusionState& state, const Measurement& raw) const {
-  if (state.monitors[raw.source].excluded) return prove(state, view(state, raw, &state.main.mean().pose));
+  if (state.monitors[raw.source].excluded) return prove(state, raw);
   if (state.suspects.active) return track_in_conflict(state, raw);
   const Use use = use_or_gate(state, raw);
   if (state.tracking && !state.suspects.active) examine_separations(state);
@@ -106,6 +129,7 @@ Use FusionCore::use_or_gate(FusionState& state, const Measurement& raw) const {
   const bool align = source.relative && !state.main.aligned(raw.source);
   if (align) place_feature(state, raw);
   TargetMeasurement m = view(state, raw, &state.main.mean().pose);
+  monitor.directions = m.directions;
   if (align) {
     state.main.align(m, settings_);
     for (std::size_t k = 0; k < settings_.sources.size(); ++k) {
@@ -186,7 +210,9 @@ void FusionCore::correct_main(FusionState& state, TargetMeasurement& m, const In
 void FusionCore::correct_without(FusionState& state, std::size_t k, const TargetMeasurement& m, bool second) const {
   Filter& filter = state.without[k];
   const SourceSettings& source = settings_.sources[m.source];
-  if (!filter.valid()) {
+  // One that began with a part of a pose begins anew with the first whole one.
+  const bool whole = !source.relative && m.directions.rank == 6;
+  if (!filter.valid() || (whole && !filter.complete())) {
     if (!source.relative) filter.start(m, settings_, &state.main.mean().pose);
     return;
   }
@@ -257,6 +283,7 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
     Filter other = state.without[s];
     other.predict(dt_s, settings_);
     widen(out.protection, main, other, factors_.without[s]);
+    if (!other.complete()) out.protection.rotation_available = out.protection.position_available = false;
     if (out.mode != Mode::kConflict) continue;
     for (std::size_t side = 0; side < 2; ++side) {
       if ((side == 0 ? state.suspects.first : state.suspects.second) != s) continue;

@@ -39,6 +39,7 @@ class FusionCore {
   void predict(FusionState& state, std::int64_t time_ns) const;
   Use track(FusionState& state, const Measurement& measurement) const;
   Use use_or_gate(FusionState& state, const Measurement& raw) const;
+  void note_own_error(FusionState& state, const Measurement& raw) const;
   TargetMeasurement view(const FusionState& state, const Measurement& raw, const TargetPose* reference) const;
   void place_feature(FusionState& state, const Measurement& raw) const;
   void correct_main(FusionState& state, TargetMeasurement& measurement, const Innovation& innovation,
@@ -47,8 +48,14 @@ class FusionCore {
   void drop_without(FusionState& state, std::size_t k) const;
   bool is_lost(const FusionState& state) const;
   double gate(int rank) const { return gates_[static_cast<std::size_t>(rank)]; }
+  // readmission.cpp
+  Use prove(FusionState& state, const Measurement& raw) const;
+  void prove_in_conflict(FusionState& state, const Measurement& raw) const;
+  void readmit(FusionState& state, std::uint8_t source) const;
+  void examine_contradiction(FusionState& state, const TargetMeasurement& measurement,
+                             const Innovation& innovation) const;
+  void refute(FusionState& state) const;
   // exclusion.cpp
-  Use prove(FusionState& state, const TargetMeasurement& measurement) const;
   void exclude(FusionState& state, std::uint8_t source, FaultKind why) const;
   void examine_gated(FusionState& state, const TargetMeasurement& measurement, const Innovation& innovation) const;
   void examine_separations(FusionState& state) const;
@@ -58,6 +65,7 @@ class FusionCore {
   void enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const;
   Use track_in_conflict(FusionState& state, const Measurement& raw) const;
   void examine_conflict(FusionState& state) const;
+  void end_conflict(FusionState& state, std::uint8_t wrong, FaultKind why) const;
   // report
   Mode mode_at(const FusionState& state, std::int64_t time_ns) const;
 

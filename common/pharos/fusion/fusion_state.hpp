@@ -18,6 +18,7 @@ struct FusionCounters {
   std::uint64_t conflicts = 0;
   std::uint64_t hand_overs = 0;     // a source that came (back)
   std::uint64_t limited_steps = 0;  // its measurements taken with less weight, so that the state moves 1 sigma at most
+  std::uint64_t refuted = 0;        // tracks that two excluded sources contradicted together
   std::uint64_t restarts = 0;       // the track was lost or contradicted by its only source
   double largest_hand_over_sigma = 0.0;
 };

@@ -52,6 +52,15 @@ void FusionCore::begin_search(FusionState& state, const Measurement& raw) const 
 Use FusionCore::search(FusionState& state, const Measurement& raw) const {
   const SourceSettings& source = settings_.sources[raw.source];
   if (source.relative) return Use::kNotUsable;
+  if (state.monitors[raw.source].excluded) {
+    // Of a track that was refuted: it begins no other one while anything else is heard.
+    for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
+      const SourceMonitor& other = state.monitors[s];
+      if (settings_.sources[s].relative || other.excluded || !other.seen) continue;
+      if (seconds(raw.time_ns, other.last_ns) <= settings_.sources[s].silent_after_s) return Use::kExcluded;
+    }
+    state.monitors[raw.source].excluded = false;
+  }
   if (state.search.accepted > 0 && seconds(raw.time_ns, state.time_ns) > settings_.start.window_s) {
     state.search.accepted = 0;
   }

@@ -36,6 +36,9 @@ SettingsError check_source(const SourceSettings& source) {
   if (!source.bias_covariance.allFinite() || !positive_inverse<6>(source.bias_covariance))
     return SettingsError::kBiasModel;
   if (!positive(source.bias_time_constant_s)) return SettingsError::kBiasModel;
+  for (const double ratio : {source.own_rotation_ratio, source.own_position_ratio}) {
+    if (!(ratio >= 0.0) || !std::isfinite(ratio)) return SettingsError::kBiasModel;
+  }
   if (!(source.time_sigma_s >= 0.0) || !std::isfinite(source.time_sigma_s)) return SettingsError::kBiasModel;
   if (!positive(source.silent_after_s)) return SettingsError::kBiasModel;
   for (const double rate : source.faults_per_hour) {

@@ -64,6 +64,10 @@ struct SourceSettings {
   /// leave. And its time constant.
   Matrix6 bias_covariance = Matrix6::Identity() * 1e-6;
   double bias_time_constant_s = 60.0;
+  /// The source's own slow error beside bias_covariance: 1 sigma of each axis as a ratio to the sigma of an axis that
+  /// the source states for its noise, of rotation and of position. It grows with range and geometry as the noise does.
+  double own_rotation_ratio = 0.0;
+  double own_position_ratio = 0.0;
   /// One standard deviation of the measurement's time, s: enters along the predicted motion.
   double time_sigma_s = 0.0;
   /// The source is silent when its last measurement is older.

@@ -14,6 +14,7 @@ constexpr double kOtherTarget_m = 0.3;    // no error of a source on the right t
 constexpr double kScattered_chi2 = 60.0;  // two gated poses of one cause are within some sigmas of each other
 constexpr double kNanosecond_s = 1e-9;
 constexpr double kMemory_s = 2.0;     // of InnovationMean
+constexpr double kBesideNis = 2.0;    // a freedom: errors that last for a second are 18 draws in a proof, 3 sigma
 constexpr double kMaxWhitened = 6.0;  // one outlier does not decide
 
 }  // namespace
@@ -98,6 +99,8 @@ void SourceMonitor::exclude(FaultKind why) {
   scattered = 0;
   outliers = 0.0;
   judged = 0;
+  contradicts_ns = 0;
+  confirmed = 0;
 }
 
 void SourceMonitor::note_proof(std::int64_t time_ns, bool agrees) {
@@ -107,17 +110,37 @@ void SourceMonitor::note_proof(std::int64_t time_ns, bool agrees) {
     proof_dof = 0;
     return;
   }
+  contradicts_ns = 0;
+  confirmed = 0;
   if (proof == 0) proof_since_ns = time_ns;
   ++proof;
   proof_nis += nis;
   proof_dof += rank;
 }
 
+bool SourceMonitor::agreed_long_enough(std::int64_t time_ns, const DetectionSettings& detection) const {
+  return proof >= detection.proof_measurements &&
+         static_cast<double>(time_ns - proof_since_ns) * kNanosecond_s >= detection.proof_s;
+}
+
 bool SourceMonitor::proved(std::int64_t time_ns, const DetectionSettings& detection) const {
-  if (proof < detection.proof_measurements) return false;
-  if (static_cast<double>(time_ns - proof_since_ns) * kNanosecond_s < detection.proof_s) return false;
   // The mean of what agreed must look like noise too: an offset of two sigma passes every single gate.
-  return proof_nis < proof_dof * (1.0 + 3.0 * std::sqrt(2.0 / proof_dof));
+  return agreed_long_enough(time_ns, detection) && proof_nis < proof_dof * (1.0 + 3.0 * std::sqrt(2.0 / proof_dof));
+}
+
+bool SourceMonitor::proved_beside(std::int64_t time_ns, const DetectionSettings& detection) const {
+  return agreed_long_enough(time_ns, detection) && proof_nis < proof_dof * kBesideNis;
+}
+
+void SourceMonitor::note_contradiction(std::int64_t time_ns, bool agreed) {
+  contradicts_ns = time_ns;
+  if (!agreed) confirmed = 0;
+  if (agreed && confirmed++ == 0) confirmed_since_ns = time_ns;
+}
+
+bool SourceMonitor::contradiction_confirmed(std::int64_t time_ns, const DetectionSettings& detection) const {
+  return confirmed >= detection.proof_measurements &&
+         static_cast<double>(time_ns - confirmed_since_ns) * kNanosecond_s >= detection.proof_s;
 }
 
 FaultKind SourceMonitor::classify(bool slow, const Vector6& residual) const {

@@ -51,7 +51,7 @@ struct SourceMonitor {
   bool ever_used = false;
   std::int64_t last_used_ns = 0;
   std::int64_t joined_ns = 0;
-  Directions directions;  // of its last measurement
+  Directions directions;  // of its last measurement, in the vehicle frame
   double nis = 0.0;       // of its last measurement, for `rank` degrees of freedom
   int rank = 0;
   bool last_gated = false;
@@ -68,6 +68,13 @@ struct SourceMonitor {
   std::int64_t proof_since_ns = 0;
   double proof_nis = 0.0;
   int proof_dof = 0;
+  unsigned proof_sides = 0;  // in a conflict: bits, the sides that every measurement of the proof fitted
+  // Of an excluded source whose measurements contradict the state: variances of gated_residual, when, and for how long
+  // another excluded one has said the same.
+  Eigen::Matrix<float, 6, 1> contradiction_variance = Eigen::Matrix<float, 6, 1>::Zero();
+  std::int64_t contradicts_ns = 0;  // 0: it does not
+  int confirmed = 0;
+  std::int64_t confirmed_since_ns = 0;
   ErrorSums sums;
 
   /// Whether the pose repeats the last one; noise never does.
@@ -79,8 +86,18 @@ struct SourceMonitor {
   /// A measurement of an excluded source, that agrees or does not.
   void note_proof(std::int64_t time_ns, bool agrees);
   bool proved(std::int64_t time_ns, const DetectionSettings& detection) const;
+  /// For the choice between two solutions of which it fits one only: that one's own error, which lasts, may be in it.
+  bool proved_beside(std::int64_t time_ns, const DetectionSettings& detection) const;
+  /// A measurement of an excluded source that contradicts the state, and whether another excluded source agrees with
+  /// it.
+  void note_contradiction(std::int64_t time_ns, bool agreed);
+  /// For as long as a readmission would take.
+  bool contradiction_confirmed(std::int64_t time_ns, const DetectionSettings& detection) const;
   /// The kind of fault that the last residuals look like; `slow`: found by solution separation.
   FaultKind classify(bool slow, const Vector6& residual) const;
+
+ private:
+  bool agreed_long_enough(std::int64_t time_ns, const DetectionSettings& detection) const;
 };
 
 }  // namespace pharos::fusion

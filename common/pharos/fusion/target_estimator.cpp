@@ -2,6 +2,7 @@
 #include "pharos/fusion/target_estimator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pharos/geometry/positive_inverse.hpp"
 
@@ -12,6 +13,11 @@ namespace {
 constexpr double kSnapshotInterval_s = TargetEstimator::kMinLag_s / (static_cast<double>(kSnapshots) - 1.0);
 constexpr double kMaxAhead_s = 5.0;  // no source is that much fresher than all others
 constexpr int kAheadRun = 5;         // consecutive ones, nothing else heard: the clock was set
+// A source's times got this far, and its usual step, ahead of the others' in one step: believed, it would make all
+// others too late. Delays that vary are below.
+constexpr double kMaxJump_s = 0.1;
+constexpr double kUsualStep_s = 0.2;  // a longer one was a gap
+constexpr double kJumpTrial_s = 1.0;  // of its own time in which nothing else is heard: the others are gone
 constexpr std::int64_t kBegin_ns = 1;
 // Times beyond this (29 years either side of zero on an unset clock is covered) could overflow differences.
 constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 62;
@@ -34,6 +40,10 @@ void TargetEstimator::reset() {
   buffer_.clear();
   heard_ = {};
   ahead_run_ = {};
+  stamped_ns_ = {};
+  stamped_then_ns_ = {};
+  step_s_ = {};
+  jumped_since_ns_ = {};
   started_ = false;
 }
 
@@ -73,18 +83,43 @@ Refusal TargetEstimator::check_time(const Measurement& m) {
     current_.lost = true;
   }
   if (m.time_ns <= snapshots_[0].time_ns) return Refusal::kTooLate;
-  return Refusal::kNone;
+  return jumps_ahead(m) ? Refusal::kTimeAhead : Refusal::kNone;
+}
+
+// Whether the source's time went on by much more than that of every other one since its last measurement.
+bool TargetEstimator::jumps_ahead(const Measurement& m) {
+  if (!heard_[m.source]) return false;
+  const std::int64_t last_ns = last_ns_[m.source];
+  double jump_s = 1e9;
+  bool live = false;  // others that were silent before tell nothing
+  for (std::size_t s = 0; s < kMaxSources; ++s) {
+    const std::int64_t then_ns = stamped_then_ns_[m.source][s];
+    if (s == m.source || then_ns == 0 || std::abs(seconds(last_ns, then_ns)) > kJumpTrial_s) continue;
+    live = true;
+    jump_s = std::min(jump_s, seconds(m.time_ns, last_ns) - seconds(stamped_ns_[s], then_ns));
+  }
+  if (!live || jump_s < kMaxJump_s + std::min(step_s_[m.source], kUsualStep_s)) return false;
+  std::int64_t& since_ns = jumped_since_ns_[m.source];
+  if (since_ns == 0) since_ns = m.time_ns;
+  return seconds(m.time_ns, since_ns) < kJumpTrial_s;
 }
 
 Outcome TargetEstimator::push(const Measurement& measurement) {
   Outcome out;
   out.refusal = check_measurement(measurement, settings_.sources.size());
-  if (out.refusal == Refusal::kNone) out.refusal = check_time(measurement);
+  if (out.refusal == Refusal::kNone) {
+    out.refusal = check_time(measurement);
+    stamped_ns_[measurement.source] = measurement.time_ns;
+  }
   if (out.refusal != Refusal::kNone) {
     ++refused_[static_cast<std::size_t>(out.refusal)];
     return out;
   }
   ahead_run_ = {};
+  jumped_since_ns_ = {};
+  stamped_then_ns_[measurement.source] = stamped_ns_;
+  step_s_[measurement.source] =
+      heard_[measurement.source] ? seconds(measurement.time_ns, last_ns_[measurement.source]) : kUsualStep_s;
   heard_[measurement.source] = true;
   last_ns_[measurement.source] = measurement.time_ns;
   while (buffer_.full()) drop_oldest_snapshot();

@@ -46,6 +46,7 @@ class TargetEstimator {
  private:
   void reset_bias(FusionState& state, std::uint8_t source) const;
   Refusal check_time(const Measurement& measurement);
+  bool jumps_ahead(const Measurement& measurement);
   void begin(std::int64_t time_ns);
   Use process(const Measurement& measurement);
   void insert(const Measurement& measurement);
@@ -60,6 +61,11 @@ class TargetEstimator {
   std::array<std::int64_t, kMaxSources> last_ns_{};  // of each source's accepted measurements
   std::array<bool, kMaxSources> heard_{};
   std::array<int, kMaxSources> ahead_run_{};
+  std::array<std::int64_t, kMaxSources> stamped_ns_{};  // of each source's last measurement, accepted or not; 0: none
+  std::array<std::array<std::int64_t, kMaxSources>, kMaxSources>
+      stamped_then_ns_{};                                    // all, at each one's last accepted
+  std::array<double, kMaxSources> step_s_{};                 // between its last two accepted
+  std::array<std::int64_t, kMaxSources> jumped_since_ns_{};  // its first one ahead, with none of others since; 0: none
   std::array<std::uint64_t, static_cast<std::size_t>(Refusal::kCount)> refused_{};
   std::uint64_t late_ = 0;
   bool started_ = false;

@@ -207,6 +207,58 @@ TEST(TargetEstimator, AnotherErrorOfTheSameSourceIsExcludedAndComesBackAfterProo
   EXPECT_EQ(estimator->state(ns(14.0)).sources[kTof].state, SourceState::kUsed);
 }
 
+// Two sources are left and contradict each other; the third one, excluded for a fault that is over, agrees with one.
+TEST(TargetEstimator, AnExcludedSourceThatIsSoundAgainEndsAConflict) {
+  sim::WorldSettings settings = world_of(12, {kLighthouse, kTof, kRing2});
+  settings.duration_s = 12.0;
+  const sim::MeasuredWorld world = sim::simulate_world(settings);
+  const auto estimator = estimator_of(settings);
+  bool conflict = false;
+  for (const sim::SimulatedPose& pose : world.poses) {
+    fusion::Measurement m = measurement_of(pose);
+    if (m.source == kLighthouse && pose.time_s > 3.0 && pose.time_s < 5.0) m.pose.t.x() += 0.05;
+    if (m.source == kTof && pose.time_s > 4.0) m.pose.t.y() -= 0.04;
+    estimator->push(m);
+    conflict = conflict || estimator->state(m.time_ns).mode == Mode::kConflict;
+  }
+  EXPECT_TRUE(conflict);
+  const TargetState state = estimator->state(estimator->newest_ns());
+  EXPECT_EQ(state.mode, Mode::kFused);
+  EXPECT_EQ(state.sources[kTof].state, SourceState::kExcluded);
+  EXPECT_EQ(state.sources[kLighthouse].state, SourceState::kUsed);
+  EXPECT_EQ(state.sources[kRing2].state, SourceState::kUsed);
+  EXPECT_LT(position_error(state, world), 0.01);
+}
+
+// A source drifts while the others are excluded for having been frozen, and is believed. They come back and say the
+// same against the state, in which nothing is left that could tell.
+TEST(TargetEstimator, TwoExcludedSourcesThatAgreeRefuteTheState) {
+  sim::WorldSettings settings = world_of(13, {kLighthouse, kTof, kRing2});
+  settings.duration_s = 14.0;
+  const sim::MeasuredWorld world = sim::simulate_world(settings);
+  const auto estimator = estimator_of(settings);
+  double worst_m = 0.0;
+  std::array<std::optional<fusion::SensorPose>, 3> frozen;
+  for (const sim::SimulatedPose& pose : world.poses) {
+    fusion::Measurement m = measurement_of(pose);
+    const double drift = std::clamp((pose.time_s - 4.0) / 3.0, 0.0, 1.0);
+    if (m.source == kLighthouse) m.pose.t.x() += 0.06 * drift;
+    if (m.source != kLighthouse && pose.time_s > 3.0 && pose.time_s < 4.2) {
+      if (!frozen[m.source]) frozen[m.source] = m.pose;
+      m.pose = *frozen[m.source];
+    }
+    estimator->push(m);
+    const TargetState state = estimator->state(m.time_ns);
+    if (state.valid && pose.time_s > 4.0) worst_m = std::max(worst_m, position_error(state, world));
+  }
+  EXPECT_GT(worst_m, 0.04);
+  EXPECT_EQ(estimator->counters().refuted, 1u);
+  const TargetState state = estimator->state(estimator->newest_ns());
+  ASSERT_TRUE(state.valid);
+  EXPECT_EQ(state.sources[kLighthouse].state, SourceState::kExcluded);
+  EXPECT_LT(position_error(state, world), 0.01);
+}
+
 TEST(TargetEstimator, AFrozenSourceIsExcludedAtItsThirdEqualPose) {
   sim::WorldSettings settings = world_of(9, {kLighthouse, kTof, kRing2});
   settings.fault = {sim::SourceFaultKind::kFreeze, kTof, 5.0, 1e9, 10.0};

@@ -43,6 +43,19 @@ host::MountingPose given(const PoseType& truth) {
   return out;
 }
 
+// The slow error beside the white noise, both of an axis: at every range the same, but in the sun's glare.
+std::optional<host::SlowError> slow_error_of(const ApproachSource& source) {
+  const RangeNoise& noise = source.noise;
+  const double rotation_deg =
+      source.has_turn ? std::sqrt((2.0 * noise.tilt_deg * noise.tilt_deg + noise.turn_deg * noise.turn_deg) / 3.0)
+                      : noise.tilt_deg;
+  const double position_mm =
+      std::sqrt((2.0 * noise.lateral_mm * noise.lateral_mm + noise.depth_mm * noise.depth_mm) / 3.0);
+  if (!(rotation_deg > 0.0 && position_mm > 0.0)) return std::nullopt;
+  return host::SlowError{source.bias.rotation_deg / rotation_deg, source.bias.position_mm / position_mm,
+                         source.bias.time_constant_s};
+}
+
 // One measurement with noise; the second solution where there is one.
 class Noise {
  public:
@@ -113,6 +126,7 @@ void ApproachSimulator::make_mountings() {
     exact.T_target_feature = given(T_target_feature);
     exact.time_offset_s = source.time_offset_s;
     exact.time_offset_origin = MountingOrigin::kGiven;
+    if (!slam) exact.slow_error = slow_error_of(source);
     host::SourceMounting stated = exact;
     stated.scale_sigma = source.scale_sigma;
     const double time_error = random.normal();

@@ -47,6 +47,7 @@ SourceMounting estimated_tof() {
   source.time_offset_sigma_s = 2e-4;
   source.time_offset_origin = MountingOrigin::kEstimated;
   source.scale_sigma = 1e-3;
+  source.slow_error = SlowError{0.2, 1.0 / 3.0, 45.0};
   source.unobservable = {"translation along the \"turn\" axis\n"};
   return source;
 }
@@ -93,6 +94,11 @@ TEST(MountingFile, ReadsBackExactlyWhatItWrites) {
   EXPECT_EQ(tof.time_offset_s, wanted.time_offset_s);
   EXPECT_EQ(tof.time_offset_sigma_s, wanted.time_offset_sigma_s);
   EXPECT_EQ(tof.scale_sigma, wanted.scale_sigma);
+  ASSERT_TRUE(tof.slow_error);
+  EXPECT_EQ(tof.slow_error->rotation_ratio, wanted.slow_error->rotation_ratio);
+  EXPECT_EQ(tof.slow_error->position_ratio, wanted.slow_error->position_ratio);
+  EXPECT_EQ(tof.slow_error->time_constant_s, wanted.slow_error->time_constant_s);
+  EXPECT_FALSE(read.find("lighthouse")->slow_error);
   EXPECT_EQ(tof.unobservable, wanted.unobservable);
   EXPECT_FALSE(read.find("slam")->T_target_feature);
   EXPECT_EQ(read.find("nobody"), nullptr);
@@ -122,6 +128,13 @@ TEST(MountingFile, TakesAQuaternionOfFourDigitsAndMakesItARotation) {
   mounting.sources[1].T_vehicle_sensor.rotation_wxyz = {0.7071, 0.0, 0.7071, 0.0};
   const Matrix3 R = parse_mounting(mounting_text(mounting), "m").sources[1].vehicle_from_sensor().R;
   EXPECT_LT((R * R.transpose() - Matrix3::Identity()).norm(), 1e-12);
+}
+
+TEST(MountingFile, RefusesASlowErrorThatIsNoneOrNotWhole) {
+  EXPECT_NE(message_where("rotation_ratio = 0.2", "rotation_ratio = -0.2").find("rotation_ratio"), std::string::npos);
+  EXPECT_NE(message_where("time_constant_s = 45.0", "time_constant_s = 0.0").find("time_constant_s"),
+            std::string::npos);
+  EXPECT_NE(message_where("time_constant_s = 45.0", "").find("time_constant_s"), std::string::npos);
 }
 
 TEST(MountingFile, RefusesARotationThatIsNoneWithItsLine) {
