@@ -83,7 +83,7 @@ TEST_F(PointingFeedTest, SendsAPictureOfAnImageWithItsAnswerAndOfOneWithout) {
   bench.context.previews = &previews;
   start();
   const auto pictures = [this] { return bench.sink.all<preview_t>("PHAROS_PREVIEW"); };
-  add_row("a.png", 1.7e9);
+  add_row("a.png", 5.0);
   write_image("a.png");
   until([&] { return pictures().size() == 1; });
   EXPECT_EQ(pictures()[0].source, "line/dome");
@@ -91,7 +91,7 @@ TEST_F(PointingFeedTest, SendsAPictureOfAnImageWithItsAnswerAndOfOneWithout) {
   EXPECT_EQ(pictures()[0].utime, messages()[0].utime);
   bench.clock.advance(PreviewStage::kPeriod_ns);
   const GreyImage dark{64, 48, 16, std::vector<std::uint16_t>(std::size_t{64} * 48, 100)};
-  add_row("dark.png", 1.7e9 + 1);
+  add_row("dark.png", 6.0);
   write_grey_png((folder / "dark.png").string(), dark.view(), 16);
   until([&] { return pictures().size() == 2; });
   EXPECT_EQ(pictures()[1].status, messages()[1].status);
