@@ -6,7 +6,7 @@
 
 #include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/tof/constants.hpp"
-#include "pharos/tof/edge_profile.hpp"
+#include "pharos/tof/face_shape.hpp"
 
 namespace pharos::tof {
 namespace {
@@ -42,16 +42,11 @@ constexpr double kHuber = 1.5;
 constexpr double kWallSigma = 0.3;
 // Sides differ by this fraction (1 sigma): the paper's limits of 0.7 and 1.5 are 2.5 such deviations.
 constexpr double kSquareSigma = 0.15;
-// Neighbouring pixels share noise: the variance of a mean is wider by this factor (correlated over 1.5 px).
-constexpr double kCorrelation = 2.0;
 // Foil of uneven height, rounded corners and painted rims shift the rectangle as a whole: averaging does not reduce
 // that. Root mean square over the simulated classes.
 constexpr double kSilhouetteSigma_px = 0.1;
 // Deviation of a box's centre in the depths, px: used where its edges are not fitted.
 constexpr double kCoarseSigma_px = 0.8;
-// A corner begins at this fraction of both half sides; a disc of the square's area has this radius in half sides.
-constexpr double kCorner = 0.6;
-constexpr double kDiscRadius = 1.1283791670955126;  // 2 / sqrt(pi)
 // Of a fit that follows the box: sides over those of the box, either way, and movement of the centre in pixels.
 constexpr double kMaxSideChange = 1.5;
 constexpr double kMaxMove_px = 2.5;
@@ -202,12 +197,8 @@ class FaceFitter {
     }
   }
 
-  struct Sides {
-    EdgeProfile along, across;
-    Vector2 first, second;
-  };
-  Sides sides_of(const PlanarRectangle& r) const {
-    Sides sides;
+  FaceSides sides_of(const PlanarRectangle& r) const {
+    FaceSides sides;
     sides.first = r.outward(0);
     sides.second = r.outward(1);
     sides.along = {r.half_sides_m.x(), blur_m(sides.first), foot_.dot(sides.first)};
@@ -235,7 +226,7 @@ class FaceFitter {
       const double loss = mean_loss(static_cast<std::size_t>(one.edge_points), unit);
       if (least > 0.0 && loss >= least) continue;
       least = loss;
-      compare_with_disc(one);
+      compare_with_disc({pixels_.data(), pixels_.size()}, sides_of(one.rectangle), {brightness_, sigma_}, one);
       best_ = one;
     }
     return least > 0.0;
@@ -261,7 +252,7 @@ class FaceFitter {
       Matrix9 normal = Matrix9::Zero();
       Vector9 right = Vector9::Zero();
       std::size_t used = 0;
-      const Sides sides = sides_of(r);
+      const FaceSides sides = sides_of(r);
       for (const FacePixel& p : pixels_) {
         Vector9 row;
         double residual = 0.0;
@@ -311,7 +302,7 @@ class FaceFitter {
       brightness = std::clamp(brightness + change[kBrightness], 0.5 * brightness, 2.0 * brightness);
       face.edge_points = static_cast<std::int32_t>(used);
       const double common = kSilhouetteSigma_px * metres_per_px_;
-      face.covariance = kCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
+      face.covariance = kFaceCorrelation * inverse->topLeftCorner<2, 2>() + common * common * Matrix2::Identity();
     }
     brightness_ = brightness;
     sigma_ = sigma;
@@ -320,41 +311,10 @@ class FaceFitter {
     return sigma < kMaxScatter * brightness;
   }
 
-  // How far the corners' light is that of the rectangle rather than of a disc of its area: least squares of one number.
-  void compare_with_disc(ConnectorFace& face) const {
-    const PlanarRectangle& r = face.rectangle;
-    const Sides sides = sides_of(r);
-    const double half = std::sqrt(r.half_sides_m.x() * r.half_sides_m.y());
-    const double blur = 0.5 * (sides.along.blur_m + sides.across.blur_m);
-    const auto beside_wall = [](const EdgeProfile& side, double place) {
-      return side.foot_m * place > 0.0 && std::fabs(side.foot_m) > 0.2 * side.blur_m;
-    };
-    double squares = 0.0, product = 0.0;
-    for (const FacePixel& p : pixels_) {
-      const Vector2 off = p.place_m - r.centre_m;
-      const double s = sides.first.dot(off), t = sides.second.dot(off);
-      const double across_s = std::fabs(s) / r.half_sides_m.x(), across_t = std::fabs(t) / r.half_sides_m.y();
-      if (std::min(across_s, across_t) < kCorner || beside_wall(sides.along, s) || beside_wall(sides.across, t))
-        continue;
-      const double rectangle = sides.along.at(s, 0.0).value * sides.across.at(t, 0.0).value;
-      const double disc = blurred_step(half * (kDiscRadius - std::hypot(across_s, across_t)), blur).value;
-      const double difference = rectangle - disc;
-      squares += difference * difference;
-      product += difference * (p.layer / brightness_ - disc);
-    }
-    if (!(squares > 0.0) || !(brightness_ > 0.0)) return;
-    face.squareness = product / squares;
-    face.sigma_squareness = sigma_ / brightness_ * std::sqrt(kCorrelation / squares);
-  }
   static Vector2 limited(const Vector2& by, double most) {
     const double size = by.norm();
     return size > most ? Vector2(most / size * by) : by;
   }
-
-  struct FacePixel {
-    Vector2 place_m;
-    double layer = 0.0;
-  };
 
   double starting_brightness(const PlanarRectangle& r) {
     std::size_t count = 0;
@@ -369,7 +329,7 @@ class FaceFitter {
   }
 
   // A pixel's residual and derivatives; false where it is not about the sides.
-  bool observe(const FacePixel& p, const PlanarRectangle& r, const Sides& sides, const Vector2& walls,
+  bool observe(const FacePixel& p, const PlanarRectangle& r, const FaceSides& sides, const Vector2& walls,
                double brightness, Vector9& row, double& residual) const {
     const Vector2 off = p.place_m - r.centre_m;
     const double s = sides.first.dot(off), t = sides.second.dot(off);
