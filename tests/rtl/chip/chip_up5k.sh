@@ -1,19 +1,22 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: chip_up5k.sh BUILD [SECONDS]: the decoder's image on the simulated chip of the iCE40UP5K, core at 16 MHz and capture at 48: four
+# usage: chip_up5k.sh BUILD [SECONDS [boot]]: the decoder's image on the simulated chip of the iCE40UP5K, core at 16 MHz and capture at 48: four
 # sensors, hit by both stations in every sweep. It decodes what the host decodes of the same stamps, to the tick; and against the light
-# itself no angle is off by more than the stamps are. Prints the figures of firmware/rtl/up5k/README.md. 77 = skipped.
+# itself no angle is off by more than the stamps are. Starts from RAM; with `boot`
+# from the flash by the loader. Prints the figures of firmware/rtl/up5k/README.md. 77 = skipped.
 set -euo pipefail
-build=$1 seconds=${2:-4.0}
+build=$1 seconds=${2:-4.0} start=${3:-ram}
 root=$(cd "$(dirname "$0")/../../.." && pwd)
-program=$build/firmware/bin/decoder.up5k.bin
-[ -r "$program" ] || { echo "skipped: the images are not built (target firmware)"; exit 77; }
+images=$build/firmware/bin
+options=(--program "$images/decoder.up5k.bin")
+[ "$start" = ram ] || options=(--image "$images/decoder.up5k.image" --loader "$images/up5k_loader.bin")
+[ -r "$images/decoder.up5k.image" ] || { echo "skipped: the images are not built (target firmware)"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 sed "s/^duration_s = .*/duration_s = $seconds/" "$root/tools/sim/scenarios/two_stations.toml" >"$work/four.toml"
 head -5 "$root/tools/sim/scenarios/target12.csv" | cut -d, -f1-4 >"$work/target12.csv"
 "$build/bin/pharos" sim lighthouse "$work/four.toml" --seed 1 --output "$work" 2>/dev/null
-"$build/tests/chip_simulator" "$work/edges.csv.gz" --chip up5k --program "$program" --output "$work/line" --stamped "$work/stamped.csv" \
+"$build/tests/chip_simulator" "$work/edges.csv.gz" --chip up5k "${options[@]}" --output "$work/line" --stamped "$work/stamped.csv" \
   2>"$work/figures"
 cat "$work/figures"
 "$build/bin/pharos" decode "$work/stamped.csv" | sort >"$work/host.csv"
