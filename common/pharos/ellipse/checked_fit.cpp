@@ -21,17 +21,11 @@ constexpr double kMinKept = 0.55;
 constexpr double kMaxDot_px = 12.0;
 // The steepest place of an edge of blur s and gradient g moves by s^2 n'/g; the noise's slope n' is sigma / 1.1 px.
 constexpr double kNoiseToEdge_px = 1.7;
-// Another object's edge, where it covers the contour, has another step: deviation of the squared gradients over their
-// mean, below which there is none, and a point's gradient over the median's, or the inverse.
-struct OtherStep {
-  double min_variation;
-  float ratio;
-};
-constexpr OtherStep kOfWhole{0.3, 1.4F};
-// A contour with gaps is covered by something: a smaller difference tells that the rest of it is followed too.
-constexpr OtherStep kOfPart{0.15, 1.2F};
-constexpr double kOfOneStep = 0.7;   // of the scatter of all: what the points of one step must scatter less by
-constexpr double kMaxByNoise = 9.0;  // squared sigmas by which their fit may differ otherwise
+// Another object's edge, where it covers the contour, has another step.
+constexpr double kMinVariation = 0.3;  // of the squared gradients: with less there is no other step
+constexpr float kOtherStep = 1.4F;     // of a point's gradient to the median, or the inverse
+constexpr double kOfOneStep = 0.7;     // of the scatter of all: what the points of one step must scatter less by
+constexpr double kMaxByNoise = 9.0;    // squared sigmas by which their fit may differ otherwise
 
 // Of sigma, for a contour of which nearly all is hidden.
 constexpr double kPerHidden = 2.0;
@@ -50,7 +44,7 @@ class FitCheck {
     }
     const double rms_px = fit_.rms_px;
     if (support_.beside_gaps != 0) leave_gaps();
-    if (support_.gradient_variation > other_step().min_variation) leave_other_steps(rms_px);
+    if (support_.gradient_variation > kMinVariation) leave_other_steps(rms_px);
     if (!is_determined() || is_noise()) return std::nullopt;
     add_jackknife(std::span<const PointF>(support_.points.data(), support_.points.size()), fit_);
     widen_dot(rms_px);
@@ -125,8 +119,6 @@ class FitCheck {
     }
   }
 
-  OtherStep other_step() const { return support_.length_fraction < kWhole ? kOfPart : kOfWhole; }
-
   // A bit for each sector with points of another step than the median, and for their neighbours.
   std::uint64_t near_other_steps() const {
     std::array<float, kMaxFitPoints> squares;
@@ -134,7 +126,7 @@ class FitCheck {
     std::copy_n(support_.squared_gradients.data(), count, squares.begin());
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(squares.begin(), middle, squares.begin() + static_cast<std::ptrdiff_t>(count));
-    const float ratio = other_step().ratio, low = *middle / (ratio * ratio), high = *middle * (ratio * ratio);
+    const float low = *middle / (kOtherStep * kOtherStep), high = *middle * (kOtherStep * kOtherStep);
     std::uint64_t others = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const float squared = support_.squared_gradients[k];
