@@ -124,7 +124,8 @@ int run(const Options& options) {
   if (options.bits) throw host::InputError("--bits needs --lh2-light");
   Stations stations = options.ootx ? Stations{} : read_ahead(options.edges);
   Recording recording(options.edges);
-  std::optional<RecordingEvent> event = recording.next();
+  std::optional<RecordingEvent> event;
+  if (recording.is_serial()) event = recording.next();
   if (event && is_lh2(*event)) {
     if (options.smooth) throw host::InputError("--smooth is for the flashes of Lighthouse 1.0; leave it out");
     return decode_lh2_stream(recording, *event, options.ootx ? Lh2Rows::kOotx : Lh2Rows::kHits, options.stats,
@@ -134,6 +135,7 @@ int run(const Options& options) {
   Progress progress("decode", "sweeps");
   Smoothers smoothers;
   recording.on_pause([&output] { output.rows().flush(); });
+  if (!event) event = recording.next();  // of a table: after its header was written
   for (; event; event = recording.next()) {
     if (const auto* payload = std::get_if<lighthouse::OotxPayload>(&*event)) {
       stations.push(*payload);

@@ -12,6 +12,7 @@ class PulseTableSource final : public RecordingSource {
  public:
   explicit PulseTableSource(host::ByteSource bytes) : reader_(std::move(bytes)) {}
 
+  bool is_serial() const override { return false; }
   std::optional<RecordingEvent> next() override {
     for (;;) {
       if (const auto sweep = decoder_.take_sweep()) return RecordingEvent{*sweep};

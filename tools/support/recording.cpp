@@ -52,6 +52,7 @@ Recording::Recording(const std::string& path)
 Recording::~Recording() = default;
 void Recording::on_pause(std::function<void()> show) { *show_ = std::move(show); }
 std::optional<RecordingEvent> Recording::next() { return source_->next(); }
+bool Recording::is_serial() const { return source_->is_serial(); }
 
 void Recording::print_statistics() const {
   source_->visit_counters([](const char* name, std::uint64_t value, const char* text) {

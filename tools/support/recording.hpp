@@ -40,6 +40,9 @@ class Recording {
   /// The next event in order of time; empty at the end. Throws InputError where a table is broken.
   std::optional<RecordingEvent> next();
 
+  /// Whether it is a serial stream: only its first event tells the generation. A table of pulses is Lighthouse 1.0.
+  bool is_serial() const;
+
   /// For messages: the path, or "standard input".
   const std::string& name() const { return name_; }
 

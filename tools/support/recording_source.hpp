@@ -25,6 +25,8 @@ class RecordingSource {
   virtual ~RecordingSource() = default;
 
   virtual std::optional<RecordingEvent> next() = 0;
+  /// Whether a target decoded it, of either generation.
+  virtual bool is_serial() const = 0;
   virtual void visit_counters(const CounterVisitor& visit) const = 0;
   /// Notes for the user at the end.
   virtual std::vector<std::string> remarks() const = 0;

@@ -67,6 +67,7 @@ class SerialStreamSource final : public RecordingSource {
  public:
   explicit SerialStreamSource(host::ByteSource bytes) : bytes_(std::move(bytes)) {}
 
+  bool is_serial() const override { return true; }
   std::optional<RecordingEvent> next() override {
     while (ready_.empty() && !ended_) {
       if (const auto bytes = bytes_.next()) {
