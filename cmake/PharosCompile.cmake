@@ -14,6 +14,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endif()
 
+# GCC collects its garbage for the first time at 512 MB. Its default, an eighth of the memory and at most 128 MB, costs a
+# tenth of the time of a file that uses Eigen, CLI11 or GoogleTest: 113 s became 103 s over 28 files.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(--param=ggc-min-heapsize=512000)
+endif()
+
 # The release build of the host: stack protector and fortified functions. The soft core has neither library.
 if(NOT PHAROS_SANITIZE AND NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "rv32im")
   add_compile_options($<$<CONFIG:Release>:-fstack-protector-strong> $<$<CONFIG:Release>:-U_FORTIFY_SOURCE>
