@@ -32,11 +32,25 @@ double seconds_since(std::int64_t utime) {
   return static_cast<double>(std::chrono::duration_cast<std::chrono::microseconds>(now).count() - utime) * 1e-6;
 }
 
+// Whether it is a pose: anyone who can reach LCM can send numbers that are not finite, or no rotation.
+bool is_pose(const pharos::pose_t& pose) {
+  double sum = 0.0;
+  for (const double value : pose.position_m) sum += value;
+  for (const double value : pose.covariance) sum += value;
+  const double* q = pose.orientation_wxyz;
+  const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  return std::isfinite(sum) && std::abs(norm - 1.0) < 1e-3;
+}
+
 class Subscriber {
  public:
   void on_pose(const lcm::ReceiveBuffer*, const std::string&, const pharos::pose_t* pose) {
     if (pose->valid == 0) {  // a refused cycle: status says why, the pose is all zero
       std::printf("%s: %s\n", pose->target.c_str(), pose->status.c_str());
+      return;
+    }
+    if (!is_pose(*pose)) {
+      std::printf("%s: a message that no pharosd sends\n", pose->target.c_str());
       return;
     }
     if (seconds_since(pose->utime) > kTooOld_s) return;  // the network held it back

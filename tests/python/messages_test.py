@@ -32,6 +32,18 @@ class Messages(unittest.TestCase):
         with self.assertRaises(ValueError):
             pharos.decode(bytes(1000))
 
+    def test_values_that_no_pharosd_sends_are_refused(self):
+        nan, inf = float("nan"), float("inf")
+        negative = [0.0] * 36
+        negative[14] = -1e-9
+        for changes in ({"position_m": [0.0, nan, 1.0]}, {"position_m": [inf, 0.0, 1.0]}, {"position_m": [0.0, 0.0, 1e30]},
+                        {"orientation_wxyz": [0.0] * 4}, {"orientation_wxyz": [1.0, 0.0, 0.0, 0.1]}, {"covariance": negative},
+                        {"covariance": [nan] * 36}, {"sigma_pos_m": nan}, {"utime": -1}, {"has_second": True}):
+            with self.assertRaisesRegex(ValueError, "impossible"):
+                pharos.decode(examples.pose(**changes).encode())
+        refused = examples.pose(valid=False, orientation_wxyz=[0.0] * 4)
+        self.assertFalse(pharos.decode(refused.encode()).valid)
+
     def test_any_change_of_bytes_is_a_message_or_refused(self):
         chance = random.Random("any_change_of_bytes")
         for message in examples.every_type():

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/support/printable.hpp"
 #include "pharos/clock_exchange_t.hpp"
 #include "tools/listen/pose_rows.hpp"
 
@@ -12,11 +13,12 @@ namespace pharos::tools {
 
 std::string clock_line(const clock_exchange_t& exchange) {
   if (exchange.is_answer == 0) {
-    return fmt::format("{} asks {} for its clock, question {}", exchange.sender, exchange.recipient, exchange.sequence);
+    return host::printable(
+        fmt::format("{} asks {} for its clock, question {}", exchange.sender, exchange.recipient, exchange.sequence));
   }
   constexpr std::int64_t kNsPerUs = 1000;
-  return fmt::format("{} {} answers {}, question {}", clock_text(exchange.answered_ns / kNsPerUs), exchange.sender,
-                     exchange.recipient, exchange.sequence);
+  return host::printable(fmt::format("{} {} answers {}, question {}", clock_text(exchange.answered_ns / kNsPerUs),
+                                     exchange.sender, exchange.recipient, exchange.sequence));
 }
 
 std::string clock_json(const clock_exchange_t& exchange) {

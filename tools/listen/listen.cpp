@@ -70,6 +70,15 @@ void listen_until_done(lcm::LCM& lcm, Listener& listener, host::Signals& signals
   loop.run();
 }
 
+void report_passed_over(const Listener::PassedOver& counts) {
+  const auto report = [](std::int64_t count, const char* what) {
+    if (count > 0) std::fprintf(stderr, "%lld messages %s\n", static_cast<long long>(count), what);
+  };
+  report(counts.other_types, "of other types passed over");
+  report(counts.impossible, "passed over: their values are none that a pharosd sends");
+  report(counts.too_many, "passed over: they are of more sources than are kept");
+}
+
 // What is received and is no row of the format.
 void report_not_shown(const Listener& listener, ListenFormat format) {
   const bool of_poses = format == ListenFormat::kCsv || format == ListenFormat::kTum;
@@ -99,9 +108,7 @@ int listen(const ListenOptions& options) {
   listener.finish();
   const std::string text = summary_text(listener.summary().sources());
   std::fputs(text.c_str(), options.summary ? stdout : stderr);
-  if (listener.other_types() > 0) {
-    std::fprintf(stderr, "%lld messages of other types passed over\n", static_cast<long long>(listener.other_types()));
-  }
+  report_passed_over(listener.passed_over());
   report_not_shown(listener, format);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw host::InputError(

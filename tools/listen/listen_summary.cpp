@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/support/printable.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/positive_inverse.hpp"
 #include "pharos/geometry/rotation.hpp"
@@ -62,6 +63,10 @@ void ErrorSums::add(const PoseError& error) {
 double ErrorSums::rms_rotation_rad() const { return root_mean(squared_rotation_rad2, count); }
 double ErrorSums::rms_position_m() const { return root_mean(squared_position_m2, count); }
 
+bool ListenSummary::has_room(const ReceivedPose& pose) const {
+  return streams_.size() < kMaxStreams || streams_.contains({pose.channel, pose.target, pose.station, pose.source});
+}
+
 double ListenSummary::add(const ReceivedPose& pose, std::int64_t monotonic_ns) {
   Stream& stream = streams_[{pose.channel, pose.target, pose.station, pose.source}];
   SourceSummary& summary = stream.summary;
@@ -109,8 +114,10 @@ std::string summary_text(const std::vector<SourceSummary>& sources) {
       return other.channel == source.channel && other.target == source.target && other.station == source.station;
     };
     if (std::count_if(sources.begin(), sources.end(), same) > 1) by += ", source " + source.source;
-    out += fmt::format("{}, target {}, {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost\n", source.channel,
-                       source.target, by, source.poses, source.seconds, source.rate_hz(), source.refused, source.lost);
+    out += host::printable(fmt::format("{}, target {}, {}: {} poses in {:.1f} s ({:.1f}/s), {} refused, {} lost",
+                                       source.channel, source.target, by, source.poses, source.seconds,
+                                       source.rate_hz(), source.refused, source.lost)) +
+           '\n';
     if (source.poses > 0) {
       const auto age_ms = [&](double q) { return static_cast<double>(source.age.quantile_ns(q)) * kMsPerNs; };
       out += fmt::format("  age on arrival: {:.1f} ms median, {:.1f} ms 99 %, {:.1f} ms largest\n", age_ms(0.5),

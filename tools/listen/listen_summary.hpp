@@ -51,7 +51,12 @@ struct SourceSummary {
 /// Statistics of all received messages.
 class ListenSummary {
  public:
-  /// Counts one message (all but its error). Returns the rate of its kind over the last second, 1/s.
+  /// Stations, cameras and sources that are kept: far more than an approach has; names are anyone's who reaches LCM.
+  static constexpr std::size_t kMaxStreams = 256;
+
+  /// Whether this message's stream is known, or can still be kept.
+  bool has_room(const ReceivedPose& pose) const;
+  /// Counts one message (all but its error) that has room. Returns the rate of its kind over the last second, 1/s.
   double add(const ReceivedPose& pose, std::int64_t monotonic_ns);
   void add_error(const ReceivedPose& pose, const PoseError& error);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "host/receive/message_values.hpp"
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
@@ -45,41 +46,56 @@ void Listener::begin() {
   if (rows_) rows_->flush();
 }
 
+template <class Message, class Take>
+bool Listener::take_as(const void* data, int size, const Take& take) {
+  Message message{};
+  if (!decode(message, data, size)) return false;
+  if (host::is_possible(message)) {
+    take(message);
+  } else {
+    ++passed_over_.impossible;
+  }
+  return true;
+}
+
 void Listener::take(const std::string& channel, const void* data, int size, std::int64_t utc_ns,
                     std::int64_t monotonic_ns) {
-  pose_t pose;
-  pointing_t pointing;
-  spin_t spin;
-  status_t status;
-  target_state_t state;
-  clock_exchange_t clock{};
-  preview_t preview{};
-  if (decode(pose, data, size)) {
-    take_pose(received_pose(channel, pose, utc_ns), monotonic_ns);
-  } else if (decode(state, data, size)) {
-    ReceivedPose received = received_state(channel, state, utc_ns);
-    if (format_ == ListenFormat::kJson) {
-      std::puts(state_json(state).c_str());
-      std::fflush(stdout);
-    }
-    take_pose(std::move(received), monotonic_ns);
-  } else if (decode(pointing, data, size)) {
-    take_other([&](bool json) { return json ? pointing_json(pointing) : pointing_line(pointing); });
-  } else if (decode(spin, data, size)) {
-    take_other([&](bool json) { return json ? spin_json(spin) : spin_line(spin); });
-  } else if (decode(status, data, size)) {
-    print_those_known(monotonic_ns);
-    take_other([&](bool json) { return json ? status_json(status) : status_lines(status); });
-  } else if (decode(clock, data, size)) {
-    take_other([&](bool json) { return json ? clock_json(clock) : clock_line(clock); });
-  } else if (decode(preview, data, size)) {
-    take_other([&](bool json) { return json ? preview_json(preview) : preview_line(preview); });
-  } else {
-    ++other_types_;
+  const auto other = [this](auto json_text, auto line_text) {
+    return [this, json_text, line_text](const auto& message) {
+      take_other([&](bool json) { return json ? json_text(message) : line_text(message); });
+    };
+  };
+  const bool known =
+      take_as<pose_t>(data, size,
+                      [&](const pose_t& pose) { take_pose(received_pose(channel, pose, utc_ns), monotonic_ns); }) ||
+      take_as<target_state_t>(data, size,
+                              [&](const target_state_t& state) { take_state(channel, state, utc_ns, monotonic_ns); }) ||
+      take_as<status_t>(data, size,
+                        [&](const status_t& status) {
+                          print_those_known(monotonic_ns);
+                          other(status_json, status_lines)(status);
+                        }) ||
+      take_as<pointing_t>(data, size, other(pointing_json, pointing_line)) ||
+      take_as<spin_t>(data, size, other(spin_json, spin_line)) ||
+      take_as<clock_exchange_t>(data, size, other(clock_json, clock_line)) ||
+      take_as<preview_t>(data, size, other(preview_json, preview_line));
+  if (!known) ++passed_over_.other_types;
+}
+
+void Listener::take_state(const std::string& channel, const target_state_t& state, std::int64_t utc_ns,
+                          std::int64_t monotonic_ns) {
+  if (format_ == ListenFormat::kJson) {
+    std::puts(state_json(state).c_str());
+    std::fflush(stdout);
   }
+  take_pose(received_state(channel, state, utc_ns), monotonic_ns);
 }
 
 void Listener::take_pose(ReceivedPose pose, std::int64_t monotonic_ns) {
+  if (!summary_.has_room(pose)) {
+    ++passed_over_.too_many;
+    return;
+  }
   pose.rate_hz = summary_.add(pose, monotonic_ns);
   print_row(sight_.add(pose, monotonic_ns));
   waiting_.push_back({std::move(pose), monotonic_ns});

@@ -14,8 +14,8 @@
 #include "tools/listen/sight_monitor.hpp"
 #include "tools/listen/truth_file.hpp"
 
-namespace lcm {
-struct ReceiveBuffer;
+namespace pharos {
+class target_state_t;
 }
 namespace pharos::tools {
 
@@ -31,7 +31,7 @@ class Listener {
   void begin();
   /// Any message of a channel listened to: pose_t, target_state_t, pointing_t, spin_t, status_t, clock_exchange_t
   /// and preview_t are printed (the last five not as CSV or TUM, which have no place for them; of a preview all but its
-  /// picture), others counted as foreign.
+  /// picture), others passed over and counted, as are those with values that no pharosd sends.
   void take(const std::string& channel, const void* data, int size, std::int64_t utc_ns, std::int64_t monotonic_ns);
   /// Several times a second: prints a row LOST for each source whose poses have stopped (lines only).
   void tick(std::int64_t utc_ns, std::int64_t monotonic_ns);
@@ -42,11 +42,22 @@ class Listener {
   const host::TumLeftOut* left_out() const { return rows_ ? &rows_->tum().left_out() : nullptr; }
 
   const ListenSummary& summary() const { return summary_; }
-  std::int64_t other_types() const { return other_types_; }
+  /// What was received and passed over.
+  struct PassedOver {
+    std::int64_t other_types = 0;  // none of Pharos', or damaged
+    std::int64_t impossible = 0;   // values that no pharosd sends
+    std::int64_t too_many = 0;     // of more sources than are kept
+  };
+  const PassedOver& passed_over() const { return passed_over_; }
   /// Status, spin, pointing, clock and preview messages.
   std::int64_t other_messages() const { return other_messages_; }
 
  private:
+  /// `take` gets the message if its values are possible, else it is counted; false if `data` is no such message.
+  template <class Message, class Take>
+  bool take_as(const void* data, int size, const Take& take);
+  void take_state(const std::string& channel, const target_state_t& state, std::int64_t utc_ns,
+                  std::int64_t monotonic_ns);
   void take_pose(ReceivedPose pose, std::int64_t monotonic_ns);
   /// A message other than a pose; `text` returns its JSON object or its lines.
   void take_other(const std::function<std::string(bool json)>& text);
@@ -68,7 +79,7 @@ class Listener {
   std::unique_ptr<host::RowWriter> rows_;   // of CSV, JSON and TUM
   ListenSummary summary_;
   SightMonitor sight_;
-  std::int64_t other_types_ = 0;
+  PassedOver passed_over_;
   std::int64_t other_messages_ = 0;
 };
 

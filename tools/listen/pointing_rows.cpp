@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/support/printable.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/pointing_t.hpp"
 #include "tools/listen/pose_rows.hpp"
@@ -24,7 +25,7 @@ std::string pointing_line(const pointing_t& pointing) {
                        pointing.pitch_rad * kDegPerRad, pointing.yaw_rad * kDegPerRad,
                        pointing.sigma_axis_rad * kDegPerRad, pointing.sigma_plane_rad * kDegPerRad, pointing.images);
   }
-  return pointing.flags.empty() ? out : out + "  " + pointing.flags;
+  return host::printable(pointing.flags.empty() ? out : out + "  " + pointing.flags);
 }
 
 std::string pointing_json(const pointing_t& pointing) {

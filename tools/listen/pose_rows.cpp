@@ -5,6 +5,7 @@
 
 #include <ctime>
 
+#include "host/support/printable.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/geometry/rotation.hpp"
 #include "pharos/tof/target_frame.hpp"
@@ -62,8 +63,8 @@ std::string pose_line(const ReceivedPose& pose) {
     out += fmt::format("  error {:.2f} mm {:.3f} deg", pose.error->position_m * kMmPerM,
                        pose.error->rotation_rad * kDegPerRad);
   }
-  if (pose.fused) return out + "  " + fused_text(*pose.fused);
-  return pose.flags.empty() ? out : out + "  " + pose.flags;
+  if (pose.fused) return host::printable(out + "  " + fused_text(*pose.fused));
+  return host::printable(pose.flags.empty() ? out : out + "  " + pose.flags);
 }
 
 std::vector<std::string> pose_columns() {

@@ -5,15 +5,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/support/printable.hpp"
 #include "pharos/preview_t.hpp"
 #include "tools/listen/pose_rows.hpp"
 
 namespace pharos::tools {
 
 std::string preview_line(const preview_t& preview) {
-  return fmt::format("{} {} picture of {}{}{}: {}, {} x {} px, {:.1f} KiB", clock_text(preview.utime), preview.target,
-                     preview.source, preview.view.empty() ? "" : " ", preview.view, preview.status, preview.width_px,
-                     preview.height_px, static_cast<double>(preview.data.size()) / 1024.0);
+  return host::printable(fmt::format("{} {} picture of {}{}{}: {}, {} x {} px, {:.1f} KiB", clock_text(preview.utime),
+                                     preview.target, preview.source, preview.view.empty() ? "" : " ", preview.view,
+                                     preview.status, preview.width_px, preview.height_px,
+                                     static_cast<double>(preview.data.size()) / 1024.0));
 }
 
 std::string preview_json(const preview_t& preview) {

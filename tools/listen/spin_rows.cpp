@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/support/printable.hpp"
 #include "pharos/base/units.hpp"
 #include "pharos/spin_t.hpp"
 #include "tools/listen/pose_rows.hpp"
@@ -19,13 +20,13 @@ bool has_axis(const spin_t& spin) { return spin.axis[0] != 0.0 || spin.axis[1] !
 
 std::string spin_line(const spin_t& spin) {
   std::string out = fmt::format("{} {} spin {}", clock_text(spin.utime), spin.target, spin.status);
-  if (spin.valid == 0) return out;
+  if (spin.valid == 0) return host::printable(out);
   const double rate = std::hypot(spin.rate_rad_s[0], spin.rate_rad_s[1], spin.rate_rad_s[2]);
   out += fmt::format("  {:.4f} +- {:.4f} deg/s", rate * kDegPerRad, spin.sigma_rate_rad_s * kDegPerRad);
   out += has_axis(spin) ? fmt::format(" about ({:.4f}, {:.4f}, {:.4f}) +- {:.3f} deg", spin.axis[0], spin.axis[1],
                                       spin.axis[2], spin.sigma_axis_rad * kDegPerRad)
                         : std::string(" about no axis that can be told");
-  return out + fmt::format("  {} attitudes in {:.1f} s", spin.attitudes, spin.span_s);
+  return host::printable(out + fmt::format("  {} attitudes in {:.1f} s", spin.attitudes, spin.span_s));
 }
 
 std::string spin_json(const spin_t& spin) {

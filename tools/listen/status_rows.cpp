@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/support/printable.hpp"
 #include "pharos/status_t.hpp"
 
 namespace pharos::tools {
@@ -13,7 +14,7 @@ namespace {
 std::string counters_line(const std::vector<counter_t>& counters) {
   std::string out;
   for (const counter_t& counter : counters) {
-    if (counter.value != 0) out += ' ' + counter.name + '=' + std::to_string(counter.value);
+    if (counter.value != 0) out += ' ' + host::printable(counter.name) + '=' + std::to_string(counter.value);
   }
   return out.empty() ? out : "\n   " + out;
 }
@@ -32,16 +33,16 @@ nlohmann::ordered_json counters_json(const std::vector<counter_t>& counters) {
 }  // namespace
 
 std::string status_lines(const status_t& status) {
-  std::string out = status.host + ' ' + status.version + ": " + status.state;
-  if (!status.message.empty()) out += " (" + status.message + ')';
-  out += counters_line(status.counters);
+  std::string row = status.host + ' ' + status.version + ": " + status.state;
+  if (!status.message.empty()) row += " (" + status.message + ')';
+  std::string out = host::printable(row) + counters_line(status.counters);
   for (const source_status_t& source : status.sources) {
-    out += "\n  " + source.target + ": " + source.state;
-    if (!source.message.empty()) out += " (" + source.message + ')';
-    out += ", " + fmt::format("{:.1f} poses/s", source.pose_rate_hz) + ", " + age_text("data", source.data_age_us) +
+    row = source.target + ": " + source.state;
+    if (!source.message.empty()) row += " (" + source.message + ')';
+    row += ", " + fmt::format("{:.1f} poses/s", source.pose_rate_hz) + ", " + age_text("data", source.data_age_us) +
            ", " + age_text("pose", source.pose_age_us) + ", " + source.device;
-    if (!source.identity.empty()) out += ", " + source.identity;
-    out += counters_line(source.counters);
+    if (!source.identity.empty()) row += ", " + source.identity;
+    out += "\n  " + host::printable(row) + counters_line(source.counters);
   }
   return out;
 }

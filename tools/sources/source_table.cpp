@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/receive/message_values.hpp"
 #include "pharos/bearings_t.hpp"
 #include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
@@ -17,7 +18,6 @@
 #include "tools/listen/pose_rows.hpp"
 #include "tools/listen/received_state.hpp"
 #include "tools/listen/subscription.hpp"
-#include "tools/sources/possible.hpp"
 
 namespace pharos::tools {
 namespace {
@@ -135,7 +135,7 @@ void SourceTable::arrived(SourceRow& row, bool valid, double age_s, std::int64_t
 }
 
 void SourceTable::add(const std::string& channel, const pose_t& message, std::int64_t utc_ns, std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }
@@ -156,7 +156,7 @@ void SourceTable::add(const std::string& channel, const pose_t& message, std::in
 }
 
 void SourceTable::add(const std::string& channel, const pointing_t& message, std::int64_t utc_ns, std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }
@@ -173,7 +173,7 @@ void SourceTable::add(const std::string& channel, const pointing_t& message, std
 }
 
 void SourceTable::add(const std::string& channel, const spin_t& message, std::int64_t utc_ns, std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }
@@ -190,7 +190,7 @@ void SourceTable::add(const std::string& channel, const spin_t& message, std::in
 
 void SourceTable::add(const std::string& channel, const target_state_t& message, std::int64_t utc_ns,
                       std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }
@@ -215,7 +215,7 @@ void SourceTable::add(const std::string& channel, const target_state_t& message,
 }
 
 void SourceTable::add(const bearings_t& message, std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }
@@ -241,6 +241,10 @@ void SourceTable::add(const bearings_t& message, std::int64_t now_ns) {
 }
 
 void SourceTable::add(const status_t& message, std::int64_t now_ns) {
+  if (!host::is_possible(message)) {
+    ++left_out_.impossible;
+    return;
+  }
   const std::string host = kept(message.host);
   if (!daemons_.contains(host) && daemons_.size() >= kMaxDaemons) {
     ++left_out_.too_many;
@@ -262,7 +266,7 @@ void SourceTable::add(const status_t& message, std::int64_t now_ns) {
 }
 
 void SourceTable::add(const std::string& channel, preview_t& message, std::int64_t utc_ns, std::int64_t now_ns) {
-  if (!is_possible(message)) {
+  if (!host::is_possible(message)) {
     ++left_out_.impossible;
     return;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/support/printable.hpp"
 #include "pharos/base/units.hpp"
 #include "tools/listen/pose_rows.hpp"
 #include "tools/listen/received_state.hpp"
@@ -44,26 +45,28 @@ ValueText value_of(const SourceRow& row) {
 }
 
 std::string row_text(const SourceKey& key, const SourceRow& row, std::int64_t now_ns) {
-  const std::string name = printable(row.by.empty() ? fmt::format("station {}", key.station) : row.by, 10);
+  const std::string name = host::printable(row.by.empty() ? fmt::format("station {}", key.station) : row.by, 10);
   const std::string age = row.any() ? age_text(row.age_s(now_ns)) : "-";
   const bool current = row.current(now_ns);
   const ValueText text = current ? value_of(row) : ValueText{};
-  return fmt::format("{:<20} {:<12} {:<10} {:<14} {:>5} {:>8} {:>6} {:>5}  {:<66} {:<22} {}", printable(key.source, 20),
-                     printable(key.target, 12), name, printable(row.any() && !current ? "LOST" : row.status, 14),
-                     row.arrivals_ns.size(), age, row.refused, row.lost, text.value, text.sigma,
-                     printable(row.fused ? fused_text(*row.fused) : row.flags, kMaxText));
+  return fmt::format("{:<20} {:<12} {:<10} {:<14} {:>5} {:>8} {:>6} {:>5}  {:<66} {:<22} {}",
+                     host::printable(key.source, 20), host::printable(key.target, 12), name,
+                     host::printable(row.any() && !current ? "LOST" : row.status, 14), row.arrivals_ns.size(), age,
+                     row.refused, row.lost, text.value, text.sigma,
+                     host::printable(row.fused ? fused_text(*row.fused) : row.flags, kMaxText));
 }
 
 void add_daemon(std::vector<std::string>& out, const std::string& host, const DaemonState& daemon,
                 std::int64_t now_ns) {
-  out.push_back("pharosd on " + printable(host, 40) + ": " +
-                (daemon.silent(now_ns)
-                     ? "SILENT for " + age_text(static_cast<double>(now_ns - daemon.heard_ns) * kSPerNs)
-                     : printable(daemon.state + (daemon.message.empty() ? "" : ": " + daemon.message), kMaxText)));
+  out.push_back(
+      "pharosd on " + host::printable(host, 40) + ": " +
+      (daemon.silent(now_ns)
+           ? "SILENT for " + age_text(static_cast<double>(now_ns - daemon.heard_ns) * kSPerNs)
+           : host::printable(daemon.state + (daemon.message.empty() ? "" : ": " + daemon.message), kMaxText)));
   for (const auto& [name, health] : daemon.sources) {
     if (health.state == "ok") continue;
     const std::string error = health.state + (health.message.empty() ? "" : ": " + health.message);
-    out.push_back("  " + printable(name.first + ' ' + name.second + ": " + error, kMaxText));
+    out.push_back("  " + host::printable(name.first + ' ' + name.second + ": " + error, kMaxText));
   }
 }
 
@@ -75,20 +78,13 @@ std::string previews_text(const std::vector<CameraPreview>& previews, std::int64
     lost += preview.lost;
     if (preview.current(now_ns)) continue;
     late += (late.empty() ? "; none from " : ", ") +
-            printable(preview.source + (preview.view.empty() ? "" : ' ' + preview.view), 40) + " for " +
+            host::printable(preview.source + (preview.view.empty() ? "" : ' ' + preview.view), 40) + " for " +
             age_text(static_cast<double>(now_ns - preview.heard_ns) * kSPerNs);
   }
   return fmt::format("pictures: {} of {} cameras, {} lost{}", received, previews.size(), lost, late);
 }
 
 }  // namespace
-
-std::string printable(std::string_view text, std::size_t size) {
-  std::string out(text.substr(0, size));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return out;
-}
 
 std::vector<std::string> watch_lines(const SourceTable& table, std::int64_t now_ns, std::size_t columns) {
   std::vector<std::string> out;
@@ -111,7 +107,7 @@ std::vector<std::string> watch_lines(const SourceTable& table, std::int64_t now_
   if (!events.empty()) out.emplace_back();
   const std::size_t shown = std::min(events.size(), kMaxEvents);
   for (auto at = events.end() - static_cast<std::ptrdiff_t>(shown); at != events.end(); ++at) {
-    out.push_back(printable(at->text, kMaxText));
+    out.push_back(host::printable(at->text, kMaxText));
   }
   for (std::string& line : out) line.resize(std::min(line.size(), columns));
   return out;

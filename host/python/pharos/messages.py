@@ -6,6 +6,7 @@ import struct
 from typing import NamedTuple
 
 from . import TYPES
+from .values import check_values
 
 # By the fingerprint with which LCM begins a message.
 BY_FINGERPRINT = {kind._get_packed_fingerprint(): kind for kind in TYPES.values()}
@@ -18,7 +19,8 @@ class Message(NamedTuple):
 
 
 def decode(data):
-    """The message in `data`, whatever its type. ValueError if it is none of Pharos' types or not whole."""
+    """The message in `data`, whatever its type. ValueError if it is none of Pharos' types, not whole, or has values that
+    no pharosd sends (numbers that are not finite, a quaternion that is no turn, a negative variance)."""
     kind = BY_FINGERPRINT.get(bytes(data[:8]))
     if kind is None:
         raise ValueError("not a message of Pharos, or of another version of a type")
@@ -31,4 +33,5 @@ def decode(data):
         raise ValueError("preview_t: cut off or damaged: its picture is not as long as it says")
     if stream.tell() != len(data):
         raise ValueError(f"{kind.__name__}: {len(data) - stream.tell()} bytes too many")
+    check_values(kind.__name__, message)
     return message

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
+#include "pharos/status_t.hpp"
 #include "tools/listen/listener.hpp"
 #include "tools/listen/pointing_rows.hpp"
 #include "tools/listen/pose_rows.hpp"
@@ -18,6 +21,7 @@ namespace pharos::tools {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ReceivedPose pose(std::int64_t sequence, bool valid = true) {
   ReceivedPose received;
@@ -141,15 +145,20 @@ TEST(PoseLine, ShowsNoTurnThatWasNotMeasured) {
   EXPECT_THAT(pose_line(received), HasSubstr("gamma - deg"));
 }
 
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
 /// A message of the Listener tests: a valid pose at a time.
 std::vector<std::uint8_t> message_at(std::int64_t utime_us) {
   pose_t message{};
   message.valid = 1;
   message.orientation_wxyz[0] = 1.0;
   message.utime = utime_us;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return encoded(message);
 }
 
 /// The file of true poses: the target is stationary at 1 m until `until_us`.
@@ -231,14 +240,13 @@ TEST(Listener, ShowsWhereAPanelPoints) {
   message.pitch_rad = 0.5;
   message.yaw_rad = -0.25;
   message.sigma_axis_rad = 0.02;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const std::vector<std::uint8_t> bytes = encoded(message);
   Listener listener(ListenFormat::kLines, false, std::nullopt);
   ::testing::internal::CaptureStdout();
   listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
   EXPECT_THAT(::testing::internal::GetCapturedStdout(),
               HasSubstr("00:01:01.000 iss image ok  pitch 28.648 yaw -14.324 deg  sigma 1.146 deg"));
-  EXPECT_EQ(listener.other_types(), 0);
+  EXPECT_EQ(listener.passed_over().other_types, 0);
   EXPECT_EQ(listener.other_messages(), 1);
   message.valid = 0;
   message.status = "refused_no_panel";
@@ -249,8 +257,52 @@ TEST(Listener, PassesOverWhatItDoesNotKnow) {
   Listener listener(ListenFormat::kNone, false, std::nullopt);
   const char noise[] = "not a message";
   listener.take("C", noise, sizeof noise, 0, 0);
-  EXPECT_EQ(listener.other_types(), 1);
+  EXPECT_EQ(listener.passed_over().other_types, 1);
   EXPECT_EQ(listener.summary().poses(), 0);
+}
+
+TEST(Listener, PassesOverAPoseThatNoDaemonSends) {
+  pose_t message{};
+  message.valid = 1;
+  message.status = "ok";
+  message.orientation_wxyz[0] = std::numeric_limits<double>::quiet_NaN();
+  Listener listener(ListenFormat::kLines, false, std::nullopt);
+  ::testing::internal::CaptureStdout();
+  const std::vector<std::uint8_t> bytes = encoded(message);
+  listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(listener.passed_over().impossible, 1);
+  EXPECT_EQ(listener.summary().poses(), 0);
+}
+
+TEST(Listener, ShowsNoEscapeSequencesAndNoLinesOfOthers) {
+  status_t status{};
+  status.host = "a\x1b[2Jb";
+  status.message = "x\n00:00:00.000 dock ok";
+  pose_t refusal{};
+  refusal.target = "\x1b]0;title\x07";
+  refusal.status = "refused\r\n";
+  Listener listener(ListenFormat::kLines, false, std::nullopt);
+  ::testing::internal::CaptureStdout();
+  for (const auto& bytes : {encoded(status), encoded(refusal)}) {
+    listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
+  }
+  const std::string lines = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2) << lines;
+  EXPECT_EQ(lines.find_first_of("\x1b\x07\r"), std::string::npos);
+  EXPECT_THAT(summary_text(listener.summary().sources()), Not(HasSubstr("\x1b")));
+}
+
+TEST(Listener, KeepsNoMoreSourcesThanItMay) {
+  Listener listener(ListenFormat::kNone, false, std::nullopt);
+  pose_t refusal{};
+  for (std::size_t k = 0; k < ListenSummary::kMaxStreams + 10; ++k) {
+    refusal.source = "lighthouse/" + std::to_string(k);
+    const std::vector<std::uint8_t> bytes = encoded(refusal);
+    listener.take("C", bytes.data(), static_cast<int>(bytes.size()), 0, 0);
+  }
+  EXPECT_EQ(listener.summary().sources().size(), ListenSummary::kMaxStreams);
+  EXPECT_EQ(listener.passed_over().too_many, 10);
 }
 
 TEST(Listener, TakesAgeFromTheMeasurement) {

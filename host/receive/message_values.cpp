@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/sources/possible.hpp"
+#include "host/receive/message_values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,15 @@
 #include <cstdint>
 
 #include "pharos/bearings_t.hpp"
+#include "pharos/clock_exchange_t.hpp"
 #include "pharos/pointing_t.hpp"
 #include "pharos/pose_t.hpp"
 #include "pharos/preview_t.hpp"
 #include "pharos/spin_t.hpp"
+#include "pharos/status_t.hpp"
 #include "pharos/target_state_t.hpp"
 
-namespace pharos::tools {
+namespace pharos::host {
 namespace {
 
 // A hundred thousand kilometres: beyond it nothing is at close range.
@@ -36,6 +38,20 @@ bool are_values(const double (&values)[kSize]) {
   return std::all_of(values, values + kSize, is_value);
 }
 
+/// A covariance of kStates values, row by row.
+template <std::size_t kStates, std::size_t kSize>
+bool is_covariance(const double (&values)[kSize]) {
+  static_assert(kSize == kStates * kStates);
+  for (std::size_t i = 0; i < kStates; ++i) {
+    if (values[i * kStates + i] < 0.0) return false;
+  }
+  return are_values(values);
+}
+
+bool is_sigma(double value) { return is_value(value) && value >= 0.0; }
+
+bool is_time_us(std::int64_t value) { return value >= 0 && value <= kMaxTime_us; }
+
 bool is_unit(const double (&q)[4]) {
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return std::abs(norm - 1.0) < kUnitTolerance;
@@ -43,8 +59,8 @@ bool is_unit(const double (&q)[4]) {
 
 template <class Message>
 bool has_header(const Message& message) {
-  return message.utime >= 0 && message.utime <= kMaxTime_us && message.sequence >= 0 &&
-         message.sequence <= kMaxSequence && message.source.size() <= kMaxName && message.target.size() <= kMaxName;
+  return is_time_us(message.utime) && message.sequence >= 0 && message.sequence <= kMaxSequence &&
+         message.source.size() <= kMaxName && message.target.size() <= kMaxName;
 }
 
 }  // namespace
@@ -55,7 +71,7 @@ bool is_possible(const pose_t& message) {
   const bool second =
       message.has_second == 0 || (are_values(message.second_position_m) && is_unit(message.second_orientation_wxyz));
   return second && are_values(message.position_m) && is_unit(message.orientation_wxyz) &&
-         are_values(message.covariance) && is_value(message.sigma_rot_rad) && is_value(message.sigma_pos_m) &&
+         is_covariance<6>(message.covariance) && is_sigma(message.sigma_rot_rad) && is_sigma(message.sigma_pos_m) &&
          is_value(message.residual_rms_rad);
 }
 
@@ -70,24 +86,37 @@ bool is_possible(const bearings_t& message) {
 bool is_possible(const pointing_t& message) {
   return has_header(message) &&
          (message.valid == 0 || (are_values(message.axis_station) && is_value(message.pitch_rad) &&
-                                 is_value(message.yaw_rad) && is_value(message.sigma_axis_rad)));
+                                 is_value(message.yaw_rad) && is_sigma(message.sigma_axis_rad)));
 }
 
 bool is_possible(const spin_t& message) {
   return has_header(message) &&
-         (message.valid == 0 || (are_values(message.rate_rad_s) && is_value(message.sigma_rate_rad_s)));
+         (message.valid == 0 || (are_values(message.rate_rad_s) && is_sigma(message.sigma_rate_rad_s)));
 }
 
 bool is_possible(const target_state_t& message) {
-  const bool header = message.utime >= 0 && message.utime <= kMaxTime_us && message.sequence >= 0 &&
-                      message.sequence <= kMaxSequence && message.target.size() <= kMaxName;
+  const bool header = is_time_us(message.utime) && message.sequence >= 0 && message.sequence <= kMaxSequence &&
+                      message.target.size() <= kMaxName;
   const bool sources = std::all_of(message.sources.begin(), message.sources.end(),
                                    [](const fused_source_t& source) { return is_value(source.normalised_innovation); });
   if (!header || !sources) return false;
   return message.valid == 0 ||
          (are_values(message.position_m) && is_unit(message.orientation_wxyz) && are_values(message.velocity_m_s) &&
-          are_values(message.angular_rate_rad_s) && are_values(message.covariance) &&
+          are_values(message.angular_rate_rad_s) && is_covariance<12>(message.covariance) &&
           is_value(message.position_protection_m) && is_value(message.rotation_protection_rad));
+}
+
+bool is_possible(const status_t& message) {
+  return is_time_us(message.utime) && message.sequence >= 0 && message.sequence <= kMaxSequence &&
+         std::all_of(message.sources.begin(), message.sources.end(), [](const source_status_t& source) {
+           return is_value(source.pose_rate_hz) && is_value(source.clock_sigma_us) && is_value(source.clock_drift_ppm);
+         });
+}
+
+bool is_possible(const clock_exchange_t& message) {
+  constexpr std::int64_t kNsPerUs = 1000;
+  return message.sender.size() <= kMaxName && message.recipient.size() <= kMaxName &&
+         (message.is_answer == 0 || is_time_us(message.answered_ns / kNsPerUs));
 }
 
 bool is_possible(const preview_t& message) {
@@ -97,4 +126,4 @@ bool is_possible(const preview_t& message) {
          data[1] == 0xD8 && data[data.size() - 2] == 0xFF && data.back() == 0xD9;
 }
 
-}  // namespace pharos::tools
+}  // namespace pharos::host
