@@ -9,6 +9,7 @@
 #include "host/daemon/fusion/pose_intake.hpp"
 #include "host/publish/words.hpp"
 #include "host/receive/message_shape.hpp"
+#include "host/support/printable.hpp"
 #include "host/support/time_units.hpp"
 #include "pharos/geometry/pose_estimate.hpp"
 #include "pharos/pose_t.hpp"
@@ -95,8 +96,8 @@ std::optional<pose_t> RemoteIntake::take(std::span<const std::uint8_t> message, 
 std::optional<RemoteOutcome> RemoteIntake::other_than_ours(const pose_t& message) {
   const bool ours = message.source == config_.source && message.target == config_.target;
   if (ours && message.parent_frame == config_.frame && message.child_frame == config_.feature) return std::nullopt;
-  foreign_ = message.source.substr(0, kMaxText) + " of " + message.target.substr(0, kMaxText) + " in " +
-             message.parent_frame.substr(0, kMaxText) + ", " + message.child_frame.substr(0, kMaxText);
+  foreign_ = printable(message.source, kMaxText) + " of " + printable(message.target, kMaxText) + " in " +
+             printable(message.parent_frame, kMaxText) + ", " + printable(message.child_frame, kMaxText);
   return ours ? RemoteOutcome::poses_foreign : RemoteOutcome::poses_other;
 }
 
@@ -120,7 +121,7 @@ RemoteOutcome RemoteIntake::judge(pose_t& message, std::span<const std::uint8_t>
   }
   if (peer != nullptr && peer->doubled(now_ns)) return RemoteOutcome::poses_doubled;
   if (message.valid == 0) {
-    refusal_ = message.status.substr(0, kMaxText);
+    refusal_ = printable(message.status, kMaxText);
     return RemoteOutcome::poses_without_answer;
   }
   if (is_doubtful(message)) return RemoteOutcome::poses_doubtful;

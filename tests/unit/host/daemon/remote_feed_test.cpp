@@ -13,7 +13,9 @@ namespace {
 using test::kMs;
 using test::NetworkedDaemon;
 using test::SimulatedNetwork;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Lt;
 using ::testing::SizeIs;
 
 /// A daemon that takes another one's depth camera, and that other one's messages as a test writes them.
@@ -249,6 +251,8 @@ TEST_F(Remotes, ForeignAndDamagedMessagesAreCountedAndNotUsed) {
   poses(1, [](pose_t& m) { m.parent_frame = "rig"; });
   EXPECT_EQ(counter("poses_foreign"), 1);
   EXPECT_THAT(health().message, HasSubstr("in rig, target came, expected are camera, target"));
+  poses(1, [](pose_t& m) { m.parent_frame = "\x1b[2J\n" + std::string(1000, 'x'); });
+  EXPECT_THAT(health().message, AllOf(HasSubstr("in ?[2J?x"), SizeIs(Lt(300U))));
   poses(1, [](pose_t& m) { m.position_m[1] = std::numeric_limits<double>::quiet_NaN(); });
   poses(1, [](pose_t& m) { m.orientation_wxyz[0] = 0.0; });
   poses(1, [](pose_t& m) { m.has_second = 1; });
