@@ -24,6 +24,7 @@ def pose(sequence, **changes):
     message = pharos.pose_t()
     message.utime, message.sequence, message.target = int(time.time() * 1e6), sequence, "target12"
     message.status, message.valid, message.position_m = "ok", True, [0.25, -0.5, 2.125]
+    message.orientation_wxyz = [1.0, 0.0, 0.0, 0.0]
     for name, value in changes.items():
         setattr(message, name, value)
     return message
