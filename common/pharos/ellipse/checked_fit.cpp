@@ -214,6 +214,8 @@ class FitCheck {
     constexpr double kWholeScatter_px = 0.035, kPerScatter = 5.0, kWholeVariation = 0.15, kVariation_px = 1.5,
                      kPerGap = 2.0;
     constexpr double kResolved_px = 4.0, kPerUnresolved = 0.12, kUnresolved_px = 2.5, kOfUnresolved = 0.25;
+    // Of b: what blur leaves of a triangle's or square's corners.
+    constexpr double kOfCorners = 0.025;
     const double b_px = fit_.ellipse.b_px;
     if (b_px >= kMaxDot_px) return;
     const double noise_px = kNoiseToEdge_px * noise_ / std::sqrt(support_.squared_gradient);
@@ -223,7 +225,8 @@ class FitCheck {
     const double cut_px = hidden_px + kPerScatter * std::max(0.0, scatter_px - kWholeScatter_px) +
                           kVariation_px * std::max(0.0, support_.gradient_variation - kWholeVariation);
     double shape_px = std::hypot(cut_px, kPerUnresolved * std::max(0.0, kResolved_px - b_px));
-    if (b_px < kUnresolved_px) shape_px = std::max(shape_px, kOfUnresolved * fit_.ellipse.a_px);
+    const bool has_corners = b_px < kResolved_px && scatter_px > kOfCorners * b_px;
+    if (b_px < kUnresolved_px || has_corners) shape_px = std::max(shape_px, kOfUnresolved * fit_.ellipse.a_px);
     fit_.covariance.diagonal().head<4>().array() += 0.5 * shape_px * shape_px;
   }
 

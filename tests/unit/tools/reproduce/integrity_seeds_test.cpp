@@ -28,9 +28,9 @@ TEST(IntegritySeeds, Line) {
   expect_no_failure("line", {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369, 200023});
 }
 
-// Polygons that end along a contour, one of nearly its step, and what one leaves of a dot.
+// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
 TEST(IntegritySeeds, Ellipses) {
-  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094});
+  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802});
 }
 
 // A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
