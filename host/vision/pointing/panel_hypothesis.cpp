@@ -33,6 +33,8 @@ constexpr double kMinFromSight_rad = 10.0 * kRadPerDeg;
 // Of the best one's length: a shorter one is no rival.
 constexpr double kRivalLength = 0.5;
 constexpr double kOtherAxis_rad = 1.0 * kRadPerDeg;
+// In the image, between the middle lines of a wing's panels: perspective draws them together in one line.
+constexpr double kMaxTurnOfWing_rad = 0.15;
 
 struct Hypothesis {
   std::vector<EdgePair> pairs;
@@ -127,8 +129,8 @@ class Chooser {
         measured_.push_back({pair, *panel});
       } else if (!refusal_ || panel.error() == PointingRefusal::kCutByBorder) {
         refusal_ = panel.error();
-        is_cut_ = is_cut_ || panel.error() == PointingRefusal::kCutByBorder;
       }
+      if (!panel && panel.error() == PointingRefusal::kCutByBorder) cut_.push_back(pair);
     }
   }
 
@@ -141,9 +143,10 @@ class Chooser {
     std::erase_if(hypotheses, [](const Hypothesis& h) { return is_contradicted(h); });
     const auto confirmed = std::find_if(hypotheses.begin(), hypotheses.end(),
                                         [&](const Hypothesis& h) { return !h.is_of_faces && is_confirmed(h); });
-    if (confirmed == hypotheses.end()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
+    if (confirmed == hypotheses.end()) return cut_.empty() ? PointingRefusal::kNoPanel : PointingRefusal::kCutByBorder;
     Hypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
+    if (has_cut_rival(best)) return PointingRefusal::kCutByBorder;
     const bool in_line = is_in_line(best);
     for (const Hypothesis& other : hypotheses) {
       if (!is_rival(best, other)) continue;
@@ -154,7 +157,7 @@ class Chooser {
       best.measurement.other_planes = other.measurement.long_planes;
       break;
     }
-    if (is_cut_ && best.pairs.size() == 1) best.measurement.flags |= kFlagPanelCut;
+    if (!cut_.empty() && best.pairs.size() == 1) best.measurement.flags |= kFlagPanelCut;
     return best.measurement;
   }
 
@@ -238,6 +241,16 @@ class Chooser {
     return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
   }
 
+  // A pair that the border cuts has no axis. Where it does not continue the lone best one as a wing's other panel, it
+  // may be the panel instead.
+  bool has_cut_rival(const Hypothesis& best) const {
+    const Segment& middle = best.pairs.front().middle;
+    return best.pairs.size() == 1 && std::any_of(cut_.begin(), cut_.end(), [&](const EdgePair& pair) {
+             return pair.middle.length() > kRivalLength * middle.length() &&
+                    std::abs(pair.middle.along().dot(middle.along())) < std::cos(kMaxTurnOfWing_rad);
+           });
+  }
+
   bool is_along_sight(const Hypothesis& h) const {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return false;
     const Vector2 middle = h.pairs.front().middle.middle();
@@ -260,7 +273,7 @@ class Chooser {
   const std::vector<Segment>& outline_;
   std::vector<std::pair<EdgePair, PanelSides>> measured_;
   std::optional<PointingRefusal> refusal_;
-  bool is_cut_ = false;
+  std::vector<EdgePair> cut_;  // by the image's border
 };
 
 }  // namespace
