@@ -24,8 +24,11 @@ constexpr double kNoiseToEdge_px = 1.7;
 // Another object's edge, where it covers the contour, has another step.
 constexpr double kMinVariation = 0.3;  // of the squared gradients: with less there is no other step
 constexpr float kOtherStep = 1.4F;     // of a point's gradient to the median, or the inverse
-constexpr double kOfOneStep = 0.7;     // of the scatter of all: what the points of one step must scatter less by
-constexpr double kMaxByNoise = 9.0;    // squared sigmas by which their fit may differ otherwise
+// Light changes a contour's step gradually; another object's edge begins with a jump, and less of it tells.
+constexpr double kMinVariationAtJump = 0.15;
+constexpr float kOtherStepAtJump = 1.2F;
+constexpr double kOfOneStep = 0.7;   // of the scatter of all: what the points of one step must scatter less by
+constexpr double kMaxByNoise = 9.0;  // squared sigmas by which their fit may differ otherwise
 
 // Of sigma, for a contour of which nearly all is hidden.
 constexpr double kPerHidden = 2.0;
@@ -45,6 +48,7 @@ class FitCheck {
     const double rms_px = fit_.rms_px;
     if (support_.beside_gaps != 0) leave_gaps();
     if (support_.gradient_variation > kMinVariation) leave_other_steps(rms_px);
+    if (support_.gradient_variation > kMinVariationAtJump) add_steps_that_jump();
     if (!is_determined() || is_noise()) return std::nullopt;
     add_jackknife(std::span<const PointF>(support_.points.data(), support_.points.size()), fit_);
     widen_dot(rms_px);
@@ -104,9 +108,7 @@ class FitCheck {
   // the points of other steps, and of where they begin, is taken where it is another one or its points agree better;
   // else half of what it would change counts as an error.
   void leave_other_steps(double rms_px) {
-    const std::uint64_t others = near_other_steps();
-    const auto apart =
-        fit_of(0, [&](std::size_t k) { return ((support_.beside_gaps | others) >> support_.sectors[k] & 1U) == 0; });
+    const auto apart = fit_without(near_other_steps(median_square(), kOtherStep));
     if (!apart) return;
     const Vector5 change = change_to(apart->ellipse);
     const double moved = change.head<4>().squaredNorm();
@@ -119,20 +121,82 @@ class FitCheck {
     }
   }
 
-  // A bit for each sector with points of another step than the median, and for their neighbours.
-  std::uint64_t near_other_steps() const {
+  // Where the step jumps by less, which of its sides is the contour's is not known: what the fit would change counts
+  // as an error.
+  void add_steps_that_jump() {
+    const float median = median_square();
+    if (!steps_jump(median)) return;
+    if (const auto apart = fit_without(near_other_steps(median, kOtherStepAtJump))) {
+      add_half_of(change_to(apart->ellipse));
+    }
+  }
+
+  std::optional<RefinedFit> fit_without(std::uint64_t sectors) const {
+    return fit_of(0,
+                  [&](std::size_t k) { return ((support_.beside_gaps | sectors) >> support_.sectors[k] & 1U) == 0; });
+  }
+
+  float median_square() const {
     std::array<float, kMaxFitPoints> squares;
     const std::size_t count = support_.squared_gradients.size();
     std::copy_n(support_.squared_gradients.data(), count, squares.begin());
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(squares.begin(), middle, squares.begin() + static_cast<std::ptrdiff_t>(count));
-    const float low = *middle / (kOtherStep * kOtherStep), high = *middle * (kOtherStep * kOtherStep);
+    return *middle;
+  }
+
+  // A bit for each sector with points whose step differs from the median by more than `ratio`, and for their
+  // neighbours.
+  std::uint64_t near_other_steps(float median_square, float ratio) const {
+    const float low = median_square / (ratio * ratio), high = median_square * (ratio * ratio);
     std::uint64_t others = 0;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < support_.squared_gradients.size(); ++k) {
       const float squared = support_.squared_gradients[k];
       if (squared < low || squared > high) others |= std::uint64_t{1} << support_.sectors[k];
     }
     return with_neighbours(others, support_.sector_count);
+  }
+
+  // Whether the step changes by kOtherStepAtJump from one sector to the next, from the median's to another that holds
+  // for kOfOther sectors.
+  bool steps_jump(float median_square) const {
+    constexpr int kOfOther = 3;
+    const SectorSteps steps = sector_steps();
+    const float ratio = kOtherStepAtJump * kOtherStepAtJump;
+    const auto is_other = [&](float square) {
+      return square < median_square / ratio || square > median_square * ratio;
+    };
+    for (int k = 0; k < support_.sector_count; ++k) {
+      for (const int way : {-1, 1}) {
+        const float here = steps.at(k), before = steps.at(k - way);
+        if (!(here > 0.0F) || !(before > 0.0F) || is_other(before)) continue;
+        if (here < ratio * before && before < ratio * here) continue;
+        int others = 0;
+        while (others < kOfOther && is_other(steps.at(k + way * others)) && steps.at(k + way * others) > 0.0F) ++others;
+        if (others == kOfOther) return true;
+      }
+    }
+    return false;
+  }
+
+  // Mean squared gradients of a contour's sectors, 0 where there are no points.
+  struct SectorSteps {
+    std::array<float, kMaxSectors> square{};
+    int count = 0;
+    float at(int sector) const { return square[static_cast<std::size_t>((sector + count) % count)]; }
+  };
+  SectorSteps sector_steps() const {
+    SectorSteps steps;
+    steps.count = support_.sector_count;
+    std::array<float, kMaxSectors> points{};
+    for (std::size_t k = 0; k < support_.sectors.size(); ++k) {
+      steps.square[support_.sectors[k]] += support_.squared_gradients[k];
+      points[support_.sectors[k]] += 1.0F;
+    }
+    for (std::size_t k = 0; k < kMaxSectors; ++k) {
+      if (points[k] > 0.0F) steps.square[k] /= points[k];
+    }
+    return steps;
   }
 
   // Dots of a few pixels that noise makes have gradients of a few of its sigmas.
@@ -150,6 +214,8 @@ class FitCheck {
     constexpr double kWholeScatter_px = 0.035, kPerScatter = 5.0, kWholeVariation = 0.15, kVariation_px = 1.5,
                      kPerGap = 2.0;
     constexpr double kResolved_px = 4.0, kPerUnresolved = 0.12, kUnresolved_px = 2.5, kOfUnresolved = 0.25;
+    // Of b: what blur leaves of a triangle's or square's corners.
+    constexpr double kOfCorners = 0.025;
     const double b_px = fit_.ellipse.b_px;
     if (b_px >= kMaxDot_px) return;
     const double noise_px = kNoiseToEdge_px * noise_ / std::sqrt(support_.squared_gradient);
@@ -159,7 +225,8 @@ class FitCheck {
     const double cut_px = hidden_px + kPerScatter * std::max(0.0, scatter_px - kWholeScatter_px) +
                           kVariation_px * std::max(0.0, support_.gradient_variation - kWholeVariation);
     double shape_px = std::hypot(cut_px, kPerUnresolved * std::max(0.0, kResolved_px - b_px));
-    if (b_px < kUnresolved_px) shape_px = std::max(shape_px, kOfUnresolved * fit_.ellipse.a_px);
+    const bool has_corners = b_px < kResolved_px && scatter_px > kOfCorners * b_px;
+    if (b_px < kUnresolved_px || has_corners) shape_px = std::max(shape_px, kOfUnresolved * fit_.ellipse.a_px);
     fit_.covariance.diagonal().head<4>().array() += 0.5 * shape_px * shape_px;
   }
 

@@ -92,11 +92,11 @@ class Chooser {
     for (const SeenConnector& other : seen) {
       if (!alike(seen[0], other)) return ConnectorDoubt::kUnlike;
     }
+    // One of them may be a look-alike, a cover or a thruster for example, and a connector hidden or not found.
+    if ((count == 1 || !seen[0].face.is_square()) && face_is_hidden()) return ConnectorDoubt::kHidden;
     if (count < settings_.expected) {
       return nearer_places_are_plate() ? ConnectorDoubt::kNone : ConnectorDoubt::kHidden;
     }
-    // One of them may be a look-alike, a thruster for example, and a connector hidden or not found.
-    if ((count == 1 || !seen[0].face.is_square()) && face_is_hidden()) return ConnectorDoubt::kHidden;
     return something_stands_nearer() ? ConnectorDoubt::kUnclear : ConnectorDoubt::kNone;
   }
 

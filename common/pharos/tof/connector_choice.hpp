@@ -39,7 +39,9 @@ struct ConnectorChoice {
 /// The nearest connector (paper 000, 2.3), where it is certain to be the nearest.
 ///
 /// `boxes` and grid as of find_raised_boxes. Where fewer are seen than `expected`, the others are farther away if every
-/// nearer place was measured and is the plate's (odds of 10^4 to 1 a place); else there is no choice.
+/// nearer place was measured and is the plate's (odds of 10^4 to 1 a place); else there is no choice. Nor is there one
+/// for a single box while something before the satellite hides as much of it as a connector takes: the box may be a
+/// cover.
 ConnectorChoice choose_connector(const TofFrame& frame, const DepthCamera& camera, const RayGrid& rays,
                                  const RingFit& ring, const ConnectorSettings& settings,
                                  const RaisedWorkspace& workspace);

@@ -2,6 +2,7 @@
 #include "host/vision/pointing/panel_hypothesis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -24,18 +25,24 @@ constexpr double kMaxSquareSigma_rad = 3.0 * kRadPerDeg;
 constexpr double kMinThirdEdge = 0.15;
 constexpr double kThirdEdgeReach_px = 4.0;
 constexpr double kThirdEdgeOff = 0.02;  // of the panel's length: what lens and fit leave of one line
+// Pieces of one edge that are nearer were joined; a body between a wing's panels is wider.
+constexpr double kMinGap_px = 10.0;
+constexpr double kMinStep_px = 2.0;  // accuracy of a segment's ends
 // Nearer to the line of sight an axis is a matter of the panel's thickness.
 constexpr double kMinFromSight_rad = 10.0 * kRadPerDeg;
 // Of the best one's length: a shorter one is no rival.
 constexpr double kRivalLength = 0.5;
 constexpr double kOtherAxis_rad = 1.0 * kRadPerDeg;
+// In the image, between the middle lines of a wing's panels: perspective draws them together in one line.
+constexpr double kMaxTurnOfWing_rad = 0.15;
 
 struct Hypothesis {
   std::vector<EdgePair> pairs;
   PanelMeasurement measurement;
   AxisEstimate axis;  // in C
   double score = 0.0;
-  bool is_of_faces = false;  // no panel's, if its sides are measured right: it competes and is no answer
+  bool is_of_faces = false;        // no panel's, if its sides are measured right: it competes and is no answer
+  std::array<Segment, 2> sides{};  // of a lone pair: the long ones, in the image
 };
 
 double angle_of(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
@@ -79,13 +86,16 @@ std::optional<AxisEstimate> axis_of(const PanelMeasurement& panel) {
 }
 
 // Long and short side by their lengths in space; false where it is no panel, or where it is not known which is longer.
-bool settle_sides(const EdgePair& pair, const PinholeCamera& camera, PanelMeasurement& panel) {
+bool settle_sides(const EdgePair& pair, const PanelSides& measured, const PinholeCamera& camera, Hypothesis& lone) {
+  PanelMeasurement& panel = lone.measurement;
+  lone.sides = {pair.first, pair.second};
   const auto in_space = aspect_in_space(panel, camera);
   if (!in_space) return pair.middle.length() >= kMinAspect * pair.separation;
   if (in_space->minimum >= kMinAspect) return true;
   if (in_space->maximum * kMinAspect > 1.0 || panel.short_planes.size() < 2) return false;
   std::swap(panel.long_planes, panel.short_planes);
   std::swap(panel.long_edges, panel.short_edges);
+  lone.sides = {measured.ends[0].extent, measured.ends[1].extent};
   return true;
 }
 
@@ -119,8 +129,8 @@ class Chooser {
         measured_.push_back({pair, *panel});
       } else if (!refusal_ || panel.error() == PointingRefusal::kCutByBorder) {
         refusal_ = panel.error();
-        is_cut_ = is_cut_ || panel.error() == PointingRefusal::kCutByBorder;
       }
+      if (!panel && panel.error() == PointingRefusal::kCutByBorder) cut_.push_back(pair);
     }
   }
 
@@ -133,9 +143,10 @@ class Chooser {
     std::erase_if(hypotheses, [](const Hypothesis& h) { return is_contradicted(h); });
     const auto confirmed = std::find_if(hypotheses.begin(), hypotheses.end(),
                                         [&](const Hypothesis& h) { return !h.is_of_faces && is_confirmed(h); });
-    if (confirmed == hypotheses.end()) return is_cut_ ? PointingRefusal::kCutByBorder : PointingRefusal::kNoPanel;
+    if (confirmed == hypotheses.end()) return cut_.empty() ? PointingRefusal::kNoPanel : PointingRefusal::kCutByBorder;
     Hypothesis& best = *confirmed;
     if (is_along_sight(best)) return PointingRefusal::kAlongSight;
+    if (has_cut_rival(best)) return PointingRefusal::kCutByBorder;
     const bool in_line = is_in_line(best);
     for (const Hypothesis& other : hypotheses) {
       if (!is_rival(best, other)) continue;
@@ -146,7 +157,7 @@ class Chooser {
       best.measurement.other_planes = other.measurement.long_planes;
       break;
     }
-    if (is_cut_ && best.pairs.size() == 1) best.measurement.flags |= kFlagPanelCut;
+    if (!cut_.empty() && best.pairs.size() == 1) best.measurement.flags |= kFlagPanelCut;
     return best.measurement;
   }
 
@@ -172,7 +183,7 @@ class Chooser {
 
   void add_lone(const EdgePair& pair, const PanelSides& sides, std::vector<Hypothesis>& hypotheses) const {
     Hypothesis lone{{pair}, measurement_of({sides}, camera_), {}, pair.middle.length()};
-    if (!settle_sides(pair, camera_, lone.measurement)) return;
+    if (!settle_sides(pair, sides, camera_, lone)) return;
     const auto axis = axis_of(lone.measurement);
     if (!axis) return;
     lone.axis = *axis;
@@ -182,6 +193,7 @@ class Chooser {
 
   bool is_confirmed(const Hypothesis& h) const {
     if (h.axis.sigma_rad() > kUnsureSigma_rad) return true;
+    if (is_interrupted(h)) return false;
     const auto square = square_of(h.measurement, h.axis);
     return (square && square->sigma_rad < kMaxSquareSigma_rad) || is_in_line(h);
   }
@@ -192,6 +204,28 @@ class Chooser {
            std::any_of(outline_.begin(), outline_.end(), [&](const Segment& edge) { return is_third(h, edge); });
   }
 
+  // A side goes on without a gap or a step, at an angle that kept it from being joined: something stands out of one
+  // outline there, as a panel does on its body. Between a wing's panels is a gap, or their body's edge, with steps.
+  bool is_interrupted(const Hypothesis& h) const {
+    if (h.pairs.size() == 2) return false;
+    const auto goes_on = [&](const Segment& own, const Segment& edge) {
+      if (edge.length() < kMinThirdEdge * own.length() || !is_beyond(edge, own)) return false;
+      const bool after = own.station(edge.middle()) > own.length();
+      const Vector2& near = after ? edge.begin : edge.end;
+      return (after ? own.station(near) - own.length() : -own.station(near)) < kMinGap_px &&
+             std::abs(own.offset(near)) < kMinStep_px;
+    };
+    return std::any_of(outline_.begin(), outline_.end(),
+                       [&](const Segment& edge) { return goes_on(h.sides[0], edge) || goes_on(h.sides[1], edge); });
+  }
+
+  // In line with an edge and beyond its end.
+  static bool is_beyond(const Segment& edge, const Segment& own) {
+    const double at = own.station(edge.middle());
+    const double slack = kThirdEdgeReach_px + kThirdEdgeOff * own.length();
+    return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < slack;
+  }
+
   // An edge in line with one of the panel's own that runs along its axis: the other panel's, where that is half hidden.
   bool is_third(const Hypothesis& h, const Segment& edge) const {
     const EdgePair& pair = h.pairs.front();
@@ -199,17 +233,22 @@ class Chooser {
     const auto is_own = [&](const Segment& own) { return edge.begin == own.begin && edge.end == own.end; };
     if (is_own(pair.first) || is_own(pair.second)) return false;
     // In line with one of them and beyond its end: beside it a body's edges are as parallel.
-    const auto continues = [&](const Segment& own) {
-      const double at = own.station(edge.middle());
-      const double slack = kThirdEdgeReach_px + kThirdEdgeOff * own.length();
-      return (at < 0.0 || at > own.length()) && std::abs(own.offset(edge.middle())) < slack;
-    };
-    if (!continues(pair.first) && !continues(pair.second)) return false;
+    if (!is_beyond(edge, pair.first) && !is_beyond(edge, pair.second)) return false;
     const auto side = measured_side(image_, target_, camera_, edge, kThirdEdgeReach_px);
     if (!side || side->fit.length_px() < kMinThirdEdge * pair.middle.length()) return false;
     const AxisPlane plane = plane_of_line(side->fit.line, camera_);
     // An edge whose own direction is open would lie along anything.
     return plane.sigma_rad(h.axis.axis) < kMaxSquareSigma_rad && lies_along(plane, h.axis);
+  }
+
+  // A pair that the border cuts has no axis. Where it does not continue the lone best one as a wing's other panel, it
+  // may be the panel instead.
+  bool has_cut_rival(const Hypothesis& best) const {
+    const Segment& middle = best.pairs.front().middle;
+    return best.pairs.size() == 1 && std::any_of(cut_.begin(), cut_.end(), [&](const EdgePair& pair) {
+             return pair.middle.length() > kRivalLength * middle.length() &&
+                    std::abs(pair.middle.along().dot(middle.along())) < std::cos(kMaxTurnOfWing_rad);
+           });
   }
 
   bool is_along_sight(const Hypothesis& h) const {
@@ -234,7 +273,7 @@ class Chooser {
   const std::vector<Segment>& outline_;
   std::vector<std::pair<EdgePair, PanelSides>> measured_;
   std::optional<PointingRefusal> refusal_;
-  bool is_cut_ = false;
+  std::vector<EdgePair> cut_;  // by the image's border
 };
 
 }  // namespace

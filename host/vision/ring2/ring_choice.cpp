@@ -37,6 +37,9 @@ constexpr double kOverPerRadius = 0.2;
 // foot, a groove or the body's edge. Fractions of the other circle's evidence: from kPlainRing on the foremost is the
 // ring, from kFaintRing on it is ambiguous; below that it is noise.
 constexpr double kPlainRing = 0.3, kFaintRing = 0.1;
+// Of the other one's evidence, from which on a front circle is the ring though its own sigmas, those of a half dark
+// contour, would hold the other as well.
+constexpr double kAsPlainRing = 0.7;
 // Maximum distance of the centres across the axis for circles on one axis, as a fraction of the radius.
 constexpr double kAsidePerRadius = 0.01;
 // A circle that differs from a known size by more than this number of sigmas is another one.
@@ -63,6 +66,7 @@ bool has_nozzle(const RingHypothesis& h) {
   const double max_seen = std::max(h.seen[0][1], h.seen[1][1]);
   return h.has_nozzle && (mean_seen(h, 1) > kMinSeenOnAverage || max_seen > kMinSeenAlone) &&
          is_shown(h, 1, h.nozzle_evidence, kMinCleanNozzle) &&
+         h.model.distance_m > kMinNozzleDistance * h.model.radius_m &&
          h.model.distance_m < kMaxNozzleDistance * h.model.radius_m;
 }
 
@@ -97,13 +101,13 @@ bool is_candidate(const FollowedHypothesis& f, const RingSizes& sizes) {
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
+double centre_variance(const FollowedHypothesis& f) { return f.estimate.covariance.block<3, 3>(2, 2).trace(); }
+
 bool is_same_answer(const FollowedHypothesis& a, const FollowedHypothesis& b) {
   const double sigma_rad = std::hypot(a.estimate.sigma_normal_rad(), b.estimate.sigma_normal_rad());
-  const double variance =
-      a.estimate.covariance.block<3, 3>(2, 2).trace() + b.estimate.covariance.block<3, 3>(2, 2).trace();
   return angle_between(a.estimate.normal, b.estimate.normal) < std::max(kSameNormal_rad, 3.0 * sigma_rad) &&
          (a.estimate.ring_centre_m - b.estimate.ring_centre_m).norm() <
-             std::max(kSameCentre_m, 3.0 * std::sqrt(variance));
+             std::max(kSameCentre_m, 3.0 * std::sqrt(centre_variance(a) + centre_variance(b)));
 }
 
 // Whether the images of two circles coincide in one view.
@@ -141,6 +145,19 @@ double ahead_m(const FollowedHypothesis& f, const FollowedHypothesis& of) {
   return (f.estimate.ring_centre_m - of.estimate.ring_centre_m).dot(of.estimate.normal);
 }
 
+// Whether it is in front by more than the other one's own sigmas hold, however little is known of itself.
+bool is_before(const FollowedHypothesis& f, const FollowedHypothesis& of) {
+  return ahead_m(f, of) > std::max(kSameCentre_m, 3.0 * std::sqrt(centre_variance(of)));
+}
+
+// A ring that is no candidate, as too much of it is hidden or dark, may still stand in front of one that is: that is
+// then its foot or a groove.
+bool may_stand_before(const FollowedHypothesis& f, const FollowedHypothesis& best, const RingSizes& sizes) {
+  return agrees(f, sizes) && mean_seen(f.hypothesis, 0) > kMinSeenOnAverage && f.rim_evidence > kMinEvidence &&
+         ring_evidence(f) > std::max(kMinEvidence, kFaintRing * ring_evidence(best)) &&
+         is_nested(best.estimate, f.estimate) && ahead_m(f, best) > 0.0 && !is_same_answer(f, best);
+}
+
 // Twice the log-likelihood ratio of the best hypothesis against one with another answer.
 double delta_chi2(const ring2::Rig& rig, const FollowedHypothesis& best, const FollowedHypothesis& other) {
   const double by_edges = 2.0 * (best.hypothesis.evidence - other.hypothesis.evidence);
@@ -167,14 +184,18 @@ RingDecision decide(const ring2::Rig& rig, std::span<const FollowedHypothesis> f
   const FollowedHypothesis* foremost = decision.best;
   for (const FollowedHypothesis& f : followed) {
     if (!is_candidate(f, sizes) || f.hypothesis.has_nozzle != foremost->hypothesis.has_nozzle) continue;
-    if (!is_nested(decision.best->estimate, f.estimate) || is_same_answer(f, *foremost)) continue;
-    if (ring_evidence(f) > kPlainRing * ring_evidence(*decision.best) && ahead_m(f, *foremost) > 0.0) foremost = &f;
+    if (!is_nested(decision.best->estimate, f.estimate)) continue;
+    const double plain = ring_evidence(f) / ring_evidence(*decision.best);
+    const bool is_other = ahead_m(f, *foremost) > 0.0 && !is_same_answer(f, *foremost);
+    if ((plain > kPlainRing && is_other) || (plain > kAsPlainRing && is_before(f, *foremost))) foremost = &f;
   }
   decision.best = foremost;
   double least = kAmbiguousDeltaChi2;
   for (const FollowedHypothesis& f : followed) {
-    if (!is_candidate(f, sizes) || is_same_answer(f, *decision.best)) continue;
     if (f.hypothesis.has_nozzle != decision.best->hypothesis.has_nozzle) continue;
+    const bool is_rival =
+        is_candidate(f, sizes) ? !is_same_answer(f, *decision.best) : may_stand_before(f, *decision.best, sizes);
+    if (!is_rival) continue;
     const double delta = std::max(0.0, delta_chi2(rig, *decision.best, f));
     if (delta >= least) continue;
     least = delta;

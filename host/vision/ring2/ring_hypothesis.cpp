@@ -25,8 +25,6 @@ constexpr double kLooseTilt = 12.0 * kRadPerDeg;
 constexpr double kLooseOffAxisPerRadius = 0.15;
 constexpr double kLooseNozzlePerRing = 0.75;
 constexpr double kLooseDistancePerRing = 3.0;
-// Minimum distance in front of the ring, more than the width of a rim: throat and grooves are not a nozzle's exit.
-constexpr double kMinDistancePerRing = 0.08;
 constexpr std::size_t kMaxHypotheses = 24;
 // Hypotheses whose images are less than a pixel apart (a hundredth of a ring of 100 px) converge to the same edges.
 constexpr double kSamePerRadius = 0.008, kSameTilt_rad = 0.012;
@@ -67,7 +65,7 @@ bool may_be_nozzle(const MatchedCircle& ring, const MatchedCircle& nozzle) {
   const double along = between.dot(ring.normal);
   const double off = (between - along * ring.normal).norm();
   return off < kLooseOffAxisPerRadius * (ring.radius_m + std::abs(along)) &&
-         std::abs(along) < kLooseDistancePerRing * ring.radius_m && along > kMinDistancePerRing * ring.radius_m;
+         std::abs(along) < kLooseDistancePerRing * ring.radius_m && along > kMinNozzleDistance * ring.radius_m;
 }
 
 std::optional<RingHypothesis> hypothesis_of(const ring2::Rig& rig, const ContourSet& contours) {
@@ -77,7 +75,7 @@ std::optional<RingHypothesis> hypothesis_of(const ring2::Rig& rig, const Contour
   hypothesis.contours = contours;
   hypothesis.has_nozzle = (fit->unobservable & ring2::kUnobservableNozzle) == 0;
   hypothesis.model = {fit->normal, fit->ring_centre_m, fit->ring_radius_m, fit->distance_m, fit->nozzle_radius_m};
-  if (hypothesis.has_nozzle && !(fit->distance_m > kMinDistancePerRing * fit->ring_radius_m)) return std::nullopt;
+  if (hypothesis.has_nozzle && !(fit->distance_m > kMinNozzleDistance * fit->ring_radius_m)) return std::nullopt;
   hypothesis.evidence = -0.5 * fit->chi2;  // for sorting only
   return hypothesis;
 }

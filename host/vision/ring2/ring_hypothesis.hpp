@@ -12,6 +12,10 @@ namespace pharos::host {
 
 using Ring2Images = std::array<ImageView<const std::uint16_t>, ring2::kViews>;
 
+/// Minimum distance of a nozzle's exit in front of its ring, in radii of the ring, more than the width of a rim:
+/// throat, grooves, and a ring before the edge of a round body are no nozzle.
+inline constexpr double kMinNozzleDistance = 0.08;
+
 /// An assignment of circles in a pair of images to ring and nozzle.
 struct RingHypothesis {
   ring2::ContourSet contours;

@@ -30,7 +30,9 @@ class ConnectorChoices : public testing::Test {
     return rotation_angle_between(pose.target.pose.R, truth_.R) * kDegPerRad;
   }
   // Without depth where a disc of T's plane would appear.
-  void hide(const Vector2& place, double radius_m, SyntheticFrame& frame) const {
+  void hide(const Vector2& place, double radius_m, SyntheticFrame& frame) const { put(place, radius_m, 0.0, frame); }
+  // Something before the satellite, at `nearer` times the depth.
+  void put(const Vector2& place, double radius_m, double nearer, SyntheticFrame& frame) const {
     const Pose<frame::Target, frame::Camera> inverse = truth_.inverse();
     for (int v = 0; v < frame.height_px; ++v) {
       for (int u = 0; u < frame.width_px; ++u) {
@@ -38,7 +40,8 @@ class ConnectorChoices : public testing::Test {
         const Vector3 d = inverse.R * Vector3(ray.x(), ray.y(), 1.0);
         const Vector3 at = inverse.t - inverse.t.z() / d.z() * d;
         if ((at.head<2>() - place).norm() < radius_m) {
-          frame.depth[static_cast<std::size_t>(v * frame.width_px + u)] = 0;
+          std::uint16_t& depth = frame.depth[static_cast<std::size_t>(v * frame.width_px + u)];
+          depth = static_cast<std::uint16_t>(nearer * depth);
         }
       }
     }
@@ -63,6 +66,15 @@ TEST_F(ConnectorChoices, AHiddenPlaceThatIsNearerLeavesTheTurnOpen) {
   EXPECT_NE(pose.flags & kFlagFewConnectors, 0);
   settings_.connector.expected = 1;
   EXPECT_TRUE(measure(frame).has_turn());
+}
+
+// It may be a cover, and both connectors stand behind what hides a part of the face.
+TEST_F(ConnectorChoices, OneOfTwoWhileSomethingHidesMoreThanAConnectorLeavesTheTurnOpen) {
+  SyntheticFrame frame = render(SyntheticRing{}, truth_, camera_);
+  put({-0.2, 0.83}, 0.12, 0.7, frame);  // all nearer places are the plate's
+  const TofPose pose = measure(frame);
+  EXPECT_FALSE(pose.has_turn());
+  EXPECT_NE(pose.flags & kFlagFewConnectors, 0);
 }
 
 TEST_F(ConnectorChoices, ADarkConnectorIsOneToo) {

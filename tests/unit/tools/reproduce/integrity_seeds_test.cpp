@@ -23,22 +23,27 @@ void expect_no_failure(const std::string& name, std::initializer_list<std::uint6
 }
 
 // A boom, a rail and bodies' outlines, taken for the panel; a panel's edge and a body's in line; panels seen along
-// their axis, whose width was taken for it, across the body as a wing.
+// their axis, whose width was taken for it, across the body as a wing; a body's outline that a panel interrupts;
+// a body's face beside a panel that the border cuts.
 TEST(IntegritySeeds, Line) {
-  expect_no_failure("line", {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369});
+  expect_no_failure("line",
+                    {62, 108, 220, 244, 1039, 1251, 1430, 1446, 3378, 60259, 60665, 60891, 61369, 200023, 200314});
 }
 
-// Polygons that end along a contour, and what one leaves of a dot.
+// Polygons that end along a contour, one of nearly its step, what one leaves of a dot, and two between them.
 TEST(IntegritySeeds, Ellipses) {
-  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934});
+  expect_no_failure("ellipses", {60435, 61811, 62051, 62190, 63065, 80122, 80881, 80934, 93094, 212802});
 }
 
-// A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster for
-// a connector behind a boom.
-TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061}); }
+// A look-alike for a dark connector, another for a hidden one, a wall taken for a connector's edge, and a thruster or
+// a cover for a connector behind a boom.
+TEST(IntegritySeeds, Tof) { expect_no_failure("tof", {1191, 1411, 2328, 30319, 31951, 40061, 123135}); }
 
-// The foot of a ring, the edge of a round body, a small ring beside it, a groove; two bodies with a second ring.
-TEST(IntegritySeeds, Ring2) { expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454, 20095, 20244, 20370}); }
+// The foot of a ring, the edge of a round body, whose nozzle the ring was taken for, a small ring beside it, a groove;
+// two bodies with a second ring.
+TEST(IntegritySeeds, Ring2) {
+  expect_no_failure("ring2", {10014, 10185, 10228, 10330, 10454, 20095, 20244, 20370, 200026, 200054});
+}
 
 }  // namespace
 }  // namespace pharos::tools
