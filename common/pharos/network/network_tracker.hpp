@@ -20,7 +20,7 @@ enum NetworkFlag : std::uint8_t {
 };
 
 struct NetworkOptions {
-  HitNoise noise{40e-6, 40e-6, 0.2e-3, 0.3e-3};
+  HitNoise noise{40e-6, 40e-6, 0.2e-3, 0.3e-3, 0.6e-3};
   double max_rotation_rad = 1.0;  // stated sigmas beyond which no pose is reported
   double max_position_m = 0.1;
 };

@@ -125,7 +125,8 @@ bool linearise_at(const Vector3& t, const Scene& scene, Row& row) {
   row.gradient /= count;
   const Vector3 by_turn = arm.cross(row.gradient) / count;
   const double contradiction_rad =
-      kContradictingPart * station.sigmas.value_or(noise.unstated).contradiction_rad(row.range_m, t);
+      kContradictingPart *
+      std::hypot(station.sigmas.value_or(noise.unstated).contradiction_rad(row.range_m, t), noise.model_rad);
   const double jerk_rad = kJerk_m_s3 * std::abs(row.dt_s * row.dt_s * row.dt_s) / 6.0 * row.gradient.norm();
   row.variance = contradiction_rad * contradiction_rad + jerk_rad * jerk_rad +
                  (noise.own_rad * noise.own_rad + std::pow(noise.sensor_m / row.range_m, 2)) / count +
