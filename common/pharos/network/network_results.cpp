@@ -103,6 +103,13 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   if (fresh > 1) out.flags |= kFused;
   out.covariance.bottomRightCorner<3, 3>() +=
       station_covariance(sweep.time_s, state.pose.t) + contradiction_covariance(sweep.time_s);
+  // Without two stations at once the light does not tell how a small target moves along the line of sight.
+  if (!fix_ && !tells_range(target_, options_.noise)) {
+    const NetworkState& widest = filter_.widest();
+    const Vector3 apart = widest.pose.t - state.pose.t;
+    out.covariance.bottomRightCorner<3, 3>() +=
+        widest.covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + apart * apart.transpose();
+  }
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;
