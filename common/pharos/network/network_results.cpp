@@ -32,6 +32,7 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   NetworkResult out = refused(sweep, pose::Refusal::kUnconfirmed);
   // Stations that contradict each other tell nothing at once.
   if (!fix_ || contradictions_ > 0) return out;
+  out.time_s = time_s_;  // of the latest sweep: this one may have begun before another one that is over
   const NetworkState& state = filter_.mean();
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};

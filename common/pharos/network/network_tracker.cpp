@@ -226,7 +226,7 @@ bool NetworkTracker::strayed(bool taken) {
   const bool sure = taken && confirmed(time_s_) && tells_range(target_, options_.noise);
   if (sure && time_s_ - asked_s_ < kAsk_s) return false;
   asked_s_ = time_s_;
-  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
   if (!fix_) return false;
   if (fix_->position_covariance().trace() < kConfirming_m * kConfirming_m) fixed_s_ = time_s_;
   if (apart_chi2(*fix_) < kStrayedChi2) return false;

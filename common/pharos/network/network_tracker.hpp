@@ -102,6 +102,7 @@ class NetworkTracker {
   bool fits(const LinearisedSweep& sweep) const;
   void watch(std::size_t station, bool fits, double time_s);
   void check_consensus(double time_s);
+  double latest_s() const;
   bool try_start(double time_s);
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;

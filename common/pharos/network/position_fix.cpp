@@ -179,9 +179,8 @@ Window window_of(const SweepView& recent, const Target& target, double now_s) {
 }  // namespace
 
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
-                                  const NetworkState& near, const HitNoise& noise) {
-  if (recent.empty()) return std::nullopt;
-  Window window = window_of(recent, target, recent.back()->time_s());
+                                  const NetworkState& near, double now_s, const HitNoise& noise) {
+  Window window = window_of(recent, target, now_s);
   if (window.empty()) return std::nullopt;
   const Scene scene{stations, target, near, noise, diameter_of(target)};
   Motion motion{near.pose.t};
