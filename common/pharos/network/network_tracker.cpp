@@ -22,6 +22,8 @@ constexpr double kFastest_m_s = 20.0, kLost_m = 2.0;
 constexpr double kConfirmed_s = 0.06;
 // Chi-squared of what lies between the filter's position or velocity and what two stations tell at once.
 constexpr double kStrayedChi2 = 14.0;
+// So many times the variance of what two stations tell at once: the filter goes on from there.
+constexpr double kVague = 9.0;
 // A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
 constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
@@ -228,10 +230,20 @@ bool NetworkTracker::strayed(bool taken) {
   asked_s_ = time_s_;
   fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
   if (!fix_) return false;
-  if (fix_->position_covariance().trace() < kConfirming_m * kConfirming_m) fixed_s_ = time_s_;
-  if (apart_chi2(*fix_) < kStrayedChi2) return false;
+  const double fix_m2 = fix_->position_covariance().trace();
+  const bool confirming = fix_m2 < kConfirming_m * kConfirming_m;
+  if (confirming) fixed_s_ = time_s_;
+  // A filter whose attitude is wrong refuses the light that would tell it the position, and all fits it that it does
+  // not know.
+  const double known_m2 = filter_.mean().covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace();
+  const bool vague = fix_->sound && confirming && known_m2 > kVague * fix_m2;
+  if (!vague && apart_chi2(*fix_) < kStrayedChi2) return false;
   filter_.place(*fix_);
   ++counters_.strays;
+  // What did not fit the filter fits the position.
+  if (fix_->sound) {
+    for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
+  }
   return true;
 }
 

@@ -21,6 +21,7 @@ constexpr double kLoss = 3.0;  // Cauchy's, in sigmas
 constexpr int kMaxFarRows = 6;
 // With fewer a reflection would only look like a velocity.
 constexpr std::size_t kMinRows = 6;
+constexpr int kMinChecked = 4;
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
 // A displacement of less than this part of the range leaves an angle linear to 2 urad.
@@ -176,6 +177,13 @@ Window window_of(const SweepView& recent, const Target& target, double now_s) {
   return window;
 }
 
+// Of which at least four sweeps are there.
+std::ptrdiff_t stations_checked(const Window& window) {
+  std::array<int, kMaxNetworkStations> sweeps{};
+  for (const Row& row : window) ++sweeps[row.sweep->station];
+  return std::count_if(sweeps.begin(), sweeps.end(), [](int count) { return count >= kMinChecked; });
+}
+
 }  // namespace
 
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
@@ -220,7 +228,8 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
       return std::nullopt;
     // Position alone is free; rates lean on their priors.
     const double scatter = std::max(1.0, square / std::max(1, rows - 3));
-    return PositionFix{motion.p, motion.v, motion.a, scatter * *covariance};
+    const bool sound = far_rows == 0 && stations_checked(window) >= 2;
+    return PositionFix{motion.p, motion.v, motion.a, scatter * *covariance, sound};
   }
   return std::nullopt;
 }

@@ -18,6 +18,9 @@ struct PositionFix {
   Vector3 velocity_m_s = Vector3::Zero();
   Vector3 acceleration_m_s2 = Vector3::Zero();
   FixMatrix covariance = FixMatrix::Zero();  // of noise and motion; what stations are wrong by is beside it
+  // All sweeps agree, and there are at least four of each of two stations: three each are explained by a position and a
+  // velocity, whatever a reflection makes of one.
+  bool sound = false;
 
   Matrix3 position_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
