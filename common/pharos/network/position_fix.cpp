@@ -159,13 +159,16 @@ bool is_clear(const PlaneSweep& sweep, const Target& target) {
   return sweep.hits.size() > 1 || target.size() <= 2;
 }
 
-/// The sweeps of the window. Empty where fewer than two stations showed both planes.
+/// The sweeps of the window, which ends with the latest of them: `now_s` may be a sweep's of a station that is left
+/// out. Empty where fewer than two stations showed both planes.
 Window window_of(const SweepView& recent, const Target& target, double now_s) {
   Window window;
+  double latest_s = 0.0;
+  for (const PlaneSweep* sweep : recent) latest_s = std::max(latest_s, sweep->time_s());
   std::array<std::array<bool, kPlanes>, kMaxNetworkStations> seen{};
   for (const PlaneSweep* sweep : recent) {
     const double time_s = sweep->time_s();
-    if (time_s < now_s - kWindow_s || !is_clear(*sweep, target)) continue;
+    if (time_s < latest_s - kWindow_s || !is_clear(*sweep, target)) continue;
     Row row;
     row.sweep = sweep;
     row.dt_s = time_s - now_s;
