@@ -38,8 +38,8 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
   out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
-  out.covariance.bottomRightCorner<3, 3>() =
-      station_covariance(out.time_s, position_m) + contradiction_covariance(out.time_s) + fix_->position_covariance();
+  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
+  if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
   if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
     out.flags |= kStationExcluded;

@@ -24,6 +24,7 @@ constexpr double kConfirmed_s = 0.06;
 constexpr double kStrayedChi2 = 14.0;
 // So many times the variance of what two stations tell at once: the filter goes on from there.
 constexpr double kVague = 9.0;
+constexpr double kBetterFix = 4.0;  // times the filter's variance: it is the position's while its sweeps all agree
 // A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
 constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
@@ -126,13 +127,14 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
     return refused(sweep, pose::Refusal::kPoorFit);
   }
   if (!settled) return from_fix(sweep, confirmed(now_s) ? 0.0 : kUnconfirmed_rad);
-  if (!taken) {
-    ++counters_.sweeps_refused;
-    return refused(sweep, pose::Refusal::kPoorFit);
-  }
+  if (!taken) ++counters_.sweeps_refused;
   const double interval_s = ambiguous_ ? kCheckAmbiguous_s : kCheck_s;
-  if (now_s - checked_s_ > interval_s) check_alternatives(now_s);
-  return result(linearised);
+  if (taken && now_s - checked_s_ > interval_s) check_alternatives(now_s);
+  if (fix_is_better()) {
+    const NetworkResult fixed = from_fix(sweep, 0.0);
+    if (fixed.pose.ok()) return fixed;
+  }
+  return taken ? result(linearised) : refused(sweep, pose::Refusal::kPoorFit);
 }
 
 bool NetworkTracker::fits(const LinearisedSweep& sweep) const {
@@ -235,8 +237,7 @@ bool NetworkTracker::strayed(bool taken) {
   if (confirming) fixed_s_ = time_s_;
   // A filter whose attitude is wrong refuses the light that would tell it the position, and all fits it that it does
   // not know.
-  const double known_m2 = filter_.mean().covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace();
-  const bool vague = fix_->sound && confirming && known_m2 > kVague * fix_m2;
+  const bool vague = fix_->sound && confirming && position_variance() > kVague * fix_m2;
   if (!vague && apart_chi2(*fix_) < kStrayedChi2) return false;
   filter_.place(*fix_);
   ++counters_.strays;
@@ -245,6 +246,17 @@ bool NetworkTracker::strayed(bool taken) {
     for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
   }
   return true;
+}
+
+// A filter takes what stations are wrong by for noise of each sweep, so that planes which contradict each other move it
+// in turn: in motion it knows no more than all sweeps together, each at its own instant. At rest it does.
+bool NetworkTracker::fix_is_better() const {
+  if (!fix_ || !fix_->sound || tells_range(target_, options_.noise)) return false;
+  return fix_->position_covariance().trace() < kBetterFix * position_variance();
+}
+
+double NetworkTracker::position_variance() const {
+  return filter_.mean().covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace();
 }
 
 bool NetworkTracker::confirmed(double time_s) const { return time_s - started_s_ >= kConfirmed_s; }

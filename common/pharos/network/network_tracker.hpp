@@ -107,6 +107,8 @@ class NetworkTracker {
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
+  bool fix_is_better() const;
+  double position_variance() const;  // of the filter, m^2: the sum of three
   double apart_chi2(const PositionFix& fix) const;
   SweepView used_recent() const;
   SweepView all_recent() const;
