@@ -133,8 +133,9 @@ LinearisedSweep linearise(const PlaneSweep& sweep, const Stations& stations, con
     gate(hits, state.covariance.topLeftCorner<6, 6>());
   }
   const auto count = static_cast<Eigen::Index>(hits.size());
-  out.common_variance = noise.common_rad * noise.common_rad + std::pow(noise.time_s * motion_rad_s, 2) +
-                        std::pow(kFilteredPart * sigmas.contradiction_rad(nearest_m, state.pose.t), 2);
+  out.common_variance =
+      noise.common_rad * noise.common_rad + std::pow(noise.time_s * motion_rad_s, 2) +
+      std::pow(kFilteredPart * std::hypot(sigmas.contradiction_rad(nearest_m, state.pose.t), noise.model_rad), 2);
   out.rows.resize(count, kObserved);
   out.residual.resize(count);
   out.variance.resize(count);

@@ -27,6 +27,8 @@ class NetworkFilter {
 
   /// The mixture: moments of the pose and of all others.
   const NetworkState& mean() const { return mean_; }
+  /// The model of most jerk: what may be where light does not tell which model holds.
+  const NetworkState& widest() const { return model_.back(); }
   /// Chi-squared of a sweep's innovation for the model of most jerk, and its degrees of freedom.
   double widest_chi2(const LinearisedSweep& sweep) const;
   /// Adds a sweep; returns -2 ln of its likelihood.

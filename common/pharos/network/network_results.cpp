@@ -32,13 +32,14 @@ NetworkResult NetworkTracker::from_fix(const PlaneSweep& sweep, double doubt_rad
   NetworkResult out = refused(sweep, pose::Refusal::kUnconfirmed);
   // Stations that contradict each other tell nothing at once.
   if (!fix_ || contradictions_ > 0) return out;
+  out.time_s = time_s_;  // of the latest sweep: this one may have begun before another one that is over
   const NetworkState& state = filter_.mean();
   const Vector3& position_m = fix_->position_m;
   out.pose = WorldFromBody{state.pose.R, position_m};
   out.covariance.topLeftCorner<3, 3>() = state.covariance.topLeftCorner<3, 3>();
   out.covariance.diagonal().head<3>().array() += doubt_rad * doubt_rad;
-  out.covariance.bottomRightCorner<3, 3>() =
-      station_covariance(out.time_s, position_m) + contradiction_covariance(out.time_s) + fix_->position_covariance();
+  out.covariance.bottomRightCorner<3, 3>() = station_covariance(out.time_s, position_m) + fix_->position_covariance();
+  if (!fix_->sound) out.covariance.bottomRightCorner<3, 3>() += contradiction_covariance(out.time_s);
   out.flags = kFused;
   if (std::any_of(watch_.begin(), watch_.end(), [](const StationWatch& s) { return s.excluded; })) {
     out.flags |= kStationExcluded;
@@ -103,6 +104,13 @@ NetworkResult NetworkTracker::result(const LinearisedSweep& sweep) {
   if (fresh > 1) out.flags |= kFused;
   out.covariance.bottomRightCorner<3, 3>() +=
       station_covariance(sweep.time_s, state.pose.t) + contradiction_covariance(sweep.time_s);
+  // Without two stations at once the light does not tell how a small target moves along the line of sight.
+  if (!fix_ && !tells_range(target_, options_.noise)) {
+    const NetworkState& widest = filter_.widest();
+    const Vector3 apart = widest.pose.t - state.pose.t;
+    out.covariance.bottomRightCorner<3, 3>() +=
+        widest.covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3) + apart * apart.transpose();
+  }
   // Where the filter differs by more than the noise from what two stations tell at once, one of them is wrong by that.
   if (fix_) {
     const Vector3 apart = state.pose.t - fix_->position_m;

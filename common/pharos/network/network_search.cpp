@@ -37,11 +37,18 @@ void NetworkTracker::start_at(const WorldFromBody& pose, double time_s) {
     filter_.correct(linearised);
     saw(linearised);
   }
-  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
   if (fix_) filter_.place(*fix_);
   accepted_s_ = checked_s_ = started_s_ = time_s;
   refused_in_row_ = 0;
   left_out_ = 0.0;
+}
+
+// Sweeps of several stations overlap: the last that was closed need not be the latest.
+double NetworkTracker::latest_s() const {
+  double latest_s = recent_[0].time_s();
+  for (std::size_t i = 1; i < recent_.size(); ++i) latest_s = std::max(latest_s, recent_[i].time_s());
+  return latest_s;
 }
 
 bool NetworkTracker::try_start(double time_s) {
@@ -52,7 +59,9 @@ bool NetworkTracker::try_start(double time_s) {
   WorldFromBody pose = choice.pose;
   NetworkState near;
   near.pose = pose;
-  if (const auto fix = fix_of(used_recent(), stations_, target_, near, options_.noise)) pose.t = fix->position_m;
+  if (const auto fix = fix_of(used_recent(), stations_, target_, near, latest_s(), options_.noise)) {
+    pose.t = fix->position_m;
+  }
   for (StationWatch& station : watch_) station.refused = station.accepted = 0;
   start_at(pose, time_s);
   ambiguous_ = choice.second_cost - choice.cost < kAmbiguousDeltaChi2;

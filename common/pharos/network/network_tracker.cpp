@@ -22,6 +22,9 @@ constexpr double kFastest_m_s = 20.0, kLost_m = 2.0;
 constexpr double kConfirmed_s = 0.06;
 // Chi-squared of what lies between the filter's position or velocity and what two stations tell at once.
 constexpr double kStrayedChi2 = 14.0;
+// So many times the variance of what two stations tell at once: the filter goes on from there.
+constexpr double kVague = 9.0;
+constexpr double kBetterFix = 4.0;  // times the filter's variance: it is the position's while its sweeps all agree
 // A target that tells its range is asked so often while its light fits: the position's fix is a third of the cost.
 constexpr double kAsk_s = 0.03;
 constexpr double kConfirming_m = 0.06;  // a position that is known less well confirms nothing
@@ -124,13 +127,14 @@ NetworkResult NetworkTracker::process(const PlaneSweep& sweep) {
     return refused(sweep, pose::Refusal::kPoorFit);
   }
   if (!settled) return from_fix(sweep, confirmed(now_s) ? 0.0 : kUnconfirmed_rad);
-  if (!taken) {
-    ++counters_.sweeps_refused;
-    return refused(sweep, pose::Refusal::kPoorFit);
-  }
+  if (!taken) ++counters_.sweeps_refused;
   const double interval_s = ambiguous_ ? kCheckAmbiguous_s : kCheck_s;
-  if (now_s - checked_s_ > interval_s) check_alternatives(now_s);
-  return result(linearised);
+  if (taken && now_s - checked_s_ > interval_s) check_alternatives(now_s);
+  if (fix_is_better()) {
+    const NetworkResult fixed = from_fix(sweep, 0.0);
+    if (fixed.pose.ok()) return fixed;
+  }
+  return taken ? result(linearised) : refused(sweep, pose::Refusal::kPoorFit);
 }
 
 bool NetworkTracker::fits(const LinearisedSweep& sweep) const {
@@ -226,13 +230,33 @@ bool NetworkTracker::strayed(bool taken) {
   const bool sure = taken && confirmed(time_s_) && tells_range(target_, options_.noise);
   if (sure && time_s_ - asked_s_ < kAsk_s) return false;
   asked_s_ = time_s_;
-  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), options_.noise);
+  fix_ = fix_of(used_recent(), stations_, target_, filter_.mean(), time_s_, options_.noise);
   if (!fix_) return false;
-  if (fix_->position_covariance().trace() < kConfirming_m * kConfirming_m) fixed_s_ = time_s_;
-  if (apart_chi2(*fix_) < kStrayedChi2) return false;
+  const double fix_m2 = fix_->position_covariance().trace();
+  const bool confirming = fix_m2 < kConfirming_m * kConfirming_m;
+  if (confirming) fixed_s_ = time_s_;
+  // A filter whose attitude is wrong refuses the light that would tell it the position, and all fits it that it does
+  // not know.
+  const bool vague = fix_->sound && confirming && position_variance() > kVague * fix_m2;
+  if (!vague && apart_chi2(*fix_) < kStrayedChi2) return false;
   filter_.place(*fix_);
   ++counters_.strays;
+  // What did not fit the filter fits the position.
+  if (fix_->sound) {
+    for (StationWatch& station : watch_) station.contradicted_s = {-1e9, -1e9};
+  }
   return true;
+}
+
+// A filter takes what stations are wrong by for noise of each sweep, so that planes which contradict each other move it
+// in turn: in motion it knows no more than all sweeps together, each at its own instant. At rest it does.
+bool NetworkTracker::fix_is_better() const {
+  if (!fix_ || !fix_->sound || tells_range(target_, options_.noise)) return false;
+  return fix_->position_covariance().trace() < kBetterFix * position_variance();
+}
+
+double NetworkTracker::position_variance() const {
+  return filter_.mean().covariance.block<3, 3>(kPoseAt + 3, kPoseAt + 3).trace();
 }
 
 bool NetworkTracker::confirmed(double time_s) const { return time_s - started_s_ >= kConfirmed_s; }

@@ -20,7 +20,7 @@ enum NetworkFlag : std::uint8_t {
 };
 
 struct NetworkOptions {
-  HitNoise noise{40e-6, 40e-6, 0.2e-3, 0.3e-3};
+  HitNoise noise{40e-6, 40e-6, 0.2e-3, 0.3e-3, 0.6e-3};
   double max_rotation_rad = 1.0;  // stated sigmas beyond which no pose is reported
   double max_position_m = 0.1;
 };
@@ -102,10 +102,13 @@ class NetworkTracker {
   bool fits(const LinearisedSweep& sweep) const;
   void watch(std::size_t station, bool fits, double time_s);
   void check_consensus(double time_s);
+  double latest_s() const;
   bool try_start(double time_s);
   void start_at(const WorldFromBody& pose, double time_s);
   bool confirmed(double time_s) const;
   bool strayed(bool taken);
+  bool fix_is_better() const;
+  double position_variance() const;  // of the filter, m^2: the sum of three
   double apart_chi2(const PositionFix& fix) const;
   SweepView used_recent() const;
   SweepView all_recent() const;

@@ -21,6 +21,7 @@ constexpr double kLoss = 3.0;  // Cauchy's, in sigmas
 constexpr int kMaxFarRows = 6;
 // With fewer a reflection would only look like a velocity.
 constexpr std::size_t kMinRows = 6;
+constexpr int kMinChecked = 4;
 // Of what stations are wrong by, what planes contradict each other by.
 constexpr double kContradictingPart = 0.4;
 // A displacement of less than this part of the range leaves an angle linear to 2 urad.
@@ -125,7 +126,8 @@ bool linearise_at(const Vector3& t, const Scene& scene, Row& row) {
   row.gradient /= count;
   const Vector3 by_turn = arm.cross(row.gradient) / count;
   const double contradiction_rad =
-      kContradictingPart * station.sigmas.value_or(noise.unstated).contradiction_rad(row.range_m, t);
+      kContradictingPart *
+      std::hypot(station.sigmas.value_or(noise.unstated).contradiction_rad(row.range_m, t), noise.model_rad);
   const double jerk_rad = kJerk_m_s3 * std::abs(row.dt_s * row.dt_s * row.dt_s) / 6.0 * row.gradient.norm();
   row.variance = contradiction_rad * contradiction_rad + jerk_rad * jerk_rad +
                  (noise.own_rad * noise.own_rad + std::pow(noise.sensor_m / row.range_m, 2)) / count +
@@ -157,13 +159,16 @@ bool is_clear(const PlaneSweep& sweep, const Target& target) {
   return sweep.hits.size() > 1 || target.size() <= 2;
 }
 
-/// The sweeps of the window. Empty where fewer than two stations showed both planes.
+/// The sweeps of the window, which ends with the latest of them: `now_s` may be a sweep's of a station that is left
+/// out. Empty where fewer than two stations showed both planes.
 Window window_of(const SweepView& recent, const Target& target, double now_s) {
   Window window;
+  double latest_s = 0.0;
+  for (const PlaneSweep* sweep : recent) latest_s = std::max(latest_s, sweep->time_s());
   std::array<std::array<bool, kPlanes>, kMaxNetworkStations> seen{};
   for (const PlaneSweep* sweep : recent) {
     const double time_s = sweep->time_s();
-    if (time_s < now_s - kWindow_s || !is_clear(*sweep, target)) continue;
+    if (time_s < latest_s - kWindow_s || !is_clear(*sweep, target)) continue;
     Row row;
     row.sweep = sweep;
     row.dt_s = time_s - now_s;
@@ -175,12 +180,18 @@ Window window_of(const SweepView& recent, const Target& target, double now_s) {
   return window;
 }
 
+// Of which at least four sweeps are there.
+std::ptrdiff_t stations_checked(const Window& window) {
+  std::array<int, kMaxNetworkStations> sweeps{};
+  for (const Row& row : window) ++sweeps[row.sweep->station];
+  return std::count_if(sweeps.begin(), sweeps.end(), [](int count) { return count >= kMinChecked; });
+}
+
 }  // namespace
 
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
-                                  const NetworkState& near, const HitNoise& noise) {
-  if (recent.empty()) return std::nullopt;
-  Window window = window_of(recent, target, recent.back()->time_s());
+                                  const NetworkState& near, double now_s, const HitNoise& noise) {
+  Window window = window_of(recent, target, now_s);
   if (window.empty()) return std::nullopt;
   const Scene scene{stations, target, near, noise, diameter_of(target)};
   Motion motion{near.pose.t};
@@ -220,7 +231,8 @@ std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stati
       return std::nullopt;
     // Position alone is free; rates lean on their priors.
     const double scatter = std::max(1.0, square / std::max(1, rows - 3));
-    return PositionFix{motion.p, motion.v, motion.a, scatter * *covariance};
+    const bool sound = far_rows == 0 && stations_checked(window) >= 2;
+    return PositionFix{motion.p, motion.v, motion.a, scatter * *covariance, sound};
   }
   return std::nullopt;
 }

@@ -18,17 +18,20 @@ struct PositionFix {
   Vector3 velocity_m_s = Vector3::Zero();
   Vector3 acceleration_m_s2 = Vector3::Zero();
   FixMatrix covariance = FixMatrix::Zero();  // of noise and motion; what stations are wrong by is beside it
+  // All sweeps agree, and there are at least four of each of two stations: three each are explained by a position and a
+  // velocity, whatever a reflection makes of one.
+  bool sound = false;
 
   Matrix3 position_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
 
-/// Position, velocity and acceleration now, attitude and its rate taken from `near`, where at least two stations saw
-/// the body with both planes within the last 70 ms: robust least squares of the sweeps' mean angles, each at its own
-/// instant, the more the older the less. Priors: 4 m/s, 20 m/s^2, 500 m/s^3. Empty where it does not converge, or where
-/// some plane's last sweep departs by more than 15 mrad.
+/// Position, velocity and acceleration at `now_s`, not before any of the sweeps, attitude and its rate taken from
+/// `near`, where at least two stations saw the body with both planes within the last 70 ms: robust least squares of the
+/// sweeps' mean angles, each at its own instant, the more the older the less. Priors: 4 m/s, 20 m/s^2, 500 m/s^3. Empty
+/// where it does not converge, or where some plane's last sweep departs by more than 15 mrad.
 ///
 /// Cost: a 9x9 solution a step, some 10 us on a host.
 std::optional<PositionFix> fix_of(const SweepView& recent, const Stations& stations, const Target& target,
-                                  const NetworkState& near, const HitNoise& noise);
+                                  const NetworkState& near, double now_s, const HitNoise& noise);
 
 }  // namespace pharos::network

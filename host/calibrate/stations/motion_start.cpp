@@ -46,6 +46,7 @@ TrackedMotion track_motion(const std::vector<network::PlaneSweep>& sweeps, const
   network::NetworkOptions options;
   options.max_position_m = kStart_m;
   options.noise.unstated = unstated;
+  options.noise.model_rad = 0.0;  // of the adjustment that follows, not of a start for it
   network::Stations uncertain = stations;
   for (network::Station& station : uncertain) station.sigmas.reset();
   const auto tracker = std::make_unique<network::NetworkTracker>(uncertain, target, options);

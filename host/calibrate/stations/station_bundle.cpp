@@ -73,7 +73,7 @@ class Adjustment {
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H.cols(), n);
     unit.bottomRows(n).setIdentity();
     const Eigen::MatrixXd noise = Eigen::MatrixXd(factor.solve(unit)).bottomRows(n);
-    Eigen::MatrixXd scattered = noise * scatter(options, n) * noise;
+    Eigen::MatrixXd scattered = noise * scatter(options, n, field_variance(noise)) * noise;
     for (Eigen::Index k = 0; k < n; ++k) {
       const double more = std::sqrt(std::max(1.0, noise(k, k) / std::max(1e-300, scattered(k, k))));
       scattered.row(k) *= more;
@@ -94,8 +94,9 @@ class Adjustment {
   }
 
   // What is between bread of a sandwich estimator: the sum over the pieces of g g^T, g the piece's gradient by what is
-  // calibrated (that by its motion is zero at the optimum), and of the priors what they are expected to be.
-  Eigen::MatrixXd scatter(ceres::Problem::EvaluateOptions options, Eigen::Index n) {
+  // calibrated (that by its motion is zero at the optimum), and of the priors what they are expected to be: those of
+  // the fields `field_variance` times.
+  Eigen::MatrixXd scatter(ceres::Problem::EvaluateOptions options, Eigen::Index n, double field_variance) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
     for (const auto& rows : rows_of_piece_) {
       options.residual_blocks = rows;
@@ -105,9 +106,39 @@ class Adjustment {
       const Eigen::VectorXd g = Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient)).tail(n);
       sum += g * g.transpose();
     }
-    options.residual_blocks = prior_rows_;
-    const Eigen::SparseMatrix<double> P = jacobian(options).rightCols(n);
-    return sum + Eigen::MatrixXd(P.transpose() * P);
+    const auto add_priors = [&](const std::vector<ceres::ResidualBlockId>& rows, double variance) {
+      options.residual_blocks = rows;
+      const Eigen::SparseMatrix<double> P = jacobian(options).rightCols(n);
+      sum += variance * Eigen::MatrixXd(P.transpose() * P);
+    };
+    add_priors(field_rows_, field_variance);
+    add_priors(sensor_rows_, 1.0);
+    return sum;
+  }
+
+  // How much further than their priors say the fields lie from them: chi-squared by the degrees of freedom that the
+  // light has in them (a variance component: Foerstner 1979). What no field describes pulls them there, alike in all
+  // pieces, so that the scatter does not show it.
+  double field_variance(const Eigen::MatrixXd& noise) {
+    ceres::Problem::EvaluateOptions options;
+    options.residual_blocks = field_rows_;
+    std::vector<double> departures;
+    ceres_.Evaluate(options, nullptr, &departures, nullptr, nullptr);
+    double chi2 = 0.0, degrees = 0.0;
+    Eigen::Index column = 0;
+    std::size_t row = 0;
+    for (std::size_t s = 0; s < plane_.size(); ++s) {
+      if (s > 0) column += 6;
+      for (const PlaneFields& sigmas : field_sigma_[s]) {
+        for (const double sigma : sigmas) {
+          chi2 += departures[row] * departures[row];
+          degrees += std::max(0.0, 1.0 - noise(column, column) / (sigma * sigma));
+          ++row;
+          ++column;
+        }
+      }
+    }
+    return std::max(1.0, chi2 / std::max(1.0, degrees));
   }
 
   void add_sweep(const UsedSweep& used) {
@@ -149,23 +180,26 @@ class Adjustment {
   }
 
   void add_priors(const network::Stations& prior, const Target& nominal) {
+    field_sigma_.resize(plane_.size());
     for (std::size_t s = 0; s < plane_.size(); ++s) {
       if (!ceres_.HasParameterBlock(station_delta_[s].data())) ceres_.AddParameterBlock(station_delta_[s].data(), 6);
       for (std::size_t k = 0; k < network::kPlanes; ++k) {
         const PlaneFields mean = fields_of(prior[s].plane[k]);
         const PlaneFields sigma = prior_sigmas(prior[s].generation, mean);
-        add_prior({mean.begin(), mean.end()}, {sigma.begin(), sigma.end()}, plane_[s][k].data());
+        field_sigma_[s][k] = sigma;
+        field_rows_.push_back(prior_row({mean.begin(), mean.end()}, {sigma.begin(), sigma.end()}, plane_[s][k].data()));
       }
     }
     ceres_.SetParameterBlockConstant(station_delta_[0].data());
     for (std::size_t i = 0; i < sensor_.size(); ++i) {
       const Vector3& p = nominal[i].position_m;
-      add_prior({p.x(), p.y(), p.z()}, std::vector<double>(3, options_.sensor_sigma_m), sensor_[i].data());
+      sensor_rows_.push_back(
+          prior_row({p.x(), p.y(), p.z()}, std::vector<double>(3, options_.sensor_sigma_m), sensor_[i].data()));
     }
   }
 
-  void add_prior(const std::vector<double>& mean, const std::vector<double>& sigma, double* block) {
-    prior_rows_.push_back(ceres_.AddResidualBlock(prior_cost(mean, sigma), nullptr, block));
+  ceres::ResidualBlockId prior_row(const std::vector<double>& mean, const std::vector<double>& sigma, double* block) {
+    return ceres_.AddResidualBlock(prior_cost(mean, sigma), nullptr, block);
   }
 
   // Motion first, what is calibrated last; returns how many of the latter, without the first station's pose.
@@ -191,7 +225,8 @@ class Adjustment {
   std::vector<std::array<PlaneFields, network::kPlanes>> plane_;
   std::vector<std::array<double, 3>> sensor_;
   std::vector<std::vector<ceres::ResidualBlockId>> rows_of_piece_;
-  std::vector<ceres::ResidualBlockId> prior_rows_;
+  std::vector<ceres::ResidualBlockId> field_rows_, sensor_rows_;  // of the priors
+  std::vector<std::array<PlaneFields, network::kPlanes>> field_sigma_;
   std::map<std::size_t, std::unique_ptr<ceres::LossFunction>> loss_;
   ceres::Problem ceres_{[] {
     ceres::Problem::Options options;

@@ -100,9 +100,18 @@ void add_sensors(const Target& nominal, const Target& target, double prior_sigma
   }
 }
 
-// What the model of a plane leaves and the adjustment hides in the other unknowns: the `workshop` errors of
-// DESIGN, all terms together.
-constexpr double kHidden_rad = 0.7e-3;
+// What no field of a plane describes deforms the room by so much more than the angles that it leaves: two stations a
+// room's width apart tell their directions from each other so much worse than a plane's angle. Beside motion capture
+// rooms were deformed by 2.8 (LH1) and 1.2 permille (LH2) where planes left 0.8 and 0.27 mrad.
+constexpr double kDeformation = 4.0;
+
+double rms_of(const std::vector<std::array<double, network::kPlanes>>& planes) {
+  double square = 0.0;
+  for (const auto& station : planes) {
+    for (const double value : station) square += value * value;
+  }
+  return std::sqrt(square / static_cast<double>(network::kPlanes * planes.size()));
+}
 
 // What hits of a sweep leave about their mean, as if the station were turned against the body.
 double turned_sigma(const PlaneFit& fit, const network::Station& station, const Target& target, const Spread& spread) {
@@ -158,11 +167,10 @@ void fill_report(const network::Stations& prior, const Target& nominal, const st
     }
     for (std::size_t p = 0; p < network::kPlanes; ++p) {
       sigmas.rotation_rad = std::max(sigmas.rotation_rad, turned_sigma(fits[p], at.stations[s], at.target, spread));
-      sigmas.plane_rad = std::max(sigmas.plane_rad, std::hypot(fits[p].mean_rad, errors.left_rad[s][p], kHidden_rad));
+      sigmas.plane_rad = std::max(sigmas.plane_rad, std::hypot(fits[p].mean_rad, errors.left_rad[s][p]));
     }
-    // What the model of the planes leaves deforms the room by as much again as the scale, in all directions: beside
-    // motion capture the joint errors alone are too small by a half (README).
-    sigmas.scale = out.scale_sigma;
+    // Beside the joint errors, in all directions.
+    sigmas.scale = kDeformation * rms_of(errors.left_rad);
     sigmas.anchor_m = {spread.centre_m.x(), spread.centre_m.y(), spread.centre_m.z()};
     out.stations[s].sigmas = sigmas;
     out.stations[s].modes = errors.modes[s];

@@ -85,6 +85,23 @@ TEST_P(CalibratesARoom, FindsStationsOfUnknownPoseFromTheRecordingAlone) {
 INSTANTIATE_TEST_SUITE_P(Generations, CalibratesARoom,
                          testing::Values(Generation::kLighthouse1, Generation::kLighthouse2));
 
+// What no field describes pulls the fields from what the stations send, alike in all of a recording: how far tells how
+// wrong the geometry may be.
+TEST(StationCalibration, StatesMoreWhereTheFieldsDepartFromWhatStationsSend) {
+  const SimulatedRoom room = simulated_room(Generation::kLighthouse2);
+  StationCalibrationInput input = input_of(room);
+  const StationCalibration usual = calibrate_stations(input);
+  for (network::Station& station : input.stations) {
+    station.plane[0].tilt_rad += 3e-3;
+    station.plane[1].gibbous_magnitude_rad += 3e-3;
+  }
+  const StationCalibration departed = calibrate_stations(input);
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_GT(departed.stations[s].sigmas->plane_rad, 2.0 * usual.stations[s].sigmas->plane_rad) << s;
+  }
+  EXPECT_GT(sigma_of(departed, "station 1 rotation_z_rad"), 2.0 * sigma_of(usual, "station 1 rotation_z_rad"));
+}
+
 TEST(StationCalibration, TurnsTheWorldUpByTheAccelerations) {
   const SimulatedRoom room = simulated_room(Generation::kLighthouse1);
   StationCalibrationInput input = input_of(room);
