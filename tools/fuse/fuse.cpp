@@ -103,7 +103,7 @@ void remark_refusals(const fusion::TargetEstimator& estimator, const FusedTables
     note(std::to_string(counters.exclusions) + " exclusions, " + std::to_string(counters.readmissions) +
          " readmissions, " + std::to_string(counters.conflicts) + " conflicts");
   }
-  if (counters.doubts > 0) note(std::to_string(counters.doubts) + " contradictions that nothing could judge");
+  if (counters.unresolved > 0) note(std::to_string(counters.unresolved) + " contradictions that nothing could judge");
   if (counters.refuted > 0) note(std::to_string(counters.refuted) + " tracks refuted by excluded sources that agreed");
 }
 

@@ -104,7 +104,7 @@ void FusionCore::examine_conflict(FusionState& state) const {
     const std::uint8_t wrong = misfit_of_first > misfit_of_second ? suspects.first : suspects.second;
     // What contradicts both sides does not make the better one right.
     if (std::min(misfit_of_first, misfit_of_second) > settings_.detection.attribution_chi2) {
-      restart_in_doubt(state);
+      restart_unresolved(state);
     } else {
       end_conflict(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
     }

@@ -28,7 +28,7 @@ void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why)
     if (why == FaultKind::kFreeze) {
       state.without[source] = state.main;
     } else {
-      restart_in_doubt(state);
+      restart_unresolved(state);
     }
     return;
   }
@@ -81,7 +81,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
     witness = k;
   }
   if (witnesses == 0) {
-    doubt_track(state, m.source);
+    mark_unresolved(state, m.source);
     if (run_s > kAlone_s) restart(state);
     return;
   }
@@ -99,7 +99,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
     // A relative source beside the only one that tells the whole pose: there is no solution without that. It is placed
     // anew, and the other one has to agree with what both made.
     exclude(state, m.source, monitor.classify(false, in.residual));
-    if (state.tracking) doubt_track(state, suspect);
+    if (state.tracking) mark_unresolved(state, suspect);
   } else if (doubted) {
     enter_conflict(state, m.source, suspect);
   } else {

@@ -104,7 +104,7 @@ Use FusionCore::track(FusionState& state, const Measurement& raw) const {
   if (state.suspects.active) return track_in_conflict(state, raw);
   const Use use = use_or_gate(state, raw);
   if (state.tracking && !state.suspects.active) examine_separations(state);
-  if (state.tracking && state.doubt.active) examine_doubt(state);
+  if (state.tracking && state.unresolved.active) examine_unresolved(state);
   return use;
 }
 
@@ -252,7 +252,7 @@ Mode FusionCore::mode_at(const FusionState& state, std::int64_t time_ns) const {
   if (!state.tracking) return state.lost ? Mode::kLost : Mode::kSearching;
   // Nor is anything told of a time long before (the caller's clock was set).
   if (std::abs(seconds(time_ns, state.last_used_ns)) > settings_.detection.coasting_s) return Mode::kLost;
-  if (state.suspects.active || state.doubt.active || is_contradicted(state, time_ns)) return Mode::kConflict;
+  if (state.suspects.active || state.unresolved.active || is_contradicted(state, time_ns)) return Mode::kConflict;
   int used = 0;
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     const SourceMonitor& monitor = state.monitors[s];
@@ -308,7 +308,7 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
       out.conflict[side] = {static_cast<std::uint8_t>(s), true, other.mean().pose, other.pose_covariance()};
     }
   }
-  if (state.doubt.active) out.protection.position_available = out.protection.rotation_available = false;
+  if (state.unresolved.active) out.protection.position_available = out.protection.rotation_available = false;
   ProtectionLevel& level = out.protection;
   level.position_available = level.position_available && level.position_m <= settings_.integrity.max_position_m;
   level.rotation_available = level.rotation_available && level.rotation_rad <= settings_.integrity.max_rotation_rad;

@@ -62,11 +62,11 @@ class FusionCore {
   bool source_is_alone(const FusionState& state, std::uint8_t source) const;
   double misfit(const FusionState& state, std::size_t without) const;
   double separation(const FusionState& state, std::size_t source, bool rotation) const;
-  // doubt.cpp
-  void doubt_track(FusionState& state, std::uint8_t source) const;
-  void note_restart_in_doubt(FusionState& state) const;
-  void restart_in_doubt(FusionState& state) const;
-  void examine_doubt(FusionState& state) const;
+  // unresolved.cpp
+  void mark_unresolved(FusionState& state, std::uint8_t source) const;
+  void note_unresolved_restart(FusionState& state) const;
+  void restart_unresolved(FusionState& state) const;
+  void examine_unresolved(FusionState& state) const;
   // conflict.cpp
   void enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const;
   Use track_in_conflict(FusionState& state, const Measurement& raw) const;

@@ -21,12 +21,12 @@ std::size_t candidates(const FusionState& state) {
 void FusionCore::restart(FusionState& state) const {
   // One that was not believed may begin the next track: without a track nothing can prove it right, or wrong. Of a
   // source that stood still it is known when it is over.
-  bool unproved = state.doubt.active;
+  bool unproved = state.unresolved.active;
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     const SourceMonitor& monitor = state.monitors[s];
     unproved = unproved || (monitor.excluded && monitor.reason != FaultKind::kFreeze && !settings_.sources[s].relative);
   }
-  if (unproved) note_restart_in_doubt(state);
+  if (unproved) note_unresolved_restart(state);
   state.tracking = false;
   state.lost = true;
   state.main.invalidate();

@@ -102,7 +102,7 @@ struct DetectionSettings {
   int proof_measurements = 20;
   /// After a contradiction that nothing can judge a track is told as conflict until another source has confirmed it for
   /// proof_s, or nothing has contradicted it for this long.
-  double doubt_s = 60.0;
+  double unresolved_s = 60.0;
   /// The state is lost when nothing was used for this long, or its sigmas exceed these.
   double coasting_s = 10.0;
   double max_sigma_position_m = 1.0;

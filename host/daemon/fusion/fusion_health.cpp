@@ -110,7 +110,7 @@ NamedCounts FusionFeed::counts() const {
   count("limited_steps", core.limited_steps);
   count("tracks_lost", core.restarts);
   count("tracks_refuted", core.refuted);
-  count("doubts", core.doubts);
+  count("contradictions_unresolved", core.unresolved);
   out.push_back({"restarts", last_ ? last_->restarts : 0});
   out.push_back({"looks_dropped", looks_dropped_});
   out.push_back({"states_stale", stale_});

@@ -275,7 +275,7 @@ TEST(TargetEstimator, ALoneSourceThatContradictsItsTrackIsAConflictUntilAnotherC
     EXPECT_TRUE(pose.time_s < 5.1 || pose.time_s > 13.9) << pose.time_s << ": before tof has confirmed it";
     EXPECT_LT(position_error(state, world), 0.02) << pose.time_s;
   }
-  EXPECT_EQ(estimator->counters().doubts, 1u);
+  EXPECT_EQ(estimator->counters().unresolved, 1u);
   const TargetState state = estimator->state(estimator->newest_ns());
   EXPECT_EQ(state.mode, Mode::kFused);
   EXPECT_TRUE(state.protection.position_available);

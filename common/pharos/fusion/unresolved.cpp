@@ -5,27 +5,27 @@ namespace pharos::fusion {
 
 // The only source that tells the whole pose contradicts the track. As long as the track stands it is enough that the
 // source agrees with it again.
-void FusionCore::doubt_track(FusionState& state, std::uint8_t source) const {
-  if (!state.doubt.active) ++state.counters.doubts;
-  const bool restarted = state.doubt.active && state.doubt.restarted;
-  state.doubt = Doubt{true, restarted, source, state.time_ns};
+void FusionCore::mark_unresolved(FusionState& state, std::uint8_t source) const {
+  if (!state.unresolved.active) ++state.counters.unresolved;
+  const bool restarted = state.unresolved.active && state.unresolved.restarted;
+  state.unresolved = Unresolved{true, restarted, source, state.time_ns};
 }
 
 // What begins now may rest on a source that contradicted what was known before.
-void FusionCore::note_restart_in_doubt(FusionState& state) const {
-  if (!state.doubt.active) ++state.counters.doubts;
-  state.doubt = Doubt{true, true, 0, state.time_ns};
+void FusionCore::note_unresolved_restart(FusionState& state) const {
+  if (!state.unresolved.active) ++state.counters.unresolved;
+  state.unresolved = Unresolved{true, true, 0, state.time_ns};
 }
 
-void FusionCore::restart_in_doubt(FusionState& state) const {
-  note_restart_in_doubt(state);
+void FusionCore::restart_unresolved(FusionState& state) const {
+  note_unresolved_restart(state);
   restart(state);
 }
 
 // It ends where two sources have agreed for as long as a readmission takes, where the source agrees again with a track
 // that never held what it contradicted, or by time.
-void FusionCore::examine_doubt(FusionState& state) const {
-  const double since_s = seconds(state.time_ns, state.doubt.since_ns);
+void FusionCore::examine_unresolved(FusionState& state) const {
+  const double since_s = seconds(state.time_ns, state.unresolved.since_ns);
   if (since_s < settings_.detection.proof_s) return;
   int agreeing = 0;
   bool source_agrees = false;
@@ -35,10 +35,10 @@ void FusionCore::examine_doubt(FusionState& state) const {
     if (seconds(state.time_ns, monitor.last_used_ns) > settings_.sources[s].silent_after_s) continue;
     if (seconds(state.time_ns, monitor.joined_ns) < settings_.detection.proof_s) continue;
     ++agreeing;
-    source_agrees = source_agrees || s == state.doubt.source;
+    source_agrees = source_agrees || s == state.unresolved.source;
   }
-  const bool confirmed = state.doubt.restarted ? agreeing > 1 : source_agrees;
-  if (confirmed || since_s > settings_.detection.doubt_s) state.doubt = Doubt{};
+  const bool confirmed = state.unresolved.restarted ? agreeing > 1 : source_agrees;
+  if (confirmed || since_s > settings_.detection.unresolved_s) state.unresolved = Unresolved{};
 }
 
 }  // namespace pharos::fusion
