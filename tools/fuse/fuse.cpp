@@ -27,7 +27,8 @@ constexpr const char* kFuseExample =
     "the\n"
     "file's name up to its first dot. A row is T_vehicle_target, predicted to its time with what had arrived by then\n"
     "(column arrival_s, else a pose arrives at its own time). mode: searching, single, fused, conflict (two sources\n"
-    "contradict each other and nothing tells which is wrong), coasting, lost. A protection level that is not "
+    "contradict each other, or one alone its own track, and nothing tells which is wrong), coasting, lost. A "
+    "protection level that is not "
     "available\n"
     "is empty. excluded: NAME:REASON joined by '|'.";
 
@@ -102,6 +103,8 @@ void remark_refusals(const fusion::TargetEstimator& estimator, const FusedTables
     note(std::to_string(counters.exclusions) + " exclusions, " + std::to_string(counters.readmissions) +
          " readmissions, " + std::to_string(counters.conflicts) + " conflicts");
   }
+  if (counters.unresolved > 0) note(std::to_string(counters.unresolved) + " contradictions that nothing could judge");
+  if (counters.refuted > 0) note(std::to_string(counters.refuted) + " tracks refuted by excluded sources that agreed");
 }
 
 int run(const FuseOptions& options) {

@@ -34,7 +34,7 @@ double side_misfit(const FusionState& state, std::uint8_t without) {
 void FusionCore::enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const {
   ++state.counters.conflicts;
   state.suspects = Suspects{true, first, second, 0};
-  for (SourceMonitor& monitor : state.monitors) monitor.note_proof(state.time_ns, false);  // it was beside the main one
+  for (SourceMonitor& monitor : state.monitors) monitor.proof = Proof{};  // it was beside the main one
   for (const std::uint8_t s : {first, second}) {
     state.monitors[s].contributed = true;  // the level covers the fault of either
     state.monitors[s].gated_run = 0;
@@ -57,7 +57,8 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
   Filter& side = state.without[other];
   const bool whole = m.directions.rank == 6 && !settings_.sources[m.source].relative;
   if (!side.valid() || (whole && !side.complete())) {
-    if (!settings_.sources[m.source].relative) side.start(m, settings_, &state.main.mean().pose);
+    const bool second = state.main.second_fits_better(m, settings_);
+    if (!settings_.sources[m.source].relative) side.start(m.chosen(second), settings_, &state.main.mean().pose);
     monitor.gated_run = 0;
     return Use::kConflict;
   }
@@ -66,7 +67,7 @@ Use FusionCore::track_in_conflict(FusionState& state, const Measurement& raw) co
     side.align(own, settings_);
     return Use::kConflict;
   }
-  const Innovation in = side.innovation(own, settings_);
+  const Innovation in = side.innovation(own, settings_, side.second_fits_better(own, settings_));
   monitor.nis = in.nis;
   monitor.rank = in.rank;
   if (in.ok && in.nis < gate(in.rank)) {
@@ -103,7 +104,7 @@ void FusionCore::examine_conflict(FusionState& state) const {
     const std::uint8_t wrong = misfit_of_first > misfit_of_second ? suspects.first : suspects.second;
     // What contradicts both sides does not make the better one right.
     if (std::min(misfit_of_first, misfit_of_second) > settings_.detection.attribution_chi2) {
-      restart(state);
+      restart_unresolved(state);
     } else {
       end_conflict(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
     }

@@ -22,6 +22,16 @@ void FusionCore::exclude(FusionState& state, std::uint8_t source, FaultKind why)
   const bool contributed = state.monitors[source].contributed;
   state.monitors[source].exclude(why);
   if (!state.tracking || !contributed) return;
+  const Suspects& suspects = state.suspects;
+  if (suspects.active && source != suspects.first && source != suspects.second) {
+    // Both sides of the conflict hold its measurements. A frozen one's are right: repeated poses were never used.
+    if (why == FaultKind::kFreeze) {
+      state.without[source] = state.main;
+    } else {
+      restart_unresolved(state);
+    }
+    return;
+  }
   if (!state.without[source].valid() || !state.without[source].complete()) {
     restart(state);  // nothing is left that knows the whole pose
     return;
@@ -71,6 +81,7 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
     witness = k;
   }
   if (witnesses == 0) {
+    mark_unresolved(state, m.source);
     if (run_s > kAlone_s) restart(state);
     return;
   }
@@ -84,11 +95,20 @@ void FusionCore::examine_gated(FusionState& state, const TargetMeasurement& m, c
       suspect = k;
     }
   }
-  if (doubted) {
+  if (doubted && source_is_alone(state, suspect)) {
+    // A relative source beside the only one that tells the whole pose: there is no solution without that. It is placed
+    // anew, and the other one has to agree with what both made.
+    exclude(state, m.source, monitor.classify(false, in.residual));
+    if (state.tracking) mark_unresolved(state, suspect);
+  } else if (doubted) {
     enter_conflict(state, m.source, suspect);
   } else {
     exclude(state, m.source, monitor.classify(false, in.residual));
   }
+}
+
+bool FusionCore::source_is_alone(const FusionState& state, std::uint8_t source) const {
+  return !state.without[source].valid() || !state.without[source].complete();
 }
 
 // d^T (P_i - P)^-1 d: the covariance of the difference of two solutions of which one uses a part of the other's

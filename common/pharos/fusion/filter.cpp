@@ -318,6 +318,13 @@ Innovation Filter::innovation(const TargetMeasurement& m, const Settings& settin
   return out;
 }
 
+bool Filter::second_fits_better(const TargetMeasurement& m, const Settings& settings) const {
+  if (!m.second) return false;
+  const Innovation first = innovation(m, settings);
+  const Innovation other = innovation(m, settings, true);
+  return other.ok && (!first.ok || other.nis < first.nis);
+}
+
 // T = P H^T C^-T, P -= T T^T, state += T whitened, in blocks of six rows: rows of the packed lower triangle are
 // contiguous.
 void Filter::correct(const Innovation& in, std::uint8_t source, const Settings& settings) {

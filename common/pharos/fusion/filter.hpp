@@ -56,6 +56,8 @@ class Filter {
   void predict(double dt_s, const Settings& settings);
   /// What `measurement` says, of its first or second pose.
   Innovation innovation(const TargetMeasurement& measurement, const Settings& settings, bool second = false) const;
+  /// Whether the second of two poses fits better; false where there is none.
+  bool second_fits_better(const TargetMeasurement& measurement, const Settings& settings) const;
   /// Corrects by an innovation of this very state.
   void correct(const Innovation& innovation, std::uint8_t source, const Settings& settings);
   /// Makes the bias of a relative source what explains this pose.

@@ -70,7 +70,7 @@ Use FusionCore::push(FusionState& state, const Measurement& m) const {
   if (repeated) {
     if (state.tracking && monitor.repeats >= kFrozenRepeats && !monitor.excluded)
       exclude(state, m.source, FaultKind::kFreeze);
-    if (monitor.excluded) monitor.note_proof(m.time_ns, false);
+    monitor.proof = Proof{};
     return Use::kFrozen;
   }
   note_own_error(state, m);
@@ -104,6 +104,7 @@ Use FusionCore::track(FusionState& state, const Measurement& raw) const {
   if (state.suspects.active) return track_in_conflict(state, raw);
   const Use use = use_or_gate(state, raw);
   if (state.tracking && !state.suspects.active) examine_separations(state);
+  if (state.tracking && state.unresolved.active) examine_unresolved(state);
   return use;
 }
 
@@ -213,7 +214,7 @@ void FusionCore::correct_without(FusionState& state, std::size_t k, const Target
   // One that began with a part of a pose begins anew with the first whole one.
   const bool whole = !source.relative && m.directions.rank == 6;
   if (!filter.valid() || (whole && !filter.complete())) {
-    if (!source.relative) filter.start(m, settings_, &state.main.mean().pose);
+    if (!source.relative) filter.start(m.chosen(second), settings_, &state.main.mean().pose);
     return;
   }
   if (source.relative && !filter.aligned(m.source)) {
@@ -230,11 +231,28 @@ void FusionCore::drop_without(FusionState& state, std::size_t k) const {
   state.innovation_means[k] = {};
 }
 
+// Before anything is decided: as many sources contradict the track, twice in a row, as agree with it.
+bool FusionCore::is_contradicted(const FusionState& state, std::int64_t time_ns) const {
+  int agreeing = 0;
+  int contradicting = 0;
+  for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
+    const SourceMonitor& monitor = state.monitors[s];
+    if (settings_.sources[s].relative || monitor.excluded || !monitor.seen) continue;
+    if (seconds(time_ns, monitor.last_ns) > settings_.sources[s].silent_after_s) continue;
+    if (monitor.last_gated) {
+      contradicting += monitor.gated_run > 1 ? 1 : 0;
+    } else {
+      agreeing += monitor.contributed ? 1 : 0;
+    }
+  }
+  return contradicting > 0 && contradicting >= agreeing;
+}
+
 Mode FusionCore::mode_at(const FusionState& state, std::int64_t time_ns) const {
   if (!state.tracking) return state.lost ? Mode::kLost : Mode::kSearching;
   // Nor is anything told of a time long before (the caller's clock was set).
   if (std::abs(seconds(time_ns, state.last_used_ns)) > settings_.detection.coasting_s) return Mode::kLost;
-  if (state.suspects.active) return Mode::kConflict;
+  if (state.suspects.active || state.unresolved.active || is_contradicted(state, time_ns)) return Mode::kConflict;
   int used = 0;
   for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
     const SourceMonitor& monitor = state.monitors[s];
@@ -284,12 +302,13 @@ TargetState FusionCore::report(const FusionState& state, std::int64_t time_ns) c
     other.predict(dt_s, settings_);
     widen(out.protection, main, other, factors_.without[s]);
     if (!other.complete()) out.protection.rotation_available = out.protection.position_available = false;
-    if (out.mode != Mode::kConflict) continue;
+    if (!state.suspects.active) continue;
     for (std::size_t side = 0; side < 2; ++side) {
       if ((side == 0 ? state.suspects.first : state.suspects.second) != s) continue;
       out.conflict[side] = {static_cast<std::uint8_t>(s), true, other.mean().pose, other.pose_covariance()};
     }
   }
+  if (state.unresolved.active) out.protection.position_available = out.protection.rotation_available = false;
   ProtectionLevel& level = out.protection;
   level.position_available = level.position_available && level.position_m <= settings_.integrity.max_position_m;
   level.rotation_available = level.rotation_available && level.rotation_rad <= settings_.integrity.max_rotation_rad;

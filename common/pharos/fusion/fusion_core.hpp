@@ -59,14 +59,21 @@ class FusionCore {
   void exclude(FusionState& state, std::uint8_t source, FaultKind why) const;
   void examine_gated(FusionState& state, const TargetMeasurement& measurement, const Innovation& innovation) const;
   void examine_separations(FusionState& state) const;
+  bool source_is_alone(const FusionState& state, std::uint8_t source) const;
   double misfit(const FusionState& state, std::size_t without) const;
   double separation(const FusionState& state, std::size_t source, bool rotation) const;
+  // unresolved.cpp
+  void mark_unresolved(FusionState& state, std::uint8_t source) const;
+  void note_unresolved_restart(FusionState& state) const;
+  void restart_unresolved(FusionState& state) const;
+  void examine_unresolved(FusionState& state) const;
   // conflict.cpp
   void enter_conflict(FusionState& state, std::uint8_t first, std::uint8_t second) const;
   Use track_in_conflict(FusionState& state, const Measurement& raw) const;
   void examine_conflict(FusionState& state) const;
   void end_conflict(FusionState& state, std::uint8_t wrong, FaultKind why) const;
   // report
+  bool is_contradicted(const FusionState& state, std::int64_t time_ns) const;
   Mode mode_at(const FusionState& state, std::int64_t time_ns) const;
 
   const Settings& settings_;

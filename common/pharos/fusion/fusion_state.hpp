@@ -18,6 +18,7 @@ struct FusionCounters {
   std::uint64_t conflicts = 0;
   std::uint64_t hand_overs = 0;     // a source that came (back)
   std::uint64_t limited_steps = 0;  // its measurements taken with less weight, so that the state moves 1 sigma at most
+  std::uint64_t unresolved = 0;     // contradictions that nothing could judge
   std::uint64_t refuted = 0;        // tracks that two excluded sources contradicted together
   std::uint64_t restarts = 0;       // the track was lost or contradicted by its only source
   double largest_hand_over_sigma = 0.0;
@@ -38,6 +39,15 @@ struct Suspects {
   std::int64_t agree_since_ns = 0;  // 0: they do not
 };
 
+/// A contradiction that nothing else can judge: the only source that tells the whole pose contradicted the track, or
+/// what all of them say fits no solution. The track was wrong, or they are.
+struct Unresolved {
+  bool active = false;
+  bool restarted = false;     // the track of before is gone: the source cannot confirm itself
+  std::uint8_t source = 0;    // where !restarted: the one that contradicts the track
+  std::int64_t since_ns = 0;  // the last contradiction
+};
+
 /// Everything that changes: a late measurement starts again from a copy of it.
 struct FusionState {
   bool tracking = false;
@@ -54,6 +64,7 @@ struct FusionState {
   std::array<Pose<frame::Target, FeatureFrame>, kMaxSources> T_target_feature;
   Search search;
   Suspects suspects;
+  Unresolved unresolved;
   FusionCounters counters;
 };
 

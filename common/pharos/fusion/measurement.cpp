@@ -77,6 +77,13 @@ Directions Directions::without_rotation_about(const Vector3& axis) {
   return out;
 }
 
+TargetMeasurement TargetMeasurement::chosen(bool second_pose) const {
+  TargetMeasurement out = *this;
+  if (second_pose && second) out.pose = *second;
+  out.second.reset();
+  return out;
+}
+
 Refusal check_measurement(const Measurement& m, std::size_t sources) {
   if (m.source >= sources) return Refusal::kUnknownSource;
   if (!usable(m.pose) || !m.covariance.allFinite()) return Refusal::kNotFinite;

@@ -51,6 +51,9 @@ struct TargetMeasurement {
   Matrix6 covariance = Matrix6::Identity();
   Directions directions;
   std::optional<TargetPose> second;
+
+  /// With the second pose alone, or with the first.
+  TargetMeasurement chosen(bool second_pose) const;
 };
 
 /// Why a measurement never reached the filter.

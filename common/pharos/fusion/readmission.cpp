@@ -10,7 +10,7 @@ constexpr unsigned kBothSides = 3;  // bits: of the first suspect, of the second
 Innovation beside(const Filter& filter, const TargetMeasurement& m, const Settings& settings) {
   Filter probe = filter;
   probe.reset_bias(m.source, settings);
-  return probe.innovation(m, settings);
+  return probe.innovation(m, settings, probe.second_fits_better(m, settings));
 }
 
 // What the source's noise and slow error leave of its measurement, in the vehicle frame.
@@ -47,8 +47,13 @@ void FusionCore::readmit(FusionState& state, std::uint8_t source) const {
 Use FusionCore::prove(FusionState& state, const Measurement& raw) const {
   SourceMonitor& monitor = state.monitors[raw.source];
   if (settings_.sources[raw.source].relative) {
-    monitor.note_proof(raw.time_ns, !state.suspects.active);
-    if (monitor.proved(raw.time_ns, settings_.detection)) readmit(state, raw.source);
+    // It is placed anew where it comes back: nothing of before can contradict it.
+    if (state.suspects.active) {
+      monitor.proof = Proof{};
+      return Use::kExcluded;
+    }
+    monitor.proof.add(raw.time_ns);
+    if (monitor.proof.long_enough(raw.time_ns, settings_.detection)) readmit(state, raw.source);
     return Use::kExcluded;
   }
   if (state.suspects.active) {
@@ -59,13 +64,16 @@ Use FusionCore::prove(FusionState& state, const Measurement& raw) const {
   const Innovation in = beside(state.main, m, settings_);
   monitor.nis = in.nis;
   monitor.rank = in.rank;
-  const bool agrees = in.ok && in.nis < gate(in.rank);
-  monitor.note_proof(m.time_ns, agrees);
-  if (!agrees) {
+  if (!in.ok || !(in.nis < gate(in.rank))) {
+    monitor.proof = Proof{};
     examine_contradiction(state, m, in);
-  } else if (monitor.proved(m.time_ns, settings_.detection)) {
-    readmit(state, m.source);
+    return Use::kExcluded;
   }
+  monitor.note_agreement();
+  monitor.proof.add(in, m);
+  if (!monitor.proof.long_enough(m.time_ns, settings_.detection)) return Use::kExcluded;
+  if (monitor.proof.is_sound(in, m)) readmit(state, m.source);
+  monitor.proof = Proof{};
   return Use::kExcluded;
 }
 
@@ -86,18 +94,27 @@ void FusionCore::prove_in_conflict(FusionState& state, const Measurement& raw) c
   }
   monitor.nis = nis;
   monitor.rank = raw.directions.rank;
-  monitor.proof_sides = monitor.proof == 0 ? fits : monitor.proof_sides & fits;
-  monitor.note_proof(raw.time_ns, monitor.proof_sides != 0);
-  const bool one_side = monitor.proof_sides != kBothSides;
-  if (one_side ? !monitor.proved_beside(raw.time_ns, settings_.detection)
-               : !monitor.proved(raw.time_ns, settings_.detection)) {
+  Proof& proof = monitor.proof;
+  const unsigned sides = proof.count == 0 ? fits : proof.sides & fits;
+  if (sides == 0) {
+    proof = Proof{};
     return;
   }
+  monitor.note_agreement();
+  proof.add(raw.time_ns);
+  proof.sides = sides;
+  proof.nis += nis;
+  proof.dof += raw.directions.rank;
+  if (!proof.long_enough(raw.time_ns, settings_.detection)) return;
+  const bool fitted = proof.fits_beside();
+  proof = Proof{};
+  if (!fitted) return;
+  const bool one_side = sides != kBothSides;
   if (one_side) {
     // A side that began with a part of a pose is told the rest by the witness.
-    Filter& right = state.without[(monitor.proof_sides & 1U) != 0 ? suspects.second : suspects.first];
+    Filter& right = state.without[(sides & 1U) != 0 ? suspects.second : suspects.first];
     if (!right.complete() && raw.directions.rank == 6) right.start(view(state, raw, nullptr), settings_, nullptr);
-    const std::uint8_t wrong = (monitor.proof_sides & 1U) != 0 ? suspects.second : suspects.first;
+    const std::uint8_t wrong = (sides & 1U) != 0 ? suspects.second : suspects.first;
     end_conflict(state, wrong, state.monitors[wrong].classify(false, state.monitors[wrong].gated_residual));
   }
   if (state.tracking) readmit(state, raw.source);

@@ -19,6 +19,14 @@ std::size_t candidates(const FusionState& state) {
 }  // namespace
 
 void FusionCore::restart(FusionState& state) const {
+  // One that was not believed may begin the next track: without a track nothing can prove it right, or wrong. Of a
+  // source that stood still it is known when it is over.
+  bool unproved = state.unresolved.active;
+  for (std::size_t s = 0; s < settings_.sources.size(); ++s) {
+    const SourceMonitor& monitor = state.monitors[s];
+    unproved = unproved || (monitor.excluded && monitor.reason != FaultKind::kFreeze && !settings_.sources[s].relative);
+  }
+  if (unproved) note_unresolved_restart(state);
   state.tracking = false;
   state.lost = true;
   state.main.invalidate();
@@ -27,7 +35,7 @@ void FusionCore::restart(FusionState& state) const {
   state.suspects = Suspects{};
   for (SourceMonitor& monitor : state.monitors) {
     monitor.contributed = false;
-    monitor.excluded = false;  // without a track nothing can prove it right, or wrong
+    monitor.excluded = false;
     monitor.gated_run = 0;
     monitor.scattered = 0;
   }

@@ -100,6 +100,9 @@ struct DetectionSettings {
   /// A source comes back after this many seconds and measurements that agree.
   double proof_s = 3.0;
   int proof_measurements = 20;
+  /// After a contradiction that nothing can judge a track is told as conflict until another source has confirmed it for
+  /// proof_s, or nothing has contradicted it for this long.
+  double unresolved_s = 60.0;
   /// The state is lost when nothing was used for this long, or its sigmas exceed these.
   double coasting_s = 10.0;
   double max_sigma_position_m = 1.0;

@@ -14,7 +14,6 @@ constexpr double kOtherTarget_m = 0.3;    // no error of a source on the right t
 constexpr double kScattered_chi2 = 60.0;  // two gated poses of one cause are within some sigmas of each other
 constexpr double kNanosecond_s = 1e-9;
 constexpr double kMemory_s = 2.0;     // of InnovationMean
-constexpr double kBesideNis = 2.0;    // a freedom: errors that last for a second are 18 draws in a proof, 3 sigma
 constexpr double kMaxWhitened = 6.0;  // one outlier does not decide
 
 }  // namespace
@@ -45,11 +44,11 @@ void ErrorSums::add(const Innovation& in, const TargetMeasurement& m, const Kine
 
 void InnovationMean::add(const Innovation& in, std::int64_t time_ns) {
   if (!in.ok) return;
-  const double kept = std::exp(-static_cast<double>(time_ns - last_ns) * kNanosecond_s / kMemory_s);
+  const auto kept = static_cast<float>(std::exp(-static_cast<double>(time_ns - last_ns) * kNanosecond_s / kMemory_s));
   last_ns = time_ns;
   rank = in.rank;
-  sum = kept * sum + in.whitened.cwiseMax(-kMaxWhitened).cwiseMin(kMaxWhitened);
-  weight = kept * kept * weight + 1.0;
+  sum = kept * sum + in.whitened.cwiseMax(-kMaxWhitened).cwiseMin(kMaxWhitened).cast<float>();
+  weight = kept * kept * weight + 1.0F;
 }
 
 double ErrorSums::explained_by_time() const {
@@ -92,9 +91,7 @@ void SourceMonitor::exclude(FaultKind why) {
   excluded = true;
   contributed = false;
   reason = why;
-  proof = 0;
-  proof_nis = 0.0;
-  proof_dof = 0;
+  proof = Proof{};
   gated_run = 0;
   scattered = 0;
   outliers = 0.0;
@@ -103,33 +100,9 @@ void SourceMonitor::exclude(FaultKind why) {
   confirmed = 0;
 }
 
-void SourceMonitor::note_proof(std::int64_t time_ns, bool agrees) {
-  if (!agrees) {
-    proof = 0;
-    proof_nis = 0.0;
-    proof_dof = 0;
-    return;
-  }
+void SourceMonitor::note_agreement() {
   contradicts_ns = 0;
   confirmed = 0;
-  if (proof == 0) proof_since_ns = time_ns;
-  ++proof;
-  proof_nis += nis;
-  proof_dof += rank;
-}
-
-bool SourceMonitor::agreed_long_enough(std::int64_t time_ns, const DetectionSettings& detection) const {
-  return proof >= detection.proof_measurements &&
-         static_cast<double>(time_ns - proof_since_ns) * kNanosecond_s >= detection.proof_s;
-}
-
-bool SourceMonitor::proved(std::int64_t time_ns, const DetectionSettings& detection) const {
-  // The mean of what agreed must look like noise too: an offset of two sigma passes every single gate.
-  return agreed_long_enough(time_ns, detection) && proof_nis < proof_dof * (1.0 + 3.0 * std::sqrt(2.0 / proof_dof));
-}
-
-bool SourceMonitor::proved_beside(std::int64_t time_ns, const DetectionSettings& detection) const {
-  return agreed_long_enough(time_ns, detection) && proof_nis < proof_dof * kBesideNis;
 }
 
 void SourceMonitor::note_contradiction(std::int64_t time_ns, bool agreed) {

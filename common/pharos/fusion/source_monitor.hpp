@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "pharos/fusion/filter.hpp"
+#include "pharos/fusion/proof.hpp"
 
 namespace pharos::fusion {
 
@@ -32,14 +32,14 @@ struct ErrorSums {
 /// Sum of a source's whitened innovations of the last seconds in one filter: noise cancels, a persistent disagreement
 /// does not.
 struct InnovationMean {
-  Vector6 sum = Vector6::Zero();
-  double weight = 0.0;  // sum of squared weights
-  std::int64_t last_ns = 0;
+  Eigen::Matrix<float, 6, 1> sum = Eigen::Matrix<float, 6, 1>::Zero();
+  float weight = 0.0F;  // sum of squared weights
   int rank = 0;
+  std::int64_t last_ns = 0;
 
   void add(const Innovation& innovation, std::int64_t time_ns);
   /// Chi-squared of `rank` degrees of freedom where innovations are white.
-  double chi2() const { return weight > 0.0 ? sum.squaredNorm() / weight : 0.0; }
+  double chi2() const { return weight > 0.0F ? static_cast<double>(sum.squaredNorm() / weight) : 0.0; }
 };
 
 /// What is remembered of a source between its measurements.
@@ -64,11 +64,7 @@ struct SourceMonitor {
   int judged = 0;
   bool excluded = false;
   FaultKind reason = FaultKind::kStep;
-  int proof = 0;
-  std::int64_t proof_since_ns = 0;
-  double proof_nis = 0.0;
-  int proof_dof = 0;
-  unsigned proof_sides = 0;  // in a conflict: bits, the sides that every measurement of the proof fitted
+  Proof proof;
   // Of an excluded source whose measurements contradict the state: variances of gated_residual, when, and for how long
   // another excluded one has said the same.
   Eigen::Matrix<float, 6, 1> contradiction_variance = Eigen::Matrix<float, 6, 1>::Zero();
@@ -83,11 +79,8 @@ struct SourceMonitor {
   /// `apart`: the squared distance of its residual from the last gated one, in its own sigmas.
   void note_gated(std::int64_t time_ns, const Vector6& residual, double apart);
   void exclude(FaultKind why);
-  /// A measurement of an excluded source, that agrees or does not.
-  void note_proof(std::int64_t time_ns, bool agrees);
-  bool proved(std::int64_t time_ns, const DetectionSettings& detection) const;
-  /// For the choice between two solutions of which it fits one only: that one's own error, which lasts, may be in it.
-  bool proved_beside(std::int64_t time_ns, const DetectionSettings& detection) const;
+  /// A measurement of an excluded source that agrees: `proof` has one more.
+  void note_agreement();
   /// A measurement of an excluded source that contradicts the state, and whether another excluded source agrees with
   /// it.
   void note_contradiction(std::int64_t time_ns, bool agreed);
@@ -95,9 +88,6 @@ struct SourceMonitor {
   bool contradiction_confirmed(std::int64_t time_ns, const DetectionSettings& detection) const;
   /// The kind of fault that the last residuals look like; `slow`: found by solution separation.
   FaultKind classify(bool slow, const Vector6& residual) const;
-
- private:
-  bool agreed_long_enough(std::int64_t time_ns, const DetectionSettings& detection) const;
 };
 
 }  // namespace pharos::fusion

@@ -189,6 +189,52 @@ ceres::Problem::Options borrowing() {
   return options;
 }
 
+// Columns of the covariance of all unknowns, (J^T J)^-1 at their present values.
+class Posterior {
+ public:
+  Posterior(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+            const std::vector<double>& enlarged, MountingUnknowns& unknowns)
+      : loss_(kHuber), problem_(borrowing()) {
+    build(input, rows, enlarged, unknowns, &loss_, problem_);
+  }
+
+  /// The place of an unknown in the order of the calls; constant ones have none.
+  Eigen::Index add(double* block, Eigen::Index size) {
+    const Eigen::Index at = order_;
+    if (!problem_.HasParameterBlock(block) || problem_.IsParameterBlockConstant(block)) return at;
+    options_.parameter_blocks.push_back(block);
+    order_ += size;
+    return at;
+  }
+  Eigen::Index order() const { return order_; }
+
+  /// The first `wanted` columns, once all unknowns are added. `step`: where not null, by how much the unknowns are from
+  /// the minimum, as far as the problem is linear.
+  Eigen::MatrixXd columns(Eigen::Index wanted, Eigen::VectorXd* step = nullptr) {
+    ceres::CRSMatrix jacobian;
+    std::vector<double> gradient;
+    problem_.Evaluate(options_, nullptr, nullptr, &gradient, &jacobian);
+    const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> J(
+        jacobian.num_rows, jacobian.num_cols, static_cast<Eigen::Index>(jacobian.values.size()), jacobian.rows.data(),
+        jacobian.cols.data(), jacobian.values.data());
+    const Eigen::SparseMatrix<double> information = J.transpose() * J;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(information);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(order_, wanted);
+    unit.topRows(wanted).setIdentity();
+    if (step != nullptr) {
+      const Eigen::VectorXd downhill = -Eigen::Map<const Eigen::VectorXd>(gradient.data(), order_);
+      *step = factor.solve(downhill);
+    }
+    return factor.solve(unit);
+  }
+
+ private:
+  ceres::HuberLoss loss_;
+  ceres::Problem problem_;
+  ceres::Problem::EvaluateOptions options_;
+  Eigen::Index order_ = 0;
+};
+
 }  // namespace
 
 std::vector<UsedRow> select_rows(const MountingCalibrationInput& input, const MountingUnknowns& unknowns,
@@ -232,46 +278,71 @@ bool adjust(const MountingCalibrationInput& input, const std::vector<UsedRow>& r
 
 std::vector<SourceCovariance> covariances(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
                                           const std::vector<double>& enlarged, MountingUnknowns& unknowns) {
-  ceres::HuberLoss loss(kHuber);
-  ceres::Problem problem(borrowing());
-  build(input, rows, enlarged, unknowns, &loss, problem);
-  ceres::Problem::EvaluateOptions options;
+  Posterior posterior(input, rows, enlarged, unknowns);
   std::vector<Eigen::Index> at(unknowns.sources.size(), -1);
-  Eigen::Index order = 0;
-  const auto add = [&](double* block, Eigen::Index size) {
-    if (!problem.HasParameterBlock(block) || problem.IsParameterBlockConstant(block)) return;
-    options.parameter_blocks.push_back(block);
-    order += size;
-  };
   for (std::size_t s = 0; s < unknowns.sources.size(); ++s) {
     UnknownSource& source = unknowns.sources[s];
     if (source.fixed) continue;
-    at[s] = order;
-    add(source.sensor.delta.data(), 6);
-    add(source.feature.delta.data(), 6);
-    add(&source.time_offset_s, 1);
+    at[s] = posterior.add(source.sensor.delta.data(), 6);
+    posterior.add(source.feature.delta.data(), 6);
+    posterior.add(&source.time_offset_s, 1);
   }
-  const Eigen::Index wanted = order;
+  const Eigen::Index wanted = posterior.order();
   for (UnknownSource& source : unknowns.sources) {
-    for (auto& node : source.slow) add(node.data(), 6);
-    add(&source.scale, 1);
+    for (auto& node : source.slow) posterior.add(node.data(), 6);
+    posterior.add(&source.scale, 1);
   }
-  for (UnknownPose& pose : unknowns.motion) add(pose.delta.data(), 6);
-  ceres::CRSMatrix jacobian;
-  problem.Evaluate(options, nullptr, nullptr, nullptr, &jacobian);
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> J(
-      jacobian.num_rows, jacobian.num_cols, static_cast<Eigen::Index>(jacobian.values.size()), jacobian.rows.data(),
-      jacobian.cols.data(), jacobian.values.data());
-  const Eigen::SparseMatrix<double> information = J.transpose() * J;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(information);
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(order, wanted);
-  unit.topRows(wanted).setIdentity();
-  const Eigen::MatrixXd columns = factor.solve(unit);
+  for (UnknownPose& pose : unknowns.motion) posterior.add(pose.delta.data(), 6);
+  const Eigen::MatrixXd columns = posterior.columns(wanted);
   std::vector<SourceCovariance> out(unknowns.sources.size(), SourceCovariance::Zero());
   for (std::size_t s = 0; s < out.size(); ++s) {
     if (at[s] < 0) continue;
     const SourceCovariance block = columns.block<13, 13>(at[s], at[s]);
     out[s] = 0.5 * (block + block.transpose());
+  }
+  return out;
+}
+
+std::vector<SlowEvidence> slow_evidence(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+                                        const std::vector<double>& enlarged, MountingUnknowns& unknowns) {
+  Posterior posterior(input, rows, enlarged, unknowns);
+  for (UnknownSource& source : unknowns.sources) {
+    for (auto& node : source.slow) posterior.add(node.data(), 6);
+  }
+  const Eigen::Index wanted = posterior.order();
+  for (UnknownSource& source : unknowns.sources) {
+    posterior.add(source.sensor.delta.data(), 6);
+    posterior.add(source.feature.delta.data(), 6);
+    posterior.add(&source.time_offset_s, 1);
+    posterior.add(&source.scale, 1);
+  }
+  for (UnknownPose& pose : unknowns.motion) posterior.add(pose.delta.data(), 6);
+  Eigen::VectorXd step;
+  const Eigen::MatrixXd covariance = posterior.columns(wanted, &step);
+  const double kept = std::exp(-unknowns.slow_step_s / input.slow_time_constant_s);
+  std::vector<SlowEvidence> out(unknowns.sources.size());
+  Eigen::Index first = 0;
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    const std::vector<std::array<double, 6>>& nodes = unknowns.sources[s].slow;
+    const MountingRecording& recording = input.recordings[s];
+    for (int axis = 0; axis < 6; ++axis) {
+      const double sigma = axis < 3 ? recording.slow_rotation_rad : recording.slow_position_m;
+      SlowEvidence& sum = out[s];
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        // Innovation of the process: the node alone, or less what is kept of the one before.
+        const Eigen::Index at = first + 6 * static_cast<Eigen::Index>(i) + axis;
+        double mean = nodes[i][static_cast<std::size_t>(axis)] + step[at];
+        double variance = covariance(at, at);
+        if (i > 0) {
+          mean -= kept * (nodes[i - 1][static_cast<std::size_t>(axis)] + step[at - 6]);
+          variance += kept * kept * covariance(at - 6, at - 6) - 2.0 * kept * covariance(at, at - 6);
+        }
+        const double scale = i > 0 ? 1.0 - kept * kept : 1.0;
+        (axis < 3 ? sum.rotation_rad2 : sum.position_m2) += mean * mean / scale;
+        (axis < 3 ? sum.rotation_freedom : sum.position_freedom) += 1.0 - variance / (scale * sigma * sigma);
+      }
+    }
+    first += 6 * static_cast<Eigen::Index>(nodes.size());
   }
   return out;
 }

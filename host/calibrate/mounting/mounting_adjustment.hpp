@@ -29,6 +29,15 @@ using SourceCovariance = Eigen::Matrix<double, 13, 13>;
 std::vector<SourceCovariance> covariances(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
                                           const std::vector<double>& enlarged, MountingUnknowns& unknowns);
 
+/// What the rows say of a source's slow error: its squares in units of the process' own innovations, summed over nodes
+/// and axes, and how many of these the rows tell (the others are the assumption's).
+struct SlowEvidence {
+  double rotation_rad2 = 0.0, rotation_freedom = 0.0;
+  double position_m2 = 0.0, position_freedom = 0.0;
+};
+std::vector<SlowEvidence> slow_evidence(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows,
+                                        const std::vector<double>& enlarged, MountingUnknowns& unknowns);
+
 /// Residual of a row at the unknowns and its square in units of its covariance.
 struct RowResidual {
   double time_s = 0.0;

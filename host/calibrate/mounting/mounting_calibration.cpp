@@ -8,6 +8,7 @@
 
 #include "host/calibrate/mounting/hand_eye_start.hpp"
 #include "host/calibrate/mounting/mounting_adjustment.hpp"
+#include "host/calibrate/mounting/slow_errors.hpp"
 #include "host/calibrate/mounting/unobservable_directions.hpp"
 #include "host/support/input_error.hpp"
 #include "host/support/rounded_number.hpp"
@@ -307,9 +308,12 @@ MountingCalibration calibrate_mounting(const MountingCalibrationInput& input) {
     out.converged = adjust(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
     assess(input, unknowns, usable, inliers, enlarged, out.fits);
   }
-  const auto covariance = covariances(input, select_rows(input, unknowns, inliers), enlarged, unknowns);
+  const std::vector<UsedRow> rows = select_rows(input, unknowns, inliers);
+  const auto covariance = covariances(input, rows, enlarged, unknowns);
+  const auto slow = estimate_slow_errors(input, rows, enlarged, unknowns);
   for (std::size_t s = 0; s < input.recordings.size(); ++s) {
     out.mounting.sources.push_back(mounting_of(input, s, unknowns.sources[s], covariance[s]));
+    out.mounting.sources.back().slow_error = slow[s];
   }
   return out;
 }

@@ -67,11 +67,14 @@ void FusionFeed::assess(SourceHealth& health, std::int64_t now_ns) const {
       if (!excluded.empty()) health.message = "not believed: " + excluded;
       break;
     }
-    case Mode::kConflict:
+    case Mode::kConflict: {
+      const std::string sources = sources_in(state, stage_.names(), fusion::SourceState::kConflict);
       health.state = SourceState::kDegraded;
-      health.message = sources_in(state, stage_.names(), fusion::SourceState::kConflict) +
-                       " contradict each other, and nothing tells which is wrong";
+      health.message = sources.empty()
+                           ? "a source contradicts the track, and no second one tells which of them is wrong"
+                           : sources + " contradict each other, and nothing tells which is wrong";
       break;
+    }
     case Mode::kCoasting:
       health.state = SourceState::kStale;
       health.message = "no source measures the target: its state is predicted";
@@ -107,6 +110,7 @@ NamedCounts FusionFeed::counts() const {
   count("limited_steps", core.limited_steps);
   count("tracks_lost", core.restarts);
   count("tracks_refuted", core.refuted);
+  count("contradictions_unresolved", core.unresolved);
   out.push_back({"restarts", last_ ? last_->restarts : 0});
   out.push_back({"looks_dropped", looks_dropped_});
   out.push_back({"states_stale", stale_});

@@ -259,6 +259,47 @@ TEST(TargetEstimator, TwoExcludedSourcesThatAgreeRefuteTheState) {
   EXPECT_LT(position_error(state, world), 0.01);
 }
 
+// Its poses from 5 s on are 0.4 m aside. Nothing tells whether they or those of before are wrong.
+TEST(TargetEstimator, ALoneSourceThatContradictsItsTrackIsAConflictUntilAnotherConfirmsIt) {
+  sim::WorldSettings settings = world_of(14, {kLighthouse, kTof});
+  settings.duration_s = 16.0;
+  const sim::MeasuredWorld world = sim::simulate_world(settings);
+  const auto estimator = estimator_of(settings);
+  for (const sim::SimulatedPose& pose : world.poses) {
+    fusion::Measurement m = measurement_of(pose);
+    if (m.source == kLighthouse && pose.time_s > 5.0 && pose.time_s < 9.0) m.pose.t.x() += 0.4;
+    if (m.source == kTof && pose.time_s < 11.0) continue;
+    estimator->push(m);
+    const TargetState state = estimator->state(m.time_ns);
+    if (!state.valid || (state.mode != Mode::kSingle && state.mode != Mode::kFused)) continue;
+    EXPECT_TRUE(pose.time_s < 5.1 || pose.time_s > 13.9) << pose.time_s << ": before tof has confirmed it";
+    EXPECT_LT(position_error(state, world), 0.02) << pose.time_s;
+  }
+  EXPECT_EQ(estimator->counters().unresolved, 1u);
+  const TargetState state = estimator->state(estimator->newest_ns());
+  EXPECT_EQ(state.mode, Mode::kFused);
+  EXPECT_TRUE(state.protection.position_available);
+}
+
+// It agrees with the track again before that is given up.
+TEST(TargetEstimator, ALoneSourceThatAgreesAgainIsBelievedAfterProof) {
+  const sim::WorldSettings settings = world_of(15, {kLighthouse});
+  const auto estimator = estimator_of(settings);
+  for (const sim::SimulatedPose& pose : sim::simulate_world(settings).poses) {
+    fusion::Measurement m = measurement_of(pose);
+    const bool faulty = pose.time_s > 4.0 && pose.time_s < 4.6;
+    if (faulty) m.pose.t.x() += 0.4;
+    estimator->push(m);
+    const Mode mode = estimator->state(m.time_ns).mode;
+    if (pose.time_s > 4.1 && pose.time_s < 7.5) {
+      EXPECT_EQ(mode, Mode::kConflict) << pose.time_s;
+    }
+    if (pose.time_s > 8.0) {
+      EXPECT_EQ(mode, Mode::kSingle) << pose.time_s;
+    }
+  }
+}
+
 TEST(TargetEstimator, AFrozenSourceIsExcludedAtItsThirdEqualPose) {
   sim::WorldSettings settings = world_of(9, {kLighthouse, kTof, kRing2});
   settings.fault = {sim::SourceFaultKind::kFreeze, kTof, 5.0, 1e9, 10.0};

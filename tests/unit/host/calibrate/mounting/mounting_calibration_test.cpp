@@ -61,13 +61,31 @@ Eigen::Matrix<double, 13, 1> error_of_source(const host::SourceMounting& truth, 
   return error;
 }
 
-TEST(MountingCalibration, FindsMountingsFeaturesAndDelaysOfAMinute) {
+// Two time constants of four sources: a few draws each. Of slam, whose error is a random walk, nothing is stated.
+void expect_slow_errors(const host::Mounting& truth, const host::Mounting& found, std::vector<double>& log_ratios) {
+  for (std::size_t s = 0; s < found.sources.size(); ++s) {
+    const host::SourceMounting& source = found.sources[s];
+    ASSERT_EQ(source.slow_error.has_value(), source.kind != host::SourceKind::kSlam) << source.name;
+    if (!source.slow_error) continue;
+    const host::SlowError& slow = *truth.sources[s].slow_error;
+    for (const double ratio : {source.slow_error->rotation_ratio / slow.rotation_ratio,
+                               source.slow_error->position_ratio / slow.position_ratio}) {
+      EXPECT_GT(ratio, 0.3) << source.name;
+      EXPECT_LT(ratio, 3.5) << source.name;
+      log_ratios.push_back(std::log(ratio));
+    }
+  }
+}
+
+TEST(MountingCalibration, FindsMountingsFeaturesDelaysAndSlowErrorsOfAMinute) {
   double sum = 0.0;
   int freedom = 0;
+  std::vector<double> log_ratios;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const sim::ApproachSimulator simulator(scenario(), seed);
     const MountingCalibration found = calibrated_in_truth_frames(simulator);
     EXPECT_TRUE(found.converged);
+    expect_slow_errors(simulator.true_mounting(), found.mounting, log_ratios);
     for (std::size_t s = 1; s < found.mounting.sources.size(); ++s) {
       const host::SourceMounting& source = found.mounting.sources[s];
       const auto error = error_of_source(simulator.true_mounting().sources[s], source);
@@ -92,6 +110,9 @@ TEST(MountingCalibration, FindsMountingsFeaturesAndDelaysOfAMinute) {
   // Components of one source are correlated: as if every third were independent. The slow errors assumed are larger
   // than the simulated ones at 2 m, so that the mean is below 1.
   EXPECT_LT(sum / freedom, 1.0 + 6.0 * std::sqrt(3.0 * 2.0 / freedom));
+  double log_sum = 0.0;
+  for (const double ratio : log_ratios) log_sum += ratio;
+  EXPECT_LT(std::abs(log_sum / static_cast<double>(log_ratios.size())), std::log(1.6));
 }
 
 TEST(MountingCalibration, NamesTheTurnOfARingAndLeavesItOpen) {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibrate/mounting/slow_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pharos::calibrate {
+namespace {
+
+constexpr int kSteps = 6;
+constexpr double kMinFreedom = 0.5;  // else the assumption stays: the rows say nothing of it
+
+// Root mean square of the sigma of one axis, of those that a pose measures, as the source states them.
+struct StatedNoise {
+  double rotation_rad = 0.0, position_m = 0.0;
+  std::size_t rows = 0;
+};
+
+std::vector<StatedNoise> stated_noise(const MountingCalibrationInput& input, const std::vector<UsedRow>& rows) {
+  std::vector<StatedNoise> out(input.recordings.size());
+  for (const UsedRow& used : rows) {
+    const host::SourceRow& row = input.recordings[used.source].rows[used.row];
+    const Matrix3 rotation = row.covariance.topLeftCorner<3, 3>();
+    const Vector3 axis = row.pose.R.col(2);
+    const double all = rotation.trace();
+    StatedNoise& noise = out[used.source];
+    noise.rotation_rad += row.has_turn ? all / 3.0 : (all - axis.dot(rotation * axis)) / 2.0;
+    noise.position_m += row.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
+    ++noise.rows;
+  }
+  for (StatedNoise& noise : out) {
+    const auto count = static_cast<double>(std::max<std::size_t>(noise.rows, 1));
+    noise.rotation_rad = std::sqrt(noise.rotation_rad / count);
+    noise.position_m = std::sqrt(noise.position_m / count);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
+                                                                 const std::vector<UsedRow>& rows,
+                                                                 const std::vector<double>& enlarged,
+                                                                 const MountingUnknowns& unknowns) {
+  MountingCalibrationInput assumed = input;
+  MountingUnknowns present = unknowns;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<SlowEvidence> evidence = slow_evidence(assumed, rows, enlarged, present);
+    for (std::size_t s = 0; s < evidence.size(); ++s) {
+      const SlowEvidence& told = evidence[s];
+      MountingRecording& recording = assumed.recordings[s];
+      if (told.rotation_freedom > kMinFreedom) {
+        recording.slow_rotation_rad = std::sqrt(told.rotation_rad2 / told.rotation_freedom);
+      }
+      if (told.position_freedom > kMinFreedom) {
+        recording.slow_position_m = std::sqrt(told.position_m2 / told.position_freedom);
+      }
+    }
+  }
+  const std::vector<StatedNoise> noise = stated_noise(input, rows);
+  const double span_s = static_cast<double>(unknowns.segments()) * unknowns.knot_s;
+  std::vector<std::optional<host::SlowError>> out(noise.size());
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    const MountingRecording& recording = assumed.recordings[s];
+    if (recording.kind == host::SourceKind::kSlam || !(noise[s].rotation_rad > 0.0 && noise[s].position_m > 0.0)) {
+      continue;
+    }
+    const double a_time_constant = static_cast<double>(noise[s].rows) * input.slow_time_constant_s / span_s;
+    const double least = 1.0 / std::sqrt(std::max(a_time_constant, 1.0));
+    out[s] =
+        host::SlowError{std::max(recording.slow_rotation_rad / noise[s].rotation_rad, least),
+                        std::max(recording.slow_position_m / noise[s].position_m, least), input.slow_time_constant_s};
+  }
+  return out;
+}
+
+}  // namespace pharos::calibrate

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/calibrate/mounting/mounting_adjustment.hpp"
+
+namespace pharos::calibrate {
+
+/// Each source's slow error as a ratio to the noise that it states: the variance under which the rows are most likely,
+/// by the fixed point sum of squares over well-determined freedoms (MacKay, "Bayesian interpolation", Neural
+/// Computation 4 (1992), equation 4.9), from the input's assumption on. A mounting takes up the mean of its source's
+/// slow error, so that of a minute only the changes tell. The time constant is the input's: a minute does not tell one
+/// of half a minute. Of slam none: its error is a random walk.
+///
+/// Never below what the noise of one time constant's poses leaves of its mean: a smaller slow error looks like noise.
+///
+/// `rows`, `enlarged`: those of the adjustment that found `unknowns`. Cost: an evaluation of the problem and a
+/// factorisation for each of eight steps.
+std::vector<std::optional<host::SlowError>> estimate_slow_errors(const MountingCalibrationInput& input,
+                                                                 const std::vector<UsedRow>& rows,
+                                                                 const std::vector<double>& enlarged,
+                                                                 const MountingUnknowns& unknowns);
+
+}  // namespace pharos::calibrate
