@@ -163,6 +163,14 @@ module pharos_soc #(
   assign capture_address = dbus_address[5:2];
   assign capture_write_data = dbus_writedata;
 
+  wire uart_read = dbus_read && d_uart;
+  wire uart_write = dbus_write && d_uart;
+  wire spi_read = dbus_read && d_spi;
+  wire spi_write = dbus_write && d_spi;
+  wire watchdog_write = dbus_write && d_watchdog;
+  wire timer_write = dbus_write && d_timer;
+  wire pins_write = dbus_write && d_pins;
+
   assign rom_taken = ROM_PORTS == 1 && dbus_read && d_rom;
   soc_rom #(
       .FILE(ROM_FILE),
@@ -182,8 +190,8 @@ module pharos_soc #(
       .clock(clock),
       .reset(reset),
       .address(dbus_address[4:2]),
-      .read(dbus_read && d_uart),
-      .write(dbus_write && d_uart),
+      .read(uart_read),
+      .write(uart_write),
       .write_data(dbus_writedata[7:0]),
       .read_data(uart_data),
       .receive(uart_receive),
@@ -195,8 +203,8 @@ module pharos_soc #(
       .clock(clock),
       .reset(reset),
       .address(dbus_address[3:2]),
-      .read(dbus_read && d_spi),
-      .write(dbus_write && d_spi),
+      .read(spi_read),
+      .write(spi_write),
       .write_data(dbus_writedata),
       .read_data(spi_data),
       .spi_clock(spi_clock),
@@ -211,7 +219,7 @@ module pharos_soc #(
       .clock(clock),
       .reset(reset),
       .address(dbus_address[3:2]),
-      .write(dbus_write && d_watchdog),
+      .write(watchdog_write),
       .start_bit(dbus_writedata[2]),
       .ended(watchdog_ended)
   );
@@ -224,7 +232,7 @@ module pharos_soc #(
       .reset(reset),
       .now(cycle),
       .address(dbus_address[3:2]),
-      .write(dbus_write && d_timer),
+      .write(timer_write),
       .write_data(dbus_writedata),
       .read_data(timer_data),
       .interrupt(timer_interrupt)
@@ -235,7 +243,7 @@ module pharos_soc #(
       .clock(clock),
       .reset(reset),
       .address(dbus_address[3:2]),
-      .write(dbus_write && d_pins),
+      .write(pins_write),
       .write_data(dbus_writedata[7:0]),
       .read_data(pins_data),
       .leds(leds),
