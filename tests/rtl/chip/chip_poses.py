@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""usage: chip_poses.py BUILD [SECONDS]: `decoder_pose` on the simulated chip, its code in the SDRAM behind the cache, two stations at full rate:
+"""usage: chip_poses.py BUILD [SECONDS [boot]]: `decoder_pose` on the simulated chip, its code in the SDRAM behind the cache, two stations at full rate:
 its sweeps are the host's to the tick; once both stations are calibrated every cycle is answered, by the pose that `pharos track` gives the
 same light, to a tenth of a standard deviation, and no sweep is skipped; the model of the SDRAM has no objection. With less
-than 10 seconds of light there are no poses yet: the sweeps alone. Prints the figures of firmware/rtl/soc/README.md. 77 = skipped."""
+than 10 seconds of light there are no poses yet: the sweeps alone. Starts in the SDRAM; with `boot` from the flash, from which the loader copies it. Prints the figures of firmware/rtl/soc/README.md. 77 = skipped."""
 
+import gzip
 import pathlib
 import re
 import shutil
@@ -20,6 +21,7 @@ import tape  # noqa: E402
 START_TICKS = poses_test.START_TICKS
 CALIBRATED_S = 10.0
 SOLVING_S = 9.8  # of light, for the counts
+BOOT_TICKS = 150_000_000  # before the light: the loader copies and hashes 236 kB
 
 
 def light_of(pharos, seconds, folder):
@@ -29,6 +31,17 @@ def light_of(pharos, seconds, folder):
     scenario.write_text(re.sub(r"(?m)^duration_s = .*", f"duration_s = {seconds}", (scenarios / scenario.name).read_text()))
     subprocess.run([pharos, "sim", "lighthouse", scenario, "--seed", "5", "--output", folder / "out"], check=True, stderr=subprocess.DEVNULL)
     return folder / "out"
+
+
+def later(edges, folder):
+    """The same edges with time for the loader before them."""
+    moved = folder / "later.csv"
+    with gzip.open(edges, "rt") as lines, moved.open("w") as out:
+        out.write(next(lines))
+        for line in lines:
+            sensor, rise, fall = map(int, line.split(","))
+            out.write(f"{sensor},{rise + BOOT_TICKS},{fall + BOOT_TICKS}\n")
+    return moved
 
 
 def rows(pharos, file):
@@ -55,17 +68,21 @@ def check_poses(pharos, light, line):
 
 def main():
     build, seconds = pathlib.Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 11.5
-    program = build / "firmware" / "bin" / "decoder_pose.ep4ce10.bin"
-    if not program.exists():
+    images = build / "firmware" / "bin"
+    program = ["--external", images / "decoder_pose.ep4ce10.bin"]
+    if boots := sys.argv[3:] == ["boot"]:
+        program = ["--image", images / "decoder_pose.ep4ce10.image", "--loader", images / "ep4ce10_loader.bin"]
+    if not program[1].exists():
         print("skipped: the images are not built (target firmware)")
         return 77
     pharos = build / "bin" / "pharos"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         light, line = light_of(pharos, seconds, folder), folder / "line"
+        edges = later(light / "edges.csv.gz", folder) if boots else light / "edges.csv.gz"
         count_from = ["--count-from", str(SOLVING_S)] if seconds > SOLVING_S else []
-        subprocess.run([build / "tests" / "chip_simulator", light / "edges.csv.gz", "--external", program, "--output", line, *count_from], check=True)
-        here, there = rows(pharos, light / "edges.csv.gz"), rows(pharos, line)
+        subprocess.run([build / "tests" / "chip_simulator", edges, *program, "--output", line, *count_from], check=True)
+        here, there = rows(pharos, edges), rows(pharos, line)
         print(f"{len(here)} rows of the host, {len(there)} of the chip")
         assert len(here) > 100 * seconds and here == there, "host and chip differ"
         if seconds > CALIBRATED_S:
