@@ -12,7 +12,7 @@ constexpr std::int64_t kStart_ticks = 48 * 390 + 20;  // soc_sdram.v
 
 MemoryRig::MemoryRig() : words_(kWords, 0xDEADDEAD) { power_on(); }
 
-void MemoryRig::power_on() {
+void MemoryRig::power_on(bool fetches) {
   withdraw();
   inputs_.fetches = false;
   awaited_fetch_.reset();
@@ -25,7 +25,9 @@ void MemoryRig::power_on() {
   inputs_.power_on_reset = false;
   sdram_.restart();
   reset();
-  for (std::int64_t i = 0; i < kStart_ticks; ++i) tick(false);
+  starting_ = true;
+  for (std::int64_t i = 0; i < kStart_ticks; ++i) tick(fetches);
+  starting_ = false;
 }
 
 void MemoryRig::withdraw() {
@@ -71,7 +73,7 @@ void MemoryRig::tick(bool fetches, std::optional<std::uint32_t> jump) {
     awaited_fetch_ = words_[inputs_.fetch_address];
     ++fetched_;
   }
-  fetch_waits_ = fetches && waits && !jump ? fetch_waits_ + 1 : 0;
+  fetch_waits_ = fetches && waits && !jump && !starting_ ? fetch_waits_ + 1 : 0;
   EXPECT_LE(fetch_waits_, kMaxWait_ticks) << "a fetch is not taken";
   const bool data_taken = data_pending() && !now.data_waits;
   if (data_taken && inputs_.reads) {

@@ -19,8 +19,8 @@ class MemoryRig {
   static constexpr std::int64_t kMaxWait_ticks = 60;  // two accesses, a refresh, and the one that is asked for
 
   MemoryRig();
-  /// Power on, for the SDRAM too, then until it takes accesses.
-  void power_on();
+  /// Power on, for the SDRAM too, then until it takes accesses; with a fetch that waits for that, or without.
+  void power_on(bool fetches = false);
 
   /// What the core asks in the next ticks; it is held until it is taken.
   void fetch_from(std::uint32_t word) { inputs_.fetch_address = word % kWords; }
@@ -53,6 +53,7 @@ class MemoryRig {
   std::vector<std::uint32_t> words_;
   std::optional<std::uint32_t> awaited_fetch_;
   std::optional<std::uint32_t> awaited_load_;
+  bool starting_ = false;
   std::int64_t fetch_waits_ = 0;
   std::int64_t data_waits_ = 0;
   std::uint64_t fetched_ = 0;

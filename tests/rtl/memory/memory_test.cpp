@@ -41,6 +41,13 @@ TEST_F(Memory, StoresBytesThatArriveInTheSdram) {
   }
 }
 
+TEST_F(Memory, RequestsWaitUntilTheSdramHasStarted) {
+  const std::uint64_t before = rig_.fetched();
+  rig_.power_on(true);
+  rig_.rest();
+  EXPECT_GT(rig_.fetched(), before);
+}
+
 TEST_F(Memory, EveryAddressBitSelectsAnotherWord) {
   rig_.store(0, 0xF, 1);
   rig_.finish_data();
