@@ -14,6 +14,12 @@ done
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 cp "$rtl"/*.v "$work"
+# Yosys knows no wire of another module by its name: properties of inner wires are read inside the module that the second line names.
+inside=$here/formal/$properties.vh
+if [ -e "$inside" ]; then
+  module=$(sed -n '2s/^.*Read inside \([a-z0-9_]*\).*/\1/p' "$inside")
+  sed -i "s|^endmodule|\`include \"$inside\"\nendmodule|" "$work/$module.v"
+fi
 
 prove() {
   local read="read_verilog -formal -sv $work/*.v $here/formal/$properties.v; prep -flatten -top $properties"
@@ -32,6 +38,7 @@ prove() {
 }
 
 prove || { tail -20 "$work/log"; exit 1; }
+! grep "is used but has no driver\|implicitly declared" "$work/log" || { echo "a property is about nothing"; exit 1; }
 echo "$properties hold"
 [ $# -gt 3 ] || exit 0
 cp "$work/$4" "$work/before"
