@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kData = 0, kLineControl = 3, kStatus = 5;
 constexpr std::uint8_t kSome = 0x01, kOverrun = 0x02, kEmpty = 0x20, kIdle = 0x40;
 constexpr std::size_t kFifo = 128;
-constexpr std::int64_t kByteTicks = 1'100;  // ten bits of 108.5 ticks, and some
+constexpr std::int64_t kByte_ticks = 1'100;  // ten bits of 108.5 ticks, and some
 
 class Uart : public testing::Test {
  protected:
@@ -68,14 +68,14 @@ TEST_F(Uart, SendsAsManyBytesAsItHoldsInTheirOrder) {
   EXPECT_EQ(read(kStatus) & (kEmpty | kIdle), kEmpty | kIdle);
   for (const std::uint8_t byte : expected) write(kData, byte);
   EXPECT_EQ(read(kStatus) & (kEmpty | kIdle), 0);
-  run(kByteTicks * static_cast<std::int64_t>(kFifo));
+  run(kByte_ticks * static_cast<std::int64_t>(kFifo));
   EXPECT_EQ(sent_, expected);
   EXPECT_EQ(read(kStatus) & (kEmpty | kIdle), kEmpty | kIdle);
 }
 
 TEST_F(Uart, DropsWhatItCannotHoldAndNothingElse) {
   for (std::size_t i = 0; i < kFifo + 20; ++i) write(kData, static_cast<std::uint8_t>(i));
-  run(kByteTicks * static_cast<std::int64_t>(kFifo + 20));
+  run(kByte_ticks * static_cast<std::int64_t>(kFifo + 20));
   // The first byte left the FIFO while the others came.
   ASSERT_EQ(sent_.size(), kFifo + 1);
   for (std::size_t i = 0; i < sent_.size(); ++i) EXPECT_EQ(sent_[i], i);
@@ -85,10 +85,10 @@ TEST_F(Uart, KeepsAsManyBytesAsItHoldsAndTellsTheNextOne) {
   std::vector<std::uint8_t> bytes;
   for (std::size_t i = 0; i < kFifo; ++i) bytes.push_back(static_cast<std::uint8_t>(7 * i + 5));
   line_.send(bytes);
-  run(kByteTicks * static_cast<std::int64_t>(kFifo));
+  run(kByte_ticks * static_cast<std::int64_t>(kFifo));
   EXPECT_EQ(read(kStatus) & (kSome | kOverrun), kSome);
   line_.send(std::vector<std::uint8_t>{0xEE});
-  run(kByteTicks);
+  run(kByte_ticks);
   EXPECT_EQ(read(kStatus) & (kSome | kOverrun), kSome | kOverrun);
   EXPECT_EQ(read(kStatus) & kOverrun, 0) << "reading clears it";
   for (const std::uint8_t byte : bytes) {
@@ -96,6 +96,19 @@ TEST_F(Uart, KeepsAsManyBytesAsItHoldsAndTellsTheNextOne) {
     EXPECT_EQ(read(kData), byte);
   }
   EXPECT_EQ(read(kStatus) & kSome, 0);
+}
+
+TEST_F(Uart, KeepsAByteThatArrivesWhileTheProgramWrites) {
+  line_.send(std::vector<std::uint8_t>{0x5A});
+  run(970);  // its stop bit is sampled within the writes below
+  std::vector<std::uint8_t> expected;
+  for (std::size_t i = 0; i < kFifo; ++i) expected.push_back(static_cast<std::uint8_t>(i ^ 0x33));
+  for (const std::uint8_t byte : expected) write(kData, byte);
+  run(10);
+  EXPECT_EQ(read(kStatus) & kSome, kSome);
+  EXPECT_EQ(read(kData), 0x5A);
+  run(kByte_ticks * static_cast<std::int64_t>(kFifo + 1));
+  EXPECT_EQ(sent_, expected);
 }
 
 TEST_F(Uart, SendsAndReceivesAtOnceWhateverTheProgramDoes) {
@@ -124,7 +137,7 @@ TEST_F(Uart, SendsAndReceivesAtOnceWhateverTheProgramDoes) {
         tick();
     }
   }
-  run(kByteTicks * static_cast<std::int64_t>(kFifo + 2));
+  run(kByte_ticks * static_cast<std::int64_t>(kFifo + 2));
   EXPECT_EQ(got, expected_in);
   EXPECT_EQ(sent_, expected_out);
   EXPECT_GT(sent_.size(), 500U);
